@@ -1,0 +1,1 @@
+//! G-code text to canonical machining moves, with diagnostics.

@@ -1,0 +1,170 @@
+//! Circular arcs and helices in one of the coordinate planes.
+
+use crate::{Axis, AxisVector, Jet};
+
+/// The plane of an arc: two axes, the first turning towards the second for a positive sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Plane {
+    /// G17.
+    Xy,
+    /// G18. The positive turn is from Z to X (right-hand about Y).
+    Zx,
+    /// G19.
+    Yz,
+    /// G17.1.
+    Uv,
+    /// G18.1.
+    Wu,
+    /// G19.1.
+    Vw,
+}
+
+impl Plane {
+    /// First and second axis of the plane.
+    #[must_use]
+    pub const fn axes(self) -> (Axis, Axis) {
+        match self {
+            Self::Xy => (Axis::X, Axis::Y),
+            Self::Zx => (Axis::Z, Axis::X),
+            Self::Yz => (Axis::Y, Axis::Z),
+            Self::Uv => (Axis::U, Axis::V),
+            Self::Wu => (Axis::W, Axis::U),
+            Self::Vw => (Axis::V, Axis::W),
+        }
+    }
+
+    /// The axis normal to the plane, along which a helix rises.
+    #[must_use]
+    pub const fn normal(self) -> Axis {
+        match self {
+            Self::Xy => Axis::Z,
+            Self::Zx => Axis::Y,
+            Self::Yz => Axis::X,
+            Self::Uv => Axis::W,
+            Self::Wu => Axis::V,
+            Self::Vw => Axis::U,
+        }
+    }
+}
+
+/// An arc of any sweep, several turns included, with every other axis moving in proportion.
+///
+/// Start and end need not be at exactly the same distance from the centre (programs round their
+/// coordinates): the radius then goes linearly from one to the other, so both ends are met exactly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arc {
+    /// Where it starts.
+    pub start: AxisVector,
+    /// Where it ends.
+    pub end: AxisVector,
+    /// Its plane.
+    pub plane: Plane,
+    /// Centre: coordinates on the first and second axis of the plane, mm.
+    pub center: [f64; 2],
+    /// Signed sweep in radians, positive from the plane's first axis to its second; not zero; a full
+    /// turn is ±2π.
+    pub sweep_rad: f64,
+}
+
+impl Arc {
+    /// Distance of the start from the centre, mm.
+    #[must_use]
+    pub fn start_radius(&self) -> f64 {
+        let (first, second) = self.plane.axes();
+        (self.start[first.index()] - self.center[0])
+            .hypot(self.start[second.index()] - self.center[1])
+    }
+
+    /// Distance of the end from the centre, mm.
+    #[must_use]
+    pub fn end_radius(&self) -> f64 {
+        let (first, second) = self.plane.axes();
+        (self.end[first.index()] - self.center[0]).hypot(self.end[second.index()] - self.center[1])
+    }
+
+    /// Direction from the centre to the start, radians.
+    #[must_use]
+    pub fn start_angle_rad(&self) -> f64 {
+        let (first, second) = self.plane.axes();
+        (self.start[second.index()] - self.center[1])
+            .atan2(self.start[first.index()] - self.center[0])
+    }
+
+    /// Feed length: in-plane length at the mean radius together with the rise along the third axis
+    /// of the plane's group, mm.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        let radius = 0.5 * (self.start_radius() + self.end_radius());
+        let normal = self.plane.normal().index();
+        let rise = self.end[normal] - self.start[normal];
+        (radius * self.sweep_rad).hypot(rise)
+    }
+
+    /// Position and derivatives at path position `s`.
+    ///
+    /// For a radius that changes, `s` is proportional to the swept angle and differs from the true
+    /// arc length by the relative size of that change.
+    #[must_use]
+    pub fn jet(&self, s: f64) -> Jet {
+        let length = self.length();
+        let fraction = if length > 0.0 { s / length } else { 0.0 };
+        let (first, second) = self.plane.axes();
+        let (first, second) = (first.index(), second.index());
+        let per_s = if length > 0.0 { 1.0 / length } else { 0.0 };
+
+        let displacement = self.end - self.start;
+        let mut position = self.start + displacement * fraction;
+        let mut d1 = displacement * per_s;
+        let mut d2 = AxisVector::zeros();
+        let mut d3 = AxisVector::zeros();
+
+        let (radius_0, radius_1) = (self.start_radius(), self.end_radius());
+        let radius = radius_0 + (radius_1 - radius_0) * fraction;
+        let radius_d1 = (radius_1 - radius_0) * per_s;
+        let omega = self.sweep_rad * per_s;
+        let (sin, cos) = (self.start_angle_rad() + self.sweep_rad * fraction).sin_cos();
+
+        // r·e(φ): e' = ω n, e'' = −ω² e, e''' = −ω³ n, with r' constant.
+        position[first] = self.center[0] + radius * cos;
+        position[second] = self.center[1] + radius * sin;
+        d1[first] = radius_d1 * cos - radius * omega * sin;
+        d1[second] = radius_d1 * sin + radius * omega * cos;
+        let (along, across) = (-radius * omega * omega, 2.0 * radius_d1 * omega);
+        d2[first] = along * cos - across * sin;
+        d2[second] = along * sin + across * cos;
+        let (along, across) = (-3.0 * radius_d1 * omega * omega, -radius * omega * omega * omega);
+        d3[first] = along * cos - across * sin;
+        d3[second] = along * sin + across * cos;
+        if fraction >= 1.0 {
+            position = self.end + (displacement * (fraction - 1.0));
+        }
+        Jet { position, d1, d2, d3 }
+    }
+
+    /// Smallest and largest coordinate of the arc on every axis, bulges included.
+    #[must_use]
+    pub fn bounding_box(&self) -> (AxisVector, AxisVector) {
+        let mut low = self.start.inf(&self.end);
+        let mut high = self.start.sup(&self.end);
+        let (first, second) = self.plane.axes();
+        let quarter = core::f64::consts::FRAC_PI_2;
+        let from = self.start_angle_rad();
+        let to = from + self.sweep_rad;
+        let (a, b) = if from < to { (from, to) } else { (to, from) };
+        let length = self.length();
+        let mut k = (a / quarter).ceil();
+        // Four quadrant points show every bulge of a turn at constant radius; a few turns more cover
+        // a radius that changes.
+        let last = (b / quarter).floor().min(k + 4.0 * 4.0);
+        while k <= last && self.sweep_rad.abs() > 0.0 {
+            let fraction = (k * quarter - from) / self.sweep_rad;
+            let point = self.jet(length * fraction).position;
+            for axis in [first.index(), second.index()] {
+                low[axis] = low[axis].min(point[axis]);
+                high[axis] = high[axis].max(point[axis]);
+            }
+            k += 1.0;
+        }
+        (low, high)
+    }
+}

@@ -1,0 +1,19 @@
+//! Curves of a toolpath: pure mathematics, no I/O, no clock, and no allocation in evaluation.
+//!
+//! Lengths are in mm, rotary axes in degrees, angles inside formulas in radians.
+//!
+//! | suffix | meaning |
+//! |---|---|
+//! | `_mm` | a length |
+//! | `_s` | position along a path (see [`Segment`]) |
+//! | `_u` | a curve's own parameter |
+//! | `_k` | curvature, 1/mm |
+//! | `_rad` | an angle |
+
+mod arc;
+mod axis;
+mod segment;
+
+pub use arc::{Arc, Plane};
+pub use axis::{AXES, Axis, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+pub use segment::{Jet, Line, Segment, feed_length};

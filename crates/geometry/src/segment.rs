@@ -1,0 +1,123 @@
+//! Segments: the pieces a program is made of, each a curve over all nine axes.
+//!
+//! A segment is parametrised by *path position* `s`, from 0 to [`Segment::length`]. Its length is
+//! the feed length of RS274/NGC: the XYZ length if any of X, Y, Z moves, else the UVW length if any
+//! of those moves, else the length of the rotary motion in degrees. The feedrate is the rate of `s`,
+//! so a rotary axis that turns along with a linear move does not slow the tool.
+
+use crate::{Arc, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+
+/// Position and its first three derivatives by path position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jet {
+    /// Position.
+    pub position: AxisVector,
+    /// First derivative by `s`, units of the axis per unit of `s`.
+    pub d1: AxisVector,
+    /// Second derivative by `s`.
+    pub d2: AxisVector,
+    /// Third derivative by `s`.
+    pub d3: AxisVector,
+}
+
+/// A straight move over any of the axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// Where it starts.
+    pub start: AxisVector,
+    /// Where it ends.
+    pub end: AxisVector,
+}
+
+/// A programmed piece of path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Segment {
+    /// Straight.
+    Line(Line),
+    /// Circular, helical, or slightly spiral.
+    Arc(Arc),
+}
+
+/// Feed length of a displacement: XYZ if it has any, else UVW, else degrees of rotation.
+///
+/// Zero only for a zero displacement.
+#[must_use]
+pub fn feed_length(displacement: &AxisVector) -> f64 {
+    [LINEAR_XYZ, UVW, ROTARY_ABC]
+        .into_iter()
+        .map(|group| group.map(|i| displacement[i] * displacement[i]).sum::<f64>().sqrt())
+        .find(|&length| length > 0.0)
+        .unwrap_or(0.0)
+}
+
+impl Line {
+    /// End minus start.
+    #[must_use]
+    pub fn displacement(&self) -> AxisVector {
+        self.end - self.start
+    }
+}
+
+impl Segment {
+    /// A straight segment.
+    #[must_use]
+    pub const fn line(start: AxisVector, end: AxisVector) -> Self {
+        Self::Line(Line { start, end })
+    }
+
+    /// First point.
+    #[must_use]
+    pub const fn start(&self) -> AxisVector {
+        match self {
+            Self::Line(line) => line.start,
+            Self::Arc(arc) => arc.start,
+        }
+    }
+
+    /// Last point.
+    #[must_use]
+    pub const fn end(&self) -> AxisVector {
+        match self {
+            Self::Line(line) => line.end,
+            Self::Arc(arc) => arc.end,
+        }
+    }
+
+    /// Feed length, ≥ 0; see the module text.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Line(line) => feed_length(&line.displacement()),
+            Self::Arc(arc) => arc.length(),
+        }
+    }
+
+    /// Position and derivatives at path position `s`, which is clamped to the segment only by the
+    /// caller. A segment of zero length has zero derivatives.
+    #[must_use]
+    pub fn jet(&self, s: f64) -> Jet {
+        match self {
+            Self::Line(line) => line.jet(s),
+            Self::Arc(arc) => arc.jet(s),
+        }
+    }
+}
+
+impl Line {
+    fn jet(&self, s: f64) -> Jet {
+        let displacement = self.displacement();
+        let length = feed_length(&displacement);
+        let zero = AxisVector::zeros();
+        if length <= 0.0 {
+            return Jet { position: self.start, d1: zero, d2: zero, d3: zero };
+        }
+        // From the nearer end, so that both ends are met exactly.
+        let fraction = s / length;
+        let position = if fraction <= 0.5 {
+            self.start + displacement * fraction
+        } else {
+            self.end - displacement * ((length - s) / length)
+        };
+        Jet { position, d1: displacement / length, d2: zero, d3: zero }
+    }
+}

@@ -1,0 +1,1 @@
+//! The interpolator process: frames to setpoints, one per period.

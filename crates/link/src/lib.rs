@@ -1,0 +1,1 @@
+//! The records that cross processes, and their transports.

@@ -1,0 +1,69 @@
+//! What a planner is fed: segments, dwells and events, in program order.
+
+use glidepath_geometry::Segment;
+
+/// How a segment's speed is given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rate {
+    /// As fast as the axes allow (G0).
+    Rapid,
+    /// Feedrate: the rate of path position, mm/s (°/s for a move of rotary axes alone), > 0.
+    Feed(f64),
+}
+
+/// How the path goes through the corner at the *end* of a segment (G61, G61.1, G64).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PathMode {
+    /// Comes to rest at the corner (G61.1).
+    ExactStop,
+    /// Passes exactly through the corner; rests there unless the path goes straight on (G61).
+    ExactPath,
+    /// May leave the programmed path by a tolerance (G64).
+    Continuous {
+        /// Tolerance in mm for everything together: smoothing and chord error. `None` means the
+        /// configured tolerance.
+        tolerance_mm: Option<f64>,
+    },
+}
+
+/// Something that happens in order with the motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Event {
+    /// Spindle speed (S), rev/min. Does not stop the motion.
+    SpindleSpeed(f64),
+    /// Tool selection (T). Does not stop the motion.
+    SelectTool(u32),
+    /// An M code other than the program stops. The machine is at rest when it happens.
+    MCode(u32),
+    /// M0 or M60: the machine rests until the operator resumes.
+    ProgramStop(u32),
+    /// M1: like [`Event::ProgramStop`] if the operator asked for optional stops.
+    OptionalStop,
+}
+
+/// One thing to do, and where the program says so.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Item {
+    /// Source line, from 1.
+    pub line: u32,
+    /// What to do.
+    pub kind: ItemKind,
+}
+
+/// The kinds of [`Item`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ItemKind {
+    /// Move along a segment. It starts where the segment before it ended.
+    Move {
+        /// The curve.
+        segment: Segment,
+        /// Its speed.
+        rate: Rate,
+        /// How the path leaves it.
+        mode: PathMode,
+    },
+    /// Rest for a time in seconds, ≥ 0 (G4).
+    Dwell(f64),
+    /// An event.
+    Event(Event),
+}

@@ -1,0 +1,1 @@
+//! The planner process: input to setpoint frames.

@@ -1,0 +1,1 @@
+//! Linux real time: deadline timer, scheduling, memory lock, histogram.
