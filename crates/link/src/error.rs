@@ -1,0 +1,80 @@
+//! What can go wrong with a port.
+
+use crate::RecordError;
+
+/// An error of the transport underneath.
+pub type BoxedError = Box<dyn core::error::Error + Send + Sync>;
+
+/// Why a port could not be made or used.
+#[derive(Debug, thiserror::Error)]
+pub enum LinkError {
+    /// The directory for the instance's files cannot be used.
+    #[error(
+        "{path}: cannot be used for the link's files ({source}); every process of an instance must \
+         run as the same user, or set another root path"
+    )]
+    Root {
+        /// The directory.
+        path: String,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// A name in the configuration has characters or a length that file names cannot have.
+    #[error(
+        "{what} {name:?}: only letters, digits, '-' and '_' are allowed, 1 to {longest} of them"
+    )]
+    Name {
+        /// What it names.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The longest possible.
+        longest: usize,
+    },
+    /// The service exists with another version of the record or other properties.
+    #[error(
+        "{service}: another version of glidepath serves it (expected {record}, {detail}); run all \
+         processes of an instance from the same build, or end the others"
+    )]
+    VersionMismatch {
+        /// The service.
+        service: &'static str,
+        /// The record expected here.
+        record: &'static str,
+        /// What the transport found.
+        detail: BoxedError,
+    },
+    /// All places at the service are taken.
+    #[error("{service}: no place for another {role}; end the one that runs")]
+    Taken {
+        /// The service.
+        service: &'static str,
+        /// What wanted to connect.
+        role: &'static str,
+    },
+    /// There is nobody at the other end.
+    #[error("{service}: nobody serves it; start the interpolator or planner first")]
+    NoServer {
+        /// The service.
+        service: &'static str,
+    },
+    /// Too many requests without an answer; take the replies first.
+    #[error("{service}: too many requests without an answer")]
+    TooManyRequests {
+        /// The service.
+        service: &'static str,
+    },
+    /// What arrived is not to be used.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// Anything else the transport reports.
+    #[error("{service}: {action} failed: {detail}")]
+    Transport {
+        /// The service, or the instance as a whole.
+        service: &'static str,
+        /// What was tried.
+        action: &'static str,
+        /// What the transport says.
+        detail: BoxedError,
+    },
+}

@@ -1,0 +1,241 @@
+//! Anybody to interpolator: what to do, and the answer.
+
+use super::check::{Fields, RecordError};
+use super::code::coded;
+use super::{MachineState, Record, Text};
+use iceoryx2::prelude::ZeroCopySend;
+
+coded! {
+    /// The commands, without their argument.
+    pub enum CommandKind {
+        /// See [`Command::Ping`].
+        Ping = 1,
+        /// See [`Command::Hold`].
+        Hold = 2,
+        /// See [`Command::Resume`].
+        Resume = 3,
+        /// See [`Command::FeedOverride`].
+        FeedOverride = 4,
+        /// See [`Command::RapidOverride`].
+        RapidOverride = 5,
+        /// See [`Command::Abort`].
+        Abort = 6,
+        /// See [`Command::StopAtEndOfBlock`].
+        StopAtEndOfBlock = 7,
+        /// See [`Command::SingleStep`].
+        SingleStep = 8,
+        /// See [`Command::Reset`].
+        Reset = 9,
+    }
+}
+
+/// Number of commands.
+pub const COMMAND_KINDS: usize = CommandKind::ALL.len();
+
+/// A command with its argument.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Command {
+    /// Answer, do nothing.
+    Ping,
+    /// Feed hold: come to rest on the path.
+    Hold,
+    /// Go on after a hold, a program stop or a single step.
+    Resume,
+    /// Set the feed override, a ratio from 0 to [`super::OVERRIDE_MAX`].
+    FeedOverride(f64),
+    /// Set the rapid override, a ratio from 0 to [`super::OVERRIDE_MAX`].
+    RapidOverride(f64),
+    /// Come to rest on the path and end the epoch.
+    Abort,
+    /// Come to rest at the end of the present block.
+    StopAtEndOfBlock,
+    /// Rest after every block, or do so no longer.
+    SingleStep(bool),
+    /// Clear a latched fault.
+    Reset,
+}
+
+impl Command {
+    /// The command without its argument.
+    #[must_use]
+    pub const fn kind(self) -> CommandKind {
+        match self {
+            Self::Ping => CommandKind::Ping,
+            Self::Hold => CommandKind::Hold,
+            Self::Resume => CommandKind::Resume,
+            Self::FeedOverride(_) => CommandKind::FeedOverride,
+            Self::RapidOverride(_) => CommandKind::RapidOverride,
+            Self::Abort => CommandKind::Abort,
+            Self::StopAtEndOfBlock => CommandKind::StopAtEndOfBlock,
+            Self::SingleStep(_) => CommandKind::SingleStep,
+            Self::Reset => CommandKind::Reset,
+        }
+    }
+}
+
+/// A command on its way.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
+#[type_name("glidepath.CommandRequest.v1")]
+pub struct CommandRequest {
+    /// Who asks: any number the client keeps, for the log.
+    pub client: u64,
+    /// Counts the client's commands; the reply repeats it.
+    pub number: u64,
+    /// The command's argument: a ratio, or 1 and 0 for on and off; 0 if it has none.
+    pub value: f64,
+    /// Code of a [`CommandKind`].
+    pub kind: u32,
+    /// Must be zero.
+    pub reserved: u32,
+}
+
+impl CommandRequest {
+    /// The record of a command.
+    #[must_use]
+    pub fn new(client: u64, number: u64, command: Command) -> Self {
+        let value = match command {
+            Command::FeedOverride(ratio) | Command::RapidOverride(ratio) => ratio,
+            Command::SingleStep(on) => f64::from(u8::from(on)),
+            Command::Ping
+            | Command::Hold
+            | Command::Resume
+            | Command::Abort
+            | Command::StopAtEndOfBlock
+            | Command::Reset => 0.0,
+        };
+        Self {
+            client,
+            number,
+            value,
+            kind: command.kind().code(),
+            reserved: 0,
+        }
+    }
+
+    /// The command.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code or an argument out of range.
+    pub fn command(&self) -> Result<Command, RecordError> {
+        let fields = Fields(Self::NAME);
+        fields.finite("value", self.value)?;
+        fields.zero("reserved", self.reserved)?;
+        Ok(match fields.code::<CommandKind>("kind", self.kind)? {
+            CommandKind::Ping => Command::Ping,
+            CommandKind::Hold => Command::Hold,
+            CommandKind::Resume => Command::Resume,
+            CommandKind::FeedOverride => {
+                fields.override_ratio("value", self.value)?;
+                Command::FeedOverride(self.value)
+            }
+            CommandKind::RapidOverride => {
+                fields.override_ratio("value", self.value)?;
+                Command::RapidOverride(self.value)
+            }
+            CommandKind::Abort => Command::Abort,
+            CommandKind::StopAtEndOfBlock => Command::StopAtEndOfBlock,
+            CommandKind::SingleStep => {
+                fields.range("value", self.value, 0.0, 1.0)?;
+                Command::SingleStep(fields.whole("value", self.value)? == 1)
+            }
+            CommandKind::Reset => Command::Reset,
+        })
+    }
+}
+
+impl Record for CommandRequest {
+    const NAME: &'static str = "glidepath.CommandRequest.v1";
+
+    fn check(&self) -> Result<(), RecordError> {
+        self.command().map(|_| ())
+    }
+}
+
+coded! {
+    /// Why a command was refused.
+    pub enum CommandRefusal {
+        /// Unknown command or argument out of range; the text says which.
+        Malformed = 1,
+        /// Known, but not built in this version.
+        Unsupported = 2,
+        /// Not possible in the present state.
+        WrongState = 3,
+        /// Too many commands at once; ask again.
+        Busy = 4,
+        /// The interpolator is ending.
+        ShuttingDown = 5,
+    }
+}
+
+/// The answer to a command.
+pub type CommandOutcome = Result<(), CommandRefusal>;
+
+/// The answer on its way back.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
+#[type_name("glidepath.CommandReply.v1")]
+pub struct CommandReply {
+    /// The life of the interpolator that answers.
+    pub boot_id: u64,
+    /// The number of the request.
+    pub number: u64,
+    /// Code of a [`CommandRefusal`], 0 if the command was accepted.
+    pub refusal: u32,
+    /// Code of the [`MachineState`] when the answer was given.
+    pub state: u32,
+    /// More about a refusal, for people.
+    pub message: Text,
+}
+
+impl CommandReply {
+    /// The record of an answer.
+    #[must_use]
+    pub fn new(
+        boot_id: u64,
+        number: u64,
+        outcome: CommandOutcome,
+        state: MachineState,
+        message: &str,
+    ) -> Self {
+        Self {
+            boot_id,
+            number,
+            refusal: outcome.err().map_or(0, CommandRefusal::code),
+            state: state.code(),
+            message: Text::new(message),
+        }
+    }
+
+    /// The answer.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn outcome(&self) -> Result<CommandOutcome, RecordError> {
+        match self.refusal {
+            0 => Ok(Ok(())),
+            code => Fields(Self::NAME).code("refusal", code).map(Err),
+        }
+    }
+
+    /// The state when the answer was given.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn state(&self) -> Result<MachineState, RecordError> {
+        Fields(Self::NAME).code("state", self.state)
+    }
+}
+
+impl Record for CommandReply {
+    const NAME: &'static str = "glidepath.CommandReply.v1";
+
+    fn check(&self) -> Result<(), RecordError> {
+        self.outcome()?.ok();
+        self.state()?;
+        self.message.check(Self::NAME, "message")
+    }
+}

@@ -1,0 +1,59 @@
+//! The records that cross processes.
+//!
+//! Each is `#[repr(C)]`, of fixed size, without padding (`bytemuck::Pod` proves that when it is
+//! compiled), and means the same in every process, whatever language it is written in: numbers,
+//! arrays of numbers, and codes of 32 bits. A code is never read as a Rust enum before it has been
+//! compared with the codes known here. The name of a record ends in its version; a change of layout
+//! or meaning gets a new version, and ports of different versions refuse to connect.
+//!
+//! Axes are in the order X Y Z A B C U V W, mm or degrees; joints are J0…J8; times are nanoseconds
+//! of `CLOCK_MONOTONIC`; overrides are ratios, 1 is 100 %.
+#![allow(
+    unsafe_code,
+    reason = "the derives of `Pod` and `ZeroCopySend` expand to `unsafe impl`; both check the fields"
+)]
+
+mod check;
+mod code;
+mod command;
+mod event;
+mod frame;
+mod segment;
+mod setpoint;
+mod state;
+mod status;
+mod text;
+
+pub use check::{RecordError, decode};
+pub use command::{
+    COMMAND_KINDS, Command, CommandKind, CommandOutcome, CommandRefusal, CommandReply,
+    CommandRequest,
+};
+pub use event::EventKind;
+pub use frame::{PERIOD_NS_MAX, SetpointFrame};
+pub use segment::{
+    ModeCode, PlaneCode, RequestKind, SegmentOutcome, SegmentRefusal, SegmentReply, SegmentRequest,
+    StreamItem,
+};
+pub use setpoint::{Setpoint, SetpointMarks};
+pub use state::{EndOfEpoch, FRAME_REFUSALS, FaultCause, FrameRefusal, MachineState};
+pub use status::{Grants, Quantiles, Status};
+pub use text::Text;
+
+use iceoryx2::prelude::ZeroCopySend;
+
+/// Largest feed or rapid override, as a ratio.
+pub const OVERRIDE_MAX: f64 = 2.0;
+
+/// Plain old data that may cross to another process.
+pub trait Record: bytemuck::Pod + ZeroCopySend + core::fmt::Debug + PartialEq {
+    /// Name with version, the same in every language.
+    const NAME: &'static str;
+
+    /// Whether every number is finite and in range and every code and flag is known.
+    ///
+    /// # Errors
+    ///
+    /// The first field that is not.
+    fn check(&self) -> Result<(), RecordError>;
+}

@@ -1,0 +1,399 @@
+//! Another program to a listening planner: items in program order, and the answers.
+
+use super::check::{Fields, RecordError};
+use super::code::coded;
+use super::{Record, Text, event};
+use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Segment};
+use glidepath_motion::{Item, ItemKind, PathMode, Rate};
+use iceoryx2::prelude::ZeroCopySend;
+
+coded! {
+    /// What a request carries.
+    pub enum RequestKind {
+        /// Start of a stream.
+        Open = 1,
+        /// A straight move.
+        Line = 2,
+        /// An arc.
+        Arc = 3,
+        /// A dwell.
+        Dwell = 4,
+        /// An event.
+        Event = 5,
+        /// End of the stream.
+        End = 6,
+    }
+}
+
+coded! {
+    /// Planes on the wire.
+    pub enum PlaneCode {
+        /// G17.
+        Xy = 1,
+        /// G18.
+        Zx = 2,
+        /// G19.
+        Yz = 3,
+        /// G17.1.
+        Uv = 4,
+        /// G18.1.
+        Wu = 5,
+        /// G19.1.
+        Vw = 6,
+    }
+}
+
+coded! {
+    /// Path modes on the wire.
+    pub enum ModeCode {
+        /// G61.1.
+        ExactStop = 1,
+        /// G61.
+        ExactPath = 2,
+        /// G64 with the configured tolerance.
+        Continuous = 3,
+        /// G64 with its own tolerance.
+        ContinuousWithin = 4,
+    }
+}
+
+/// What a client sends: one request each.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "nearly every value of a stream is the large one"
+)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StreamItem {
+    /// Start of a stream. The reply tells where the machine stands: the first segment starts there.
+    Open,
+    /// A move, a dwell or an event.
+    Item(Item),
+    /// End of the stream: the machine comes to rest at the end of what was sent.
+    End,
+}
+
+/// One piece of a stream on its way. Fields a kind does not use are zero.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
+#[type_name("glidepath.SegmentRequest.v1")]
+pub struct SegmentRequest {
+    /// Chosen by the client at random, the same for all of a stream.
+    pub session: u64,
+    /// Counts the requests of a stream from 0 (its `Open`), without gaps.
+    pub number: u64,
+    /// What this is: 1 open, 2 line, 3 arc, 4 dwell, 5 event, 6 end.
+    pub kind: u32,
+    /// Source line, from 1; 0 for open and end.
+    pub line: u32,
+    /// Of a line or arc: 1 if it is a rapid move, else 0.
+    pub rapid: u32,
+    /// Of a line or arc: 1 exact stop, 2 exact path, 3 continuous, 4 continuous within `tolerance_mm`.
+    pub mode: u32,
+    /// Of an arc: 1 XY, 2 ZX, 3 YZ, 4 UV, 5 WU, 6 VW.
+    pub plane: u32,
+    /// Of an event: its code, as in [`super::SetpointFrame`].
+    pub event_kind: u32,
+    /// The event's number (speed, tool, M code).
+    pub event_value: f64,
+    /// Of a line or arc that is not rapid: feedrate, mm/s (°/s for rotary axes alone), > 0.
+    pub feed_v: f64,
+    /// Path tolerance, mm, > 0, with mode 4.
+    pub tolerance_mm: f64,
+    /// Of a dwell: time, s, ≥ 0.
+    pub dwell_t: f64,
+    /// Of an arc: signed sweep, radians, not 0.
+    pub sweep_rad: f64,
+    /// Of an arc: centre on the first and second axis of the plane, mm.
+    pub center: [f64; 2],
+    /// Start of a line or arc: the end of the one before, bit for bit.
+    pub start: [f64; AXES],
+    /// End of a line or arc.
+    pub end: [f64; AXES],
+}
+
+impl SegmentRequest {
+    /// The record of one piece of a stream.
+    #[must_use]
+    pub fn new(session: u64, number: u64, item: &StreamItem) -> Self {
+        let mut record = Self {
+            session,
+            number,
+            ..bytemuck::Zeroable::zeroed()
+        };
+        match item {
+            StreamItem::Open => record.kind = RequestKind::Open.code(),
+            StreamItem::End => record.kind = RequestKind::End.code(),
+            StreamItem::Item(item) => {
+                record.line = item.line;
+                match item.kind {
+                    ItemKind::Move {
+                        segment,
+                        rate,
+                        mode,
+                    } => {
+                        record.set_segment(&segment);
+                        record.set_rate(rate);
+                        record.set_mode(mode);
+                    }
+                    ItemKind::Dwell(dwell_t) => {
+                        record.kind = RequestKind::Dwell.code();
+                        record.dwell_t = dwell_t;
+                    }
+                    ItemKind::Event(of) => {
+                        record.kind = RequestKind::Event.code();
+                        (record.event_kind, record.event_value) = event::encode(Some(of));
+                    }
+                }
+            }
+        }
+        record
+    }
+
+    fn set_segment(&mut self, segment: &Segment) {
+        self.start = segment.start().into();
+        self.end = segment.end().into();
+        match segment {
+            Segment::Line(_) => self.kind = RequestKind::Line.code(),
+            Segment::Arc(arc) => {
+                self.kind = RequestKind::Arc.code();
+                self.plane = plane_code(arc.plane).code();
+                self.center = arc.center;
+                self.sweep_rad = arc.sweep_rad;
+            }
+        }
+    }
+
+    fn set_rate(&mut self, rate: Rate) {
+        match rate {
+            Rate::Rapid => self.rapid = 1,
+            Rate::Feed(feed_v) => self.feed_v = feed_v,
+        }
+    }
+
+    fn set_mode(&mut self, mode: PathMode) {
+        let code = match mode {
+            PathMode::ExactStop => ModeCode::ExactStop,
+            PathMode::ExactPath => ModeCode::ExactPath,
+            PathMode::Continuous { tolerance_mm: None } => ModeCode::Continuous,
+            PathMode::Continuous {
+                tolerance_mm: Some(tolerance_mm),
+            } => {
+                self.tolerance_mm = tolerance_mm;
+                ModeCode::ContinuousWithin
+            }
+        };
+        self.mode = code.code();
+    }
+
+    /// What the request says.
+    ///
+    /// # Errors
+    ///
+    /// The first field that is unknown, not finite, or out of range.
+    pub fn item(&self) -> Result<StreamItem, RecordError> {
+        let fields = Fields(Self::NAME);
+        self.check_finite(fields)?;
+        let kind = match fields.code("kind", self.kind)? {
+            RequestKind::Open => return Ok(StreamItem::Open),
+            RequestKind::End => return Ok(StreamItem::End),
+            RequestKind::Line => {
+                let (start, end) = (AxisVector::from(self.start), AxisVector::from(self.end));
+                self.motion(Segment::line(start, end))?
+            }
+            RequestKind::Arc => self.motion(Segment::Arc(self.arc()?))?,
+            RequestKind::Dwell => {
+                fields.range("dwell_t", self.dwell_t, 0.0, f64::MAX)?;
+                ItemKind::Dwell(self.dwell_t)
+            }
+            RequestKind::Event => {
+                match event::decode(Self::NAME, self.event_kind, self.event_value)? {
+                    Some(event) => ItemKind::Event(event),
+                    None => {
+                        let (record, field) = (Self::NAME, "event_kind");
+                        return Err(RecordError::UnknownCode {
+                            record,
+                            field,
+                            code: 0,
+                        });
+                    }
+                }
+            }
+        };
+        Ok(StreamItem::Item(Item {
+            line: self.line,
+            kind,
+        }))
+    }
+
+    fn check_finite(&self, fields: Fields) -> Result<(), RecordError> {
+        fields.all_finite("start", &self.start)?;
+        fields.all_finite("end", &self.end)?;
+        fields.all_finite("center", &self.center)?;
+        fields.finite("sweep_rad", self.sweep_rad)?;
+        fields.finite("event_value", self.event_value)?;
+        fields.finite("feed_v", self.feed_v)?;
+        fields.finite("tolerance_mm", self.tolerance_mm)?;
+        fields.finite("dwell_t", self.dwell_t)
+    }
+
+    fn motion(&self, segment: Segment) -> Result<ItemKind, RecordError> {
+        let fields = Fields(Self::NAME);
+        let rate = match self.rapid {
+            1 => Rate::Rapid,
+            0 => {
+                fields.range("feed_v", self.feed_v, f64::MIN_POSITIVE, f64::MAX)?;
+                Rate::Feed(self.feed_v)
+            }
+            code => {
+                let (record, field) = (Self::NAME, "rapid");
+                return Err(RecordError::UnknownCode {
+                    record,
+                    field,
+                    code,
+                });
+            }
+        };
+        let mode = match fields.code("mode", self.mode)? {
+            ModeCode::ExactStop => PathMode::ExactStop,
+            ModeCode::ExactPath => PathMode::ExactPath,
+            ModeCode::Continuous => PathMode::Continuous { tolerance_mm: None },
+            ModeCode::ContinuousWithin => {
+                fields.range(
+                    "tolerance_mm",
+                    self.tolerance_mm,
+                    f64::MIN_POSITIVE,
+                    f64::MAX,
+                )?;
+                PathMode::Continuous {
+                    tolerance_mm: Some(self.tolerance_mm),
+                }
+            }
+        };
+        Ok(ItemKind::Move {
+            segment,
+            rate,
+            mode,
+        })
+    }
+
+    fn arc(&self) -> Result<Arc, RecordError> {
+        let fields = Fields(Self::NAME);
+        fields.range(
+            "sweep_rad",
+            self.sweep_rad.abs(),
+            f64::MIN_POSITIVE,
+            f64::MAX,
+        )?;
+        Ok(Arc {
+            start: AxisVector::from(self.start),
+            end: AxisVector::from(self.end),
+            plane: plane_of(fields.code("plane", self.plane)?),
+            center: self.center,
+            sweep_rad: self.sweep_rad,
+        })
+    }
+}
+
+const fn plane_code(plane: Plane) -> PlaneCode {
+    match plane {
+        Plane::Xy => PlaneCode::Xy,
+        Plane::Zx => PlaneCode::Zx,
+        Plane::Yz => PlaneCode::Yz,
+        Plane::Uv => PlaneCode::Uv,
+        Plane::Wu => PlaneCode::Wu,
+        Plane::Vw => PlaneCode::Vw,
+    }
+}
+
+const fn plane_of(code: PlaneCode) -> Plane {
+    match code {
+        PlaneCode::Xy => Plane::Xy,
+        PlaneCode::Zx => Plane::Zx,
+        PlaneCode::Yz => Plane::Yz,
+        PlaneCode::Uv => Plane::Uv,
+        PlaneCode::Wu => Plane::Wu,
+        PlaneCode::Vw => Plane::Vw,
+    }
+}
+
+impl Record for SegmentRequest {
+    const NAME: &'static str = "glidepath.SegmentRequest.v1";
+
+    fn check(&self) -> Result<(), RecordError> {
+        self.item().map(|_| ())
+    }
+}
+
+coded! {
+    /// Why a request was refused.
+    pub enum SegmentRefusal {
+        /// Another client's stream is open.
+        Busy = 1,
+        /// No stream of this session is open.
+        NotOpen = 2,
+        /// Not the next number; send again from the accepted one.
+        OutOfOrder = 3,
+        /// No room; wait, then send the same request again.
+        NoCredit = 4,
+        /// Unknown codes or numbers out of range.
+        Malformed = 5,
+        /// Does not start where the one before ended.
+        Discontinuous = 6,
+        /// Leaves the soft limits.
+        SoftLimit = 7,
+        /// The planner cannot plan it.
+        Unplannable = 8,
+        /// The machine has a fault, or the program was aborted.
+        Stopped = 9,
+        /// The planner is ending.
+        ShuttingDown = 10,
+    }
+}
+
+/// The answer to a request.
+pub type SegmentOutcome = Result<(), SegmentRefusal>;
+
+/// The answer on its way back.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
+#[type_name("glidepath.SegmentReply.v1")]
+pub struct SegmentReply {
+    /// The session of the request.
+    pub session: u64,
+    /// The number of the request.
+    pub number: u64,
+    /// Requests of the stream accepted so far: the number of the next one expected.
+    pub accepted: u64,
+    /// How many more would be accepted now.
+    pub credit: u32,
+    /// Code of a [`SegmentRefusal`], 0 if the request was accepted.
+    pub refusal: u32,
+    /// Where the next segment must start.
+    pub position: [f64; AXES],
+    /// More about a refusal, for people.
+    pub message: Text,
+}
+
+impl SegmentReply {
+    /// The answer.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn outcome(&self) -> Result<SegmentOutcome, RecordError> {
+        match self.refusal {
+            0 => Ok(Ok(())),
+            code => Fields(Self::NAME).code("refusal", code).map(Err),
+        }
+    }
+}
+
+impl Record for SegmentReply {
+    const NAME: &'static str = "glidepath.SegmentReply.v1";
+
+    fn check(&self) -> Result<(), RecordError> {
+        Fields(Self::NAME).all_finite("position", &self.position)?;
+        self.outcome()?.ok();
+        self.message.check(Self::NAME, "message")
+    }
+}

@@ -1,0 +1,138 @@
+//! Interpolator to servo: what to do at one tick.
+
+use super::check::{Fields, RecordError};
+use super::{MachineState, OVERRIDE_MAX, Record, event, frame::FRAME_FLAGS};
+use glidepath_geometry::AXES;
+use glidepath_motion::{Event, FrameFlags};
+use iceoryx2::prelude::ZeroCopySend;
+
+/// Properties of a setpoint, one bit each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct SetpointMarks(pub u32);
+
+impl SetpointMarks {
+    /// Computed late, but within its period.
+    pub const LATE: Self = Self(1);
+    /// One or more ticks before it were missed.
+    pub const AFTER_MISSED: Self = Self(1 << 1);
+}
+
+/// What the drives are to do at `apply_ns`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
+#[type_name("glidepath.Setpoint.v1")]
+pub struct Setpoint {
+    /// Identifies one life of the interpolator: all counts start again with a new one.
+    pub boot_id: u64,
+    /// Counts the setpoints of this life from 0, without gaps. A gap seen by a subscriber is loss.
+    pub number: u64,
+    /// Index on the interpolator's time grid. A gap where `number` has none is a missed tick.
+    pub tick: u64,
+    /// When the tick was due, ns of `CLOCK_MONOTONIC`.
+    pub scheduled_ns: u64,
+    /// When the setpoint is to be applied, ns of `CLOCK_MONOTONIC`: one period after `scheduled_ns`,
+    /// so that the time of delivery does not matter.
+    pub apply_ns: u64,
+    /// How late the tick began, ns.
+    pub lateness_ns: u64,
+    /// Missed ticks of this life so far.
+    pub missed_ticks: u64,
+    /// The trajectory, 0 before the first.
+    pub epoch: u64,
+    /// Last frame at or before the present program time.
+    pub sequence: u64,
+    /// Program time past that frame, in periods, 0 ≤ f < 1.
+    pub fraction: f64,
+    /// Source line, 0 before the first.
+    pub line: u32,
+    /// Bits of [`FrameFlags`] of the frame `sequence`.
+    pub flags: u32,
+    /// Bits of [`SetpointMarks`].
+    pub marks: u32,
+    /// Code of a [`MachineState`].
+    pub state: u32,
+    /// Code of the event that happens now, 0 for none.
+    pub event_kind: u32,
+    /// Must be zero.
+    pub reserved: u32,
+    /// The event's number (speed, tool, M code), 0 without an event.
+    pub event_value: f64,
+    /// Path position since the start of the program, mm.
+    pub path_s: f64,
+    /// Rate of path position as executed, mm/s.
+    pub feed_v: f64,
+    /// Override as executed, 0 to [`OVERRIDE_MAX`]: that of the plan times the rate of program time.
+    pub effective_override: f64,
+    /// Axis positions, mm or degrees.
+    pub position: [f64; AXES],
+    /// Axis velocities, mm/s or °/s.
+    pub velocity: [f64; AXES],
+    /// Axis accelerations, mm/s² or °/s².
+    pub acceleration: [f64; AXES],
+    /// Joint positions, mm or degrees.
+    pub joint_position: [f64; AXES],
+    /// Joint velocities, mm/s or °/s.
+    pub joint_velocity: [f64; AXES],
+    /// Joint accelerations, mm/s² or °/s².
+    pub joint_acceleration: [f64; AXES],
+}
+
+impl Setpoint {
+    /// What the interpolator is doing.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn state(&self) -> Result<MachineState, RecordError> {
+        Fields(Self::NAME).code("state", self.state)
+    }
+
+    /// The event that happens now.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code, or a number that does not fit it.
+    pub fn event(&self) -> Result<Option<Event>, RecordError> {
+        event::decode(Self::NAME, self.event_kind, self.event_value)
+    }
+
+    /// Sets the event that happens now.
+    pub fn set_event(&mut self, event: Option<Event>) {
+        (self.event_kind, self.event_value) = event::encode(event);
+    }
+
+    /// Whether all of `flags` are set.
+    #[must_use]
+    pub const fn has(&self, flags: FrameFlags) -> bool {
+        FrameFlags(self.flags).contains(flags)
+    }
+}
+
+impl Record for Setpoint {
+    const NAME: &'static str = "glidepath.Setpoint.v1";
+
+    fn check(&self) -> Result<(), RecordError> {
+        let fields = Fields(Self::NAME);
+        fields.all_finite("position", &self.position)?;
+        fields.all_finite("velocity", &self.velocity)?;
+        fields.all_finite("acceleration", &self.acceleration)?;
+        fields.all_finite("joint_position", &self.joint_position)?;
+        fields.all_finite("joint_velocity", &self.joint_velocity)?;
+        fields.all_finite("joint_acceleration", &self.joint_acceleration)?;
+        fields.range("fraction", self.fraction, 0.0, 1.0)?;
+        fields.finite("path_s", self.path_s)?;
+        fields.finite("feed_v", self.feed_v)?;
+        fields.range(
+            "effective_override",
+            self.effective_override,
+            0.0,
+            OVERRIDE_MAX,
+        )?;
+        fields.flags("flags", self.flags, FRAME_FLAGS)?;
+        let marks = SetpointMarks::LATE.0 | SetpointMarks::AFTER_MISSED.0;
+        fields.flags("marks", self.marks, marks)?;
+        fields.zero("reserved", self.reserved)?;
+        self.state()?;
+        self.event().map(|_| ())
+    }
+}

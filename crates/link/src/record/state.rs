@@ -1,0 +1,149 @@
+//! What the interpolator is doing, and why it stopped.
+
+use super::code::coded;
+
+coded! {
+    /// What the interpolator is doing.
+    pub enum MachineState {
+        /// At rest without an epoch; ready for one.
+        Idle = 1,
+        /// On the path, program time advances.
+        Running = 2,
+        /// On the path, slowing for a feed hold.
+        Holding = 3,
+        /// At rest on the path by a feed hold.
+        Held = 4,
+        /// On the path, slowing because frames run low.
+        Starving = 5,
+        /// At rest on the path, waiting for frames.
+        Starved = 6,
+        /// At rest on the path until the operator resumes (M0, M1, M60, single step).
+        ProgramStop = 7,
+        /// On the path, slowing to end the epoch: abort or fault.
+        Stopping = 8,
+        /// At rest with a latched cause; needs a reset.
+        Faulted = 9,
+    }
+}
+
+impl MachineState {
+    /// Whether the machine may be moving.
+    #[must_use]
+    pub const fn is_moving(self) -> bool {
+        matches!(
+            self,
+            Self::Running | Self::Holding | Self::Starving | Self::Stopping
+        )
+    }
+}
+
+coded! {
+    /// How the epoch of a status ended.
+    pub enum EndOfEpoch {
+        /// No epoch yet.
+        None = 0,
+        /// It has not ended.
+        Open = 1,
+        /// Its last frame was executed.
+        Completed = 2,
+        /// By an abort command.
+        Aborted = 3,
+        /// By a fault.
+        Faulted = 4,
+    }
+}
+
+coded! {
+    /// Why a frame was refused. The code is the index of its counter in a status, plus one.
+    pub enum FrameRefusal {
+        /// A number is infinite or not a number.
+        NotFinite = 1,
+        /// Unknown flags or codes, or a number out of range.
+        Malformed = 2,
+        /// Sampled with another period than the interpolator's.
+        Period = 3,
+        /// Of an epoch that is over, or of a new one while the present one runs.
+        Epoch = 4,
+        /// A gap in the sequence.
+        Sequence = 5,
+        /// Position, velocity or acceleration does not follow from the frame before.
+        Discontinuous = 6,
+        /// Above an axis' velocity limit.
+        Velocity = 7,
+        /// Above an axis' acceleration limit.
+        Acceleration = 8,
+        /// Above an axis' jerk limit.
+        Jerk = 9,
+        /// Outside an axis' soft limits.
+        SoftLimit = 10,
+        /// The first frame of an epoch is not at rest.
+        NotAtRest = 11,
+        /// The first frame of an epoch is not where the machine stands.
+        Elsewhere = 12,
+    }
+}
+
+/// Number of reasons for which frames are refused.
+pub const FRAME_REFUSALS: usize = 12;
+
+impl FrameRefusal {
+    /// Place of its counter in a status.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.code() as usize - 1
+    }
+}
+
+/// Why the interpolator stopped by itself. Latched until reset.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum FaultCause {
+    /// A frame was refused.
+    Frame(FrameRefusal),
+    /// Starved for longer than configured: the planner died or hangs.
+    PlannerLost,
+    /// More missed ticks than configured.
+    MissedTicks,
+    /// A computed setpoint was not finite or broke a limit.
+    Output,
+    /// The thread that serves the ports died or hangs.
+    Ports,
+}
+
+impl FaultCause {
+    /// Added to the code of a frame's refusal.
+    const FRAME: u32 = 0x100;
+
+    /// The code in a status; 0 stands for no fault.
+    #[must_use]
+    pub const fn code(self) -> u32 {
+        match self {
+            Self::PlannerLost => 1,
+            Self::MissedTicks => 2,
+            Self::Output => 3,
+            Self::Ports => 4,
+            Self::Frame(refusal) => Self::FRAME + refusal.code(),
+        }
+    }
+
+    /// What a code stands for; `None` if this version does not know it.
+    #[must_use]
+    pub const fn from_code(code: u32) -> Option<Self> {
+        match code {
+            1 => Some(Self::PlannerLost),
+            2 => Some(Self::MissedTicks),
+            3 => Some(Self::Output),
+            4 => Some(Self::Ports),
+            Self::FRAME.. => match FrameRefusal::from_code(code - Self::FRAME) {
+                Some(refusal) => Some(Self::Frame(refusal)),
+                None => None,
+            },
+            _ => None,
+        }
+    }
+}
+
+impl super::code::Code for FaultCause {
+    fn known(code: u32) -> Option<Self> {
+        Self::from_code(code)
+    }
+}

@@ -1,0 +1,215 @@
+//! Interpolator to everybody: what it does and how well.
+
+use super::check::{Fields, RecordError};
+use super::{EndOfEpoch, FRAME_REFUSALS, FaultCause, MachineState, OVERRIDE_MAX, Record, Text};
+use glidepath_geometry::{AXES, Axis};
+use iceoryx2::prelude::ZeroCopySend;
+
+/// Which real-time grants the interpolator holds, one bit each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Grants(pub u32);
+
+impl Grants {
+    /// Scheduled by `SCHED_FIFO`.
+    pub const FIFO: Self = Self(1);
+    /// Pinned to its CPU.
+    pub const PINNED: Self = Self(1 << 1);
+    /// Memory locked.
+    pub const MEMORY_LOCKED: Self = Self(1 << 2);
+    /// Stack and rings touched beforehand.
+    pub const PREFAULTED: Self = Self(1 << 3);
+    /// `/dev/cpu_dma_latency` held.
+    pub const DMA_LATENCY: Self = Self(1 << 4);
+    /// Started with leave to go on without some of the above.
+    pub const BEST_EFFORT: Self = Self(1 << 5);
+
+    /// These and others.
+    #[must_use]
+    pub const fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// True if all of `other` are held.
+    #[must_use]
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    const KNOWN: u32 = (1 << 6) - 1;
+}
+
+/// Quantiles of a time, ns.
+#[repr(C)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend,
+)]
+pub struct Quantiles {
+    /// Median.
+    pub p50_ns: u64,
+    /// 99 % are no longer.
+    pub p99_ns: u64,
+    /// 99.9 % are no longer.
+    pub p999_ns: u64,
+    /// The longest.
+    pub max_ns: u64,
+}
+
+/// What the interpolator does and how well. Counts are of this life of it.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
+#[type_name("glidepath.Status.v1")]
+pub struct Status {
+    /// Identifies one life of the interpolator.
+    pub boot_id: u64,
+    /// When this was true, ns of `CLOCK_MONOTONIC`. A reader takes an old one for a dead interpolator.
+    pub updated_ns: u64,
+    /// Interpolation period, ns.
+    pub period_ns: u64,
+    /// Last tick on the time grid.
+    pub tick: u64,
+    /// The present or last epoch, 0 before the first.
+    pub epoch: u64,
+    /// Frames of the epoch accepted so far: the sequence of the next one expected.
+    pub frames_received: u64,
+    /// Frames of the epoch whose instant has come: one more than the sequence executed last.
+    pub frames_executed: u64,
+    /// Frames accepted but not yet reached.
+    pub queue_depth: u32,
+    /// Most frames it can hold.
+    pub queue_capacity: u32,
+    /// Its process.
+    pub pid: u32,
+    /// Code of a [`MachineState`].
+    pub state: u32,
+    /// Code of an [`EndOfEpoch`].
+    pub end_of_epoch: u32,
+    /// Code of a latched [`FaultCause`], 0 for none.
+    pub fault: u32,
+    /// Source line of the latched fault, 0 if it has none.
+    pub fault_line: u32,
+    /// Axis of the latched fault, as its index plus one, 0 if it has none.
+    pub fault_axis: u32,
+    /// Sequence of the frame the latched fault is about.
+    pub fault_sequence: u64,
+    /// What was measured at the latched fault, in units of the limit it broke.
+    pub fault_value: f64,
+    /// The limit that was broken.
+    pub fault_limit: f64,
+    /// Source line being executed, 0 before the first.
+    pub line: u32,
+    /// Bits of [`Grants`].
+    pub grants: u32,
+    /// Axis positions as last commanded, mm or degrees.
+    pub position: [f64; AXES],
+    /// Path position, mm.
+    pub path_s: f64,
+    /// Rate of path position, mm/s.
+    pub feed_v: f64,
+    /// Feed override as commanded.
+    pub feed_override: f64,
+    /// Rapid override as commanded.
+    pub rapid_override: f64,
+    /// Override as executed.
+    pub effective_override: f64,
+    /// Ticks run.
+    pub ticks: u64,
+    /// Ticks that were not run because the one before took until after them.
+    pub missed_ticks: u64,
+    /// Ticks that began late, within their period.
+    pub late_ticks: u64,
+    /// Setpoints handed to the transport.
+    pub setpoints_published: u64,
+    /// Setpoints lost inside the interpolator.
+    pub setpoints_lost: u64,
+    /// Commands served.
+    pub commands_served: u64,
+    /// Commands refused, among those served.
+    pub commands_refused: u64,
+    /// Frames refused, by cause: see [`super::FrameRefusal::index`].
+    pub frames_refused: [u64; FRAME_REFUSALS],
+    /// How late ticks began.
+    pub lateness: Quantiles,
+    /// How long the work of a tick took.
+    pub work: Quantiles,
+    /// The last error, for people.
+    pub last_error: Text,
+}
+
+impl Status {
+    /// What the interpolator is doing.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn state(&self) -> Result<MachineState, RecordError> {
+        Fields(Self::NAME).code("state", self.state)
+    }
+
+    /// How the epoch ended.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn end_of_epoch(&self) -> Result<EndOfEpoch, RecordError> {
+        Fields(Self::NAME).code("end_of_epoch", self.end_of_epoch)
+    }
+
+    /// The latched fault.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn fault(&self) -> Result<Option<FaultCause>, RecordError> {
+        match self.fault {
+            0 => Ok(None),
+            code => Fields(Self::NAME).code("fault", code).map(Some),
+        }
+    }
+
+    /// The axis of the latched fault, if it has one.
+    #[must_use]
+    pub fn fault_axis(&self) -> Option<Axis> {
+        let index = usize::try_from(self.fault_axis).ok()?.checked_sub(1)?;
+        Axis::ALL.get(index).copied()
+    }
+
+    /// The real-time grants.
+    #[must_use]
+    pub const fn grants(&self) -> Grants {
+        Grants(self.grants)
+    }
+}
+
+impl Record for Status {
+    const NAME: &'static str = "glidepath.Status.v1";
+
+    fn check(&self) -> Result<(), RecordError> {
+        let fields = Fields(Self::NAME);
+        fields.all_finite("position", &self.position)?;
+        fields.finite("path_s", self.path_s)?;
+        fields.finite("feed_v", self.feed_v)?;
+        fields.finite("fault_value", self.fault_value)?;
+        fields.finite("fault_limit", self.fault_limit)?;
+        fields.override_ratio("feed_override", self.feed_override)?;
+        fields.override_ratio("rapid_override", self.rapid_override)?;
+        fields.range(
+            "effective_override",
+            self.effective_override,
+            0.0,
+            OVERRIDE_MAX,
+        )?;
+        fields.flags("grants", self.grants, Grants::KNOWN)?;
+        if self.fault_axis != 0 && self.fault_axis().is_none() {
+            let (record, field) = (Self::NAME, "fault_axis");
+            return Err(RecordError::UnknownCode {
+                record,
+                field,
+                code: self.fault_axis,
+            });
+        }
+        self.state()?;
+        self.end_of_epoch()?;
+        self.fault()?;
+        self.last_error.check(Self::NAME, "last_error")
+    }
+}

@@ -1,0 +1,64 @@
+//! Short text of fixed size.
+
+use super::check::RecordError;
+use iceoryx2::prelude::ZeroCopySend;
+
+const CAPACITY: usize = 128;
+
+/// Up to 128 bytes of UTF-8, padded with zeros.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
+pub struct Text {
+    bytes: [u8; CAPACITY],
+}
+
+impl Text {
+    /// Longest text, bytes.
+    pub const CAPACITY: usize = CAPACITY;
+
+    /// A text, cut at the last whole character that fits.
+    #[must_use]
+    pub fn new(text: &str) -> Self {
+        let mut end = text.len().min(Self::CAPACITY);
+        while !text.is_char_boundary(end) {
+            end -= 1;
+        }
+        let mut bytes = [0; Self::CAPACITY];
+        for (to, from) in bytes.iter_mut().zip(text.as_bytes().iter().take(end)) {
+            *to = *from;
+        }
+        Self { bytes }
+    }
+
+    /// The text, up to its padding; empty if the bytes are not UTF-8.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        str::from_utf8(self.used()).unwrap_or_default()
+    }
+
+    fn used(&self) -> &[u8] {
+        self.bytes
+            .split(|&byte| byte == 0)
+            .next()
+            .unwrap_or_default()
+    }
+
+    pub(crate) fn check(
+        &self,
+        record: &'static str,
+        field: &'static str,
+    ) -> Result<(), RecordError> {
+        match str::from_utf8(self.used()) {
+            Ok(_) => Ok(()),
+            Err(_) => Err(RecordError::NotText { record, field }),
+        }
+    }
+}
+
+impl Default for Text {
+    fn default() -> Self {
+        Self {
+            bytes: [0; Self::CAPACITY],
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! The layout of the records, byte by byte: a change here is a new version of the record.
+
+use core::mem::{align_of, offset_of, size_of};
+use glidepath_link::{
+    CommandReply, CommandRequest, Quantiles, Record, SegmentReply, SegmentRequest, Setpoint,
+    SetpointFrame, Status, Text,
+};
+
+macro_rules! layout {
+    ($test:ident, $record:ty, $name:literal, $size:literal, { $($field:ident: $offset:literal),+ $(,)? }) => {
+        #[test]
+        fn $test() {
+            assert_eq!(<$record>::NAME, $name);
+            #[allow(unsafe_code, reason = "the trait's function is unsafe for other languages' sake")]
+            // SAFETY: the layout is the one this test asserts.
+            let wire_name = unsafe { <$record as iceoryx2::prelude::ZeroCopySend>::type_name() };
+            assert_eq!(wire_name, $name);
+            assert_eq!(size_of::<$record>(), $size);
+            assert_eq!(align_of::<$record>(), 8);
+            $(assert_eq!(offset_of!($record, $field), $offset, stringify!($field));)+
+        }
+    };
+}
+
+layout!(setpoint_frame, SetpointFrame, "glidepath.SetpointFrame.v1", 288, {
+    epoch: 0, sequence: 8, period_ns: 16, line: 24, flags: 28, event_kind: 32, reserved: 36,
+    event_value: 40, path_v: 48, path_s: 56, planned_override: 64, position: 72, velocity: 144,
+    acceleration: 216,
+});
+layout!(setpoint, Setpoint, "glidepath.Setpoint.v1", 568, {
+    boot_id: 0, number: 8, tick: 16, scheduled_ns: 24, apply_ns: 32, lateness_ns: 40,
+    missed_ticks: 48, epoch: 56, sequence: 64, fraction: 72, line: 80, flags: 84, marks: 88,
+    state: 92, event_kind: 96, reserved: 100, event_value: 104, path_s: 112, feed_v: 120,
+    effective_override: 128, position: 136, velocity: 208, acceleration: 280, joint_position: 352,
+    joint_velocity: 424, joint_acceleration: 496,
+});
+layout!(status, Status, "glidepath.Status.v1", 624, {
+    boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
+    frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
+    fault: 76, fault_line: 80, fault_axis: 84, fault_sequence: 88, fault_value: 96,
+    fault_limit: 104, line: 112, grants: 116, position: 120, path_s: 192, feed_v: 200,
+    feed_override: 208, rapid_override: 216, effective_override: 224, ticks: 232,
+    missed_ticks: 240, late_ticks: 248, setpoints_published: 256, setpoints_lost: 264,
+    commands_served: 272, commands_refused: 280, frames_refused: 288, lateness: 384, work: 416,
+    last_error: 448,
+});
+layout!(command_request, CommandRequest, "glidepath.CommandRequest.v1", 32, {
+    client: 0, number: 8, value: 16, kind: 24, reserved: 28,
+});
+layout!(command_reply, CommandReply, "glidepath.CommandReply.v1", 152, {
+    boot_id: 0, number: 8, refusal: 16, state: 20, message: 24,
+});
+layout!(segment_request, SegmentRequest, "glidepath.SegmentRequest.v1", 240, {
+    session: 0, number: 8, kind: 16, line: 20, rapid: 24, mode: 28, plane: 32, event_kind: 36,
+    event_value: 40, feed_v: 48, tolerance_mm: 56, dwell_t: 64, sweep_rad: 72, center: 80,
+    start: 96, end: 168,
+});
+layout!(segment_reply, SegmentReply, "glidepath.SegmentReply.v1", 232, {
+    session: 0, number: 8, accepted: 16, credit: 24, refusal: 28, position: 32, message: 104,
+});
+
+#[test]
+fn parts_of_records() {
+    assert_eq!((size_of::<Quantiles>(), align_of::<Quantiles>()), (32, 8));
+    assert_eq!((size_of::<Text>(), align_of::<Text>()), (128, 1));
+}
