@@ -150,44 +150,35 @@ pub trait Server<Q, A> {
 }
 
 /// The way to the services of one instance, for one thread.
+///
+/// # Errors
+///
+/// The functions that make ports tell why a port cannot be made.
+#[allow(
+    clippy::missing_errors_doc,
+    reason = "said once for ten functions alike"
+)]
 pub trait Transport {
     /// For the planner. One at a time is meant to send; a second one may connect while the first,
     /// dead, is not yet cleaned up.
-    ///
-    /// # Errors
-    ///
-    /// Why the port cannot be made; likewise for all below.
-    #[allow(
-        clippy::missing_errors_doc,
-        reason = "said once, for the first of ten alike"
-    )]
     fn frame_sink(&self) -> Result<Box<dyn FrameSink>, LinkError>;
     /// For the interpolator, the only one.
-    #[allow(clippy::missing_errors_doc, reason = "as `frame_sink`")]
     fn frame_source(&self) -> Result<Box<dyn Subscriber<SetpointFrame>>, LinkError>;
     /// For the interpolator.
-    #[allow(clippy::missing_errors_doc, reason = "as `frame_sink`")]
     fn setpoint_sink(&self) -> Result<Box<dyn Publisher<Setpoint>>, LinkError>;
     /// For servo stacks and monitors.
-    #[allow(clippy::missing_errors_doc, reason = "as `frame_sink`")]
     fn setpoint_source(&self) -> Result<Box<dyn Subscriber<Setpoint>>, LinkError>;
     /// For the interpolator.
-    #[allow(clippy::missing_errors_doc, reason = "as `frame_sink`")]
     fn status_sink(&self) -> Result<Box<dyn Publisher<Status>>, LinkError>;
     /// For everybody. It holds the latest status only.
-    #[allow(clippy::missing_errors_doc, reason = "as `frame_sink`")]
     fn status_source(&self) -> Result<Box<dyn Subscriber<Status>>, LinkError>;
     /// For everybody.
-    #[allow(clippy::missing_errors_doc, reason = "as `frame_sink`")]
     fn command_client(&self) -> Result<Box<dyn Client<CommandRequest, CommandReply>>, LinkError>;
     /// For the interpolator.
-    #[allow(clippy::missing_errors_doc, reason = "as `frame_sink`")]
     fn command_server(&self) -> Result<Box<dyn Server<CommandRequest, CommandReply>>, LinkError>;
     /// For programs that stream segments.
-    #[allow(clippy::missing_errors_doc, reason = "as `frame_sink`")]
     fn segment_client(&self) -> Result<Box<dyn Client<SegmentRequest, SegmentReply>>, LinkError>;
     /// For a listening planner.
-    #[allow(clippy::missing_errors_doc, reason = "as `frame_sink`")]
     fn segment_server(&self) -> Result<Box<dyn Server<SegmentRequest, SegmentReply>>, LinkError>;
 
     /// Frees what dead processes of this instance hold. To be called every 200 ms or so by a process

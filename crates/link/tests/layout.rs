@@ -34,7 +34,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v1", 568, {
     effective_override: 128, position: 136, velocity: 208, acceleration: 280, joint_position: 352,
     joint_velocity: 424, joint_acceleration: 496,
 });
-layout!(status, Status, "glidepath.Status.v1", 624, {
+layout!(status, Status, "glidepath.Status.v1", 576, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_sequence: 88, fault_value: 96,
