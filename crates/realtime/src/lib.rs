@@ -1,1 +1,31 @@
-//! Linux real time: deadline timer, scheduling, memory lock, histogram.
+//! Linux real time: what a thread needs that must act every period and never be late.
+//!
+//! Knows nothing of machines or motion. The parts, in the order a program meets them:
+//!
+//! * [`enter`] makes the calling thread a real-time thread (scheduling class, processor, locked and
+//!   prefaulted memory, processor idle states) and reads every setting back; [`Mode::Strict`]
+//!   refuses to go on without any of it, [`Mode::BestEffort`] says what was granted;
+//! * [`DeadlineTimer`] wakes the thread on an absolute grid that never moves;
+//! * [`event_ring`] and [`Histogram`] carry what happened to a thread that may write logs;
+//! * [`forbid_system_calls`] and [`CountingAllocator`] prove, in tests, that the thread makes no system call
+//!   and no allocation.
+//!
+//! After [`enter`] nothing here allocates, locks or makes a system call other than the sleep and
+//! the reading of the clock. All `unsafe` code is in the module `sys`.
+
+mod clock;
+mod deadline;
+mod event_ring;
+mod histogram;
+mod host;
+mod setup;
+mod sys;
+
+pub use clock::{Clock, Monotonic};
+pub use deadline::{DeadlineTimer, Wake};
+pub use event_ring::{EventReader, EventWriter, Events, event_ring};
+pub use histogram::{Histogram, Quantiles};
+pub use host::HostFacts;
+pub use setup::{Entered, Grants, Item, Mode, NotRealTime, Outcome, Refusal, Request, enter};
+pub use sys::alloc::CountingAllocator;
+pub use sys::seccomp::{SENTINEL_EXIT_CODE, SentinelError, forbid_system_calls};
