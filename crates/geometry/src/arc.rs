@@ -132,13 +132,21 @@ impl Arc {
         let (along, across) = (-radius * omega * omega, 2.0 * radius_d1 * omega);
         d2[first] = along * cos - across * sin;
         d2[second] = along * sin + across * cos;
-        let (along, across) = (-3.0 * radius_d1 * omega * omega, -radius * omega * omega * omega);
+        let (along, across) = (
+            -3.0 * radius_d1 * omega * omega,
+            -radius * omega * omega * omega,
+        );
         d3[first] = along * cos - across * sin;
         d3[second] = along * sin + across * cos;
         if fraction >= 1.0 {
             position = self.end + (displacement * (fraction - 1.0));
         }
-        Jet { position, d1, d2, d3 }
+        Jet {
+            position,
+            d1,
+            d2,
+            d3,
+        }
     }
 
     /// Smallest and largest coordinate of the arc on every axis, bulges included.

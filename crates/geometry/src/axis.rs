@@ -79,7 +79,9 @@ impl Axis {
     /// The axis of a program letter, either case.
     #[must_use]
     pub fn from_letter(letter: char) -> Option<Self> {
-        Self::ALL.into_iter().find(|a| a.letter() == letter.to_ascii_uppercase())
+        Self::ALL
+            .into_iter()
+            .find(|a| a.letter() == letter.to_ascii_uppercase())
     }
 
     /// True for A, B and C, whose unit is the degree.

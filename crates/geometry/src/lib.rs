@@ -12,8 +12,17 @@
 
 mod arc;
 mod axis;
+mod bernstein;
+mod quadrature;
 mod segment;
+mod transition;
+mod turn;
 
 pub use arc::{Arc, Plane};
 pub use axis::{AXES, Axis, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 pub use segment::{Jet, Line, Segment, feed_length};
+pub use transition::{
+    BezierPair, Blend, DerivativeBounds, HeadingCurve, Hermite, PairShape, Profile, Transition,
+    TransitionError,
+};
+pub use turn::{Turn, limit_along, tolerance_half_turn};

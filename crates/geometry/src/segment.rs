@@ -45,7 +45,12 @@ pub enum Segment {
 pub fn feed_length(displacement: &AxisVector) -> f64 {
     [LINEAR_XYZ, UVW, ROTARY_ABC]
         .into_iter()
-        .map(|group| group.map(|i| displacement[i] * displacement[i]).sum::<f64>().sqrt())
+        .map(|group| {
+            group
+                .map(|i| displacement[i] * displacement[i])
+                .sum::<f64>()
+                .sqrt()
+        })
         .find(|&length| length > 0.0)
         .unwrap_or(0.0)
 }
@@ -109,7 +114,12 @@ impl Line {
         let length = feed_length(&displacement);
         let zero = AxisVector::zeros();
         if length <= 0.0 {
-            return Jet { position: self.start, d1: zero, d2: zero, d3: zero };
+            return Jet {
+                position: self.start,
+                d1: zero,
+                d2: zero,
+                d3: zero,
+            };
         }
         // From the nearer end, so that both ends are met exactly.
         let fraction = s / length;
@@ -118,6 +128,11 @@ impl Line {
         } else {
             self.end - displacement * ((length - s) / length)
         };
-        Jet { position, d1: displacement / length, d2: zero, d3: zero }
+        Jet {
+            position,
+            d1: displacement / length,
+            d2: zero,
+            d3: zero,
+        }
     }
 }

@@ -1,0 +1,165 @@
+//! Transitions: curves that replace a corner, so that the machine need not stop there.
+//!
+//! ```text
+//!             corner P
+//!    ──────────┬ ─ ─ ·         T1, T2: directions, unit feed length
+//!    P − d·T1  │ ╲   ·         d: what the transition takes from each side
+//!                 ╲  │         δ: its largest distance from P
+//!                  ╲ │ P + d·T2
+//!                    │
+//! ```
+//!
+//! Every family lies in the span of T1 and T2, `P + a·T1 + b·T2` with scalar functions a and b, so
+//! any number of axes goes along and the formulas are those of a planar corner.
+//!
+//! | family | at the lines | parametrised by | meant for |
+//! |---|---|---|---|
+//! | [`Blend`], sextic | velocity, acceleration, jerk continuous | its time law | corners of two lines (default) |
+//! | [`Blend`], quartic | acceleration continuous, jerk steps | its time law | the same, less deviation per length left over |
+//! | [`BezierPair`] | curvature continuous | arc length | constant corner speed, the published pair |
+//! | [`HeadingCurve`] | curvature and its derivative continuous | arc length | constant corner speed |
+//! | [`Hermite`] | position and three derivatives | path position | corners and joints where an arc takes part |
+//!
+//! Source: Chen, Zhang, Li, *Local Interpolation Method for Continuous Small Line Segments*, 2017,
+//! for the pair, with its misprints put right; the other families were derived for Glidepath.
+
+mod bezier_pair;
+mod blend;
+mod constant_speed;
+mod heading;
+mod hermite;
+
+pub use bezier_pair::{BezierPair, PairShape};
+pub use blend::{Blend, Profile};
+pub use heading::HeadingCurve;
+pub use hermite::Hermite;
+
+use crate::{AxisVector, Jet};
+
+/// The largest magnitude, per axis, of the derivatives by path position over a whole curve.
+///
+/// Upper bounds: never below the true maximum, above it by at most a few percent. At constant rate
+/// `v` of path position, axis `i` needs `v·d1[i]`, `v²·d2[i]` and `v³·d3[i]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DerivativeBounds {
+    /// Of the first derivative, axis unit per mm.
+    pub d1: AxisVector,
+    /// Of the second derivative, axis unit per mm².
+    pub d2: AxisVector,
+    /// Of the third derivative, axis unit per mm³.
+    pub d3: AxisVector,
+}
+
+/// Why a corner has no transition of the family that was asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum TransitionError {
+    /// The path turns back on itself: a curve at constant speed would need infinite acceleration.
+    #[error("the path reverses at this corner; stop there, or use a sextic blend")]
+    Reversal,
+    /// The two directions are not of unit length in the same axes, so there is no common speed.
+    #[error(
+        "the feed is measured in different axes before and after this corner; use a sextic blend"
+    )]
+    MixedFeedAxes,
+}
+
+/// A curve that replaces a corner. Path position runs from 0 to [`Transition::length`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a box would allocate, and the largest is usual"
+)]
+pub enum Transition {
+    /// Polynomial blend of the two directions.
+    Blend(Blend),
+    /// Two rational cubics.
+    BezierPair(BezierPair),
+    /// Heading as a polynomial of arc length.
+    Heading(HeadingCurve),
+    /// Septic polynomial through two jets.
+    Hermite(Hermite),
+}
+
+impl Transition {
+    /// The default for a corner of two lines: the uniform sextic blend that takes `d` > 0 from each
+    /// side. `t1` and `t2` are the directions, of unit feed length.
+    #[must_use]
+    pub fn sextic(corner: AxisVector, t1: AxisVector, t2: AxisVector, d: f64) -> Self {
+        Self::Blend(Blend::new(Profile::Sextic, corner, t1, t2, d))
+    }
+
+    /// The uniform quartic blend.
+    #[must_use]
+    pub fn quartic(corner: AxisVector, t1: AxisVector, t2: AxisVector, d: f64) -> Self {
+        Self::Blend(Blend::new(Profile::Quartic, corner, t1, t2, d))
+    }
+
+    /// The published pair of rational cubics, by arc length.
+    ///
+    /// # Errors
+    /// For a reversal, and for directions that are not both unit in the same axes.
+    pub fn bezier_pair(
+        corner: AxisVector,
+        t1: AxisVector,
+        t2: AxisVector,
+        d: f64,
+        shape: PairShape,
+    ) -> Result<Self, TransitionError> {
+        BezierPair::new(corner, t1, t2, d, shape).map(Self::BezierPair)
+    }
+
+    /// The heading curve, by arc length.
+    ///
+    /// # Errors
+    /// For a reversal, and for directions that are not both unit in the same axes.
+    pub fn heading(
+        corner: AxisVector,
+        t1: AxisVector,
+        t2: AxisVector,
+        d: f64,
+    ) -> Result<Self, TransitionError> {
+        HeadingCurve::new(corner, t1, t2, d).map(Self::Heading)
+    }
+
+    /// The septic polynomial that leaves `from` and arrives at `to` with all their derivatives, its
+    /// path position running over `length` > 0. Between two lines, with length 2d, it is the sextic.
+    #[must_use]
+    pub fn hermite(from: &Jet, to: &Jet, length: f64) -> Self {
+        Self::Hermite(Hermite::new(from, to, length))
+    }
+
+    /// Path position at the end, mm.
+    #[must_use]
+    pub const fn length(&self) -> f64 {
+        match self {
+            Self::Blend(curve) => curve.length(),
+            Self::BezierPair(curve) => curve.length(),
+            Self::Heading(curve) => curve.length(),
+            Self::Hermite(curve) => curve.length(),
+        }
+    }
+
+    /// Position and derivatives at path position `s`, which is clamped to the curve. Never
+    /// allocates.
+    #[must_use]
+    pub fn jet(&self, s: f64) -> Jet {
+        let s = s.max(0.0).min(self.length());
+        match self {
+            Self::Blend(curve) => curve.jet(s),
+            Self::BezierPair(curve) => curve.jet(s),
+            Self::Heading(curve) => curve.jet(s),
+            Self::Hermite(curve) => curve.jet(s),
+        }
+    }
+
+    /// Largest derivatives per axis.
+    #[must_use]
+    pub fn bounds(&self) -> DerivativeBounds {
+        match self {
+            Self::Blend(curve) => curve.bounds(),
+            Self::BezierPair(curve) => curve.bounds(),
+            Self::Heading(curve) => curve.bounds(),
+            Self::Hermite(curve) => curve.bounds(),
+        }
+    }
+}

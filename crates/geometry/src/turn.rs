@@ -1,0 +1,82 @@
+//! How sharply a path turns at a corner.
+//!
+//! Between the unit directions `T1` and `T2` the path turns by θ. With β = θ/2, everything a
+//! transition needs is rational in sin β = |T2 − T1|/2 and cos β = |T1 + T2|/2, both accurate for
+//! every angle; an arc cosine of T1·T2 would lose half the digits of a slight turn.
+
+use crate::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+use core::ops::Range;
+
+/// Sine and cosine of half the turn angle at a corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
+    /// sin β: 0 straight on, 1 reversal.
+    pub sb: f64,
+    /// cos β: 1 straight on, 0 reversal.
+    pub cb: f64,
+}
+
+impl Turn {
+    /// The turn from one tangent to another, each of unit feed length, in the metric of the feed:
+    /// the XYZ part if either moves there, else UVW, else ABC.
+    ///
+    /// Where one tangent moves in that part and the other does not, sb² + cb² < 1; the blends
+    /// remain valid.
+    #[must_use]
+    pub fn between(t1: &AxisVector, t2: &AxisVector) -> Self {
+        let group = feed_group(t1, t2);
+        Self {
+            sb: 0.5 * norm_in(&(t2 - t1), group.clone()),
+            cb: 0.5 * norm_in(&(t1 + t2), group),
+        }
+    }
+
+    /// The turn angle θ in radians, 0 to π.
+    #[must_use]
+    pub fn theta_rad(&self) -> f64 {
+        2.0 * self.sb.atan2(self.cb)
+    }
+
+    /// sin θ.
+    #[must_use]
+    pub fn sin_theta(&self) -> f64 {
+        2.0 * self.sb * self.cb
+    }
+}
+
+/// Half the largest change of direction at a corner in the sense of the path tolerance: of the XYZ
+/// part, of the UVW part, and of each rotary axis by itself. The deviation of a transition is
+/// proportional to it, and it is [`Turn::sb`] for a corner of XYZ alone.
+#[must_use]
+pub fn tolerance_half_turn(t1: &AxisVector, t2: &AxisVector) -> f64 {
+    let change = t2 - t1;
+    let rotary = ROTARY_ABC.map(|i| change[i].abs()).fold(0.0, f64::max);
+    0.5 * norm_in(&change, LINEAR_XYZ)
+        .max(norm_in(&change, UVW))
+        .max(rotary)
+}
+
+/// The largest magnitude along `direction` that keeps every axis within its limit:
+/// min over axes of limit / |direction|; infinite for a zero direction.
+#[must_use]
+pub fn limit_along(direction: &AxisVector, limit: &AxisVector) -> f64 {
+    direction
+        .iter()
+        .zip(limit.iter())
+        .filter(|(component, _)| **component != 0.0)
+        .map(|(component, limit)| limit / component.abs())
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Axes whose norm measures the feed at this corner.
+pub(crate) fn feed_group(t1: &AxisVector, t2: &AxisVector) -> Range<usize> {
+    [LINEAR_XYZ, UVW]
+        .into_iter()
+        .find(|group| group.clone().any(|i| t1[i] != 0.0 || t2[i] != 0.0))
+        .unwrap_or(ROTARY_ABC)
+}
+
+/// Euclidean norm over some of the axes.
+pub(crate) fn norm_in(vector: &AxisVector, axes: Range<usize>) -> f64 {
+    axes.map(|i| vector[i] * vector[i]).sum::<f64>().sqrt()
+}
