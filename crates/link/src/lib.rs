@@ -6,10 +6,13 @@
 //! [`SetpointFrame::to_frame`]) comes before any use.
 
 mod error;
+mod in_process;
 mod port;
 mod record;
+mod service;
 
 pub use error::{BoxedError, LinkError};
+pub use in_process::InProcess;
 pub use port::{
     Client, Delivery, FrameSink, MAX_UNANSWERED, Publisher, Server, Subscriber, Transport,
 };
@@ -20,3 +23,4 @@ pub use record::{
     RequestKind, SegmentOutcome, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint,
     SetpointFrame, SetpointMarks, Status, StreamItem, Text, decode,
 };
+pub use service::Capacity;

@@ -1,0 +1,120 @@
+//! The transport inside one process: for tests, and for planning without a machine.
+//!
+//! It behaves as the transport between processes does, seen through the ports: the same order, the
+//! same back-pressure, the same loss. Its queues are behind a lock, which only port calls take.
+
+mod queue;
+mod request;
+mod topic;
+
+use crate::service::{COMMANDS, Capacity, FRAMES, SEGMENTS, SETPOINTS, STATUS};
+use crate::{
+    Client, CommandReply, CommandRequest, FrameSink, LinkError, Publisher, SegmentReply,
+    SegmentRequest, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
+};
+use queue::FrameQueue;
+use request::Exchange;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use topic::Topic;
+
+/// All services of one instance. Clones are ways to the same instance, for other threads.
+#[derive(Debug, Clone)]
+pub struct InProcess {
+    frames: Shared<FrameQueue>,
+    setpoints: Shared<Topic<Setpoint>>,
+    status: Shared<Topic<Status>>,
+    commands: Shared<Exchange<CommandRequest, CommandReply>>,
+    segments: Shared<Exchange<SegmentRequest, SegmentReply>>,
+}
+
+impl InProcess {
+    /// A new instance, which nothing else can reach but clones of this.
+    #[must_use]
+    pub fn new(capacity: Capacity) -> Self {
+        Self {
+            frames: Shared::new(FrameQueue::new(FRAMES, capacity.frames)),
+            setpoints: Shared::new(Topic::new(
+                SETPOINTS,
+                capacity.setpoints,
+                capacity.subscribers,
+            )),
+            status: Shared::new(Topic::new(STATUS, 1, capacity.subscribers)),
+            commands: Shared::new(Exchange::new(COMMANDS)),
+            segments: Shared::new(Exchange::new(SEGMENTS)),
+        }
+    }
+}
+
+impl Default for InProcess {
+    fn default() -> Self {
+        Self::new(Capacity::default())
+    }
+}
+
+impl Transport for InProcess {
+    fn frame_sink(&self) -> Result<Box<dyn FrameSink>, LinkError> {
+        Ok(Box::new(queue::Sink::new(&self.frames)?))
+    }
+
+    fn frame_source(&self) -> Result<Box<dyn Subscriber<SetpointFrame>>, LinkError> {
+        Ok(Box::new(queue::Source::new(&self.frames)?))
+    }
+
+    fn setpoint_sink(&self) -> Result<Box<dyn Publisher<Setpoint>>, LinkError> {
+        Ok(Box::new(topic::Sink::new(&self.setpoints)?))
+    }
+
+    fn setpoint_source(&self) -> Result<Box<dyn Subscriber<Setpoint>>, LinkError> {
+        Ok(Box::new(topic::Source::new(&self.setpoints)?))
+    }
+
+    fn status_sink(&self) -> Result<Box<dyn Publisher<Status>>, LinkError> {
+        Ok(Box::new(topic::Sink::new(&self.status)?))
+    }
+
+    fn status_source(&self) -> Result<Box<dyn Subscriber<Status>>, LinkError> {
+        Ok(Box::new(topic::Source::new(&self.status)?))
+    }
+
+    fn command_client(&self) -> Result<Box<dyn Client<CommandRequest, CommandReply>>, LinkError> {
+        Ok(Box::new(request::Asking::new(&self.commands)?))
+    }
+
+    fn command_server(&self) -> Result<Box<dyn Server<CommandRequest, CommandReply>>, LinkError> {
+        Ok(Box::new(request::Answering::new(&self.commands)?))
+    }
+
+    fn segment_client(&self) -> Result<Box<dyn Client<SegmentRequest, SegmentReply>>, LinkError> {
+        Ok(Box::new(request::Asking::new(&self.segments)?))
+    }
+
+    fn segment_server(&self) -> Result<Box<dyn Server<SegmentRequest, SegmentReply>>, LinkError> {
+        Ok(Box::new(request::Answering::new(&self.segments)?))
+    }
+
+    fn clean_up_dead_peers(&self) -> Result<usize, LinkError> {
+        Ok(0) // A port that ends says so when it is dropped, and nothing ends without that here.
+    }
+}
+
+/// What the ports of a service share.
+#[derive(Debug)]
+struct Shared<T>(Arc<Mutex<T>>);
+
+impl<T> Shared<T> {
+    fn new(inner: T) -> Self {
+        Self(Arc::new(Mutex::new(inner)))
+    }
+
+    /// The queues hold plain data and every change is complete before anything can panic, so a thread
+    /// that panicked elsewhere has not broken them.
+    fn lock(&self) -> MutexGuard<'_, T> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<T> Clone for Shared<T> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+}

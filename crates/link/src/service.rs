@@ -1,0 +1,39 @@
+//! The services of an instance: their names and how much each holds.
+
+/// Planner to interpolator.
+pub(crate) const FRAMES: &str = "glidepath/frames";
+/// Interpolator to servo stacks.
+pub(crate) const SETPOINTS: &str = "glidepath/setpoints";
+/// Interpolator to everybody.
+pub(crate) const STATUS: &str = "glidepath/status";
+/// Everybody to the interpolator.
+pub(crate) const COMMANDS: &str = "glidepath/commands";
+/// Other programs to a listening planner.
+pub(crate) const SEGMENTS: &str = "glidepath/segments";
+
+/// Publishers of a topic and senders of frames: one that works, and one that bridges to another host
+/// or comes in the place of a dead one that is not yet cleaned up.
+pub(crate) const SENDERS: usize = 2;
+/// Clients of a request-response service.
+pub(crate) const CLIENTS: usize = 16;
+
+/// How much the services hold. All processes of an instance use the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Capacity {
+    /// Frames under way from planner to interpolator, ≥ 2.
+    pub frames: usize,
+    /// Setpoints a subscriber may be behind before it loses the oldest, ≥ 1.
+    pub setpoints: usize,
+    /// Subscribers of setpoints, and of status, ≥ 1.
+    pub subscribers: usize,
+}
+
+impl Default for Capacity {
+    fn default() -> Self {
+        Self {
+            frames: 256,
+            setpoints: 64,
+            subscribers: 16,
+        }
+    }
+}
