@@ -266,31 +266,39 @@ mod vectors {
                 0.0,
             );
         }
+        check_pair_points(corner, want, &pair);
+        check_junction(corner, shape, &pair);
+    }
+
+    fn check_pair_points(corner: &Corner, want: &Value, pair: &BezierPair) {
+        let (name, d, length) = (&corner.name, corner.d, pair.length());
         if let Some(half) = want["half_a"].as_array() {
             check_point(name, &pair.jet(0.0).position, &half[0], d);
             check_point(name, &pair.jet(0.5 * length).position, &half[3], d);
         }
-        for (key, t) in [("point_u025", 0.5), ("point_t05", 0.5)] {
+        for key in ["point_u025", "point_t05"] {
             if !want[key].is_null() {
-                check_point(
-                    name,
-                    &pair.jet(pair.arc_length_at(t)).position,
-                    &want[key],
-                    d,
-                );
+                let s = pair.arc_length_at(0.5);
+                check_point(name, &pair.jet(s).position, &want[key], d);
             }
         }
+    }
+
+    fn check_junction(corner: &Corner, shape: PairShape, pair: &BezierPair) {
+        let &Corner { d, turn, .. } = corner;
         assert!(shape.is_smooth_at_junction());
-        // Zero up to the rounding of the two terms that cancel there.
+        // Zero up to the rounding of the terms that cancel there.
         let scale = turn.sb / (d * d * turn.cb.powi(3));
         assert!(
             shape.junction_curvature_rate(d, turn).abs() <= 1e-13 * scale,
-            "{name}"
+            "{}",
+            corner.name
         );
-        let at_junction = curvature_rate(&pair.jet(0.5 * length));
+        let measured = curvature_rate(&pair.jet(0.5 * pair.length()));
         assert!(
-            at_junction.abs() <= 1e-10 * scale / turn.cb,
-            "{name}: {at_junction}"
+            measured.abs() <= 1e-10 * scale / turn.cb,
+            "{}: {measured}",
+            corner.name
         );
     }
 

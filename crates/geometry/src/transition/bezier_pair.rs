@@ -240,9 +240,11 @@ impl HalfCurve {
         cb * cb * a[0] * b[0] + sb * sb * a[1] * b[1]
     }
 
+    /// |r'| = |N'·w − N·w'| / w².
     fn speed(&self, t: f64) -> f64 {
-        let jet = self.by_parameter(t);
-        self.dot(jet[1], jet[1]).sqrt()
+        let [x, y, w] = self.homogeneous().map(|c| cubic(&c, t));
+        let velocity = [x[1] * w[0] - x[0] * w[1], y[1] * w[0] - y[0] * w[1]];
+        self.dot(velocity, velocity).sqrt() / (w[0] * w[0])
     }
 
     /// Coordinates and three derivatives by arc length, at a parameter.
