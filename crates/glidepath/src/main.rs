@@ -1,3 +1,9 @@
 //! The `glidepath` command.
 
-fn main() {}
+use clap::Parser as _;
+use glidepath::{cli::Cli, command};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    command::run(Cli::parse()).into()
+}

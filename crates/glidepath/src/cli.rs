@@ -1,0 +1,230 @@
+//! The command line.
+
+use crate::config::{INSTANCE_RULE, is_instance_name};
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Plans G-code under velocity, acceleration and jerk limits, and plays it in hard real time.
+#[derive(Debug, Parser)]
+#[command(name = "glidepath", version, arg_required_else_help = true, after_help = EXIT_CODES)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 done, 1 program rejected, 2 usage, 3 configuration, \
+                          4 not real-time capable, 5 fault while running, 130 interrupted.";
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Plan a program, play it with a mock servo, and report
+    #[command(after_help = "Example: glidepath run part.ngc --best-effort --plot part.svg")]
+    Run(RunArgs),
+    /// Compute the same motion without waiting for the clock
+    #[command(after_help = "Example: glidepath plan part.ngc --setpoints part.csv --plot part.svg")]
+    Plan(PlanArgs),
+    /// List everything wrong with programs; no motion
+    #[command(after_help = "Example: glidepath check part.ngc relief.ngc --json")]
+    Check(CheckArgs),
+    /// The real-time process: frames in, setpoints out
+    #[command(after_help = "Example: glidepath interpolator --config mill.toml --instance mill-1")]
+    Interpolator(InterpolatorArgs),
+    /// The planner process: a program, standard input, or segments of other processes to frames
+    #[command(after_help = "Examples: glidepath planner part.ngc · glidepath planner - < part.ngc · \
+                            glidepath planner --listen")]
+    Planner(PlannerArgs),
+    /// A mock servo: receives setpoints and reports what it saw
+    #[command(after_help = "Example: glidepath servo --setpoints received.csv")]
+    Servo(ServoArgs),
+    /// Stream a program's segments to a listening planner, as another program would
+    #[command(after_help = "Example: glidepath feed part.ngc --instance mill-1")]
+    Feed(FeedArgs),
+    /// Show the state of a running interpolator
+    #[command(after_help = "Example: glidepath status --json")]
+    Status(OperatorArgs),
+    /// Feed hold: come to rest on the path
+    #[command(after_help = "Example: glidepath hold")]
+    Hold(OperatorArgs),
+    /// Go on after a hold or a program stop
+    #[command(after_help = "Example: glidepath resume")]
+    Resume(OperatorArgs),
+    /// Set the feed override
+    #[command(after_help = "Example: glidepath override 80")]
+    Override(OverrideArgs),
+    /// Come to rest on the path and drop the rest of the program
+    #[command(after_help = "Example: glidepath abort")]
+    Abort(OperatorArgs),
+}
+
+/// Configuration and form of the report: the same for every command.
+#[derive(Debug, Clone, Args)]
+pub struct BasicArgs {
+    /// Machine configuration (TOML); without it the built-in 3-axis mill
+    #[arg(long, short, value_name = "TOML")]
+    pub config: Option<PathBuf>,
+    /// Print one JSON object instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Which shared memory.
+#[derive(Debug, Clone, Args)]
+pub struct InstanceArgs {
+    /// Name of the machine's shared memory; overrides `link.instance` of the configuration
+    #[arg(long, value_name = "NAME", value_parser = instance_name)]
+    pub instance: Option<String>,
+}
+
+fn instance_name(name: &str) -> Result<String, &'static str> {
+    if is_instance_name(name) { Ok(name.to_owned()) } else { Err(INSTANCE_RULE) }
+}
+
+/// Arguments of `run`.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// The G-code program
+    pub file: PathBuf,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Which shared memory.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+    /// Run without real-time privileges too; the report says what was granted
+    #[arg(long)]
+    pub best_effort: bool,
+    /// Write the setpoints the mock servo received as CSV
+    #[arg(long, value_name = "CSV")]
+    pub setpoints: Option<PathBuf>,
+    /// Write a plot of the motion (SVG); without it the plot goes to the temporary folder
+    #[arg(long, value_name = "SVG")]
+    pub plot: Option<PathBuf>,
+}
+
+/// Arguments of `plan`.
+#[derive(Debug, Args)]
+pub struct PlanArgs {
+    /// The G-code program
+    pub file: PathBuf,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Write every setpoint as CSV
+    #[arg(long, value_name = "CSV")]
+    pub setpoints: Option<PathBuf>,
+    /// Write a plot of the motion (SVG)
+    #[arg(long, value_name = "SVG")]
+    pub plot: Option<PathBuf>,
+}
+
+/// Arguments of `check`.
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    /// The G-code programs
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+}
+
+/// Arguments of `interpolator`.
+#[derive(Debug, Args)]
+pub struct InterpolatorArgs {
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Which shared memory.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+    /// Move without real-time privileges too
+    #[arg(long)]
+    pub best_effort: bool,
+    /// End when the process that started this one ends
+    #[arg(long, hide = true)]
+    pub end_with_parent: bool,
+}
+
+/// Arguments of `planner`.
+#[derive(Debug, Args)]
+pub struct PlannerArgs {
+    /// The G-code program, or `-` for standard input
+    #[arg(required_unless_present = "listen", conflicts_with = "listen")]
+    pub file: Option<PathBuf>,
+    /// Take segments from other processes instead of a program
+    #[arg(long)]
+    pub listen: bool,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Which shared memory.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+    /// End when the process that started this one ends
+    #[arg(long, hide = true)]
+    pub end_with_parent: bool,
+}
+
+/// Arguments of `servo`.
+#[derive(Debug, Args)]
+pub struct ServoArgs {
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Which shared memory.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+    /// Write the setpoints received as CSV
+    #[arg(long, value_name = "CSV")]
+    pub setpoints: Option<PathBuf>,
+    /// Write every record received to standard output, for the process that started this one
+    #[arg(long, hide = true, conflicts_with_all = ["setpoints", "json"])]
+    pub relay: bool,
+    /// End when the process that started this one ends
+    #[arg(long, hide = true)]
+    pub end_with_parent: bool,
+}
+
+/// Arguments of `feed`.
+#[derive(Debug, Args)]
+pub struct FeedArgs {
+    /// The G-code program
+    pub file: PathBuf,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Which shared memory.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+}
+
+/// Arguments of the commands that talk to a running interpolator.
+#[derive(Debug, Args)]
+pub struct OperatorArgs {
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Which shared memory.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+}
+
+/// Arguments of `override`.
+#[derive(Debug, Args)]
+pub struct OverrideArgs {
+    /// Percent of the programmed feedrate, 0 to 200
+    #[arg(value_parser = percent)]
+    pub percent: f64,
+    /// Which interpolator.
+    #[command(flatten)]
+    pub operator: OperatorArgs,
+}
+
+fn percent(text: &str) -> Result<f64, &'static str> {
+    text.parse()
+        .ok()
+        .filter(|percent| (0.0..=200.0).contains(percent))
+        .ok_or("give a number from 0 to 200")
+}

@@ -1,0 +1,117 @@
+//! A configuration that has been judged: what the rest of the program works with.
+
+use glidepath_geometry::{Axis, AxisVector};
+use glidepath_motion::{Effort, Limits, Settings, Smoothing};
+
+/// How axes and joints belong together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kinematics {
+    /// Each configured axis is one joint, in the order X Y Z A B C U V W.
+    Trivial,
+}
+
+/// One axis: mm, or degrees for A, B and C.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisConfig {
+    /// Which.
+    pub axis: Axis,
+    /// Soft limits in machine coordinates, `None` for a rotary axis that turns without end.
+    pub travel: Option<(f64, f64)>,
+    /// mm/s.
+    pub max_velocity: f64,
+    /// mm/s².
+    pub max_acceleration: f64,
+    /// mm/s³.
+    pub max_jerk: f64,
+}
+
+/// The tolerance and how it is used.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PathConfig {
+    /// mm, smoothing and chord error together.
+    pub tolerance_mm: f64,
+    /// The curve at corners.
+    pub smoothing: Smoothing,
+    /// Planning effort.
+    pub effort: Effort,
+    /// mm/min where the program has no F; `None` refuses such a program.
+    pub default_feed: Option<f64>,
+}
+
+/// The real-time side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InterpolatorConfig {
+    /// µs.
+    pub period_us: u32,
+    /// `SCHED_FIFO` priority, 1…99.
+    pub priority: u8,
+    /// CPU the real-time thread is pinned to.
+    pub cpu: Option<usize>,
+    /// Seconds of motion published ahead.
+    pub horizon_t: f64,
+}
+
+/// A machine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MachineConfig {
+    /// How axes and joints belong together.
+    pub kinematics: Kinematics,
+    /// The axes in the order X Y Z A B C U V W, at least one.
+    pub axes: Vec<AxisConfig>,
+    /// The tolerance and how it is used.
+    pub path: PathConfig,
+    /// The real-time side.
+    pub interpolator: InterpolatorConfig,
+    /// Name of the machine's shared memory; `None` if the file gives none.
+    pub instance: Option<String>,
+}
+
+impl MachineConfig {
+    /// Name used where neither the file nor the command line gives one.
+    pub const DEFAULT_INSTANCE: &'static str = "default";
+
+    /// Interpolation period in seconds.
+    #[must_use]
+    pub fn period_t(&self) -> f64 {
+        f64::from(self.interpolator.period_us) / 1e6
+    }
+
+    /// Limits over all nine axes; an axis the machine does not have is unlimited.
+    #[must_use]
+    pub fn limits(&self) -> Limits {
+        let mut limits =
+            Limits::uniform(Limits::UNLIMITED, Limits::UNLIMITED, Limits::UNLIMITED);
+        for axis in &self.axes {
+            let i = axis.axis.index();
+            limits.velocity[i] = axis.max_velocity;
+            limits.acceleration[i] = axis.max_acceleration;
+            limits.jerk[i] = axis.max_jerk;
+        }
+        limits
+    }
+
+    /// What a plan is made with.
+    #[must_use]
+    pub fn settings(&self) -> Settings {
+        Settings {
+            limits: self.limits(),
+            tolerance_mm: self.path.tolerance_mm,
+            smoothing: self.path.smoothing,
+            period_t: self.period_t(),
+            effort: self.path.effort,
+        }
+    }
+
+    /// Where a machine stands at the start of a program when nothing else is known: at zero, or at
+    /// the nearest point of an axis' travel.
+    #[must_use]
+    pub fn home(&self) -> AxisVector {
+        let mut home = AxisVector::zeros();
+        for axis in &self.axes {
+            if let Some((min, max)) = axis.travel {
+                home[axis.axis.index()] = 0.0_f64.clamp(min, max);
+            }
+        }
+        home
+    }
+}

@@ -1,0 +1,41 @@
+//! The machine's configuration: TOML text to [`MachineConfig`] in two stages, the first of which
+//! knows only syntax and names, the second only values. Nothing is guessed: a key that is not known
+//! or a value out of range refuses the file, with the place and the remedy.
+
+mod finding;
+mod judge;
+mod machine;
+mod parse;
+mod raw;
+
+pub use finding::{ConfigError, Finding, FindingReport};
+pub use judge::{INSTANCE_RULE, is_instance_name};
+pub use machine::{AxisConfig, InterpolatorConfig, Kinematics, MachineConfig, PathConfig};
+
+use std::path::Path;
+
+/// The machine that is used without `--config`.
+pub const EMBEDDED: &str = include_str!("../../../../config/mill.toml");
+
+/// Reads a configuration file, or the embedded machine if `path` is `None`.
+///
+/// # Errors
+/// The file cannot be read, or something in it has to be mended.
+pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
+    let Some(path) = path else { return parse("built-in machine", EMBEDDED) };
+    let name = path.display().to_string();
+    match std::fs::read_to_string(path) {
+        Ok(text) => parse(&name, &text),
+        Err(source) => Err(ConfigError::Unreadable { path: name, source }),
+    }
+}
+
+/// Judges the text of a configuration; `path` is only used in reports.
+///
+/// # Errors
+/// Everything in the text that has to be mended.
+pub fn parse(path: &str, text: &str) -> Result<MachineConfig, ConfigError> {
+    parse::parse(text).map_err(|finding| vec![finding]).and_then(judge::judge).map_err(|findings| {
+        ConfigError::Refused { path: path.to_owned(), text: text.to_owned(), findings }
+    })
+}

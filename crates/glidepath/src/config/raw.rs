@@ -1,0 +1,84 @@
+//! The configuration file as it is written, before any value is judged.
+//!
+//! Every value keeps its place in the text, so that a later stage can point at it.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+/// A value that may be left out, with its place.
+pub(super) type Optional<T> = Option<Spanned<T>>;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawConfig {
+    #[serde(default)]
+    pub(super) machine: RawMachine,
+    pub(super) axis: Spanned<RawAxes>,
+    #[serde(default)]
+    pub(super) path: RawPath,
+    #[serde(default)]
+    pub(super) interpolator: RawInterpolator,
+    #[serde(default)]
+    pub(super) link: RawLink,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawMachine {
+    pub(super) kinematics: Optional<String>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default, rename_all = "UPPERCASE")]
+pub(super) struct RawAxes {
+    x: Optional<RawAxis>,
+    y: Optional<RawAxis>,
+    z: Optional<RawAxis>,
+    a: Optional<RawAxis>,
+    b: Optional<RawAxis>,
+    c: Optional<RawAxis>,
+    u: Optional<RawAxis>,
+    v: Optional<RawAxis>,
+    w: Optional<RawAxis>,
+}
+
+impl RawAxes {
+    /// The tables in the order of `glidepath_geometry::Axis::ALL`.
+    pub(super) fn in_order(self) -> [Optional<RawAxis>; glidepath_geometry::AXES] {
+        [self.x, self.y, self.z, self.a, self.b, self.c, self.u, self.v, self.w]
+    }
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawAxis {
+    pub(super) min_position: Optional<f64>,
+    pub(super) max_position: Optional<f64>,
+    pub(super) max_velocity: Spanned<f64>,
+    pub(super) max_acceleration: Spanned<f64>,
+    pub(super) max_jerk: Spanned<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawPath {
+    pub(super) tolerance: Optional<f64>,
+    pub(super) smoothing: Optional<String>,
+    pub(super) effort: Optional<String>,
+    pub(super) default_feed: Optional<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawInterpolator {
+    pub(super) period_us: Optional<i64>,
+    pub(super) priority: Optional<i64>,
+    pub(super) cpu: Optional<i64>,
+    pub(super) horizon_s: Optional<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawLink {
+    pub(super) instance: Optional<String>,
+}

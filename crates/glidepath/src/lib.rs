@@ -1,0 +1,13 @@
+//! The `glidepath` program as a library, so that tests and tools can use its parts: configuration,
+//! reports and plots. Everything that computes motion lives in the crates below this one.
+
+pub mod cli;
+pub mod command;
+pub mod config;
+pub mod exit;
+pub mod failure;
+pub mod output;
+pub mod plot;
+pub mod sample;
+pub mod setpoints;
+

@@ -1,0 +1,95 @@
+//! Everything the process prints: results to standard output, findings and progress to standard
+//! error, so that a result can be piped.
+
+use crate::config::ConfigError;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
+use serde_json::{Value, json};
+use std::io::{IsTerminal as _, Write as _};
+
+/// Writes text to standard output. A reader that went away (`| head`) is no fault of ours.
+pub fn result(text: &str) {
+    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+}
+
+/// Writes the one JSON object of a `--json` command.
+pub fn json(object: &Value) {
+    result(&format!("{object:#}\n"));
+}
+
+/// Writes a line to standard error.
+pub fn note(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
+/// A diagnostic as text with the source line and a caret: in colour if `colour`.
+#[must_use]
+pub fn render(diagnostic: &dyn Diagnostic, colour: bool) -> String {
+    let theme =
+        if colour { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+    let mut text = String::new();
+    let handler =
+        GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
+    // Writing to a String does not fail.
+    let _ = handler.render_report(&mut text, diagnostic);
+    text
+}
+
+/// True if standard error is a terminal and the user did not ask for plain text (`NO_COLOR`).
+#[must_use]
+pub fn stderr_in_colour() -> bool {
+    std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
+}
+
+/// Prints diagnostics to standard error.
+pub fn diagnostics<'a>(diagnostics: impl IntoIterator<Item = &'a dyn Diagnostic>) {
+    let colour = stderr_in_colour();
+    for diagnostic in diagnostics {
+        note(render(diagnostic, colour).trim_end());
+    }
+}
+
+/// Reports a failure in the form asked for and gives the exit code.
+#[must_use]
+pub fn failure(failure: &Failure, as_json: bool) -> Exit {
+    if as_json {
+        json(&failure_object(failure));
+    } else if let Failure::Configuration(error) = failure {
+        let reports = error.reports();
+        diagnostics(reports.iter().map(|report| report as &dyn Diagnostic));
+        note(&format!("error: {error}"));
+    } else {
+        note(&format!("error: {failure}"));
+    }
+    failure.exit()
+}
+
+fn failure_object(failure: &Failure) -> Value {
+    let findings: Vec<Value> = match failure {
+        Failure::Configuration(error) => configuration_findings(error),
+        _ => Vec::new(),
+    };
+    json!({
+        "error": failure.to_string(),
+        "exit_code": failure.exit() as u8,
+        "findings": findings,
+    })
+}
+
+fn configuration_findings(error: &ConfigError) -> Vec<Value> {
+    error
+        .findings()
+        .iter()
+        .map(|finding| {
+            let place = error.place(finding);
+            json!({
+                "key": finding.key,
+                "message": finding.message,
+                "help": finding.help,
+                "line": place.map(|(line, _)| line),
+                "column": place.map(|(_, column)| column),
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,201 @@
+//! A picture of a motion: the tool path coloured by feed, and feed, velocity, acceleration and jerk
+//! of each axis against time with their limits, as one SVG file.
+//!
+//! Samples are taken one by one and kept in bounded memory, so that a motion of any length gives a
+//! file of at most about 2 MB. Velocity, acceleration and jerk are finite differences of the
+//! positions: what a drive makes of them, not what the planner says about them.
+
+mod colour;
+mod envelope;
+mod strip;
+mod svg;
+mod ticks;
+mod track;
+mod view;
+
+use crate::sample::Sample;
+use colour::{CURVES, INK, QUIET};
+use envelope::Envelope;
+use glidepath_geometry::{Axis, AxisVector};
+use glidepath_motion::Limits;
+use strip::{Strip, TimeAxis};
+use svg::{Anchor, Area, Svg};
+use track::{Track, TrackPoint};
+use view::View;
+
+const WIDTH: f64 = 1280.0;
+const LEFT: f64 = 66.0;
+const RIGHT: f64 = 150.0;
+const STRIP_HEIGHT: f64 = 62.0;
+const STRIP_GAP: f64 = 9.0;
+
+/// A picture as it grows.
+#[derive(Debug)]
+pub struct Plot {
+    axes: Vec<Axis>,
+    limits: Limits,
+    period_t: f64,
+    track: Track,
+    feed: Envelope,
+    /// Velocity, acceleration and jerk of each axis in `axes`.
+    curves: Vec<[Envelope; 3]>,
+    recent: Recent,
+    ticks: u64,
+}
+
+impl Plot {
+    /// An empty picture of a machine with these axes.
+    #[must_use]
+    pub fn new(axes: &[Axis], limits: Limits, period_t: f64) -> Self {
+        let curves = axes.iter().map(|_| [const { Envelope::new() }; 3]).collect();
+        Self {
+            axes: axes.to_vec(),
+            limits,
+            period_t,
+            track: Track::default(),
+            feed: Envelope::new(),
+            curves,
+            recent: Recent::default(),
+            ticks: 0,
+        }
+    }
+
+    /// Takes the next sample; their ticks ascend.
+    pub fn push(&mut self, sample: &Sample) {
+        let at = [sample.position[0], sample.position[1], sample.position[2]];
+        self.track.push(TrackPoint { at, feed_v: sample.feed_v, rapid: sample.rapid });
+        let first = *self.recent.first.get_or_insert(sample.tick);
+        let tick = sample.tick.saturating_sub(first);
+        self.ticks = tick + 1;
+        self.feed.push(tick, sample.feed_v);
+        let differences = self.recent.differences(sample.tick, &sample.position);
+        for (axis, curves) in self.axes.iter().zip(&mut self.curves) {
+            let mut scale = 1.0;
+            for (curve, difference) in curves.iter_mut().zip(&differences) {
+                scale /= self.period_t;
+                if let Some(difference) = difference {
+                    curve.push(tick, difference[axis.index()] * scale);
+                }
+            }
+        }
+    }
+
+    /// The SVG document. The title is the largest text, the subtitle stands below it.
+    #[must_use]
+    pub fn render(&self, title: &str, subtitle: &str) -> String {
+        let views_bottom = 590.0;
+        let strips = self.strips();
+        #[allow(clippy::cast_precision_loss, reason = "a few dozen strips")]
+        let height = views_bottom + 34.0 + strips.len() as f64 * (STRIP_HEIGHT + STRIP_GAP) + 30.0;
+        let mut svg = Svg::new(WIDTH, height);
+        svg.text(
+            LEFT,
+            32.0,
+            Anchor::Start,
+            &format!("fill=\"{INK}\" font-size=\"19\" font-weight=\"600\""),
+            title,
+        );
+        let quiet = format!("fill=\"{QUIET}\" font-size=\"12\"");
+        svg.text(LEFT, 51.0, Anchor::Start, &quiet, subtitle);
+        self.draw_views(&mut svg, views_bottom);
+
+        #[allow(clippy::cast_precision_loss, reason = "pixels, not arithmetic")]
+        let end_t = self.ticks.saturating_sub(1).max(1) as f64 * self.period_t;
+        let time = TimeAxis { period_t: self.period_t, end_t };
+        let mut area = Area {
+            x: LEFT,
+            y: views_bottom + 34.0,
+            width: WIDTH - LEFT - RIGHT,
+            height: STRIP_HEIGHT,
+        };
+        for strip in &strips {
+            strip.draw(&mut svg, &time, &area);
+            area.y += STRIP_HEIGHT + STRIP_GAP;
+        }
+        area.y -= STRIP_HEIGHT + STRIP_GAP;
+        strip::seconds(&mut svg, &time, &area);
+        svg.finish()
+    }
+
+    fn draw_views(&self, svg: &mut Svg, bottom: f64) {
+        let (low, high) = self.track.bounds();
+        let right = WIDTH - 24.0;
+        let top = Area { x: LEFT, y: 84.0, width: right - LEFT, height: bottom - 84.0 - 56.0 };
+        if high[2] > low[2] {
+            let half = Area { width: 660.0, ..top };
+            view::draw(svg, View::Top, &self.track, &half);
+            let side = half.right() + 52.0;
+            let front = Area { x: side, width: right - side, height: 150.0, ..top };
+            view::draw(svg, View::Front, &self.track, &front);
+            let y = front.bottom() + 42.0;
+            let isometric = Area { y, height: top.bottom() - y, ..front };
+            view::draw(svg, View::Isometric, &self.track, &isometric);
+        } else {
+            view::draw(svg, View::Top, &self.track, &top);
+        }
+        let legend = Area { x: LEFT + 62.0, y: bottom - 30.0, width: 420.0, height: 10.0 };
+        view::legend(svg, self.track.max_feed_v(), &legend);
+    }
+
+    fn strips(&self) -> Vec<Strip<'_>> {
+        let feed = Strip {
+            title: "feed".to_owned(),
+            unit: "mm/s",
+            colour: INK,
+            curve: &self.feed,
+            limit: None,
+            signed: false,
+        };
+        let mut strips = vec![feed];
+        for (axis, curves) in self.axes.iter().zip(&self.curves) {
+            let i = axis.index();
+            let limits = [self.limits.velocity, self.limits.acceleration, self.limits.jerk];
+            let names = ["velocity", "acceleration", "jerk"];
+            let units = if axis.is_rotary() {
+                ["°/s", "°/s²", "°/s³"]
+            } else {
+                ["mm/s", "mm/s²", "mm/s³"]
+            };
+            for (k, curve) in curves.iter().enumerate() {
+                strips.push(Strip {
+                    title: format!("{axis} {}", names[k]),
+                    unit: units[k],
+                    colour: CURVES[k],
+                    curve,
+                    limit: Some(limits[k][i]),
+                    signed: true,
+                });
+            }
+        }
+        strips
+    }
+}
+
+/// The samples finite differences are made of. Before the first the machine is at rest.
+#[derive(Debug, Default)]
+struct Recent {
+    first: Option<u64>,
+    last_tick: u64,
+    /// The last three positions, newest first; fewer after a gap.
+    positions: Vec<AxisVector>,
+}
+
+impl Recent {
+    /// First, second and third difference of the positions, as far as there are enough of them.
+    fn differences(&mut self, tick: u64, position: &AxisVector) -> [Option<AxisVector>; 3] {
+        if self.positions.is_empty() {
+            self.positions = vec![*position; 3];
+        } else if tick != self.last_tick + 1 {
+            self.positions.clear();
+        }
+        self.last_tick = tick;
+        let known = &self.positions;
+        let first = known.first().map(|a| position - a);
+        let second = known.get(1).map(|b| position - 2.0 * known[0] + b);
+        let third =
+            known.get(2).map(|c| position - 3.0 * known[0] + 3.0 * known[1] - c);
+        self.positions.insert(0, *position);
+        self.positions.truncate(3);
+        [first, second, third]
+    }
+}

@@ -1,0 +1,181 @@
+//! The tool path seen from one side, coloured by feed.
+
+use super::colour::{self, FRAME, GRID, INK, QUIET, RAPID};
+use super::svg::{Anchor, Area, Path, Svg};
+use super::ticks::{label, ticks};
+use super::track::{Track, TrackPoint};
+
+/// From where the path is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum View {
+    /// From above: X to the right, Y upwards.
+    Top,
+    /// From the front: X to the right, Z upwards.
+    Front,
+    /// From the right, front and above, all three axes equally foreshortened.
+    Isometric,
+}
+
+impl View {
+    const fn title(self) -> &'static str {
+        match self {
+            Self::Top => "top: X → Y ↑ mm",
+            Self::Front => "front: X → Z ↑ mm",
+            Self::Isometric => "isometric",
+        }
+    }
+
+    /// Right and up, in mm.
+    fn project(self, [x, y, z]: [f64; 3]) -> (f64, f64) {
+        match self {
+            Self::Top => (x, y),
+            Self::Front => (x, z),
+            Self::Isometric => {
+                let (cos, sin) = (3.0_f64.sqrt() / 2.0, 0.5);
+                ((x + y) * cos, (y - x).mul_add(sin, z))
+            }
+        }
+    }
+
+    /// Smallest and largest right and up of everything between two corners.
+    fn extent(self, (low, high): ([f64; 3], [f64; 3])) -> ((f64, f64), (f64, f64)) {
+        let corners = (0..8).map(|corner| {
+            let side = |i: usize| if corner >> i & 1 == 0 { low[i] } else { high[i] };
+            self.project([side(0), side(1), side(2)])
+        });
+        corners.fold(
+            ((f64::INFINITY, f64::NEG_INFINITY), (f64::INFINITY, f64::NEG_INFINITY)),
+            |(x, y), (px, py)| ((x.0.min(px), x.1.max(px)), (y.0.min(py), y.1.max(py))),
+        )
+    }
+}
+
+/// mm to pixels, the same scale both ways.
+struct Scale {
+    pixels_per_mm: f64,
+    /// mm at the middle of the area, and the middle in pixels.
+    middle_mm: (f64, f64),
+    middle: (f64, f64),
+}
+
+impl Scale {
+    fn fit(area: &Area, (x, y): ((f64, f64), (f64, f64))) -> Self {
+        const MARGIN: f64 = 14.0;
+        let width = (x.1 - x.0).max(1e-6);
+        let height = (y.1 - y.0).max(1e-6);
+        Self {
+            pixels_per_mm: ((area.width - 2.0 * MARGIN) / width)
+                .min((area.height - 2.0 * MARGIN) / height),
+            middle_mm: (x.0.midpoint(x.1), y.0.midpoint(y.1)),
+            middle: (area.x + area.width / 2.0, area.y + area.height / 2.0),
+        }
+    }
+
+    fn x(&self, mm: f64) -> f64 {
+        (mm - self.middle_mm.0).mul_add(self.pixels_per_mm, self.middle.0)
+    }
+
+    fn y(&self, mm: f64) -> f64 {
+        (mm - self.middle_mm.1).mul_add(-self.pixels_per_mm, self.middle.1)
+    }
+
+    /// mm at a pixel.
+    fn mm(&self, x: f64, y: f64) -> (f64, f64) {
+        (
+            (x - self.middle.0) / self.pixels_per_mm + self.middle_mm.0,
+            (self.middle.1 - y) / self.pixels_per_mm + self.middle_mm.1,
+        )
+    }
+}
+
+/// Draws a view of the track into an area.
+pub(super) fn draw(svg: &mut Svg, view: View, track: &Track, area: &Area) {
+    let scale = Scale::fit(area, view.extent(track.bounds()));
+    if view != View::Isometric {
+        grid(svg, &scale, area);
+    }
+    svg.rect(area, &format!("fill=\"none\" stroke=\"{FRAME}\""));
+    svg.text(area.x, area.y - 6.0, Anchor::Start, &format!("fill=\"{QUIET}\""), view.title());
+
+    let at = |point: &TrackPoint| {
+        let (x, y) = view.project(point.at);
+        (scale.x(x), scale.y(y))
+    };
+    let mut rapids = Path::default();
+    let mut shades: Vec<Path> = vec![Path::default(); colour::SHADES];
+    for pair in track.points().windows(2) {
+        let [from, to] = pair else { continue };
+        let share = from.feed_v.midpoint(to.feed_v) / track.max_feed_v().max(f64::MIN_POSITIVE);
+        let path = if to.rapid { Some(&mut rapids) } else { shades.get_mut(colour::shade(share)) };
+        let Some(path) = path else { continue };
+        let (start, end) = (at(from), at(to));
+        if !path.is_at(start.0, start.1) {
+            path.move_to(start.0, start.1);
+        }
+        path.line_to(end.0, end.1);
+    }
+    let stroke = "fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\"";
+    svg.path(
+        &rapids,
+        &format!("fill=\"none\" stroke=\"{RAPID}\" stroke-width=\"1\" stroke-dasharray=\"4 3\""),
+    );
+    for (shade, path) in shades.iter().enumerate() {
+        let colour = colour::hex(shade);
+        svg.path(path, &format!("{stroke} stroke=\"{colour}\" stroke-width=\"1.5\""));
+    }
+    if let Some(first) = track.points().first() {
+        let (x, y) = at(first);
+        let dot = Area { x: x - 3.0, y: y - 3.0, width: 6.0, height: 6.0 };
+        svg.rect(&dot, &format!("rx=\"3\" fill=\"#ffffff\" stroke=\"{INK}\" stroke-width=\"1.4\""));
+    }
+}
+
+fn grid(svg: &mut Svg, scale: &Scale, area: &Area) {
+    let (left, top) = scale.mm(area.x, area.y);
+    let (right, bottom) = scale.mm(area.right(), area.bottom());
+    let text = format!("fill=\"{QUIET}\" font-size=\"10\"");
+    let line = format!("stroke=\"{GRID}\"");
+    for mm in ticks(left, right, area.width / 70.0) {
+        let x = scale.x(mm);
+        svg.line((x, area.y), (x, area.bottom()), &line);
+        if (area.x + 6.0..area.right() - 6.0).contains(&x) {
+            svg.text(x, area.bottom() + 12.0, Anchor::Middle, &text, &label(mm));
+        }
+    }
+    for mm in ticks(bottom, top, area.height / 45.0) {
+        let y = scale.y(mm);
+        svg.line((area.x, y), (area.right(), y), &line);
+        if (area.y + 4.0..area.bottom() - 4.0).contains(&y) {
+            svg.text(area.x - 5.0, y + 3.5, Anchor::End, &text, &label(mm));
+        }
+    }
+}
+
+/// Draws the scale of feed colours.
+pub(super) fn legend(svg: &mut Svg, max_feed_v: f64, area: &Area) {
+    #[allow(clippy::cast_precision_loss, reason = "a small count")]
+    let width = area.width / colour::SHADES as f64;
+    let mut x = area.x;
+    for shade in 0..colour::SHADES {
+        // Half a pixel of overlap, or renderers show seams.
+        let cell = Area { x, width: width + 0.5, ..*area };
+        svg.rect(&cell, &format!("fill=\"{}\"", colour::hex(shade)));
+        x += width;
+    }
+    let text = format!("fill=\"{QUIET}\" font-size=\"10\"");
+    let below = area.bottom() + 12.0;
+    for feed_v in ticks(0.0, max_feed_v, 5.0) {
+        let x = (feed_v / max_feed_v.max(f64::MIN_POSITIVE)).mul_add(area.width, area.x);
+        svg.line((x, area.bottom()), (x, area.bottom() + 3.0), &format!("stroke=\"{QUIET}\""));
+        svg.text(x, below, Anchor::Middle, &text, &label(feed_v));
+    }
+    svg.text(area.x - 8.0, area.bottom() - 1.0, Anchor::End, &text, "feed mm/s");
+    let dash = area.right() + 24.0;
+    let middle = area.y + area.height / 2.0;
+    svg.line(
+        (dash, middle),
+        (dash + 26.0, middle),
+        &format!("stroke=\"{RAPID}\" stroke-dasharray=\"4 3\""),
+    );
+    svg.text(dash + 32.0, area.bottom() - 1.0, Anchor::Start, &text, "rapid");
+}

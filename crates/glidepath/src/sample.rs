@@ -1,0 +1,49 @@
+//! One setpoint as reports and plots see it, whether it was planned or received.
+
+use glidepath_geometry::AxisVector;
+use glidepath_motion::{Frame, FrameFlags};
+
+/// The machine at one tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Index on the period grid.
+    pub tick: u64,
+    /// Seconds since tick 0.
+    pub time_t: f64,
+    /// Source line of the motion, 0 before the first.
+    pub line: u32,
+    /// What the machine does, one lower-case word.
+    pub state: &'static str,
+    /// True in a rapid move.
+    pub rapid: bool,
+    /// Rate of path position, mm/s.
+    pub feed_v: f64,
+    /// Path position since the start of the program, mm.
+    pub path_s: f64,
+    /// mm or degrees.
+    pub position: AxisVector,
+    /// mm/s or °/s.
+    pub velocity: AxisVector,
+    /// mm/s² or °/s².
+    pub acceleration: AxisVector,
+}
+
+impl Sample {
+    /// The sample of a planned frame.
+    #[must_use]
+    pub fn planned(frame: &Frame, period_t: f64) -> Self {
+        Self {
+            tick: frame.sequence,
+            #[allow(clippy::cast_precision_loss, reason = "2^53 periods are a million years")]
+            time_t: frame.sequence as f64 * period_t,
+            line: frame.line,
+            state: "running",
+            rapid: frame.flags.contains(FrameFlags::RAPID),
+            feed_v: frame.path_v,
+            path_s: frame.path_s,
+            position: frame.position,
+            velocity: frame.velocity,
+            acceleration: frame.acceleration,
+        }
+    }
+}

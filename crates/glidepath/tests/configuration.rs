@@ -1,0 +1,158 @@
+//! What a user is told about a configuration that has to be mended, word for word.
+
+use glidepath::config::{self, Finding};
+use glidepath_geometry::Axis;
+use glidepath_motion::{Effort, Limits, Smoothing};
+
+const AXIS: &str = "[axis.X]\nmin_position = -10\nmax_position = 10\nmax_velocity = 100\n\
+                    max_acceleration = 1000\nmax_jerk = 10000\n";
+
+fn findings(text: &str) -> Vec<(String, Option<(usize, usize)>, Option<String>)> {
+    let error = config::parse("m.toml", text).expect_err("the text has to be refused");
+    let describe =
+        |f: &Finding| (f.message.clone(), error.place(f), f.help.clone());
+    error.findings().iter().map(describe).collect()
+}
+
+fn only(text: &str) -> (String, Option<(usize, usize)>, String) {
+    let mut found = findings(text);
+    assert_eq!(found.len(), 1, "{found:?}");
+    let (message, place, help) = found.remove(0);
+    (message, place, help.unwrap_or_default())
+}
+
+#[test]
+fn the_embedded_machine_is_the_mill() {
+    let config = config::load(None).unwrap();
+    assert_eq!(config.axes.iter().map(|a| a.axis).collect::<Vec<_>>(), [Axis::X, Axis::Y, Axis::Z]);
+    for axis in &config.axes {
+        assert_eq!(axis.travel, Some((-500.0, 500.0)));
+        assert_eq!(
+            (axis.max_velocity, axis.max_acceleration, axis.max_jerk),
+            (200.0, 2000.0, 40000.0)
+        );
+    }
+    let settings = config.settings();
+    assert_eq!(settings.tolerance_mm, 0.02);
+    assert_eq!(settings.period_t, 0.004);
+    assert_eq!(settings.smoothing, Smoothing::default());
+    assert_eq!(settings.effort, Effort::Fast);
+    assert_eq!(settings.limits.jerk[Axis::A.index()], Limits::UNLIMITED);
+    assert_eq!(config.instance, None);
+}
+
+#[test]
+fn the_published_machine_is_shipped() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/seed.toml");
+    let config = config::load(Some(path.as_ref())).unwrap();
+    for axis in &config.axes {
+        assert_eq!(
+            (axis.max_velocity, axis.max_acceleration, axis.max_jerk),
+            (100.0, 10000.0, 1e6)
+        );
+    }
+    assert_eq!(config.path.tolerance_mm, 0.05);
+    assert_eq!(config.path.default_feed, Some(5000.0));
+}
+
+#[test]
+fn a_machine_needs_only_its_axes() {
+    let config = config::parse("m.toml", AXIS).unwrap();
+    assert_eq!(config.path.tolerance_mm, 0.02);
+    assert_eq!(config.path.default_feed, None);
+    assert_eq!(config.interpolator.period_us, 4000);
+    assert_eq!(config.interpolator.cpu, None);
+}
+
+#[test]
+fn a_misspelt_key_is_refused_with_the_right_one() {
+    assert_eq!(
+        only(&AXIS.replace("max_velocity", "max_velocty")),
+        (
+            "unknown key `max_velocty`".to_owned(),
+            Some((4, 1)),
+            "did you mean `max_velocity`? The keys here are: min_position, max_position, \
+             max_velocity, max_acceleration, max_jerk"
+                .to_owned()
+        )
+    );
+    let (message, _, help) = only(&format!("{AXIS}[interpolater]\nperiod_us = 1000\n"));
+    assert_eq!(message, "unknown key `interpolater`");
+    assert!(help.starts_with("did you mean `interpolator`?"), "{help}");
+    let (message, place, help) = only(&AXIS.replace("axis.X", "axis.x"));
+    assert_eq!((message.as_str(), place), ("unknown key `x`", Some((1, 7))));
+    assert!(help.starts_with("did you mean `X`?"), "{help}");
+    let (message, _, help) = only(&format!("{AXIS}[path]\nqqqq = 1\n"));
+    assert_eq!(message, "unknown key `qqqq`");
+    assert_eq!(help, "the keys here are: tolerance, smoothing, effort, default_feed");
+}
+
+#[test]
+fn a_missing_key_is_named() {
+    let (message, place, help) = only(&AXIS.replace("max_jerk = 10000\n", ""));
+    assert_eq!(message, "the key `max_jerk` is missing");
+    assert_eq!(place, Some((1, 1)));
+    assert!(help.starts_with("add `max_jerk = …`"), "{help}");
+    assert_eq!(only("[machine]\n").0, "the key `axis` is missing");
+    assert_eq!(only("[axis]\n").0, "the machine has no axis");
+    let (message, _, help) = only(&AXIS.replace("max_position = 10\n", ""));
+    assert_eq!(message, "the key `max_position` of axis X is missing");
+    assert!(help.starts_with("add `max_position = …` (mm) to [axis.X]"), "{help}");
+}
+
+#[test]
+fn a_value_out_of_range_is_given_with_unit_and_range() {
+    assert_eq!(
+        only(&AXIS.replace("max_jerk = 10000", "max_jerk = -3.5")),
+        (
+            "axis.X.max_jerk = -3.5 mm/s³ is out of range".to_owned(),
+            Some((6, 12)),
+            "give 0.001 to 10000000000 mm/s³: a limit of the drive, in any direction of motion"
+                .to_owned()
+        )
+    );
+    for bad in ["nan", "inf", "0", "0.0"] {
+        let (message, ..) = only(&AXIS.replace("max_velocity = 100", &format!("max_velocity = {bad}")));
+        assert!(message.starts_with("axis.X.max_velocity = "), "{message}");
+    }
+    let (message, place, help) = only(&format!("{AXIS}[interpolator]\nperiod_us = 50\n"));
+    assert_eq!(message, "interpolator.period_us = 50 is out of range");
+    assert_eq!(place, Some((8, 13)));
+    assert_eq!(help, "give 100 to 100000: µs between two setpoints");
+    let (message, _, help) = only(&format!("{AXIS}[path]\nsmoothing = \"spline\"\n"));
+    assert_eq!(message, "path.smoothing = \"spline\" is not known");
+    assert_eq!(help, "give \"auto\" or \"sextic\" or \"bezier-pair\" or \"exact-stop\"");
+    let (message, ..) = only(&format!("{AXIS}[link]\ninstance = \"../x\"\n"));
+    assert_eq!(message, "link.instance = \"../x\" cannot name a machine");
+    let (message, ..) = only(&AXIS.replace("max_position = 10", "max_position = -10"));
+    assert_eq!(
+        message,
+        "axis X has no travel: min_position = -10 mm is not below max_position = -10 mm"
+    );
+}
+
+#[test]
+fn every_finding_is_listed_at_once() {
+    let text = AXIS.replace("100\n", "-100\n").replace("1000\n", "-1000\n");
+    let keys: Vec<String> = findings(&text).into_iter().map(|(message, ..)| message).collect();
+    assert_eq!(keys, [
+        "axis.X.max_velocity = -100 mm/s is out of range",
+        "axis.X.max_acceleration = -1000 mm/s² is out of range",
+    ]);
+}
+
+#[test]
+fn syntax_and_types_are_refused_with_their_place() {
+    let (_, place, _) = only("[axis.X\n");
+    assert_eq!(place.map(|(line, _)| line), Some(1));
+    let (message, place, _) = only(&AXIS.replace("max_jerk = 10000", "max_jerk = \"fast\""));
+    assert_eq!(message, "invalid type: string \"fast\", expected f64");
+    assert_eq!(place, Some((6, 12)));
+}
+
+#[test]
+fn a_rotary_axis_may_turn_without_end() {
+    let rotary = "[axis.A]\nmax_velocity = 90\nmax_acceleration = 900\nmax_jerk = 9000\n";
+    let config = config::parse("m.toml", &format!("{AXIS}{rotary}")).unwrap();
+    assert_eq!(config.axes.last().map(|a| (a.axis, a.travel)), Some((Axis::A, None)));
+}
