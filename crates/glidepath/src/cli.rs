@@ -32,8 +32,10 @@ pub enum Command {
     #[command(after_help = "Example: glidepath interpolator --config mill.toml --instance mill-1")]
     Interpolator(InterpolatorArgs),
     /// The planner process: a program, standard input, or segments of other processes to frames
-    #[command(after_help = "Examples: glidepath planner part.ngc · glidepath planner - < part.ngc · \
-                            glidepath planner --listen")]
+    #[command(
+        after_help = "Examples: glidepath planner part.ngc · glidepath planner - < part.ngc · \
+                            glidepath planner --listen"
+    )]
     Planner(PlannerArgs),
     /// A mock servo: receives setpoints and reports what it saw
     #[command(after_help = "Example: glidepath servo --setpoints received.csv")]
@@ -78,7 +80,11 @@ pub struct InstanceArgs {
 }
 
 fn instance_name(name: &str) -> Result<String, &'static str> {
-    if is_instance_name(name) { Ok(name.to_owned()) } else { Err(INSTANCE_RULE) }
+    if is_instance_name(name) {
+        Ok(name.to_owned())
+    } else {
+        Err(INSTANCE_RULE)
+    }
 }
 
 /// Arguments of `run`.
@@ -227,4 +233,24 @@ fn percent(text: &str) -> Result<f64, &'static str> {
         .ok()
         .filter(|percent| (0.0..=200.0).contains(percent))
         .ok_or("give a number from 0 to 200")
+}
+
+impl Command {
+    /// What every command is told.
+    #[must_use]
+    pub const fn basic(&self) -> &BasicArgs {
+        match self {
+            Self::Run(args) => &args.basic,
+            Self::Plan(args) => &args.basic,
+            Self::Check(args) => &args.basic,
+            Self::Interpolator(args) => &args.basic,
+            Self::Planner(args) => &args.basic,
+            Self::Servo(args) => &args.basic,
+            Self::Feed(args) => &args.basic,
+            Self::Status(args) | Self::Hold(args) | Self::Resume(args) | Self::Abort(args) => {
+                &args.basic
+            }
+            Self::Override(args) => &args.operator.basic,
+        }
+    }
 }

@@ -30,6 +30,9 @@ pub enum Failure {
         /// What the system said.
         source: std::io::Error,
     },
+    /// The command is not connected to the stages below yet.
+    #[error("this command is not built yet")]
+    NotBuilt,
     /// The command was interrupted.
     #[error("interrupted")]
     Interrupted,
@@ -38,12 +41,19 @@ pub enum Failure {
 impl Failure {
     /// For `map_err` of opening a file.
     pub fn open(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
-        |source| Self::Open { path: path.to_owned(), source }
+        |source| Self::Open {
+            path: path.to_owned(),
+            source,
+        }
     }
 
     /// For `map_err` of reading or writing a file.
     pub fn file(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
-        move |source| Self::File { action, path: path.to_owned(), source }
+        move |source| Self::File {
+            action,
+            path: path.to_owned(),
+            source,
+        }
     }
 
     /// The exit code.
@@ -52,7 +62,7 @@ impl Failure {
         match self {
             Self::Configuration(_) => Exit::Configuration,
             Self::Open { .. } => Exit::Usage,
-            Self::File { .. } => Exit::Fault,
+            Self::File { .. } | Self::NotBuilt => Exit::Fault,
             Self::Interrupted => Exit::Interrupted,
         }
     }

@@ -8,6 +8,6 @@ pub mod exit;
 pub mod failure;
 pub mod output;
 pub mod plot;
+pub mod report;
 pub mod sample;
 pub mod setpoints;
-

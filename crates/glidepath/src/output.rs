@@ -26,11 +26,15 @@ pub fn note(text: &str) {
 /// A diagnostic as text with the source line and a caret: in colour if `colour`.
 #[must_use]
 pub fn render(diagnostic: &dyn Diagnostic, colour: bool) -> String {
-    let theme =
-        if colour { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+    let theme = if colour {
+        GraphicalTheme::unicode()
+    } else {
+        GraphicalTheme::unicode_nocolor()
+    };
     let mut text = String::new();
-    let handler =
-        GraphicalReportHandler::new_themed(theme).with_width(100).with_links(false);
+    let handler = GraphicalReportHandler::new_themed(theme)
+        .with_width(100)
+        .with_links(false);
     // Writing to a String does not fail.
     let _ = handler.render_report(&mut text, diagnostic);
     text

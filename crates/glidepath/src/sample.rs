@@ -34,7 +34,10 @@ impl Sample {
     pub fn planned(frame: &Frame, period_t: f64) -> Self {
         Self {
             tick: frame.sequence,
-            #[allow(clippy::cast_precision_loss, reason = "2^53 periods are a million years")]
+            #[allow(
+                clippy::cast_precision_loss,
+                reason = "2^53 periods are a million years"
+            )]
             time_t: frame.sequence as f64 * period_t,
             line: frame.line,
             state: "running",

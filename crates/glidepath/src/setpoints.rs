@@ -26,7 +26,10 @@ impl<W: Write> CsvWriter<W> {
             write!(out, ",pos_{axis},vel_{axis},acc_{axis}")?;
         }
         out.write_all(b"\n")?;
-        Ok(Self { out, axes: axes.to_vec() })
+        Ok(Self {
+            out,
+            axes: axes.to_vec(),
+        })
     }
 
     /// Writes one row.
@@ -34,11 +37,23 @@ impl<W: Write> CsvWriter<W> {
     /// # Errors
     /// The output does not take it.
     pub fn row(&mut self, sample: &Sample) -> io::Result<()> {
-        let Sample { tick, time_t, line, state, feed_v, path_s, .. } = sample;
+        let Sample {
+            tick,
+            time_t,
+            line,
+            state,
+            feed_v,
+            path_s,
+            ..
+        } = sample;
         write!(self.out, "{tick},{time_t},{line},{state},{feed_v},{path_s}")?;
         for axis in &self.axes {
             let i = axis.index();
-            let (p, v, a) = (sample.position[i], sample.velocity[i], sample.acceleration[i]);
+            let (p, v, a) = (
+                sample.position[i],
+                sample.velocity[i],
+                sample.acceleration[i],
+            );
             write!(self.out, ",{p},{v},{a}")?;
         }
         self.out.write_all(b"\n")

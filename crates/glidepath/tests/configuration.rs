@@ -1,5 +1,8 @@
 //! What a user is told about a configuration that has to be mended, word for word.
 
+#![allow(clippy::expect_used, reason = "a test that fails may panic")]
+#![allow(clippy::float_cmp, reason = "values are read, not computed")]
+
 use glidepath::config::{self, Finding};
 use glidepath_geometry::Axis;
 use glidepath_motion::{Effort, Limits, Smoothing};
@@ -7,10 +10,12 @@ use glidepath_motion::{Effort, Limits, Smoothing};
 const AXIS: &str = "[axis.X]\nmin_position = -10\nmax_position = 10\nmax_velocity = 100\n\
                     max_acceleration = 1000\nmax_jerk = 10000\n";
 
-fn findings(text: &str) -> Vec<(String, Option<(usize, usize)>, Option<String>)> {
+/// Message, line and column, help.
+type Told = (String, Option<(usize, usize)>, Option<String>);
+
+fn findings(text: &str) -> Vec<Told> {
     let error = config::parse("m.toml", text).expect_err("the text has to be refused");
-    let describe =
-        |f: &Finding| (f.message.clone(), error.place(f), f.help.clone());
+    let describe = |f: &Finding| (f.message.clone(), error.place(f), f.help.clone());
     error.findings().iter().map(describe).collect()
 }
 
@@ -24,7 +29,10 @@ fn only(text: &str) -> (String, Option<(usize, usize)>, String) {
 #[test]
 fn the_embedded_machine_is_the_mill() {
     let config = config::load(None).unwrap();
-    assert_eq!(config.axes.iter().map(|a| a.axis).collect::<Vec<_>>(), [Axis::X, Axis::Y, Axis::Z]);
+    assert_eq!(
+        config.axes.iter().map(|a| a.axis).collect::<Vec<_>>(),
+        [Axis::X, Axis::Y, Axis::Z]
+    );
     for axis in &config.axes {
         assert_eq!(axis.travel, Some((-500.0, 500.0)));
         assert_eq!(
@@ -84,7 +92,10 @@ fn a_misspelt_key_is_refused_with_the_right_one() {
     assert!(help.starts_with("did you mean `X`?"), "{help}");
     let (message, _, help) = only(&format!("{AXIS}[path]\nqqqq = 1\n"));
     assert_eq!(message, "unknown key `qqqq`");
-    assert_eq!(help, "the keys here are: tolerance, smoothing, effort, default_feed");
+    assert_eq!(
+        help,
+        "the keys here are: tolerance, smoothing, effort, default_feed"
+    );
 }
 
 #[test]
@@ -97,7 +108,10 @@ fn a_missing_key_is_named() {
     assert_eq!(only("[axis]\n").0, "the machine has no axis");
     let (message, _, help) = only(&AXIS.replace("max_position = 10\n", ""));
     assert_eq!(message, "the key `max_position` of axis X is missing");
-    assert!(help.starts_with("add `max_position = …` (mm) to [axis.X]"), "{help}");
+    assert!(
+        help.starts_with("add `max_position = …` (mm) to [axis.X]"),
+        "{help}"
+    );
 }
 
 #[test]
@@ -112,7 +126,8 @@ fn a_value_out_of_range_is_given_with_unit_and_range() {
         )
     );
     for bad in ["nan", "inf", "0", "0.0"] {
-        let (message, ..) = only(&AXIS.replace("max_velocity = 100", &format!("max_velocity = {bad}")));
+        let (message, ..) =
+            only(&AXIS.replace("max_velocity = 100", &format!("max_velocity = {bad}")));
         assert!(message.starts_with("axis.X.max_velocity = "), "{message}");
     }
     let (message, place, help) = only(&format!("{AXIS}[interpolator]\nperiod_us = 50\n"));
@@ -121,7 +136,10 @@ fn a_value_out_of_range_is_given_with_unit_and_range() {
     assert_eq!(help, "give 100 to 100000: µs between two setpoints");
     let (message, _, help) = only(&format!("{AXIS}[path]\nsmoothing = \"spline\"\n"));
     assert_eq!(message, "path.smoothing = \"spline\" is not known");
-    assert_eq!(help, "give \"auto\" or \"sextic\" or \"bezier-pair\" or \"exact-stop\"");
+    assert_eq!(
+        help,
+        "give \"auto\" or \"sextic\" or \"bezier-pair\" or \"exact-stop\""
+    );
     let (message, ..) = only(&format!("{AXIS}[link]\ninstance = \"../x\"\n"));
     assert_eq!(message, "link.instance = \"../x\" cannot name a machine");
     let (message, ..) = only(&AXIS.replace("max_position = 10", "max_position = -10"));
@@ -134,11 +152,17 @@ fn a_value_out_of_range_is_given_with_unit_and_range() {
 #[test]
 fn every_finding_is_listed_at_once() {
     let text = AXIS.replace("100\n", "-100\n").replace("1000\n", "-1000\n");
-    let keys: Vec<String> = findings(&text).into_iter().map(|(message, ..)| message).collect();
-    assert_eq!(keys, [
-        "axis.X.max_velocity = -100 mm/s is out of range",
-        "axis.X.max_acceleration = -1000 mm/s² is out of range",
-    ]);
+    let keys: Vec<String> = findings(&text)
+        .into_iter()
+        .map(|(message, ..)| message)
+        .collect();
+    assert_eq!(
+        keys,
+        [
+            "axis.X.max_velocity = -100 mm/s is out of range",
+            "axis.X.max_acceleration = -1000 mm/s² is out of range",
+        ]
+    );
 }
 
 #[test]
@@ -154,5 +178,8 @@ fn syntax_and_types_are_refused_with_their_place() {
 fn a_rotary_axis_may_turn_without_end() {
     let rotary = "[axis.A]\nmax_velocity = 90\nmax_acceleration = 900\nmax_jerk = 9000\n";
     let config = config::parse("m.toml", &format!("{AXIS}{rotary}")).unwrap();
-    assert_eq!(config.axes.last().map(|a| (a.axis, a.travel)), Some((Axis::A, None)));
+    assert_eq!(
+        config.axes.last().map(|a| (a.axis, a.travel)),
+        Some((Axis::A, None))
+    );
 }

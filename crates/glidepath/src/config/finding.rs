@@ -42,7 +42,11 @@ pub enum ConfigError {
 }
 
 fn counted(findings: usize) -> String {
-    if findings == 1 { "one thing".to_owned() } else { format!("{findings} things") }
+    if findings == 1 {
+        "one thing".to_owned()
+    } else {
+        format!("{findings} things")
+    }
 }
 
 impl ConfigError {
@@ -68,7 +72,11 @@ impl ConfigError {
                 span: None,
                 source: None,
             }],
-            Self::Refused { path, text, findings } => findings
+            Self::Refused {
+                path,
+                text,
+                findings,
+            } => findings
                 .iter()
                 .map(|finding| FindingReport {
                     message: finding.message.clone(),
@@ -83,7 +91,9 @@ impl ConfigError {
     /// Line and column, both from 1, of a finding's place; the column counts characters.
     #[must_use]
     pub fn place(&self, finding: &Finding) -> Option<(usize, usize)> {
-        let Self::Refused { text, .. } = self else { return None };
+        let Self::Refused { text, .. } = self else {
+            return None;
+        };
         let before = text.get(..finding.span.as_ref()?.start)?;
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         let line = 1 + before.matches('\n').count();
@@ -110,7 +120,9 @@ impl std::error::Error for FindingReport {}
 
 impl Diagnostic for FindingReport {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+        self.help
+            .as_ref()
+            .map(|help| Box::new(help) as Box<dyn fmt::Display>)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {

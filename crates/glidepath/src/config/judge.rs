@@ -12,11 +12,14 @@ use toml::Spanned;
 /// # Errors
 /// All findings, in the order of the tables.
 pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<Finding>> {
-    let mut judge = Judge { findings: Vec::new() };
-    let kinematics = judge.choice("machine.kinematics", raw.machine.kinematics, &[(
-        "trivial",
-        Kinematics::Trivial,
-    )]);
+    let mut judge = Judge {
+        findings: Vec::new(),
+    };
+    let kinematics = judge.choice(
+        "machine.kinematics",
+        raw.machine.kinematics,
+        &[("trivial", Kinematics::Trivial)],
+    );
     let axes_span = raw.axis.span();
     let axes: Vec<AxisConfig> = Axis::ALL
         .into_iter()
@@ -38,7 +41,11 @@ pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<Finding>> {
         interpolator: judge.interpolator(&raw.interpolator),
         instance: judge.instance(raw.link),
     };
-    if judge.findings.is_empty() { Ok(config) } else { Err(judge.findings) }
+    if judge.findings.is_empty() {
+        Ok(config)
+    } else {
+        Err(judge.findings)
+    }
 }
 
 /// What a number may be.
@@ -59,7 +66,12 @@ impl Judge {
         let number = *value.as_ref();
         // Not a number is in no range.
         if !(range.min..=range.max).contains(&number) {
-            let Range { min, max, unit, help } = range;
+            let Range {
+                min,
+                max,
+                unit,
+                help,
+            } = range;
             self.findings.push(Finding {
                 key: key.to_owned(),
                 message: format!("{key} = {number} {unit} is out of range"),
@@ -71,7 +83,9 @@ impl Judge {
     }
 
     fn number_or(&mut self, key: &str, value: &Optional<f64>, range: &Range, default: f64) -> f64 {
-        value.as_ref().map_or(default, |value| self.number(key, value, range))
+        value
+            .as_ref()
+            .map_or(default, |value| self.number(key, value, range))
     }
 
     /// A whole number of any type that holds the range.
@@ -83,7 +97,10 @@ impl Judge {
         help: &str,
     ) -> Option<T> {
         let number = *value.as_ref();
-        let fitting = (min..=max).contains(&number).then(|| T::try_from(number).ok()).flatten();
+        let fitting = (min..=max)
+            .contains(&number)
+            .then(|| T::try_from(number).ok())
+            .flatten();
         if fitting.is_none() {
             self.findings.push(Finding {
                 key: key.to_owned(),
@@ -99,9 +116,14 @@ impl Judge {
     fn choice<T: Copy>(&mut self, key: &str, value: Optional<String>, known: &[(&str, T)]) -> T {
         let default = known[0].1;
         let Some(value) = value else { return default };
-        let found = known.iter().find(|(name, _)| *name == value.as_ref().as_str());
+        let found = known
+            .iter()
+            .find(|(name, _)| *name == value.as_ref().as_str());
         if found.is_none() {
-            let list: Vec<String> = known.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+            let list: Vec<String> = known
+                .iter()
+                .map(|(name, _)| format!("\"{name}\""))
+                .collect();
             self.findings.push(Finding {
                 key: key.to_owned(),
                 message: format!("{key} = \"{}\" is not known", value.as_ref()),
@@ -120,22 +142,41 @@ impl Judge {
             self.number(
                 &format!("axis.{axis}.{name}"),
                 value,
-                &Range { min: 1e-3, max, unit, help },
+                &Range {
+                    min: 1e-3,
+                    max,
+                    unit,
+                    help,
+                },
             )
         };
         let max_velocity = limit("max_velocity", &table.max_velocity, unit.velocity, 1e5);
-        let max_acceleration =
-            limit("max_acceleration", &table.max_acceleration, unit.acceleration, 1e7);
+        let max_acceleration = limit(
+            "max_acceleration",
+            &table.max_acceleration,
+            unit.acceleration,
+            1e7,
+        );
         let max_jerk = limit("max_jerk", &table.max_jerk, unit.jerk, 1e10);
         let travel = self.travel(axis, raw);
-        AxisConfig { axis, travel, max_velocity, max_acceleration, max_jerk }
+        AxisConfig {
+            axis,
+            travel,
+            max_velocity,
+            max_acceleration,
+            max_jerk,
+        }
     }
 
     fn travel(&mut self, axis: Axis, raw: &Spanned<RawAxis>) -> Option<(f64, f64)> {
         let unit = Units::of(axis).position;
         let table = raw.as_ref();
-        let range =
-            Range { min: -1e6, max: 1e6, unit, help: "the soft limit in machine coordinates" };
+        let range = Range {
+            min: -1e6,
+            max: 1e6,
+            unit,
+            help: "the soft limit in machine coordinates",
+        };
         let mut end = |name: &str, value: &Optional<f64>| {
             value
                 .as_ref()
@@ -159,7 +200,11 @@ impl Judge {
                 None
             }
             (min, _) => {
-                let missing = if min.is_none() { "min_position" } else { "max_position" };
+                let missing = if min.is_none() {
+                    "min_position"
+                } else {
+                    "max_position"
+                };
                 self.findings.push(Finding {
                     key: format!("axis.{axis}.{missing}"),
                     message: format!("the key `{missing}` of axis {axis} is missing"),
@@ -189,12 +234,16 @@ impl Judge {
         };
         PathConfig {
             tolerance_mm: self.number_or("path.tolerance", &raw.tolerance, &tolerance, 0.02),
-            smoothing: self.choice("path.smoothing", raw.smoothing, &[
-                ("auto", Smoothing::default()),
-                ("sextic", Smoothing::Sextic),
-                ("bezier-pair", Smoothing::BezierPair),
-                ("exact-stop", Smoothing::ExactStop),
-            ]),
+            smoothing: self.choice(
+                "path.smoothing",
+                raw.smoothing,
+                &[
+                    ("auto", Smoothing::default()),
+                    ("sextic", Smoothing::Sextic),
+                    ("bezier-pair", Smoothing::BezierPair),
+                    ("exact-stop", Smoothing::ExactStop),
+                ],
+            ),
             effort: self.choice("path.effort", raw.effort, &[("fast", Effort::Fast)]),
             default_feed: raw
                 .default_feed
@@ -210,13 +259,28 @@ impl Judge {
             help: "longer outlasts slower input, shorter answers an override sooner",
         };
         let period_us = raw.period_us.as_ref().map_or(Some(4000), |value| {
-            self.whole("interpolator.period_us", value, (100, 100_000), "µs between two setpoints")
+            self.whole(
+                "interpolator.period_us",
+                value,
+                (100, 100_000),
+                "µs between two setpoints",
+            )
         });
         let priority = raw.priority.as_ref().map_or(Some(80), |value| {
-            self.whole("interpolator.priority", value, (1, 99), "the SCHED_FIFO priority")
+            self.whole(
+                "interpolator.priority",
+                value,
+                (1, 99),
+                "the SCHED_FIFO priority",
+            )
         });
         let cpu = raw.cpu.as_ref().and_then(|value| {
-            self.whole("interpolator.cpu", value, (0, 1023), "the number of a CPU of this host")
+            self.whole(
+                "interpolator.cpu",
+                value,
+                (0, 1023),
+                "the number of a CPU of this host",
+            )
         });
         InterpolatorConfig {
             // A value that does not fit was found already: the configuration is refused.
@@ -251,7 +315,9 @@ pub const INSTANCE_RULE: &str =
 #[must_use]
 pub fn is_instance_name(name: &str) -> bool {
     (1..=32).contains(&name.len())
-        && name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b"-_".contains(&b))
+        && name
+            .bytes()
+            .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b"-_".contains(&b))
 }
 
 struct Units {
@@ -264,9 +330,19 @@ struct Units {
 impl Units {
     const fn of(axis: Axis) -> Self {
         if axis.is_rotary() {
-            Self { position: "°", velocity: "°/s", acceleration: "°/s²", jerk: "°/s³" }
+            Self {
+                position: "°",
+                velocity: "°/s",
+                acceleration: "°/s²",
+                jerk: "°/s³",
+            }
         } else {
-            Self { position: "mm", velocity: "mm/s", acceleration: "mm/s²", jerk: "mm/s³" }
+            Self {
+                position: "mm",
+                velocity: "mm/s",
+                acceleration: "mm/s²",
+                jerk: "mm/s³",
+            }
         }
     }
 }

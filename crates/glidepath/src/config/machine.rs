@@ -79,8 +79,7 @@ impl MachineConfig {
     /// Limits over all nine axes; an axis the machine does not have is unlimited.
     #[must_use]
     pub fn limits(&self) -> Limits {
-        let mut limits =
-            Limits::uniform(Limits::UNLIMITED, Limits::UNLIMITED, Limits::UNLIMITED);
+        let mut limits = Limits::uniform(Limits::UNLIMITED, Limits::UNLIMITED, Limits::UNLIMITED);
         for axis in &self.axes {
             let i = axis.axis.index();
             limits.velocity[i] = axis.max_velocity;

@@ -22,7 +22,9 @@ pub const EMBEDDED: &str = include_str!("../../../../config/mill.toml");
 /// # Errors
 /// The file cannot be read, or something in it has to be mended.
 pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
-    let Some(path) = path else { return parse("built-in machine", EMBEDDED) };
+    let Some(path) = path else {
+        return parse("built-in machine", EMBEDDED);
+    };
     let name = path.display().to_string();
     match std::fs::read_to_string(path) {
         Ok(text) => parse(&name, &text),
@@ -35,7 +37,12 @@ pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
 /// # Errors
 /// Everything in the text that has to be mended.
 pub fn parse(path: &str, text: &str) -> Result<MachineConfig, ConfigError> {
-    parse::parse(text).map_err(|finding| vec![finding]).and_then(judge::judge).map_err(|findings| {
-        ConfigError::Refused { path: path.to_owned(), text: text.to_owned(), findings }
-    })
+    parse::parse(text)
+        .map_err(|finding| vec![finding])
+        .and_then(judge::judge)
+        .map_err(|findings| ConfigError::Refused {
+            path: path.to_owned(),
+            text: text.to_owned(),
+            findings,
+        })
 }

@@ -9,9 +9,19 @@ use super::raw::RawConfig;
 /// The first thing that is not TOML, not a known key, or not of the key's type.
 pub(super) fn parse(text: &str) -> Result<RawConfig, Finding> {
     toml::from_str(text).map_err(|error| {
-        let message = error.message().lines().next().unwrap_or_default().to_owned();
+        let message = error
+            .message()
+            .lines()
+            .next()
+            .unwrap_or_default()
+            .to_owned();
         let (message, help) = explain(&message);
-        Finding { key: String::new(), message, help, span: error.span() }
+        Finding {
+            key: String::new(),
+            message,
+            help,
+            span: error.span(),
+        }
     })
 }
 
@@ -19,7 +29,8 @@ pub(super) fn parse(text: &str) -> Result<RawConfig, Finding> {
 /// first the one that was found, then those it knows.
 fn explain(message: &str) -> (String, Option<String>) {
     let names: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    if let (true, [unknown, known @ ..]) = (message.starts_with("unknown field"), names.as_slice()) {
+    if let (true, [unknown, known @ ..]) = (message.starts_with("unknown field"), names.as_slice())
+    {
         let list = known.join(", ");
         let help = nearest(unknown, known).map_or_else(
             || format!("the keys here are: {list}"),
@@ -41,7 +52,12 @@ fn explain(message: &str) -> (String, Option<String>) {
 fn nearest<'a>(unknown: &str, known: &[&'a str]) -> Option<&'a str> {
     known
         .iter()
-        .map(|name| (strsim::jaro_winkler(&unknown.to_lowercase(), &name.to_lowercase()), *name))
+        .map(|name| {
+            (
+                strsim::jaro_winkler(&unknown.to_lowercase(), &name.to_lowercase()),
+                *name,
+            )
+        })
         .filter(|(likeness, _)| *likeness > 0.75)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, name)| name)

@@ -45,7 +45,9 @@ pub(super) struct RawAxes {
 impl RawAxes {
     /// The tables in the order of `glidepath_geometry::Axis::ALL`.
     pub(super) fn in_order(self) -> [Optional<RawAxis>; glidepath_geometry::AXES] {
-        [self.x, self.y, self.z, self.a, self.b, self.c, self.u, self.v, self.w]
+        [
+            self.x, self.y, self.z, self.a, self.b, self.c, self.u, self.v, self.w,
+        ]
     }
 }
 

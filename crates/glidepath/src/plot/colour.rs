@@ -63,7 +63,10 @@ mod tests {
     fn the_scale_spans_its_anchors() {
         assert_eq!(hex(0), "#1a126e");
         assert_eq!(hex(SHADES - 1), "#f6aa28");
-        assert_eq!((shade(-1.0), shade(0.0), shade(1.0), shade(9.0)), (0, 0, 19, 19));
+        assert_eq!(
+            (shade(-1.0), shade(0.0), shade(1.0), shade(9.0)),
+            (0, 0, 19, 19)
+        );
         assert_eq!(shade(0.5), 10);
     }
 }

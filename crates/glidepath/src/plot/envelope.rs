@@ -17,7 +17,11 @@ pub(super) struct Envelope {
 
 impl Envelope {
     pub(super) const fn new() -> Self {
-        Self { stretches: Vec::new(), ticks: 1, peak: 0.0 }
+        Self {
+            stretches: Vec::new(),
+            ticks: 1,
+            peak: 0.0,
+        }
     }
 
     /// Takes the value at a tick. Ticks may be missing, but not go back.
@@ -49,7 +53,10 @@ impl Envelope {
     pub(super) fn stretches(&self) -> impl Iterator<Item = (f64, Option<(f64, f64)>)> {
         #[allow(clippy::cast_precision_loss, reason = "pixels, not arithmetic")]
         let middle = |i: usize| (i as f64 + 0.5) * self.ticks as f64 - 0.5;
-        self.stretches.iter().enumerate().map(move |(i, stretch)| (middle(i), *stretch))
+        self.stretches
+            .iter()
+            .enumerate()
+            .map(move |(i, stretch)| (middle(i), *stretch))
     }
 
     fn halve(&mut self) {
@@ -58,13 +65,17 @@ impl Envelope {
             .stretches
             .chunks(2)
             .map(|pair| {
-                pair.iter().flatten().copied().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+                pair.iter()
+                    .flatten()
+                    .copied()
+                    .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
             })
             .collect();
     }
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "values are kept, not computed")]
 mod tests {
     use super::*;
 
@@ -74,7 +85,14 @@ mod tests {
         envelope.push(0, 1.0);
         envelope.push(2, -3.0);
         let all: Vec<_> = envelope.stretches().collect();
-        assert_eq!(all, [(0.0, Some((1.0, 1.0))), (1.0, None), (2.0, Some((-3.0, -3.0)))]);
+        assert_eq!(
+            all,
+            [
+                (0.0, Some((1.0, 1.0))),
+                (1.0, None),
+                (2.0, Some((-3.0, -3.0)))
+            ]
+        );
     }
 
     #[test]

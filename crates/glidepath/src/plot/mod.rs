@@ -47,7 +47,10 @@ impl Plot {
     /// An empty picture of a machine with these axes.
     #[must_use]
     pub fn new(axes: &[Axis], limits: Limits, period_t: f64) -> Self {
-        let curves = axes.iter().map(|_| [const { Envelope::new() }; 3]).collect();
+        let curves = axes
+            .iter()
+            .map(|_| [const { Envelope::new() }; 3])
+            .collect();
         Self {
             axes: axes.to_vec(),
             limits,
@@ -63,7 +66,11 @@ impl Plot {
     /// Takes the next sample; their ticks ascend.
     pub fn push(&mut self, sample: &Sample) {
         let at = [sample.position[0], sample.position[1], sample.position[2]];
-        self.track.push(TrackPoint { at, feed_v: sample.feed_v, rapid: sample.rapid });
+        self.track.push(TrackPoint {
+            at,
+            feed_v: sample.feed_v,
+            rapid: sample.rapid,
+        });
         let first = *self.recent.first.get_or_insert(sample.tick);
         let tick = sample.tick.saturating_sub(first);
         self.ticks = tick + 1;
@@ -101,7 +108,10 @@ impl Plot {
 
         #[allow(clippy::cast_precision_loss, reason = "pixels, not arithmetic")]
         let end_t = self.ticks.saturating_sub(1).max(1) as f64 * self.period_t;
-        let time = TimeAxis { period_t: self.period_t, end_t };
+        let time = TimeAxis {
+            period_t: self.period_t,
+            end_t,
+        };
         let mut area = Area {
             x: LEFT,
             y: views_bottom + 34.0,
@@ -120,20 +130,42 @@ impl Plot {
     fn draw_views(&self, svg: &mut Svg, bottom: f64) {
         let (low, high) = self.track.bounds();
         let right = WIDTH - 24.0;
-        let top = Area { x: LEFT, y: 84.0, width: right - LEFT, height: bottom - 84.0 - 56.0 };
+        let top = Area {
+            x: LEFT,
+            y: 84.0,
+            width: right - LEFT,
+            height: bottom - 84.0 - 56.0,
+        };
         if high[2] > low[2] {
-            let half = Area { width: 660.0, ..top };
+            let half = Area {
+                width: 660.0,
+                ..top
+            };
             view::draw(svg, View::Top, &self.track, &half);
             let side = half.right() + 52.0;
-            let front = Area { x: side, width: right - side, height: 150.0, ..top };
+            let front = Area {
+                x: side,
+                width: right - side,
+                height: 150.0,
+                ..top
+            };
             view::draw(svg, View::Front, &self.track, &front);
             let y = front.bottom() + 42.0;
-            let isometric = Area { y, height: top.bottom() - y, ..front };
+            let isometric = Area {
+                y,
+                height: top.bottom() - y,
+                ..front
+            };
             view::draw(svg, View::Isometric, &self.track, &isometric);
         } else {
             view::draw(svg, View::Top, &self.track, &top);
         }
-        let legend = Area { x: LEFT + 62.0, y: bottom - 30.0, width: 420.0, height: 10.0 };
+        let legend = Area {
+            x: LEFT + 62.0,
+            y: bottom - 30.0,
+            width: 420.0,
+            height: 10.0,
+        };
         view::legend(svg, self.track.max_feed_v(), &legend);
     }
 
@@ -149,7 +181,11 @@ impl Plot {
         let mut strips = vec![feed];
         for (axis, curves) in self.axes.iter().zip(&self.curves) {
             let i = axis.index();
-            let limits = [self.limits.velocity, self.limits.acceleration, self.limits.jerk];
+            let limits = [
+                self.limits.velocity,
+                self.limits.acceleration,
+                self.limits.jerk,
+            ];
             let names = ["velocity", "acceleration", "jerk"];
             let units = if axis.is_rotary() {
                 ["°/s", "°/s²", "°/s³"]
@@ -192,8 +228,9 @@ impl Recent {
         let known = &self.positions;
         let first = known.first().map(|a| position - a);
         let second = known.get(1).map(|b| position - 2.0 * known[0] + b);
-        let third =
-            known.get(2).map(|c| position - 3.0 * known[0] + 3.0 * known[1] - c);
+        let third = known
+            .get(2)
+            .map(|c| position - 3.0 * known[0] + 3.0 * known[1] - c);
         self.positions.insert(0, *position);
         self.positions.truncate(3);
         [first, second, third]

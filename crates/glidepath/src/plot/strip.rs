@@ -48,13 +48,25 @@ impl Strip<'_> {
         let y = |value: f64| (top - value) / (top - bottom) * area.height + area.y;
 
         for t in ticks(0.0, time.end_t, 12.0) {
-            svg.line((x(t), area.y), (x(t), area.bottom()), &format!("stroke=\"{GRID}\""));
+            svg.line(
+                (x(t), area.y),
+                (x(t), area.bottom()),
+                &format!("stroke=\"{GRID}\""),
+            );
         }
-        svg.line((area.x, y(0.0)), (area.right(), y(0.0)), &format!("stroke=\"{FRAME}\""));
+        svg.line(
+            (area.x, y(0.0)),
+            (area.right(), y(0.0)),
+            &format!("stroke=\"{FRAME}\""),
+        );
         self.draw_curve(svg, |tick| x(tick * time.period_t), y);
         if let Some(limit) = self.limit.filter(|limit| *limit <= top) {
             let style = format!("stroke=\"{LIMIT}\" stroke-width=\".8\" stroke-dasharray=\"5 3\"");
-            let both = if self.signed { vec![limit, -limit] } else { vec![limit] };
+            let both = if self.signed {
+                vec![limit, -limit]
+            } else {
+                vec![limit]
+            };
             for value in both {
                 svg.line((area.x, y(value)), (area.right(), y(value)), &style);
                 svg.text(
@@ -130,5 +142,11 @@ pub(super) fn seconds(svg: &mut Svg, time: &TimeAxis, area: &Area) {
         let x = (t / time.end_t).mul_add(area.width, area.x);
         svg.text(x, area.bottom() + 13.0, Anchor::Middle, &style, &label(t));
     }
-    svg.text(area.right() + 8.0, area.bottom() + 13.0, Anchor::Start, &style, "seconds");
+    svg.text(
+        area.right() + 8.0,
+        area.bottom() + 13.0,
+        Anchor::Start,
+        &style,
+        "seconds",
+    );
 }

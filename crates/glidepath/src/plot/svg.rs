@@ -62,32 +62,37 @@ impl Svg {
     /// A text; `style` is further attributes, for example `fill="#333"`.
     pub(super) fn text(&mut self, x: f64, y: f64, anchor: Anchor, style: &str, words: &str) {
         let anchor = anchor.name();
-        let _ = write!(
+        let _ = writeln!(
             self.text,
-            "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" {style}>{}</text>\n",
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" {style}>{}</text>",
             escaped(words)
         );
     }
 
     pub(super) fn line(&mut self, from: (f64, f64), to: (f64, f64), style: &str) {
-        let _ = write!(
+        let _ = writeln!(
             self.text,
-            "<line x1=\"{:.1}\" y1=\"{:.1}\" x2=\"{:.1}\" y2=\"{:.1}\" {style}/>\n",
+            "<line x1=\"{:.1}\" y1=\"{:.1}\" x2=\"{:.1}\" y2=\"{:.1}\" {style}/>",
             from.0, from.1, to.0, to.1
         );
     }
 
     pub(super) fn rect(&mut self, area: &Area, style: &str) {
-        let Area { x, y, width, height } = area;
-        let _ = write!(
+        let Area {
+            x,
+            y,
+            width,
+            height,
+        } = area;
+        let _ = writeln!(
             self.text,
-            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" {style}/>\n"
+            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" {style}/>"
         );
     }
 
     pub(super) fn path(&mut self, path: &Path, style: &str) {
         if !path.data.is_empty() {
-            let _ = write!(self.text, "<path d=\"{}\" {style}/>\n", path.data);
+            let _ = writeln!(self.text, "<path d=\"{}\" {style}/>", path.data);
         }
     }
 
@@ -150,7 +155,10 @@ impl Path {
     }
 }
 
-#[allow(clippy::cast_possible_truncation, reason = "pixels of a plot; a cast saturates")]
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "pixels of a plot; a cast saturates"
+)]
 fn tenths(pixels: f64) -> i32 {
     (pixels.clamp(-1e6, 1e6) * 10.0).round() as i32
 }

@@ -39,11 +39,13 @@ pub(super) fn label(value: f64) -> String {
     } else {
         text
     };
-    let (sign, digits) = text.strip_prefix('-').map_or(("", text.as_str()), |digits| ("−", digits));
+    let (sign, digits) = text
+        .strip_prefix('-')
+        .map_or(("", text.as_str()), |digits| ("−", digits));
     let whole = digits.split('.').next().unwrap_or_default().len();
     let mut grouped = String::from(sign);
     for (i, c) in digits.chars().enumerate() {
-        if i > 0 && i < whole && (whole - i) % 3 == 0 {
+        if i > 0 && i < whole && (whole - i).is_multiple_of(3) {
             grouped.push('\u{202f}');
         }
         grouped.push(c);
@@ -65,6 +67,17 @@ mod tests {
     #[test]
     fn labels_are_short() {
         let labels = [0.0, 0.25, 1.5, -12.0, 200.0, 40000.0, -1e6].map(label);
-        assert_eq!(labels, ["0", "0.25", "1.5", "−12", "200", "40\u{202f}000", "−1\u{202f}000\u{202f}000"]);
+        assert_eq!(
+            labels,
+            [
+                "0",
+                "0.25",
+                "1.5",
+                "−12",
+                "200",
+                "40\u{202f}000",
+                "−1\u{202f}000\u{202f}000"
+            ]
+        );
     }
 }

@@ -28,6 +28,10 @@ pub(super) struct Track {
 
 impl Track {
     pub(super) fn push(&mut self, point: TrackPoint) {
+        #[allow(
+            clippy::float_cmp,
+            reason = "a machine at rest repeats its position exactly"
+        )]
         match self.points.last() {
             None => (self.low, self.high) = (point.at, point.at),
             Some(last) if last.at == point.at => return,
@@ -58,12 +62,17 @@ impl Track {
     }
 
     fn thin(&mut self) {
-        let extent =
-            (0..3).map(|i| self.high[i] - self.low[i]).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+        let extent = (0..3)
+            .map(|i| self.high[i] - self.low[i])
+            .fold(0.0, f64::max)
+            .max(f64::MIN_POSITIVE);
         // A change from slow to fast shows as much as a bend of 2 % of the picture.
         let mm_per_feed = 0.02 * extent / self.max_feed_v.max(f64::MIN_POSITIVE);
-        let worth: Vec<f64> =
-            self.points.windows(3).map(|three| worth(three, mm_per_feed)).collect();
+        let worth: Vec<f64> = self
+            .points
+            .windows(3)
+            .map(|three| worth(three, mm_per_feed))
+            .collect();
         let mut sorted = worth.clone();
         sorted.sort_unstable_by(f64::total_cmp);
         let threshold = sorted.get(2 * sorted.len() / 3).copied().unwrap_or(0.0);
@@ -73,7 +82,9 @@ impl Track {
             // `worth` begins with the second point and ends with the last but one.
             let drop = !dropped_before
                 && index > 0
-                && worth.get(index - 1).is_some_and(|worth| *worth <= threshold);
+                && worth
+                    .get(index - 1)
+                    .is_some_and(|worth| *worth <= threshold);
             index += 1;
             dropped_before = drop;
             !drop
@@ -83,17 +94,22 @@ impl Track {
 
 /// What the middle one of three points shows, in mm.
 fn worth(three: &[TrackPoint], mm_per_feed: f64) -> f64 {
-    let [a, b, c] = three else { return f64::INFINITY };
+    let [a, b, c] = three else {
+        return f64::INFINITY;
+    };
     if a.rapid != b.rapid || b.rapid != c.rapid {
         return f64::INFINITY;
     }
-    let difference = |p: &TrackPoint, q: &TrackPoint| {
-        [p.at[0] - q.at[0], p.at[1] - q.at[1], p.at[2] - q.at[2]]
-    };
+    let difference =
+        |p: &TrackPoint, q: &TrackPoint| [p.at[0] - q.at[0], p.at[1] - q.at[1], p.at[2] - q.at[2]];
     let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
     let (chord, to_b) = (difference(c, a), difference(b, a));
     let length2 = dot(chord, chord);
-    let along = if length2 > 0.0 { (dot(to_b, chord) / length2).clamp(0.0, 1.0) } else { 0.0 };
+    let along = if length2 > 0.0 {
+        (dot(to_b, chord) / length2).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     let away = [0, 1, 2].map(|i| to_b[i] - along * chord[i]);
     let feed = (b.feed_v - (c.feed_v - a.feed_v).mul_add(along, a.feed_v)).abs();
     dot(away, away).sqrt().max(feed * mm_per_feed)
@@ -104,7 +120,11 @@ mod tests {
     use super::*;
 
     fn point(x: f64, y: f64) -> TrackPoint {
-        TrackPoint { at: [x, y, 0.0], feed_v: 10.0, rapid: false }
+        TrackPoint {
+            at: [x, y, 0.0],
+            feed_v: 10.0,
+            rapid: false,
+        }
     }
 
     #[test]

@@ -40,11 +40,20 @@ impl View {
     /// Smallest and largest right and up of everything between two corners.
     fn extent(self, (low, high): ([f64; 3], [f64; 3])) -> ((f64, f64), (f64, f64)) {
         let corners = (0..8).map(|corner| {
-            let side = |i: usize| if corner >> i & 1 == 0 { low[i] } else { high[i] };
+            let side = |i: usize| {
+                if corner >> i & 1 == 0 {
+                    low[i]
+                } else {
+                    high[i]
+                }
+            };
             self.project([side(0), side(1), side(2)])
         });
         corners.fold(
-            ((f64::INFINITY, f64::NEG_INFINITY), (f64::INFINITY, f64::NEG_INFINITY)),
+            (
+                (f64::INFINITY, f64::NEG_INFINITY),
+                (f64::INFINITY, f64::NEG_INFINITY),
+            ),
             |(x, y), (px, py)| ((x.0.min(px), x.1.max(px)), (y.0.min(py), y.1.max(py))),
         )
     }
@@ -95,7 +104,13 @@ pub(super) fn draw(svg: &mut Svg, view: View, track: &Track, area: &Area) {
         grid(svg, &scale, area);
     }
     svg.rect(area, &format!("fill=\"none\" stroke=\"{FRAME}\""));
-    svg.text(area.x, area.y - 6.0, Anchor::Start, &format!("fill=\"{QUIET}\""), view.title());
+    svg.text(
+        area.x,
+        area.y - 6.0,
+        Anchor::Start,
+        &format!("fill=\"{QUIET}\""),
+        view.title(),
+    );
 
     let at = |point: &TrackPoint| {
         let (x, y) = view.project(point.at);
@@ -106,7 +121,11 @@ pub(super) fn draw(svg: &mut Svg, view: View, track: &Track, area: &Area) {
     for pair in track.points().windows(2) {
         let [from, to] = pair else { continue };
         let share = from.feed_v.midpoint(to.feed_v) / track.max_feed_v().max(f64::MIN_POSITIVE);
-        let path = if to.rapid { Some(&mut rapids) } else { shades.get_mut(colour::shade(share)) };
+        let path = if to.rapid {
+            Some(&mut rapids)
+        } else {
+            shades.get_mut(colour::shade(share))
+        };
         let Some(path) = path else { continue };
         let (start, end) = (at(from), at(to));
         if !path.is_at(start.0, start.1) {
@@ -121,12 +140,23 @@ pub(super) fn draw(svg: &mut Svg, view: View, track: &Track, area: &Area) {
     );
     for (shade, path) in shades.iter().enumerate() {
         let colour = colour::hex(shade);
-        svg.path(path, &format!("{stroke} stroke=\"{colour}\" stroke-width=\"1.5\""));
+        svg.path(
+            path,
+            &format!("{stroke} stroke=\"{colour}\" stroke-width=\"1.5\""),
+        );
     }
     if let Some(first) = track.points().first() {
         let (x, y) = at(first);
-        let dot = Area { x: x - 3.0, y: y - 3.0, width: 6.0, height: 6.0 };
-        svg.rect(&dot, &format!("rx=\"3\" fill=\"#ffffff\" stroke=\"{INK}\" stroke-width=\"1.4\""));
+        let dot = Area {
+            x: x - 3.0,
+            y: y - 3.0,
+            width: 6.0,
+            height: 6.0,
+        };
+        svg.rect(
+            &dot,
+            &format!("rx=\"3\" fill=\"#ffffff\" stroke=\"{INK}\" stroke-width=\"1.4\""),
+        );
     }
 }
 
@@ -158,7 +188,11 @@ pub(super) fn legend(svg: &mut Svg, max_feed_v: f64, area: &Area) {
     let mut x = area.x;
     for shade in 0..colour::SHADES {
         // Half a pixel of overlap, or renderers show seams.
-        let cell = Area { x, width: width + 0.5, ..*area };
+        let cell = Area {
+            x,
+            width: width + 0.5,
+            ..*area
+        };
         svg.rect(&cell, &format!("fill=\"{}\"", colour::hex(shade)));
         x += width;
     }
@@ -166,10 +200,20 @@ pub(super) fn legend(svg: &mut Svg, max_feed_v: f64, area: &Area) {
     let below = area.bottom() + 12.0;
     for feed_v in ticks(0.0, max_feed_v, 5.0) {
         let x = (feed_v / max_feed_v.max(f64::MIN_POSITIVE)).mul_add(area.width, area.x);
-        svg.line((x, area.bottom()), (x, area.bottom() + 3.0), &format!("stroke=\"{QUIET}\""));
+        svg.line(
+            (x, area.bottom()),
+            (x, area.bottom() + 3.0),
+            &format!("stroke=\"{QUIET}\""),
+        );
         svg.text(x, below, Anchor::Middle, &text, &label(feed_v));
     }
-    svg.text(area.x - 8.0, area.bottom() - 1.0, Anchor::End, &text, "feed mm/s");
+    svg.text(
+        area.x - 8.0,
+        area.bottom() - 1.0,
+        Anchor::End,
+        &text,
+        "feed mm/s",
+    );
     let dash = area.right() + 24.0;
     let middle = area.y + area.height / 2.0;
     svg.line(
@@ -177,5 +221,11 @@ pub(super) fn legend(svg: &mut Svg, max_feed_v: f64, area: &Area) {
         (dash + 26.0, middle),
         &format!("stroke=\"{RAPID}\" stroke-dasharray=\"4 3\""),
     );
-    svg.text(dash + 32.0, area.bottom() - 1.0, Anchor::Start, &text, "rapid");
+    svg.text(
+        dash + 32.0,
+        area.bottom() - 1.0,
+        Anchor::Start,
+        &text,
+        "rapid",
+    );
 }

@@ -1,0 +1,103 @@
+//! What was found in a program, for people and as JSON.
+
+use core::fmt;
+use glidepath_gcode::Diagnostic;
+use miette::{
+    LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents,
+};
+use serde_json::{Value, json};
+
+/// A finding as miette prints it: file:line:column, the source line with a mark under the word, the
+/// reason and the remedy.
+#[derive(Debug)]
+pub struct ProgramFinding<'a> {
+    name: &'a str,
+    diagnostic: &'a Diagnostic,
+    help: String,
+    /// Bytes of the excerpt to mark.
+    mark: SourceSpan,
+}
+
+impl<'a> ProgramFinding<'a> {
+    /// A finding in the program called `name`.
+    #[must_use]
+    pub fn new(name: &'a str, diagnostic: &'a Diagnostic) -> Self {
+        let parts = [diagnostic.reason.as_str(), diagnostic.help.as_str()];
+        let help: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+        Self { name, diagnostic, help: help.join("\n"), mark: mark(diagnostic) }
+    }
+}
+
+/// Characters of the excerpt to bytes of it.
+fn mark(diagnostic: &Diagnostic) -> SourceSpan {
+    let excerpt = &diagnostic.excerpt;
+    let bytes = |characters: usize| {
+        excerpt.text.char_indices().nth(characters).map_or(excerpt.text.len(), |(at, _)| at)
+    };
+    let start = bytes(excerpt.caret);
+    let end = bytes(excerpt.caret.saturating_add(excerpt.length));
+    (start, end.saturating_sub(start)).into()
+}
+
+impl fmt::Display for ProgramFinding<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.diagnostic.message)
+    }
+}
+
+impl std::error::Error for ProgramFinding<'_> {}
+
+impl miette::Diagnostic for ProgramFinding<'_> {
+    fn code<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
+        Some(Box::new(self.diagnostic.code))
+    }
+
+    fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
+        if self.help.is_empty() { None } else { Some(Box::new(&self.help)) }
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        Some(self)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        Some(Box::new(core::iter::once(LabeledSpan::underline(self.mark))))
+    }
+}
+
+/// The one line of the program that is at hand, at its place in the program.
+impl SourceCode for ProgramFinding<'_> {
+    fn read_span<'b>(
+        &'b self,
+        _span: &SourceSpan,
+        _lines_before: usize,
+        _lines_after: usize,
+    ) -> Result<Box<dyn SpanContents<'b> + 'b>, MietteError> {
+        let text = &self.diagnostic.excerpt.text;
+        let from_zero = |number: u32| usize::try_from(number).unwrap_or(usize::MAX).saturating_sub(1);
+        Ok(Box::new(MietteSpanContents::new_named(
+            self.name.to_owned(),
+            text.as_bytes(),
+            (0, text.len()).into(),
+            from_zero(self.diagnostic.line),
+            from_zero(self.diagnostic.column),
+            1,
+        )))
+    }
+}
+
+/// A finding as a JSON object.
+#[must_use]
+pub fn finding_object(program: &str, diagnostic: &Diagnostic) -> Value {
+    json!({
+        "program": program,
+        "line": diagnostic.line,
+        "column": diagnostic.column,
+        "length": diagnostic.length,
+        "code": diagnostic.code.as_str(),
+        "message": diagnostic.message,
+        "reason": diagnostic.reason,
+        "help": diagnostic.help,
+        "source": diagnostic.excerpt.text,
+    })
+}

@@ -1,0 +1,41 @@
+//! Numbers for people.
+
+/// Digits in groups of three.
+#[must_use]
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, c) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(c);
+    }
+    text
+}
+
+/// A duration: milliseconds below a second, minutes from two minutes on.
+#[must_use]
+pub fn seconds(t: f64) -> String {
+    match t {
+        t if t < 1.0 => format!("{:.1} ms", t * 1e3),
+        t if t < 120.0 => format!("{t:.3} s"),
+        t => {
+            let minutes = (t / 60.0).floor();
+            format!("{minutes:.0} min {:.1} s", minutes.mul_add(-60.0, t))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_well() {
+        let texts = [0, 999, 1000, 1_234_567].map(grouped);
+        assert_eq!(texts, ["0", "999", "1 000", "1 234 567"]);
+        let texts = [0.0, 0.0314, 12.0, 3725.25].map(seconds);
+        assert_eq!(texts, ["0.0 ms", "31.4 ms", "12.000 s", "62 min 5.2 s"]);
+    }
+}
