@@ -19,8 +19,12 @@ mod frame;
 mod item;
 mod limits;
 mod settings;
+mod tolerance_split;
 
 pub use frame::{Frame, FrameFlags};
 pub use item::{Event, Item, ItemKind, PathMode, Rate};
 pub use limits::Limits;
 pub use settings::{Effort, Settings, Smoothing};
+pub use tolerance_split::{
+    CornerLimits, ToleranceSplit, chord_acceleration, chord_error, chord_speed,
+};
