@@ -1,5 +1,6 @@
 //! What a planner is fed: segments, dwells and events, in program order.
 
+use crate::Settings;
 use glidepath_geometry::Segment;
 
 /// How a segment's speed is given.
@@ -66,4 +67,16 @@ pub enum ItemKind {
     Dwell(f64),
     /// An event.
     Event(Event),
+}
+
+impl PathMode {
+    /// The tolerance in force, mm.
+    pub(crate) fn tolerance_mm(self, settings: &Settings) -> f64 {
+        match self {
+            Self::Continuous {
+                tolerance_mm: Some(tolerance_mm),
+            } => tolerance_mm,
+            _ => settings.tolerance_mm,
+        }
+    }
 }

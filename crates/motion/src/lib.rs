@@ -15,15 +15,26 @@
 //! | `_u` | a curve's own parameter, 0…1 |
 //! | `_k` | curvature, 1/mm |
 
+mod error;
 mod frame;
 mod item;
+mod joint;
 mod limits;
+mod path;
+mod planner;
+mod run;
+mod sample;
+mod schedule;
+pub mod scurve;
 mod settings;
+mod speed_limit;
 mod tolerance_split;
 
+pub use error::PlanError;
 pub use frame::{Frame, FrameFlags};
 pub use item::{Event, Item, ItemKind, PathMode, Rate};
 pub use limits::Limits;
+pub use planner::Planner;
 pub use settings::{Effort, Settings, Smoothing};
 pub use tolerance_split::{
     CornerLimits, ToleranceSplit, chord_acceleration, chord_error, chord_speed,

@@ -1,0 +1,44 @@
+//! Why an item cannot be planned.
+
+/// What is wrong with an item given to the planner.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// A coordinate or length is not a finite number.
+    #[error("line {line}: the move has a coordinate that is not a finite number")]
+    NotFinite {
+        /// Source line.
+        line: u32,
+    },
+    /// The segment does not start where the last one ended.
+    #[error("line {line}: the move starts {gap_mm} mm away from where the last one ended")]
+    Gap {
+        /// Source line.
+        line: u32,
+        /// Largest difference of an axis, mm or degrees.
+        gap_mm: f64,
+    },
+    /// The feedrate is not a positive number.
+    #[error("line {line}: the feedrate {feed_v} mm/s is not a positive number")]
+    Feed {
+        /// Source line.
+        line: u32,
+        /// The rate, mm/s.
+        feed_v: f64,
+    },
+    /// The tolerance is not a positive number.
+    #[error("line {line}: the path tolerance {tolerance_mm} mm is not a positive number")]
+    Tolerance {
+        /// Source line.
+        line: u32,
+        /// The tolerance, mm.
+        tolerance_mm: f64,
+    },
+    /// The dwell time is not a number ≥ 0.
+    #[error("line {line}: the dwell of {dwell_t} s is not a number of seconds ≥ 0")]
+    Dwell {
+        /// Source line.
+        line: u32,
+        /// The time, s.
+        dwell_t: f64,
+    },
+}

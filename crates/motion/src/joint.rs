@@ -1,0 +1,322 @@
+//! Where two segments meet: straight on, through a transition, or at rest.
+//!
+//! A transition takes a length d from both segments. The longer it is, the faster it can be driven
+//! and the further it leaves the program, so d is the largest that keeps within
+//!
+//! * half of each segment (the other half belongs to the joint at its other end),
+//! * the tolerance: deviation of the curve plus the chord error of driving it at its top speed,
+//!
+//! and no longer than needed for the programmed rate. Deviation is measured between points of equal
+//! path position, so it bounds both ways and in order: curve to program and program to curve.
+//!
+//! A sharp corner is driven at constant speed: it is a valley of the speed anyway, and all of the
+//! limits go into following it. On a gentle one the speed may change, so that a run of short
+//! segments can be accelerated through. Where coming to rest at the corner costs less time than
+//! the transition, the joint is a stop.
+
+use crate::scurve::{PathLimits, Profile, reachable_speed};
+use crate::speed_limit::{self, SpeedLimit};
+use crate::{PathMode, Settings, Smoothing};
+use glidepath_geometry::{
+    AXES, AxisVector, DerivativeBounds, LINEAR_XYZ, PairShape, ROTARY_ABC, Segment, Transition,
+    Turn, UVW,
+};
+
+/// One of the two segments of a joint.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Leg<'a> {
+    pub segment: &'a Segment,
+    pub length_s: f64,
+    /// Programmed rate, or `f64::INFINITY` for a rapid.
+    pub rate_v: f64,
+}
+
+/// How the path passes from one segment to the next.
+#[derive(Debug, Clone, Copy)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "short-lived, one per corner, never stored in bulk"
+)]
+pub(crate) enum Joint {
+    /// The segments continue each other.
+    Straight,
+    /// The machine rests at the corner.
+    Stop,
+    /// A curve replaces `trim_s` of both segments.
+    Blend {
+        transition: Transition,
+        trim_s: f64,
+        limit: SpeedLimit,
+    },
+}
+
+/// sin of half the turn up to which a corner counts as gentle: 30° of turn.
+const GENTLE_SB: f64 = 0.2588;
+/// A turn sharper than this is a reversal: 176°.
+const REVERSAL_CB: f64 = 0.035;
+/// Halvings of each search for d: its relative accuracy is 2⁻¹⁴.
+const HALVINGS: u32 = 14;
+/// An arc gives at most this angle to a joint, so that the polynomial stays close to it.
+const ARC_SHARE_RAD: f64 = 0.6;
+/// Points at which the deviation of a general transition is measured, and the margin for the places
+/// between them.
+const DEVIATION_POINTS: u32 = 24;
+const DEVIATION_MARGIN_R: f64 = 1.02;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Family {
+    Sextic,
+    Pair,
+    Hermite,
+}
+
+/// Decides how `from` is joined to `to`. `mode` is that of the segment that ends here.
+pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, mode: PathMode, settings: &Settings) -> Joint {
+    let rate_v = from.rate_v.min(to.rate_v);
+    let jet_in = from.segment.jet(from.length_s);
+    let jet_out = to.segment.jet(0.0);
+    let exact = match mode {
+        PathMode::ExactStop => return Joint::Stop,
+        PathMode::ExactPath => true,
+        PathMode::Continuous { .. } => settings.smoothing == Smoothing::ExactStop,
+    };
+    let step_d1 = jet_out.d1 - jet_in.d1;
+    let step_d2 = jet_out.d2 - jet_in.d2;
+    if continues(&step_d1, &step_d2, &jet_in.d1, rate_v, settings) {
+        return Joint::Straight;
+    }
+    let turn = Turn::between(&jet_in.d1, &jet_out.d1);
+    if exact || turn.cb < REVERSAL_CB {
+        return Joint::Stop;
+    }
+    let family = match (from.segment, to.segment) {
+        (Segment::Line(_), Segment::Line(_)) if settings.smoothing == Smoothing::BezierPair => {
+            Family::Pair
+        }
+        (Segment::Line(_), Segment::Line(_)) => Family::Sextic,
+        _ => Family::Hermite,
+    };
+    let corner = Corner {
+        from,
+        to,
+        t1: jet_in.d1,
+        t2: jet_out.d1,
+        rate_v,
+        gentle: turn.sb <= GENTLE_SB && turn.cb > 0.0,
+        tolerance_mm: mode.tolerance_mm(settings),
+        family,
+        settings,
+    };
+    match corner.best() {
+        Some(found) if !corner.stop_is_faster(&found) => Joint::Blend {
+            transition: found.transition,
+            trim_s: found.d_s,
+            limit: found.limit,
+        },
+        _ => Joint::Stop,
+    }
+}
+
+/// True if passing from one derivative to the other at the full rate is no more than rounding: the
+/// steps of velocity and acceleration it makes are below what the jerk limit resolves.
+fn continues(
+    step_d1: &AxisVector,
+    step_d2: &AxisVector,
+    d1: &AxisVector,
+    rate_v: f64,
+    settings: &Settings,
+) -> bool {
+    let Settings {
+        limits, period_t, ..
+    } = settings;
+    let v = speed_limit::straight(d1, rate_v, limits).top_v;
+    (0..AXES).all(|i| {
+        let velocity_step_v = step_d1[i].abs() * v;
+        let acceleration_step_a = step_d2[i].abs() * v * v;
+        velocity_step_v / (period_t * period_t) + acceleration_step_a / period_t
+            <= 1e-7 * limits.jerk[i]
+    })
+}
+
+/// A corner for which a transition is sought.
+struct Corner<'a> {
+    from: Leg<'a>,
+    to: Leg<'a>,
+    t1: AxisVector,
+    t2: AxisVector,
+    rate_v: f64,
+    gentle: bool,
+    tolerance_mm: f64,
+    family: Family,
+    settings: &'a Settings,
+}
+
+/// A transition that takes `d_s` from each side.
+#[derive(Clone, Copy)]
+struct Candidate {
+    d_s: f64,
+    transition: Transition,
+    limit: SpeedLimit,
+    /// Deviation and chord error together, mm.
+    error_mm: f64,
+}
+
+impl Corner<'_> {
+    fn best(&self) -> Option<Candidate> {
+        let share_s = 0.5 * self.from.length_s.min(self.to.length_s);
+        let longest_s = share_s
+            .min(arc_share(self.from.segment))
+            .min(arc_share(self.to.segment));
+        let mut best = self.candidate(longest_s)?;
+        if best.error_mm > self.tolerance_mm {
+            let (mut fits_s, mut exceeds_s) = (0.0, longest_s);
+            let mut fitting = None;
+            for _ in 0..HALVINGS {
+                let middle_s = 0.5 * (fits_s + exceeds_s);
+                let candidate = self.candidate(middle_s)?;
+                if candidate.error_mm <= self.tolerance_mm {
+                    fits_s = middle_s;
+                    fitting = Some(candidate);
+                } else {
+                    exceeds_s = middle_s;
+                }
+            }
+            best = fitting?;
+        }
+        Some(self.no_longer_than_needed(best))
+    }
+
+    /// The shortest transition that is as fast as the programmed rate, if the best is that fast.
+    fn no_longer_than_needed(&self, best: Candidate) -> Candidate {
+        let wanted_v = self.full_speed_v() * (1.0 - 1e-3);
+        if best.limit.top_v < wanted_v {
+            return best;
+        }
+        let (mut slow_s, mut found) = (0.0, best);
+        for _ in 0..HALVINGS {
+            let middle_s = 0.5 * (slow_s + found.d_s);
+            match self.candidate(middle_s) {
+                Some(shorter)
+                    if shorter.limit.top_v >= wanted_v && shorter.error_mm <= self.tolerance_mm =>
+                {
+                    found = shorter;
+                }
+                _ => slow_s = middle_s,
+            }
+        }
+        found
+    }
+
+    /// The rate at which the straight parts beside the corner can be driven.
+    fn full_speed_v(&self) -> f64 {
+        let limits = &self.settings.limits;
+        speed_limit::straight(&self.t1, self.rate_v, limits)
+            .top_v
+            .min(speed_limit::straight(&self.t2, self.rate_v, limits).top_v)
+    }
+
+    fn candidate(&self, d_s: f64) -> Option<Candidate> {
+        let corner = self.to.segment.start();
+        let transition = match self.family {
+            Family::Sextic => Transition::sextic(corner, self.t1, self.t2, d_s),
+            Family::Pair => {
+                Transition::bezier_pair(corner, self.t1, self.t2, d_s, PairShape::SMOOTH)
+                    .unwrap_or_else(|_| Transition::sextic(corner, self.t1, self.t2, d_s))
+            }
+            Family::Hermite => Transition::hermite(
+                &self.from.segment.jet(self.from.length_s - d_s),
+                &self.to.segment.jet(d_s),
+                2.0 * d_s,
+            ),
+        };
+        let bounds = transition.bounds();
+        let limits = &self.settings.limits;
+        let limit = if self.gentle {
+            speed_limit::curved(&bounds, self.rate_v, limits)
+        } else {
+            speed_limit::constant(&bounds, self.rate_v, limits)
+        };
+        let deviation_mm = match self.family {
+            Family::Hermite => self.measured_deviation_mm(&transition, d_s),
+            // Both families are symmetric: they are farthest from the program at the corner.
+            _ => tolerance_norm(&(transition.jet(0.5 * transition.length()).position - corner)),
+        };
+        let error_mm = deviation_mm + chord_error_mm(&bounds, limit.top_v, self.settings.period_t);
+        (limit.top_v > 0.0 && error_mm.is_finite()).then_some(Candidate {
+            d_s,
+            transition,
+            limit,
+            error_mm,
+        })
+    }
+
+    /// Largest distance between points of equal path position of transition and program.
+    fn measured_deviation_mm(&self, transition: &Transition, d_s: f64) -> f64 {
+        (1..DEVIATION_POINTS)
+            .map(|i| {
+                let s = 2.0 * d_s * f64::from(i) / f64::from(DEVIATION_POINTS);
+                let program = if s < d_s {
+                    self.from.segment.jet(self.from.length_s - d_s + s)
+                } else {
+                    self.to.segment.jet(s - d_s)
+                };
+                tolerance_norm(&(transition.jet(s).position - program.position))
+            })
+            .fold(0.0, f64::max)
+            * DEVIATION_MARGIN_R
+    }
+
+    /// Compares the time from the middle of one segment to the middle of the next, with the same
+    /// speeds there.
+    fn stop_is_faster(&self, found: &Candidate) -> bool {
+        if self.gentle {
+            return false;
+        }
+        let limits = &self.settings.limits;
+        let corner_v = found.limit.top_v;
+        let mut gain_t = -found.transition.length() / corner_v;
+        for (leg, tangent) in [(self.from, &self.t1), (self.to, &self.t2)] {
+            let SpeedLimit { top_v, change } = speed_limit::straight(tangent, leg.rate_v, limits);
+            let Some(change) = change else { return false };
+            let half_s = 0.5 * leg.length_s;
+            let left_s = (half_s - found.d_s).max(0.0);
+            let middle_v = top_v
+                .min(reachable_speed(0.0, half_s, change))
+                .min(reachable_speed(corner_v.min(top_v), left_s, change));
+            gain_t += time_t(0.0, middle_v, half_s, top_v, change)
+                - time_t(corner_v.min(middle_v), middle_v, left_s, top_v, change);
+        }
+        gain_t < 0.0
+    }
+}
+
+/// Time over a length between two speeds, s.
+fn time_t(from_v: f64, to_v: f64, length_s: f64, top_v: f64, limits: PathLimits) -> f64 {
+    Profile::new(from_v, to_v, length_s, top_v, limits).map_or(0.0, |p| p.duration_t())
+}
+
+/// The most an arc may give to a joint.
+fn arc_share(segment: &Segment) -> f64 {
+    match segment {
+        Segment::Line(_) => f64::INFINITY,
+        Segment::Arc(arc) => ARC_SHARE_RAD / arc.sweep_rad.abs() * arc.length(),
+    }
+}
+
+/// The distance that a tolerance bounds: the XYZ part, the UVW part, or a rotary axis, whichever is
+/// largest.
+pub(crate) fn tolerance_norm(difference: &AxisVector) -> f64 {
+    let norm = |axes: core::ops::Range<usize>| {
+        axes.map(|i| difference[i] * difference[i])
+            .sum::<f64>()
+            .sqrt()
+    };
+    let rotary = ROTARY_ABC.map(|i| difference[i].abs()).fold(0.0, f64::max);
+    norm(LINEAR_XYZ).max(norm(UVW)).max(rotary)
+}
+
+/// Largest distance between a curve and the chord of one period at a speed: |q″|·(v·T)²/8.
+pub(crate) fn chord_error_mm(bounds: &DerivativeBounds, top_v: f64, period_t: f64) -> f64 {
+    let step_s = top_v * period_t;
+    tolerance_norm(&bounds.d2) * step_s * step_s / 8.0
+}

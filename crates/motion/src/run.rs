@@ -1,0 +1,290 @@
+//! Runs: stretches of path that one S-curve, or a few, drive through.
+//!
+//! Junctions between runs are passed with zero acceleration along the path. Where the path allows a
+//! useful change of speed within one piece, the piece is a run by itself and nothing is lost. Where
+//! pieces are so short that it does not, many form one run, and the speed inside is found valley
+//! first:
+//!
+//! 1. Drive the whole run with one S-curve as if nothing but the ends bounded it.
+//! 2. Of the pieces on which it is too fast, take the slowest one, with top speed V.
+//! 3. Drive the run again, nowhere faster than V. It then cruises at V around that piece. The parts
+//!    before and after the piece that begin or end inside the cruise are runs of their own, from the
+//!    old end to V and from V to the old end; go on with each from step 1.
+//!
+//! ```text
+//!   cap  ‾‾‾‾‾‾|__        ____|‾‾‾‾‾‾‾
+//!                 |__    |
+//!                    |___|  ← slowest violated piece: junctions at its two ends, speed V
+//! ```
+//!
+//! The end speeds never exceed a cap inside that is still to be violated: caps are taken in rising
+//! order, and lowering the peak of an S-curve lowers it everywhere. So every step is feasible, and
+//! there is nothing to go back on.
+
+use crate::path::Piece;
+use crate::scurve::{PathLimits, Profile, reachable_speed, slowing_horizon};
+
+/// A stretch of path with zero acceleration along it at both ends.
+#[derive(Debug, Clone)]
+pub(crate) struct Run {
+    pub pieces: Vec<Piece>,
+    pub length_s: f64,
+    /// Lowest and highest top speed of its pieces.
+    pub low_v: f64,
+    pub high_v: f64,
+    /// The weakest limits of its pieces; `None` where the speed has to be constant.
+    pub change: Option<PathLimits>,
+    short: bool,
+    /// Lowest top speed of its curved pieces.
+    curved_v: f64,
+}
+
+/// One S-curve of a run, and where in the run it starts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Leg {
+    pub from_s: f64,
+    pub profile: Profile,
+}
+
+/// Most pieces of one run.
+const MOST_PIECES: usize = 512;
+/// A piece is short if it does not allow this share of its top speed to be gained.
+const USEFUL_CHANGE_R: f64 = 0.1;
+/// Curved pieces belong to one run while their top speeds differ by at most this factor.
+const SIMILAR_SPEED_R: f64 = 2.5;
+/// A speed above a cap by less than this is rounding.
+const SPEED_ROUNDING_R: f64 = 1e-9;
+
+impl Run {
+    pub(crate) fn new(piece: Piece) -> Self {
+        let top_v = piece.limit.top_v;
+        let change = piece.limit.change;
+        let short = change.is_some_and(|limits| {
+            reachable_speed((1.0 - USEFUL_CHANGE_R) * top_v, piece.length_s, limits) < top_v
+        });
+        Self {
+            length_s: piece.length_s,
+            low_v: top_v,
+            high_v: top_v,
+            change,
+            short,
+            curved_v: if piece.is_straight() {
+                f64::INFINITY
+            } else {
+                top_v
+            },
+            pieces: vec![piece],
+        }
+    }
+
+    /// Adds the pieces of the next run if both are driven better as one; gives it back if not.
+    pub(crate) fn absorb(&mut self, next: Self) -> Option<Self> {
+        let (Some(mine), Some(its)) = (self.change, next.change) else {
+            return Some(next);
+        };
+        let ratio_r = self.curved_v / next.curved_v;
+        let similar = !ratio_r.is_finite()
+            || ratio_r == 0.0
+            || (1.0 / SIMILAR_SPEED_R..=SIMILAR_SPEED_R).contains(&ratio_r);
+        let full = self.pieces.len() >= MOST_PIECES
+            || self.length_s > 4.0 * slowing_horizon(self.high_v, mine);
+        if !(self.short && next.short && similar) || full {
+            return Some(next);
+        }
+        self.length_s += next.length_s;
+        self.low_v = self.low_v.min(next.low_v);
+        self.high_v = self.high_v.max(next.high_v);
+        self.curved_v = self.curved_v.min(next.curved_v);
+        self.change = Some(weaker(mine, its));
+        self.pieces.extend(next.pieces);
+        None
+    }
+
+    /// The S-curves through the run, from `entry_v` to `exit_v`, both at most [`Run::low_v`] and
+    /// feasible over its length.
+    pub(crate) fn drive(&self, entry_v: f64, exit_v: f64) -> Vec<Leg> {
+        let mut legs = Vec::new();
+        let Some(change) = self.change else {
+            // Constant speed: the limits do not matter.
+            let limits = PathLimits {
+                accel_a: 1.0,
+                jerk_j: 1.0,
+            };
+            let profile = Profile::new(entry_v, entry_v, self.length_s, entry_v, limits);
+            legs.extend(profile.map(|profile| Leg {
+                from_s: 0.0,
+                profile,
+            }));
+            return legs;
+        };
+        let mut starts_s = Vec::with_capacity(self.pieces.len() + 1);
+        let mut s = 0.0;
+        for piece in &self.pieces {
+            starts_s.push(s);
+            s += piece.length_s;
+        }
+        starts_s.push(s);
+        let valley = ValleyFirst {
+            pieces: &self.pieces,
+            starts_s: &starts_s,
+        };
+        let span = Span {
+            first: 0,
+            last: self.pieces.len(),
+            entry_v,
+            exit_v,
+        };
+        valley.drive(span, change, &mut legs);
+        legs
+    }
+}
+
+fn weaker(a: PathLimits, b: PathLimits) -> PathLimits {
+    PathLimits {
+        accel_a: a.accel_a.min(b.accel_a),
+        jerk_j: a.jerk_j.min(b.jerk_j),
+    }
+}
+
+struct ValleyFirst<'a> {
+    pieces: &'a [Piece],
+    /// Where each piece starts, and where the last one ends.
+    starts_s: &'a [f64],
+}
+
+/// Pieces `first..last`, to be driven from one speed to another.
+#[derive(Clone, Copy)]
+struct Span {
+    first: usize,
+    last: usize,
+    entry_v: f64,
+    exit_v: f64,
+}
+
+impl ValleyFirst<'_> {
+    fn drive(&self, span: Span, outer: PathLimits, legs: &mut Vec<Leg>) {
+        let own = self.pieces[span.first..span.last]
+            .iter()
+            .filter_map(|piece| piece.limit.change)
+            .reduce(weaker)
+            .unwrap_or(outer);
+        let Some((used, profile, violated)) = self.unbounded(span, own, outer) else {
+            return;
+        };
+        let Some(slowest) = violated else {
+            legs.push(Leg {
+                from_s: self.starts_s[span.first],
+                profile,
+            });
+            return;
+        };
+        let cap_v = self.pieces[slowest]
+            .limit
+            .top_v
+            .max(span.entry_v)
+            .max(span.exit_v);
+        let Some(capped) = self.profile(span, cap_v, used) else {
+            return;
+        };
+        let base_s = self.starts_s[span.first];
+        let (cruise_from_s, cruise_to_s) = capped.cruise_s();
+        let (cruise_from_s, cruise_to_s) = (base_s + cruise_from_s, base_s + cruise_to_s);
+        let cruises =
+            |junction: &usize| (cruise_from_s..=cruise_to_s).contains(&self.starts_s[*junction]);
+        let before = (span.first + 1..=slowest).rev().find(cruises);
+        let after = (slowest + 1..span.last).find(cruises);
+
+        let mut middle = span;
+        if let Some(junction) = before {
+            self.drive(
+                Span {
+                    last: junction,
+                    exit_v: cap_v,
+                    ..span
+                },
+                used,
+                legs,
+            );
+            middle = Span {
+                first: junction,
+                entry_v: cap_v,
+                ..middle
+            };
+        }
+        if let Some(junction) = after {
+            middle = Span {
+                last: junction,
+                exit_v: cap_v,
+                ..middle
+            };
+        }
+        if let Some(profile) = self.profile(middle, cap_v, used) {
+            legs.push(Leg {
+                from_s: self.starts_s[middle.first],
+                profile,
+            });
+        }
+        if let Some(junction) = after {
+            self.drive(
+                Span {
+                    first: junction,
+                    entry_v: cap_v,
+                    ..span
+                },
+                used,
+                legs,
+            );
+        }
+    }
+
+    /// The S-curve with only the ends given, by the span's own limits, or by those of the span it
+    /// was cut from where its own make it too fast on a piece slower than its ends.
+    fn unbounded(
+        &self,
+        span: Span,
+        own: PathLimits,
+        outer: PathLimits,
+    ) -> Option<(PathLimits, Profile, Option<usize>)> {
+        let ends_v = span.entry_v.max(span.exit_v);
+        let highest_v = self.pieces[span.first..span.last]
+            .iter()
+            .map(|piece| piece.limit.top_v)
+            .fold(ends_v, f64::max);
+        let mut found = None;
+        for limits in [own, outer] {
+            let profile = self.profile(span, highest_v, limits)?;
+            let violated = self.slowest_violated(span, &profile);
+            found = Some((limits, profile, violated));
+            let sound = violated
+                .is_none_or(|m| self.pieces[m].limit.top_v >= ends_v * (1.0 - SPEED_ROUNDING_R));
+            if sound {
+                break;
+            }
+        }
+        found
+    }
+
+    fn profile(&self, span: Span, top_v: f64, limits: PathLimits) -> Option<Profile> {
+        let length_s = self.starts_s[span.last] - self.starts_s[span.first];
+        Profile::new(span.entry_v, span.exit_v, length_s, top_v, limits)
+    }
+
+    fn slowest_violated(&self, span: Span, profile: &Profile) -> Option<usize> {
+        let base_s = self.starts_s[span.first];
+        let mut slowest: Option<usize> = None;
+        for m in span.first..span.last {
+            let top_v = self.pieces[m].limit.top_v;
+            if profile.peak_v() <= top_v * (1.0 + SPEED_ROUNDING_R)
+                || slowest.is_some_and(|s| self.pieces[s].limit.top_v <= top_v)
+            {
+                continue;
+            }
+            let greatest_v = profile
+                .greatest_speed_between(self.starts_s[m] - base_s, self.starts_s[m + 1] - base_s);
+            if greatest_v > top_v * (1.0 + SPEED_ROUNDING_R) {
+                slowest = Some(m);
+            }
+        }
+        slowest
+    }
+}

@@ -1,0 +1,263 @@
+//! Sampling: settled motion to frames on the period grid.
+//!
+//! The grid runs on through every phase, piece and run: each stretch of motion starts a fraction of
+//! a period before its first frame, and that fraction is carried, never rounded. Times and positions
+//! are kept relative to the stretch, so a long program loses no digits.
+
+use crate::path::{Piece, Rest, RestKind};
+use crate::run::Leg;
+use crate::schedule::Settled;
+use crate::{Event, Frame, FrameFlags};
+use glidepath_geometry::AxisVector;
+use std::collections::VecDeque;
+
+/// Makes frames of settled motion, one at a time.
+#[derive(Debug)]
+pub(crate) struct Sampler {
+    period_t: f64,
+    sequence: u64,
+    /// Time from the start of the stretch at hand to its first frame, 0 < t ≤ period.
+    first_frame_t: f64,
+    stretch: Option<Stretch>,
+    /// Frames still to come at rest.
+    rest: Option<Resting>,
+    events: VecDeque<Event>,
+    /// Where the last stretch ended.
+    position: AxisVector,
+    path_s: f64,
+    line: u32,
+}
+
+#[derive(Debug)]
+struct Stretch {
+    pieces: Vec<Piece>,
+    legs: Vec<Leg>,
+    leg: usize,
+    piece: usize,
+    /// Where the piece at hand starts.
+    piece_s: f64,
+    /// Frames made since the leg at hand started.
+    frames: u32,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Resting {
+    frames: u64,
+    flags: FrameFlags,
+    event: Option<Event>,
+    line: u32,
+}
+
+impl Sampler {
+    pub(crate) fn new(period_t: f64, start: AxisVector) -> Self {
+        let first = Resting {
+            frames: 1,
+            flags: FrameFlags::FIRST,
+            event: None,
+            line: 0,
+        };
+        Self {
+            period_t,
+            sequence: 0,
+            first_frame_t: period_t,
+            stretch: None,
+            rest: Some(first),
+            events: VecDeque::new(),
+            position: start,
+            path_s: 0.0,
+            line: 0,
+        }
+    }
+
+    /// The next frame, as far as the motion is settled.
+    pub(crate) fn next_frame(&mut self, settled: &mut VecDeque<Settled>) -> Option<Frame> {
+        loop {
+            if let Some(resting) = &mut self.rest {
+                if resting.frames > 0 {
+                    resting.frames -= 1;
+                    let resting = *resting;
+                    return Some(self.rest_frame(resting));
+                }
+                self.rest = None;
+            }
+            if self.stretch.is_some() {
+                if let Some(frame) = self.motion_frame() {
+                    return Some(frame);
+                }
+                self.stretch = None;
+            }
+            match settled.pop_front()? {
+                Settled::Motion { pieces, legs } => {
+                    self.stretch = Some(Stretch {
+                        pieces,
+                        legs,
+                        leg: 0,
+                        piece: 0,
+                        piece_s: 0.0,
+                        frames: 0,
+                    });
+                    self.enter_piece();
+                }
+                Settled::Rest(rest) => self.enter_rest(rest),
+            }
+        }
+    }
+
+    fn enter_rest(&mut self, rest: Rest) {
+        let resting = |frames, flags, event| Resting {
+            frames,
+            flags,
+            event,
+            line: rest.line,
+        };
+        let at_rest = FrameFlags::EXACT_STOP;
+        let resting = match rest.kind {
+            RestKind::Corner => return,
+            RestKind::ExactStop => resting(1, at_rest, None),
+            RestKind::Dwell(dwell_t) => resting(1 + self.periods(dwell_t), FrameFlags::DWELL, None),
+            RestKind::Event(event @ (Event::ProgramStop(_) | Event::OptionalStop)) => {
+                resting(1, at_rest.with(FrameFlags::PROGRAM_STOP), Some(event))
+            }
+            RestKind::Event(event) => resting(1, at_rest, Some(event)),
+            RestKind::End => resting(1, FrameFlags::LAST, None),
+        };
+        // Events of the motion that still wait happen first.
+        let waiting = self.events.len() as u64;
+        let frames = match rest.kind {
+            RestKind::End => resting.frames,
+            _ => resting.frames + waiting,
+        };
+        self.rest = Some(Resting { frames, ..resting });
+        self.first_frame_t = self.period_t;
+    }
+
+    /// Whole periods that a time takes.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a float to integer cast saturates, and the time is not negative"
+    )]
+    fn periods(&self, time_t: f64) -> u64 {
+        (time_t / self.period_t - 1e-9).ceil().max(0.0) as u64
+    }
+
+    fn rest_frame(&mut self, resting: Resting) -> Frame {
+        let last = resting.frames == 0;
+        let queued = self.events.pop_front();
+        let event = queued.or(if last { resting.event } else { None });
+        let flags = if last && queued.is_none() || !resting.flags.contains(FrameFlags::PROGRAM_STOP)
+        {
+            resting.flags
+        } else {
+            FrameFlags::EXACT_STOP
+        };
+        if resting.line > 0 {
+            self.line = resting.line;
+        }
+        let frame = Frame {
+            sequence: self.sequence,
+            line: self.line,
+            flags,
+            event,
+            path_v: 0.0,
+            path_s: self.path_s,
+            position: self.position,
+            velocity: AxisVector::zeros(),
+            acceleration: AxisVector::zeros(),
+        };
+        self.sequence += 1;
+        frame
+    }
+
+    /// The next frame of the stretch, or `None` after setting up for the next one.
+    fn motion_frame(&mut self) -> Option<Frame> {
+        loop {
+            let stretch = self.stretch.as_ref()?;
+            let Some(leg) = stretch.legs.get(stretch.leg).copied() else {
+                self.leave_stretch();
+                return None;
+            };
+            let t = self.first_frame_t + f64::from(stretch.frames) * self.period_t;
+            if t < leg.profile.duration_t() {
+                return self.frame_at(leg, t);
+            }
+            self.first_frame_t = (t - leg.profile.duration_t()).min(self.period_t);
+            if let Some(stretch) = &mut self.stretch {
+                stretch.leg += 1;
+                stretch.frames = 0;
+            }
+        }
+    }
+
+    fn frame_at(&mut self, leg: Leg, t: f64) -> Option<Frame> {
+        let state = leg.profile.at(t);
+        let s = leg.from_s + state.position_s;
+        loop {
+            let stretch = self.stretch.as_ref()?;
+            let piece = stretch.pieces.get(stretch.piece)?;
+            let last = stretch.piece + 1 == stretch.pieces.len();
+            if last || s < stretch.piece_s + piece.length_s {
+                break;
+            }
+            self.leave_piece();
+        }
+        let stretch = self.stretch.as_mut()?;
+        stretch.frames += 1;
+        let piece = stretch.pieces.get(stretch.piece)?;
+        let jet = piece.jet(s - stretch.piece_s);
+        let (v, a) = (state.speed_v, state.accel_a);
+        let frame = Frame {
+            sequence: self.sequence,
+            line: piece.line,
+            flags: if piece.rapid {
+                FrameFlags::RAPID
+            } else {
+                FrameFlags::default()
+            },
+            event: self.events.pop_front(),
+            path_v: v,
+            path_s: self.path_s + (s - stretch.piece_s),
+            position: jet.position,
+            velocity: jet.d1 * v,
+            acceleration: jet.d2 * (v * v) + jet.d1 * a,
+        };
+        self.sequence += 1;
+        Some(frame)
+    }
+
+    /// Goes on to the next piece of the stretch.
+    fn leave_piece(&mut self) {
+        if let Some(stretch) = &mut self.stretch
+            && let Some(piece) = stretch.pieces.get(stretch.piece)
+        {
+            stretch.piece_s += piece.length_s;
+            stretch.piece += 1;
+            self.path_s += piece.length_s;
+        }
+        self.enter_piece();
+    }
+
+    fn enter_piece(&mut self) {
+        if let Some(stretch) = &self.stretch
+            && let Some(piece) = stretch.pieces.get(stretch.piece)
+        {
+            self.events.extend(piece.events.iter().copied());
+            self.line = piece.line;
+        }
+    }
+
+    /// Passes the pieces that no frame fell on, and notes where the stretch ends.
+    fn leave_stretch(&mut self) {
+        while let Some(stretch) = &self.stretch
+            && stretch.piece + 1 < stretch.pieces.len()
+        {
+            self.leave_piece();
+        }
+        if let Some(stretch) = &self.stretch
+            && let Some(piece) = stretch.pieces.last()
+        {
+            self.position = piece.jet(piece.length_s).position;
+            self.path_s += piece.length_s;
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! How fast a piece of path may be driven: from the limits of the axes to limits along the path.
+//!
+//! With position q(s) along the path and s(t) in time, every axis sees
+//!
+//! ```text
+//! q̇ = q′ ṡ        q̈ = q″ ṡ² + q′ s̈        q⃛ = q‴ ṡ³ + 3 q″ ṡ s̈ + q′ s⃛
+//! ```
+//!
+//! On a straight piece only the last term of each is there. On a curved one, part of an axis' limit
+//! goes to following the curve at the top speed, and what is left may be used to change speed. The
+//! share is fixed here, so that a piece has one top speed, one acceleration and one jerk, all of
+//! which may be used at once anywhere on it.
+
+use crate::Limits;
+use crate::scurve::PathLimits;
+use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds};
+
+/// What a piece of path allows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SpeedLimit {
+    /// Top speed, mm/s.
+    pub top_v: f64,
+    /// Acceleration and jerk along the path; `None` where the speed has to be constant.
+    pub change: Option<PathLimits>,
+}
+
+/// Share of an axis' acceleration and jerk spent on following a curve at its top speed.
+const FOLLOW_ACCEL_R: f64 = 0.6;
+const FOLLOW_JERK_R: f64 = 0.4;
+/// Share of the jerk spent on the product of acceleration along the path and curvature.
+const CROSS_JERK_R: f64 = 0.3;
+
+/// The largest x with x·coefficient ≤ limit on every axis.
+fn largest(limit: &AxisVector, coefficient: &AxisVector) -> f64 {
+    (0..AXES)
+        .filter(|&i| coefficient[i].abs() > 0.0)
+        .map(|i| limit[i] / coefficient[i].abs())
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// A straight piece in the direction `d1`, at most at `rate_v`.
+pub(crate) fn straight(d1: &AxisVector, rate_v: f64, limits: &Limits) -> SpeedLimit {
+    SpeedLimit {
+        top_v: rate_v.min(largest(&limits.velocity, d1)),
+        change: Some(PathLimits {
+            accel_a: largest(&limits.acceleration, d1),
+            jerk_j: largest(&limits.jerk, d1),
+        }),
+    }
+}
+
+/// A curve driven at constant speed: all of every limit goes into following it.
+pub(crate) fn constant(bounds: &DerivativeBounds, rate_v: f64, limits: &Limits) -> SpeedLimit {
+    let top_v = rate_v
+        .min(largest(&limits.velocity, &bounds.d1))
+        .min(largest(&limits.acceleration, &bounds.d2).sqrt())
+        .min(largest(&limits.jerk, &bounds.d3).cbrt());
+    SpeedLimit {
+        top_v,
+        change: None,
+    }
+}
+
+/// A curve on which the speed may change.
+pub(crate) fn curved(bounds: &DerivativeBounds, rate_v: f64, limits: &Limits) -> SpeedLimit {
+    let top_v = rate_v
+        .min(largest(&limits.velocity, &bounds.d1))
+        .min((FOLLOW_ACCEL_R * largest(&limits.acceleration, &bounds.d2)).sqrt())
+        .min((FOLLOW_JERK_R * largest(&limits.jerk, &bounds.d3)).cbrt());
+    let left_a = limits.acceleration - bounds.d2 * (top_v * top_v);
+    let cross = bounds.d2 * (3.0 * top_v);
+    let accel_a = largest(&left_a, &bounds.d1).min(CROSS_JERK_R * largest(&limits.jerk, &cross));
+    let left_j = limits.jerk - bounds.d3 * top_v.powi(3) - cross * accel_a;
+    let jerk_j = largest(&left_j, &bounds.d1);
+    SpeedLimit {
+        top_v,
+        change: Some(PathLimits { accel_a, jerk_j }),
+    }
+}
+
+/// An arc. Its normal and tangential parts are at right angles, so in the plane of the arc they add
+/// as squares whatever the direction of motion is.
+pub(crate) fn arc(arc: &Arc, rate_v: f64, limits: &Limits) -> SpeedLimit {
+    let length_s = arc.length();
+    let (first, second) = arc.plane.axes();
+    let (first, second) = (first.index(), second.index());
+    let in_plane = |limit: &AxisVector| limit[first].min(limit[second]);
+    let mut straight_d1 = (arc.end - arc.start) / length_s;
+    straight_d1[first] = 0.0;
+    straight_d1[second] = 0.0;
+
+    let radius_mm = arc.start_radius().max(arc.end_radius());
+    let drift = (arc.end_radius() - arc.start_radius()).abs() / length_s;
+    let omega = arc.sweep_rad.abs() / length_s;
+    // Bounds of the in-plane derivatives; `drift` is the rounding of programs, practically zero.
+    let d1 = radius_mm * omega + drift;
+    let d2 = radius_mm * omega * omega + 2.0 * drift * omega;
+    let d3 = (radius_mm * omega + 3.0 * drift) * omega * omega;
+    let plane_a = in_plane(&limits.acceleration);
+    let plane_j = in_plane(&limits.jerk);
+
+    let along = straight(&straight_d1, rate_v, limits);
+    let top_v = along
+        .top_v
+        .min(in_plane(&limits.velocity) / d1)
+        .min((0.75 * plane_a / d2).sqrt())
+        .min((FOLLOW_JERK_R * plane_j / d3).cbrt());
+    let normal_a = d2 * top_v * top_v;
+    let cross_j = 0.7 * plane_j;
+    let accel_a =
+        ((plane_a * plane_a - normal_a * normal_a).sqrt() / d1).min(cross_j / (3.0 * d2 * top_v));
+    let used_j = 3.0 * d2 * top_v * accel_a;
+    let jerk_j = ((plane_j * plane_j - used_j * used_j).sqrt() - d3 * top_v.powi(3)) / d1;
+    let change = along.change.unwrap_or(PathLimits { accel_a, jerk_j });
+    SpeedLimit {
+        top_v,
+        change: Some(PathLimits {
+            accel_a: accel_a.min(change.accel_a),
+            jerk_j: jerk_j.min(change.jerk_j),
+        }),
+    }
+}
