@@ -71,6 +71,7 @@ pub(crate) struct Rest {
 
 /// What the path front makes.
 #[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "nearly every element is a piece")]
 pub(crate) enum Element {
     Piece(Piece),
     Rest(Rest),

@@ -77,6 +77,15 @@ impl Run {
         }
     }
 
+    /// The length on which the speed may change.
+    pub(crate) const fn slowing_room_s(&self) -> f64 {
+        if self.change.is_some() {
+            self.length_s
+        } else {
+            0.0
+        }
+    }
+
     /// Adds the pieces of the next run if both are driven better as one; gives it back if not.
     pub(crate) fn absorb(&mut self, next: Self) -> Option<Self> {
         let (Some(mine), Some(its)) = (self.change, next.change) else {

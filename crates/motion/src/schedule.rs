@@ -12,7 +12,7 @@
 
 use crate::path::{Element, Piece, Rest};
 use crate::run::{Leg, Run};
-use crate::scurve::{PathLimits, ramp_length, reachable_speed, slowing_horizon};
+use crate::scurve::{PathLimits, ramp_fits, reachable_speed, slowing_horizon};
 use std::collections::VecDeque;
 
 /// A part of the motion that nothing later changes.
@@ -33,6 +33,7 @@ pub(crate) struct Scheduler {
     /// The run that may still grow.
     open: Option<Run>,
     waiting: VecDeque<Run>,
+    /// Length on which the waiting runs can slow down.
     waiting_s: f64,
     waiting_pieces: usize,
     /// Highest top speed and weakest limits met in the chain.
@@ -90,7 +91,7 @@ impl Scheduler {
     }
 
     fn enqueue(&mut self, run: Run) {
-        self.waiting_s += run.length_s;
+        self.waiting_s += run.slowing_room_s();
         self.waiting_pieces += run.pieces.len();
         self.fastest_v = self.fastest_v.max(run.high_v);
         if let Some(change) = run.change {
@@ -111,7 +112,7 @@ impl Scheduler {
                 .waiting
                 .iter()
                 .take_while(|run| {
-                    beyond_s -= run.length_s;
+                    beyond_s -= run.slowing_room_s();
                     beyond_s >= horizon_s
                 })
                 .count();
@@ -131,7 +132,7 @@ impl Scheduler {
             let exit_v = exit_speed(&run, self.entry_v, highest_v[i + 1]);
             let legs = run.drive(self.entry_v, exit_v);
             self.entry_v = exit_v;
-            self.waiting_s -= run.length_s;
+            self.waiting_s -= run.slowing_room_s();
             self.waiting_pieces -= run.pieces.len();
             out.push_back(Settled::Motion {
                 pieces: run.pieces,
@@ -183,8 +184,8 @@ fn exit_speed(run: &Run, entry_v: f64, highest_v: f64) -> f64 {
     if entry_v <= highest_v {
         return highest_v.min(reachable_speed(entry_v, run.length_s, limits));
     }
-    let fits = |exit_v: f64| ramp_length(entry_v, exit_v, limits) <= run.length_s;
-    if fits(highest_v) || ramp_length(entry_v, highest_v, limits) <= run.length_s * (1.0 + 1e-9) {
+    let fits = |exit_v: f64| ramp_fits(entry_v, exit_v, run.length_s, limits);
+    if fits(highest_v) {
         return highest_v;
     }
     // Too short to slow down just to that; slowing down further needs less room. The length of a

@@ -75,6 +75,15 @@ pub fn ramp_length(from_v: f64, to_v: f64, limits: PathLimits) -> f64 {
     0.5 * (from_v + to_v) * ramp_duration(from_v, to_v, limits)
 }
 
+/// True if a ramp between two speeds fits into a length, up to the rounding of the speeds: where they
+/// hardly differ, their difference, and with it the length of the ramp, has few digits left.
+#[must_use]
+pub fn ramp_fits(from_v: f64, to_v: f64, length_s: f64, limits: PathLimits) -> bool {
+    let change_v = (to_v - from_v).abs();
+    let rounding_r = 1e-9 + 8.0 * f64::EPSILON * from_v.max(to_v) / change_v.max(f64::MIN_POSITIVE);
+    ramp_length(from_v, to_v, limits) <= length_s * (1.0 + rounding_r)
+}
+
 /// The length that is enough to slow down from `feed_v` to any lower speed, mm.
 ///
 /// The largest [`ramp_length`] over all final speeds; longer than the stopping distance.
@@ -166,8 +175,7 @@ impl Profile {
     /// The fastest motion over `length_s` ≥ 0 from `entry_v` to `exit_v`, nowhere faster than
     /// `top_v` ≥ both.
     ///
-    /// `None` if the length is too short for the change of speed. A length up to 1e-9 relative short
-    /// (rounding of the caller's reach computation) is taken as just enough.
+    /// `None` if the length is too short for the change of speed, see [`ramp_fits`].
     #[must_use]
     pub fn new(
         entry_v: f64,
@@ -176,8 +184,7 @@ impl Profile {
         top_v: f64,
         limits: PathLimits,
     ) -> Option<Self> {
-        let at_least_s = ramp_length(entry_v, exit_v, limits);
-        if at_least_s > length_s * (1.0 + 1e-9) + 1e-15 {
+        if !ramp_fits(entry_v, exit_v, length_s, limits) {
             return None;
         }
         let base_v = entry_v.max(exit_v);
