@@ -1,1 +1,49 @@
-//! G-code text to canonical machining moves, with diagnostics.
+//! RS274/NGC text to canonical machining moves, with diagnostics.
+//!
+//! ```text
+//! bytes ─ LineSource ─► line ─ Block::parse ─► block ─ Interpreter ─► items (lines, arcs, events)
+//!                                                        │ modal state, offsets
+//! ```
+//!
+//! A program is read line by line in constant memory. Everything given out is in machine
+//! coordinates, in mm, degrees and mm/s, whatever the program's units and offsets. What is not
+//! understood is never skipped: it is a [`Diagnostic`] with line, column, reason and remedy.
+//!
+//! [`Program`] gives the items of a program for motion, and ends at the first finding. [`check`]
+//! reads a program to its end and lists all findings.
+//!
+//! ```
+//! use glidepath_gcode::{Options, Program, check};
+//!
+//! let text = "G21 G90\nG0 X10\nG1 Y5 F600\nM2\n";
+//! let items: Result<Vec<_>, _> = Program::new(text.as_bytes(), Options::default()).collect();
+//! assert_eq!(items?.len(), 2);
+//!
+//! let report = check("G1 X1.2.3 F100\n".as_bytes(), Options::default());
+//! let finding = &report.diagnostics[0];
+//! assert_eq!((finding.line, finding.column, finding.code.as_str()), (1, 5, "malformed-number"));
+//! # Ok::<(), glidepath_gcode::Diagnostic>(())
+//! ```
+
+mod arc;
+mod block;
+mod check;
+mod codes;
+mod cursor;
+mod diagnostic;
+mod interpreter;
+mod modal;
+mod moves;
+mod offsets;
+mod options;
+mod program;
+mod source;
+
+pub use check::{MAX_FINDINGS, Report, check};
+pub use codes::{Distance, FeedMode, Motion, Units};
+pub use cursor::MAX_NUMBER;
+pub use diagnostic::{Code, Diagnostic, Excerpt};
+pub use modal::{Feed, Modal};
+pub use options::{Machine, Options, Travel};
+pub use program::{Program, Totals};
+pub use source::MAX_LINE_BYTES;

@@ -1,0 +1,270 @@
+//! One line of text, read into the words of one block.
+//!
+//! Nothing here depends on the modal state: the same line always gives the same block. Memory is
+//! fixed, and a block is filled again for every line.
+
+use glidepath_geometry::{AXES, Axis};
+
+use crate::codes::Codes;
+use crate::cursor::{Cursor, bad_byte};
+use crate::diagnostic::{Code, Fault, Outcome, Span};
+
+/// Letters of the axes in index order, as [`Block`] indices.
+pub(crate) const AXIS_LETTERS: [u8; AXES] = *b"XYZABCUVW";
+
+/// What a line is, besides its words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum LineKind {
+    /// Words, perhaps none.
+    #[default]
+    Block,
+    /// A percent sign by itself: start or end of the tape.
+    Percent,
+    /// Left out by block delete.
+    Deleted,
+}
+
+/// The words of a line.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Block {
+    pub(crate) kind: LineKind,
+    pub(crate) codes: Codes,
+    /// One bit per letter that has a value; G, M, N and O are not among them.
+    present: u32,
+    values: [f64; 26],
+    spans: [Span; 26],
+    /// True if the line has any word or code.
+    pub(crate) any: bool,
+}
+
+const fn slot(letter: u8) -> usize {
+    (letter.to_ascii_uppercase().wrapping_sub(b'A') % 26) as usize
+}
+
+const fn bit(letter: u8) -> u32 {
+    1 << slot(letter)
+}
+
+/// A set of word letters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Letters(u32);
+
+impl Letters {
+    pub(crate) const fn of(letters: &[u8]) -> Self {
+        let mut bits = 0;
+        let mut i = 0;
+        while i < letters.len() {
+            bits |= bit(letters[i]);
+            i += 1;
+        }
+        Self(bits)
+    }
+
+    pub(crate) const fn and(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+/// All axis words.
+pub(crate) const AXIS_WORDS: Letters = Letters::of(&AXIS_LETTERS);
+
+impl Block {
+    /// Value of a word.
+    pub(crate) const fn get(&self, letter: u8) -> Option<f64> {
+        if self.present & bit(letter) == 0 {
+            None
+        } else {
+            Some(self.values[slot(letter)])
+        }
+    }
+
+    /// Where a word stands; an empty span if the block does not have it.
+    pub(crate) const fn span(&self, letter: u8) -> Span {
+        if self.present & bit(letter) == 0 {
+            Span {
+                start: 0,
+                length: 0,
+            }
+        } else {
+            self.spans[slot(letter)]
+        }
+    }
+
+    /// True if the block has any of these words.
+    pub(crate) const fn has_any(&self, letters: Letters) -> bool {
+        self.present & letters.0 != 0
+    }
+
+    /// The axis words, in index order.
+    pub(crate) fn axes(&self) -> impl Iterator<Item = (Axis, f64)> + '_ {
+        Axis::ALL.into_iter().filter_map(|axis| {
+            let value = self.get(AXIS_LETTERS[axis.index()])?;
+            Some((axis, value))
+        })
+    }
+
+    /// Where an axis word stands.
+    pub(crate) const fn axis_span(&self, axis: Axis) -> Span {
+        self.span(AXIS_LETTERS[axis.index()])
+    }
+
+    /// The first word, from the left, that is not among `used`.
+    pub(crate) fn unused(&self, used: Letters) -> Option<(char, Span)> {
+        let left = self.present & !used.0;
+        if left == 0 {
+            return None;
+        }
+        (b'A'..=b'Z')
+            .filter(|&letter| left & bit(letter) != 0)
+            .map(|letter| (char::from(letter), self.span(letter)))
+            .min_by_key(|(_, span)| span.start)
+    }
+
+    /// Fills the block from the text of a line.
+    pub(crate) fn parse(&mut self, text: &[u8], block_delete: bool) -> Outcome<()> {
+        self.present = 0;
+        self.codes = Codes::default();
+        self.kind = LineKind::Block;
+        self.any = false;
+        let mut cursor = Cursor::new(text);
+        match cursor.next_visible() {
+            Some(b'%') => return self.percent(cursor),
+            Some(b'/') if block_delete => {
+                self.kind = LineKind::Deleted;
+                return Ok(());
+            }
+            Some(b'/') => cursor.advance(),
+            _ => {}
+        }
+        let mut start_of_block = true;
+        while let Some(byte) = cursor.next_visible() {
+            match byte {
+                b'(' => cursor.skip_comment()?,
+                b';' => break,
+                b'A'..=b'Z' | b'a'..=b'z' => {
+                    self.word(&mut cursor, byte.to_ascii_uppercase(), start_of_block)?;
+                    start_of_block = false;
+                }
+                _ => return Err(odd_character(text, cursor.at(), byte)),
+            }
+        }
+        Ok(())
+    }
+
+    fn percent(&mut self, mut cursor: Cursor<'_>) -> Outcome<()> {
+        self.kind = LineKind::Percent;
+        cursor.advance();
+        match cursor.next_visible() {
+            None => Ok(()),
+            Some(_) => {
+                let span = Span::new(cursor.at(), cursor.at() + 1);
+                Err(
+                    Fault::new(Code::StrayPercent, span, "text behind a percent sign")
+                        .because(
+                            "a percent sign by itself marks the start or the end of the program",
+                        )
+                        .help("give the percent sign a line of its own"),
+                )
+            }
+        }
+    }
+
+    fn word(&mut self, cursor: &mut Cursor<'_>, letter: u8, first: bool) -> Outcome<()> {
+        let start = cursor.at();
+        cursor.advance();
+        match letter {
+            b'N' => return block_number(cursor, start, first),
+            b'O' => return program_number(cursor, start),
+            _ => {}
+        }
+        let value = cursor.number(start)?;
+        let span = Span::new(start, end_of_word(cursor));
+        self.any = true;
+        match letter {
+            b'G' => self.codes.add_g(value, span),
+            b'M' => self.codes.add_m(value, span),
+            b'E' => Err(Fault::new(Code::UnknownWord, span, "there is no E word")
+                .because("no extruder or analog output is driven from here")
+                .help("remove it")),
+            _ if self.present & bit(letter) != 0 => {
+                let message = format!("a second {} in the block", char::from(letter));
+                Err(Fault::new(Code::DuplicateWord, span, message)
+                    .because("a block has each word once")
+                    .help("remove one of them, or write two blocks"))
+            }
+            _ => {
+                self.present |= bit(letter);
+                self.values[slot(letter)] = value;
+                self.spans[slot(letter)] = span;
+                Ok(())
+            }
+        }
+    }
+}
+
+/// End of the number just read, blanks behind it left out.
+fn end_of_word(cursor: &Cursor<'_>) -> usize {
+    cursor.at() - cursor.blanks_before()
+}
+
+fn block_number(cursor: &mut Cursor<'_>, start: usize, first: bool) -> Outcome<()> {
+    let value = cursor.number(start)?;
+    let span = Span::new(start, end_of_word(cursor));
+    if !first {
+        let message = "a block number that is not at the start of the line";
+        return Err(Fault::new(Code::MisplacedBlockNumber, span, message)
+            .because("N numbers the block it starts")
+            .help("put it first, or remove it"));
+    }
+    if value < 0.0 || value.fract() > 0.0 {
+        return Err(Fault::new(
+            Code::NotAnInteger,
+            span,
+            "the block number is not a whole number",
+        ));
+    }
+    Ok(())
+}
+
+/// `O1234` by itself is the number of the program, and has no effect.
+fn program_number(cursor: &mut Cursor<'_>, start: usize) -> Outcome<()> {
+    if cursor.next_visible().is_some_and(|b| b.is_ascii_digit()) {
+        cursor.number(start)?;
+        while cursor.next_visible() == Some(b'(') {
+            cursor.skip_comment()?;
+        }
+        if matches!(cursor.next_visible(), None | Some(b';')) {
+            return Ok(());
+        }
+    }
+    let span = Span::new(start, end_of_word(cursor).max(start + 1));
+    Err(Fault::new(Code::NotSupported, span, "an O word")
+        .because("subroutines and flow control are not supported yet")
+        .help("post-process the program without subroutines"))
+}
+
+#[cold]
+fn odd_character(text: &[u8], at: usize, byte: u8) -> Box<Fault> {
+    let span = Span::new(at, at + 1);
+    match byte {
+        b')' => Fault::new(Code::BadCharacter, span, "`)` closes no comment")
+            .because("no comment is open here")
+            .help("remove it"),
+        b'/' => Fault::new(Code::BadCharacter, span, "`/` inside a block")
+            .because("block delete marks a whole line")
+            .help("move it to the start of the line"),
+        b'%' => Fault::new(Code::StrayPercent, span, "a percent sign inside a line")
+            .because("a percent sign by itself marks the start or the end of the program")
+            .help("give the percent sign a line of its own"),
+        b'#' => Fault::new(Code::NotSupported, span, "a parameter")
+            .because("parameters and expressions are not supported yet")
+            .help("write the numbers"),
+        b'@' | b'^' => Fault::new(Code::NotSupported, span, "polar coordinates")
+            .because("`@` and `^` are not supported")
+            .help("write X and Y"),
+        b'$' => Fault::new(Code::NotSupported, span, "`$` (spindle number)")
+            .because("there is one spindle; commands of a controller are no part of a program")
+            .help("remove it"),
+        _ => bad_byte(text, at),
+    }
+}

@@ -1,0 +1,55 @@
+//! Reads a whole program without motion and lists everything that is wrong with it.
+
+use std::io::BufRead;
+
+use glidepath_geometry::AxisVector;
+
+use crate::diagnostic::Diagnostic;
+use crate::options::Options;
+use crate::program::{Program, Totals};
+
+/// Most findings listed in a [`Report`].
+pub const MAX_FINDINGS: usize = 20;
+
+/// What [`check`] found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// The findings, in the order of the lines, at most [`MAX_FINDINGS`].
+    pub diagnostics: Vec<Diagnostic>,
+    /// Findings beyond those listed.
+    pub more: u32,
+    /// Counts and sums over the blocks without findings.
+    pub totals: Totals,
+    /// Machine position at the end, over the blocks without findings.
+    pub final_position: AxisVector,
+}
+
+impl Report {
+    /// True if the program may run.
+    #[must_use]
+    pub const fn is_accepted(&self) -> bool {
+        self.diagnostics.is_empty()
+    }
+}
+
+/// Checks a program.
+///
+/// A block with a finding is left out, and reading goes on behind it, so a later finding may be a
+/// consequence of an earlier one. Only a fatal finding (the input cannot be read) ends the check.
+pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
+    let mut program = Program::new(reader, options);
+    let (mut diagnostics, mut more) = (Vec::new(), 0_u32);
+    while let Some(line) = program.next_line() {
+        match line {
+            Ok(()) => {}
+            Err(diagnostic) if diagnostics.len() < MAX_FINDINGS => diagnostics.push(diagnostic),
+            Err(_) => more = more.saturating_add(1),
+        }
+    }
+    Report {
+        diagnostics,
+        more,
+        totals: *program.totals(),
+        final_position: *program.position(),
+    }
+}

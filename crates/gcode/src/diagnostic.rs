@@ -1,0 +1,355 @@
+//! Findings about a program: where, what, why, and how to mend it.
+
+use core::fmt;
+
+/// Longest excerpt of a source line kept in a [`Diagnostic`], characters.
+const EXCERPT_CHARS: usize = 120;
+
+/// Characters kept before the finding when a line is too long to show from its start.
+const EXCERPT_LEAD: usize = 60;
+
+/// What kind of finding it is. The kebab-case name of each is stable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Code {
+    /// The input could not be read.
+    ReadFailed,
+    /// The input is not ASCII or UTF-8 text.
+    WrongEncoding,
+    /// A line is longer than the largest length accepted.
+    LineTooLong,
+    /// A NUL byte in the text.
+    NulByte,
+    /// A character outside ASCII, not in a comment.
+    NonAsciiCharacter,
+    /// A character no block may contain at that place.
+    BadCharacter,
+    /// A comment without its closing parenthesis.
+    UnclosedComment,
+    /// An opening parenthesis inside a comment.
+    NestedComment,
+    /// A percent sign with other text in its line.
+    StrayPercent,
+    /// Something that looks like a number but is none.
+    MalformedNumber,
+    /// A letter without its number.
+    MissingNumber,
+    /// A number too large for its word.
+    NumberOutOfRange,
+    /// A number that must be whole is not.
+    NotAnInteger,
+    /// A word or code of the language that is not supported.
+    NotSupported,
+    /// A G number that does not exist.
+    UnknownGCode,
+    /// An M number that does not exist.
+    UnknownMCode,
+    /// A letter that is no word.
+    UnknownWord,
+    /// The same word twice in a block.
+    DuplicateWord,
+    /// Two codes of one modal group in a block.
+    ModalGroupConflict,
+    /// A block number that is not at the start of its line.
+    MisplacedBlockNumber,
+    /// A word that nothing in the block uses.
+    UnusedWord,
+    /// A word that two codes of the block want.
+    AmbiguousWord,
+    /// A word that a code of the block needs is missing.
+    MissingWord,
+    /// A value its word does not allow.
+    InvalidValue,
+    /// The machine has no such axis.
+    AxisNotConfigured,
+    /// Two codes of the block both want the axis words.
+    AxisWordsConflict,
+    /// Axis words while no motion mode is active.
+    NoMotionMode,
+    /// A feed move before any feedrate.
+    MissingFeed,
+    /// A feedrate that is zero or negative.
+    BadFeed,
+    /// Machine coordinates (G53) where they are not possible.
+    MachineCoordinates,
+    /// An arc with neither centre nor radius.
+    ArcWithoutCenter,
+    /// An arc with both centre and radius.
+    ArcOverdetermined,
+    /// A centre word of an axis outside the plane.
+    ArcOffsetOutsidePlane,
+    /// An arc whose centre is its start or end.
+    ArcZeroRadius,
+    /// A radius too small to reach the end point.
+    ArcRadiusTooSmall,
+    /// Start and end are not at the same distance from the centre.
+    ArcRadiusMismatch,
+    /// A radius with an end point that is the start point.
+    ArcFullCircleWithRadius,
+    /// An arc that cannot be made in the active plane or coordinate system.
+    ArcPlane,
+    /// A move beyond a soft limit.
+    SoftLimit,
+}
+
+impl Code {
+    /// The stable name, for example `arc-radius-mismatch`.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::ReadFailed => "read-failed",
+            Self::WrongEncoding => "wrong-encoding",
+            Self::LineTooLong => "line-too-long",
+            Self::NulByte => "nul-byte",
+            Self::NonAsciiCharacter => "non-ascii-character",
+            Self::BadCharacter => "bad-character",
+            Self::UnclosedComment => "unclosed-comment",
+            Self::NestedComment => "nested-comment",
+            Self::StrayPercent => "stray-percent",
+            Self::MalformedNumber => "malformed-number",
+            Self::MissingNumber => "missing-number",
+            Self::NumberOutOfRange => "number-out-of-range",
+            Self::NotAnInteger => "not-an-integer",
+            Self::NotSupported => "not-supported",
+            Self::UnknownGCode => "unknown-g-code",
+            Self::UnknownMCode => "unknown-m-code",
+            Self::UnknownWord => "unknown-word",
+            Self::DuplicateWord => "duplicate-word",
+            Self::ModalGroupConflict => "modal-group-conflict",
+            Self::MisplacedBlockNumber => "misplaced-block-number",
+            Self::UnusedWord => "unused-word",
+            Self::AmbiguousWord => "ambiguous-word",
+            Self::MissingWord => "missing-word",
+            Self::InvalidValue => "invalid-value",
+            Self::AxisNotConfigured => "axis-not-configured",
+            Self::AxisWordsConflict => "axis-words-conflict",
+            Self::NoMotionMode => "no-motion-mode",
+            Self::MissingFeed => "missing-feed",
+            Self::BadFeed => "bad-feed",
+            Self::MachineCoordinates => "machine-coordinates",
+            Self::ArcWithoutCenter => "arc-without-center",
+            Self::ArcOverdetermined => "arc-overdetermined",
+            Self::ArcOffsetOutsidePlane => "arc-offset-outside-plane",
+            Self::ArcZeroRadius => "arc-zero-radius",
+            Self::ArcRadiusTooSmall => "arc-radius-too-small",
+            Self::ArcRadiusMismatch => "arc-radius-mismatch",
+            Self::ArcFullCircleWithRadius => "arc-full-circle-with-radius",
+            Self::ArcPlane => "arc-plane",
+            Self::SoftLimit => "soft-limit",
+        }
+    }
+
+    /// True if nothing after the finding can be understood, so that reading ends there.
+    #[must_use]
+    pub const fn is_fatal(self) -> bool {
+        matches!(self, Self::ReadFailed | Self::WrongEncoding)
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+/// Part of a source line, for display.
+///
+/// Control characters and bytes that are not UTF-8 are replaced, each by one character, so that
+/// `caret` counts what is shown.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Excerpt {
+    /// The text, at most 120 characters; `…` marks a cut.
+    pub text: String,
+    /// Characters of `text` before the finding.
+    pub caret: usize,
+    /// Characters of `text` to underline, at least 1.
+    pub length: usize,
+}
+
+/// One finding about a program.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{line}:{column}: error[{code}]: {message}")]
+pub struct Diagnostic {
+    /// Source line, from 1.
+    pub line: u32,
+    /// Byte of the line at which the finding starts, from 1.
+    pub column: u32,
+    /// Bytes the finding covers.
+    pub length: u32,
+    /// Its kind.
+    pub code: Code,
+    /// What is wrong, in a sentence without a full stop.
+    pub message: String,
+    /// Why that is wrong; may be empty.
+    pub reason: String,
+    /// How to mend it; may be empty.
+    pub help: String,
+    /// The source around it.
+    pub excerpt: Excerpt,
+}
+
+/// A stretch of a line, in bytes from its start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Span {
+    pub(crate) start: usize,
+    pub(crate) length: usize,
+}
+
+impl Span {
+    pub(crate) const fn new(start: usize, end: usize) -> Self {
+        Self {
+            start,
+            length: end.saturating_sub(start),
+        }
+    }
+}
+
+/// A finding that does not know its line yet.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Fault {
+    pub(crate) span: Span,
+    pub(crate) code: Code,
+    message: String,
+    reason: String,
+    help: String,
+}
+
+/// Result of everything that can find fault with a block. Boxed: the good case stays small.
+pub(crate) type Outcome<T> = Result<T, Box<Fault>>;
+
+impl Fault {
+    pub(crate) fn new(code: Code, span: Span, message: impl Into<String>) -> Box<Self> {
+        let message = message.into();
+        Box::new(Self {
+            span,
+            code,
+            message,
+            reason: String::new(),
+            help: String::new(),
+        })
+    }
+
+    pub(crate) fn because(mut self: Box<Self>, reason: impl Into<String>) -> Box<Self> {
+        self.reason = reason.into();
+        self
+    }
+
+    pub(crate) fn help(mut self: Box<Self>, help: impl Into<String>) -> Box<Self> {
+        self.help = help.into();
+        self
+    }
+
+    /// Adds the place: line number from 1, and the line's text.
+    pub(crate) fn at(self, line: u32, text: &[u8]) -> Diagnostic {
+        let small = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        Diagnostic {
+            line,
+            column: small(self.span.start.saturating_add(1)),
+            length: small(self.span.length.max(1)),
+            code: self.code,
+            message: self.message,
+            reason: self.reason,
+            help: self.help,
+            excerpt: excerpt(text, self.span),
+        }
+    }
+}
+
+/// Cuts a window out of a line that shows the span.
+fn excerpt(text: &[u8], span: Span) -> Excerpt {
+    // Only a stretch around the span is decoded: the line may be long.
+    let lead = span.start.min(text.len()).saturating_sub(4 * EXCERPT_LEAD);
+    let from = if lead == 0 { 0 } else { lead };
+    let to = text.len().min(span.start.saturating_add(4 * EXCERPT_CHARS));
+    let middle = span.start.clamp(from, to);
+    let end = span
+        .start
+        .saturating_add(span.length.max(1))
+        .clamp(middle, to);
+
+    let mut before = printable(text.get(from..middle).unwrap_or_default());
+    let marked = printable(text.get(middle..end).unwrap_or_default());
+    let after = printable(text.get(end..to).unwrap_or_default());
+
+    let cut_left = from > 0 || before.len() > EXCERPT_CHARS - EXCERPT_LEAD / 2;
+    if cut_left {
+        let drop = before.len().saturating_sub(EXCERPT_LEAD);
+        before.drain(..drop);
+        before.insert(0, '…');
+    }
+    let caret = before.len();
+    let length = marked
+        .len()
+        .clamp(1, EXCERPT_CHARS.saturating_sub(caret).max(1));
+    let mut shown: Vec<char> = before.into_iter().chain(marked).chain(after).collect();
+    if shown.len() > EXCERPT_CHARS || to < text.len() {
+        shown.truncate(EXCERPT_CHARS - 1);
+        shown.push('…');
+    }
+    Excerpt {
+        text: shown.into_iter().collect(),
+        caret,
+        length,
+    }
+}
+
+/// Decodes UTF-8 leniently and makes every character take one place.
+fn printable(bytes: &[u8]) -> Vec<char> {
+    let blank = |c: char| {
+        if c == '\t' {
+            ' '
+        } else if c.is_control() {
+            '\u{fffd}'
+        } else {
+            c
+        }
+    };
+    String::from_utf8_lossy(bytes).chars().map(blank).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn diagnose(text: &[u8], start: usize, length: usize) -> Diagnostic {
+        Fault::new(Code::BadCharacter, Span { start, length }, "bad").at(7, text)
+    }
+
+    #[test]
+    fn shows_a_short_line_whole() {
+        let d = diagnose(b"G1 X1 @", 6, 1);
+        assert_eq!((d.line, d.column, d.length), (7, 7, 1));
+        assert_eq!(
+            d.excerpt,
+            Excerpt {
+                text: "G1 X1 @".into(),
+                caret: 6,
+                length: 1
+            }
+        );
+        assert_eq!(d.to_string(), "7:7: error[bad-character]: bad");
+    }
+
+    #[test]
+    fn counts_characters_where_bytes_differ() {
+        let d = diagnose("(é) G1 X−5".as_bytes(), 9, 3);
+        assert_eq!(d.excerpt.caret, 8);
+        assert_eq!(d.excerpt.text.chars().nth(8), Some('−'));
+    }
+
+    #[test]
+    fn cuts_a_long_line_around_the_finding() {
+        let mut text = vec![b'X'; 70_000];
+        text[50_000] = b'@';
+        let d = diagnose(&text, 50_000, 1);
+        assert!(d.excerpt.text.chars().count() <= EXCERPT_CHARS);
+        assert_eq!(d.excerpt.text.chars().nth(d.excerpt.caret), Some('@'));
+    }
+
+    #[test]
+    fn a_span_beyond_the_line_is_harmless() {
+        let d = diagnose(b"G1", 500, 3);
+        assert_eq!(d.column, 501);
+        assert!(d.excerpt.caret <= 3);
+    }
+}

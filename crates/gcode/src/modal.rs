@@ -1,0 +1,56 @@
+//! Modal state: what stays in force from block to block.
+
+use glidepath_geometry::Plane;
+use glidepath_motion::PathMode;
+
+use crate::codes::{Distance, FeedMode, Motion, Units};
+
+/// A feedrate of G94.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Feed {
+    /// For moves of linear axes, mm/s, > 0.
+    pub linear_v: f64,
+    /// For moves of rotary axes alone, °/s, > 0. The same F word, which inches do not scale.
+    pub rotary_v: f64,
+}
+
+/// The modal state between two blocks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Modal {
+    /// Motion mode; `None` before the first one and after G80.
+    pub motion: Option<Motion>,
+    /// Plane of arcs.
+    pub plane: Plane,
+    /// Meaning of axis words.
+    pub distance: Distance,
+    /// Meaning of I, J, K.
+    pub arc_distance: Distance,
+    /// Meaning of F.
+    pub feed_mode: FeedMode,
+    /// Feedrate of G94; `None` until one is given. G93 takes its F from every block.
+    pub feed: Option<Feed>,
+    /// Length units.
+    pub units: Units,
+    /// Path mode.
+    pub path_mode: PathMode,
+}
+
+impl Modal {
+    /// The state at the start of a program: G17 G21 G54 G64 G80 G90 G91.1 G94.
+    #[must_use]
+    pub fn new(default_feed_mm_min: Option<f64>) -> Self {
+        Self {
+            motion: None,
+            plane: Plane::Xy,
+            distance: Distance::Absolute,
+            arc_distance: Distance::Incremental,
+            feed_mode: FeedMode::PerMinute,
+            feed: default_feed_mm_min.map(|feed| Feed {
+                linear_v: feed / 60.0,
+                rotary_v: feed / 60.0,
+            }),
+            units: Units::Millimetre,
+            path_mode: PathMode::Continuous { tolerance_mm: None },
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! Straight moves, reference moves, and what every move has in common.
+
+use glidepath_geometry::{AXES, Axis, AxisVector, LINEAR_XYZ, Segment, UVW};
+use glidepath_motion::{Item, ItemKind, Rate};
+
+use crate::block::{AXIS_WORDS, Block};
+use crate::codes::{Distance, FeedMode, Motion, Once};
+use crate::diagnostic::{Code, Fault, Outcome, Span};
+use crate::interpreter::Interpreter;
+use crate::offsets::overlay;
+
+/// Displacements of an axis up to this, mm or degrees, are rounding of coordinates, and no motion.
+///
+/// Without this, a rotary move whose X differs by 1e-14 mm would count as a move of 1e-14 mm.
+pub(crate) const MIN_MOVE: f64 = 1e-9;
+
+/// Relative slack of the soft limits, for the rounding of unit conversions.
+const LIMIT_SLACK: f64 = 1e-9;
+
+impl Interpreter {
+    /// Makes the motion of a block.
+    pub(crate) fn motion(
+        &mut self,
+        block: &Block,
+        motion: Motion,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        match motion {
+            Motion::Rapid | Motion::Linear => {
+                let target = self.target(block);
+                self.straight(block, target, motion == Motion::Rapid, out)
+            }
+            Motion::ArcClockwise | Motion::ArcCounterclockwise => self.arc(block, motion, out),
+        }
+    }
+
+    /// Machine coordinates the axis words of a block lead to.
+    pub(crate) fn target(&self, block: &Block) -> AxisVector {
+        let values = self.axis_values(block);
+        let position = self.state.position;
+        let machine = block
+            .codes
+            .once
+            .is_some_and(|o| o.code == Once::MachineCoordinates);
+        if machine {
+            return overlay(position, &values);
+        }
+        let incremental = self.state.modal.distance == Distance::Incremental;
+        if self.offsets.is_rotated() && (values[0].is_some() || values[1].is_some()) {
+            let mut program = self.offsets.to_program(position);
+            for (axis, value) in (0..AXES).zip(values) {
+                if let Some(value) = value {
+                    program[axis] = if incremental {
+                        program[axis] + value
+                    } else {
+                        value
+                    };
+                }
+            }
+            let turned = self.offsets.to_machine(program);
+            let mut target = self.plain_target(&values, incremental);
+            (target[0], target[1]) = (turned[0], turned[1]);
+            return target;
+        }
+        self.plain_target(&values, incremental)
+    }
+
+    /// [`Self::target`] without rotation.
+    fn plain_target(&self, values: &[Option<f64>; AXES], incremental: bool) -> AxisVector {
+        let mut target = self.state.position;
+        let origin = self.offsets.system().origin;
+        for axis in 0..AXES {
+            if let Some(value) = values[axis] {
+                target[axis] = if incremental {
+                    target[axis] + value
+                } else {
+                    value + (self.offsets.shift[axis] + origin[axis])
+                };
+            }
+        }
+        target
+    }
+
+    /// A straight move to a machine position.
+    pub(crate) fn straight(
+        &mut self,
+        block: &Block,
+        target: AxisVector,
+        rapid: bool,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let start = self.state.path_end;
+        let end = settled(start, target, [None, None]);
+        self.state.position = target;
+        if end == start {
+            let counter = if rapid {
+                &mut self.zero_length.rapids
+            } else {
+                &mut self.zero_length.feeds
+            };
+            *counter += 1;
+            return Ok(());
+        }
+        self.check_limits(block, &end, &end, "the end")?;
+        let segment = Segment::line(start, end);
+        let rate = if rapid {
+            Rate::Rapid
+        } else {
+            self.rate(block, &segment)?
+        };
+        self.push_move(segment, rate, out);
+        Ok(())
+    }
+
+    pub(crate) fn push_move(&mut self, segment: Segment, rate: Rate, out: &mut Vec<Item>) {
+        self.state.path_end = segment.end();
+        let mode = self.state.modal.path_mode;
+        self.push(
+            out,
+            ItemKind::Move {
+                segment,
+                rate,
+                mode,
+            },
+        );
+    }
+
+    /// G28 and G30: by way of the programmed point to the reference position, at rapid speed. With
+    /// axis words, only those axes move.
+    pub(crate) fn go_to_reference(
+        &mut self,
+        block: &Block,
+        index: usize,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let all = !block.has_any(AXIS_WORDS);
+        if !all {
+            self.straight(block, self.target(block), true, out)?;
+        }
+        let reference = self
+            .offsets
+            .reference
+            .get(index)
+            .copied()
+            .unwrap_or_default();
+        let mut target = self.state.position;
+        let values = self.axis_values(block);
+        for axis in Axis::ALL {
+            let i = axis.index();
+            if values[i].is_some() || (all && self.options.machine.has(axis)) {
+                target[i] = reference[i];
+            }
+        }
+        self.straight(block, target, true, out)
+    }
+
+    /// Rate of a feed move.
+    pub(crate) fn rate(&self, block: &Block, segment: &Segment) -> Outcome<Rate> {
+        let modal = &self.state.modal;
+        if modal.feed_mode == FeedMode::InverseTime {
+            let per_minute = block.get(b'F').ok_or_else(|| {
+                Fault::new(
+                    Code::MissingFeed,
+                    motion_span(block),
+                    "no F in an inverse-time block",
+                )
+                .because("with G93 every feed move has its own F: one over its minutes")
+                .help("add the F word, or go back to G94")
+            })?;
+            return Ok(Rate::Feed(segment.length() * per_minute / 60.0));
+        }
+        let feed = modal.feed.ok_or_else(|| {
+            Fault::new(
+                Code::MissingFeed,
+                motion_span(block),
+                "a feed move without a feedrate",
+            )
+            .because("no F word came before it since the program, or G94, began")
+            .help("write an F word")
+        })?;
+        let displacement = segment.end() - segment.start();
+        let linear = LINEAR_XYZ.chain(UVW).any(|axis| displacement[axis] != 0.0);
+        let turns = matches!(segment, Segment::Arc(_));
+        Ok(Rate::Feed(if linear || turns {
+            feed.linear_v
+        } else {
+            feed.rotary_v
+        }))
+    }
+
+    /// Refuses a move whose box, from `low` to `high`, leaves the travel of an axis that moves.
+    pub(crate) fn check_limits(
+        &self,
+        block: &Block,
+        low: &AxisVector,
+        high: &AxisVector,
+        what: &str,
+    ) -> Outcome<()> {
+        for axis in Axis::ALL {
+            let i = axis.index();
+            let Some(travel) = self.options.machine.travel(axis) else {
+                continue;
+            };
+            // A machine that stands outside may come back, and may move its other axes.
+            let start = self.state.path_end[i];
+            let above = travel.max + LIMIT_SLACK * travel.max.abs().max(1.0);
+            let below = travel.min - LIMIT_SLACK * travel.min.abs().max(1.0);
+            if high[i] > above && high[i] > start {
+                return Err(beyond_limit(block, axis, high[i], travel.max, what));
+            }
+            if low[i] < below && low[i] < start {
+                return Err(beyond_limit(block, axis, low[i], travel.min, what));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// `target` with every axis that would not really move put back on `start`; the axes in `keep`
+/// are left alone.
+pub(crate) fn settled(
+    start: AxisVector,
+    mut target: AxisVector,
+    keep: [Option<Axis>; 2],
+) -> AxisVector {
+    for axis in Axis::ALL {
+        let i = axis.index();
+        if (target[i] - start[i]).abs() <= MIN_MOVE && !keep.contains(&Some(axis)) {
+            target[i] = start[i];
+        }
+    }
+    target
+}
+
+/// Where a finding about the motion of a block points.
+pub(crate) fn motion_span(block: &Block) -> Span {
+    let code = block.codes.motion.map(|motion| motion.span);
+    let axes = block.axes().map(|(axis, _)| block.axis_span(axis));
+    code.into_iter()
+        .chain(axes)
+        .min_by_key(|span| span.start)
+        .unwrap_or_default()
+}
+
+#[cold]
+fn beyond_limit(block: &Block, axis: Axis, reached: f64, limit: f64, what: &str) -> Box<Fault> {
+    let span = Some(block.axis_span(axis)).filter(|span| span.length > 0);
+    let unit = if axis.is_rotary() { "°" } else { " mm" };
+    let side = if reached > limit { "above" } else { "below" };
+    let message = format!(
+        "{what} of the move is outside the travel of {axis}: {}{unit} is {side} {}{unit}",
+        short(reached),
+        short(limit)
+    );
+    Fault::new(
+        Code::SoftLimit,
+        span.unwrap_or_else(|| motion_span(block)),
+        message,
+    )
+    .because("the soft limits are machine coordinates: work offsets are included")
+    .help("check the work offset and the start position, or make the part smaller")
+}
+
+/// A coordinate for a message, to the nanometre.
+fn short(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
+}
