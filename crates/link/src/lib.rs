@@ -7,12 +7,14 @@
 
 mod error;
 mod in_process;
+mod ipc;
 mod port;
 mod record;
 mod service;
 
 pub use error::{BoxedError, LinkError};
 pub use in_process::InProcess;
+pub use ipc::{Ipc, LinkConfig, remove_leftovers};
 pub use port::{
     Client, Delivery, FrameSink, MAX_UNANSWERED, Publisher, Server, Subscriber, Transport,
 };

@@ -7,7 +7,7 @@
 
 mod suite;
 
-use glidepath_link::InProcess;
+use glidepath_link::{InProcess, Ipc, LinkConfig};
 
 struct WithinProcess(InProcess);
 
@@ -16,6 +16,44 @@ impl suite::Fixture for WithinProcess {
 
     fn connect(&self) -> InProcess {
         self.0.clone()
+    }
+}
+
+/// An instance of its own, in a directory of its own.
+struct BetweenProcesses {
+    config: LinkConfig,
+    _root: tempfile::TempDir,
+}
+
+impl BetweenProcesses {
+    fn new() -> Self {
+        let root = tempfile::tempdir().unwrap();
+        let config = LinkConfig {
+            instance: "conformance".to_owned(),
+            root: root.path().join("link"),
+            capacity: suite::CAPACITY,
+        };
+        Self {
+            config,
+            _root: root,
+        }
+    }
+}
+
+impl suite::Fixture for BetweenProcesses {
+    type Transport = Ipc;
+
+    fn connect(&self) -> Ipc {
+        Ipc::connect(&self.config).unwrap()
+    }
+}
+
+impl Drop for BetweenProcesses {
+    fn drop(&mut self) {
+        if !std::thread::panicking() {
+            let left = suite::files_of(&self.config);
+            assert!(left.is_empty(), "left behind: {left:?}");
+        }
     }
 }
 
@@ -53,3 +91,4 @@ macro_rules! conformance {
 }
 
 conformance!(in_process, WithinProcess(InProcess::new(suite::CAPACITY)));
+conformance!(ipc, BetweenProcesses::new());

@@ -10,7 +10,8 @@ pub(crate) use topics::*;
 
 use bytemuck::Zeroable;
 use core::time::Duration;
-use glidepath_link::{Capacity, SetpointFrame, Subscriber, Transport};
+use glidepath_link::{Capacity, LinkConfig, SetpointFrame, Subscriber, Transport};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Small, so that queues fill soon.
@@ -59,4 +60,19 @@ pub(crate) fn take<R>(source: &mut dyn Subscriber<R>) -> R {
 /// Everything that is there now.
 pub(crate) fn drain<R>(source: &mut dyn Subscriber<R>) -> Vec<R> {
     core::iter::from_fn(|| source.take().unwrap()).collect()
+}
+
+/// What an instance has in shared memory and in its directory.
+pub(crate) fn files_of(config: &LinkConfig) -> Vec<PathBuf> {
+    let prefix = config.prefix();
+    let is_ours = |path: &PathBuf| {
+        path.file_name()
+            .is_some_and(|name| name.as_encoded_bytes().starts_with(prefix.as_bytes()))
+    };
+    let in_memory = std::fs::read_dir("/dev/shm")
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let mut files: Vec<_> = in_memory.filter(is_ours).collect();
+    files.extend(config.root.exists().then(|| config.root.clone()));
+    files
 }

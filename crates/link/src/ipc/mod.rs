@@ -1,0 +1,178 @@
+//! The transport between processes: iceoryx2 over shared memory.
+//!
+//! Each instance has names of its own in `/dev/shm` and a directory of its own that only its user can
+//! enter; the machine's or user's configuration of iceoryx2 is never read. Nothing here waits longer
+//! than it takes to make or clean up a connection.
+//!
+//! What the services rely on, all of it checked by the tests:
+//!
+//! * a frame counts as delivered only if the transport says that one consumer got it;
+//! * a full queue, of frames or requests, is reported and never overwritten; of setpoints and status,
+//!   it loses its oldest;
+//! * a peer that was killed is noticed by whoever waits for it, by everybody that joins, and by
+//!   [`Transport::clean_up_dead_peers`].
+
+mod config;
+mod node;
+mod presence;
+mod request;
+mod topic;
+
+pub use config::LinkConfig;
+pub use presence::remove_leftovers;
+
+use crate::service::{COMMANDS, Capacity, FRAMES, SEGMENTS, SETPOINTS, STATUS};
+use crate::{
+    Client, CommandReply, CommandRequest, FrameSink, LinkError, Publisher, SegmentReply,
+    SegmentRequest, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
+};
+use node::{Session, TopicSettings};
+use std::rc::Rc;
+
+/// One thread's part in an instance. It and its ports stay in that thread.
+#[derive(Debug)]
+pub struct Ipc {
+    session: Rc<Session>,
+    capacity: Capacity,
+}
+
+impl Ipc {
+    /// Joins an instance, which comes into being with its first process. What dead processes of it
+    /// left is cleaned up.
+    ///
+    /// # Errors
+    ///
+    /// [`LinkError::Name`], [`LinkError::Root`], or a failure of the transport.
+    pub fn connect(config: &LinkConfig) -> Result<Self, LinkError> {
+        Ok(Self {
+            session: Rc::new(Session::open(config)?),
+            capacity: config.capacity,
+        })
+    }
+
+    /// Frames: one consumer, and no frame is ever overwritten.
+    const fn frames(&self) -> TopicSettings {
+        TopicSettings {
+            overflow: false,
+            depth: self.capacity.frames,
+            history: 0,
+            subscribers: 1,
+        }
+    }
+
+    const fn setpoints(&self) -> TopicSettings {
+        let Capacity {
+            setpoints: depth,
+            subscribers,
+            ..
+        } = self.capacity;
+        TopicSettings {
+            overflow: true,
+            depth,
+            history: 1,
+            subscribers,
+        }
+    }
+
+    const fn status(&self) -> TopicSettings {
+        let subscribers = self.capacity.subscribers;
+        TopicSettings {
+            overflow: true,
+            depth: 1,
+            history: 1,
+            subscribers,
+        }
+    }
+}
+
+impl Transport for Ipc {
+    fn frame_sink(&self) -> Result<Box<dyn FrameSink>, LinkError> {
+        let service = self.session.topic(FRAMES, self.frames())?;
+        Ok(Box::new(topic::Frames::new(
+            FRAMES,
+            &service,
+            &self.session,
+        )?))
+    }
+
+    fn frame_source(&self) -> Result<Box<dyn Subscriber<SetpointFrame>>, LinkError> {
+        let service = self.session.topic(FRAMES, self.frames())?;
+        Ok(Box::new(topic::Source::new(
+            FRAMES,
+            &service,
+            &self.session,
+        )?))
+    }
+
+    fn setpoint_sink(&self) -> Result<Box<dyn Publisher<Setpoint>>, LinkError> {
+        let service = self.session.topic(SETPOINTS, self.setpoints())?;
+        Ok(Box::new(topic::Sink::new(
+            SETPOINTS,
+            &service,
+            &self.session,
+        )?))
+    }
+
+    fn setpoint_source(&self) -> Result<Box<dyn Subscriber<Setpoint>>, LinkError> {
+        let service = self.session.topic(SETPOINTS, self.setpoints())?;
+        Ok(Box::new(topic::Source::new(
+            SETPOINTS,
+            &service,
+            &self.session,
+        )?))
+    }
+
+    fn status_sink(&self) -> Result<Box<dyn Publisher<Status>>, LinkError> {
+        let service = self.session.topic(STATUS, self.status())?;
+        Ok(Box::new(topic::Sink::new(STATUS, &service, &self.session)?))
+    }
+
+    fn status_source(&self) -> Result<Box<dyn Subscriber<Status>>, LinkError> {
+        let service = self.session.topic(STATUS, self.status())?;
+        Ok(Box::new(topic::Source::new(
+            STATUS,
+            &service,
+            &self.session,
+        )?))
+    }
+
+    fn command_client(&self) -> Result<Box<dyn Client<CommandRequest, CommandReply>>, LinkError> {
+        let service = self.session.exchange(COMMANDS)?;
+        Ok(Box::new(request::Asking::new(
+            COMMANDS,
+            &service,
+            &self.session,
+        )?))
+    }
+
+    fn command_server(&self) -> Result<Box<dyn Server<CommandRequest, CommandReply>>, LinkError> {
+        let service = self.session.exchange(COMMANDS)?;
+        Ok(Box::new(request::Answering::new(
+            COMMANDS,
+            &service,
+            &self.session,
+        )?))
+    }
+
+    fn segment_client(&self) -> Result<Box<dyn Client<SegmentRequest, SegmentReply>>, LinkError> {
+        let service = self.session.exchange(SEGMENTS)?;
+        Ok(Box::new(request::Asking::new(
+            SEGMENTS,
+            &service,
+            &self.session,
+        )?))
+    }
+
+    fn segment_server(&self) -> Result<Box<dyn Server<SegmentRequest, SegmentReply>>, LinkError> {
+        let service = self.session.exchange(SEGMENTS)?;
+        Ok(Box::new(request::Answering::new(
+            SEGMENTS,
+            &service,
+            &self.session,
+        )?))
+    }
+
+    fn clean_up_dead_peers(&self) -> Result<usize, LinkError> {
+        Ok(self.session.clean_up())
+    }
+}

@@ -1,0 +1,187 @@
+//! Who is there, and what is left when nobody is.
+//!
+//! Every process of an instance holds a shared lock on a file of the instance for as long as it has
+//! ports; the kernel releases it however the process ends. Whoever gets the exclusive lock knows that
+//! no other is there, and removes what the instance left in `/dev/shm` and in its directory. The lock
+//! file is removed last, under the lock, and a newcomer makes sure that the file it locked still is
+//! the one the name stands for.
+
+use super::config::LinkConfig;
+use super::node::settings;
+use crate::LinkError;
+use iceoryx2::prelude::{CallbackProgression, Node, NodeState, ipc};
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io;
+use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+const SHARED_MEMORY: &str = "/dev/shm";
+/// How long a newcomer waits for one that is removing leftovers.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// The presence of this process in an instance, until dropped.
+#[derive(Debug)]
+pub(super) struct Presence {
+    lock: File,
+    config: LinkConfig,
+}
+
+impl Presence {
+    pub(super) fn announce(config: &LinkConfig) -> Result<Self, LinkError> {
+        let started = Instant::now();
+        loop {
+            config.prepare()?;
+            let path = lock_path(config);
+            let locked = open(&path).and_then(|file| {
+                let locked = file.try_lock_shared().map_err(io::Error::from);
+                locked
+                    .and_then(|()| same_file(&file, &path))
+                    .map(|same| same.then_some(file))
+            });
+            match locked {
+                Ok(Some(lock)) => {
+                    return Ok(Self {
+                        lock,
+                        config: config.clone(),
+                    });
+                }
+                // The instance is being removed, or has been since the file was opened.
+                Ok(None) => {}
+                Err(error) if is_passing(&error) => {}
+                Err(source) => {
+                    return Err(LinkError::Root {
+                        path: path.display().to_string(),
+                        source,
+                    });
+                }
+            }
+            if started.elapsed() > PATIENCE {
+                let source = io::Error::from(io::ErrorKind::WouldBlock);
+                return Err(LinkError::Root {
+                    path: path.display().to_string(),
+                    source,
+                });
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+}
+
+impl Drop for Presence {
+    fn drop(&mut self) {
+        // The last one out removes the files. If that fails they do no harm: the next one does.
+        if self.lock.try_lock().is_ok() {
+            let _ = sweep(&self.config);
+        }
+    }
+}
+
+/// Removes what an instance left behind, if no process of it lives. Returns whether nothing is left.
+///
+/// A process does this itself when it ends in good order. To be called for an instance whose
+/// processes may all have been killed.
+///
+/// # Errors
+///
+/// [`LinkError::Name`], or [`LinkError::Root`] if files cannot be removed.
+pub fn remove_leftovers(config: &LinkConfig) -> Result<bool, LinkError> {
+    config.prepare()?;
+    let path = lock_path(config);
+    let failed = |source| LinkError::Root {
+        path: path.display().to_string(),
+        source,
+    };
+    let file = open(&path).map_err(failed)?;
+    match file.try_lock() {
+        Ok(()) if same_file(&file, &path).map_err(failed)? => sweep(config).map_err(failed),
+        // Somebody is there, or came since.
+        Ok(()) | Err(TryLockError::WouldBlock) => Ok(false),
+        Err(TryLockError::Error(source)) => Err(failed(source)),
+    }
+}
+
+/// Removes the files of an instance. To be called with the exclusive lock.
+fn sweep(config: &LinkConfig) -> io::Result<bool> {
+    if foreigner_lives(config) {
+        return Ok(false);
+    }
+    let prefix = config.prefix();
+    for entry in std::fs::read_dir(SHARED_MEMORY)? {
+        let entry = entry?;
+        if entry
+            .file_name()
+            .as_encoded_bytes()
+            .starts_with(prefix.as_bytes())
+        {
+            ignore_missing(std::fs::remove_file(entry.path()))?;
+        }
+    }
+    let (directory, lock) = (config.directory(), lock_path(config));
+    for entry in std::fs::read_dir(&directory)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            ignore_missing(std::fs::remove_dir_all(&path))?;
+        } else if path != lock {
+            ignore_missing(std::fs::remove_file(&path))?;
+        }
+    }
+    ignore_missing(std::fs::remove_file(&lock))?;
+    // Not empty if a newcomer was quick: then it is in use again. The root is shared by all
+    // instances, and goes with the last.
+    if std::fs::remove_dir(&directory).is_ok() {
+        let _ = std::fs::remove_dir(&config.root);
+    }
+    Ok(true)
+}
+
+/// Whether a process lives that does not use this crate, and hence holds no lock.
+fn foreigner_lives(config: &LinkConfig) -> bool {
+    let mut lives = false;
+    let Ok(settings) = settings(config) else {
+        return false;
+    };
+    let listed = Node::<ipc::Service>::list(&settings, |node| {
+        lives |= matches!(node, NodeState::Alive(_));
+        CallbackProgression::Continue
+    });
+    lives && listed.is_ok()
+}
+
+fn lock_path(config: &LinkConfig) -> PathBuf {
+    config.directory().join("lock")
+}
+
+fn open(path: &Path) -> io::Result<File> {
+    OpenOptions::new()
+        .read(true)
+        .write(true)
+        .create(true)
+        .truncate(false)
+        .mode(0o600)
+        .open(path)
+}
+
+/// Whether a name still stands for an open file.
+fn same_file(file: &File, path: &Path) -> io::Result<bool> {
+    let open = file.metadata()?;
+    match path.metadata() {
+        Ok(named) => Ok((named.dev(), named.ino()) == (open.dev(), open.ino())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(error),
+    }
+}
+
+fn is_passing(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        io::ErrorKind::WouldBlock | io::ErrorKind::NotFound
+    )
+}
+
+fn ignore_missing(result: io::Result<()>) -> io::Result<()> {
+    match result {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        other => other,
+    }
+}

@@ -1,0 +1,167 @@
+//! Frames, setpoints and status over publish-subscribe.
+
+use super::node::{Session, TopicService};
+use crate::{Delivery, FrameSink, LinkError, Publisher, Record, SetpointFrame, Subscriber};
+use iceoryx2::port::publisher::{Publisher as RawPublisher, PublisherCreateError};
+use iceoryx2::port::subscriber::{Subscriber as RawSubscriber, SubscriberCreateError};
+use iceoryx2::port::update_connections::UpdateConnections;
+use iceoryx2::port::{BackpressureAction, DegradationAction, SendError};
+use iceoryx2::prelude::{BackpressureStrategy, ipc};
+use std::rc::Rc;
+
+fn make_publisher<R: Record>(
+    service: &'static str,
+    factory: &TopicService<R>,
+) -> Result<RawPublisher<ipc::Service, R, ()>, LinkError> {
+    factory
+        .publisher_builder()
+        // Waiting is for the callers. A queue that does not overflow reports that it is full.
+        .backpressure_strategy(BackpressureStrategy::DiscardData)
+        .set_backpressure_handler(|_| BackpressureAction::DiscardDataAndFail)
+        .set_degradation_handler(|_, _| DegradationAction::Ignore)
+        .create()
+        .map_err(|error| match error {
+            PublisherCreateError::ExceedsMaxSupportedPublishers => LinkError::Taken {
+                service,
+                role: "publisher",
+            },
+            error => LinkError::Transport {
+                service,
+                action: "becoming a publisher",
+                detail: error.into(),
+            },
+        })
+}
+
+/// The planner's end of the frame queue.
+pub(super) struct Frames {
+    service: &'static str,
+    port: RawPublisher<ipc::Service, SetpointFrame, ()>,
+    session: Rc<Session>,
+}
+
+impl Frames {
+    pub(super) fn new(
+        service: &'static str,
+        factory: &TopicService<SetpointFrame>,
+        session: &Rc<Session>,
+    ) -> Result<Self, LinkError> {
+        Ok(Self {
+            service,
+            port: make_publisher(service, factory)?,
+            session: Rc::clone(session),
+        })
+    }
+}
+
+impl FrameSink for Frames {
+    fn offer(&mut self, frame: &SetpointFrame) -> Result<Delivery, LinkError> {
+        match self.port.send_copy(*frame) {
+            Ok(0) => Ok(Delivery::NoConsumer),
+            Ok(_) => Ok(Delivery::Delivered),
+            Err(SendError::UnableToDeliver) => {
+                // A consumer that died with a full queue stays full until somebody notices.
+                self.session.clean_up_now_and_then();
+                Ok(Delivery::Full)
+            }
+            Err(error) => Err(LinkError::Transport {
+                service: self.service,
+                action: "sending a frame",
+                detail: error.into(),
+            }),
+        }
+    }
+}
+
+/// The sending end of a topic.
+pub(super) struct Sink<R: Record> {
+    service: &'static str,
+    port: RawPublisher<ipc::Service, R, ()>,
+    _session: Rc<Session>,
+}
+
+impl<R: Record> Sink<R> {
+    pub(super) fn new(
+        service: &'static str,
+        factory: &TopicService<R>,
+        session: &Rc<Session>,
+    ) -> Result<Self, LinkError> {
+        Ok(Self {
+            service,
+            port: make_publisher(service, factory)?,
+            _session: Rc::clone(session),
+        })
+    }
+}
+
+impl<R: Record> Publisher<R> for Sink<R> {
+    fn publish(&mut self, record: &R) -> Result<(), LinkError> {
+        self.port
+            .send_copy(*record)
+            .map(|_| ())
+            .map_err(|error| LinkError::Transport {
+                service: self.service,
+                action: "publishing",
+                detail: error.into(),
+            })
+    }
+
+    fn refresh(&mut self) -> Result<(), LinkError> {
+        self.port
+            .update_connections()
+            .map_err(|error| LinkError::Transport {
+                service: self.service,
+                action: "looking for new subscribers",
+                detail: error.into(),
+            })
+    }
+}
+
+/// The receiving end of a topic or of the frames.
+pub(super) struct Source<R: Record> {
+    service: &'static str,
+    port: RawSubscriber<ipc::Service, R, ()>,
+    _session: Rc<Session>,
+}
+
+impl<R: Record> Source<R> {
+    pub(super) fn new(
+        service: &'static str,
+        factory: &TopicService<R>,
+        session: &Rc<Session>,
+    ) -> Result<Self, LinkError> {
+        let builder = factory.subscriber_builder();
+        let port = builder
+            .set_degradation_handler(|_, _| DegradationAction::Ignore)
+            .create()
+            .map_err(|error| match error {
+                SubscriberCreateError::ExceedsMaxSupportedSubscribers => LinkError::Taken {
+                    service,
+                    role: "subscriber",
+                },
+                error => LinkError::Transport {
+                    service,
+                    action: "becoming a subscriber",
+                    detail: error.into(),
+                },
+            })?;
+        Ok(Self {
+            service,
+            port,
+            _session: Rc::clone(session),
+        })
+    }
+}
+
+impl<R: Record> Subscriber<R> for Source<R> {
+    fn take(&mut self) -> Result<Option<R>, LinkError> {
+        match self.port.receive() {
+            Ok(sample) => Ok(sample.map(|sample| *sample.payload())),
+            Err(error) => Err(LinkError::Transport {
+                service: self.service,
+                action: "receiving",
+                detail: error.into(),
+            }),
+        }
+    }
+}
