@@ -1,1 +1,35 @@
-//! The planner process: input to setpoint frames.
+//! The planner process as a library: a program, from a file, a pipe or another process, to setpoint
+//! frames in the interpolator's queue.
+//!
+//! ```text
+//!  file ─┐
+//!  pipe ─┼─ ItemSource ─▶ Pipeline ─▶ Publisher ─▶ FrameSink
+//!  feed ─┘   (items)      (frames)     (pace)  ◀─ Status
+//! ```
+//!
+//! Frames depend on the items and the settings alone. No clock is read here; a caller lends a way to
+//! wait ([`Control::pause`]).
+
+mod control;
+mod error;
+mod feed;
+mod listen;
+mod machine;
+mod pipeline;
+mod program;
+mod publish;
+mod refusal;
+mod source;
+mod stream;
+
+pub use control::{Control, Notice, Progress};
+pub use error::{Fault, RunError};
+pub use feed::{Fed, FeedError, feed};
+pub use listen::{CLIENT_SILENCE, Listening, listen};
+pub use pipeline::{Output, Pipeline, Statistics};
+pub use program::{PipeSource, ProgramSource};
+pub use publish::{Pace, Publisher};
+pub use refusal::Refusal;
+pub use source::{ItemSource, Supply};
+use stream::Stream;
+pub use stream::{STREAM_QUEUE, SoftLimits};

@@ -1,0 +1,78 @@
+//! How a caller attends to a run: stops it, follows it, and lends it a way to wait.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use glidepath_link::MachineState;
+
+use crate::{RunError, Statistics};
+
+/// Something the caller may want to show.
+#[derive(Debug)]
+pub enum Notice<'a> {
+    /// No interpolator has shown itself for a while; the planner goes on waiting.
+    NoInterpolator,
+    /// The interpolator is not ready for a new program; the planner goes on waiting.
+    NotReady(MachineState),
+    /// The planner before died and left its cause latched; it was reset.
+    FaultReset,
+    /// A listening planner waits for a client.
+    Listening,
+    /// A client opened a stream.
+    StreamOpened {
+        /// The client's number of it.
+        session: u64,
+    },
+    /// A stream was executed to its end.
+    StreamExecuted(Statistics),
+    /// A stream ended badly; the listening planner goes on.
+    StreamBroken(&'a RunError),
+    /// The motion starts.
+    Started {
+        /// Its epoch.
+        epoch: u64,
+    },
+    /// How far it has come.
+    Progress(Progress),
+}
+
+/// How far a run has come.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Progress {
+    /// Read and planned.
+    pub planned: Statistics,
+    /// Frames in the interpolator's queue or executed.
+    pub published: u64,
+    /// Frames executed.
+    pub executed: u64,
+    /// Motion published, s.
+    pub published_t: f64,
+    /// Source line being executed, 0 before the first.
+    pub line: u32,
+}
+
+/// The caller's side of a run.
+pub struct Control<'a> {
+    /// Set by the caller (a signal handler) to end the run with a controlled stop.
+    pub stop: &'a AtomicBool,
+    /// Waits for the given time. The library reads no clock: it counts what it asked for here.
+    pub pause: &'a mut dyn FnMut(Duration),
+    /// Told what happens, at most a few times per second.
+    pub notify: &'a mut dyn FnMut(&Notice<'_>),
+}
+
+impl std::fmt::Debug for Control<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Control")
+            .field("stop", &self.stop)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Control<'_> {
+    /// Whether the caller wants the run to end.
+    #[must_use]
+    pub fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}

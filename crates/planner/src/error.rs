@@ -1,0 +1,105 @@
+//! Why a run ended before its end.
+
+use glidepath_geometry::Axis;
+use glidepath_link::{CommandKind, CommandRefusal, FaultCause, FrameRefusal, LinkError, Status};
+use thiserror::Error;
+
+use crate::Refusal;
+
+/// Why a run ended before its end. In every case the machine comes to rest on the path.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// The program was refused, before any motion or from some point on.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// The caller's stop flag ended it.
+    #[error("interrupted")]
+    Interrupted,
+    /// Somebody aborted it at the interpolator.
+    #[error("aborted at the interpolator")]
+    Aborted,
+    /// The interpolator stopped by a fault and latched its cause.
+    #[error("the interpolator stopped by a fault: {0}")]
+    Fault(Fault),
+    /// The interpolator gave no sign of life, or was started anew.
+    #[error("the interpolator is gone; it is restarted by `glidepath interpolator`")]
+    InterpolatorLost,
+    /// Planner and interpolator are configured differently.
+    #[error(
+        "the interpolator runs with a period of {interpolator_ns} ns, the planner was configured for \
+         {planner_ns} ns; give both the same configuration"
+    )]
+    PeriodMismatch {
+        /// The planner's, ns.
+        planner_ns: u64,
+        /// The interpolator's, ns.
+        interpolator_ns: u64,
+    },
+    /// The interpolator would not do what the planner needs.
+    #[error("the interpolator refused the command {command:?}: {refusal:?} {message}")]
+    CommandRefused {
+        /// Which.
+        command: CommandKind,
+        /// Why.
+        refusal: CommandRefusal,
+        /// More, for people.
+        message: String,
+    },
+    /// The interpolator did not answer.
+    #[error("the interpolator did not answer the command {command:?}")]
+    CommandUnanswered {
+        /// Which.
+        command: CommandKind,
+    },
+    /// A port failed.
+    #[error(transparent)]
+    Link(#[from] LinkError),
+}
+
+/// A fault the interpolator has latched.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fault {
+    /// What kind; `None` if the planner does not know the code.
+    pub cause: Option<FaultCause>,
+    /// Source line, 0 if it has none.
+    pub line: u32,
+    /// Axis, if the fault has one.
+    pub axis: Option<Axis>,
+    /// What the interpolator says about it.
+    pub message: String,
+}
+
+impl std::fmt::Display for Fault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.cause {
+            Some(FaultCause::Frame(FrameRefusal::Elsewhere)) => {
+                write!(f, "the program does not start where the machine stands")?;
+            }
+            Some(FaultCause::Frame(refusal)) => write!(f, "a frame was refused ({refusal:?})")?,
+            Some(cause) => write!(f, "{cause:?}")?,
+            None => write!(f, "unknown cause")?,
+        }
+        if let Some(axis) = self.axis {
+            write!(f, ", axis {axis}")?;
+        }
+        if self.line > 0 {
+            write!(f, ", line {}", self.line)?;
+        }
+        if !self.message.is_empty() {
+            write!(f, ": {}", self.message)?;
+        }
+        Ok(())
+    }
+}
+
+impl RunError {
+    /// The fault a status tells of.
+    pub(crate) fn fault(status: &Status) -> Self {
+        Self::Fault(Fault {
+            cause: status.fault().unwrap_or(None),
+            line: status.fault_line,
+            axis: status.fault_axis(),
+            message: status.last_error.as_str().to_owned(),
+        })
+    }
+}

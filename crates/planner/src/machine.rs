@@ -1,0 +1,186 @@
+//! The interpolator as the planner sees it: its status, and commands to it.
+
+use std::time::Duration;
+
+use glidepath_geometry::AxisVector;
+use glidepath_link::{
+    Client, Command, CommandReply, CommandRequest, EndOfEpoch, LinkError, MachineState, Record,
+    Status, Subscriber, Transport,
+};
+
+use crate::{Control, RunError};
+
+/// Between two looks at the status.
+pub(crate) const POLL: Duration = Duration::from_millis(2);
+
+/// An interpolator that has not updated its status for so long is gone. It does so every few ticks.
+pub(crate) const SILENCE: Duration = Duration::from_secs(3);
+
+/// How long a command may wait for its answer.
+const COMMAND_PATIENCE: Duration = Duration::from_secs(2);
+
+/// How the epoch of this planner stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Standing {
+    /// Its first frame has not been accepted yet.
+    NotStarted,
+    /// It goes on.
+    Open {
+        /// Frames executed.
+        executed: u64,
+        /// The interpolator slows, or rests, because frames run low.
+        starving: bool,
+    },
+    /// The last frame was executed.
+    Completed,
+}
+
+/// Status and command ports, and what was last heard.
+pub(crate) struct Machine {
+    status: Box<dyn Subscriber<Status>>,
+    commands: Box<dyn Client<CommandRequest, CommandReply>>,
+    latest: Option<Status>,
+    /// Whether a status was heard that is newer than the first, which may be a dead process' legacy.
+    alive: bool,
+    /// Time waited since the last news.
+    silent: Duration,
+    client: u64,
+    commands_sent: u64,
+}
+
+impl std::fmt::Debug for Machine {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Machine")
+            .field("latest", &self.latest)
+            .field("alive", &self.alive)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Machine {
+    pub(crate) fn connect(transport: &dyn Transport) -> Result<Self, LinkError> {
+        Ok(Self {
+            status: transport.status_source()?,
+            commands: transport.command_client()?,
+            latest: None,
+            alive: false,
+            silent: Duration::ZERO,
+            client: u64::from(std::process::id()),
+            commands_sent: 0,
+        })
+    }
+
+    /// Takes in the newest status.
+    pub(crate) fn observe(&mut self) -> Result<(), LinkError> {
+        while let Some(status) = self.status.take()? {
+            status.check()?;
+            let before = self
+                .latest
+                .map(|latest| (latest.boot_id, latest.updated_ns));
+            if before.is_some_and(|before| before != (status.boot_id, status.updated_ns)) {
+                self.alive = true;
+                self.silent = Duration::ZERO;
+            }
+            self.latest = Some(status);
+        }
+        Ok(())
+    }
+
+    /// Waits a little, and counts it as silence until the next news.
+    pub(crate) fn pause(&mut self, control: &mut Control<'_>) {
+        (control.pause)(POLL);
+        self.silent = self.silent.saturating_add(POLL);
+        if self.silent >= SILENCE {
+            self.alive = false;
+        }
+    }
+
+    /// The last status of an interpolator that lives.
+    pub(crate) fn status(&self) -> Option<&Status> {
+        self.latest.as_ref().filter(|_| self.alive)
+    }
+
+    /// How the epoch stands, or why it is over before its end.
+    pub(crate) fn standing(
+        &self,
+        boot_id: u64,
+        epoch: u64,
+        started: bool,
+    ) -> Result<Standing, RunError> {
+        let status = self.status().ok_or(RunError::InterpolatorLost)?;
+        if status.boot_id != boot_id {
+            return Err(RunError::InterpolatorLost);
+        }
+        let state = status.state().map_err(LinkError::from)?;
+        let end = status.end_of_epoch().map_err(LinkError::from)?;
+        if state == MachineState::Faulted || (status.epoch == epoch && end == EndOfEpoch::Faulted) {
+            return Err(RunError::fault(status));
+        }
+        if status.epoch != epoch {
+            // Another epoch in the middle of ours means that somebody ended ours and started again.
+            return if started {
+                Err(RunError::Aborted)
+            } else {
+                Ok(Standing::NotStarted)
+            };
+        }
+        match end {
+            EndOfEpoch::Completed => Ok(Standing::Completed),
+            EndOfEpoch::Aborted => Err(RunError::Aborted),
+            EndOfEpoch::None | EndOfEpoch::Open | EndOfEpoch::Faulted => Ok(Standing::Open {
+                executed: status.frames_executed,
+                starving: matches!(state, MachineState::Starving | MachineState::Starved),
+            }),
+        }
+    }
+
+    /// Where the machine stands, if it is ready for a new epoch.
+    pub(crate) fn ready_position(&self) -> Option<AxisVector> {
+        let status = self.status()?;
+        let idle = status.state() == Ok(MachineState::Idle);
+        idle.then(|| AxisVector::from(status.position))
+    }
+
+    /// Source line being executed, 0 if unknown.
+    pub(crate) fn line(&self) -> u32 {
+        self.status().map_or(0, |status| status.line)
+    }
+
+    /// Waits for news again before anything is believed: what was last heard is from before a change.
+    pub(crate) fn forget(&mut self) {
+        self.latest = None;
+        self.alive = false;
+    }
+
+    /// Sends a command and waits for the answer.
+    pub(crate) fn command(
+        &mut self,
+        command: Command,
+        control: &mut Control<'_>,
+    ) -> Result<(), RunError> {
+        self.commands_sent += 1;
+        let number = self.commands_sent;
+        self.commands
+            .ask(&CommandRequest::new(self.client, number, command))?;
+        let mut waited = Duration::ZERO;
+        while waited < COMMAND_PATIENCE {
+            while let Some(reply) = self.commands.reply()? {
+                if reply.number == number {
+                    return match reply.outcome().map_err(LinkError::from)? {
+                        Ok(()) => Ok(()),
+                        Err(refusal) => Err(RunError::CommandRefused {
+                            command: command.kind(),
+                            refusal,
+                            message: reply.message.as_str().to_owned(),
+                        }),
+                    };
+                }
+            }
+            (control.pause)(POLL);
+            waited += POLL;
+        }
+        Err(RunError::CommandUnanswered {
+            command: command.kind(),
+        })
+    }
+}

@@ -1,0 +1,154 @@
+//! From items to frames, pulled by whoever needs the next frame.
+//!
+//! ```text
+//!   source ──next_item──▶ planner.push ──▶ (look-ahead) ──pop_frame──▶ caller
+//! ```
+//!
+//! Nothing runs ahead of the caller: an item is taken from the source only when the planner has no
+//! frame left to give, so the memory in use is the planner's look-ahead, whatever the length of the
+//! program.
+//!
+//! If the source fails midway (an error in a pipe, a client that died) the planner is told that the
+//! program ends at the last good item. The motion then comes to rest there, on the path, and the
+//! reason comes out after the last frame.
+
+use glidepath_geometry::AxisVector;
+use glidepath_motion::{Frame, Item, ItemKind, Planner, Settings};
+
+use crate::{ItemSource, Refusal, Supply};
+
+/// One step of a pipeline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Output {
+    /// The planner took this item. An auditor listens to these.
+    Item(Item),
+    /// The next frame.
+    Frame(Frame),
+    /// The source has nothing yet and the planner cannot go on without.
+    Pending,
+    /// All frames are out.
+    End,
+}
+
+/// What a pipeline has done so far.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Statistics {
+    /// Lines of program text read (items, where there is no text).
+    pub lines: u64,
+    /// Segments planned.
+    pub segments: u64,
+    /// Dwells and events planned.
+    pub others: u64,
+    /// Frames given out.
+    pub frames: u64,
+}
+
+/// Whether the program can still grow.
+#[derive(Debug)]
+enum Program {
+    Open,
+    /// No more items; frames may remain. Holds the reason if the program ended early.
+    Ended(Option<Refusal>),
+}
+
+/// Source and planner, joined.
+#[derive(Debug)]
+pub struct Pipeline<S> {
+    source: S,
+    planner: Planner,
+    program: Program,
+    statistics: Statistics,
+}
+
+impl<S: ItemSource> Pipeline<S> {
+    /// A pipeline for a machine at rest at `start` (mm, degrees).
+    #[must_use]
+    pub fn new(source: S, settings: Settings, start: AxisVector) -> Self {
+        Self {
+            source,
+            planner: Planner::new(settings, start),
+            program: Program::Open,
+            statistics: Statistics::default(),
+        }
+    }
+
+    /// Takes one step: gives a frame if the planner has one, else feeds it one item.
+    ///
+    /// # Errors
+    /// The reason why the program ended early, once, after the last frame of the motion that stops
+    /// at the last good item. From then on the pipeline is at its end.
+    pub fn advance(&mut self) -> Result<Output, Refusal> {
+        if let Some(frame) = self.planner.pop_frame() {
+            self.statistics.frames += 1;
+            return Ok(Output::Frame(frame));
+        }
+        match &mut self.program {
+            Program::Open => Ok(self.take_item()),
+            Program::Ended(refusal) => refusal.take().map_or(Ok(Output::End), Err),
+        }
+    }
+
+    /// The next frame; `None` at the end.
+    ///
+    /// For sources that never are pending (files); with others it spins.
+    ///
+    /// # Errors
+    /// As [`Pipeline::advance`].
+    pub fn next_frame(&mut self) -> Result<Option<Frame>, Refusal> {
+        loop {
+            match self.advance()? {
+                Output::Frame(frame) => return Ok(Some(frame)),
+                Output::End => return Ok(None),
+                Output::Item(_) | Output::Pending => {}
+            }
+        }
+    }
+
+    /// The source, where the pipeline is no longer wanted.
+    #[must_use]
+    pub fn into_source(self) -> S {
+        self.source
+    }
+
+    /// The source.
+    pub(crate) fn source(&mut self) -> &mut S {
+        &mut self.source
+    }
+
+    /// Counts so far.
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
+        Statistics {
+            lines: self.source.lines_read(),
+            ..self.statistics
+        }
+    }
+
+    fn take_item(&mut self) -> Output {
+        match self.source.next_item() {
+            Supply::Item(item) => self.plan(item),
+            Supply::Pending => Output::Pending,
+            Supply::End => self.end(None),
+            Supply::Refused(refusal) => self.end(Some(refusal)),
+        }
+    }
+
+    fn plan(&mut self, item: Item) -> Output {
+        if let Err(error) = self.planner.push(&item) {
+            self.source.unplannable(&error);
+            return self.end(Some(error.into()));
+        }
+        match item.kind {
+            ItemKind::Move { .. } => self.statistics.segments += 1,
+            ItemKind::Dwell(_) | ItemKind::Event(_) => self.statistics.others += 1,
+        }
+        Output::Item(item)
+    }
+
+    /// Closes the program at the last good item.
+    fn end(&mut self, refusal: Option<Refusal>) -> Output {
+        self.planner.finish();
+        self.program = Program::Ended(refusal);
+        Output::Pending
+    }
+}

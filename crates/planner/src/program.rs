@@ -1,0 +1,131 @@
+//! Programs as text: files, which are checked as a whole before anything moves, and pipes, which
+//! cannot be.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read, Seek};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
+
+use glidepath_gcode::{Options, Program, check};
+
+use crate::{ItemSource, Refusal, Supply};
+
+/// Bytes read from a file or pipe at a time.
+const BUFFER: usize = 64 * 1024;
+
+/// Items read ahead from a pipe.
+const READ_AHEAD: usize = 1024;
+
+/// Items of a program text, read as they are wanted.
+#[derive(Debug)]
+pub struct ProgramSource<R> {
+    program: Program<R>,
+}
+
+impl<R: BufRead> ProgramSource<R> {
+    /// A program that is not checked beforehand: its first error ends it.
+    #[must_use]
+    pub fn new(reader: R, options: Options) -> Self {
+        Self {
+            program: Program::new(reader, options),
+        }
+    }
+}
+
+impl ProgramSource<BufReader<File>> {
+    /// Opens a file after a pass over the whole of it. Should the file change between that pass and
+    /// the execution, an error then ends the motion as it does with a pipe.
+    ///
+    /// # Errors
+    /// All findings, if there is any; or why the file cannot be read.
+    pub fn open(path: &Path, options: Options) -> Result<Self, Refusal> {
+        let mut file = File::open(path)?;
+        let report = check(BufReader::with_capacity(BUFFER, &mut file), options.clone());
+        if !report.diagnostics.is_empty() {
+            return Err(Refusal::Program {
+                findings: report.diagnostics,
+                unlisted: report.more,
+            });
+        }
+        file.rewind()?;
+        Ok(Self::new(BufReader::with_capacity(BUFFER, file), options))
+    }
+}
+
+impl<R: BufRead> ItemSource for ProgramSource<R> {
+    fn next_item(&mut self) -> Supply {
+        match self.program.next() {
+            Some(Ok(item)) => Supply::Item(item),
+            Some(Err(finding)) => Supply::Refused(Refusal::Program {
+                findings: vec![finding],
+                unlisted: 0,
+            }),
+            None => Supply::End,
+        }
+    }
+
+    fn lines_read(&self) -> u64 {
+        u64::from(self.program.totals().lines)
+    }
+}
+
+/// A program from a pipe. It is read in a thread of its own, so that a pipe that is slow never keeps
+/// the planner from looking after the motion.
+#[derive(Debug)]
+pub struct PipeSource {
+    pieces: Receiver<Supply>,
+    lines: Arc<AtomicU64>,
+}
+
+impl PipeSource {
+    /// Starts to read. The thread ends with the input, or when the source is dropped and the input
+    /// gives another item.
+    ///
+    /// # Errors
+    /// The thread cannot be started.
+    pub fn spawn<R: Read + Send + 'static>(input: R, options: Options) -> Result<Self, Refusal> {
+        let (sender, pieces) = sync_channel(READ_AHEAD);
+        let lines = Arc::new(AtomicU64::new(0));
+        let counter = Arc::clone(&lines);
+        std::thread::Builder::new()
+            .name("program reader".to_owned())
+            .spawn(move || {
+                let source = ProgramSource::new(BufReader::with_capacity(BUFFER, input), options);
+                read_all(source, &sender, &counter);
+            })?;
+        Ok(Self { pieces, lines })
+    }
+}
+
+fn read_all<R: BufRead>(
+    mut source: ProgramSource<R>,
+    sender: &SyncSender<Supply>,
+    lines: &AtomicU64,
+) {
+    loop {
+        let supply = source.next_item();
+        let last = !matches!(supply, Supply::Item(_));
+        lines.store(source.lines_read(), Ordering::Relaxed);
+        if sender.send(supply).is_err() || last {
+            return;
+        }
+    }
+}
+
+impl ItemSource for PipeSource {
+    fn next_item(&mut self) -> Supply {
+        match self.pieces.try_recv() {
+            Ok(supply) => supply,
+            Err(TryRecvError::Empty) => Supply::Pending,
+            Err(TryRecvError::Disconnected) => Supply::Refused(Refusal::Read(
+                std::io::Error::other("the thread that reads the program died"),
+            )),
+        }
+    }
+
+    fn lines_read(&self) -> u64 {
+        self.lines.load(Ordering::Relaxed)
+    }
+}

@@ -1,0 +1,367 @@
+//! Frames to the interpolator: paced, lossless, and with an end.
+//!
+//! ```text
+//!            executed            published     horizon
+//!  ─────────────┼─────────────────────┼───────────┤
+//!   sequence →  ▲ from Status         ▲ one frame in hand until it is delivered
+//! ```
+//!
+//! * **Start.** An epoch starts at rest where the machine stands, so the publisher waits until the
+//!   interpolator lives (its status changes) and is idle, and takes the position from the status.
+//! * **Pace.** Frame *n* is offered when *n* < executed + horizon. What is not yet published can still
+//!   be planned otherwise; what is published lets the machine run on while the planner is held up.
+//!   While the interpolator says that it starves the horizon does not count, so that the two can
+//!   never wait for each other.
+//! * **No loss.** The frame in hand is given up only when the transport says that it is in the
+//!   interpolator's queue; a queue that is full, or not connected yet, gets the same frame again.
+//! * **End.** The last frame carries the flag `LAST`; the run is over when the interpolator says that
+//!   it has executed the epoch, or why not.
+//! * **Stop flag.** The publisher sends an abort: the interpolator comes to rest on the path at once
+//!   and drops what it has queued, instead of playing up to a horizon of motion that nobody wants any
+//!   more. If the command cannot be sent, no more frames come, and the interpolator stops by
+//!   starvation, later but as safely.
+
+use std::time::Duration;
+
+use glidepath_geometry::AxisVector;
+use glidepath_link::{
+    Command, Delivery, FaultCause, FrameSink, LinkError, MachineState, SetpointFrame, Transport,
+};
+
+use crate::machine::{Machine, POLL, SILENCE, Standing};
+use crate::{
+    Control, ItemSource, Notice, Output, Pipeline, Progress, Refusal, RunError, Statistics,
+};
+
+/// Override the frames are planned with: the planner plans at the programmed feed.
+const PLANNED_OVERRIDE: f64 = 1.0;
+
+/// Steps of the pipeline between two looks at status and stop flag.
+const STEPS_PER_TURN: u32 = 512;
+
+/// Between two notices of progress.
+const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
+
+/// Without news for so long, the caller is told what is waited for.
+const NOTICE_AFTER: Duration = Duration::from_secs(1);
+
+/// Between two clean-ups of what dead processes hold, while waiting.
+const CLEAN_UP_INTERVAL: Duration = Duration::from_secs(1);
+
+/// How frames are paced.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pace {
+    /// Interpolation period, ns; must be the interpolator's.
+    pub period_ns: u64,
+    /// How far to be ahead of the executed frame, frames, at least 1.
+    pub horizon_frames: u64,
+}
+
+impl Pace {
+    /// A pace of `horizon_t` seconds, rounded up to whole periods.
+    #[must_use]
+    pub fn new(period_ns: u64, horizon_t: f64) -> Self {
+        #[allow(clippy::cast_precision_loss, reason = "periods are below 2^53 ns")]
+        let frames = (horizon_t * 1e9 / period_ns as f64).ceil();
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "the cast saturates, and a negative or undefined horizon becomes one frame"
+        )]
+        Self {
+            period_ns,
+            horizon_frames: (frames as u64).max(1),
+        }
+    }
+}
+
+/// The planner's ports to one interpolator.
+pub struct Publisher<'t> {
+    transport: &'t dyn Transport,
+    sink: Box<dyn FrameSink>,
+    machine: Machine,
+    pace: Pace,
+    /// Time waited without an epoch.
+    idle_t: Duration,
+}
+
+impl std::fmt::Debug for Publisher<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Publisher")
+            .field("machine", &self.machine)
+            .field("pace", &self.pace)
+            .finish_non_exhaustive()
+    }
+}
+
+/// One epoch under way.
+#[derive(Debug)]
+struct Epoch {
+    boot_id: u64,
+    epoch: u64,
+    /// Planned, but not yet in the interpolator's queue.
+    in_hand: Option<SetpointFrame>,
+    delivered: u64,
+    executed: u64,
+    started: bool,
+    starving: bool,
+    /// Set when the pipeline has no more frames.
+    ended: Option<Result<(), Refusal>>,
+    since_progress: Duration,
+}
+
+/// What a turn of publishing came to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Turn {
+    /// There may be more to do at once.
+    Busy,
+    /// Nothing to do until time has passed.
+    Wait,
+}
+
+impl<'t> Publisher<'t> {
+    /// Opens the ports.
+    ///
+    /// # Errors
+    /// A port that cannot be opened; [`LinkError::Taken`] if another planner runs.
+    pub fn connect(transport: &'t dyn Transport, pace: Pace) -> Result<Self, LinkError> {
+        let (sink, machine) = (transport.frame_sink()?, Machine::connect(transport)?);
+        Ok(Self {
+            transport,
+            sink,
+            machine,
+            pace,
+            idle_t: Duration::ZERO,
+        })
+    }
+
+    /// Waits until the interpolator is there and ready for a program; returns where the machine
+    /// stands. A latched fault whose cause is the death of the planner before is reset.
+    ///
+    /// # Errors
+    /// [`RunError::Interrupted`] by the stop flag, [`RunError::Fault`] if a fault is latched that
+    /// needs the operator, [`RunError::PeriodMismatch`], or a failure of the link.
+    pub fn wait_until_ready(&mut self, control: &mut Control<'_>) -> Result<AxisVector, RunError> {
+        let mut told = None;
+        loop {
+            if control.is_stopped() {
+                return Err(RunError::Interrupted);
+            }
+            if let Some(position) = self.ready(control)? {
+                return Ok(position);
+            }
+            self.idle(control)?;
+            let state = self.machine.status().and_then(|status| status.state().ok());
+            if self.idle_t >= NOTICE_AFTER && told != Some(state) {
+                (control.notify)(&state.map_or(Notice::NoInterpolator, Notice::NotReady));
+                told = Some(state);
+            }
+        }
+    }
+
+    /// Waits a little while there is no epoch, and now and then frees what dead processes hold.
+    pub(crate) fn idle(&mut self, control: &mut Control<'_>) -> Result<(), LinkError> {
+        self.machine.pause(control);
+        self.idle_t += POLL;
+        if self
+            .idle_t
+            .as_nanos()
+            .is_multiple_of(CLEAN_UP_INTERVAL.as_nanos())
+        {
+            self.transport.clean_up_dead_peers()?;
+        }
+        Ok(())
+    }
+
+    /// One look at whether the machine is ready, and where it stands.
+    ///
+    /// # Errors
+    /// As [`Publisher::wait_until_ready`], without the stop flag.
+    pub(crate) fn ready(
+        &mut self,
+        control: &mut Control<'_>,
+    ) -> Result<Option<AxisVector>, RunError> {
+        self.machine.observe()?;
+        let Some(status) = self.machine.status() else {
+            return Ok(None);
+        };
+        if status.period_ns != self.pace.period_ns {
+            return Err(RunError::PeriodMismatch {
+                planner_ns: self.pace.period_ns,
+                interpolator_ns: status.period_ns,
+            });
+        }
+        if status.state().map_err(LinkError::from)? == MachineState::Faulted {
+            if status.fault().map_err(LinkError::from)? != Some(FaultCause::PlannerLost) {
+                return Err(RunError::fault(status));
+            }
+            self.machine.command(Command::Reset, control)?;
+            (control.notify)(&Notice::FaultReset);
+            self.machine.forget();
+            return Ok(None);
+        }
+        Ok(self.machine.ready_position())
+    }
+
+    /// Publishes all frames of a pipeline that starts where [`Publisher::wait_until_ready`] said, and
+    /// waits until they are executed.
+    ///
+    /// # Errors
+    /// Why the motion ended before the end of the program. A refusal of the program comes when the
+    /// motion up to the last good item is executed.
+    pub fn publish<S: ItemSource>(
+        &mut self,
+        pipeline: &mut Pipeline<S>,
+        control: &mut Control<'_>,
+    ) -> Result<Statistics, RunError> {
+        let mut epoch = self.next_epoch()?;
+        let mut waited = Duration::ZERO;
+        loop {
+            if control.is_stopped() {
+                self.abort(&epoch, control)?;
+                return Err(RunError::Interrupted);
+            }
+            self.machine.observe()?;
+            pipeline.source().attend(std::mem::take(&mut waited));
+            let completed = self.follow(&mut epoch)?;
+            let all_out = epoch.in_hand.is_none() && epoch.ended.is_some();
+            if all_out && (completed || epoch.delivered == 0) {
+                report(&epoch, pipeline, self.machine.line(), self.pace, control);
+                if let Some(Err(refusal)) = epoch.ended {
+                    return Err(refusal.into());
+                }
+                return Ok(pipeline.statistics());
+            }
+            if self.turn(pipeline, &mut epoch, control)? == Turn::Wait {
+                self.machine.pause(control);
+                waited = POLL;
+                epoch.since_progress += POLL;
+            }
+            if epoch.since_progress >= PROGRESS_INTERVAL {
+                epoch.since_progress = Duration::ZERO;
+                report(&epoch, pipeline, self.machine.line(), self.pace, control);
+            }
+        }
+    }
+
+    fn next_epoch(&self) -> Result<Epoch, RunError> {
+        let status = self.machine.status().ok_or(RunError::InterpolatorLost)?;
+        Ok(Epoch {
+            boot_id: status.boot_id,
+            epoch: status.epoch + 1,
+            in_hand: None,
+            delivered: 0,
+            executed: 0,
+            started: false,
+            starving: false,
+            ended: None,
+            since_progress: Duration::ZERO,
+        })
+    }
+
+    /// Takes over how the epoch stands; true if it is completed.
+    fn follow(&self, epoch: &mut Epoch) -> Result<bool, RunError> {
+        match self
+            .machine
+            .standing(epoch.boot_id, epoch.epoch, epoch.started)?
+        {
+            Standing::NotStarted => Ok(false),
+            Standing::Open { executed, starving } => {
+                (epoch.started, epoch.executed, epoch.starving) = (true, executed, starving);
+                Ok(false)
+            }
+            Standing::Completed => {
+                (epoch.started, epoch.executed) = (true, epoch.delivered);
+                Ok(true)
+            }
+        }
+    }
+
+    /// Plans and offers frames until there is nothing to do or it is time to look around.
+    fn turn<S: ItemSource>(
+        &mut self,
+        pipeline: &mut Pipeline<S>,
+        epoch: &mut Epoch,
+        control: &mut Control<'_>,
+    ) -> Result<Turn, RunError> {
+        for _ in 0..STEPS_PER_TURN {
+            if let Some(frame) = &epoch.in_hand {
+                let due = frame.sequence < epoch.executed.saturating_add(self.pace.horizon_frames);
+                if !(due || epoch.starving) || self.sink.offer(frame)? != Delivery::Delivered {
+                    return Ok(Turn::Wait);
+                }
+                epoch.in_hand = None;
+                epoch.delivered += 1;
+                if epoch.delivered == 1 {
+                    (control.notify)(&Notice::Started { epoch: epoch.epoch });
+                }
+            }
+            if epoch.ended.is_some() {
+                return Ok(Turn::Wait);
+            }
+            match pipeline.advance() {
+                Ok(Output::Frame(frame)) => {
+                    epoch.in_hand = Some(SetpointFrame::from_frame(
+                        &frame,
+                        epoch.epoch,
+                        self.pace.period_ns,
+                        PLANNED_OVERRIDE,
+                    ));
+                }
+                Ok(Output::Item(_)) => {}
+                Ok(Output::Pending) => return Ok(Turn::Wait),
+                Ok(Output::End) => epoch.ended = Some(Ok(())),
+                Err(refusal) => epoch.ended = Some(Err(refusal)),
+            }
+        }
+        Ok(Turn::Busy)
+    }
+
+    /// Ends the epoch by command and waits until the machine rests.
+    fn abort(&mut self, epoch: &Epoch, control: &mut Control<'_>) -> Result<(), RunError> {
+        if epoch.delivered == 0 {
+            return Ok(());
+        }
+        // If the interpolator cannot be told, it stops by starvation.
+        if self.machine.command(Command::Abort, control).is_err() {
+            return Ok(());
+        }
+        let mut waited = Duration::ZERO;
+        while waited < SILENCE {
+            self.machine.observe()?;
+            match self
+                .machine
+                .standing(epoch.boot_id, epoch.epoch, epoch.started)
+            {
+                Ok(Standing::Open { .. } | Standing::NotStarted) => {}
+                Ok(Standing::Completed) | Err(_) => break,
+            }
+            self.machine.pause(control);
+            waited += POLL;
+        }
+        Ok(())
+    }
+}
+
+fn report<S: ItemSource>(
+    epoch: &Epoch,
+    pipeline: &Pipeline<S>,
+    line: u32,
+    pace: Pace,
+    control: &mut Control<'_>,
+) {
+    // The first frame is the state at time 0: n frames are n − 1 periods of motion.
+    let periods = epoch.delivered.saturating_sub(1);
+    #[allow(
+        clippy::cast_precision_loss,
+        reason = "for people; far below 2^53 periods"
+    )]
+    let published_t = periods as f64 * pace.period_ns as f64 * 1e-9;
+    (control.notify)(&Notice::Progress(Progress {
+        planned: pipeline.statistics(),
+        published: epoch.delivered,
+        executed: epoch.executed,
+        published_t,
+        line,
+    }));
+}

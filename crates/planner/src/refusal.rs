@@ -1,0 +1,39 @@
+//! Why a program was not run, or not run to its end.
+
+use std::io;
+
+use glidepath_gcode::Diagnostic;
+use glidepath_link::LinkError;
+use glidepath_motion::PlanError;
+use thiserror::Error;
+
+/// A program that was refused, as a whole or from some point on.
+#[derive(Debug, Error)]
+pub enum Refusal {
+    /// The text has errors: all of them if the whole file was checked before motion, else the first.
+    #[error("the program has {} error(s), the first in line {}", .findings.len(), .findings.first().map_or(0, |first| first.line))]
+    Program {
+        /// In the order of the text, at least one.
+        findings: Vec<Diagnostic>,
+        /// Further findings that are not listed.
+        unlisted: u32,
+    },
+    /// An item cannot be planned.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The text cannot be read.
+    #[error("the program cannot be read: {0}")]
+    Read(#[from] io::Error),
+    /// The client of a listening planner died or fell silent.
+    #[error(
+        "the client fell silent after {accepted} accepted requests; the motion stopped at the end of \
+         the last one"
+    )]
+    ClientLost {
+        /// Requests accepted, the opening one included.
+        accepted: u64,
+    },
+    /// The port a stream came by failed.
+    #[error("the stream broke off: {0}")]
+    StreamFailed(#[source] LinkError),
+}

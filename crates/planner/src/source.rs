@@ -1,0 +1,46 @@
+//! Where the items of a program come from.
+//!
+//! A source hands over one [`Item`] at a time, in program order, and says when there is none *yet*
+//! ([`Supply::Pending`]) as opposed to none *ever again* ([`Supply::End`]). What is planned depends on
+//! the sequence of items alone, never on how often a source was pending: the same program from a
+//! file, a pipe or a client of the listening planner gives the same frames.
+
+use std::time::Duration;
+
+use glidepath_motion::{Item, PlanError};
+
+use crate::Refusal;
+
+/// What a source answers when it is asked for the next item.
+#[derive(Debug)]
+pub enum Supply {
+    /// The next item of the program.
+    Item(Item),
+    /// Nothing now; ask again later.
+    Pending,
+    /// The program is complete.
+    End,
+    /// The program is at fault from here on, or the supply broke off. The items handed over before
+    /// stand; there are no more.
+    Refused(Refusal),
+}
+
+/// A supply of items. After [`Supply::End`] or [`Supply::Refused`] it is not asked again.
+pub trait ItemSource {
+    /// The next item, if there is one.
+    fn next_item(&mut self) -> Supply;
+
+    /// Called every few milliseconds, whether items are wanted or not, for sources that have others
+    /// to answer to. `waited` is the time since the last call, as far as the planner waited.
+    fn attend(&mut self, waited: Duration) {
+        let _ = waited;
+    }
+
+    /// The item handed over last cannot be planned; no more are asked for.
+    fn unplannable(&mut self, error: &PlanError) {
+        let _ = error;
+    }
+
+    /// Lines of program text read so far; for a source without text, items received.
+    fn lines_read(&self) -> u64;
+}

@@ -1,0 +1,182 @@
+//! An interpolator that executes one frame a tick and tells its status: no scaling, no checks, no
+//! clock. It is driven by the planner's own pauses, so tests run as fast as they can and always alike.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use glidepath_geometry::AxisVector;
+use glidepath_link::{
+    Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, MachineState, Publisher, Server,
+    SetpointFrame, Status, Subscriber, Text, Transport,
+};
+use glidepath_motion::FrameFlags;
+
+use super::items::PERIOD_NS;
+
+const BOOT_ID: u64 = 77;
+
+pub(crate) struct Interpolator {
+    frames: Box<dyn Subscriber<SetpointFrame>>,
+    status: Box<dyn Publisher<Status>>,
+    commands: Box<dyn Server<CommandRequest, CommandReply>>,
+    queue: VecDeque<SetpointFrame>,
+    capacity: usize,
+    /// Frames that must be queued before it moves on after starving.
+    pub(crate) resume_at: usize,
+    now_ns: u64,
+    due_ns: u64,
+    state: MachineState,
+    end: EndOfEpoch,
+    epoch: u64,
+    received: u64,
+    fault: Option<FaultCause>,
+    pub(crate) position: AxisVector,
+    pub(crate) executed: Vec<SetpointFrame>,
+    pub(crate) deepest: usize,
+    pub(crate) starved: u64,
+}
+
+impl Interpolator {
+    pub(crate) fn new(transport: &dyn Transport, capacity: usize) -> Self {
+        Self {
+            frames: transport.frame_source().unwrap(),
+            status: transport.status_sink().unwrap(),
+            commands: transport.command_server().unwrap(),
+            queue: VecDeque::new(),
+            capacity,
+            resume_at: 1,
+            now_ns: 0,
+            due_ns: 0,
+            state: MachineState::Idle,
+            end: EndOfEpoch::None,
+            epoch: 0,
+            received: 0,
+            fault: None,
+            position: AxisVector::zeros(),
+            executed: Vec::new(),
+            deepest: 0,
+            starved: 0,
+        }
+    }
+
+    /// Lets time pass.
+    pub(crate) fn pass(&mut self, time: Duration) {
+        self.now_ns += u64::try_from(time.as_nanos()).unwrap();
+        while self.due_ns <= self.now_ns {
+            self.due_ns += PERIOD_NS;
+            self.tick();
+        }
+    }
+
+    pub(crate) fn fail(&mut self, cause: FaultCause) {
+        (self.state, self.fault) = (MachineState::Faulted, Some(cause));
+        if self.end == EndOfEpoch::Open {
+            self.end = EndOfEpoch::Faulted;
+        }
+        self.queue.clear();
+    }
+
+    pub(crate) fn abort(&mut self) {
+        if self.end == EndOfEpoch::Open {
+            self.end = EndOfEpoch::Aborted;
+        }
+        self.state = MachineState::Idle;
+        self.queue.clear();
+    }
+
+    pub(crate) const fn state(&self) -> MachineState {
+        self.state
+    }
+
+    pub(crate) const fn end(&self) -> EndOfEpoch {
+        self.end
+    }
+
+    fn tick(&mut self) {
+        self.serve();
+        self.receive();
+        self.execute();
+        let status = self.status_record();
+        self.status.publish(&status).unwrap();
+    }
+
+    fn serve(&mut self) {
+        let mut commands = Vec::new();
+        let state = self.state;
+        let mut answer = |request: &CommandRequest| {
+            commands.push(request.command().unwrap());
+            CommandReply::new(BOOT_ID, request.number, Ok(()), state, "")
+        };
+        while self.commands.serve(&mut answer).unwrap() {}
+        for command in commands {
+            match command {
+                Command::Abort => self.abort(),
+                Command::Reset => (self.state, self.fault) = (MachineState::Idle, None),
+                other => panic!("not simulated: {other:?}"),
+            }
+        }
+    }
+
+    fn receive(&mut self) {
+        while self.queue.len() < self.capacity {
+            let Some(frame) = self.frames.take().unwrap() else {
+                break;
+            };
+            if self.state == MachineState::Faulted {
+                continue;
+            }
+            if frame.epoch != self.epoch {
+                assert_eq!(self.state, MachineState::Idle, "a new epoch while one runs");
+                assert!(frame.has(FrameFlags::FIRST), "an epoch without beginning");
+                assert_eq!(
+                    AxisVector::from(frame.position),
+                    self.position,
+                    "starts elsewhere"
+                );
+                (self.epoch, self.received, self.end) = (frame.epoch, 0, EndOfEpoch::Open);
+                self.state = MachineState::Running;
+            } else if self.end != EndOfEpoch::Open {
+                continue;
+            }
+            assert_eq!(frame.sequence, self.received, "a gap or a repetition");
+            self.received += 1;
+            self.queue.push_back(frame);
+        }
+        self.deepest = self.deepest.max(self.queue.len());
+    }
+
+    fn execute(&mut self) {
+        if self.state == MachineState::Starved && self.queue.len() >= self.resume_at {
+            self.state = MachineState::Running;
+        }
+        if self.state != MachineState::Running {
+            return;
+        }
+        let Some(frame) = self.queue.pop_front() else {
+            self.state = MachineState::Starved;
+            self.starved += 1;
+            return;
+        };
+        self.position = AxisVector::from(frame.position);
+        if frame.has(FrameFlags::LAST) {
+            (self.state, self.end) = (MachineState::Idle, EndOfEpoch::Completed);
+        }
+        self.executed.push(frame);
+    }
+
+    fn status_record(&self) -> Status {
+        let mut status: Status = bytemuck::Zeroable::zeroed();
+        status.boot_id = BOOT_ID;
+        status.updated_ns = self.due_ns;
+        status.period_ns = PERIOD_NS;
+        status.epoch = self.epoch;
+        status.frames_received = self.received;
+        status.frames_executed = self.received - self.queue.len() as u64;
+        status.state = self.state.code();
+        status.end_of_epoch = self.end.code();
+        status.fault = self.fault.map_or(0, FaultCause::code);
+        status.position = self.position.into();
+        status.last_error = Text::new("");
+        status
+    }
+}
