@@ -38,21 +38,20 @@ pub enum Segment {
     Arc(Arc),
 }
 
+/// A displacement below this in a group of axes is rounding of coordinates, not a move: 0.1 nm (or
+/// 1e-7 degrees).
+const ROUNDING_MM: f64 = 1e-7;
+
 /// Feed length of a displacement: XYZ if it has any, else UVW, else degrees of rotation.
 ///
-/// Zero only for a zero displacement.
+/// A group whose motion is only rounding (below 1e-7) counts as not moving, unless no group moves
+/// more: then the longest decides, so the result is zero only for a zero displacement.
 #[must_use]
 pub fn feed_length(displacement: &AxisVector) -> f64 {
-    [LINEAR_XYZ, UVW, ROTARY_ABC]
-        .into_iter()
-        .map(|group| {
-            group
-                .map(|i| displacement[i] * displacement[i])
-                .sum::<f64>()
-                .sqrt()
-        })
-        .find(|&length| length > 0.0)
-        .unwrap_or(0.0)
+    let lengths = [LINEAR_XYZ, UVW, ROTARY_ABC]
+        .map(|group| group.map(|i| displacement[i] * displacement[i]).sum::<f64>().sqrt());
+    let longest = lengths.into_iter().fold(0.0, f64::max);
+    lengths.into_iter().find(|&length| length > ROUNDING_MM).unwrap_or(longest)
 }
 
 impl Line {

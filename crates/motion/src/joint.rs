@@ -276,8 +276,8 @@ impl Corner<'_> {
         let corner_v = found.limit.top_v;
         let mut gain_t = -found.transition.length() / corner_v;
         for (leg, tangent) in [(self.from, &self.t1), (self.to, &self.t2)] {
-            let SpeedLimit { top_v, change } = speed_limit::straight(tangent, leg.rate_v, limits);
-            let Some(change) = change else { return false };
+            let SpeedLimit { top_v, change, .. } =
+                speed_limit::straight(tangent, leg.rate_v, limits);
             let half_s = 0.5 * leg.length_s;
             let left_s = (half_s - found.d_s).max(0.0);
             let middle_v = top_v

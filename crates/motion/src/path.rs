@@ -161,7 +161,10 @@ impl PathFront {
         self.program_position = segment.end();
         let segment = starting_at(segment, self.position);
         let length_s = segment.length();
-        if length_s < SHORTEST_MOVE_MM {
+        let is_arc = matches!(segment, Segment::Arc(_));
+        if (segment.end() - segment.start()).amax() < SHORTEST_MOVE_MM
+            && (!is_arc || length_s < SHORTEST_MOVE_MM)
+        {
             return Ok(());
         }
         let rate_v = match rate {

@@ -22,7 +22,8 @@
 //! there is nothing to go back on.
 
 use crate::path::Piece;
-use crate::scurve::{PathLimits, Profile, reachable_speed, slowing_horizon};
+use crate::scurve::{PathLimits, Profile, ramp_fits, reachable_speed, slowing_horizon};
+use crate::speed_limit::SpeedLimit;
 
 /// A stretch of path with zero acceleration along it at both ends.
 #[derive(Debug, Clone)]
@@ -32,8 +33,10 @@ pub(crate) struct Run {
     /// Lowest and highest top speed of its pieces.
     pub low_v: f64,
     pub high_v: f64,
-    /// The weakest limits of its pieces; `None` where the speed has to be constant.
-    pub change: Option<PathLimits>,
+    /// The weakest limits of its pieces.
+    pub change: PathLimits,
+    /// Above this speed the speed has to be constant.
+    pub constant_above_v: f64,
     short: bool,
     /// Lowest top speed of its curved pieces.
     curved_v: f64,
@@ -57,16 +60,19 @@ const SPEED_ROUNDING_R: f64 = 1e-9;
 
 impl Run {
     pub(crate) fn new(piece: Piece) -> Self {
-        let top_v = piece.limit.top_v;
-        let change = piece.limit.change;
-        let short = change.is_some_and(|limits| {
-            reachable_speed((1.0 - USEFUL_CHANGE_R) * top_v, piece.length_s, limits) < top_v
-        });
+        let SpeedLimit {
+            top_v,
+            change,
+            constant_above_v,
+        } = piece.limit;
+        let short = constant_above_v > top_v
+            && reachable_speed((1.0 - USEFUL_CHANGE_R) * top_v, piece.length_s, change) < top_v;
         Self {
             length_s: piece.length_s,
             low_v: top_v,
             high_v: top_v,
             change,
+            constant_above_v,
             short,
             curved_v: if piece.is_straight() {
                 f64::INFINITY
@@ -79,24 +85,21 @@ impl Run {
 
     /// The length on which the speed may change.
     pub(crate) const fn slowing_room_s(&self) -> f64 {
-        if self.change.is_some() {
-            self.length_s
-        } else {
+        if self.constant_above_v < self.low_v {
             0.0
+        } else {
+            self.length_s
         }
     }
 
     /// Adds the pieces of the next run if both are driven better as one; gives it back if not.
     pub(crate) fn absorb(&mut self, next: Self) -> Option<Self> {
-        let (Some(mine), Some(its)) = (self.change, next.change) else {
-            return Some(next);
-        };
         let ratio_r = self.curved_v / next.curved_v;
         let similar = !ratio_r.is_finite()
             || ratio_r == 0.0
             || (1.0 / SIMILAR_SPEED_R..=SIMILAR_SPEED_R).contains(&ratio_r);
         let full = self.pieces.len() >= MOST_PIECES
-            || self.length_s > 4.0 * slowing_horizon(self.high_v, mine);
+            || self.length_s > 4.0 * slowing_horizon(self.high_v, self.change);
         if !(self.short && next.short && similar) || full {
             return Some(next);
         }
@@ -104,28 +107,47 @@ impl Run {
         self.low_v = self.low_v.min(next.low_v);
         self.high_v = self.high_v.max(next.high_v);
         self.curved_v = self.curved_v.min(next.curved_v);
-        self.change = Some(weaker(mine, its));
+        self.change = weaker(self.change, next.change);
         self.pieces.extend(next.pieces);
         None
+    }
+
+    /// The highest speed at which the run can be entered if it is left at `exit_v`.
+    pub(crate) fn highest_entry(&self, exit_v: f64) -> f64 {
+        if exit_v >= self.constant_above_v {
+            return exit_v;
+        }
+        reachable_speed(exit_v, self.length_s, self.change)
+            .min(self.low_v)
+            .min(self.constant_above_v)
+    }
+
+    /// The speed at which to leave the run if it is entered at `entry_v` and may be left at up to
+    /// `highest_v`; `None` if it is too short to slow down to that.
+    pub(crate) fn exit_speed(&self, entry_v: f64, highest_v: f64) -> Option<f64> {
+        if entry_v >= self.constant_above_v {
+            return (entry_v <= highest_v * (1.0 + SPEED_ROUNDING_R)).then_some(entry_v);
+        }
+        let highest_v = highest_v.min(self.constant_above_v);
+        if entry_v <= highest_v {
+            return Some(highest_v.min(reachable_speed(entry_v, self.length_s, self.change)));
+        }
+        ramp_fits(entry_v, highest_v, self.length_s, self.change).then_some(highest_v)
     }
 
     /// The S-curves through the run, from `entry_v` to `exit_v`, both at most [`Run::low_v`] and
     /// feasible over its length.
     pub(crate) fn drive(&self, entry_v: f64, exit_v: f64) -> Vec<Leg> {
         let mut legs = Vec::new();
-        let Some(change) = self.change else {
-            // Constant speed: the limits do not matter.
-            let limits = PathLimits {
-                accel_a: 1.0,
-                jerk_j: 1.0,
-            };
-            let profile = Profile::new(entry_v, entry_v, self.length_s, entry_v, limits);
+        if self.constant_above_v < self.low_v {
+            let top_v = self.constant_above_v.max(entry_v);
+            let profile = Profile::new(entry_v, exit_v, self.length_s, top_v, self.change);
             legs.extend(profile.map(|profile| Leg {
                 from_s: 0.0,
                 profile,
             }));
             return legs;
-        };
+        }
         let mut starts_s = Vec::with_capacity(self.pieces.len() + 1);
         let mut s = 0.0;
         for piece in &self.pieces {
@@ -143,7 +165,7 @@ impl Run {
             entry_v,
             exit_v,
         };
-        valley.drive(span, change, &mut legs);
+        valley.drive(span, self.change, &mut legs);
         legs
     }
 }
@@ -174,7 +196,7 @@ impl ValleyFirst<'_> {
     fn drive(&self, span: Span, outer: PathLimits, legs: &mut Vec<Leg>) {
         let own = self.pieces[span.first..span.last]
             .iter()
-            .filter_map(|piece| piece.limit.change)
+            .map(|piece| piece.limit.change)
             .reduce(weaker)
             .unwrap_or(outer);
         let Some((used, profile, violated)) = self.unbounded(span, own, outer) else {

@@ -7,12 +7,14 @@
 //!
 //! A chain may be longer than memory, so runs are settled from the front as soon as enough path is
 //! known beyond them. When that is depends on the path alone: on its length against the distance
-//! that slowing down can take, and on a fixed number of pieces. Whatever comes later can only raise
-//! the speeds of the backward pass, so what is settled stays feasible.
+//! that slowing down can take, and on a fixed number of pieces. What comes later nearly always
+//! raises the speeds of the backward pass, but not always: reach is not monotone, and from a speed
+//! from which one could stop, one may be unable to slow down just a little. Then the motion follows
+//! the plan that was made when its speed was settled, which ends at rest, until it meets the new one.
 
 use crate::path::{Element, Piece, Rest};
 use crate::run::{Leg, Run};
-use crate::scurve::{PathLimits, ramp_fits, reachable_speed, slowing_horizon};
+use crate::scurve::{PathLimits, slowing_horizon};
 use std::collections::VecDeque;
 
 /// A part of the motion that nothing later changes.
@@ -27,6 +29,9 @@ pub(crate) enum Settled {
 /// Pieces waiting in a chain before some are settled whatever their length.
 const MOST_WAITING: usize = 4096;
 
+/// A speed above another by less than this factor is rounding.
+const ROUNDING_R: f64 = 1.0 + 1e-9;
+
 /// Gives speeds to pieces of path.
 #[derive(Debug)]
 pub(crate) struct Scheduler {
@@ -39,7 +44,11 @@ pub(crate) struct Scheduler {
     /// Highest top speed and weakest limits met in the chain.
     fastest_v: f64,
     weakest: PathLimits,
+    /// Speed at the start of the first waiting run.
     entry_v: f64,
+    /// The speeds at the ends of the waiting runs as they were planned when the runs before them
+    /// were settled.
+    planned_v: Vec<f64>,
 }
 
 const NO_LIMITS: PathLimits = PathLimits {
@@ -57,6 +66,7 @@ impl Scheduler {
             fastest_v: 0.0,
             weakest: NO_LIMITS,
             entry_v: 0.0,
+            planned_v: Vec::new(),
         }
     }
 
@@ -85,6 +95,7 @@ impl Scheduler {
                 self.fastest_v = 0.0;
                 self.weakest = NO_LIMITS;
                 self.entry_v = 0.0;
+                self.planned_v.clear();
                 out.push_back(Settled::Rest(rest));
             }
         }
@@ -94,9 +105,9 @@ impl Scheduler {
         self.waiting_s += run.slowing_room_s();
         self.waiting_pieces += run.pieces.len();
         self.fastest_v = self.fastest_v.max(run.high_v);
-        if let Some(change) = run.change {
-            self.weakest.accel_a = self.weakest.accel_a.min(change.accel_a);
-            self.weakest.jerk_j = self.weakest.jerk_j.min(change.jerk_j);
+        if run.slowing_room_s() > 0.0 {
+            self.weakest.accel_a = self.weakest.accel_a.min(run.change.accel_a);
+            self.weakest.jerk_j = self.weakest.jerk_j.min(run.change.jerk_j);
         }
         self.waiting.push_back(run);
     }
@@ -124,12 +135,11 @@ impl Scheduler {
         if count == 0 {
             return;
         }
-        let highest_v = self.backward_pass();
-        for i in 0..count {
+        let planned_v = self.forward_pass(&self.backward_pass());
+        for &exit_v in planned_v.iter().take(count) {
             let Some(run) = self.waiting.pop_front() else {
                 return;
             };
-            let exit_v = exit_speed(&run, self.entry_v, highest_v[i + 1]);
             let legs = run.drive(self.entry_v, exit_v);
             self.entry_v = exit_v;
             self.waiting_s -= run.slowing_room_s();
@@ -139,9 +149,31 @@ impl Scheduler {
                 legs,
             });
         }
+        self.planned_v.clear();
+        self.planned_v.extend(planned_v.into_iter().skip(count));
         if self.waiting.is_empty() {
             self.waiting_s = 0.0;
         }
+    }
+
+    /// The speed at the end of each waiting run.
+    fn forward_pass(&self, highest_v: &[f64]) -> Vec<f64> {
+        let mut entry_v = self.entry_v;
+        let mut on_plan = true;
+        let mut planned_v = Vec::with_capacity(self.waiting.len());
+        for (i, run) in self.waiting.iter().enumerate() {
+            let before_v = self.planned_v.get(i).copied().filter(|_| on_plan);
+            let exit_v = match run.exit_speed(entry_v, highest_v[i + 1]) {
+                Some(exit_v) if entry_v <= highest_v[i] * ROUNDING_R || before_v.is_none() => {
+                    on_plan &= before_v == Some(exit_v);
+                    exit_v
+                }
+                _ => before_v.unwrap_or(0.0),
+            };
+            planned_v.push(exit_v);
+            entry_v = exit_v;
+        }
+        planned_v
     }
 
     /// The highest speed at the start of each waiting run, and at rest after the last one.
@@ -155,51 +187,8 @@ impl Scheduler {
             highest_v[i] = run
                 .low_v
                 .min(before_v)
-                .min(highest_entry(run, highest_v[i + 1]));
+                .min(run.highest_entry(highest_v[i + 1]));
         }
         highest_v
     }
-}
-
-/// The highest speed at which a run can be entered if it may be left at up to `exit_v`.
-///
-/// Reach is not monotone: a full stop can need less room than slowing down to `exit_v`. It falls
-/// and then rises with the final speed, so one of the two ends of the range is the best.
-fn highest_entry(run: &Run, exit_v: f64) -> f64 {
-    match run.change {
-        None => exit_v,
-        Some(limits) => reachable_speed(exit_v, run.length_s, limits).max(reachable_speed(
-            0.0,
-            run.length_s,
-            limits,
-        )),
-    }
-}
-
-/// The speed at which to leave a run entered at `entry_v`, at most `highest_v`.
-fn exit_speed(run: &Run, entry_v: f64, highest_v: f64) -> f64 {
-    let Some(limits) = run.change else {
-        return entry_v;
-    };
-    if entry_v <= highest_v {
-        return highest_v.min(reachable_speed(entry_v, run.length_s, limits));
-    }
-    let fits = |exit_v: f64| ramp_fits(entry_v, exit_v, run.length_s, limits);
-    if fits(highest_v) {
-        return highest_v;
-    }
-    // Too short to slow down just to that; slowing down further needs less room. The length of a
-    // ramp rises with the final speed up to the worst one, so search below that.
-    let knee_v = limits.accel_a * limits.accel_a / limits.jerk_j;
-    let worst_v = entry_v - (2.0 / 3.0 * entry_v).min(knee_v);
-    let (mut fits_v, mut exceeds_v) = (0.0, worst_v.min(highest_v));
-    for _ in 0..60 {
-        let middle_v = 0.5 * (fits_v + exceeds_v);
-        if fits(middle_v) {
-            fits_v = middle_v;
-        } else {
-            exceeds_v = middle_v;
-        }
-    }
-    fits_v
 }

@@ -20,8 +20,10 @@ use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds};
 pub(crate) struct SpeedLimit {
     /// Top speed, mm/s.
     pub top_v: f64,
-    /// Acceleration and jerk along the path; `None` where the speed has to be constant.
-    pub change: Option<PathLimits>,
+    /// Acceleration and jerk along the path.
+    pub change: PathLimits,
+    /// Above this speed the speed has to be constant; infinite where it never has to.
+    pub constant_above_v: f64,
 }
 
 /// Share of an axis' acceleration and jerk spent on following a curve at its top speed.
@@ -42,22 +44,27 @@ fn largest(limit: &AxisVector, coefficient: &AxisVector) -> f64 {
 pub(crate) fn straight(d1: &AxisVector, rate_v: f64, limits: &Limits) -> SpeedLimit {
     SpeedLimit {
         top_v: rate_v.min(largest(&limits.velocity, d1)),
-        change: Some(PathLimits {
+        change: PathLimits {
             accel_a: largest(&limits.acceleration, d1),
             jerk_j: largest(&limits.jerk, d1),
-        }),
+        },
+        constant_above_v: f64::INFINITY,
     }
 }
 
-/// A curve driven at constant speed: all of every limit goes into following it.
+/// A curve driven at constant speed: all of every limit goes into following it. At half the top speed
+/// and below, enough is left to change speed.
 pub(crate) fn constant(bounds: &DerivativeBounds, rate_v: f64, limits: &Limits) -> SpeedLimit {
     let top_v = rate_v
         .min(largest(&limits.velocity, &bounds.d1))
         .min(largest(&limits.acceleration, &bounds.d2).sqrt())
         .min(largest(&limits.jerk, &bounds.d3).cbrt());
+    let constant_above_v = 0.5 * top_v;
+    let change = curved(bounds, constant_above_v, limits).change;
     SpeedLimit {
         top_v,
-        change: None,
+        change,
+        constant_above_v,
     }
 }
 
@@ -74,7 +81,8 @@ pub(crate) fn curved(bounds: &DerivativeBounds, rate_v: f64, limits: &Limits) ->
     let jerk_j = largest(&left_j, &bounds.d1);
     SpeedLimit {
         top_v,
-        change: Some(PathLimits { accel_a, jerk_j }),
+        change: PathLimits { accel_a, jerk_j },
+        constant_above_v: f64::INFINITY,
     }
 }
 
@@ -111,12 +119,12 @@ pub(crate) fn arc(arc: &Arc, rate_v: f64, limits: &Limits) -> SpeedLimit {
         ((plane_a * plane_a - normal_a * normal_a).sqrt() / d1).min(cross_j / (3.0 * d2 * top_v));
     let used_j = 3.0 * d2 * top_v * accel_a;
     let jerk_j = ((plane_j * plane_j - used_j * used_j).sqrt() - d3 * top_v.powi(3)) / d1;
-    let change = along.change.unwrap_or(PathLimits { accel_a, jerk_j });
     SpeedLimit {
         top_v,
-        change: Some(PathLimits {
-            accel_a: accel_a.min(change.accel_a),
-            jerk_j: jerk_j.min(change.jerk_j),
-        }),
+        change: PathLimits {
+            accel_a: accel_a.min(along.change.accel_a),
+            jerk_j: jerk_j.min(along.change.jerk_j),
+        },
+        constant_above_v: f64::INFINITY,
     }
 }

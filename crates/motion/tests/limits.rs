@@ -1,0 +1,286 @@
+//! Every planned motion keeps every axis' velocity, acceleration and jerk limit, by finite
+//! differences over the frames alone.
+
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that fails may panic"
+)]
+
+use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Segment};
+use glidepath_motion::{
+    Effort, Frame, Item, ItemKind, Limits, PathMode, Planner, Rate, Settings, Smoothing,
+};
+use proptest::prelude::*;
+
+/// One random step of a program.
+#[derive(Debug, Clone)]
+enum Step {
+    Line {
+        step: [f64; AXES],
+        feed_v: Option<f64>,
+        mode: PathMode,
+    },
+    /// Centre relative to the start, in the plane; sweep; rise.
+    Arc {
+        plane: Plane,
+        center: [f64; 2],
+        sweep_rad: f64,
+        rise_mm: f64,
+        feed_v: f64,
+    },
+    /// A half turn continued by a tangent line.
+    Slot {
+        radius_mm: f64,
+        sweep_rad: f64,
+        tail_mm: f64,
+        feed_v: f64,
+    },
+    Dwell(f64),
+}
+
+fn settings(limits: Limits, tolerance_mm: f64, smoothing: Smoothing, period_t: f64) -> Settings {
+    Settings {
+        limits,
+        tolerance_mm,
+        smoothing,
+        period_t,
+        effort: Effort::Fast,
+    }
+}
+
+fn items(steps: &[Step]) -> Vec<Item> {
+    let mut items = Vec::new();
+    let mut at = AxisVector::zeros();
+    let free = PathMode::Continuous { tolerance_mm: None };
+    let mut push = |kind| {
+        let line = u32::try_from(items.len()).expect("few items") + 1;
+        items.push(Item { line, kind });
+    };
+    for step in steps {
+        match step {
+            Step::Line { step, feed_v, mode } => {
+                let end = at + AxisVector::from_column_slice(step);
+                let rate = feed_v.map_or(Rate::Rapid, Rate::Feed);
+                push(ItemKind::Move {
+                    segment: Segment::line(at, end),
+                    rate,
+                    mode: *mode,
+                });
+                at = end;
+            }
+            Step::Arc {
+                plane,
+                center,
+                sweep_rad,
+                rise_mm,
+                feed_v,
+            } => {
+                let arc = arc(at, *plane, *center, *sweep_rad, *rise_mm);
+                let rate = Rate::Feed(*feed_v);
+                push(ItemKind::Move {
+                    segment: Segment::Arc(arc),
+                    rate,
+                    mode: free,
+                });
+                at = arc.end;
+            }
+            Step::Slot {
+                radius_mm,
+                sweep_rad,
+                tail_mm,
+                feed_v,
+            } => {
+                let arc = arc(at, Plane::Xy, [0.0, *radius_mm], *sweep_rad, 0.0);
+                let rate = Rate::Feed(*feed_v);
+                push(ItemKind::Move {
+                    segment: Segment::Arc(arc),
+                    rate,
+                    mode: free,
+                });
+                let tangent = arc.jet(arc.length()).d1;
+                let end = arc.end + tangent * *tail_mm;
+                push(ItemKind::Move {
+                    segment: Segment::line(arc.end, end),
+                    rate,
+                    mode: free,
+                });
+                at = end;
+            }
+            Step::Dwell(dwell_t) => push(ItemKind::Dwell(*dwell_t)),
+        }
+    }
+    items
+}
+
+fn arc(start: AxisVector, plane: Plane, center: [f64; 2], sweep_rad: f64, rise_mm: f64) -> Arc {
+    let (first, second) = plane.axes();
+    let (first, second) = (first.index(), second.index());
+    let center_at = [start[first] + center[0], start[second] + center[1]];
+    let (sin, cos) = sweep_rad.sin_cos();
+    let mut end = start;
+    end[first] = center_at[0] - center[0] * cos + center[1] * sin;
+    end[second] = center_at[1] - center[0] * sin - center[1] * cos;
+    end[plane.normal().index()] += rise_mm;
+    Arc {
+        start,
+        end,
+        plane,
+        center: center_at,
+        sweep_rad,
+    }
+}
+
+/// Takes all frames there are; a motion that crawls is a fault, not a matter of patience.
+fn take(planner: &mut Planner, frames: &mut Vec<Frame>) {
+    while let Some(frame) = planner.pop_frame() {
+        frames.push(frame);
+        assert!(frames.len() < 1_000_000, "the motion crawls: {frame:?}");
+    }
+}
+
+fn plan(items: &[Item], settings: Settings) -> Vec<Frame> {
+    let mut planner = Planner::new(settings, AxisVector::zeros());
+    let mut frames = Vec::new();
+    for item in items {
+        planner.push(item).expect("valid item");
+        take(&mut planner, &mut frames);
+    }
+    planner.finish();
+    take(&mut planner, &mut frames);
+    frames
+}
+
+/// Largest ratio of velocity, acceleration and jerk to the limits, any axis.
+fn ratios(frames: &[Frame], settings: &Settings) -> [f64; 3] {
+    let Settings {
+        limits, period_t, ..
+    } = settings;
+    let last = frames.len() - 1;
+    let at = |k: usize| frames[k.saturating_sub(3).min(last)].position;
+    let mut worst = [0.0_f64; 3];
+    for k in 3..frames.len() + 6 {
+        let d1 = at(k) - at(k - 1);
+        let d2 = at(k) - at(k - 1) * 2.0 + at(k - 2);
+        let d3 = at(k) - (at(k - 1) - at(k - 2)) * 3.0 - at(k - 3);
+        for i in 0..AXES {
+            worst[0] = worst[0].max(d1[i].abs() / period_t / limits.velocity[i]);
+            worst[1] = worst[1].max(d2[i].abs() / period_t.powi(2) / limits.acceleration[i]);
+            worst[2] = worst[2].max(d3[i].abs() / period_t.powi(3) / limits.jerk[i]);
+        }
+    }
+    worst
+}
+
+fn any_mode() -> impl Strategy<Value = PathMode> {
+    prop_oneof![
+        6 => Just(PathMode::Continuous { tolerance_mm: None }),
+        2 => (-3.0..0.0_f64).prop_map(|p| PathMode::Continuous { tolerance_mm: Some(10_f64.powf(p)) }),
+        1 => Just(PathMode::ExactStop),
+        1 => Just(PathMode::ExactPath),
+    ]
+}
+
+fn any_feed() -> impl Strategy<Value = f64> {
+    (0.7..2.3_f64).prop_map(|x| 10_f64.powf(x))
+}
+
+fn any_step() -> impl Strategy<Value = Step> {
+    let length = (-2.0..1.3_f64).prop_map(|x| 10_f64.powf(x));
+    let axes = prop_oneof![
+        Just([true, true, false, false, false, false, false, false, false]),
+        Just([true, true, true, false, false, false, false, false, false]),
+        Just([true, true, true, true, false, true, false, false, false]),
+        Just([false, false, false, true, false, true, false, false, false]),
+        Just([true, true, false, false, false, false, true, true, false]),
+        Just([true; AXES]),
+    ];
+    let line = (
+        prop::array::uniform9(-1.0..1.0_f64),
+        axes,
+        length,
+        prop::option::weighted(0.9, any_feed()),
+        any_mode(),
+    )
+        .prop_map(|(direction, axes, length, feed_v, mode)| {
+            let mut step = [0.0; AXES];
+            for i in 0..AXES {
+                step[i] = if axes[i] { direction[i] * length } else { 0.0 };
+            }
+            Step::Line { step, feed_v, mode }
+        });
+    let plane = prop_oneof![Just(Plane::Xy), Just(Plane::Zx), Just(Plane::Yz)];
+    let radius = (-1.5..1.0_f64).prop_map(|x| 10_f64.powf(x));
+    let arc = (
+        plane,
+        radius.clone(),
+        0.0..6.28_f64,
+        -13.0..13.0_f64,
+        -2.0..2.0_f64,
+        any_feed(),
+    )
+        .prop_map(
+            |(plane, radius, direction, sweep_rad, rise_mm, feed_v)| Step::Arc {
+                plane,
+                center: [radius * direction.cos(), radius * direction.sin()],
+                sweep_rad: if sweep_rad.abs() < 0.01 {
+                    1.0
+                } else {
+                    sweep_rad
+                },
+                rise_mm,
+                feed_v,
+            },
+        );
+    let slot = (radius, 0.2..4.0_f64, 0.01..5.0_f64, any_feed()).prop_map(
+        |(radius_mm, sweep_rad, tail_mm, feed_v)| Step::Slot {
+            radius_mm,
+            sweep_rad,
+            tail_mm,
+            feed_v,
+        },
+    );
+    prop_oneof![8 => line, 2 => arc, 1 => slot, 1 => (0.0..0.05_f64).prop_map(Step::Dwell)]
+}
+
+fn any_limits() -> impl Strategy<Value = Limits> {
+    prop_oneof![
+        Just(Limits::uniform(200.0, 2000.0, 40_000.0)),
+        Just(Limits::uniform(100.0, 10_000.0, 1e6)),
+        prop::array::uniform9(0.0..1.0_f64).prop_map(|x| {
+            let per_axis = |base: f64| AxisVector::from_fn(|i, _| base * 10_f64.powf(x[i] - 0.5));
+            Limits {
+                velocity: per_axis(150.0),
+                acceleration: per_axis(2000.0),
+                jerk: per_axis(60_000.0),
+            }
+        }),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn random_programs_keep_the_limits_and_reach_their_end(
+        steps in prop::collection::vec(any_step(), 1..25),
+        limits in any_limits(),
+        pair in any::<bool>(),
+        period_t in prop_oneof![Just(0.004), Just(0.001)],
+    ) {
+        let smoothing = if pair { Smoothing::BezierPair } else { Smoothing::Sextic };
+        let settings = settings(limits, 0.02, smoothing, period_t);
+        let items = items(&steps);
+        let frames = plan(&items, settings);
+        let [v, a, j] = ratios(&frames, &settings);
+        prop_assert!(v <= 1.0 + 1e-6, "velocity ratio {v}");
+        prop_assert!(a <= 1.0 + 1e-6, "acceleration ratio {a}");
+        prop_assert!(j <= 1.0 + 1e-6, "jerk ratio {j}");
+        let end = items.iter().rev().find_map(|item| match item.kind {
+            ItemKind::Move { segment, .. } => Some(segment.end()),
+            _ => None,
+        });
+        let last = frames.last().expect("frames").position;
+        prop_assert!((last - end.unwrap_or_default()).amax() <= 1e-9, "ends at {last}");
+    }
+}
