@@ -143,11 +143,11 @@ impl Codes {
     pub(crate) fn add_g(&mut self, value: f64, span: Span) -> Outcome<()> {
         let tenths = code_number(value * 10.0).ok_or_else(|| unknown_g(value, span))?;
         match tenths {
-            0 => set(&mut self.motion, Some(Motion::Rapid), span),
-            10 => set(&mut self.motion, Some(Motion::Linear), span),
-            20 => set(&mut self.motion, Some(Motion::ArcClockwise), span),
-            30 => set(&mut self.motion, Some(Motion::ArcCounterclockwise), span),
-            800 => set(&mut self.motion, None, span),
+            0 => self.set_motion(Some(Motion::Rapid), span),
+            10 => self.set_motion(Some(Motion::Linear), span),
+            20 => self.set_motion(Some(Motion::ArcClockwise), span),
+            30 => self.set_motion(Some(Motion::ArcCounterclockwise), span),
+            800 => self.set_motion(None, span),
             40 | 100 | 280 | 281 | 300 | 301 | 520 | 530 | 920..=923 => {
                 set(&mut self.once, once(tenths), span)
             }
@@ -181,6 +181,19 @@ impl Codes {
             970 => set(&mut self.spindle_mode, (), span),
             980 | 990 => set(&mut self.retract, (), span),
             _ => Err(refused_g(tenths, value, span)),
+        }
+    }
+
+    /// G80 may stand beside another motion code, as in the first line of many programs; that
+    /// code then is the mode.
+    fn set_motion(&mut self, motion: Option<Motion>, span: Span) -> Outcome<()> {
+        match (self.motion, motion) {
+            (Some(Coded { code: Some(_), .. }), None) => Ok(()),
+            (Some(Coded { code: None, .. }), Some(_)) => {
+                self.motion = Some(Coded { code: motion, span });
+                Ok(())
+            }
+            _ => set(&mut self.motion, motion, span),
         }
     }
 
@@ -253,14 +266,12 @@ fn code_number(value: f64) -> Option<u32> {
 }
 
 fn set<T>(slot: &mut Option<Coded<T>>, code: T, span: Span) -> Outcome<()> {
-    if slot.is_some() {
-        return Err(Fault::new(
-            Code::ModalGroupConflict,
-            span,
-            "a second code of one modal group",
-        )
-        .because("codes of one modal group exclude each other, so a block has one at most")
-        .help("remove one of them, or write two blocks"));
+    if let Some(first) = slot {
+        let column = first.span.start + 1;
+        let message = format!("a second code of the modal group of the one at column {column}");
+        return Err(Fault::new(Code::ModalGroupConflict, span, message)
+            .because("codes of one modal group exclude each other, so a block has one at most")
+            .help("remove one of them, or write two blocks"));
     }
     *slot = Some(Coded { code, span });
     Ok(())
@@ -269,6 +280,8 @@ fn set<T>(slot: &mut Option<Coded<T>>, code: T, span: Span) -> Outcome<()> {
 #[cold]
 fn unknown_g(value: f64, span: Span) -> Box<Fault> {
     Fault::new(Code::UnknownGCode, span, format!("there is no G{value}"))
+        .because("skipping it could change what the machine does")
+        .help("remove it, or put it into a comment")
 }
 
 #[cold]

@@ -132,7 +132,8 @@ impl<'a> Cursor<'a> {
         if digits == 0 {
             return Err(self.no_number(word, start));
         }
-        if matches!(self.peek(), Some(b'.' | b',' | b'+' | b'-' | b'e' | b'E')) {
+        let exponent = self.at == end && matches!(self.peek(), Some(b'e' | b'E'));
+        if exponent || matches!(self.peek(), Some(b'.' | b',' | b'+' | b'-')) {
             self.refuse_tail(start)?;
         }
         let value = match POWERS.get(decimals) {
@@ -203,7 +204,8 @@ impl<'a> Cursor<'a> {
             let message = format!("`{}` is not a number", self.quote(span));
             return Fault::new(Code::MalformedNumber, span, message).because(
                 "a number is an optional sign, digits, and at most one decimal point among them",
-            );
+            )
+            .help("write one number");
         }
         Fault::new(
             Code::MissingNumber,
@@ -291,6 +293,7 @@ pub(crate) fn bad_byte(text: &[u8], at: usize) -> Box<Fault> {
             let message = format!("`{shown}` has no meaning here");
             Fault::new(Code::BadCharacter, Span::new(at, at + 1), message)
                 .because("a block is made of words: a letter and a number each")
+                .help("remove it, or put it into a comment")
         }
         None => Fault::new(
             Code::BadCharacter,
