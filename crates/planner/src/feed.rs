@@ -97,7 +97,15 @@ pub fn feed<S: ItemSource>(
     let mut source = make_source(position)?;
     let mut feeder = Feeder::new(transport)?;
     feeder.open(position, control)?;
-    let refusal = feeder.stream(&mut source, control)?;
+    let refusal = match feeder.stream(&mut source, control) {
+        Err(error @ FeedError::RefusedByPlanner { .. }) => {
+            // What was accepted is executed; better to say at once that there is no more.
+            feeder.outbox.clear();
+            let _ended = feeder.deliver(StreamItem::End, control);
+            return Err(error);
+        }
+        result => result?,
+    };
     let items = feeder.accepted - 1;
     feeder.deliver(StreamItem::End, control)?;
     feeder.wait_until_executed(control)?;
@@ -155,15 +163,21 @@ impl Feeder {
         })
     }
 
-    /// Opens the stream, and makes sure that the machine is where the program was opened for.
+    /// Opens the stream, and makes sure that the machine is where the program was opened for. Waits a
+    /// while for a planner or machine that is not ready yet.
     fn open(&mut self, position: AxisVector, control: &mut Control<'_>) -> Result<(), FeedError> {
-        self.outbox.push_back(StreamItem::Open);
-        while self.accepted == 0 {
-            let reply = self.round(control)?;
-            if reply.is_some_and(|reply| AxisVector::from(reply.position) != position) {
-                return Err(FeedError::Moved);
+        let mut waited = Duration::ZERO;
+        loop {
+            let reply = self.repeat(StreamItem::Open, control)?;
+            match reply.outcome().map_err(LinkError::from)? {
+                Ok(()) if AxisVector::from(reply.position) == position => break,
+                Ok(()) => return Err(FeedError::Moved),
+                Err(SegmentRefusal::Stopped) if waited < PATIENCE => pause(RETRY, control)?,
+                Err(refusal) => return Err(refused(0, refusal, &reply)),
             }
+            waited += RETRY;
         }
+        self.accepted = 1;
         Ok(())
     }
 
@@ -230,7 +244,7 @@ impl Feeder {
         }
     }
 
-    /// Asks what was accepted before: the opening request, or the last.
+    /// Asks for the opening of the stream, or again what was accepted last.
     fn repeat(
         &mut self,
         item: StreamItem,
@@ -247,36 +261,29 @@ impl Feeder {
     }
 
     /// Sends as much of the outbox as may be unanswered, takes all answers, and keeps what was not
-    /// accepted. Returns the last answer that accepted something.
-    fn round(&mut self, control: &mut Control<'_>) -> Result<Option<SegmentReply>, FeedError> {
+    /// accepted.
+    fn round(&mut self, control: &mut Control<'_>) -> Result<(), FeedError> {
         let mut asked = Vec::with_capacity(MAX_UNANSWERED);
         for (number, item) in (self.accepted..).zip(self.outbox.iter().take(MAX_UNANSWERED)) {
             self.client
                 .ask(&SegmentRequest::new(self.session, number, item))?;
             asked.push(line_of(item));
         }
-        let (mut accepted, mut refusal) = (None, None);
+        let (mut accepted, mut refusal) = (self.accepted, None);
         for line in asked {
             let reply = self.reply(control)?;
             match reply.outcome().map_err(LinkError::from)? {
-                Ok(()) => accepted = Some(reply),
+                Ok(()) => accepted = accepted.max(reply.accepted),
                 // What follows a refused request is out of order; the first refusal counts.
                 Err(why) => refusal = refusal.or(Some((line, why, reply))),
             }
         }
-        if let Some(reply) = &accepted {
-            let news = reply.accepted.saturating_sub(self.accepted);
-            self.outbox.drain(
-                ..self
-                    .outbox
-                    .len()
-                    .min(usize::try_from(news).unwrap_or(usize::MAX)),
-            );
-            self.accepted = self.accepted.max(reply.accepted);
-        }
+        let news = usize::try_from(accepted - self.accepted).unwrap_or(usize::MAX);
+        self.outbox.drain(..self.outbox.len().min(news));
+        self.accepted = accepted;
         match refusal {
-            None => Ok(accepted),
-            Some((_, SegmentRefusal::NoCredit, _)) => pause(RETRY, control).map(|()| accepted),
+            None => Ok(()),
+            Some((_, SegmentRefusal::NoCredit, _)) => pause(RETRY, control),
             Some((line, why, reply)) => Err(refused(line, why, &reply)),
         }
     }

@@ -268,7 +268,7 @@ fn a_program_that_fails_midway_is_executed_up_to_there() {
     let transport = InProcess::default();
     let interpolator = RefCell::new(Interpolator::new(&transport, 128));
     let mut source = Listed::new(&staircase(5));
-    source.refusal = Some(Refusal::Read(std::io::Error::other("pipe burst")));
+    source.fails = true;
     let (result, _) = attended(
         &AtomicBool::new(false),
         |time| interpolator.borrow_mut().pass(time),

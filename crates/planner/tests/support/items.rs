@@ -49,13 +49,14 @@ pub(crate) fn staircase(steps: u32) -> Vec<Item> {
 }
 
 /// Items from a list, with a pause of so many questions before each.
+#[derive(Debug, Clone)]
 pub(crate) struct Listed {
     items: VecDeque<Item>,
     delays: Vec<u32>,
     asked: u32,
     given: usize,
-    /// How it ends.
-    pub(crate) refusal: Option<Refusal>,
+    /// Whether it ends with a refusal.
+    pub(crate) fails: bool,
 }
 
 impl Listed {
@@ -70,7 +71,7 @@ impl Listed {
             delays: delays.to_vec(),
             asked: 0,
             given: 0,
-            refusal: None,
+            fails: false,
         }
     }
 }
@@ -84,7 +85,10 @@ impl ItemSource for Listed {
         (self.asked, self.given) = (0, self.given + 1);
         match self.items.pop_front() {
             Some(item) => Supply::Item(item),
-            None => self.refusal.take().map_or(Supply::End, Supply::Refused),
+            None if self.fails => {
+                Supply::Refused(Refusal::Read(std::io::Error::other("the pipe burst")))
+            }
+            None => Supply::End,
         }
     }
 
