@@ -15,6 +15,7 @@
 //! | `_u` | a curve's own parameter, 0…1 |
 //! | `_k` | curvature, 1/mm |
 
+pub mod audit;
 mod error;
 mod frame;
 mod item;

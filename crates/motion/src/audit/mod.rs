@@ -1,0 +1,105 @@
+//! The auditor: judges a motion against its program and the machine's limits.
+//!
+//! It shares nothing with the planner but the evaluation of programmed segments, and trusts nothing
+//! but positions. Fed with the program and the samples, each in order, it checks
+//!
+//! * every axis' velocity, acceleration and jerk by finite differences (`limits`), with the machine
+//!   at rest before the first and after the last sample;
+//! * the reported velocity and acceleration against those differences, and the sequence for gaps;
+//! * the deviation, both ways and in order (`matching`): each sample and the straight line between
+//!   two samples is within tolerance of the programmed path, each programmed point within tolerance
+//!   of the motion, and both are passed in the same order;
+//! * exact stops, the programmed feed, and that the path was run to its end.
+//!
+//! Memory is bounded by how far the program is fed ahead of the samples; work is linear in both.
+
+mod column;
+mod free_space;
+mod limits;
+mod matching;
+mod program;
+mod report;
+mod widen;
+
+pub use report::{Inconsistency, Report, Violation, ViolationKind, Worst};
+
+use crate::{Frame, Item, Limits};
+use glidepath_geometry::AxisVector;
+use limits::LimitAudit;
+use matching::Matching;
+
+/// What a motion is judged by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AuditSettings {
+    /// What each axis can do.
+    pub limits: Limits,
+    /// Interpolation period in seconds, > 0.
+    pub period_t: f64,
+    /// Tolerance in mm where the program gives none (G64 P), > 0: for XYZ together, for UVW
+    /// together, and in degrees for each rotary axis.
+    pub tolerance_mm: f64,
+}
+
+/// One sample of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Index on the period grid; consecutive.
+    pub tick: u64,
+    /// Source line, for reports.
+    pub line: u32,
+    /// Position, mm or degrees.
+    pub position: AxisVector,
+    /// Velocity and acceleration as reported, if they are to be checked.
+    pub reported: Option<[AxisVector; 2]>,
+}
+
+impl From<&Frame> for Sample {
+    fn from(frame: &Frame) -> Self {
+        Self {
+            tick: frame.sequence,
+            line: frame.line,
+            position: frame.position,
+            reported: Some([frame.velocity, frame.acceleration]),
+        }
+    }
+}
+
+/// An audit under way.
+///
+/// Program items and samples may be fed in any interleaving that keeps each in order; what is
+/// fed first waits for the other.
+#[derive(Debug)]
+pub struct Audit {
+    limits: LimitAudit,
+    matching: Matching,
+}
+
+impl Audit {
+    /// An audit with nothing seen yet.
+    #[must_use]
+    pub fn new(settings: &AuditSettings) -> Self {
+        Self {
+            limits: LimitAudit::new(settings),
+            matching: Matching::new(settings),
+        }
+    }
+
+    /// The next item of the program.
+    pub fn program(&mut self, item: &Item) {
+        self.matching.program(item);
+    }
+
+    /// The next sample of the motion.
+    pub fn sample(&mut self, sample: &Sample) {
+        self.limits.sample(sample);
+        self.matching.sample(sample);
+    }
+
+    /// The verdict, after the last sample: the machine rests there from now on.
+    #[must_use]
+    pub fn finish(mut self) -> Report {
+        self.matching.finish();
+        self.limits.finish();
+        Report::new(&self.limits, &self.matching)
+    }
+}
