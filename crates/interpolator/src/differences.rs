@@ -19,7 +19,11 @@ pub(crate) struct Allowed([AxisVector; 3]);
 impl Allowed {
     pub(crate) fn new(limits: &Limits, period_t: f64) -> Self {
         let t = period_t;
-        let raw = [limits.velocity * t, limits.acceleration * (t * t), limits.jerk * (t * t * t)];
+        let raw = [
+            limits.velocity * t,
+            limits.acceleration * (t * t),
+            limits.jerk * (t * t * t),
+        ];
         Self(raw.map(|limit| limit * (1.0 + ALLOWANCE) + AxisVector::repeat(ROUNDING)))
     }
 
@@ -40,7 +44,11 @@ pub(crate) struct Differences {
 impl Differences {
     /// At rest for ever.
     pub(crate) fn at_rest(position: AxisVector) -> Self {
-        Self { position, first: AxisVector::zeros(), second: AxisVector::zeros() }
+        Self {
+            position,
+            first: AxisVector::zeros(),
+            second: AxisVector::zeros(),
+        }
     }
 
     pub(crate) const fn position(&self) -> &AxisVector {
@@ -49,13 +57,20 @@ impl Differences {
 
     /// Whether the last three positions are the same.
     pub(crate) fn is_at_rest(&self) -> bool {
-        self.first.iter().chain(self.second.iter()).all(|d| d.abs() <= ROUNDING)
+        self.first
+            .iter()
+            .chain(self.second.iter())
+            .all(|d| d.abs() <= ROUNDING)
     }
 
     /// After one more position.
     pub(crate) fn then(&self, position: &AxisVector) -> Self {
         let first = position - self.position;
-        Self { position: *position, first, second: first - self.first }
+        Self {
+            position: *position,
+            first,
+            second: first - self.first,
+        }
     }
 
     /// Whether one more position is within the limits.

@@ -12,7 +12,10 @@ pub(crate) struct ProgramTime {
 impl ProgramTime {
     /// Exactly at a frame.
     pub(crate) const fn at(sequence: u64) -> Self {
-        Self { sequence, fraction: 0.0 }
+        Self {
+            sequence,
+            fraction: 0.0,
+        }
     }
 
     /// `periods` ≥ 0 later. Exact if `periods` is whole.
@@ -24,7 +27,10 @@ impl ProgramTime {
     pub(crate) fn after(self, periods: f64) -> Self {
         let sum = self.fraction + periods;
         let whole = sum.floor();
-        Self { sequence: self.sequence + whole as u64, fraction: sum - whole }
+        Self {
+            sequence: self.sequence + whole as u64,
+            fraction: sum - whole,
+        }
     }
 
     /// The nearest frame, if it is within rounding of it; else itself.
@@ -46,7 +52,10 @@ mod tests {
 
     #[test]
     fn whole_steps_keep_the_fraction() {
-        let time = ProgramTime { sequence: 7, fraction: 0.3 };
+        let time = ProgramTime {
+            sequence: 7,
+            fraction: 0.3,
+        };
         let later = (0..1_000).fold(time, |t, _| t.after(1.0));
         assert_eq!(later.sequence, 1_007);
         assert!((later.fraction - 0.3).abs() < 1e-12);
@@ -55,9 +64,26 @@ mod tests {
 
     #[test]
     fn rounding_is_removed_at_a_frame_only() {
-        assert_eq!(ProgramTime { sequence: 1, fraction: 1.0 - 1e-12 }.snapped(), ProgramTime::at(2));
-        assert_eq!(ProgramTime { sequence: 1, fraction: 1e-12 }.snapped(), ProgramTime::at(1));
-        let between = ProgramTime { sequence: 1, fraction: 0.5 };
+        assert_eq!(
+            ProgramTime {
+                sequence: 1,
+                fraction: 1.0 - 1e-12
+            }
+            .snapped(),
+            ProgramTime::at(2)
+        );
+        assert_eq!(
+            ProgramTime {
+                sequence: 1,
+                fraction: 1e-12
+            }
+            .snapped(),
+            ProgramTime::at(1)
+        );
+        let between = ProgramTime {
+            sequence: 1,
+            fraction: 0.5,
+        };
         assert_eq!(between.snapped(), between);
     }
 }

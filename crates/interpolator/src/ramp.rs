@@ -24,7 +24,10 @@ pub(crate) struct Bounds {
 impl Bounds {
     /// The same curve stretched in time by `1 / pace`.
     pub(crate) fn paced(self, pace: f64) -> Self {
-        Self { alpha: self.alpha * pace, beta: self.beta * pace * pace }
+        Self {
+            alpha: self.alpha * pace,
+            beta: self.beta * pace * pace,
+        }
     }
 }
 
@@ -70,17 +73,34 @@ impl Ramp {
         let peak = steepest.min(alpha);
         let start_slope = direction * slope;
         let bent = (2.0 * peak * peak - slope * slope) / (2.0 * beta);
-        let keep = if steepest > alpha { ((way - bent) / alpha).max(0.0) } else { 0.0 };
+        let keep = if steepest > alpha {
+            ((way - bent) / alpha).max(0.0)
+        } else {
+            0.0
+        };
         let durations = [((peak - start_slope) / beta).max(0.0), keep, peak / beta];
         if start_slope < 0.0 && !(0.0..=1.0).contains(&released) {
             return None;
         }
         let bend = direction * beta;
-        let start = Instant { elapsed: 0.0, rate, slope };
+        let start = Instant {
+            elapsed: 0.0,
+            rate,
+            slope,
+        };
         let kept = start.later(durations[0], bend);
         let back = kept.later(durations[1], 0.0);
-        let end = Instant { rate: target, slope: 0.0, ..back.later(durations[2], -bend) };
-        Some(Self { starts: [start, kept, back, end], durations, bend, target })
+        let end = Instant {
+            rate: target,
+            slope: 0.0,
+            ..back.later(durations[2], -bend)
+        };
+        Some(Self {
+            starts: [start, kept, back, end],
+            durations,
+            bend,
+            target,
+        })
     }
 
     /// Ticks from start to end, not whole in general.
@@ -106,7 +126,10 @@ impl Ramp {
         } else {
             end.later(after2 - t3, 0.0)
         };
-        Instant { rate: now.rate.clamp(0.0, 1.0), ..now }
+        Instant {
+            rate: now.rate.clamp(0.0, 1.0),
+            ..now
+        }
     }
 
     /// Program time lost against a steady rate 1, for a ramp that ends there, periods.
@@ -123,17 +146,38 @@ mod tests {
     #[test]
     fn a_stop_from_steady_rate_has_the_known_length() {
         // α not reached: two bends of √(r/β) ticks; half the time is lost.
-        let ramp = Ramp::plan(1.0, 0.0, 0.0, Bounds { alpha: 1.0, beta: 0.01 }).unwrap();
+        let ramp = Ramp::plan(
+            1.0,
+            0.0,
+            0.0,
+            Bounds {
+                alpha: 1.0,
+                beta: 0.01,
+            },
+        )
+        .unwrap();
         assert!((ramp.duration() - 20.0).abs() < 1e-12);
         assert!((ramp.at(20.0).elapsed - 10.0).abs() < 1e-12);
         // α reached: r/α + α/β ticks.
-        let ramp = Ramp::plan(1.0, 0.0, 0.0, Bounds { alpha: 0.05, beta: 0.01 }).unwrap();
+        let ramp = Ramp::plan(
+            1.0,
+            0.0,
+            0.0,
+            Bounds {
+                alpha: 0.05,
+                beta: 0.01,
+            },
+        )
+        .unwrap();
         assert!((ramp.duration() - 25.0).abs() < 1e-12);
     }
 
     #[test]
     fn no_way_may_leave_the_range() {
-        let bounds = Bounds { alpha: 0.1, beta: 0.001 };
+        let bounds = Bounds {
+            alpha: 0.1,
+            beta: 0.001,
+        };
         assert!(Ramp::plan(0.5, -0.05, 1.0, bounds).is_none());
         assert!(Ramp::plan(0.9, 0.05, 0.0, bounds).is_none());
     }

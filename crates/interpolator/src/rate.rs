@@ -56,7 +56,10 @@ struct Candidate {
 
 /// Everything that is tried, best first.
 const CANDIDATES: [Candidate; 18] = {
-    let mut all = [Candidate { part: 1.0, pace: PACES[0] }; 18];
+    let mut all = [Candidate {
+        part: 1.0,
+        pace: PACES[0],
+    }; 18];
     let mut i = 0;
     while i < PACES.len() {
         all[i].pace = PACES[i];
@@ -78,7 +81,10 @@ const PATIENCE_T: f64 = 1.0;
 /// Parts by which limits are relaxed, each for a tenth of a second.
 const RELAXED: [f64; 6] = [1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1];
 /// Largest bounds of a ramp: a change from 0 to 1 takes at least four ticks.
-const FASTEST: Bounds = Bounds { alpha: 0.5, beta: 0.25 };
+const FASTEST: Bounds = Bounds {
+    alpha: 0.5,
+    beta: 0.25,
+};
 /// A better ramp ends at least this much earlier, ticks.
 const GAIN: f64 = 0.5;
 
@@ -146,22 +152,16 @@ impl Rate {
     }
 
     pub(crate) const fn now(&self) -> Advance {
-        Advance { time: self.now, rate: self.rate, slope: self.slope }
-    }
-
-    /// True if program time stands.
-    pub(crate) fn is_standing(&self) -> bool {
-        self.ramp.is_none() && self.rate <= 0.0
+        Advance {
+            time: self.now,
+            rate: self.rate,
+            slope: self.slope,
+        }
     }
 
     /// The part by which limits had to be relaxed for the present ramp, usually 0.
     pub(crate) const fn excess(&self) -> f64 {
         self.excess
-    }
-
-    /// Ticks that the present goal has waited for a passable ramp.
-    pub(crate) const fn waited(&self) -> u32 {
-        self.waited
     }
 
     /// Advances program time by one tick.
@@ -171,7 +171,11 @@ impl Rate {
             Some(ramp) => {
                 self.ticks += 1;
                 let t = f64::from(self.ticks);
-                let Instant { elapsed, rate, slope } = ramp.at(t);
+                let Instant {
+                    elapsed,
+                    rate,
+                    slope,
+                } = ramp.at(t);
                 self.now = self.start.after(elapsed);
                 (self.rate, self.slope) = (rate, slope);
                 if t >= ramp.duration() {
@@ -188,7 +192,10 @@ impl Rate {
 
     /// Moves program time to where it is held: the motion is at rest there, so any rate will do.
     pub(crate) fn rest_at(&mut self, time: ProgramTime, rate: f64) {
-        *self = Self { excess: self.excess, ..Self::new(time, rate) };
+        *self = Self {
+            excess: self.excess,
+            ..Self::new(time, rate)
+        };
     }
 
     /// Chooses how to get to a rate: commits a ramp if there is one that passes and is better than
@@ -206,12 +213,20 @@ impl Rate {
         let first = core::mem::take(&mut self.resume_at);
         for k in 0..CANDIDATES.len() {
             let place = (first + k) % CANDIDATES.len();
-            let Some(&Candidate { part, pace }) = CANDIDATES.get(place) else { continue };
+            let Some(&Candidate { part, pace }) = CANDIDATES.get(place) else {
+                continue;
+            };
             if !self.is_better(part, pace, goal, heading) {
                 continue;
             }
-            let target = if part < 1.0 { self.rate + part * (goal - self.rate) } else { goal };
-            let Some(ramp) = self.ramp_to(target, fastest.paced(pace)) else { continue };
+            let target = if part < 1.0 {
+                self.rate + part * (goal - self.rate)
+            } else {
+                goal
+            };
+            let Some(ramp) = self.ramp_to(target, fastest.paced(pace)) else {
+                continue;
+            };
             if arrives && ramp.duration() > self.remaining() - GAIN {
                 continue;
             }
@@ -242,7 +257,8 @@ impl Rate {
 
     /// Ticks to the end of the committed ramp.
     fn remaining(&self) -> f64 {
-        self.ramp.map_or(0.0, |ramp| ramp.duration() - f64::from(self.ticks))
+        self.ramp
+            .map_or(0.0, |ramp| ramp.duration() - f64::from(self.ticks))
     }
 
     /// Bounds of the fastest ramp worth trying: no axis needs more than its limits for it at the
@@ -270,8 +286,13 @@ impl Rate {
             }
             let allowed = scene.allowed.relaxed(part);
             for pace in PACES {
-                let Some(ramp) = self.ramp_to(goal, fastest.paced(pace)) else { continue };
-                if matches!(self.play(&ramp, scene, &allowed, &mut budget), Trial::Passed) {
+                let Some(ramp) = self.ramp_to(goal, fastest.paced(pace)) else {
+                    continue;
+                };
+                if matches!(
+                    self.play(&ramp, scene, &allowed, &mut budget),
+                    Trial::Passed
+                ) {
                     return self.commit(ramp, pace, part);
                 }
             }
@@ -293,19 +314,17 @@ impl Rate {
         for _ in 0..48 {
             let pace = 0.5 * (slow + fast);
             let loss = Ramp::plan(self.rate, self.slope, target, bounds.paced(pace))?.loss();
-            if loss > wanted { slow = pace } else { fast = pace }
+            if loss > wanted {
+                slow = pace;
+            } else {
+                fast = pace;
+            }
         }
         Ramp::plan(self.rate, self.slope, target, bounds.paced(fast))
     }
 
     /// Plays a ramp through to three ticks past its end.
-    fn play(
-        &self,
-        ramp: &Ramp,
-        scene: &Scene<'_>,
-        allowed: &Allowed,
-        budget: &mut u32,
-    ) -> Trial {
+    fn play(&self, ramp: &Ramp, scene: &Scene<'_>, allowed: &Allowed, budget: &mut u32) -> Trial {
         let mut published = *scene.published;
         let end = ramp.duration() + 3.0;
         let mut t = 0.0;
@@ -316,7 +335,9 @@ impl Rate {
             *budget -= 1;
             t += 1.0;
             let time = self.now.after(ramp.at(t).elapsed);
-            let Some(position) = scene.track.position(time) else { return Trial::Barred };
+            let Some(position) = scene.track.position(time) else {
+                return Trial::Barred;
+            };
             if !published.allow(&position, allowed) {
                 return Trial::Barred;
             }

@@ -33,9 +33,18 @@ struct Quintic([AxisVector; 6]);
 
 impl Quintic {
     fn between(from: &SetpointFrame, to: &SetpointFrame, period_t: f64) -> Self {
-        let (p0, p1) = (AxisVector::from(from.position), AxisVector::from(to.position));
-        let (v0, v1) = (AxisVector::from(from.velocity), AxisVector::from(to.velocity));
-        let (a0, a1) = (AxisVector::from(from.acceleration), AxisVector::from(to.acceleration));
+        let (p0, p1) = (
+            AxisVector::from(from.position),
+            AxisVector::from(to.position),
+        );
+        let (v0, v1) = (
+            AxisVector::from(from.velocity),
+            AxisVector::from(to.velocity),
+        );
+        let (a0, a1) = (
+            AxisVector::from(from.acceleration),
+            AxisVector::from(to.acceleration),
+        );
         let (v0, v1) = (v0 * period_t, v1 * period_t);
         let (a0, a1) = (a0 * (period_t * period_t), a1 * (period_t * period_t));
         let step = p1 - p0;
@@ -166,7 +175,11 @@ impl Track {
 
     pub(crate) fn frame(&self, sequence: u64) -> Option<&SetpointFrame> {
         let offset = sequence.checked_sub(self.oldest)?;
-        if offset < self.len as u64 { self.frames.get(Self::place(sequence)) } else { None }
+        if offset < self.len as u64 {
+            self.frames.get(Self::place(sequence))
+        } else {
+            None
+        }
     }
 
     pub(crate) fn newest(&self) -> Option<&SetpointFrame> {
@@ -178,16 +191,27 @@ impl Track {
         self.oldest + self.len as u64
     }
 
+    /// The first frame with a program stop that was not passed yet.
+    pub(crate) const fn program_stop(&self) -> Option<u64> {
+        self.stop
+    }
+
     /// The frame at which program time stands by itself: a program stop, or the newest if at rest.
     pub(crate) fn stop(&self) -> Option<u64> {
-        self.stop.or_else(|| self.newest().filter(|frame| is_at_rest(frame)).map(|f| f.sequence))
+        self.stop.or_else(|| {
+            self.newest()
+                .filter(|frame| is_at_rest(frame))
+                .map(|f| f.sequence)
+        })
     }
 
     /// Lets program time pass a program stop; finds the next one.
     pub(crate) fn pass_stop(&mut self) {
         let Some(passed) = self.stop else { return };
-        self.stop = (passed + 1..self.end())
-            .find(|&s| self.frame(s).is_some_and(|f| f.has(FrameFlags::PROGRAM_STOP)));
+        self.stop = (passed + 1..self.end()).find(|&s| {
+            self.frame(s)
+                .is_some_and(|f| f.has(FrameFlags::PROGRAM_STOP))
+        });
     }
 
     /// The longest of the stop times of up to `count` frames from one on.
@@ -216,7 +240,11 @@ impl Track {
             return Some(AxisVector::from(frame.position));
         }
         self.frame(time.sequence + 1)?;
-        Some(self.quintics.get(Self::place(time.sequence))?.position(time.fraction))
+        Some(
+            self.quintics
+                .get(Self::place(time.sequence))?
+                .position(time.fraction),
+        )
     }
 
     /// Position and derivatives between frames; `None` outside the owned frames.
@@ -231,7 +259,11 @@ impl Track {
             });
         }
         self.frame(time.sequence + 1)?;
-        Some(self.quintics.get(Self::place(time.sequence))?.kinematic(time.fraction))
+        Some(
+            self.quintics
+                .get(Self::place(time.sequence))?
+                .kinematic(time.fraction),
+        )
     }
 
     /// Path position and rate, by the cubic through both frames; `None` outside the owned frames.
@@ -239,7 +271,10 @@ impl Track {
         let from = self.frame(time.sequence)?;
         let (u, v0) = (time.fraction, from.path_v * self.period_t);
         if u <= 0.0 {
-            return Some(PathState { path_s: from.path_s, path_v: v0 });
+            return Some(PathState {
+                path_s: from.path_s,
+                path_v: v0,
+            });
         }
         let to = self.frame(time.sequence + 1)?;
         let (step, v1) = (to.path_s - from.path_s, to.path_v * self.period_t);
@@ -256,7 +291,11 @@ impl Track {
 pub(crate) fn is_at_rest(frame: &SetpointFrame) -> bool {
     /// mm/s and mm/s²; what is left of a planned stop after rounding.
     const REST: f64 = 1e-6;
-    frame.velocity.iter().chain(&frame.acceleration).all(|value| value.abs() <= REST)
+    frame
+        .velocity
+        .iter()
+        .chain(&frame.acceleration)
+        .all(|value| value.abs() <= REST)
 }
 
 #[cfg(test)]
@@ -276,7 +315,10 @@ mod tests {
             track.push(&frame_of(k, [p(x)], [v(x)], [a(x)]));
         }
         for u in [0.0, 0.125, 0.5, 0.9] {
-            let time = ProgramTime { sequence: 0, fraction: u };
+            let time = ProgramTime {
+                sequence: 0,
+                fraction: u,
+            };
             let got = track.kinematic(time).unwrap();
             assert!((got.position[0] - p(u * t)).abs() < 1e-12);
             assert!((got.velocity[0] / t - v(u * t)).abs() < 1e-9);
@@ -297,7 +339,10 @@ mod tests {
         track.push(&frame_of(TRACK_CAPACITY as u64, [0.1], [0.0], [0.0]));
         assert_eq!(track.stop(), Some(512));
         assert_eq!(track.end(), 513);
-        let beyond = ProgramTime { sequence: 600, fraction: 0.5 };
+        let beyond = ProgramTime {
+            sequence: 600,
+            fraction: 0.5,
+        };
         assert_eq!(track.clamped(beyond), ProgramTime::at(512));
         assert!(track.position(beyond).is_some());
         track.clear();

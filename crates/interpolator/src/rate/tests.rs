@@ -82,15 +82,19 @@ fn measure_latency() {
                 p.tick(1.0);
             }
             let (mut wait, mut stop) = (None, 0);
-            while !p.rate.is_standing() && !p.at_end() {
+            while p.rate.now().rate > 0.0 && !p.at_end() {
                 p.tick(0.0);
                 stop += 1;
                 if wait.is_none() && p.rate.now().rate < 1.0 {
                     wait = Some(stop);
                 }
-                if p.rate.excess() > 0.0 { excess += 1; }
+                if p.rate.excess() > 0.0 {
+                    excess += 1;
+                }
             }
-            if p.at_end() { never += 1; } else {
+            if p.at_end() {
+                never += 1;
+            } else {
                 waits.push(wait.unwrap_or(stop));
                 stops.push(stop);
             }
@@ -98,8 +102,15 @@ fn measure_latency() {
         waits.sort();
         stops.sort();
         let q = |v: &Vec<i32>, f: f64| v[((v.len() - 1) as f64 * f) as usize];
-        println!("axes {axes}: wait p50 {} p90 {} max {}; stop p50 {} p90 {} max {}; excess {excess} never {never}",
-            q(&waits, 0.5), q(&waits, 0.9), q(&waits, 1.0), q(&stops, 0.5), q(&stops, 0.9), q(&stops, 1.0));
+        println!(
+            "axes {axes}: wait p50 {} p90 {} max {}; stop p50 {} p90 {} max {}; excess {excess} never {never}",
+            q(&waits, 0.5),
+            q(&waits, 0.9),
+            q(&waits, 1.0),
+            q(&stops, 0.5),
+            q(&stops, 0.9),
+            q(&stops, 1.0)
+        );
     }
 }
 
@@ -112,7 +123,10 @@ fn the_plan_itself_is_published_bit_for_bit() {
     }
     let ratios = audit(&p.positions, &mill(), PERIOD_T);
     assert!(ratios.iter().all(|r| *r <= 1.0 + 1e-6), "{ratios:?}");
-    assert!(ratios[2] > 0.99, "the plan is at its jerk limit: {ratios:?}");
+    assert!(
+        ratios[2] > 0.99,
+        "the plan is at its jerk limit: {ratios:?}"
+    );
 }
 
 proptest! {

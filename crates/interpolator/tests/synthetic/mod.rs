@@ -46,9 +46,17 @@ fn one_move(numbers: &mut Numbers, v: f64, a: f64, j: f64, t: f64) -> Vec<f64> {
     let jerk = (a / (bend as f64 * t)).min(j) / j;
     // Peak speed is jerk · bend · (bend + keep) periods squared.
     let most = whole(v / (jerk * j * t * t * bend as f64));
-    let keep = if most > bend { numbers.whole(0, most - bend) } else { 0 };
+    let keep = if most > bend {
+        numbers.whole(0, most - bend)
+    } else {
+        0
+    };
     let jerk = jerk.min(v / (j * t * t * (bend * (bend + keep)) as f64));
-    let cruise = if numbers.unit() < 0.5 { 0 } else { numbers.whole(1, 60) };
+    let cruise = if numbers.unit() < 0.5 {
+        0
+    } else {
+        numbers.whole(1, 60)
+    };
     let sign = if numbers.unit() < 0.5 { -jerk } else { jerk };
     let mut jerks = Vec::new();
     for (value, count) in [
@@ -59,7 +67,14 @@ fn one_move(numbers: &mut Numbers, v: f64, a: f64, j: f64, t: f64) -> Vec<f64> {
         (-sign, bend),
         (0.0, keep),
         (sign, bend),
-        (0.0, if numbers.unit() < 0.5 { 0 } else { numbers.whole(0, 40) }),
+        (
+            0.0,
+            if numbers.unit() < 0.5 {
+                0
+            } else {
+                numbers.whole(0, 40)
+            },
+        ),
     ] {
         jerks.extend(std::iter::repeat_n(value, count as usize));
     }
@@ -80,7 +95,11 @@ pub fn plan(
     for (i, axis) in jerks.iter_mut().enumerate().take(axes) {
         while axis.len() < ticks {
             let (v, a, j) = (limits.velocity[i], limits.acceleration[i], limits.jerk[i]);
-            axis.extend(one_move(&mut numbers, v, a, j, period_t).iter().map(|x| x * j));
+            axis.extend(
+                one_move(&mut numbers, v, a, j, period_t)
+                    .iter()
+                    .map(|x| x * j),
+            );
         }
     }
     integrate(&jerks, period_t, start)
@@ -115,7 +134,11 @@ pub fn integrate(jerks: &[Vec<f64>], period_t: f64, start: AxisVector) -> Vec<Fr
         });
         let before = p;
         for i in 0..AXES {
-            let j = jerks.get(i).and_then(|axis| axis.get(k)).copied().unwrap_or(0.0);
+            let j = jerks
+                .get(i)
+                .and_then(|axis| axis.get(k))
+                .copied()
+                .unwrap_or(0.0);
             p[i] += t * (v[i] + t * (a[i] / 2.0 + t * j / 6.0));
             v[i] += t * (a[i] + t * j / 2.0);
             a[i] += t * j;
@@ -127,7 +150,10 @@ pub fn integrate(jerks: &[Vec<f64>], period_t: f64, start: AxisVector) -> Vec<Fr
 
 /// The records of frames.
 pub fn records(frames: &[Frame], epoch: u64, period_ns: u64) -> Vec<SetpointFrame> {
-    frames.iter().map(|f| SetpointFrame::from_frame(f, epoch, period_ns, 1.0)).collect()
+    frames
+        .iter()
+        .map(|f| SetpointFrame::from_frame(f, epoch, period_ns, 1.0))
+        .collect()
 }
 
 /// Largest ratio of a difference of positions to its limit: velocity, acceleration, jerk.
@@ -135,7 +161,10 @@ pub fn audit(positions: &[AxisVector], limits: &Limits, period_t: f64) -> [f64; 
     let t = period_t;
     let mut worst = [0.0_f64; 3];
     let mut differences = positions.to_vec();
-    for (order, limit) in [limits.velocity, limits.acceleration, limits.jerk].iter().enumerate() {
+    for (order, limit) in [limits.velocity, limits.acceleration, limits.jerk]
+        .iter()
+        .enumerate()
+    {
         let scale = t.powi(order as i32 + 1);
         differences = differences.windows(2).map(|w| w[1] - w[0]).collect();
         for d in &differences {
