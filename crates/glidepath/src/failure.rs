@@ -2,11 +2,12 @@
 
 use crate::config::ConfigError;
 use crate::exit::Exit;
+use glidepath_gcode::Report;
+use glidepath_planner::Refusal;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// A command's failure. What was found in a program is not a failure but the result of checking it;
-/// see [`crate::command::check`].
+/// A command's failure, with its exit code.
 #[derive(Debug, Error)]
 pub enum Failure {
     /// The configuration was refused.
@@ -30,6 +31,20 @@ pub enum Failure {
         /// What the system said.
         source: std::io::Error,
     },
+    /// A program has findings; nothing moved.
+    #[error("{program} is rejected; nothing moved")]
+    Rejected {
+        /// The program.
+        program: String,
+        /// What was found.
+        report: Box<Report>,
+    },
+    /// A program that passed the check was refused later.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// The system refuses to have Ctrl-C handled.
+    #[error("cannot handle signals: {0}")]
+    Signals(std::io::Error),
     /// The command is not connected to the stages below yet.
     #[error("this command is not built yet")]
     NotBuilt,
@@ -62,7 +77,8 @@ impl Failure {
         match self {
             Self::Configuration(_) => Exit::Configuration,
             Self::Open { .. } => Exit::Usage,
-            Self::File { .. } | Self::NotBuilt => Exit::Fault,
+            Self::Rejected { .. } | Self::Refused(_) => Exit::Rejected,
+            Self::File { .. } | Self::Signals(_) | Self::NotBuilt => Exit::Fault,
             Self::Interrupted => Exit::Interrupted,
         }
     }

@@ -2,12 +2,16 @@
 //! reports and plots. Everything that computes motion lives in the crates below this one.
 
 pub mod cli;
+pub mod clock;
 pub mod command;
 pub mod config;
 pub mod exit;
 pub mod failure;
+pub mod interrupt;
 pub mod output;
 pub mod plot;
+pub mod progress;
+pub mod recording;
 pub mod report;
 pub mod sample;
 pub mod setpoints;

@@ -1,10 +1,13 @@
 //! Everything the process prints: results to standard output, findings and progress to standard
 //! error, so that a result can be piped.
 
+use crate::command::check::print_findings;
 use crate::config::ConfigError;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::report::finding_object;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
+use serde::Serialize;
 use serde_json::{Value, json};
 use std::io::{IsTerminal as _, Write as _};
 
@@ -14,8 +17,12 @@ pub fn result(text: &str) {
 }
 
 /// Writes the one JSON object of a `--json` command.
-pub fn json(object: &Value) {
-    result(&format!("{object:#}\n"));
+pub fn object<T: Serialize>(object: &T) {
+    match serde_json::to_string_pretty(object) {
+        Ok(text) => result(&(text + "\n")),
+        // Only a map with keys that are no strings cannot be written; ours have none.
+        Err(error) => note(&format!("error: cannot write the report: {error}")),
+    }
 }
 
 /// Writes a line to standard error.
@@ -58,11 +65,14 @@ pub fn diagnostics<'a>(diagnostics: impl IntoIterator<Item = &'a dyn Diagnostic>
 #[must_use]
 pub fn failure(failure: &Failure, as_json: bool) -> Exit {
     if as_json {
-        json(&failure_object(failure));
+        object(&failure_object(failure));
     } else if let Failure::Configuration(error) = failure {
         let reports = error.reports();
         diagnostics(reports.iter().map(|report| report as &dyn Diagnostic));
         note(&format!("error: {error}"));
+    } else if let Failure::Rejected { program, report } = failure {
+        print_findings(program, report);
+        note(&format!("error: {failure}"));
     } else {
         note(&format!("error: {failure}"));
     }
@@ -72,6 +82,11 @@ pub fn failure(failure: &Failure, as_json: bool) -> Exit {
 fn failure_object(failure: &Failure) -> Value {
     let findings: Vec<Value> = match failure {
         Failure::Configuration(error) => configuration_findings(error),
+        Failure::Rejected { program, report } => report
+            .diagnostics
+            .iter()
+            .map(|finding| finding_object(program, finding))
+            .collect(),
         _ => Vec::new(),
     };
     json!({

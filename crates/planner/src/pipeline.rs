@@ -12,6 +12,8 @@
 //! program ends at the last good item. The motion then comes to rest there, on the path, and the
 //! reason comes out after the last frame.
 
+use std::time::Duration;
+
 use glidepath_geometry::AxisVector;
 use glidepath_motion::{Frame, Item, ItemKind, Planner, Settings};
 
@@ -41,6 +43,8 @@ pub struct Statistics {
     pub others: u64,
     /// Frames given out.
     pub frames: u64,
+    /// Time spent in reading and planning, if the pipeline was given a clock.
+    pub planning: Duration,
 }
 
 /// Whether the program can still grow.
@@ -58,6 +62,7 @@ pub struct Pipeline<S> {
     planner: Planner,
     program: Program,
     statistics: Statistics,
+    clock: Option<fn() -> Duration>,
 }
 
 impl<S: ItemSource> Pipeline<S> {
@@ -69,6 +74,17 @@ impl<S: ItemSource> Pipeline<S> {
             planner: Planner::new(settings, start),
             program: Program::Open,
             statistics: Statistics::default(),
+            clock: None,
+        }
+    }
+
+    /// The same pipeline, with the time of its steps counted by a clock: time since any fixed
+    /// instant.
+    #[must_use]
+    pub fn with_clock(self, clock: fn() -> Duration) -> Self {
+        Self {
+            clock: Some(clock),
+            ..self
         }
     }
 
@@ -78,6 +94,16 @@ impl<S: ItemSource> Pipeline<S> {
     /// The reason why the program ended early, once, after the last frame of the motion that stops
     /// at the last good item. From then on the pipeline is at its end.
     pub fn advance(&mut self) -> Result<Output, Refusal> {
+        let Some(clock) = self.clock else {
+            return self.step();
+        };
+        let before = clock();
+        let output = self.step();
+        self.statistics.planning += clock().saturating_sub(before);
+        output
+    }
+
+    fn step(&mut self) -> Result<Output, Refusal> {
         if let Some(frame) = self.planner.pop_frame() {
             self.statistics.frames += 1;
             return Ok(Output::Frame(frame));

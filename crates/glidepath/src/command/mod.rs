@@ -1,6 +1,10 @@
 //! The subcommands, one file each.
 
-use crate::cli::Cli;
+pub mod check;
+pub mod plan;
+
+use crate::cli::{Cli, Command};
+use crate::config;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::output;
@@ -9,8 +13,14 @@ use crate::output;
 #[must_use]
 pub fn run(cli: &Cli) -> Exit {
     let basic = cli.command.basic();
-    match crate::config::load(basic.config.as_deref()) {
-        Ok(_) => output::failure(&Failure::NotBuilt, basic.json),
-        Err(error) => output::failure(&error.into(), basic.json),
+    dispatch(&cli.command).unwrap_or_else(|failure| output::failure(&failure, basic.json))
+}
+
+fn dispatch(command: &Command) -> Result<Exit, Failure> {
+    let config = config::load(command.basic().config.as_deref())?;
+    match command {
+        Command::Check(args) => check::check(args, &config),
+        Command::Plan(args) => plan::plan(args, &config),
+        _ => Err(Failure::NotBuilt),
     }
 }

@@ -1,5 +1,6 @@
 //! A configuration that has been judged: what the rest of the program works with.
 
+use glidepath_gcode::{Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_motion::{Effort, Limits, Settings, Smoothing};
 
@@ -98,6 +99,34 @@ impl MachineConfig {
             smoothing: self.path.smoothing,
             period_t: self.period_t(),
             effort: self.path.effort,
+        }
+    }
+
+    /// The axes in the order X Y Z A B C U V W.
+    #[must_use]
+    pub fn axis_names(&self) -> Vec<Axis> {
+        self.axes.iter().map(|axis| axis.axis).collect()
+    }
+
+    /// How to read a program for this machine standing at `start` (mm, degrees).
+    #[must_use]
+    pub fn program_options(&self, start: AxisVector) -> Options {
+        let machine = self
+            .axes
+            .iter()
+            .fold(
+                Machine::new(&self.axis_names()),
+                |machine, axis| match axis.travel {
+                    Some((min, max)) => machine.with_travel(axis.axis, Travel { min, max }),
+                    None => machine,
+                },
+            );
+        let default_feed_mm_min = self.path.default_feed;
+        Options {
+            machine,
+            default_feed_mm_min,
+            block_delete: false,
+            start,
         }
     }
 

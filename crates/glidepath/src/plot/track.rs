@@ -41,7 +41,9 @@ impl Track {
             self.low[i] = self.low[i].min(value);
             self.high[i] = self.high[i].max(value);
         }
-        self.max_feed_v = self.max_feed_v.max(point.feed_v);
+        if !point.rapid {
+            self.max_feed_v = self.max_feed_v.max(point.feed_v);
+        }
         self.points.push(point);
         if self.points.len() >= CAPACITY {
             self.thin();
@@ -52,6 +54,7 @@ impl Track {
         &self.points
     }
 
+    /// Largest feed outside rapid moves, mm/s.
     pub(super) const fn max_feed_v(&self) -> f64 {
         self.max_feed_v
     }

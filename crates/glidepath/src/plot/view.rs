@@ -37,25 +37,18 @@ impl View {
         }
     }
 
-    /// Smallest and largest right and up of everything between two corners.
-    fn extent(self, (low, high): ([f64; 3], [f64; 3])) -> ((f64, f64), (f64, f64)) {
-        let corners = (0..8).map(|corner| {
-            let side = |i: usize| {
-                if corner >> i & 1 == 0 {
-                    low[i]
-                } else {
-                    high[i]
-                }
-            };
-            self.project([side(0), side(1), side(2)])
+    /// Smallest and largest right and up of a track.
+    fn extent(self, track: &Track) -> ((f64, f64), (f64, f64)) {
+        const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+        let points = track.points().iter().map(|point| self.project(point.at));
+        let (x, y) = points.fold((NOTHING, NOTHING), |(x, y), (px, py)| {
+            ((x.0.min(px), x.1.max(px)), (y.0.min(py), y.1.max(py)))
         });
-        corners.fold(
-            (
-                (f64::INFINITY, f64::NEG_INFINITY),
-                (f64::INFINITY, f64::NEG_INFINITY),
-            ),
-            |(x, y), (px, py)| ((x.0.min(px), x.1.max(px)), (y.0.min(py), y.1.max(py))),
-        )
+        if x.0 <= x.1 {
+            (x, y)
+        } else {
+            ((0.0, 0.0), (0.0, 0.0))
+        }
     }
 }
 
@@ -99,7 +92,7 @@ impl Scale {
 
 /// Draws a view of the track into an area.
 pub(super) fn draw(svg: &mut Svg, view: View, track: &Track, area: &Area) {
-    let scale = Scale::fit(area, view.extent(track.bounds()));
+    let scale = Scale::fit(area, view.extent(track));
     if view != View::Isometric {
         grid(svg, &scale, area);
     }

@@ -2,9 +2,7 @@
 
 use core::fmt;
 use glidepath_gcode::Diagnostic;
-use miette::{
-    LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents,
-};
+use miette::{LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 use serde_json::{Value, json};
 
 /// A finding as miette prints it: file:line:column, the source line with a mark under the word, the
@@ -13,7 +11,6 @@ use serde_json::{Value, json};
 pub struct ProgramFinding<'a> {
     name: &'a str,
     diagnostic: &'a Diagnostic,
-    help: String,
     /// Bytes of the excerpt to mark.
     mark: SourceSpan,
 }
@@ -22,9 +19,11 @@ impl<'a> ProgramFinding<'a> {
     /// A finding in the program called `name`.
     #[must_use]
     pub fn new(name: &'a str, diagnostic: &'a Diagnostic) -> Self {
-        let parts = [diagnostic.reason.as_str(), diagnostic.help.as_str()];
-        let help: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
-        Self { name, diagnostic, help: help.join("\n"), mark: mark(diagnostic) }
+        Self {
+            name,
+            diagnostic,
+            mark: mark(diagnostic),
+        }
     }
 }
 
@@ -32,7 +31,11 @@ impl<'a> ProgramFinding<'a> {
 fn mark(diagnostic: &Diagnostic) -> SourceSpan {
     let excerpt = &diagnostic.excerpt;
     let bytes = |characters: usize| {
-        excerpt.text.char_indices().nth(characters).map_or(excerpt.text.len(), |(at, _)| at)
+        excerpt
+            .text
+            .char_indices()
+            .nth(characters)
+            .map_or(excerpt.text.len(), |(at, _)| at)
     };
     let start = bytes(excerpt.caret);
     let end = bytes(excerpt.caret.saturating_add(excerpt.length));
@@ -53,7 +56,12 @@ impl miette::Diagnostic for ProgramFinding<'_> {
     }
 
     fn help<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
-        if self.help.is_empty() { None } else { Some(Box::new(&self.help)) }
+        let help = &self.diagnostic.help;
+        if help.is_empty() {
+            None
+        } else {
+            Some(Box::new(help))
+        }
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
@@ -61,7 +69,9 @@ impl miette::Diagnostic for ProgramFinding<'_> {
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        Some(Box::new(core::iter::once(LabeledSpan::underline(self.mark))))
+        let reason = Some(self.diagnostic.reason.clone()).filter(|reason| !reason.is_empty());
+        let label = LabeledSpan::new_with_span(reason, self.mark);
+        Some(Box::new(core::iter::once(label)))
     }
 }
 
@@ -74,7 +84,11 @@ impl SourceCode for ProgramFinding<'_> {
         _lines_after: usize,
     ) -> Result<Box<dyn SpanContents<'b> + 'b>, MietteError> {
         let text = &self.diagnostic.excerpt.text;
-        let from_zero = |number: u32| usize::try_from(number).unwrap_or(usize::MAX).saturating_sub(1);
+        let from_zero = |number: u32| {
+            usize::try_from(number)
+                .unwrap_or(usize::MAX)
+                .saturating_sub(1)
+        };
         Ok(Box::new(MietteSpanContents::new_named(
             self.name.to_owned(),
             text.as_bytes(),

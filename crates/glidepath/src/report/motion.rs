@@ -1,10 +1,29 @@
 //! The report of `plan`, and the part of `run` that is the same.
 
 use super::quantity::{grouped, seconds};
+use crate::config::{AxisConfig, MachineConfig};
+use crate::exit::Exit;
 use core::fmt::Write as _;
+use glidepath_motion::audit::Report;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+
+/// Violations listed at most.
+const SHOWN: usize = 20;
+
+/// What planning a program took.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Planning {
+    /// Source lines read.
+    pub lines: u64,
+    /// Segments planned.
+    pub segments: u64,
+    /// Wall time, s.
+    pub plan_wall_s: f64,
+    /// Largest resident set of the process, bytes.
+    pub peak_rss_bytes: Option<u64>,
+}
 
 /// A motion and how it was made. The names are part of the command line's contract.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -35,14 +54,16 @@ pub struct MotionReport {
     pub max_jerk_ratio: f64,
     /// Largest path speed, as a share of the programmed feedrate.
     pub max_feed_ratio: f64,
-    /// Breaches of limits or tolerance the auditor found; more than none is a defect of Glidepath.
+    /// Breaches of limits, tolerance or order the auditor found. More than none is a defect of ours.
+    pub violation_count: u64,
+    /// The first of them.
     pub violations: Vec<String>,
     /// Wall time of planning alone, s.
     pub plan_wall_s: f64,
     /// Segments planned in a second of wall time.
     pub segments_per_s: f64,
-    /// Largest resident set of the planning process, bytes.
-    pub peak_rss_bytes: u64,
+    /// Largest resident set of the planning process, bytes; absent if the system does not tell.
+    pub peak_rss_bytes: Option<u64>,
     /// Where the motion ended, mm or degrees, by axis letter.
     pub final_position: BTreeMap<String, f64>,
     /// The CSV that was written.
@@ -54,6 +75,55 @@ pub struct MotionReport {
 }
 
 impl MotionReport {
+    /// The report of a motion, without the names of files.
+    #[must_use]
+    pub fn new(planning: &Planning, audit: &Report, config: &MachineConfig) -> Self {
+        #[allow(clippy::cast_precision_loss, reason = "a rate, for display")]
+        let segments = planning.segments as f64;
+        let position = |axis: &AxisConfig| {
+            (
+                axis.axis.to_string(),
+                audit.final_position[axis.axis.index()],
+            )
+        };
+        Self {
+            lines: planning.lines,
+            segments: planning.segments,
+            samples: audit.samples,
+            period_s: config.period_t(),
+            cycle_time_s: audit.cycle_time_s,
+            path_length_mm: audit.path_length_mm,
+            tolerance_mm: config.path.tolerance_mm,
+            max_deviation_mm: audit.max_deviation_mm,
+            max_velocity_ratio: audit.max_velocity_ratio.ratio,
+            max_acceleration_ratio: audit.max_acceleration_ratio.ratio,
+            max_jerk_ratio: audit.max_jerk_ratio.ratio,
+            max_feed_ratio: audit.max_feed_ratio.ratio,
+            violation_count: audit.violation_count,
+            violations: audit
+                .violations
+                .iter()
+                .take(SHOWN)
+                .map(ToString::to_string)
+                .collect(),
+            plan_wall_s: planning.plan_wall_s,
+            segments_per_s: segments / planning.plan_wall_s.max(1e-9),
+            peak_rss_bytes: planning.peak_rss_bytes,
+            final_position: config.axes.iter().map(position).collect(),
+            ..Self::default()
+        }
+    }
+
+    /// Done, or a fault if the auditor found any.
+    #[must_use]
+    pub const fn exit(&self) -> Exit {
+        if self.violation_count == 0 {
+            Exit::Done
+        } else {
+            Exit::Fault
+        }
+    }
+
     /// The report for people. Lines end with a line feed.
     #[must_use]
     pub fn text(&self) -> String {
@@ -96,10 +166,10 @@ impl MotionReport {
         let rate = self.segments_per_s.round() as u64;
         writeln!(
             text,
-            "  planning      {} ({} segments/s), peak memory {:.1} MB",
+            "  planning      {} ({} segments/s){}",
             seconds(self.plan_wall_s),
             grouped(rate),
-            self.peak_rss_megabytes()
+            self.peak_memory()
         )?;
         let end: Vec<String> = self
             .final_position
@@ -107,16 +177,25 @@ impl MotionReport {
             .map(|(axis, value)| format!("{axis} {value:.4}"))
             .collect();
         writeln!(text, "  end position  {}", end.join("  "))?;
+        if self.violation_count > 0 {
+            writeln!(
+                text,
+                "  violations    {}, the first:",
+                grouped(self.violation_count)
+            )?;
+        }
         for violation in &self.violations {
-            writeln!(text, "  VIOLATION     {violation}")?;
+            writeln!(text, "    {violation}")?;
         }
         Ok(())
     }
 
-    fn peak_rss_megabytes(&self) -> f64 {
+    fn peak_memory(&self) -> String {
         #[allow(clippy::cast_precision_loss, reason = "for display")]
-        let bytes = self.peak_rss_bytes as f64;
-        bytes / 1e6
+        let megabytes = |bytes: u64| bytes as f64 / 1e6;
+        self.peak_rss_bytes
+            .map(|bytes| format!(", peak memory {:.1} MB", megabytes(bytes)))
+            .unwrap_or_default()
     }
 
     /// Lines that say where the files are.

@@ -1,0 +1,137 @@
+//! `glidepath check`: everything wrong with programs.
+
+use crate::cli::CheckArgs;
+use crate::config::MachineConfig;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::output;
+use crate::report::{ProgramFinding, finding_object, grouped};
+use glidepath_gcode::Report;
+use serde_json::{Value, json};
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// Reads every program to its end.
+///
+/// # Errors
+/// A file cannot be opened.
+pub fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let mut reports = Vec::new();
+    for path in &args.files {
+        reports.push((path.display().to_string(), read(path, config)?));
+    }
+    if args.basic.json {
+        output::object(&object(&reports));
+    } else {
+        for (name, report) in &reports {
+            print(name, report);
+        }
+    }
+    let accepted = reports.iter().all(|(_, report)| report.is_accepted());
+    Ok(if accepted { Exit::Done } else { Exit::Rejected })
+}
+
+/// Checks one program for a machine at its home.
+///
+/// # Errors
+/// The file cannot be opened.
+pub fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
+    let file = File::open(path).map_err(Failure::open(path))?;
+    let options = config.program_options(config.home());
+    Ok(glidepath_gcode::check(
+        BufReader::with_capacity(1 << 16, file),
+        options,
+    ))
+}
+
+/// Checks a program that is to be run.
+///
+/// # Errors
+/// The file cannot be opened, or the program has findings.
+pub fn accepted(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
+    let report = read(path, config)?;
+    if report.is_accepted() {
+        Ok(report)
+    } else {
+        Err(Failure::Rejected {
+            program: path.display().to_string(),
+            report: Box::new(report),
+        })
+    }
+}
+
+/// Prints a program's findings to standard error.
+pub fn print_findings(name: &str, report: &Report) {
+    let findings: Vec<ProgramFinding<'_>> = report
+        .diagnostics
+        .iter()
+        .map(|finding| ProgramFinding::new(name, finding))
+        .collect();
+    output::diagnostics(
+        findings
+            .iter()
+            .map(|finding| finding as &dyn miette::Diagnostic),
+    );
+    if report.more > 0 {
+        output::note(&format!(
+            "{name}: {} more findings are not shown",
+            report.more
+        ));
+    }
+}
+
+fn print(name: &str, report: &Report) {
+    print_findings(name, report);
+    let totals = &report.totals;
+    let verdict = match report.diagnostics.len() + usize::try_from(report.more).unwrap_or(0) {
+        0 => "no findings".to_owned(),
+        1 => "1 finding".to_owned(),
+        count => format!("{count} findings"),
+    };
+    output::result(&format!(
+        "{name}: {verdict}; {} lines, {} straight moves, {} arcs, {} rapids, {:.3} mm at feed, \
+         {:.3} mm rapid\n",
+        grouped(totals.lines.into()),
+        grouped(totals.straight_feeds.into()),
+        grouped(totals.arcs.into()),
+        grouped(totals.rapids.into()),
+        totals.feed_length_mm,
+        totals.rapid_length_mm
+    ));
+}
+
+fn object(reports: &[(String, Report)]) -> Value {
+    let findings: u64 = reports
+        .iter()
+        .map(|(_, report)| report.diagnostics.len() as u64 + u64::from(report.more))
+        .sum();
+    let programs: Vec<Value> = reports
+        .iter()
+        .map(|(name, report)| program(name, report))
+        .collect();
+    json!({ "findings": findings, "programs": programs })
+}
+
+/// A program as an object: its totals and its findings.
+pub fn program(name: &str, report: &Report) -> Value {
+    let totals = &report.totals;
+    let findings: Vec<Value> = report
+        .diagnostics
+        .iter()
+        .map(|finding| finding_object(name, finding))
+        .collect();
+    json!({
+        "program": name,
+        "accepted": report.is_accepted(),
+        "lines": totals.lines,
+        "straight_moves": totals.straight_feeds,
+        "arcs": totals.arcs,
+        "rapids": totals.rapids,
+        "dwells": totals.dwells,
+        "feed_length_mm": totals.feed_length_mm,
+        "rapid_length_mm": totals.rapid_length_mm,
+        "findings": findings,
+        "findings_not_shown": report.more,
+    })
+}

@@ -1,0 +1,77 @@
+//! What is kept of a motion while it passes by: CSV and plot.
+
+use crate::config::MachineConfig;
+use crate::failure::Failure;
+use crate::plot::Plot;
+use crate::sample::Sample;
+use crate::setpoints::CsvWriter;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+/// The files of a motion as they grow.
+#[derive(Debug)]
+pub struct Recording {
+    csv: Option<(PathBuf, CsvWriter<BufWriter<File>>)>,
+    plot: Option<(PathBuf, Plot)>,
+}
+
+impl Recording {
+    /// Creates the files that were asked for.
+    ///
+    /// # Errors
+    /// A file cannot be created.
+    pub fn create(
+        config: &MachineConfig,
+        csv: Option<&Path>,
+        plot: Option<&Path>,
+    ) -> Result<Self, Failure> {
+        let axes = config.axis_names();
+        let csv = csv
+            .map(|path| {
+                let file = File::create(path).map_err(Failure::open(path))?;
+                let writer = CsvWriter::new(BufWriter::with_capacity(1 << 16, file), &axes)
+                    .map_err(Failure::file("write", path))?;
+                Ok::<_, Failure>((path.to_owned(), writer))
+            })
+            .transpose()?;
+        let plot = plot
+            .map(|path| {
+                // Now, so that a path that cannot be written is known before an hour of motion.
+                File::create(path).map_err(Failure::open(path))?;
+                let plot = Plot::new(&axes, config.limits(), config.period_t());
+                Ok::<_, Failure>((path.to_owned(), plot))
+            })
+            .transpose()?;
+        Ok(Self { csv, plot })
+    }
+
+    /// Takes the next sample.
+    ///
+    /// # Errors
+    /// The CSV cannot be written.
+    pub fn push(&mut self, sample: &Sample) -> Result<(), Failure> {
+        if let Some((path, csv)) = &mut self.csv {
+            csv.row(sample).map_err(Failure::file("write", path))?;
+        }
+        if let Some((_, plot)) = &mut self.plot {
+            plot.push(sample);
+        }
+        Ok(())
+    }
+
+    /// Completes the files.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn finish(self, title: &str, caption: &str) -> Result<(), Failure> {
+        if let Some((path, csv)) = self.csv {
+            csv.finish().map_err(Failure::file("write", &path))?;
+        }
+        if let Some((path, plot)) = self.plot {
+            std::fs::write(&path, plot.render(title, caption))
+                .map_err(Failure::file("write", &path))?;
+        }
+        Ok(())
+    }
+}
