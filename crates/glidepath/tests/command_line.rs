@@ -1,6 +1,10 @@
 //! The contract of the command line, with the real binary: exit codes, JSON keys, the CSV header.
 
-#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a test that fails may panic"
+)]
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -23,7 +27,7 @@ fn exit(output: &Output) -> i32 {
 /// The one object on standard output.
 fn object(output: &Output) -> Value {
     let text = String::from_utf8(output.stdout.clone()).unwrap();
-    let value: Value = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}"));
+    let value: Value = serde_json::from_str(&text).expect(&text);
     assert!(value.is_object());
     value
 }

@@ -1,1 +1,43 @@
 //! The interpolator process: frames to setpoints, one per period.
+//!
+//! ```text
+//! planner ─ frames ─► ports thread ─ admission ─► ring ─► real-time thread
+//! servo  ◄ setpoints ─┘   ▲ commands                       │ tick: one setpoint a period
+//! anybody ◄ status ───────┴───────────── ring ◄────────────┘
+//! ```
+//!
+//! * [`run`] starts both threads;
+//! * `tick` is one period of the real-time thread, and reads like a table of contents: what it owns
+//!   is a `track` (the frames ahead), a `rate` (of program time: the essay on hold, resume and
+//!   override is there), a `supply` (are there frames enough?) and a `will` (what stops the motion);
+//! * `admission` judges every frame before the real-time thread sees it;
+//! * `ports` is one turn of the ports thread.
+//!
+//! Invariants: the real-time thread makes no system call but the sleep and the reading of the clock,
+//! and no allocation; published positions keep every axis inside its limits by finite differences;
+//! at rate 1 the setpoints are the frames, bit for bit; whatever fails, the motion comes to rest on
+//! the path.
+
+mod admission;
+mod commands;
+mod config;
+mod differences;
+mod loops;
+mod message;
+mod ports;
+mod program_time;
+mod ramp;
+mod rate;
+mod run;
+mod setpoint;
+mod status;
+mod supply;
+#[cfg(test)]
+mod testing;
+mod tick;
+mod track;
+mod will;
+
+pub use config::{Config, RealTime, SoftLimits};
+pub use loops::RunError;
+pub use run::run;

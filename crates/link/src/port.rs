@@ -99,7 +99,7 @@ pub trait Subscriber<R> {
 }
 
 /// Requests of one client that may be unanswered at a time.
-pub const MAX_UNANSWERED: usize = 4;
+pub const MAX_UNANSWERED: usize = 32;
 
 /// The asking end of a request-response service.
 pub trait Client<Q, A> {

@@ -266,33 +266,83 @@ impl Corner<'_> {
             * DEVIATION_MARGIN_R
     }
 
-    /// Compares the time from the middle of one segment to the middle of the next, with the same
-    /// speeds there.
+    /// Compares the times over both segments, with the speeds at their far ends the same: at rest,
+    /// or as fast as both ways allow. A transition has to win in each case, so that replacing stops
+    /// by transitions one after the other never makes a path slower.
     fn stop_is_faster(&self, found: &Candidate) -> bool {
-        if self.gentle {
-            return false;
-        }
         let limits = &self.settings.limits;
-        let corner_v = found.limit.top_v;
-        let mut gain_t = -found.transition.length() / corner_v;
-        for (leg, tangent) in [(self.from, &self.t1), (self.to, &self.t2)] {
+        let side = |leg: Leg<'_>, tangent: &AxisVector| {
             let SpeedLimit { top_v, change, .. } =
                 speed_limit::straight(tangent, leg.rate_v, limits);
-            let half_s = 0.5 * leg.length_s;
-            let left_s = (half_s - found.d_s).max(0.0);
-            let middle_v = top_v
-                .min(reachable_speed(0.0, half_s, change))
-                .min(reachable_speed(corner_v.min(top_v), left_s, change));
-            gain_t += time_t(0.0, middle_v, half_s, top_v, change)
-                - time_t(corner_v.min(middle_v), middle_v, left_s, top_v, change);
+            Side {
+                length_s: leg.length_s,
+                left_s: leg.length_s - found.d_s,
+                top_v,
+                change,
+            }
+        };
+        let sides = [side(self.from, &self.t1), side(self.to, &self.t2)];
+        let corner_v = found.limit.top_v.min(sides[0].top_v).min(sides[1].top_v);
+        // From a stop neither segment lets one reach the speed of the corner: nothing to compare.
+        if sides
+            .iter()
+            .all(|s| corner_v >= reachable_speed(0.0, s.length_s, s.change))
+        {
+            return false;
         }
-        gain_t < 0.0
+        let length_s = found.transition.length();
+        [[false, false], [true, false], [false, true], [true, true]]
+            .into_iter()
+            .any(|fast| stop_gain_t(&sides, fast, corner_v, length_s) > 0.0)
     }
 }
 
-/// Time over a length between two speeds, s.
-fn time_t(from_v: f64, to_v: f64, length_s: f64, top_v: f64, limits: PathLimits) -> f64 {
-    Profile::new(from_v, to_v, length_s, top_v, limits).map_or(0.0, |p| p.duration_t())
+/// A segment beside a corner.
+#[derive(Clone, Copy)]
+struct Side {
+    length_s: f64,
+    /// What a transition leaves of it.
+    left_s: f64,
+    top_v: f64,
+    change: PathLimits,
+}
+
+/// What stopping at the corner gains over passing it at up to `corner_v`, s; with the far end of
+/// each side at rest, or fast.
+fn stop_gain_t(sides: &[Side; 2], fast: [bool; 2], corner_v: f64, transition_s: f64) -> f64 {
+    let far_v = [0, 1].map(|i| {
+        let Side {
+            length_s,
+            left_s,
+            top_v,
+            change,
+        } = sides[i];
+        let reach_v = reachable_speed(0.0, length_s, change)
+            .min(reachable_speed(corner_v, left_s, change))
+            .min(top_v);
+        if fast[i] { reach_v } else { 0.0 }
+    });
+    let corner_v = [0, 1]
+        .map(|i| reachable_speed(far_v[i], sides[i].left_s, sides[i].change))
+        .into_iter()
+        .fold(corner_v, f64::min);
+    let passing_t = transition_s / corner_v;
+    let mut gain_t = passing_t;
+    for (side, far_v) in sides.iter().zip(far_v) {
+        let Side {
+            length_s,
+            left_s,
+            top_v,
+            change,
+        } = *side;
+        let stopping = Profile::new(0.0, far_v, length_s, top_v, change);
+        let passing = Profile::new(corner_v, far_v, left_s, top_v, change);
+        let (Some(stopping), Some(passing)) = (stopping, passing) else {
+            return 0.0;
+        };
+        gain_t += passing.duration_t() - stopping.duration_t();
+    }
+    gain_t
 }
 
 /// The most an arc may give to a joint.

@@ -7,9 +7,9 @@
 //!
 //! 1. Drive the whole run with one S-curve as if nothing but the ends bounded it.
 //! 2. Of the pieces on which it is too fast, take the slowest one, with top speed V.
-//! 3. Drive the run again, nowhere faster than V. It then cruises at V around that piece. The parts
-//!    before and after the piece that begin or end inside the cruise are runs of their own, from the
-//!    old end to V and from V to the old end; go on with each from step 1.
+//! 3. Drive the run again, nowhere faster than V. It then cruises at V around that piece, or near it.
+//!    What lies before the piece, as far as the cruise, is a run of its own from the old start to V;
+//!    what lies after it likewise from V to the old end. Go on with each from step 1.
 //!
 //! ```text
 //!   cap  ‾‾‾‾‾‾|__        ____|‾‾‾‾‾‾‾
@@ -160,8 +160,8 @@ impl Run {
             starts_s: &starts_s,
         };
         let span = Span {
-            first: 0,
-            last: self.pieces.len(),
+            from_s: 0.0,
+            to_s: s,
             entry_v,
             exit_v,
         };
@@ -183,18 +183,29 @@ struct ValleyFirst<'a> {
     starts_s: &'a [f64],
 }
 
-/// Pieces `first..last`, to be driven from one speed to another.
+/// A part of the run, to be driven from one speed to another.
 #[derive(Clone, Copy)]
 struct Span {
-    first: usize,
-    last: usize,
+    from_s: f64,
+    to_s: f64,
     entry_v: f64,
     exit_v: f64,
 }
 
 impl ValleyFirst<'_> {
+    /// The pieces a span touches.
+    fn touched(&self, span: Span) -> core::ops::Range<usize> {
+        let starts_s = &self.starts_s[..self.pieces.len()];
+        let first = starts_s
+            .partition_point(|&s| s <= span.from_s)
+            .saturating_sub(1);
+        let last = starts_s.partition_point(|&s| s < span.to_s).max(first + 1);
+        first..last
+    }
+
     fn drive(&self, span: Span, outer: PathLimits, legs: &mut Vec<Leg>) {
-        let own = self.pieces[span.first..span.last]
+        let touched = self.touched(span);
+        let own = self.pieces[touched]
             .iter()
             .map(|piece| piece.limit.change)
             .reduce(weaker)
@@ -204,7 +215,7 @@ impl ValleyFirst<'_> {
         };
         let Some(slowest) = violated else {
             legs.push(Leg {
-                from_s: self.starts_s[span.first],
+                from_s: span.from_s,
                 profile,
             });
             return;
@@ -214,22 +225,19 @@ impl ValleyFirst<'_> {
             .top_v
             .max(span.entry_v)
             .max(span.exit_v);
-        let Some(capped) = self.profile(span, cap_v, used) else {
+        let Some(capped) = Self::profile(span, cap_v, used) else {
             return;
         };
-        let base_s = self.starts_s[span.first];
         let (cruise_from_s, cruise_to_s) = capped.cruise_s();
-        let (cruise_from_s, cruise_to_s) = (base_s + cruise_from_s, base_s + cruise_to_s);
-        let cruises =
-            |junction: &usize| (cruise_from_s..=cruise_to_s).contains(&self.starts_s[*junction]);
-        let before = (span.first + 1..=slowest).rev().find(cruises);
-        let after = (slowest + 1..span.last).find(cruises);
+        let (cruise_from_s, cruise_to_s) = (span.from_s + cruise_from_s, span.from_s + cruise_to_s);
+        let before_s = self.starts_s[slowest].min(cruise_to_s);
+        let after_s = self.starts_s[slowest + 1].max(cruise_from_s);
 
         let mut middle = span;
-        if let Some(junction) = before {
+        if before_s >= cruise_from_s && before_s > span.from_s {
             self.drive(
                 Span {
-                    last: junction,
+                    to_s: before_s,
                     exit_v: cap_v,
                     ..span
                 },
@@ -237,28 +245,29 @@ impl ValleyFirst<'_> {
                 legs,
             );
             middle = Span {
-                first: junction,
+                from_s: before_s,
                 entry_v: cap_v,
                 ..middle
             };
         }
-        if let Some(junction) = after {
+        let goes_on = after_s <= cruise_to_s && after_s < span.to_s;
+        if goes_on {
             middle = Span {
-                last: junction,
+                to_s: after_s,
                 exit_v: cap_v,
                 ..middle
             };
         }
-        if let Some(profile) = self.profile(middle, cap_v, used) {
+        if let Some(profile) = Self::profile(middle, cap_v, used) {
             legs.push(Leg {
-                from_s: self.starts_s[middle.first],
+                from_s: middle.from_s,
                 profile,
             });
         }
-        if let Some(junction) = after {
+        if goes_on {
             self.drive(
                 Span {
-                    first: junction,
+                    from_s: after_s,
                     entry_v: cap_v,
                     ..span
                 },
@@ -277,13 +286,13 @@ impl ValleyFirst<'_> {
         outer: PathLimits,
     ) -> Option<(PathLimits, Profile, Option<usize>)> {
         let ends_v = span.entry_v.max(span.exit_v);
-        let highest_v = self.pieces[span.first..span.last]
+        let highest_v = self.pieces[self.touched(span)]
             .iter()
             .map(|piece| piece.limit.top_v)
             .fold(ends_v, f64::max);
         let mut found = None;
         for limits in [own, outer] {
-            let profile = self.profile(span, highest_v, limits)?;
+            let profile = Self::profile(span, highest_v, limits)?;
             let violated = self.slowest_violated(span, &profile);
             found = Some((limits, profile, violated));
             let sound = violated
@@ -295,23 +304,28 @@ impl ValleyFirst<'_> {
         found
     }
 
-    fn profile(&self, span: Span, top_v: f64, limits: PathLimits) -> Option<Profile> {
-        let length_s = self.starts_s[span.last] - self.starts_s[span.first];
-        Profile::new(span.entry_v, span.exit_v, length_s, top_v, limits)
+    fn profile(span: Span, top_v: f64, limits: PathLimits) -> Option<Profile> {
+        Profile::new(
+            span.entry_v,
+            span.exit_v,
+            span.to_s - span.from_s,
+            top_v,
+            limits,
+        )
     }
 
     fn slowest_violated(&self, span: Span, profile: &Profile) -> Option<usize> {
-        let base_s = self.starts_s[span.first];
         let mut slowest: Option<usize> = None;
-        for m in span.first..span.last {
+        for m in self.touched(span) {
             let top_v = self.pieces[m].limit.top_v;
             if profile.peak_v() <= top_v * (1.0 + SPEED_ROUNDING_R)
                 || slowest.is_some_and(|s| self.pieces[s].limit.top_v <= top_v)
             {
                 continue;
             }
-            let greatest_v = profile
-                .greatest_speed_between(self.starts_s[m] - base_s, self.starts_s[m + 1] - base_s);
+            let from_s = self.starts_s[m].max(span.from_s) - span.from_s;
+            let to_s = self.starts_s[m + 1].min(span.to_s) - span.from_s;
+            let greatest_v = profile.greatest_speed_between(from_s, to_s);
             if greatest_v > top_v * (1.0 + SPEED_ROUNDING_R) {
                 slowest = Some(m);
             }

@@ -108,17 +108,23 @@ pub fn slowing_horizon(feed_v: f64, limits: PathLimits) -> f64 {
 /// Read backwards it is the largest speed from which one can slow down to `from_v`.
 #[must_use]
 pub fn reachable_speed(from_v: f64, length_s: f64, limits: PathLimits) -> f64 {
+    from_v + reachable_rise(from_v, length_s, limits)
+}
+
+/// [`reachable_speed`] less the speed at the start: over a tiny length, the difference of the two
+/// speeds would have few digits left.
+fn reachable_rise(from_v: f64, length_s: f64, limits: PathLimits) -> f64 {
     let PathLimits { accel_a, jerk_j } = limits;
     if length_s <= 0.0 {
-        return from_v;
+        return 0.0;
     }
     let full_t = accel_a / jerk_j;
     if (2.0 * from_v + jerk_j * full_t * full_t) * full_t >= length_s {
         let x_t = solve_depressed_cubic(from_v, length_s, jerk_j);
-        from_v + jerk_j * x_t * x_t
+        jerk_j * x_t * x_t
     } else {
         let c = 0.5 * accel_a * full_t;
-        -c + ((from_v - c).powi(2) + 2.0 * accel_a * length_s).sqrt()
+        ((from_v - c).powi(2) + 2.0 * accel_a * length_s).sqrt() - c - from_v
     }
 }
 
@@ -370,19 +376,49 @@ fn peak_rise(entry_v: f64, exit_v: f64, length_s: f64, headroom_v: f64, limits: 
     if closed_v - base_v >= knee_v {
         return (closed_v - base_v).min(headroom_v);
     }
-    let (mut under_v, mut over_v) = (0.0, headroom_v);
-    for _ in 0..200 {
-        let middle_v = 0.5 * (under_v + over_v);
-        if middle_v <= under_v || middle_v >= over_v {
+    // In x = √rise the length is smooth, nearly a cubic; Newton inside a bracket. The start is exact
+    // for equal ends.
+    let room_s = (length_s - ramp_s(low_v, base_v - low_v)).max(0.0);
+    let mut x = (reachable_rise(base_v, 0.5 * room_s, limits))
+        .min(headroom_v)
+        .sqrt();
+    let (mut under_x, mut over_x) = (0.0, headroom_v.sqrt());
+    for _ in 0..60 {
+        let rise_v = x * x;
+        let excess_s = covered_s(rise_v) - length_s;
+        if excess_s > 0.0 {
+            over_x = x;
+        } else {
+            under_x = x;
+        }
+        let slope = 2.0
+            * x
+            * (ramp_slope(low_v, base_v - low_v + rise_v, limits)
+                + ramp_slope(base_v, rise_v, limits));
+        let newton_x = x - excess_s / slope;
+        let next_x = if newton_x > under_x && newton_x < over_x {
+            newton_x
+        } else {
+            0.5 * (under_x + over_x)
+        };
+        if (next_x - x).abs() <= 4.0 * f64::EPSILON * x {
             break;
         }
-        if covered_s(middle_v) <= length_s {
-            under_v = middle_v;
-        } else {
-            over_v = middle_v;
-        }
+        x = next_x;
     }
-    under_v
+    x * x
+}
+
+/// Derivative of the length of a ramp by its change of speed, s.
+fn ramp_slope(from_v: f64, change_v: f64, limits: PathLimits) -> f64 {
+    let PathLimits { accel_a, jerk_j } = limits;
+    let middle_v = from_v + 0.5 * change_v;
+    if change_v * jerk_j >= accel_a * accel_a {
+        0.5 * (change_v / accel_a + accel_a / jerk_j) + middle_v / accel_a
+    } else {
+        let jerk_t = (change_v / jerk_j).sqrt();
+        jerk_t + middle_v / (jerk_j * jerk_t)
+    }
 }
 
 /// A time-optimal change from one speed and acceleration to another, position free: three phases of

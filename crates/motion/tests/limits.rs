@@ -214,7 +214,7 @@ fn any_step() -> impl Strategy<Value = Step> {
     let arc = (
         plane,
         radius.clone(),
-        0.0..6.28_f64,
+        0.0..core::f64::consts::TAU,
         -13.0..13.0_f64,
         -2.0..2.0_f64,
         any_feed(),

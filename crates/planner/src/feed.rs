@@ -17,7 +17,7 @@ use thiserror::Error;
 use crate::{Control, ItemSource, Refusal, Supply};
 
 /// Between two looks for answers.
-const POLL: Duration = Duration::from_micros(500);
+const POLL: Duration = Duration::from_micros(200);
 
 /// Before a request is sent again for which there was no room.
 const RETRY: Duration = Duration::from_millis(5);
@@ -168,7 +168,14 @@ impl Feeder {
     fn open(&mut self, position: AxisVector, control: &mut Control<'_>) -> Result<(), FeedError> {
         let mut waited = Duration::ZERO;
         loop {
-            let reply = self.repeat(StreamItem::Open, control)?;
+            let reply = match self.repeat(StreamItem::Open, control) {
+                Err(FeedError::Link(LinkError::NoServer { .. })) if waited < PATIENCE => {
+                    pause(RETRY, control)?;
+                    waited += RETRY;
+                    continue;
+                }
+                reply => reply?,
+            };
             match reply.outcome().map_err(LinkError::from)? {
                 Ok(()) if AxisVector::from(reply.position) == position => break,
                 Ok(()) => return Err(FeedError::Moved),

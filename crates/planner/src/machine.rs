@@ -13,6 +13,9 @@ use crate::{Control, RunError};
 /// Between two looks at the status.
 pub(crate) const POLL: Duration = Duration::from_millis(2);
 
+/// The same while the planner waits for items, so that a client's requests flow.
+pub(crate) const HUNGRY_POLL: Duration = Duration::from_micros(200);
+
 /// An interpolator that has not updated its status for so long is gone. It does so every few ticks.
 pub(crate) const SILENCE: Duration = Duration::from_secs(3);
 
@@ -87,9 +90,9 @@ impl Machine {
     }
 
     /// Waits a little, and counts it as silence until the next news.
-    pub(crate) fn pause(&mut self, control: &mut Control<'_>) {
-        (control.pause)(POLL);
-        self.silent = self.silent.saturating_add(POLL);
+    pub(crate) fn pause(&mut self, time: Duration, control: &mut Control<'_>) {
+        (control.pause)(time);
+        self.silent = self.silent.saturating_add(time);
         if self.silent >= SILENCE {
             self.alive = false;
         }

@@ -28,7 +28,7 @@ use glidepath_link::{
     Command, Delivery, FaultCause, FrameSink, LinkError, MachineState, SetpointFrame, Transport,
 };
 
-use crate::machine::{Machine, POLL, SILENCE, Standing};
+use crate::machine::{HUNGRY_POLL, Machine, POLL, SILENCE, Standing};
 use crate::{
     Control, ItemSource, Notice, Output, Pipeline, Progress, Refusal, RunError, Statistics,
 };
@@ -115,7 +115,9 @@ struct Epoch {
 enum Turn {
     /// There may be more to do at once.
     Busy,
-    /// Nothing to do until time has passed.
+    /// Nothing to do until the source has more.
+    Hungry,
+    /// Nothing to do until the interpolator has gone on.
     Wait,
 }
 
@@ -161,7 +163,7 @@ impl<'t> Publisher<'t> {
 
     /// Waits a little while there is no epoch, and now and then frees what dead processes hold.
     pub(crate) fn idle(&mut self, control: &mut Control<'_>) -> Result<(), LinkError> {
-        self.machine.pause(control);
+        self.machine.pause(POLL, control);
         self.idle_t += POLL;
         if self
             .idle_t
@@ -222,7 +224,7 @@ impl<'t> Publisher<'t> {
                 return Err(RunError::Interrupted);
             }
             self.machine.observe()?;
-            pipeline.source().attend(std::mem::take(&mut waited));
+            pipeline.source().attend(waited);
             let completed = self.follow(&mut epoch)?;
             let all_out = epoch.in_hand.is_none() && epoch.ended.is_some();
             if all_out && (completed || epoch.delivered == 0) {
@@ -232,10 +234,14 @@ impl<'t> Publisher<'t> {
                 }
                 return Ok(pipeline.statistics());
             }
-            if self.turn(pipeline, &mut epoch, control)? == Turn::Wait {
-                self.machine.pause(control);
-                waited = POLL;
-                epoch.since_progress += POLL;
+            waited = match self.turn(pipeline, &mut epoch, control)? {
+                Turn::Busy => Duration::ZERO,
+                Turn::Hungry => HUNGRY_POLL,
+                Turn::Wait => POLL,
+            };
+            if !waited.is_zero() {
+                self.machine.pause(waited, control);
+                epoch.since_progress += waited;
             }
             if epoch.since_progress >= PROGRESS_INTERVAL {
                 epoch.since_progress = Duration::ZERO;
@@ -309,7 +315,7 @@ impl<'t> Publisher<'t> {
                     ));
                 }
                 Ok(Output::Item(_)) => {}
-                Ok(Output::Pending) => return Ok(Turn::Wait),
+                Ok(Output::Pending) => return Ok(Turn::Hungry),
                 Ok(Output::End) => epoch.ended = Some(Ok(())),
                 Err(refusal) => epoch.ended = Some(Err(refusal)),
             }
@@ -336,7 +342,7 @@ impl<'t> Publisher<'t> {
                 Ok(Standing::Open { .. } | Standing::NotStarted) => {}
                 Ok(Standing::Completed) | Err(_) => break,
             }
-            self.machine.pause(control);
+            self.machine.pause(POLL, control);
             waited += POLL;
         }
         Ok(())

@@ -1,0 +1,287 @@
+//! Which frames the real-time thread gets to see.
+//!
+//! A frame is data from another process. It passes if its numbers are finite, it continues the open
+//! epoch (or opens one, at rest, where the machine stands), it follows from the frame before it, and
+//! its positions are within the limits of every axis, by the same differences that are published.
+//! The first frame of an open epoch that does not pass is a fault, and the epoch gets no more: the
+//! motion stops on the frames that did pass.
+
+use crate::config::{Config, SoftLimits};
+use crate::message::Fault;
+use crate::tick::SAME_PLACE;
+use crate::track::is_at_rest;
+use glidepath_geometry::{AXES, Axis, AxisVector};
+use glidepath_link::{FaultCause, FrameRefusal, MachineState, Record, RecordError, SetpointFrame};
+use glidepath_motion::{FrameFlags, Limits};
+
+/// Part of a limit that may be exceeded: what an audit allows.
+const ALLOWANCE: f64 = 1e-6;
+/// Rounding of positions and their differences, mm.
+const ROUNDING: f64 = 1e-12;
+
+/// What became of a frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Verdict {
+    /// For the real-time thread.
+    Pass,
+    /// Seen before: a planner that was not sure sends again.
+    Known,
+    /// Opens an epoch while the present one still moves: offer it again later.
+    Later,
+    /// Not of the trajectory that is executed; nothing to stop for.
+    Refused(FrameRefusal),
+    /// The trajectory cannot go on.
+    Fault(Fault),
+}
+
+/// What the ports thread knows of the machine.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Machine {
+    pub(crate) state: MachineState,
+    pub(crate) position: AxisVector,
+    /// The last epoch the real-time thread opened, and whether it still is.
+    pub(crate) epoch: u64,
+    pub(crate) is_open: bool,
+}
+
+/// The last frame that passed, with the differences up to it.
+#[derive(Debug, Clone, Copy)]
+struct Last {
+    frame: SetpointFrame,
+    first: AxisVector,
+    second: AxisVector,
+}
+
+/// The judge of frames.
+#[derive(Debug)]
+pub(crate) struct Admission {
+    period_ns: u64,
+    period_t: f64,
+    limits: Limits,
+    soft_limits: SoftLimits,
+    /// The epoch that frames passed of, 0 before the first.
+    epoch: u64,
+    last: Option<Last>,
+    /// The epoch had a frame that did not pass.
+    broken: bool,
+}
+
+impl Admission {
+    pub(crate) fn new(config: &Config) -> Self {
+        Self {
+            period_ns: config.period_ns,
+            period_t: config.period_t(),
+            limits: config.limits,
+            soft_limits: config.soft_limits,
+            epoch: 0,
+            last: None,
+            broken: false,
+        }
+    }
+
+    /// Frames of the epoch that passed.
+    pub(crate) fn received(&self) -> u64 {
+        self.last.map_or(0, |last| last.frame.sequence + 1)
+    }
+
+    pub(crate) const fn epoch(&self) -> u64 {
+        self.epoch
+    }
+
+    /// Learns what became of the machine.
+    pub(crate) fn note(&mut self, machine: &Machine) {
+        // After a fault, what was under way is dropped: nothing of it will ever be opened.
+        self.broken |= machine.state == MachineState::Faulted;
+    }
+
+    /// Judges a frame.
+    pub(crate) fn judge(&mut self, frame: &SetpointFrame, machine: &Machine) -> Verdict {
+        if let Err(error) = frame.check() {
+            return self.refuse(frame, refusal_of(&error));
+        }
+        if frame.epoch > self.epoch {
+            return self.open(frame, machine);
+        }
+        // An epoch that passed its first frame but is not open any more has ended.
+        let is_over = machine.epoch >= frame.epoch && !machine.is_open;
+        if frame.epoch < self.epoch || is_over || self.broken {
+            return Verdict::Refused(FrameRefusal::Epoch);
+        }
+        let Some(last) = self.last else {
+            return Verdict::Refused(FrameRefusal::Epoch);
+        };
+        if frame.sequence <= last.frame.sequence {
+            return Verdict::Known;
+        }
+        match self.follows(frame, &last) {
+            Ok(next) => {
+                self.last = Some(next);
+                Verdict::Pass
+            }
+            Err(fault) => {
+                self.broken = true;
+                Verdict::Fault(fault)
+            }
+        }
+    }
+
+    /// A frame whose fields cannot be trusted, not even its epoch: a fault if one is open.
+    fn refuse(&mut self, frame: &SetpointFrame, refusal: FrameRefusal) -> Verdict {
+        if self.last.is_none() || self.broken {
+            return Verdict::Refused(refusal);
+        }
+        self.broken = true;
+        Verdict::Fault(Fault::new(
+            FaultCause::Frame(refusal),
+            frame.line,
+            frame.sequence,
+        ))
+    }
+
+    /// The first frame of a new epoch.
+    fn open(&mut self, frame: &SetpointFrame, machine: &Machine) -> Verdict {
+        let pending = self.epoch > machine.epoch && !self.broken;
+        let moves = machine.is_open && machine.state != MachineState::Starved;
+        if pending || moves {
+            return Verdict::Later;
+        }
+        if machine.state == MachineState::Faulted
+            || frame.sequence != 0
+            || !frame.has(FrameFlags::FIRST)
+        {
+            return Verdict::Refused(FrameRefusal::Epoch);
+        }
+        if frame.period_ns != self.period_ns {
+            return Verdict::Refused(FrameRefusal::Period);
+        }
+        if !is_at_rest(frame) {
+            return Verdict::Refused(FrameRefusal::NotAtRest);
+        }
+        if (AxisVector::from(frame.position) - machine.position).amax() > SAME_PLACE {
+            return Verdict::Refused(FrameRefusal::Elsewhere);
+        }
+        if self.outside(frame).is_some() {
+            return Verdict::Refused(FrameRefusal::SoftLimit);
+        }
+        self.epoch = frame.epoch;
+        self.broken = false;
+        let zero = AxisVector::zeros();
+        self.last = Some(Last {
+            frame: *frame,
+            first: zero,
+            second: zero,
+        });
+        Verdict::Pass
+    }
+
+    /// Whether a frame continues the motion within the limits.
+    fn follows(&self, frame: &SetpointFrame, last: &Last) -> Result<Last, Fault> {
+        let fault = |refusal| Fault::new(FaultCause::Frame(refusal), frame.line, frame.sequence);
+        if frame.sequence != last.frame.sequence + 1 {
+            return Err(fault(FrameRefusal::Sequence));
+        }
+        if frame.period_ns != self.period_ns {
+            return Err(fault(FrameRefusal::Period));
+        }
+        let must_rest = [FrameFlags::LAST, FrameFlags::PROGRAM_STOP];
+        if must_rest.iter().any(|&flag| frame.has(flag)) && !is_at_rest(frame) {
+            return Err(fault(FrameRefusal::NotAtRest));
+        }
+        let on_axis = |refusal, (axis, value, limit)| Fault {
+            axis,
+            value,
+            limit,
+            ..fault(refusal)
+        };
+        if let Some(found) = self.outside(frame) {
+            return Err(on_axis(FrameRefusal::SoftLimit, found));
+        }
+        let t = self.period_t;
+        let first = AxisVector::from(frame.position) - AxisVector::from(last.frame.position);
+        let second = first - last.first;
+        let third = second - last.second;
+        for (refusal, difference, scale, limit) in [
+            (FrameRefusal::Velocity, &first, t, &self.limits.velocity),
+            (
+                FrameRefusal::Acceleration,
+                &second,
+                t * t,
+                &self.limits.acceleration,
+            ),
+            (FrameRefusal::Jerk, &third, t * t * t, &self.limits.jerk),
+        ] {
+            if let Some(found) = above(difference, scale, limit) {
+                return Err(on_axis(refusal, found));
+            }
+        }
+        if let Some(axis) = self.jump(frame, &last.frame) {
+            return Err(Fault {
+                axis: Some(axis),
+                ..fault(FrameRefusal::Discontinuous)
+            });
+        }
+        Ok(Last {
+            frame: *frame,
+            first,
+            second,
+        })
+    }
+
+    /// The first axis outside its soft limits.
+    fn outside(&self, frame: &SetpointFrame) -> Option<Found> {
+        let SoftLimits { lowest, highest } = &self.soft_limits;
+        Axis::ALL
+            .iter()
+            .zip(frame.position)
+            .zip(lowest.iter().zip(highest))
+            .find_map(|((&axis, position), (&low, &high))| {
+                let nearest = position.max(low).min(high);
+                ((position - nearest).abs() > SAME_PLACE).then_some((Some(axis), position, nearest))
+            })
+    }
+
+    /// The first axis whose velocity or acceleration does not belong to its positions: with jerk
+    /// inside its limit J, Taylor's formula leaves no more than these remainders over a period.
+    #[allow(clippy::indexing_slicing, reason = "the index runs over the axes")]
+    fn jump(&self, frame: &SetpointFrame, last: &SetpointFrame) -> Option<Axis> {
+        let t = self.period_t;
+        (0..AXES).find_map(|i| {
+            let (p0, v0, a0) = (last.position[i], last.velocity[i], last.acceleration[i]);
+            let (p1, v1, a1) = (frame.position[i], frame.velocity[i], frame.acceleration[i]);
+            // The mean of jerk over a period may exceed that of its neighbours' average, which is
+            // what the differences limit: hence twice the limit.
+            let j = 2.0 * self.limits.jerk[i] * (1.0 + ALLOWANCE);
+            let of_a = (a1 - a0).abs() - j * t;
+            let of_v = (v1 - v0 - 0.5 * t * (a0 + a1)).abs() - 0.25 * j * t * t;
+            let of_p = (p1 - p0 - 0.5 * t * (v0 + v1) + t * t * (a1 - a0) / 12.0).abs()
+                - 0.065 * j * t * t * t;
+            let jumps = of_a > ROUNDING / (t * t) || of_v > ROUNDING / t || of_p > ROUNDING;
+            if jumps {
+                Axis::ALL.get(i).copied()
+            } else {
+                None
+            }
+        })
+    }
+}
+
+/// Axis, value found, value allowed.
+type Found = (Option<Axis>, f64, f64);
+
+/// The first axis whose difference is above its limit.
+fn above(difference: &AxisVector, scale: f64, limit: &AxisVector) -> Option<Found> {
+    Axis::ALL
+        .iter()
+        .zip(difference.iter().zip(limit))
+        .find_map(|(&axis, (&d, &limit))| {
+            let allowed = limit * scale * (1.0 + ALLOWANCE) + ROUNDING;
+            (d.abs() > allowed).then_some((Some(axis), d / scale, limit))
+        })
+}
+
+const fn refusal_of(error: &RecordError) -> FrameRefusal {
+    match error {
+        RecordError::NotFinite { .. } => FrameRefusal::NotFinite,
+        _ => FrameRefusal::Malformed,
+    }
+}

@@ -1,0 +1,99 @@
+//! What an interpolator is started with.
+
+use core::time::Duration;
+use glidepath_geometry::AxisVector;
+use glidepath_motion::Limits;
+use glidepath_realtime::{Mode, Request};
+
+/// Where the axes may be, mm or degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SoftLimits {
+    /// Lowest position of each axis.
+    pub lowest: AxisVector,
+    /// Highest position of each axis.
+    pub highest: AxisVector,
+}
+
+impl SoftLimits {
+    /// Anywhere.
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            lowest: AxisVector::repeat(f64::NEG_INFINITY),
+            highest: AxisVector::repeat(f64::INFINITY),
+        }
+    }
+}
+
+/// How the threads are scheduled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RealTime {
+    /// Whether the interpolator may run without some of what follows.
+    pub mode: Mode,
+    /// What the real-time thread asks for. The thread that serves the ports asks for a priority
+    /// that is lower by ten, on any processor.
+    pub request: Request,
+}
+
+impl RealTime {
+    /// Ordinary threads: for tests and for machines on a desk.
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            mode: Mode::BestEffort,
+            request: Request::default(),
+        }
+    }
+}
+
+/// Everything an interpolator depends on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Config {
+    /// Interpolation period, ns: 1 to 10⁹, the same as the planner's.
+    pub period_ns: u64,
+    /// What each axis can do. Frames that ask for more are refused.
+    pub limits: Limits,
+    /// Where each axis may be. Frames outside are refused.
+    pub soft_limits: SoftLimits,
+    /// Where the machine stands at the start.
+    pub start_position: AxisVector,
+    /// Most frames the planner keeps published ahead of the executed one: at rest in the middle of
+    /// a trajectory, motion goes on when so many have come, or less.
+    pub horizon_frames: u64,
+    /// How the threads are scheduled.
+    pub real_time: RealTime,
+    /// Ticks that may be missed within a second before the motion stops with a fault; `None` for
+    /// any number.
+    pub missed_ticks_allowed: Option<u64>,
+    /// How long the machine waits in the middle of a trajectory for more frames before that is a
+    /// fault; `None` for ever.
+    pub planner_lost_after: Option<Duration>,
+    /// Ends the process at the first system call of the real-time thread other than the sleep and
+    /// the clock. For tests; [`run`](crate::run) does not return then.
+    pub forbid_system_calls: bool,
+}
+
+impl Config {
+    /// A machine with the given limits and period, without soft limits, at zero, on ordinary
+    /// threads, that half a second of motion is published ahead for.
+    #[must_use]
+    pub fn new(limits: Limits, period_ns: u64) -> Self {
+        Self {
+            period_ns,
+            limits,
+            soft_limits: SoftLimits::none(),
+            start_position: AxisVector::zeros(),
+            horizon_frames: 500_000_000 / period_ns.max(1),
+            real_time: RealTime::none(),
+            missed_ticks_allowed: None,
+            planner_lost_after: Some(Duration::from_secs(2)),
+            forbid_system_calls: false,
+        }
+    }
+
+    /// The period in seconds.
+    #[must_use]
+    pub fn period_t(&self) -> f64 {
+        Duration::from_nanos(self.period_ns).as_secs_f64()
+    }
+}

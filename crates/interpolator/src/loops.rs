@@ -1,0 +1,108 @@
+//! The two threads.
+//!
+//! ```text
+//! grid            |────────────|────────────|
+//! real-time       ▐█░ tick      ▐█░
+//! ports              ▐███░ 200 µs later: setpoints out, commands and frames in
+//! ```
+//!
+//! Both wake on the same grid, the second a fixed phase later, so that a setpoint leaves the process
+//! a known time after its tick.
+
+use crate::config::Config;
+use crate::message::{Inputs, Report};
+use crate::tick::Interpolator;
+use core::sync::atomic::{AtomicBool, Ordering};
+use glidepath_link::{FaultCause, LinkError};
+use glidepath_realtime::{
+    Clock, DeadlineTimer, Mode, NotRealTime, Request, SentinelError, enter, forbid_system_calls,
+};
+use heapless::spsc::Producer;
+
+/// Time from a tick to the work of the ports thread, as long as it fits into the period.
+const PHASE_NS: u64 = 200_000;
+
+/// By how much the priority of the ports thread is lower.
+const LOWER: i32 = 10;
+
+/// Why an interpolator could not run.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The host or the user does not give what real time needs.
+    #[error(transparent)]
+    NotRealTime(#[from] NotRealTime),
+    /// A port could not be made or used.
+    #[error(transparent)]
+    Link(#[from] LinkError),
+    /// The diagnostic against system calls could not be installed.
+    #[error(transparent)]
+    Sentinel(#[from] SentinelError),
+    /// A value of the configuration cannot be used.
+    #[error("{what} is {value}: {allowed}")]
+    Config {
+        /// Which value.
+        what: &'static str,
+        /// What it is.
+        value: u64,
+        /// What it may be.
+        allowed: &'static str,
+    },
+    /// A thread could not be started, or panicked.
+    #[error("the {0} thread failed")]
+    Thread(&'static str),
+}
+
+/// When the ports thread wakes after a tick.
+pub(crate) fn phase_ns(period_ns: u64) -> u64 {
+    PHASE_NS.min(period_ns / 4)
+}
+
+/// What the ports thread asks for: less than the real-time thread, on any processor. The memory is
+/// locked already.
+pub(crate) fn ports_request(request: &Request) -> Request {
+    Request {
+        priority: request.priority.map(|p| (p - LOWER).max(1)),
+        ..Request::default()
+    }
+}
+
+/// The real-time thread's work, until `stop` is set.
+pub(crate) fn real_time<C: Clock>(
+    interpolator: &mut Interpolator<'_>,
+    inputs: &mut Inputs<'_>,
+    reports: &mut Producer<'_, Report>,
+    timer: &mut DeadlineTimer<C>,
+    stop: &AtomicBool,
+) {
+    while !stop.load(Ordering::Relaxed) {
+        let wake = timer.wait();
+        let report = interpolator.tick(&wake, inputs);
+        if reports.enqueue(report).is_err() {
+            // Nobody has taken a report for a second: the drives get nothing either.
+            interpolator.counters.reports_lost += 1;
+            interpolator.fail(FaultCause::Ports);
+        }
+        interpolator.counters.work_ns = timer.clock().now_ns().saturating_sub(wake.woke_ns);
+    }
+}
+
+/// Sets up the real-time thread. The guard must live as long as the thread works.
+pub(crate) fn enter_real_time(config: &Config) -> Result<glidepath_realtime::Entered, NotRealTime> {
+    enter(&config.real_time.request, config.real_time.mode)
+}
+
+/// Sets up the ports thread: what it is not granted is no reason not to run.
+pub(crate) fn enter_ports(config: &Config) {
+    let request = ports_request(&config.real_time.request);
+    // In best effort mode this never fails; in strict mode the real-time thread was granted more.
+    enter(&request, Mode::BestEffort).ok();
+}
+
+/// Forbids system calls to the calling thread if the configuration says so.
+pub(crate) fn guard(config: &Config) -> Result<(), SentinelError> {
+    if config.forbid_system_calls {
+        forbid_system_calls()
+    } else {
+        Ok(())
+    }
+}

@@ -1,0 +1,205 @@
+//! What the two threads tell each other, by rings of fixed size.
+//!
+//! ```text
+//!  ports thread ── SetpointFrame, Order ──►  real-time thread
+//!               ◄── Report, Happening ──────
+//! ```
+
+use core::fmt;
+use glidepath_geometry::Axis;
+use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, MachineState, Setpoint, SetpointFrame};
+use heapless::spsc::{Consumer, Producer, Queue};
+
+/// Frames under way between the threads, one less.
+pub(crate) const FRAMES: usize = 256;
+/// Orders under way, one less.
+pub(crate) const ORDERS: usize = 32;
+/// Reports under way, one less: a second at 4 ms.
+pub(crate) const REPORTS: usize = 256;
+/// Happenings under way, one less.
+pub(crate) const HAPPENINGS: usize = 128;
+
+/// The rings between the threads. Large: to be kept on the heap.
+#[derive(Default)]
+pub(crate) struct Rings {
+    pub(crate) frames: Queue<SetpointFrame, FRAMES>,
+    pub(crate) orders: Queue<Order, ORDERS>,
+    pub(crate) reports: Queue<Report, REPORTS>,
+}
+
+/// What the real-time thread reads.
+pub(crate) struct Inputs<'a> {
+    pub(crate) frames: Consumer<'a, SetpointFrame>,
+    pub(crate) orders: Consumer<'a, Order>,
+}
+
+/// What the ports thread writes and reads.
+pub(crate) struct PortsEnds<'a> {
+    pub(crate) frames: Producer<'a, SetpointFrame>,
+    pub(crate) orders: Producer<'a, Order>,
+    pub(crate) reports: Consumer<'a, Report>,
+}
+
+impl Rings {
+    /// The ends for the real-time thread and for the ports thread.
+    pub(crate) fn split(&mut self) -> ((Inputs<'_>, Producer<'_, Report>), PortsEnds<'_>) {
+        let (frames_in, frames) = self.frames.split();
+        let (orders_in, orders) = self.orders.split();
+        let (reports_in, reports) = self.reports.split();
+        let ports = PortsEnds {
+            frames: frames_in,
+            orders: orders_in,
+            reports,
+        };
+        ((Inputs { frames, orders }, reports_in), ports)
+    }
+}
+
+/// Why the motion was stopped, with what is known of the place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Fault {
+    pub(crate) cause: FaultCause,
+    pub(crate) line: u32,
+    pub(crate) sequence: u64,
+    pub(crate) axis: Option<Axis>,
+    /// What was found, and what is allowed, in the unit of the limit.
+    pub(crate) value: f64,
+    pub(crate) limit: f64,
+}
+
+impl Fault {
+    pub(crate) const fn new(cause: FaultCause, line: u32, sequence: u64) -> Self {
+        Self {
+            cause,
+            line,
+            sequence,
+            axis: None,
+            value: 0.0,
+            limit: 0.0,
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.cause {
+            FaultCause::Frame(refusal) => {
+                write!(f, "frame {} refused: {}", self.sequence, describe(refusal))?;
+            }
+            FaultCause::PlannerLost => write!(f, "no frames from the planner")?,
+            FaultCause::MissedTicks => write!(f, "too many missed ticks")?,
+            FaultCause::Output => write!(f, "a setpoint would break a limit")?,
+            FaultCause::Ports => write!(f, "the ports are not served")?,
+        }
+        if let Some(axis) = self.axis {
+            write!(f, ", axis {axis}: {} (allowed {})", self.value, self.limit)?;
+        }
+        if self.line > 0 {
+            write!(f, ", line {}", self.line)?;
+        }
+        Ok(())
+    }
+}
+
+const fn describe(refusal: FrameRefusal) -> &'static str {
+    match refusal {
+        FrameRefusal::NotFinite => "a number is not finite",
+        FrameRefusal::Malformed => "malformed",
+        FrameRefusal::Period => "planned with another period",
+        FrameRefusal::Epoch => "of an epoch that cannot run now",
+        FrameRefusal::Sequence => "a gap in the sequence",
+        FrameRefusal::Discontinuous => "does not follow from the frame before",
+        FrameRefusal::Velocity => "above the velocity limit",
+        FrameRefusal::Acceleration => "above the acceleration limit",
+        FrameRefusal::Jerk => "above the jerk limit",
+        FrameRefusal::SoftLimit => "outside the soft limits",
+        FrameRefusal::NotAtRest => "not at rest where it must be",
+        FrameRefusal::Elsewhere => "does not start where the machine stands",
+    }
+}
+
+/// Ports thread to real-time thread.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Order {
+    Hold,
+    Resume,
+    /// As a ratio, ≥ 0.
+    FeedOverride(f64),
+    /// As a ratio, ≥ 0.
+    RapidOverride(f64),
+    Abort,
+    /// Clears a latched fault; aborts if there is none.
+    Reset,
+    /// A frame was refused, or the ports failed.
+    Fault(Fault),
+}
+
+/// Real-time thread to ports thread, every tick.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Report {
+    pub(crate) setpoint: Setpoint,
+    pub(crate) state: MachineState,
+    pub(crate) end_of_epoch: EndOfEpoch,
+    pub(crate) fault: Option<Fault>,
+    /// Frames of the epoch whose instant has come.
+    pub(crate) frames_executed: u64,
+    /// Frames the real-time thread owns and has not reached.
+    pub(crate) queue_depth: u64,
+    /// Work of the tick before this one.
+    pub(crate) work_ns: u64,
+    pub(crate) late_ticks: u64,
+    pub(crate) reports_lost: u64,
+    pub(crate) feed_override: f64,
+    pub(crate) rapid_override: f64,
+}
+
+/// Something for the log.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Happening {
+    State {
+        tick: u64,
+        from: MachineState,
+        to: MachineState,
+        line: u32,
+    },
+    Missed {
+        tick: u64,
+        count: u64,
+    },
+    /// A setpoint exceeded a limit by this part.
+    Excess {
+        tick: u64,
+        part: f64,
+    },
+    /// A stop could not wait for room: limits were relaxed by this part.
+    Relaxed {
+        tick: u64,
+        part: f64,
+    },
+}
+
+impl fmt::Display for Happening {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::State {
+                tick,
+                from,
+                to,
+                line,
+            } => {
+                write!(f, "tick {tick}: {from:?} -> {to:?}, line {line}")
+            }
+            Self::Missed { tick, count } => write!(f, "tick {tick}: {count} ticks missed"),
+            Self::Excess { tick, part } => {
+                write!(f, "tick {tick}: a limit exceeded by {:.4} %", part * 100.0)
+            }
+            Self::Relaxed { tick, part } => {
+                write!(
+                    f,
+                    "tick {tick}: limits relaxed by {:.2} % to stop",
+                    part * 100.0
+                )
+            }
+        }
+    }
+}

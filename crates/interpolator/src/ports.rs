@@ -1,0 +1,286 @@
+//! The ports thread: everything that talks to other processes.
+//!
+//! Each turn: setpoints out, commands in, frames in as long as the ring to the real-time thread has
+//! room (what does not fit stays in the planner's queue, which pushes back), now and then a status,
+//! and the leftovers of dead processes. It may allocate, log and wait; the real-time thread does not
+//! notice.
+
+use crate::admission::{Admission, Machine, Verdict};
+use crate::commands::{answer, is_refusal};
+use crate::config::Config;
+use crate::message::{Fault, Happening, Order, PortsEnds, Report};
+use crate::status::{StatusBook, grants_of};
+use glidepath_geometry::AxisVector;
+use glidepath_link::{
+    CommandReply, CommandRequest, EndOfEpoch, FaultCause, LinkError, MachineState, Publisher,
+    Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
+};
+use glidepath_realtime::{EventReader, Grants, Mode};
+
+/// Frames moved in one turn.
+const FRAMES_PER_TURN: usize = 64;
+/// Commands served in one turn.
+const COMMANDS_PER_TURN: usize = 8;
+/// Between two statuses.
+const STATUS_NS: u64 = 20_000_000;
+/// Between two looks for dead processes.
+const CLEAN_UP_NS: u64 = 200_000_000;
+
+/// The ports of the interpolator.
+struct Links {
+    transport: Box<dyn Transport>,
+    frames: Box<dyn Subscriber<SetpointFrame>>,
+    setpoints: Box<dyn Publisher<Setpoint>>,
+    status: Box<dyn Publisher<Status>>,
+    commands: Box<dyn Server<CommandRequest, CommandReply>>,
+}
+
+impl Links {
+    fn new(transport: Box<dyn Transport>) -> Result<Self, LinkError> {
+        Ok(Self {
+            frames: transport.frame_source()?,
+            setpoints: transport.setpoint_sink()?,
+            status: transport.status_sink()?,
+            commands: transport.command_server()?,
+            transport,
+        })
+    }
+}
+
+/// The state of the ports thread.
+pub(crate) struct Ports<'a> {
+    links: Links,
+    ends: PortsEnds<'a>,
+    happenings: EventReader<'a, Happening>,
+    log: &'a mut dyn FnMut(&str),
+    admission: Admission,
+    /// A frame that is to be judged again.
+    pending: Option<SetpointFrame>,
+    report: Option<Report>,
+    book: StatusBook,
+    boot_id: u64,
+    status_due_ns: u64,
+    clean_up_due_ns: u64,
+    failing: bool,
+}
+
+impl<'a> Ports<'a> {
+    pub(crate) fn new(
+        config: &Config,
+        boot_id: u64,
+        transport: Box<dyn Transport>,
+        ends: PortsEnds<'a>,
+        happenings: EventReader<'a, Happening>,
+        log: &'a mut dyn FnMut(&str),
+    ) -> Result<Self, LinkError> {
+        Ok(Self {
+            links: Links::new(transport)?,
+            ends,
+            happenings,
+            log,
+            admission: Admission::new(config),
+            pending: None,
+            report: None,
+            book: StatusBook::new(config, boot_id),
+            boot_id,
+            status_due_ns: 0,
+            clean_up_due_ns: 0,
+            failing: false,
+        })
+    }
+
+    /// Tells what the real-time thread was granted.
+    pub(crate) fn granted(&mut self, grants: &Grants, mode: Mode) {
+        for refusal in grants.refusals() {
+            (self.log)(&format!("not granted: {refusal}"));
+        }
+        self.book.status.grants = grants_of(grants, mode).0;
+    }
+
+    /// What the real-time thread last reported.
+    pub(crate) fn state(&self) -> Option<MachineState> {
+        self.report.map(|report| report.state)
+    }
+
+    /// Asks the motion to end.
+    pub(crate) fn abort(&mut self) {
+        self.ends.orders.enqueue(Order::Abort).ok();
+    }
+
+    pub(crate) const fn status(&self) -> &Status {
+        &self.book.status
+    }
+
+    /// One turn. A port that fails stops the motion, and is tried again at the next turn.
+    pub(crate) fn turn(&mut self, now_ns: u64) {
+        let done = [
+            self.publish_setpoints(),
+            self.serve_commands(),
+            self.move_frames(),
+            self.publish_status(now_ns),
+            self.clean_up(now_ns),
+        ];
+        self.write_log();
+        let error = done.into_iter().find_map(Result::err);
+        if let Some(error) = &error
+            && !self.failing
+        {
+            self.tell(&error.to_string());
+            self.fault(Fault::new(FaultCause::Ports, 0, 0));
+        }
+        self.failing = error.is_some();
+    }
+
+    /// To the log, and to whoever reads the status.
+    fn tell(&mut self, text: &str) {
+        (self.log)(text);
+        self.book.last_error(text);
+    }
+
+    fn fault(&mut self, fault: Fault) {
+        // The ring has room for many more orders than there are commands in a turn.
+        self.ends.orders.enqueue(Order::Fault(fault)).ok();
+    }
+
+    fn publish_setpoints(&mut self) -> Result<(), LinkError> {
+        let mut result = Ok(());
+        while let Some(report) = self.ends.reports.dequeue() {
+            // The machine's joints are its axes.
+            let setpoint = Setpoint {
+                joint_position: report.setpoint.position,
+                joint_velocity: report.setpoint.velocity,
+                joint_acceleration: report.setpoint.acceleration,
+                ..report.setpoint
+            };
+            let published = self.links.setpoints.publish(&setpoint);
+            if published.is_ok() {
+                self.book.status.setpoints_published += 1;
+            }
+            result = result.and(published);
+            self.book.count(&report);
+            let is_new_fault = self.report.is_none_or(|before| before.fault.is_none());
+            if let Some(fault) = report.fault.filter(|_| is_new_fault) {
+                self.tell(&fault.to_string());
+            }
+            self.report = Some(report);
+        }
+        result
+    }
+
+    fn serve_commands(&mut self) -> Result<(), LinkError> {
+        let Some(report) = self.report else {
+            return Ok(());
+        };
+        let Self {
+            links,
+            ends,
+            book,
+            boot_id,
+            ..
+        } = self;
+        for _ in 0..COMMANDS_PER_TURN {
+            let served = links.commands.serve(&mut |request| {
+                let reply = answer(request, &report, *boot_id, ends);
+                book.status.commands_served += 1;
+                book.status.commands_refused += u64::from(is_refusal(&reply));
+                reply
+            })?;
+            if !served {
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    fn move_frames(&mut self) -> Result<(), LinkError> {
+        let Some(report) = self.report else {
+            return Ok(());
+        };
+        let machine = Machine {
+            state: report.state,
+            position: AxisVector::from(report.setpoint.position),
+            epoch: report.setpoint.epoch,
+            is_open: report.end_of_epoch == EndOfEpoch::Open,
+        };
+        self.admission.note(&machine);
+        for _ in 0..FRAMES_PER_TURN {
+            if !self.ends.frames.ready() {
+                return Ok(());
+            }
+            let Some(frame) = (match self.pending.take() {
+                Some(frame) => Some(frame),
+                None => self.links.frames.take()?,
+            }) else {
+                return Ok(());
+            };
+            match self.admission.judge(&frame, &machine) {
+                Verdict::Pass => {
+                    self.ends.frames.enqueue(frame).ok(); // There is room: it was ready.
+                }
+                Verdict::Known => {}
+                Verdict::Later => {
+                    self.pending = Some(frame);
+                    return Ok(());
+                }
+                Verdict::Refused(refusal) => {
+                    if self.book.refused(refusal) {
+                        let cause = FaultCause::Frame(refusal);
+                        let text = Fault::new(cause, frame.line, frame.sequence).to_string();
+                        self.tell(&format!("epoch {}: {text}", frame.epoch));
+                    }
+                }
+                Verdict::Fault(fault) => {
+                    if let FaultCause::Frame(refusal) = fault.cause {
+                        self.book.refused(refusal);
+                    }
+                    self.fault(fault);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn publish_status(&mut self, now_ns: u64) -> Result<(), LinkError> {
+        if now_ns < self.status_due_ns {
+            return Ok(());
+        }
+        self.status_due_ns = now_ns + STATUS_NS;
+        let Some(report) = self.report else {
+            return Ok(());
+        };
+        let waiting = self.ends.frames.len() as u64;
+        self.book.write(&report, &self.admission, waiting, now_ns);
+        self.links.setpoints.refresh()?;
+        self.links.status.publish(&self.book.status)
+    }
+
+    /// Publishes a status at once: the last of this life.
+    pub(crate) fn farewell(&mut self, now_ns: u64) {
+        self.status_due_ns = 0;
+        if let Err(error) = self.publish_status(now_ns) {
+            (self.log)(&error.to_string());
+        }
+    }
+
+    fn clean_up(&mut self, now_ns: u64) -> Result<(), LinkError> {
+        if now_ns < self.clean_up_due_ns {
+            return Ok(());
+        }
+        self.clean_up_due_ns = now_ns + CLEAN_UP_NS;
+        let dead = self.links.transport.clean_up_dead_peers()?;
+        if dead > 0 {
+            (self.log)(&format!("cleaned up after {dead} dead process(es)"));
+        }
+        Ok(())
+    }
+
+    fn write_log(&mut self) {
+        while let Some(happening) = self.happenings.read() {
+            (self.log)(&happening.to_string());
+        }
+        let dropped = self.happenings.newly_dropped();
+        if dropped > 0 {
+            (self.log)(&format!("{dropped} log lines lost"));
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Random holds, resumes and overrides over motions at their limits.
+
+use super::*;
+use crate::testing::{Numbers, audit, mill, plan, records};
+use crate::track::TRACK_CAPACITY;
+use glidepath_geometry::AxisVector;
+use glidepath_link::SetpointFrame;
+use glidepath_motion::Limits;
+use proptest::prelude::*;
+
+const PERIOD_T: f64 = 0.004;
+
+/// Publishes positions as the real-time thread does, without its states.
+struct Player {
+    frames: Vec<SetpointFrame>,
+    track: Track,
+    rate: Rate,
+    published: Differences,
+    allowed: Allowed,
+    positions: Vec<AxisVector>,
+}
+
+impl Player {
+    fn new(frames: Vec<SetpointFrame>, limits: Limits) -> Self {
+        let start = AxisVector::from(frames[0].position);
+        let mut track = Track::new(PERIOD_T, limits);
+        for frame in frames.iter().take(TRACK_CAPACITY) {
+            track.push(frame);
+        }
+        Self {
+            frames,
+            track,
+            rate: Rate::new(ProgramTime::at(0), 1.0),
+            published: Differences::at_rest(start),
+            allowed: Allowed::new(&limits, PERIOD_T),
+            positions: vec![start; 3],
+        }
+    }
+
+    fn tick(&mut self, goal: f64) {
+        self.track.release_before(self.rate.now().time.sequence);
+        while !self.track.is_full()
+            && let Some(frame) = self.frames.get(self.track.end() as usize)
+        {
+            self.track.push(frame);
+        }
+        let scene = Scene {
+            track: &self.track,
+            published: &self.published,
+            allowed: &self.allowed,
+            period_t: PERIOD_T,
+            reach: 24,
+        };
+        self.rate.steer(goal, &scene);
+        let time = self.track.clamped(self.rate.advance().time);
+        if time != self.rate.now().time {
+            self.rate.rest_at(time, self.rate.now().rate);
+        }
+        let position = self.track.position(time).unwrap();
+        self.published = self.published.then(&position);
+        self.positions.push(position);
+    }
+
+    fn at_end(&self) -> bool {
+        self.rate.now().time == ProgramTime::at(self.frames.len() as u64 - 1)
+    }
+}
+
+fn player(seed: u64, axes: usize, ticks: usize) -> Player {
+    let frames = plan(seed, axes, ticks, &mill(), PERIOD_T, AxisVector::zeros());
+    Player::new(records(&frames, 1, 4_000_000), mill())
+}
+
+#[test]
+fn measure_latency() {
+    for axes in [1, 2, 3, 5, 9] {
+        let (mut waits, mut stops, mut excess, mut never) = (vec![], vec![], 0, 0);
+        for seed in 0..150 {
+            let mut p = player(seed, axes, 700);
+            let mut numbers = Numbers::new(seed);
+            for _ in 0..numbers.whole(1, 300) {
+                p.tick(1.0);
+            }
+            let (mut wait, mut stop) = (None, 0);
+            while p.rate.now().rate > 0.0 && !p.at_end() {
+                p.tick(0.0);
+                stop += 1;
+                if wait.is_none() && p.rate.now().rate < 1.0 {
+                    wait = Some(stop);
+                }
+                if p.rate.excess() > 0.0 {
+                    excess += 1;
+                }
+            }
+            if p.at_end() {
+                never += 1;
+            } else {
+                waits.push(wait.unwrap_or(stop));
+                stops.push(stop);
+            }
+        }
+        waits.sort();
+        stops.sort();
+        let q = |v: &Vec<i32>, f: f64| v[((v.len() - 1) as f64 * f) as usize];
+        println!(
+            "axes {axes}: wait p50 {} p90 {} max {}; stop p50 {} p90 {} max {}; excess {excess} never {never}",
+            q(&waits, 0.5),
+            q(&waits, 0.9),
+            q(&waits, 1.0),
+            q(&stops, 0.5),
+            q(&stops, 0.9),
+            q(&stops, 1.0)
+        );
+    }
+}
+
+#[test]
+fn the_plan_itself_is_published_bit_for_bit() {
+    let mut p = player(3, 3, 300);
+    for k in 1..p.frames.len() {
+        p.tick(1.0);
+        assert_eq!(p.positions[k + 2], AxisVector::from(p.frames[k].position));
+    }
+    let ratios = audit(&p.positions, &mill(), PERIOD_T);
+    assert!(ratios.iter().all(|r| *r <= 1.0 + 1e-6), "{ratios:?}");
+    assert!(
+        ratios[2] > 0.99,
+        "the plan is at its jerk limit: {ratios:?}"
+    );
+}
+
+proptest! {
+    #[test]
+    fn no_command_breaks_a_limit(
+        seed in 0_u64..1_000_000, axes in 1_usize..6,
+        goals in prop::collection::vec((1_u32..120, prop_oneof![Just(0.0), Just(1.0), 0.05_f64..1.0]), 1..12),
+    ) {
+        let mut p = player(seed, axes, 500);
+        let mut excess = 0.0_f64;
+        for (ticks, goal) in goals {
+            for _ in 0..ticks {
+                p.tick(goal);
+                excess = excess.max(p.rate.excess());
+            }
+        }
+        let mut left = 20_000;
+        while !p.at_end() && left > 0 {
+            p.tick(1.0);
+            excess = excess.max(p.rate.excess());
+            left -= 1;
+        }
+        prop_assert!(p.at_end(), "stuck at {:?} rate {}", p.rate.now(), p.rate.rate);
+        let ratios = audit(&p.positions, &mill(), PERIOD_T);
+        prop_assert!(ratios.iter().all(|r| *r <= 1.0 + 1e-6 + excess), "{ratios:?} with {excess}");
+        prop_assert!(excess <= 0.0, "excess {excess}");
+    }
+}

@@ -1,0 +1,153 @@
+//! Running an interpolator until it is told to stop.
+
+use crate::config::Config;
+use crate::loops::{RunError, enter_ports, enter_real_time, guard, phase_ns, real_time};
+use crate::message::{HAPPENINGS, Happening, Inputs, Report, Rings};
+use crate::ports::Ports;
+use crate::tick::Interpolator;
+use core::sync::atomic::{AtomicBool, Ordering};
+use glidepath_link::{LinkError, MachineState, PERIOD_NS_MAX, Status, Transport};
+use glidepath_realtime::{Clock, DeadlineTimer, Events, Grants, Monotonic, event_ring};
+use heapless::spsc::Producer;
+use std::sync::mpsc;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// From the end of the preparations to the first tick.
+const LEAD_NS: u64 = 5_000_000;
+/// How long the motion may take to come to rest at the end.
+const FAREWELL_NS: u64 = 5_000_000_000;
+
+/// Runs an interpolator until `stop` is set; then the motion comes to rest on the path, and the last
+/// status is returned.
+///
+/// The calling thread becomes the ports thread: it makes the ports with `transport`, serves them, and
+/// passes lines for the log to `log`. A second thread is the real-time thread.
+///
+/// # Errors
+/// The real-time thread could not be set up, or a port could not be made. Nothing has moved then.
+/// Later failures stop the motion and are in the status.
+pub fn run(
+    config: &Config,
+    transport: impl FnOnce() -> Result<Box<dyn Transport>, LinkError>,
+    stop: &AtomicBool,
+    log: &mut dyn FnMut(&str),
+) -> Result<Status, RunError> {
+    validate(config)?;
+    let boot_id = boot_id();
+    let mut rings = Box::<Rings>::default();
+    let mut events = Box::<Events<Happening, HAPPENINGS>>::default();
+    let ((mut inputs, mut reports), ends) = rings.split();
+    let (writer, reader) = event_ring(&mut events);
+    let interpolator = Interpolator::new(config, boot_id, writer);
+    let mut ports = Ports::new(config, boot_id, transport()?, ends, reader, log)?;
+    let ended = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let (tell, told) = mpsc::channel();
+        let ended = &ended;
+        let thread = std::thread::Builder::new()
+            .name("glidepath-rt".to_owned())
+            .spawn_scoped(scope, move || {
+                real_time_thread(
+                    config,
+                    interpolator,
+                    &mut inputs,
+                    &mut reports,
+                    &tell,
+                    ended,
+                )
+            })
+            .map_err(|_| RunError::Thread("real-time"))?;
+        if let Ok((origin_ns, grants)) = told.recv() {
+            serve(config, &mut ports, origin_ns, &grants, stop);
+            ended.store(true, Ordering::Relaxed);
+        }
+        thread.join().map_err(|_| RunError::Thread("real-time"))??;
+        Ok(*ports.status())
+    })
+}
+
+/// The real-time thread from its set-up to its end. It tells the origin of the grid and what it was
+/// granted, or drops `tell` if it cannot go on.
+fn real_time_thread(
+    config: &Config,
+    mut interpolator: Interpolator<'_>,
+    inputs: &mut Inputs<'_>,
+    reports: &mut Producer<'_, Report>,
+    tell: &mpsc::Sender<(u64, Grants)>,
+    ended: &AtomicBool,
+) -> Result<(), RunError> {
+    let entered = enter_real_time(config)?;
+    let origin_ns = Monotonic.now_ns() + LEAD_NS;
+    if tell.send((origin_ns, entered.grants)).is_err() {
+        return Ok(());
+    }
+    let mut timer = DeadlineTimer::new(Monotonic, origin_ns, config.period_ns);
+    guard(config)?;
+    real_time(&mut interpolator, inputs, reports, &mut timer, ended);
+    if config.forbid_system_calls {
+        sleep_on(&mut timer);
+    }
+    Ok(())
+}
+
+/// A guarded thread cannot end, because ending takes system calls: it sleeps until the process ends.
+fn sleep_on(timer: &mut DeadlineTimer<Monotonic>) -> ! {
+    loop {
+        timer.wait();
+    }
+}
+
+/// Serves the ports on the grid until `stop` is set and the motion has come to rest.
+fn serve(
+    config: &Config,
+    ports: &mut Ports<'_>,
+    origin_ns: u64,
+    grants: &Grants,
+    stop: &AtomicBool,
+) {
+    enter_ports(config);
+    ports.granted(grants, config.real_time.mode);
+    let origin_ns = origin_ns + phase_ns(config.period_ns);
+    let mut timer = DeadlineTimer::new(Monotonic, origin_ns, config.period_ns);
+    while !stop.load(Ordering::Relaxed) {
+        ports.turn(timer.wait().woke_ns);
+    }
+    ports.abort();
+    let until_ns = timer.clock().now_ns() + FAREWELL_NS;
+    loop {
+        // The order is carried out at the next tick: look at the state after that.
+        let now_ns = timer.wait().woke_ns;
+        ports.turn(now_ns);
+        let rests = matches!(
+            ports.state(),
+            Some(MachineState::Idle | MachineState::Faulted) | None
+        );
+        if rests || now_ns > until_ns {
+            ports.farewell(now_ns);
+            return;
+        }
+    }
+}
+
+fn validate(config: &Config) -> Result<(), RunError> {
+    let what = "period_ns";
+    if (1..=PERIOD_NS_MAX).contains(&config.period_ns) {
+        Ok(())
+    } else {
+        let value = config.period_ns;
+        Err(RunError::Config {
+            what,
+            value,
+            allowed: "1 to 1000000000 ns are allowed",
+        })
+    }
+}
+
+/// A number that no other life of an interpolator has.
+fn boot_id() -> u64 {
+    let since = SystemTime::now()
+        .duration_since(UNIX_EPOCH)
+        .unwrap_or_default();
+    let ns = u64::try_from(since.as_nanos()).unwrap_or(u64::MAX);
+    (ns ^ u64::from(std::process::id()).rotate_right(16)).max(1)
+}

@@ -1,0 +1,138 @@
+//! Keeping the status record.
+
+use crate::admission::Admission;
+use crate::config::Config;
+use crate::message::{FRAMES, Report};
+use crate::track::TRACK_CAPACITY;
+use glidepath_link::{EndOfEpoch, FrameRefusal, Grants, MachineState, Quantiles, Status, Text};
+use glidepath_realtime::{Histogram, Item, Mode};
+
+/// The status, and what it is worked out from.
+pub(crate) struct StatusBook {
+    pub(crate) status: Status,
+    lateness: Histogram,
+    work: Histogram,
+}
+
+impl StatusBook {
+    pub(crate) fn new(config: &Config, boot_id: u64) -> Self {
+        let status = Status {
+            boot_id,
+            period_ns: config.period_ns,
+            pid: std::process::id(),
+            queue_capacity: u32::try_from(TRACK_CAPACITY + FRAMES).unwrap_or(u32::MAX),
+            state: MachineState::Idle.code(),
+            end_of_epoch: EndOfEpoch::None.code(),
+            position: config.start_position.into(),
+            ..<Status as bytemuck::Zeroable>::zeroed()
+        };
+        Self {
+            status,
+            lateness: Histogram::new(),
+            work: Histogram::new(),
+        }
+    }
+
+    /// Counts a tick.
+    pub(crate) fn count(&mut self, report: &Report) {
+        self.lateness.record(report.setpoint.lateness_ns);
+        if report.work_ns > 0 {
+            self.work.record(report.work_ns);
+        }
+    }
+
+    /// Counts a refused frame. Returns whether it is the first for its reason.
+    pub(crate) fn refused(&mut self, refusal: FrameRefusal) -> bool {
+        let Some(count) = self.status.frames_refused.get_mut(refusal.index()) else {
+            return false;
+        };
+        *count += 1;
+        *count == 1
+    }
+
+    pub(crate) fn last_error(&mut self, text: &str) {
+        self.status.last_error = Text::new(text);
+    }
+
+    /// Brings the status up to date. `waiting` frames are between the threads.
+    pub(crate) fn write(
+        &mut self,
+        report: &Report,
+        admission: &Admission,
+        waiting: u64,
+        now_ns: u64,
+    ) {
+        let setpoint = &report.setpoint;
+        let (lateness, work) = (quantiles(&self.lateness), quantiles(&self.work));
+        let is_newer = admission.epoch() > setpoint.epoch;
+        let status = &mut self.status;
+        status.updated_ns = now_ns;
+        status.tick = setpoint.tick;
+        status.epoch = admission.epoch().max(setpoint.epoch);
+        status.frames_received = admission.received();
+        status.frames_executed = if is_newer { 0 } else { report.frames_executed };
+        status.queue_depth = u32::try_from(report.queue_depth + waiting).unwrap_or(u32::MAX);
+        status.state = report.state.code();
+        status.end_of_epoch = if is_newer {
+            EndOfEpoch::Open
+        } else {
+            report.end_of_epoch
+        }
+        .code();
+        status.line = setpoint.line;
+        status.position = setpoint.position;
+        status.path_s = setpoint.path_s;
+        status.feed_v = setpoint.feed_v;
+        status.feed_override = report.feed_override;
+        status.rapid_override = report.rapid_override;
+        status.effective_override = setpoint.effective_override;
+        status.ticks = setpoint.number + 1;
+        status.missed_ticks = setpoint.missed_ticks;
+        status.late_ticks = report.late_ticks;
+        status.setpoints_lost = report.reports_lost;
+        (status.lateness, status.work) = (lateness, work);
+        self.write_fault(report);
+    }
+
+    fn write_fault(&mut self, report: &Report) {
+        let status = &mut self.status;
+        let fault = report.fault;
+        status.fault = fault.map_or(0, |fault| fault.cause.code());
+        status.fault_line = fault.map_or(0, |fault| fault.line);
+        status.fault_sequence = fault.map_or(0, |fault| fault.sequence);
+        let axis = fault.and_then(|fault| fault.axis);
+        status.fault_axis = axis.map_or(0, |axis| u32::try_from(axis.index() + 1).unwrap_or(0));
+        let finite = |value: f64| if value.is_finite() { value } else { 0.0 };
+        status.fault_value = fault.map_or(0.0, |fault| finite(fault.value));
+        status.fault_limit = fault.map_or(0.0, |fault| finite(fault.limit));
+    }
+}
+
+fn quantiles(histogram: &Histogram) -> Quantiles {
+    let q = histogram.quantiles();
+    Quantiles {
+        p50_ns: q.p50_ns,
+        p99_ns: q.p99_ns,
+        p999_ns: q.p999_ns,
+        max_ns: q.max_ns,
+    }
+}
+
+/// The grants as bits.
+pub(crate) fn grants_of(grants: &glidepath_realtime::Grants, mode: Mode) -> Grants {
+    let bits = [
+        (Item::Scheduling, Grants::FIFO),
+        (Item::Affinity, Grants::PINNED),
+        (Item::MemoryLock, Grants::MEMORY_LOCKED),
+        (Item::StackPrefault, Grants::PREFAULTED),
+        (Item::CpuDmaLatency, Grants::DMA_LATENCY),
+    ];
+    let start = if mode == Mode::BestEffort {
+        Grants::BEST_EFFORT
+    } else {
+        Grants::default()
+    };
+    bits.into_iter()
+        .filter(|&(item, _)| grants.is_granted(item))
+        .fold(start, |all, (_, bit)| all.with(bit))
+}

@@ -1,0 +1,308 @@
+//! One period of the real-time thread: a function of what it owns, the wake-up, and the rings.
+//!
+//! ```text
+//! orders ─► will ─┐
+//! frames ─► track ┼─► supply ─► steer ─► advance ─► setpoint ─► settle ─► report
+//!                 └─ enough to go on?  rate  program time   check   end of epoch, program stop
+//! ```
+//!
+//! No step allocates, locks, waits or calls the system. Work is bounded: so many orders and frames a
+//! tick, and a budget for the choice of a ramp.
+
+use crate::config::Config;
+use crate::differences::{Allowed, Differences};
+use crate::message::{Fault, Happening, Inputs, Report};
+use crate::program_time::ProgramTime;
+use crate::rate::{Rate, Scene};
+use crate::setpoint::Counters;
+use crate::supply::Supply;
+use crate::track::{Track, is_at_rest};
+use crate::will::Will;
+use glidepath_geometry::AxisVector;
+use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, MachineState, SetpointFrame};
+use glidepath_motion::FrameFlags;
+use glidepath_realtime::{EventWriter, Wake};
+
+/// Frames taken from the ring in one tick. More than one, so that the track fills up; few, so that
+/// a tick stays short.
+const FRAMES_PER_TICK: usize = 8;
+/// Orders taken in one tick.
+const ORDERS_PER_TICK: usize = 4;
+/// How far the first frame of an epoch may be from where the machine stands, mm or degrees.
+pub(crate) const SAME_PLACE: f64 = 1e-9;
+/// Part of a limit by which a setpoint may exceed it before the motion is stopped for that.
+const EXCESS_FAULT: f64 = 0.05;
+
+/// The real-time thread's state.
+pub(crate) struct Interpolator<'a> {
+    pub(crate) period_ns: u64,
+    pub(crate) period_t: f64,
+    pub(crate) boot_id: u64,
+    pub(crate) track: Track,
+    pub(crate) rate: Rate,
+    pub(crate) will: Will,
+    pub(crate) supply: Supply,
+    pub(crate) published: Differences,
+    allowed: Allowed,
+    /// The open or last epoch, 0 before the first.
+    pub(crate) epoch: u64,
+    pub(crate) end_of_epoch: EndOfEpoch,
+    pub(crate) counters: Counters,
+    /// The frame whose event was published last.
+    pub(crate) announced: Option<u64>,
+    /// Of the last frame passed: what setpoints at rest repeat.
+    pub(crate) passed: SetpointFrame,
+    pub(crate) state: MachineState,
+    happenings: EventWriter<'a, Happening>,
+}
+
+impl<'a> Interpolator<'a> {
+    pub(crate) fn new(
+        config: &Config,
+        boot_id: u64,
+        happenings: EventWriter<'a, Happening>,
+    ) -> Self {
+        let period_t = config.period_t();
+        let mut passed = <SetpointFrame as bytemuck::Zeroable>::zeroed();
+        passed.position = config.start_position.into();
+        Self {
+            period_ns: config.period_ns,
+            period_t,
+            boot_id,
+            track: Track::new(period_t, config.limits),
+            rate: Rate::new(ProgramTime::at(0), 0.0),
+            will: Will::default(),
+            supply: Supply::new(config),
+            published: Differences::at_rest(config.start_position),
+            allowed: Allowed::new(&config.limits, period_t),
+            epoch: 0,
+            end_of_epoch: EndOfEpoch::None,
+            counters: Counters::new(config),
+            announced: None,
+            passed,
+            state: MachineState::Idle,
+            happenings,
+        }
+    }
+
+    /// One period: reads the rings, advances program time, and says where the axes are to be.
+    pub(crate) fn tick(&mut self, wake: &Wake, inputs: &mut Inputs<'_>) -> Report {
+        self.count(wake);
+        self.obey(inputs);
+        self.take_frames(inputs);
+        self.watch_supply();
+        let setpoint = if self.is_open() {
+            self.steer(wake);
+            self.advance();
+            self.evaluate(wake)
+        } else {
+            self.standing(wake)
+        };
+        self.settle();
+        self.change_state(wake);
+        self.report(setpoint)
+    }
+
+    /// True while an epoch is being executed.
+    pub(crate) fn is_open(&self) -> bool {
+        !self.track.is_empty()
+    }
+
+    fn count(&mut self, wake: &Wake) {
+        if wake.missed > 0 {
+            self.happenings.write(Happening::Missed {
+                tick: wake.tick,
+                count: wake.missed,
+            });
+        }
+        if self.counters.count(wake) {
+            self.fail(FaultCause::MissedTicks);
+        }
+    }
+
+    fn obey(&mut self, inputs: &mut Inputs<'_>) {
+        for _ in 0..ORDERS_PER_TICK {
+            let Some(order) = inputs.orders.dequeue() else {
+                return;
+            };
+            let is_open = self.is_open();
+            if self.will.obey(order, is_open) {
+                self.track.pass_stop();
+            }
+        }
+    }
+
+    /// Takes frames while there is room. What belongs to no epoch that is open here was under way
+    /// when its epoch ended, and is dropped.
+    fn take_frames(&mut self, inputs: &mut Inputs<'_>) {
+        self.track.release_before(self.rate.now().time.sequence);
+        for _ in 0..FRAMES_PER_TICK {
+            if self.track.is_full() {
+                return;
+            }
+            let Some(next) = inputs.frames.peek() else {
+                return;
+            };
+            let is_first = next.has(FrameFlags::FIRST) && next.epoch > self.epoch;
+            if is_first && self.is_open() && self.will.is_stopping() {
+                return; // The open epoch is about to end; then this one can begin.
+            }
+            let Some(frame) = inputs.frames.dequeue() else {
+                return;
+            };
+            if self.is_open() && frame.epoch == self.epoch {
+                self.track.push(&frame);
+            } else if is_first && self.will.fault().is_none() {
+                self.open(&frame);
+            }
+        }
+    }
+
+    /// Starts an epoch, in place of one that stands in the middle of its way.
+    fn open(&mut self, frame: &SetpointFrame) {
+        let away = AxisVector::from(frame.position) - self.published.position();
+        if away.amax() > SAME_PLACE || !self.published.is_at_rest() {
+            let cause = FaultCause::Frame(FrameRefusal::Elsewhere);
+            self.will
+                .fail(Fault::new(cause, frame.line, frame.sequence));
+            return;
+        }
+        self.track.clear();
+        self.track.push(frame);
+        self.rate = Rate::new(ProgramTime::at(frame.sequence), 0.0);
+        self.epoch = frame.epoch;
+        self.end_of_epoch = EndOfEpoch::Open;
+        self.announced = None;
+        self.supply.begin();
+        self.will.turn_over();
+    }
+
+    fn watch_supply(&mut self) {
+        if self.is_open()
+            && self
+                .supply
+                .watch(&self.track, self.rate.now(), &self.published)
+        {
+            self.fail(FaultCause::PlannerLost);
+        }
+    }
+
+    /// Chooses the rate. Where the plan itself rests, any rate is at rest.
+    fn steer(&mut self, wake: &Wake) {
+        let goal = self.goal();
+        let now = self.rate.now().time;
+        let rests = now.fraction <= 0.0 && self.track.frame(now.sequence).is_some_and(is_at_rest);
+        if rests && self.published.is_at_rest() {
+            self.rate.rest_at(now, goal);
+            return;
+        }
+        let before = self.rate.excess();
+        let scene = Scene {
+            track: &self.track,
+            published: &self.published,
+            allowed: &self.allowed,
+            period_t: self.period_t,
+            reach: self.supply.reach(),
+        };
+        self.rate.steer(goal, &scene);
+        if self.rate.excess() > before {
+            let part = self.rate.excess();
+            self.happenings.write(Happening::Relaxed {
+                tick: wake.tick,
+                part,
+            });
+        }
+    }
+
+    /// The rate that is wanted: the commanded override over the planned one, if nothing stops.
+    fn goal(&self) -> f64 {
+        if self.supply.is_short() {
+            return 0.0;
+        }
+        let frame = self
+            .track
+            .frame(self.rate.now().time.sequence)
+            .unwrap_or(&self.passed);
+        self.will
+            .rate(frame.has(FrameFlags::RAPID), frame.planned_override)
+    }
+
+    /// Advances program time, not past a frame that holds the motion.
+    fn advance(&mut self) {
+        let time = self.rate.advance().time;
+        let held = self.track.clamped(time);
+        if held != time {
+            self.rate.rest_at(held, self.rate.now().rate);
+        }
+    }
+
+    /// Compares the next position with the limits, and remembers it as published.
+    pub(crate) fn check(&mut self, position: &AxisVector, tick: u64) {
+        if !self.published.allow(position, &self.allowed) {
+            let part = self.published.ratio(position, &self.allowed) - 1.0;
+            self.happenings.write(Happening::Excess { tick, part });
+            let tolerated = EXCESS_FAULT + self.rate.excess();
+            if part.is_nan() || part > tolerated {
+                self.fail(FaultCause::Output);
+            }
+        }
+        self.published = self.published.then(position);
+    }
+
+    /// What follows when program time stands: the end of the epoch, or a program stop.
+    fn settle(&mut self) {
+        if !self.is_open() {
+            return;
+        }
+        let now = self.rate.now().time;
+        let frame = self
+            .track
+            .frame(now.sequence)
+            .copied()
+            .unwrap_or(self.passed);
+        self.passed = frame;
+        if self.will.is_stopping() && self.published.is_at_rest() {
+            self.close(if self.will.fault().is_some() {
+                EndOfEpoch::Faulted
+            } else {
+                EndOfEpoch::Aborted
+            });
+        } else if frame.has(FrameFlags::LAST) && self.published.is_at_rest() {
+            self.close(EndOfEpoch::Completed);
+        } else if frame.has(FrameFlags::PROGRAM_STOP)
+            && self.track.program_stop() == Some(now.sequence)
+        {
+            self.will.wait_for_operator();
+        }
+    }
+
+    fn close(&mut self, end: EndOfEpoch) {
+        self.track.clear();
+        self.rate.rest_at(self.rate.now().time, 0.0);
+        self.published = Differences::at_rest(*self.published.position());
+        self.end_of_epoch = end;
+        self.supply.end();
+        self.will.turn_over();
+    }
+
+    /// Latches a fault; the motion stops on the path.
+    pub(crate) fn fail(&mut self, cause: FaultCause) {
+        self.will
+            .fail(Fault::new(cause, self.passed.line, self.passed.sequence));
+    }
+
+    fn change_state(&mut self, wake: &Wake) {
+        let standing = self.published.is_at_rest();
+        let to = self.will.state(self.is_open(), standing, &self.supply);
+        if to != self.state {
+            let (from, line) = (self.state, self.passed.line);
+            self.happenings.write(Happening::State {
+                tick: wake.tick,
+                from,
+                to,
+                line,
+            });
+            self.state = to;
+        }
+    }
+}

@@ -1,0 +1,351 @@
+//! The frames the real-time thread owns, and the motion through them.
+//!
+//! Between two frames the motion of every axis is the quintic polynomial that has their position,
+//! velocity and acceleration at both ends. Its coefficients are computed once, when the later of
+//! the two arrives; an evaluation is then five multiplications and additions an axis.
+//!
+//! ```text
+//! released │ oldest … now … newest │ free          a ring over sequence numbers
+//! ```
+//!
+//! At a frame that holds the motion (`PROGRAM_STOP`, the last frame, or the newest one if it is at
+//! rest) program time stands until something changes: everything later is evaluated as that frame.
+
+use crate::program_time::ProgramTime;
+use glidepath_geometry::AxisVector;
+use glidepath_link::SetpointFrame;
+use glidepath_motion::{FrameFlags, Limits};
+
+/// Most frames that are owned at a time.
+pub(crate) const TRACK_CAPACITY: usize = 512;
+
+/// Position and its first two derivatives by program time in periods.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Kinematic {
+    pub(crate) position: AxisVector,
+    pub(crate) velocity: AxisVector,
+    pub(crate) acceleration: AxisVector,
+}
+
+/// Coefficients of the polynomial in 0 ≤ u ≤ 1 from one frame to the next, constant term first.
+#[derive(Debug, Clone, Copy)]
+struct Quintic([AxisVector; 6]);
+
+impl Quintic {
+    fn between(from: &SetpointFrame, to: &SetpointFrame, period_t: f64) -> Self {
+        let (p0, p1) = (
+            AxisVector::from(from.position),
+            AxisVector::from(to.position),
+        );
+        let (v0, v1) = (
+            AxisVector::from(from.velocity),
+            AxisVector::from(to.velocity),
+        );
+        let (a0, a1) = (
+            AxisVector::from(from.acceleration),
+            AxisVector::from(to.acceleration),
+        );
+        let (v0, v1) = (v0 * period_t, v1 * period_t);
+        let (a0, a1) = (a0 * (period_t * period_t), a1 * (period_t * period_t));
+        let step = p1 - p0;
+        Self([
+            p0,
+            v0,
+            a0 * 0.5,
+            step * 10.0 - v0 * 6.0 - v1 * 4.0 - a0 * 1.5 + a1 * 0.5,
+            step * -15.0 + v0 * 8.0 + v1 * 7.0 + a0 * 1.5 - a1,
+            step * 6.0 - (v0 + v1) * 3.0 + (a1 - a0) * 0.5,
+        ])
+    }
+
+    fn position(&self, u: f64) -> AxisVector {
+        let [c0, c1, c2, c3, c4, c5] = &self.0;
+        ((((c5 * u + c4) * u + c3) * u + c2) * u + c1) * u + c0
+    }
+
+    fn kinematic(&self, u: f64) -> Kinematic {
+        let [_, c1, c2, c3, c4, c5] = &self.0;
+        Kinematic {
+            position: self.position(u),
+            velocity: (((c5 * (5.0 * u) + c4 * 4.0) * u + c3 * 3.0) * u + c2 * 2.0) * u + c1,
+            acceleration: ((c5 * (20.0 * u) + c4 * 12.0) * u + c3 * 6.0) * u + c2 * 2.0,
+        }
+    }
+}
+
+/// Path position and its rate by program time in periods.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PathState {
+    pub(crate) path_s: f64,
+    pub(crate) path_v: f64,
+}
+
+/// How many ticks it takes to lose the speed at a frame: at the acceleration limit, and, squared, at
+/// the jerk limit. The slowest axis counts.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct StopTime {
+    pub(crate) by_acceleration: f64,
+    pub(crate) by_jerk_squared: f64,
+}
+
+/// The owned frames of one epoch. Sequences are consecutive.
+#[derive(Debug)]
+pub(crate) struct Track {
+    frames: Box<[SetpointFrame]>,
+    /// At the place of a frame: the motion from it to the next.
+    quintics: Box<[Quintic]>,
+    stop_times: Box<[StopTime]>,
+    oldest: u64,
+    len: usize,
+    /// The first frame from which program time may not go on by itself.
+    stop: Option<u64>,
+    period_t: f64,
+    limits: Limits,
+}
+
+impl Track {
+    /// An empty track. Allocates all it will ever use.
+    pub(crate) fn new(period_t: f64, limits: Limits) -> Self {
+        let blank = <SetpointFrame as bytemuck::Zeroable>::zeroed();
+        let quintic = Quintic([AxisVector::zeros(); 6]);
+        Self {
+            frames: vec![blank; TRACK_CAPACITY].into_boxed_slice(),
+            quintics: vec![quintic; TRACK_CAPACITY].into_boxed_slice(),
+            stop_times: vec![StopTime::default(); TRACK_CAPACITY].into_boxed_slice(),
+            oldest: 0,
+            len: 0,
+            stop: None,
+            period_t,
+            limits,
+        }
+    }
+
+    #[allow(clippy::cast_possible_truncation, reason = "the capacity is small")]
+    const fn place(sequence: u64) -> usize {
+        (sequence % TRACK_CAPACITY as u64) as usize
+    }
+
+    /// Forgets everything.
+    pub(crate) const fn clear(&mut self) {
+        self.len = 0;
+        self.stop = None;
+    }
+
+    pub(crate) const fn is_full(&self) -> bool {
+        self.len == TRACK_CAPACITY
+    }
+
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Appends a frame. Only called with room, and with the sequence after the newest.
+    pub(crate) fn push(&mut self, frame: &SetpointFrame) {
+        if self.is_empty() {
+            self.oldest = frame.sequence;
+        } else if let Some(previous) = self.newest().copied()
+            && let Some(quintic) = self.quintics.get_mut(Self::place(previous.sequence))
+        {
+            *quintic = Quintic::between(&previous, frame, self.period_t);
+        }
+        if let Some(slot) = self.frames.get_mut(Self::place(frame.sequence)) {
+            *slot = *frame;
+            self.len += 1;
+        }
+        if let Some(slot) = self.stop_times.get_mut(Self::place(frame.sequence)) {
+            let speed = AxisVector::from(frame.velocity).abs();
+            let t = self.period_t;
+            *slot = StopTime {
+                by_acceleration: speed.component_div(&self.limits.acceleration).max() / t,
+                by_jerk_squared: speed.component_div(&self.limits.jerk).max() / (t * t),
+            };
+        }
+        if self.stop.is_none() && frame.has(FrameFlags::PROGRAM_STOP) {
+            self.stop = Some(frame.sequence);
+        }
+    }
+
+    /// Gives the place of all frames before one back.
+    pub(crate) fn release_before(&mut self, sequence: u64) {
+        while self.len > 1 && self.oldest < sequence {
+            self.oldest += 1;
+            self.len -= 1;
+        }
+    }
+
+    pub(crate) fn frame(&self, sequence: u64) -> Option<&SetpointFrame> {
+        let offset = sequence.checked_sub(self.oldest)?;
+        if offset < self.len as u64 {
+            self.frames.get(Self::place(sequence))
+        } else {
+            None
+        }
+    }
+
+    pub(crate) fn newest(&self) -> Option<&SetpointFrame> {
+        self.frame(self.oldest + (self.len as u64).checked_sub(1)?)
+    }
+
+    /// Sequence after the newest frame's.
+    pub(crate) const fn end(&self) -> u64 {
+        self.oldest + self.len as u64
+    }
+
+    /// The first frame with a program stop that was not passed yet.
+    pub(crate) const fn program_stop(&self) -> Option<u64> {
+        self.stop
+    }
+
+    /// The frame at which program time stands by itself: a program stop, or the newest if at rest.
+    pub(crate) fn stop(&self) -> Option<u64> {
+        self.stop.or_else(|| {
+            self.newest()
+                .filter(|frame| is_at_rest(frame))
+                .map(|f| f.sequence)
+        })
+    }
+
+    /// Lets program time pass a program stop; finds the next one.
+    pub(crate) fn pass_stop(&mut self) {
+        let Some(passed) = self.stop else { return };
+        self.stop = (passed + 1..self.end()).find(|&s| {
+            self.frame(s)
+                .is_some_and(|f| f.has(FrameFlags::PROGRAM_STOP))
+        });
+    }
+
+    /// The longest of the stop times of up to `count` frames from one on.
+    pub(crate) fn longest_stop(&self, from: u64, count: u64) -> StopTime {
+        (from.max(self.oldest)..self.end().min(from + count))
+            .filter_map(|sequence| self.stop_times.get(Self::place(sequence)))
+            .fold(StopTime::default(), |longest, at| StopTime {
+                by_acceleration: longest.by_acceleration.max(at.by_acceleration),
+                by_jerk_squared: longest.by_jerk_squared.max(at.by_jerk_squared),
+            })
+    }
+
+    /// Where program time really is if it were `time`: not past the stop.
+    pub(crate) fn clamped(&self, time: ProgramTime) -> ProgramTime {
+        match self.stop() {
+            Some(stop) if time.sequence >= stop => ProgramTime::at(stop),
+            _ => time,
+        }
+    }
+
+    /// Position at a time; `None` outside the owned frames.
+    pub(crate) fn position(&self, time: ProgramTime) -> Option<AxisVector> {
+        let time = self.clamped(time);
+        let frame = self.frame(time.sequence)?;
+        if time.fraction <= 0.0 {
+            return Some(AxisVector::from(frame.position));
+        }
+        self.frame(time.sequence + 1)?;
+        Some(
+            self.quintics
+                .get(Self::place(time.sequence))?
+                .position(time.fraction),
+        )
+    }
+
+    /// Position and derivatives between frames; `None` outside the owned frames.
+    pub(crate) fn kinematic(&self, time: ProgramTime) -> Option<Kinematic> {
+        let frame = self.frame(time.sequence)?;
+        if time.fraction <= 0.0 {
+            return Some(Kinematic {
+                position: AxisVector::from(frame.position),
+                velocity: AxisVector::from(frame.velocity) * self.period_t,
+                acceleration: AxisVector::from(frame.acceleration)
+                    * (self.period_t * self.period_t),
+            });
+        }
+        self.frame(time.sequence + 1)?;
+        Some(
+            self.quintics
+                .get(Self::place(time.sequence))?
+                .kinematic(time.fraction),
+        )
+    }
+
+    /// Path position and rate, by the cubic through both frames; `None` outside the owned frames.
+    pub(crate) fn path(&self, time: ProgramTime) -> Option<PathState> {
+        let from = self.frame(time.sequence)?;
+        let (u, v0) = (time.fraction, from.path_v * self.period_t);
+        if u <= 0.0 {
+            return Some(PathState {
+                path_s: from.path_s,
+                path_v: v0,
+            });
+        }
+        let to = self.frame(time.sequence + 1)?;
+        let (step, v1) = (to.path_s - from.path_s, to.path_v * self.period_t);
+        let c2 = 3.0 * step - 2.0 * v0 - v1;
+        let c3 = v0 + v1 - 2.0 * step;
+        Some(PathState {
+            path_s: ((c3 * u + c2) * u + v0) * u + from.path_s,
+            path_v: (3.0 * c3 * u + 2.0 * c2) * u + v0,
+        })
+    }
+}
+
+/// True if the motion is at rest at a frame.
+pub(crate) fn is_at_rest(frame: &SetpointFrame) -> bool {
+    /// mm/s and mm/s²; what is left of a planned stop after rounding.
+    const REST: f64 = 1e-6;
+    frame
+        .velocity
+        .iter()
+        .chain(&frame.acceleration)
+        .all(|value| value.abs() <= REST)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{frame_of, mill};
+
+    /// A polynomial of degree five is its own quintic through two frames.
+    #[test]
+    fn a_quintic_is_reproduced() {
+        let t = 0.004;
+        let p = |x: f64| 3.0 + x * (20.0 + x * (-500.0 + x * (8e3 + x * (1e5 - x * 7e6))));
+        let v = |x: f64| 20.0 + x * (-1e3 + x * (24e3 + x * (4e5 - x * 35e6)));
+        let a = |x: f64| -1e3 + x * (48e3 + x * (12e5 - x * 140e6));
+        let mut track = Track::new(t, mill());
+        for (k, x) in [(0, 0.0), (1, t)] {
+            track.push(&frame_of(k, [p(x)], [v(x)], [a(x)]));
+        }
+        for u in [0.0, 0.125, 0.5, 0.9] {
+            let time = ProgramTime {
+                sequence: 0,
+                fraction: u,
+            };
+            let got = track.kinematic(time).unwrap();
+            assert!((got.position[0] - p(u * t)).abs() < 1e-12);
+            assert!((got.velocity[0] / t - v(u * t)).abs() < 1e-9);
+            assert!((got.acceleration[0] / (t * t) - a(u * t)).abs() < 1e-6);
+            assert!((track.position(time).unwrap() - got.position).norm() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_ring_owns_consecutive_frames() {
+        let mut track = Track::new(0.004, mill());
+        for k in 0..TRACK_CAPACITY as u64 {
+            track.push(&frame_of(k, [0.1], [1.0], [0.0]));
+        }
+        assert!(track.is_full() && track.stop().is_none());
+        track.release_before(10);
+        assert!(track.frame(9).is_none() && track.frame(10).is_some());
+        track.push(&frame_of(TRACK_CAPACITY as u64, [0.1], [0.0], [0.0]));
+        assert_eq!(track.stop(), Some(512));
+        assert_eq!(track.end(), 513);
+        let beyond = ProgramTime {
+            sequence: 600,
+            fraction: 0.5,
+        };
+        assert_eq!(track.clamped(beyond), ProgramTime::at(512));
+        assert!(track.position(beyond).is_some());
+        track.clear();
+        assert!(track.position(ProgramTime::at(512)).is_none());
+    }
+}
