@@ -142,10 +142,9 @@ impl Matching {
     pub(super) fn finish(&mut self) {
         self.rows.end();
         self.advance();
-        if self.trouble.is_some() && !self.is_lost {
-            self.settle(Goal::Anything);
+        if !self.is_lost {
+            self.judge_end();
         }
-        self.judge_end();
     }
 
     /// Matches as many waiting samples as the program allows.
@@ -218,19 +217,28 @@ impl Matching {
             }
             return;
         };
-        self.is_complete = !self.is_lost
-            && (self.rows.reach(0) == Presence::Never
-                || self.includes_end(&self.reach.clone(), &at));
-        if self.is_complete || self.is_lost {
+        let Some(end) = self.rows.end_position() else {
+            self.is_complete = true;
             return;
-        }
+        };
         let (tick, line) = self
             .history
             .back()
             .map_or((0, 0), |column| (column.tick, column.line));
-        self.is_complete = self.widen(Goal::End) == Passage::Passed;
-        if self.is_complete {
+        let is_reached = self.trouble.is_none() && self.includes_end(&self.reach.clone(), &at);
+        // Where the motion ends at the right place it is a question of deviation.
+        let is_there = distance(&(at - end)) <= EXACT_MM;
+        self.is_complete = is_reached || (is_there && self.widen(Goal::End) == Passage::Passed);
+        if self.trouble.is_some() {
+            self.settle(if self.is_complete {
+                Goal::End
+            } else {
+                Goal::Anything
+            });
+        } else if self.is_complete {
             self.note_deviation(self.lambda_mm, tick, line);
+        }
+        if self.is_complete {
             return;
         }
         let last = self.reach.end().saturating_sub(1);
@@ -239,7 +247,9 @@ impl Matching {
         let line = row.map_or(line, |row| row.line);
         let missed = row.map(|row| (distance(&(at - row.end)), row.tolerance_mm));
         let kind = match missed {
-            Some((deviation_mm, tolerance_mm)) if is_last && deviation_mm <= tolerance_mm => {
+            Some((deviation_mm, tolerance_mm))
+                if is_last && !is_there && deviation_mm <= tolerance_mm =>
+            {
                 self.is_complete = true;
                 ViolationKind::ExactStop { deviation_mm }
             }

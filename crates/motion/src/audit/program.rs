@@ -69,6 +69,7 @@ pub(super) struct Rows {
     /// The last move fed: what follows it decides about its end.
     pending: Option<Move>,
     is_ended: bool,
+    end_position: Option<AxisVector>,
     default_tolerance_mm: f64,
     corner_tolerance_mm: f64,
     max_tolerance_mm: f64,
@@ -86,6 +87,7 @@ impl Rows {
             done: 0,
             pending: None,
             is_ended: false,
+            end_position: None,
             default_tolerance_mm: tolerance_mm,
             corner_tolerance_mm: 0.0,
             max_tolerance_mm: tolerance_mm,
@@ -102,6 +104,11 @@ impl Rows {
     /// Moves fed.
     pub(super) const fn moves(&self) -> u64 {
         self.moves
+    }
+
+    /// Where the program fed so far ends, if it moves at all.
+    pub(super) const fn end_position(&self) -> Option<AxisVector> {
+        self.end_position
     }
 
     /// Feed length fed, mm.
@@ -169,6 +176,7 @@ impl Rows {
                 });
             }
         }
+        self.end_position = Some(segment.end());
         self.pending = Some(Move {
             segment: *segment,
             line,

@@ -173,7 +173,8 @@ pub struct Report {
     /// Largest jerk of each axis.
     pub max_jerk: AxisVector,
     /// Largest distance met by a best matching of motion and program, both ways and in order, mm
-    /// (degrees for rotary axes); not less than its resolution of 1e-6.
+    /// (degrees for rotary axes); not less than its resolution of 1e-6. Where the motion is out of
+    /// tolerance it may be an over-estimate; the violation has the distance.
     pub max_deviation_mm: f64,
     /// Tick where it was met.
     pub max_deviation_tick: u64,

@@ -69,7 +69,7 @@ impl Matching {
     /// `scratch[0]`.
     pub(super) fn widen(&mut self, goal: Goal) -> Passage {
         if let Some(trouble) = self.trouble {
-            return self.widen_floor(trouble.floor_mm);
+            return self.widen_floor(trouble.floor_mm, goal);
         }
         match self.widen_lambda(goal) {
             Found::At(lambda_mm) => {
@@ -101,11 +101,7 @@ impl Matching {
             Found::NotYet => return Passage::NotYet,
             Found::Nowhere => {}
         }
-        if goal == Goal::End {
-            Passage::Blocked
-        } else {
-            self.widen_floor(cap)
-        }
+        self.widen_floor(cap, goal)
     }
 
     /// The smallest λ that passes, over the last few columns if they suffice.
@@ -145,7 +141,7 @@ impl Matching {
     }
 
     /// Follows a motion that is out of tolerance, however far.
-    fn widen_floor(&mut self, from_mm: f64) -> Passage {
+    fn widen_floor(&mut self, from_mm: f64, goal: Goal) -> Passage {
         let mut floor_mm = from_mm;
         while floor_mm < MAX_FLOOR_MM {
             floor_mm *= 2.0;
@@ -154,7 +150,7 @@ impl Matching {
                 exact_mm: EXACT_MM,
                 floor_mm,
             };
-            match self.replay(0, &level, Goal::Anything) {
+            match self.replay(0, &level, goal) {
                 Passage::Passed if self.scratch[0].intervals.len() > MAX_REACH => break,
                 Passage::Passed => {
                     let last = self.history.back();

@@ -1,7 +1,9 @@
 //! The auditor: what it must find, what it must not, and its numbers against brute force.
 
+mod brute_force;
 mod deviation;
 mod limits;
+mod program;
 
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
@@ -57,14 +59,7 @@ fn sample(tick: u64, position: AxisVector) -> Sample {
 
 /// Audits a motion through some positions, without limits.
 fn audit(program: &[Item], positions: &[AxisVector]) -> Report {
-    let mut audit = Audit::new(&settings(Limits::UNLIMITED));
-    for item in program {
-        audit.program(item);
-    }
-    for (tick, &position) in (0..).zip(positions) {
-        audit.sample(&sample(tick, position));
-    }
-    audit.finish()
+    audit_within(TOLERANCE, program, positions)
 }
 
 /// Points along a polygon, `step` apart, its corners included.
@@ -79,4 +74,20 @@ fn walk(points: &[AxisVector], step: f64) -> Vec<AxisVector> {
         }
     }
     all
+}
+
+/// Audits a motion with a tolerance of its own.
+fn audit_within(tolerance_mm: f64, program: &[Item], positions: &[AxisVector]) -> Report {
+    let settings = AuditSettings {
+        tolerance_mm,
+        ..settings(Limits::UNLIMITED)
+    };
+    let mut audit = Audit::new(&settings);
+    for item in program {
+        audit.program(item);
+    }
+    for (tick, &position) in (0..).zip(positions) {
+        audit.sample(&sample(tick, position));
+    }
+    audit.finish()
 }

@@ -1,0 +1,327 @@
+//! What the program asks for besides lines: arcs, exact stops, tolerances of its own, feed.
+
+use crate::{PERIOD, TOLERANCE, audit, item, point, polygon, sample, settings, walk};
+use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
+use glidepath_motion::audit::{Audit, Report, ViolationKind};
+use glidepath_motion::{Event, Item, ItemKind, Limits, PathMode, Rate};
+use std::f64::consts::TAU;
+
+fn kinds(report: &Report) -> Vec<ViolationKind> {
+    report
+        .violations
+        .iter()
+        .map(|violation| violation.kind)
+        .collect()
+}
+
+fn with_mode(mut program: Vec<Item>, index: usize, new_mode: PathMode) -> Vec<Item> {
+    if let ItemKind::Move { mode, .. } = &mut program[index].kind {
+        *mode = new_mode;
+    }
+    program
+}
+
+fn helix(radius: f64, turns: f64, rise: f64) -> Arc {
+    let mut end = point(radius * (TAU * turns).cos(), radius * (TAU * turns).sin());
+    end[2] = rise;
+    Arc {
+        start: point(radius, 0.0),
+        end,
+        plane: Plane::Xy,
+        center: [0.0, 0.0],
+        sweep_rad: TAU * turns,
+    }
+}
+
+/// Samples of a helix at equal angles, at `factor` of its radius.
+fn sampled(arc: &Arc, count: u32, factor: f64) -> Vec<AxisVector> {
+    let length = arc.length();
+    let mut samples: Vec<_> = (0..=count)
+        .map(|k| {
+            let mut p = arc.jet(length * f64::from(k) / f64::from(count)).position;
+            p[0] *= factor;
+            p[1] *= factor;
+            p
+        })
+        .collect();
+    samples[0] = arc.start;
+    if let Some(last) = samples.last_mut() {
+        *last = arc.end;
+    }
+    samples
+}
+
+#[test]
+fn the_deviation_of_chords_from_an_arc_is_their_sagitta() {
+    for (radius, turns, rise, count) in [
+        (10.0, 1.0, 0.0, 400),
+        (50.0, 3.25, 2.0, 3000),
+        (0.3, 0.7, 0.0, 60),
+    ] {
+        let arc = helix(radius, turns, rise);
+        let report = audit(&[item(1, Segment::Arc(arc))], &sampled(&arc, count, 1.0));
+        let sagitta = radius * (1.0 - (TAU * turns / f64::from(count) / 2.0).cos());
+        assert!(
+            report.is_clean() && report.is_complete,
+            "{:?}",
+            report.violations
+        );
+        let error = report.max_deviation_mm - sagitta;
+        assert!(
+            error.abs() < 2e-5 * TOLERANCE + 1e-6,
+            "{error} of {sagitta}"
+        );
+    }
+}
+
+#[test]
+fn an_arc_of_the_wrong_radius_is_found() {
+    let arc = helix(10.0, 1.0, 0.0);
+    let program = [item(1, Segment::Arc(arc))];
+    assert!(audit(&program, &sampled(&arc, 4000, 1.0 + 0.0019)).is_clean());
+    let report = audit(&program, &sampled(&arc, 4000, 1.0 + 0.00202));
+    assert!(
+        matches!(kinds(&report)[..], [ViolationKind::Deviation { .. }]),
+        "{:?}",
+        kinds(&report)
+    );
+    assert!((report.max_deviation_mm - 0.0202).abs() < 1e-6);
+}
+
+/// A circle is passed twice where the program does so, and once is not enough.
+#[test]
+fn the_turns_of_a_circle_count() {
+    let (once, twice) = (helix(10.0, 1.0, 0.0), helix(10.0, 2.0, 0.0));
+    let program = [item(1, Segment::Arc(twice))];
+    assert!(audit(&program, &sampled(&twice, 800, 1.0)).is_clean());
+    let report = audit(&program, &sampled(&once, 400, 1.0));
+    assert!(report.max_deviation_mm > 9.0, "{report:?}");
+}
+
+#[test]
+fn a_smoothed_corner_misses_an_exact_stop() {
+    let corner = [point(0.0, 0.0), point(5.0, 0.0), point(5.0, 5.0)];
+    let cut = [corner[0], point(4.99, 0.0), point(5.0, 0.01), corner[2]];
+    let (exact, smoothed) = (walk(&corner, 0.1), walk(&cut, 0.1));
+    let stop = with_mode(polygon(&corner), 0, PathMode::ExactStop);
+    assert!(audit(&stop, &exact).is_clean());
+    let report = audit(&stop, &smoothed);
+    let [ViolationKind::ExactStop { deviation_mm }] = kinds(&report)[..] else {
+        unreachable!("{:?}", report.violations)
+    };
+    assert!(
+        (deviation_mm - 0.01 * 0.5_f64.sqrt()).abs() < 1e-6,
+        "{deviation_mm}"
+    );
+    assert!(audit(&polygon(&corner), &smoothed).is_clean());
+    // Exact-path mode asks for the same at a corner, a dwell and an M code everywhere.
+    assert!(
+        !audit(
+            &with_mode(polygon(&corner), 0, PathMode::ExactPath),
+            &smoothed
+        )
+        .is_clean()
+    );
+    for kind in [ItemKind::Dwell(0.1), ItemKind::Event(Event::MCode(8))] {
+        let mut program = polygon(&corner);
+        program.insert(1, Item { line: 1, kind });
+        assert!(audit(&program, &exact).is_clean());
+        assert!(!audit(&program, &smoothed).is_clean());
+    }
+    let mut program = polygon(&corner);
+    program.insert(
+        1,
+        Item {
+            line: 1,
+            kind: ItemKind::Event(Event::SpindleSpeed(100.0)),
+        },
+    );
+    assert!(audit(&program, &smoothed).is_clean());
+}
+
+#[test]
+fn the_start_and_the_end_must_be_met() {
+    let path = [point(0.0, 0.0), point(5.0, 0.0)];
+    for (from, to, count) in [
+        (0.0, 5.0, 0),
+        (0.001, 5.0, 1),
+        (0.0, 4.999, 1),
+        (0.001, 5.001, 2),
+    ] {
+        let report = audit(
+            &polygon(&path),
+            &walk(&[point(from, 0.0), point(to, 0.0)], 0.2),
+        );
+        assert_eq!(kinds(&report).len(), count, "{:?}", kinds(&report));
+        assert!(
+            kinds(&report).iter().all(|kind| matches!(
+                kind, ViolationKind::ExactStop { deviation_mm } if (deviation_mm - 0.001).abs() < 1e-6
+            )),
+            "{:?}", kinds(&report)
+        );
+        assert!(report.is_complete);
+    }
+}
+
+#[test]
+fn the_tolerance_of_the_program_counts_where_it_holds() {
+    let corners = [
+        point(0.0, 0.0),
+        point(5.0, 0.0),
+        point(5.0, 5.0),
+        point(0.0, 5.0),
+    ];
+    let loose = PathMode::Continuous {
+        tolerance_mm: Some(0.5),
+    };
+    let program = with_mode(polygon(&corners), 0, loose);
+    let cut = |corner: usize| -> Vec<AxisVector> {
+        let towards =
+            |other: usize| corners[corner] + (corners[other] - corners[corner]).normalize() * 0.4;
+        let mut path = corners.to_vec();
+        path.splice(corner..=corner, [towards(corner - 1), towards(corner + 1)]);
+        walk(&path, 0.1)
+    };
+    assert!(audit(&program, &cut(1)).is_clean());
+    let report = audit(&program, &cut(2));
+    let [ViolationKind::Deviation { deviation_mm }] = kinds(&report)[..] else {
+        unreachable!("{:?}", report.violations)
+    };
+    assert!(
+        (deviation_mm - 0.4 * 0.5_f64.sqrt()).abs() < 1e-6,
+        "{deviation_mm}"
+    );
+}
+
+#[test]
+fn detours_below_the_tolerance_are_no_fault() {
+    // A zigzag of 0.01 back and forth, run straight, at several speeds.
+    let mut zigzag = vec![point(0.0, 0.0)];
+    for k in 0..40_u32 {
+        let x = 0.02 * f64::from(k);
+        zigzag.extend([point(x + 0.03, 0.004), point(x + 0.02, -0.004)]);
+    }
+    zigzag.push(point(2.0, 0.0));
+    for step in [0.3, 0.01, 1e-4] {
+        let report = audit(
+            &polygon(&zigzag),
+            &walk(&[point(0.0, 0.0), point(2.0, 0.0)], step),
+        );
+        assert!(
+            report.is_clean() && report.is_complete,
+            "{step}: {:?}",
+            report.violations
+        );
+        assert!(
+            report.max_deviation_mm < 0.0075,
+            "{step}: {}",
+            report.max_deviation_mm
+        );
+    }
+}
+
+/// Two passes a hundredth apart, and a crossing: neither may be taken for the other.
+#[test]
+fn passes_near_each_other_are_told_apart() {
+    let passes = [
+        (0.0, 0.0),
+        (10.0, 0.0),
+        (10.0, 0.01),
+        (0.0, 0.01),
+        (0.0, 0.02),
+        (10.0, 0.02),
+    ]
+    .map(|(x, y)| point(x, y));
+    assert!(audit(&polygon(&passes), &walk(&passes, 0.3)).is_clean());
+    let report = audit(&polygon(&passes), &walk(&[passes[0], passes[5]], 0.3));
+    assert!(report.max_deviation_mm > 4.9, "{report:?}");
+    let crossing = [
+        (0.0, 0.0),
+        (10.0, 0.0),
+        (10.0, 5.0),
+        (5.0, 5.0),
+        (5.0, -5.0),
+    ]
+    .map(|(x, y)| point(x, y));
+    assert!(audit(&polygon(&crossing), &walk(&crossing, 0.3)).is_clean());
+    let short_cut = [crossing[0], point(5.0, 0.0), crossing[4]];
+    assert!(!audit(&polygon(&crossing), &walk(&short_cut, 0.3)).is_clean());
+}
+
+#[test]
+fn every_group_of_axes_counts_by_itself() {
+    for axis in 0..9 {
+        let mut end = point(10.0, 0.0);
+        end[axis] += 10.0;
+        let path = [AxisVector::zeros(), end];
+        for (bulge, found) in [(0.0199, false), (0.0202, true)] {
+            let mut motion = walk(&path, 0.3);
+            // Across the path inside its own group.
+            let other = match axis {
+                0..3 => 2 - axis / 2,
+                3..6 => axis,
+                _ => 6 + (axis - 5) % 3,
+            };
+            motion[20][other] += bulge;
+            // A rotary axis by itself can be late without being off: the others hold it in place.
+            let report = audit(&polygon(&path), &motion);
+            if axis != 2 && !(3..6).contains(&axis) {
+                assert_eq!(!report.is_clean(), found, "axis {axis}: {report:?}");
+            }
+        }
+    }
+}
+
+fn at_speed(program: &[Item], v: f64) -> Report {
+    let mut audit = Audit::new(&settings(Limits::UNLIMITED));
+    for item in program {
+        audit.program(item);
+    }
+    let ticks = (10.0 / v / PERIOD).ceil();
+    let mut k = 0.0;
+    let mut tick = 0;
+    while k <= ticks {
+        audit.sample(&sample(tick, point((k * v * PERIOD).min(10.0), 0.0)));
+        k += 1.0;
+        tick += 1;
+    }
+    audit.finish()
+}
+
+#[test]
+fn too_fast_for_the_feed_is_found() {
+    let mut program = polygon(&[point(0.0, 0.0), point(5.0, 0.0), point(10.0, 0.0)]);
+    assert!(at_speed(&program, 50.0).is_clean());
+    for item in &mut program {
+        if let ItemKind::Move { rate, .. } = &mut item.kind {
+            *rate = Rate::Feed(50.0);
+        }
+    }
+    let at_feed = at_speed(&program, 50.0);
+    assert!(at_feed.is_clean() && (at_feed.max_feed_ratio.ratio - 1.0).abs() < 1e-9);
+    let above = at_speed(&program, 50.2);
+    assert!(
+        above
+            .violations
+            .iter()
+            .all(|v| matches!(v.kind, ViolationKind::Feed { .. }))
+    );
+    assert!(!above.is_clean() && (above.max_feed_ratio.ratio - 1.004).abs() < 1e-9);
+    // A slower second half: only that is at fault.
+    if let ItemKind::Move { rate, .. } = &mut program[1].kind {
+        *rate = Rate::Feed(25.0);
+    }
+    let half = at_speed(&program, 50.0);
+    assert_eq!(half.violation_count, 24, "{:?}", half.violations);
+}
+
+#[test]
+fn a_motion_without_a_program_is_found() {
+    assert!(audit(&[], &[point(1.0, 2.0); 4]).is_clean());
+    let report = audit(&[], &walk(&[point(0.0, 0.0), point(1.0, 0.0)], 0.1));
+    assert_eq!(kinds(&report), [ViolationKind::Lost]);
+    assert_eq!(
+        kinds(&audit(&polygon(&[point(0.0, 0.0), point(1.0, 0.0)]), &[])),
+        [ViolationKind::Incomplete]
+    );
+}
