@@ -1,0 +1,131 @@
+//! Instances do not meet, other versions and other users' directories are refused.
+
+use crate::instance::{Instance, frame, take, wait_for};
+use glidepath_link::{Delivery, Ipc, LinkConfig, LinkError, Transport};
+use iceoryx2::prelude::{Config, FileName, NodeBuilder, Path, SemanticString, ZeroCopySend, ipc};
+use std::os::unix::fs::PermissionsExt;
+
+/// A setpoint of a version to come.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, ZeroCopySend)]
+#[type_name("glidepath.Setpoint.v2")]
+#[allow(
+    unsafe_code,
+    reason = "the derive expands to an unsafe impl, and checks the fields"
+)]
+struct SetpointToCome([f64; 71]);
+
+#[test]
+fn another_version_of_a_record_is_a_clear_error() {
+    let instance = Instance::new();
+    let link = instance.connect();
+    let mut settings = Config::default();
+    settings.global.prefix = FileName::new(instance.config.prefix().as_bytes()).unwrap();
+    let directory = instance.config.directory();
+    let root = Path::new(directory.as_os_str().as_encoded_bytes()).unwrap();
+    settings.global.set_root_path(&root);
+    let node = NodeBuilder::new()
+        .config(&settings)
+        .create::<ipc::Service>()
+        .unwrap();
+    let service = node
+        .service_builder(&"glidepath/setpoints".try_into().unwrap())
+        .publish_subscribe::<SetpointToCome>()
+        .open_or_create()
+        .unwrap();
+    let error = link.setpoint_source().err().unwrap();
+    assert!(
+        matches!(error, LinkError::VersionMismatch { .. }),
+        "{error}"
+    );
+    let text = error.to_string();
+    assert!(text.contains("glidepath.Setpoint.v1"), "{text}");
+    assert!(text.contains("IncompatibleTypes"), "{text}");
+    drop((service, node));
+    link.setpoint_source().unwrap();
+}
+
+#[test]
+fn another_capacity_is_a_clear_error() {
+    let instance = Instance::new();
+    let link = instance.connect();
+    let _source = link.frame_source().unwrap();
+    let mut config = instance.config.clone();
+    config.capacity.frames *= 2;
+    let error = Ipc::connect(&config).unwrap().frame_sink().err().unwrap();
+    assert!(
+        matches!(error, LinkError::VersionMismatch { .. }),
+        "{error}"
+    );
+}
+
+#[test]
+fn instances_do_not_meet() {
+    let one = Instance::new();
+    // Another name under the same root, and the same name under another root.
+    let another_name = LinkConfig {
+        instance: "another".to_owned(),
+        ..one.config.clone()
+    };
+    let another_root = Instance::new();
+    let ends = [Ipc::connect(&another_name).unwrap(), another_root.connect()];
+    let mut strangers: Vec<_> = ends.iter().map(|end| end.frame_source().unwrap()).collect();
+    let link = one.connect();
+    let mut sink = link.frame_sink().unwrap();
+    for stranger in &mut strangers {
+        assert_eq!(stranger.take().unwrap(), None);
+        assert_eq!(sink.offer(&frame(0)).unwrap(), Delivery::NoConsumer);
+        assert_eq!(stranger.take().unwrap(), None);
+    }
+    let mut own = link.frame_source().unwrap();
+    wait_for(|| {
+        let delivered = sink.offer(&frame(3)).unwrap() == Delivery::Delivered;
+        let _ = own.take().unwrap();
+        delivered.then_some(())
+    });
+    assert_eq!(sink.offer(&frame(4)).unwrap(), Delivery::Delivered);
+    assert_eq!(take(&mut *own).sequence, 4);
+    for stranger in &mut strangers {
+        assert_eq!(stranger.take().unwrap(), None);
+    }
+}
+
+#[test]
+fn names_that_are_no_file_names_are_refused() {
+    let instance = Instance::new();
+    for name in ["", "a/b", "..", "a b", "ä", &"x".repeat(33)] {
+        let config = LinkConfig {
+            instance: name.to_owned(),
+            ..instance.config.clone()
+        };
+        let error = Ipc::connect(&config).unwrap_err();
+        assert!(matches!(error, LinkError::Name { .. }), "{name}: {error}");
+    }
+}
+
+#[test]
+fn a_directory_that_others_can_enter_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::set_permissions(directory.path(), PermissionsExt::from_mode(0o755)).unwrap();
+    let root = directory.path().to_owned();
+    let config = LinkConfig {
+        root,
+        ..LinkConfig::new("default")
+    };
+    let error = Ipc::connect(&config).unwrap_err();
+    assert!(matches!(error, LinkError::Root { .. }), "{error}");
+    assert!(error.to_string().contains("0700"), "{error}");
+}
+
+#[test]
+fn files_are_private_to_the_user() {
+    let instance = Instance::new();
+    let _link = instance.connect();
+    for path in [&instance.config.root, &instance.config.directory()] {
+        assert_eq!(
+            path.metadata().unwrap().permissions().mode() & 0o777,
+            0o700,
+            "{path:?}"
+        );
+    }
+}
