@@ -5,6 +5,8 @@
 //! port has been written by another process: [`Record::check`] (or a checked conversion such as
 //! [`SetpointFrame::to_frame`]) comes before any use.
 
+pub mod servo;
+
 mod error;
 mod in_process;
 mod ipc;

@@ -1,0 +1,235 @@
+//! Plays setpoints by their time stamps.
+//!
+//! ```text
+//!            now
+//!   from ─────┼────── to ───── queue …     quintic between the two
+//!   from ──┼─ ─ ─ ─                        nothing newer: constant acceleration, for a while
+//!                  ·                       a newer one, a period or more ahead: back to it
+//!   from ─ ─ ─ ─ ─ ─ ─ ─ ┼ ╲_              nothing for too long: the joints' own stop, latched
+//! ```
+//!
+//! Position, velocity and acceleration are continuous throughout. After a gap the way back takes at
+//! least a period, because making good a small error in a shorter time would take large forces.
+
+use super::{JointState, Stop, StopLimits, quintic};
+use crate::Setpoint;
+use glidepath_geometry::AXES;
+use std::collections::VecDeque;
+
+/// Position, velocity and acceleration of every joint.
+pub type JointStates = [JointState; AXES];
+
+/// The joints at a time.
+#[derive(Debug, Clone, Copy)]
+struct Knot {
+    at_ns: u64,
+    period_ns: u64,
+    joints: JointStates,
+}
+
+impl Knot {
+    fn of(setpoint: &Setpoint) -> Self {
+        let mut joints = JointStates::default();
+        let derivatives = setpoint
+            .joint_velocity
+            .iter()
+            .zip(&setpoint.joint_acceleration);
+        let values = setpoint.joint_position.iter().zip(derivatives);
+        for (joint, (position, (velocity, acceleration))) in joints.iter_mut().zip(values) {
+            let (position, velocity, acceleration) = (*position, *velocity, *acceleration);
+            *joint = JointState {
+                position,
+                velocity,
+                acceleration,
+            };
+        }
+        let at_ns = setpoint.apply_ns;
+        Self {
+            at_ns,
+            period_ns: at_ns.saturating_sub(setpoint.scheduled_ns),
+            joints,
+        }
+    }
+
+    fn coast(mut self, now_ns: u64) -> Self {
+        let time_t = seconds(now_ns, self.at_ns);
+        self.joints = self.joints.map(|joint| joint.coast(time_t));
+        self.at_ns = now_ns;
+        self
+    }
+}
+
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there is one per servo, and it stays in place"
+)]
+#[derive(Debug, Clone, Copy)]
+enum Mode {
+    /// Before the first setpoint's time.
+    Waiting,
+    Playing {
+        from: Knot,
+        /// The time of the newest setpoint that came.
+        heard_ns: u64,
+        /// `from` is no setpoint, but where the joints went for want of one.
+        coasting: bool,
+    },
+    Stopping {
+        since_ns: u64,
+        stops: [Stop; AXES],
+    },
+}
+
+/// What the joints are to do, from setpoints as they come.
+#[derive(Debug, Clone)]
+pub(super) struct Player {
+    mode: Mode,
+    queue: VecDeque<Knot>,
+    patience_ns: u64,
+    limits: [StopLimits; AXES],
+}
+
+impl Player {
+    /// `patience_ns`: how long to go on at constant acceleration without a newer setpoint.
+    pub(super) fn new(patience_ns: u64, limits: [StopLimits; AXES]) -> Self {
+        let queue = VecDeque::with_capacity(QUEUE);
+        Self {
+            mode: Mode::Waiting,
+            queue,
+            patience_ns,
+            limits,
+        }
+    }
+
+    /// Takes a setpoint for later. One that is not after the last in the queue is left out.
+    pub(super) fn push(&mut self, setpoint: &Setpoint) {
+        let knot = Knot::of(setpoint);
+        if self
+            .queue
+            .back()
+            .is_some_and(|last| last.at_ns >= knot.at_ns)
+        {
+            return;
+        }
+        if self.queue.len() == QUEUE {
+            self.queue.pop_front();
+        }
+        self.queue.push_back(knot);
+    }
+
+    /// Forgets what was to come, and a stop.
+    pub(super) fn reset(&mut self) {
+        self.queue.clear();
+        self.mode = Mode::Waiting;
+    }
+
+    pub(super) const fn is_stopping(&self) -> bool {
+        matches!(self.mode, Mode::Stopping { .. })
+    }
+
+    /// What the joints are to do now. Times do not go back from call to call.
+    pub(super) fn demand(&mut self, now_ns: u64) -> Option<JointStates> {
+        self.take_up(now_ns);
+        match self.mode {
+            Mode::Waiting => None,
+            Mode::Stopping { since_ns, stops } => {
+                Some(stops.map(|stop| stop.at(seconds(now_ns, since_ns))))
+            }
+            Mode::Playing { from, heard_ns, .. } => Some(self.play(from, heard_ns, now_ns)),
+        }
+    }
+
+    /// Takes from the queue what has become the past.
+    fn take_up(&mut self, now_ns: u64) {
+        while let Some(next) = self.queue.front().copied() {
+            match &mut self.mode {
+                Mode::Stopping { .. } => self.queue.clear(),
+                Mode::Playing {
+                    heard_ns: heard,
+                    coasting: true,
+                    ..
+                } => {
+                    if next.at_ns >= now_ns.saturating_add(next.period_ns) {
+                        return;
+                    }
+                    *heard = next.at_ns.max(*heard);
+                    self.queue.pop_front();
+                }
+                Mode::Playing {
+                    from,
+                    heard_ns: heard,
+                    coasting: false,
+                } => {
+                    if next.at_ns > now_ns {
+                        return;
+                    }
+                    (*from, *heard) = (next, next.at_ns);
+                    self.queue.pop_front();
+                }
+                Mode::Waiting => {
+                    if next.at_ns > now_ns {
+                        return;
+                    }
+                    // One from long ago says nothing about now.
+                    if now_ns - next.at_ns <= self.patience_ns {
+                        let (from, heard_ns) = (next, next.at_ns);
+                        self.mode = Mode::Playing {
+                            from,
+                            heard_ns,
+                            coasting: false,
+                        };
+                    }
+                    self.queue.pop_front();
+                }
+            }
+        }
+    }
+
+    fn play(&mut self, from: Knot, heard_ns: u64, now_ns: u64) -> JointStates {
+        if let Some(to) = self.queue.front() {
+            self.mode = Mode::Playing {
+                from,
+                heard_ns,
+                coasting: false,
+            };
+            let (span_t, time_t) = (seconds(to.at_ns, from.at_ns), seconds(now_ns, from.at_ns));
+            let mut joints = from.joints;
+            for (joint, to) in joints.iter_mut().zip(&to.joints) {
+                *joint = quintic(joint, to, span_t, time_t);
+            }
+            return joints;
+        }
+        // The stop begins when patience ends, whenever this is called.
+        let patience_ends_ns = heard_ns.saturating_add(self.patience_ns).max(from.at_ns);
+        let coasted = from.coast(now_ns.min(patience_ends_ns));
+        if now_ns <= patience_ends_ns {
+            self.mode = Mode::Playing {
+                from: coasted,
+                heard_ns,
+                coasting: true,
+            };
+            return coasted.joints;
+        }
+        let mut stops = [Stop::default(); AXES];
+        for (stop, (joint, limits)) in stops.iter_mut().zip(coasted.joints.iter().zip(self.limits))
+        {
+            *stop = Stop::new(*joint, limits);
+        }
+        self.mode = Mode::Stopping {
+            since_ns: coasted.at_ns,
+            stops,
+        };
+        stops.map(|stop| stop.at(seconds(now_ns, coasted.at_ns)))
+    }
+}
+
+/// Setpoints that wait for their time: far more than are ever under way.
+const QUEUE: usize = 64;
+
+#[allow(
+    clippy::cast_precision_loss,
+    reason = "differences of a few periods are exact"
+)]
+fn seconds(later_ns: u64, earlier_ns: u64) -> f64 {
+    later_ns.saturating_sub(earlier_ns) as f64 * 1e-9
+}

@@ -1,0 +1,424 @@
+//! Records say back what was put in, bit for bit, and bad ones are refused.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use bytemuck::Zeroable;
+use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Segment};
+use glidepath_link::{
+    Command, CommandKind, CommandRefusal, CommandReply, CommandRequest, EndOfEpoch, EventKind,
+    FRAME_REFUSALS, FaultCause, FrameRefusal, MachineState, OVERRIDE_MAX, Record, RecordError,
+    RequestKind, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status,
+    StreamItem, Text, decode,
+};
+use glidepath_motion::{Event, Frame, FrameFlags, Item, ItemKind, PathMode, Rate};
+use proptest::prelude::*;
+
+const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+fn finite() -> impl Strategy<Value = f64> {
+    any::<f64>().prop_filter("finite", |value| value.is_finite())
+}
+
+fn positive() -> impl Strategy<Value = f64> {
+    finite()
+        .prop_map(f64::abs)
+        .prop_filter("positive", |value| *value >= f64::MIN_POSITIVE)
+}
+
+fn vector() -> impl Strategy<Value = AxisVector> {
+    proptest::array::uniform9(finite()).prop_map(AxisVector::from)
+}
+
+fn event() -> impl Strategy<Value = Event> {
+    prop_oneof![
+        finite().prop_map(Event::SpindleSpeed),
+        any::<u32>().prop_map(Event::SelectTool),
+        any::<u32>().prop_map(Event::MCode),
+        any::<u32>().prop_map(Event::ProgramStop),
+        Just(Event::OptionalStop),
+    ]
+}
+
+prop_compose! {
+    fn frame()(
+        (sequence, line, flags) in (any::<u64>(), any::<u32>(), 0..64_u32),
+        event in proptest::option::of(event()),
+        (path_v, path_s) in (finite(), finite()),
+        (position, velocity, acceleration) in (vector(), vector(), vector()),
+    ) -> Frame {
+        let flags = FrameFlags(flags);
+        Frame { sequence, line, flags, event, path_v, path_s, position, velocity, acceleration }
+    }
+}
+
+fn plane() -> impl Strategy<Value = Plane> {
+    use Plane::{Uv, Vw, Wu, Xy, Yz, Zx};
+    proptest::sample::select(vec![Xy, Zx, Yz, Uv, Wu, Vw])
+}
+
+fn segment() -> impl Strategy<Value = Segment> {
+    let arc = (
+        vector(),
+        vector(),
+        plane(),
+        proptest::array::uniform2(finite()),
+        positive(),
+        any::<bool>(),
+    );
+    prop_oneof![
+        (vector(), vector()).prop_map(|(start, end)| Segment::line(start, end)),
+        arc.prop_map(|(start, end, plane, center, sweep, clockwise)| {
+            let sweep_rad = if clockwise { -sweep } else { sweep };
+            Segment::Arc(Arc {
+                start,
+                end,
+                plane,
+                center,
+                sweep_rad,
+            })
+        }),
+    ]
+}
+
+fn item() -> impl Strategy<Value = StreamItem> {
+    let rate = prop_oneof![Just(Rate::Rapid), positive().prop_map(Rate::Feed)];
+    let mode = prop_oneof![
+        Just(PathMode::ExactStop),
+        Just(PathMode::ExactPath),
+        proptest::option::of(positive())
+            .prop_map(|tolerance_mm| PathMode::Continuous { tolerance_mm }),
+    ];
+    let kind = prop_oneof![
+        (segment(), rate, mode).prop_map(|(segment, rate, mode)| ItemKind::Move {
+            segment,
+            rate,
+            mode
+        }),
+        finite().prop_map(|dwell| ItemKind::Dwell(dwell.abs())),
+        event().prop_map(ItemKind::Event),
+    ];
+    prop_oneof![
+        Just(StreamItem::Open),
+        Just(StreamItem::End),
+        (any::<u32>(), kind).prop_map(|(line, kind)| StreamItem::Item(Item { line, kind })),
+    ]
+}
+
+fn command() -> impl Strategy<Value = Command> {
+    prop_oneof![
+        proptest::sample::select(vec![
+            Command::Ping,
+            Command::Hold,
+            Command::Resume,
+            Command::Abort,
+            Command::StopAtEndOfBlock,
+            Command::Reset,
+        ]),
+        (0.0..=OVERRIDE_MAX).prop_map(Command::FeedOverride),
+        (0.0..=OVERRIDE_MAX).prop_map(Command::RapidOverride),
+        any::<bool>().prop_map(Command::SingleStep),
+    ]
+}
+
+fn bits(vector: &AxisVector) -> [u64; AXES] {
+    <[f64; AXES]>::from(*vector).map(f64::to_bits)
+}
+
+proptest! {
+    #[test]
+    fn a_frame_comes_back_bit_for_bit(
+        frame in frame(),
+        epoch in 1..=u64::MAX,
+        period_ns in 1..=1_000_000_000_u64,
+        planned_override in 0.001..=OVERRIDE_MAX,
+    ) {
+        let record = SetpointFrame::from_frame(&frame, epoch, period_ns, planned_override);
+        let record: SetpointFrame = decode(bytemuck::bytes_of(&record)).unwrap();
+        prop_assert_eq!((record.epoch, record.period_ns), (epoch, period_ns));
+        prop_assert_eq!(record.planned_override.to_bits(), planned_override.to_bits());
+        let back = record.to_frame().unwrap();
+        prop_assert_eq!(back, frame);
+        for (back, frame) in [
+            (&back.position, &frame.position),
+            (&back.velocity, &frame.velocity),
+            (&back.acceleration, &frame.acceleration),
+        ] {
+            prop_assert_eq!(bits(back), bits(frame));
+        }
+    }
+
+    #[test]
+    fn a_stream_item_comes_back(item in item(), session: u64, number: u64) {
+        let record = SegmentRequest::new(session, number, &item);
+        let record: SegmentRequest = decode(bytemuck::bytes_of(&record)).unwrap();
+        prop_assert_eq!((record.session, record.number), (session, number));
+        prop_assert_eq!(record.item().unwrap(), item);
+    }
+
+    #[test]
+    fn a_command_comes_back(command in command(), client: u64, number: u64) {
+        let record = CommandRequest::new(client, number, command);
+        let record: CommandRequest = decode(bytemuck::bytes_of(&record)).unwrap();
+        prop_assert_eq!((record.client, record.number), (client, number));
+        prop_assert_eq!(record.command().unwrap(), command);
+    }
+
+    #[test]
+    fn a_text_comes_back_up_to_what_fits(text in "[^\0]{0,200}") {
+        let short = Text::new(&text);
+        prop_assert!(text.starts_with(short.as_str()));
+        prop_assert!(short.as_str().len() + 4 > text.len().min(Text::CAPACITY));
+    }
+
+    #[test]
+    fn foreign_bytes_are_refused_or_usable(bytes in proptest::collection::vec(any::<u8>(), 0..600)) {
+        // Any length: the right one is in the list for each record.
+        fn read<R: Record>(bytes: &[u8]) -> Result<(), TestCaseError> {
+            let exact: Vec<u8> = bytes.iter().copied().cycle().take(size_of::<R>()).collect();
+            for bytes in [bytes, &exact] {
+                match decode::<R>(bytes) {
+                    Ok(record) => prop_assert!(record.check().is_ok()),
+                    Err(RecordError::Size { expected, actual, .. }) => {
+                        prop_assert_ne!(expected, actual);
+                    }
+                    Err(_) => prop_assert_eq!(bytes.len(), size_of::<R>()),
+                }
+            }
+            Ok(())
+        }
+        read::<SetpointFrame>(&bytes)?;
+        read::<Setpoint>(&bytes)?;
+        read::<Status>(&bytes)?;
+        read::<CommandRequest>(&bytes)?;
+        read::<CommandReply>(&bytes)?;
+        read::<SegmentRequest>(&bytes)?;
+        read::<SegmentReply>(&bytes)?;
+    }
+}
+
+fn good_frame() -> SetpointFrame {
+    SetpointFrame {
+        epoch: 1,
+        period_ns: 4_000_000,
+        planned_override: 1.0,
+        ..Zeroable::zeroed()
+    }
+}
+
+fn good_setpoint() -> Setpoint {
+    Setpoint {
+        state: MachineState::Running.code(),
+        ..Zeroable::zeroed()
+    }
+}
+
+fn good_status() -> Status {
+    Status {
+        state: MachineState::Idle.code(),
+        ..Zeroable::zeroed()
+    }
+}
+
+fn good_segment() -> SegmentRequest {
+    let segment = Segment::line(AxisVector::zeros(), AxisVector::repeat(1.0));
+    let mode = PathMode::Continuous {
+        tolerance_mm: Some(0.1),
+    };
+    let kind = ItemKind::Move {
+        segment,
+        rate: Rate::Feed(10.0),
+        mode,
+    };
+    SegmentRequest::new(1, 1, &StreamItem::Item(Item { line: 1, kind }))
+}
+
+/// Every number of a good record, from the given offsets on, made not finite in turn.
+fn refuses_not_finite<R: Record>(good: &R, numbers: &[(usize, usize)]) {
+    good.check().unwrap();
+    for offset in numbers
+        .iter()
+        .flat_map(|(first, end)| (*first..*end).step_by(8))
+    {
+        for bad in NOT_FINITE {
+            let mut bytes = bytemuck::bytes_of(good).to_vec();
+            bytes
+                .get_mut(offset..offset + 8)
+                .unwrap()
+                .copy_from_slice(&bad.to_ne_bytes());
+            let error = decode::<R>(&bytes).unwrap_err();
+            assert!(
+                matches!(error, RecordError::NotFinite { .. }),
+                "{offset}: {error}"
+            );
+        }
+    }
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused() {
+    refuses_not_finite(&good_frame(), &[(40, 288)]);
+    refuses_not_finite(&good_setpoint(), &[(72, 80), (104, 568)]);
+    refuses_not_finite(&good_status(), &[(96, 112), (120, 232)]);
+    refuses_not_finite(&good_segment(), &[(40, 240)]);
+    refuses_not_finite(&CommandRequest::new(1, 1, Command::Ping), &[(16, 24)]);
+    refuses_not_finite(&SegmentReply::zeroed(), &[(32, 104)]);
+}
+
+#[test]
+fn frames_out_of_range_are_refused() {
+    let good = good_frame();
+    for bad in [
+        SetpointFrame { epoch: 0, ..good },
+        SetpointFrame {
+            period_ns: 0,
+            ..good
+        },
+        SetpointFrame {
+            period_ns: 1_000_000_001,
+            ..good
+        },
+        SetpointFrame {
+            planned_override: 0.0,
+            ..good
+        },
+        SetpointFrame {
+            planned_override: OVERRIDE_MAX * 1.01,
+            ..good
+        },
+        SetpointFrame {
+            event_kind: 2,
+            event_value: 1.5,
+            ..good
+        },
+        SetpointFrame {
+            event_kind: 3,
+            event_value: -1.0,
+            ..good
+        },
+    ] {
+        assert!(
+            matches!(bad.to_frame(), Err(RecordError::OutOfRange { .. })),
+            "{bad:?}"
+        );
+    }
+    let bad = SetpointFrame {
+        flags: 1 << 6,
+        ..good
+    };
+    assert!(matches!(
+        bad.to_frame(),
+        Err(RecordError::UnknownFlags { bits: 64, .. })
+    ));
+    let bad = SetpointFrame {
+        event_kind: 6,
+        ..good
+    };
+    assert!(matches!(
+        bad.to_frame(),
+        Err(RecordError::UnknownCode { code: 6, .. })
+    ));
+    let bad = SetpointFrame {
+        reserved: 1,
+        ..good
+    };
+    assert!(matches!(bad.to_frame(), Err(RecordError::NotZero { .. })));
+}
+
+/// A good record with one field spoilt.
+fn refused<R: Record>(good: R, spoil: impl FnOnce(&mut R)) -> RecordError {
+    good.check().unwrap();
+    let mut bad = good;
+    spoil(&mut bad);
+    decode::<R>(bytemuck::bytes_of(&bad)).unwrap_err()
+}
+
+#[test]
+fn unknown_codes_and_bits_are_refused() {
+    for error in [
+        refused(good_setpoint(), |s| s.state = 0),
+        refused(good_setpoint(), |s| s.state = 10),
+        refused(good_status(), |s| s.state = 0),
+        refused(good_status(), |s| s.fault = 5),
+        refused(good_status(), |s| s.fault_axis = 10),
+        refused(good_status(), |s| s.fault_axis = u32::MAX),
+        refused(good_status(), |s| s.end_of_epoch = 5),
+        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 0),
+        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 10),
+        refused(SegmentReply::zeroed(), |r| r.refusal = 11),
+        refused(good_segment(), |s| s.kind = 0),
+        refused(good_segment(), |s| s.mode = 5),
+        refused(good_segment(), |s| s.rapid = 2),
+        refused(good_segment(), |s| s.kind = RequestKind::Event.code()),
+    ] {
+        assert!(matches!(error, RecordError::UnknownCode { .. }), "{error}");
+    }
+    for error in [
+        refused(good_setpoint(), |s| s.marks = 4),
+        refused(good_setpoint(), |s| s.flags = 64),
+        refused(good_status(), |s| s.grants = 64),
+    ] {
+        assert!(matches!(error, RecordError::UnknownFlags { .. }), "{error}");
+    }
+    for error in [
+        refused(good_setpoint(), |s| s.fraction = 1.5),
+        refused(good_setpoint(), |s| s.effective_override = -0.1),
+        refused(good_status(), |s| s.feed_override = OVERRIDE_MAX + 0.1),
+        refused(good_segment(), |s| s.feed_v = 0.0),
+        refused(good_segment(), |s| s.tolerance_mm = 0.0),
+        refused(good_segment(), |s| s.kind = RequestKind::Arc.code()),
+        refused(CommandRequest::new(1, 1, Command::FeedOverride(1.0)), |c| {
+            c.value = 2.1;
+        }),
+        refused(CommandRequest::new(1, 1, Command::SingleStep(true)), |c| {
+            c.value = 0.5;
+        }),
+    ] {
+        assert!(matches!(error, RecordError::OutOfRange { .. }), "{error}");
+    }
+}
+
+#[test]
+fn text_that_is_not_utf8_is_refused() {
+    let reply = CommandReply::new(
+        1,
+        1,
+        Err(CommandRefusal::WrongState),
+        MachineState::Held,
+        "why",
+    );
+    reply.check().unwrap();
+    let mut bytes = bytemuck::bytes_of(&reply).to_vec();
+    *bytes.get_mut(24).unwrap() = 0xff;
+    let error = decode::<CommandReply>(&bytes).unwrap_err();
+    assert!(matches!(error, RecordError::NotText { .. }), "{error}");
+}
+
+#[test]
+fn codes_are_those_of_version_1() {
+    fn in_sequence(codes: impl Iterator<Item = u32>, first: u32, last: u32) {
+        assert_eq!(
+            codes.collect::<Vec<_>>(),
+            (first..=last).collect::<Vec<_>>()
+        );
+    }
+    in_sequence(MachineState::ALL.iter().map(|code| code.code()), 1, 9);
+    in_sequence(EndOfEpoch::ALL.iter().map(|code| code.code()), 0, 4);
+    in_sequence(FrameRefusal::ALL.iter().map(|code| code.code()), 1, 12);
+    in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 9);
+    in_sequence(CommandRefusal::ALL.iter().map(|code| code.code()), 1, 5);
+    in_sequence(SegmentRefusal::ALL.iter().map(|code| code.code()), 1, 10);
+    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 5);
+    assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
+    assert!(
+        FrameRefusal::ALL
+            .iter()
+            .enumerate()
+            .all(|(index, code)| code.index() == index)
+    );
+    let faults: Vec<u32> = (0..0x200)
+        .filter(|code| FaultCause::from_code(*code).is_some())
+        .collect();
+    assert_eq!(faults, (1..=4).chain(0x101..=0x10c).collect::<Vec<_>>());
+    for code in faults {
+        assert_eq!(FaultCause::from_code(code).unwrap().code(), code);
+    }
+}
