@@ -1,6 +1,6 @@
 //! What can go wrong with a port.
 
-use crate::RecordError;
+use crate::{RecordError, RecordingError};
 
 /// An error of the transport underneath.
 pub type BoxedError = Box<dyn core::error::Error + Send + Sync>;
@@ -67,6 +67,9 @@ pub enum LinkError {
     /// What arrived is not to be used.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// A recording that stands in for a port, or listens at one, failed.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
     /// Anything else the transport reports.
     #[error("{service}: {action} failed: {detail}")]
     Transport {

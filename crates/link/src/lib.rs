@@ -8,13 +8,16 @@
 pub mod servo;
 
 mod error;
+mod faulty;
 mod in_process;
 mod ipc;
 mod port;
 mod record;
+mod recording;
 mod service;
 
 pub use error::{BoxedError, LinkError};
+pub use faulty::{Fault, Faulty};
 pub use in_process::InProcess;
 pub use ipc::{Ipc, LinkConfig, remove_leftovers};
 pub use port::{
@@ -27,4 +30,5 @@ pub use record::{
     RequestKind, SegmentOutcome, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint,
     SetpointFrame, SetpointMarks, Status, StreamItem, Text, decode,
 };
+pub use recording::{Recorder, Recording, RecordingError, Replay};
 pub use service::Capacity;
