@@ -19,13 +19,14 @@ use crate::speed_limit::{self, SpeedLimit};
 use crate::{PathMode, Settings, Smoothing};
 use glidepath_geometry::{
     AXES, AxisVector, DerivativeBounds, LINEAR_XYZ, PairShape, ROTARY_ABC, Segment, Transition,
-    Turn, UVW,
+    Turn, UVW, feed_length,
 };
 
 /// One of the two segments of a joint.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Leg<'a> {
     pub segment: &'a Segment,
+    pub mode: PathMode,
     pub length_s: f64,
     /// Programmed rate, or `f64::INFINITY` for a rapid.
     pub rate_v: f64,
@@ -40,8 +41,8 @@ pub(crate) struct Leg<'a> {
 pub(crate) enum Joint {
     /// The segments continue each other.
     Straight,
-    /// The machine rests at the corner.
-    Stop,
+    /// The machine rests at the corner; if `exact`, with a setpoint exactly there.
+    Stop { exact: bool },
     /// A curve replaces `trim_s` of both segments.
     Blend {
         transition: Transition,
@@ -58,10 +59,11 @@ const REVERSAL_CB: f64 = 0.035;
 const HALVINGS: u32 = 14;
 /// An arc gives at most this angle to a joint, so that the polynomial stays close to it.
 const ARC_SHARE_RAD: f64 = 0.6;
-/// Points at which the deviation of a general transition is measured, and the margin for the places
-/// between them.
+/// Points at which the deviation and the speed of a general transition are measured, and the margins
+/// for the places between them.
 const DEVIATION_POINTS: u32 = 24;
 const DEVIATION_MARGIN_R: f64 = 1.02;
+const STRETCH_MARGIN_R: f64 = 1.0 + 2e-4;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Family {
@@ -70,13 +72,22 @@ enum Family {
     Hermite,
 }
 
-/// Decides how `from` is joined to `to`. `mode` is that of the segment that ends here.
-pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, mode: PathMode, settings: &Settings) -> Joint {
+/// Decides how `from` is joined to `to`: in the path mode of `from`.
+pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, settings: &Settings) -> Joint {
     let rate_v = from.rate_v.min(to.rate_v);
     let jet_in = from.segment.jet(from.length_s);
     let jet_out = to.segment.jet(0.0);
-    let exact = match mode {
-        PathMode::ExactStop => return Joint::Stop,
+    let tolerance_mm = from.mode.tolerance_mm(settings);
+    let stop_wanted = match from.mode {
+        PathMode::ExactStop => return Joint::Stop { exact: true },
+        // A chord from a loose stretch must not reach into a tight one.
+        PathMode::Continuous { .. }
+            if tolerance_mm
+                .total_cmp(&to.mode.tolerance_mm(settings))
+                .is_ne() =>
+        {
+            return Joint::Stop { exact: true };
+        }
         PathMode::ExactPath => true,
         PathMode::Continuous { .. } => settings.smoothing == Smoothing::ExactStop,
     };
@@ -86,8 +97,12 @@ pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, mode: PathMode, settings: &Settin
         return Joint::Straight;
     }
     let turn = Turn::between(&jet_in.d1, &jet_out.d1);
-    if exact || turn.cb < REVERSAL_CB {
-        return Joint::Stop;
+    let stop = Joint::Stop {
+        exact: from.mode == PathMode::ExactPath
+            || cut_by_chord_mm(&jet_in.d1, &jet_out.d1, settings) > 0.5 * tolerance_mm,
+    };
+    if stop_wanted || turn.cb < REVERSAL_CB {
+        return stop;
     }
     let family = match (from.segment, to.segment) {
         (Segment::Line(_), Segment::Line(_)) if settings.smoothing == Smoothing::BezierPair => {
@@ -103,7 +118,10 @@ pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, mode: PathMode, settings: &Settin
         t2: jet_out.d1,
         rate_v,
         gentle: turn.sb <= GENTLE_SB && turn.cb > 0.0,
-        tolerance_mm: mode.tolerance_mm(settings),
+        tolerance_mm: from
+            .mode
+            .tolerance_mm(settings)
+            .min(to.mode.tolerance_mm(settings)),
         family,
         settings,
     };
@@ -113,8 +131,20 @@ pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, mode: PathMode, settings: &Settin
             trim_s: found.d_s,
             limit: found.limit,
         },
-        _ => Joint::Stop,
+        _ => stop,
     }
+}
+
+/// How far from a corner the chord of one period can pass if the machine rests there between two
+/// setpoints: half a period before or after the rest it is at most J·(T/2)³/6 away.
+fn cut_by_chord_mm(t1: &AxisVector, t2: &AxisVector, settings: &Settings) -> f64 {
+    [t1, t2]
+        .map(|tangent| {
+            let limit = speed_limit::straight(tangent, f64::INFINITY, &settings.limits);
+            tolerance_norm(tangent) * limit.change.jerk_j * settings.period_t.powi(3) / 48.0
+        })
+        .into_iter()
+        .fold(0.0, f64::max)
 }
 
 /// True if passing from one derivative to the other at the full rate is no more than rounding: the
@@ -231,10 +261,14 @@ impl Corner<'_> {
         };
         let bounds = transition.bounds();
         let limits = &self.settings.limits;
+        let rate_v = match self.family {
+            Family::Hermite => self.rate_v / greatest_stretch(&transition),
+            _ => self.rate_v,
+        };
         let limit = if self.gentle {
-            speed_limit::curved(&bounds, self.rate_v, limits)
+            speed_limit::curved(&bounds, rate_v, limits)
         } else {
-            speed_limit::constant(&bounds, self.rate_v, limits)
+            speed_limit::constant(&bounds, rate_v, limits)
         };
         let deviation_mm = match self.family {
             Family::Hermite => self.measured_deviation_mm(&transition, d_s),
@@ -295,6 +329,15 @@ impl Corner<'_> {
             .into_iter()
             .any(|fast| stop_gain_t(&sides, fast, corner_v, length_s) > 0.0)
     }
+}
+
+/// How much faster than its path position the tool moves on a general transition, at most, ≥ 1.
+fn greatest_stretch(transition: &Transition) -> f64 {
+    let length_s = transition.length();
+    (1..DEVIATION_POINTS)
+        .map(|i| length_s * f64::from(i) / f64::from(DEVIATION_POINTS))
+        .map(|s| feed_length(&transition.jet(s).d1) * STRETCH_MARGIN_R)
+        .fold(1.0, f64::max)
 }
 
 /// A segment beside a corner.

@@ -50,9 +50,9 @@ impl Piece {
 /// What follows a piece of path where the machine comes to rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum RestKind {
-    /// Chosen by the planner; the motion goes on in the same period.
+    /// The motion goes on in the same period.
     Corner,
-    /// Asked for: one setpoint is exactly there.
+    /// One setpoint is exactly there.
     ExactStop,
     /// For a time, s.
     Dwell(f64),
@@ -89,6 +89,17 @@ struct Pending {
     /// Length at the start that the joint before has replaced.
     trimmed_s: f64,
     events: Vec<Event>,
+}
+
+impl Pending {
+    fn leg(&self) -> Leg<'_> {
+        Leg {
+            segment: &self.segment,
+            mode: self.mode,
+            length_s: self.length_s,
+            rate_v: self.rate_v,
+        }
+    }
 }
 
 /// Turns items into pieces and rests.
@@ -191,28 +202,13 @@ impl PathFront {
 
     /// Decides the joint between two segments and puts out all of the first.
     fn join(&self, before: Pending, next: &mut Pending, out: &mut Vec<Element>) {
-        let leg = |p: &Pending| (p.length_s, p.rate_v);
-        let ((before_s, before_v), (next_s, next_v)) = (leg(&before), leg(next));
-        let joint = join(
-            Leg {
-                segment: &before.segment,
-                length_s: before_s,
-                rate_v: before_v,
-            },
-            Leg {
-                segment: &next.segment,
-                length_s: next_s,
-                rate_v: next_v,
-            },
-            before.mode,
-            &self.settings,
-        );
-        let (line, mode, rapid) = (before.line, before.mode, before.rapid && next.rapid);
+        let joint = join(before.leg(), next.leg(), &self.settings);
+        let (line, rapid) = (before.line, before.rapid && next.rapid);
         match joint {
             Joint::Straight => self.put_segment(before, 0.0, out),
-            Joint::Stop => {
+            Joint::Stop { exact } => {
                 self.put_segment(before, 0.0, out);
-                let kind = if mode == PathMode::ExactStop {
+                let kind = if exact {
                     RestKind::ExactStop
                 } else {
                     RestKind::Corner

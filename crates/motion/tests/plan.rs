@@ -363,8 +363,18 @@ fn a_machine_in_micrometres_takes_the_same_time() {
     }
 }
 
+/// A seeded sample for every run; `PROPTEST_CASES` sets how many for a long one.
+fn cases(number: u32) -> ProptestConfig {
+    let long = std::env::var_os("PROPTEST_CASES").is_some();
+    if long {
+        ProptestConfig::default()
+    } else {
+        ProptestConfig::with_cases(number)
+    }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(cases(300))]
 
     #[test]
     fn no_plan_is_slower_than_stopping_at_every_corner(
