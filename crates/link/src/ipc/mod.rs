@@ -23,7 +23,7 @@ pub use presence::remove_leftovers;
 
 use crate::service::{COMMANDS, Capacity, FRAMES, SEGMENTS, SETPOINTS, STATUS};
 use crate::{
-    Client, CommandReply, CommandRequest, FrameSink, LinkError, Publisher, SegmentReply,
+    Client, CommandReply, CommandRequest, FrameSink, LinkError, Publisher, Record, SegmentReply,
     SegmentRequest, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
 };
 use node::{Session, TopicSettings};
@@ -83,93 +83,87 @@ impl Ipc {
             subscribers,
         }
     }
+
+    fn publisher<R: Record>(
+        &self,
+        name: &'static str,
+        settings: TopicSettings,
+    ) -> Result<Box<dyn Publisher<R>>, LinkError> {
+        let service = self.session.topic(name, settings)?;
+        let make = || topic::Sink::new(name, &service, &self.session);
+        Ok(Box::new(self.session.claim(make)?))
+    }
+
+    fn subscriber<R: Record>(
+        &self,
+        name: &'static str,
+        settings: TopicSettings,
+    ) -> Result<Box<dyn Subscriber<R>>, LinkError> {
+        let service = self.session.topic(name, settings)?;
+        let make = || topic::Source::new(name, &service, &self.session);
+        Ok(Box::new(self.session.claim(make)?))
+    }
+
+    fn client<Q: Record, A: Record>(
+        &self,
+        name: &'static str,
+    ) -> Result<Box<dyn Client<Q, A>>, LinkError> {
+        let service = self.session.exchange(name)?;
+        let make = || request::Asking::new(name, &service, &self.session);
+        Ok(Box::new(self.session.claim(make)?))
+    }
+
+    fn server<Q: Record, A: Record>(
+        &self,
+        name: &'static str,
+    ) -> Result<Box<dyn Server<Q, A>>, LinkError> {
+        let service = self.session.exchange(name)?;
+        let make = || request::Answering::new(name, &service, &self.session);
+        Ok(Box::new(self.session.claim(make)?))
+    }
 }
 
 impl Transport for Ipc {
     fn frame_sink(&self) -> Result<Box<dyn FrameSink>, LinkError> {
         let service = self.session.topic(FRAMES, self.frames())?;
-        Ok(Box::new(topic::Frames::new(
-            FRAMES,
-            &service,
-            &self.session,
-        )?))
+        let make = || topic::Frames::new(FRAMES, &service, &self.session);
+        Ok(Box::new(self.session.claim(make)?))
     }
 
     fn frame_source(&self) -> Result<Box<dyn Subscriber<SetpointFrame>>, LinkError> {
-        let service = self.session.topic(FRAMES, self.frames())?;
-        Ok(Box::new(topic::Source::new(
-            FRAMES,
-            &service,
-            &self.session,
-        )?))
+        self.subscriber(FRAMES, self.frames())
     }
 
     fn setpoint_sink(&self) -> Result<Box<dyn Publisher<Setpoint>>, LinkError> {
-        let service = self.session.topic(SETPOINTS, self.setpoints())?;
-        Ok(Box::new(topic::Sink::new(
-            SETPOINTS,
-            &service,
-            &self.session,
-        )?))
+        self.publisher(SETPOINTS, self.setpoints())
     }
 
     fn setpoint_source(&self) -> Result<Box<dyn Subscriber<Setpoint>>, LinkError> {
-        let service = self.session.topic(SETPOINTS, self.setpoints())?;
-        Ok(Box::new(topic::Source::new(
-            SETPOINTS,
-            &service,
-            &self.session,
-        )?))
+        self.subscriber(SETPOINTS, self.setpoints())
     }
 
     fn status_sink(&self) -> Result<Box<dyn Publisher<Status>>, LinkError> {
-        let service = self.session.topic(STATUS, self.status())?;
-        Ok(Box::new(topic::Sink::new(STATUS, &service, &self.session)?))
+        self.publisher(STATUS, self.status())
     }
 
     fn status_source(&self) -> Result<Box<dyn Subscriber<Status>>, LinkError> {
-        let service = self.session.topic(STATUS, self.status())?;
-        Ok(Box::new(topic::Source::new(
-            STATUS,
-            &service,
-            &self.session,
-        )?))
+        self.subscriber(STATUS, self.status())
     }
 
     fn command_client(&self) -> Result<Box<dyn Client<CommandRequest, CommandReply>>, LinkError> {
-        let service = self.session.exchange(COMMANDS)?;
-        Ok(Box::new(request::Asking::new(
-            COMMANDS,
-            &service,
-            &self.session,
-        )?))
+        self.client(COMMANDS)
     }
 
     fn command_server(&self) -> Result<Box<dyn Server<CommandRequest, CommandReply>>, LinkError> {
-        let service = self.session.exchange(COMMANDS)?;
-        Ok(Box::new(request::Answering::new(
-            COMMANDS,
-            &service,
-            &self.session,
-        )?))
+        self.server(COMMANDS)
     }
 
     fn segment_client(&self) -> Result<Box<dyn Client<SegmentRequest, SegmentReply>>, LinkError> {
-        let service = self.session.exchange(SEGMENTS)?;
-        Ok(Box::new(request::Asking::new(
-            SEGMENTS,
-            &service,
-            &self.session,
-        )?))
+        self.client(SEGMENTS)
     }
 
     fn segment_server(&self) -> Result<Box<dyn Server<SegmentRequest, SegmentReply>>, LinkError> {
-        let service = self.session.exchange(SEGMENTS)?;
-        Ok(Box::new(request::Answering::new(
-            SEGMENTS,
-            &service,
-            &self.session,
-        )?))
+        self.server(SEGMENTS)
     }
 
     fn clean_up_dead_peers(&self) -> Result<usize, LinkError> {

@@ -96,6 +96,18 @@ impl Session {
         }
     }
 
+    /// Makes a port; if all places are taken, once more after the dead have given up theirs. Another
+    /// process may be cleaning up just then, which made that of joining pass over them.
+    pub(super) fn claim<T>(&self, make: impl Fn() -> Result<T, LinkError>) -> Result<T, LinkError> {
+        match make() {
+            Err(LinkError::Taken { .. }) => {
+                self.node.blocking_cleanup_dead_nodes(SETTLE);
+                make()
+            }
+            made => made,
+        }
+    }
+
     /// Opens the service of a topic or of the frames.
     pub(super) fn topic<R: Record>(
         &self,
