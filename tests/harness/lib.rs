@@ -1,1 +1,22 @@
-//! Harness of the end-to-end tests: starts the real binary and reads what it wrote.
+//! Harness of the end-to-end tests.
+//!
+//! * [`Instance`]: shared memory of its own for each test, one test at a time, and the proof that
+//!   nothing of it is left behind;
+//! * [`Watchdog`]: ends a test that hangs;
+//! * [`Machine`]: interpolator, recorder and planner as threads of the test, joined by the transport
+//!   that real processes use.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stderr,
+    clippy::missing_panics_doc,
+    reason = "a harness fails its test by panicking"
+)]
+
+mod instance;
+mod machine;
+mod watchdog;
+
+pub use instance::Instance;
+pub use machine::{Machine, Recording, Watch, plan, program, program_from, settings};
+pub use watchdog::Watchdog;

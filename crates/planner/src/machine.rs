@@ -31,8 +31,10 @@ pub(crate) enum Standing {
     Open {
         /// Frames executed.
         executed: u64,
-        /// The interpolator slows, or rests, because frames run low.
-        starving: bool,
+        /// Frames received, those included.
+        received: u64,
+        /// The machine rests because these frames are too few.
+        starved: bool,
     },
     /// The last frame was executed.
     Completed,
@@ -132,7 +134,8 @@ impl Machine {
             EndOfEpoch::Aborted => Err(RunError::Aborted),
             EndOfEpoch::None | EndOfEpoch::Open | EndOfEpoch::Faulted => Ok(Standing::Open {
                 executed: status.frames_executed,
-                starving: matches!(state, MachineState::Starving | MachineState::Starved),
+                received: status.frames_received,
+                starved: state == MachineState::Starved,
             }),
         }
     }

@@ -10,8 +10,8 @@
 //!   interpolator lives (its status changes) and is idle, and takes the position from the status.
 //! * **Pace.** Frame *n* is offered when *n* < executed + horizon. What is not yet published can still
 //!   be planned otherwise; what is published lets the machine run on while the planner is held up.
-//!   While the interpolator says that it starves the horizon does not count, so that the two can
-//!   never wait for each other.
+//!   If the interpolator rests for want of frames though it has them all, it gets more than the
+//!   horizon, little by little, so that the two can never wait for each other.
 //! * **No loss.** The frame in hand is given up only when the transport says that it is in the
 //!   interpolator's queue; a queue that is full, or not connected yet, gets the same frame again.
 //! * **End.** The last frame carries the flag `LAST`; the run is over when the interpolator says that
@@ -41,6 +41,9 @@ const STEPS_PER_TURN: u32 = 512;
 
 /// Between two notices of progress.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
+
+/// Frames beyond the horizon for an interpolator that cannot go on with what it has.
+const MORE_FRAMES: u64 = 8;
 
 /// Without news for so long, the caller is told what is waited for.
 const NOTICE_AFTER: Duration = Duration::from_secs(1);
@@ -103,8 +106,9 @@ struct Epoch {
     in_hand: Option<SetpointFrame>,
     delivered: u64,
     executed: u64,
+    /// Sequence of the first frame that is too far ahead.
+    limit: u64,
     started: bool,
-    starving: bool,
     /// Set when the pipeline has no more frames.
     ended: Option<Result<(), Refusal>>,
     since_progress: Duration,
@@ -258,8 +262,8 @@ impl<'t> Publisher<'t> {
             in_hand: None,
             delivered: 0,
             executed: 0,
+            limit: self.pace.horizon_frames,
             started: false,
-            starving: false,
             ended: None,
             since_progress: Duration::ZERO,
         })
@@ -272,8 +276,16 @@ impl<'t> Publisher<'t> {
             .standing(epoch.boot_id, epoch.epoch, epoch.started)?
         {
             Standing::NotStarted => Ok(false),
-            Standing::Open { executed, starving } => {
-                (epoch.started, epoch.executed, epoch.starving) = (true, executed, starving);
+            Standing::Open {
+                executed,
+                received,
+                starved,
+            } => {
+                (epoch.started, epoch.executed) = (true, executed);
+                epoch.limit = executed.saturating_add(self.pace.horizon_frames);
+                if starved && received == epoch.delivered {
+                    epoch.limit = epoch.limit.max(received.saturating_add(MORE_FRAMES));
+                }
                 Ok(false)
             }
             Standing::Completed => {
@@ -292,8 +304,8 @@ impl<'t> Publisher<'t> {
     ) -> Result<Turn, RunError> {
         for _ in 0..STEPS_PER_TURN {
             if let Some(frame) = &epoch.in_hand {
-                let due = frame.sequence < epoch.executed.saturating_add(self.pace.horizon_frames);
-                if !(due || epoch.starving) || self.sink.offer(frame)? != Delivery::Delivered {
+                let is_due = frame.sequence < epoch.limit;
+                if !is_due || self.sink.offer(frame)? != Delivery::Delivered {
                     return Ok(Turn::Wait);
                 }
                 epoch.in_hand = None;

@@ -1,0 +1,8 @@
+//! End-to-end tests. One binary, and one test at a time (see `Instance`): they run at the speed of
+//! the clock.
+#![allow(
+    clippy::unwrap_used,
+    reason = "test code, which clippy does not see as such"
+)]
+
+mod libraries;

@@ -1,0 +1,94 @@
+//! Shared memory for one test.
+
+use std::fs::File;
+use std::path::Path;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use glidepath_link::{Ipc, LinkConfig, remove_leftovers};
+use tempfile::TempDir;
+
+/// An instance of its own. While it lives no other test has one, in this process or another: the
+/// tests run processes at the speed of the clock, and would take each other's processor.
+#[derive(Debug)]
+pub struct Instance {
+    config: LinkConfig,
+    root: TempDir,
+    _alone: File,
+}
+
+impl Instance {
+    /// Waits for its turn.
+    #[must_use]
+    pub fn new() -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let path = std::env::temp_dir().join("glidepath-e2e.lock");
+        let alone = File::options()
+            .create(true)
+            .append(true)
+            .open(path)
+            .unwrap();
+        alone.lock().unwrap();
+        let root = tempfile::Builder::new()
+            .prefix("glidepath-e2e")
+            .tempdir()
+            .unwrap();
+        let count = COUNT.fetch_add(1, Ordering::Relaxed);
+        let mut config = LinkConfig::new(&format!("e2e-{}-{count}", std::process::id()));
+        config.root = root.path().join("link");
+        Self {
+            config,
+            root,
+            _alone: alone,
+        }
+    }
+
+    /// How processes find each other.
+    #[must_use]
+    pub const fn config(&self) -> &LinkConfig {
+        &self.config
+    }
+
+    /// A directory for the files of the test.
+    #[must_use]
+    pub fn directory(&self) -> &Path {
+        self.root.path()
+    }
+
+    /// A way to the services, for this thread.
+    #[must_use]
+    pub fn connect(&self) -> Ipc {
+        Ipc::connect(&self.config).unwrap()
+    }
+
+    /// What of this instance lies in shared memory.
+    #[must_use]
+    pub fn shared_memory(&self) -> Vec<String> {
+        let prefix = self.config.prefix();
+        let files = std::fs::read_dir("/dev/shm").unwrap();
+        let names = files.filter_map(|file| file.ok()?.file_name().into_string().ok());
+        names.filter(|name| name.starts_with(&prefix)).collect()
+    }
+}
+
+impl Default for Instance {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        let removed = remove_leftovers(&self.config);
+        if !std::thread::panicking() {
+            assert!(
+                matches!(removed, Ok(true)),
+                "the instance is still in use: {removed:?}"
+            );
+            assert_eq!(
+                self.shared_memory(),
+                Vec::<String>::new(),
+                "left in shared memory"
+            );
+        }
+    }
+}
