@@ -1,6 +1,6 @@
 //! One column of the free-space diagram: a chord of the motion against the chords of the program.
 
-use super::free_space::{Interval, near};
+use super::free_space::{Interval, distance, near};
 use super::program::{Presence, Row, Rows};
 use glidepath_geometry::AxisVector;
 
@@ -64,12 +64,11 @@ impl Level {
         row.tolerance_mm.min(self.lambda_mm).max(self.floor_mm)
     }
 
-    pub(super) fn at_end(&self, row: &Row) -> f64 {
-        let tolerance = if row.is_end_exact {
-            self.exact_mm
-        } else {
-            row.end_tolerance_mm
-        };
+    /// At the end of a row, for a chord of the motion of some length.
+    fn at_end(&self, row: &Row, chord_mm: f64) -> f64 {
+        let tolerance = row.exact_end.map_or(row.end_tolerance_mm, |exact| {
+            (self.exact_mm + exact.cut(chord_mm)).min(row.end_tolerance_mm)
+        });
         tolerance.min(self.lambda_mm).max(self.floor_mm)
     }
 }
@@ -107,6 +106,7 @@ pub(super) fn step(
     // What can be reached on the lower edge of the present cell.
     let mut bottom = Interval::EMPTY;
     let mut index = now.low;
+    let chord_mm = distance(&(column.to - column.from));
     while index < now.end() || !bottom.is_empty() {
         match rows.reach(index) {
             Presence::Here => {}
@@ -124,10 +124,19 @@ pub(super) fn step(
             if bottom.is_empty() {
                 right = right.from(left.low);
             }
-            top = near(&column.from, &column.to, &row.end, level.at_end(row));
+            top = near(
+                &column.from,
+                &column.to,
+                &row.end,
+                level.at_end(row, chord_mm),
+            );
             if left.is_empty() {
                 top = top.from(bottom.low);
             }
+        }
+        if row.is_open && !top.is_empty() {
+            // Whether the corner may be passed like this depends on what follows.
+            return Passage::NotYet;
         }
         next.intervals.push(right);
         bottom = top;

@@ -24,19 +24,17 @@
 //! reported, with the width that was needed.
 
 use super::column::{Column, Level, Passage, Reach};
-use super::free_space::{Interval, distance, near};
+use super::free_space::{Interval, near};
 use super::program::{Presence, Rows, SMALLEST_TOLERANCE_MM};
 use super::report::{ViolationKind, ViolationList, Worst};
 use super::widen::SHORT;
 use super::{AuditSettings, Sample};
 use crate::Item;
-use glidepath_geometry::{AxisVector, feed_length};
+use glidepath_geometry::AxisVector;
 use std::collections::VecDeque;
 
 /// How near an exact stop must be met, mm.
 pub(super) const EXACT_MM: f64 = 1e-6;
-/// The programmed feed counts as kept up to this factor.
-const FEED_SLACK: f64 = 1.0 + 1e-3;
 /// Most columns kept.
 const MAX_HISTORY: usize = 4096;
 /// Travel of the motion over which columns are kept, in tolerances.
@@ -63,6 +61,14 @@ pub(super) struct Trouble {
     pub(super) line: u32,
 }
 
+/// A sample that waits for the program.
+#[derive(Debug, Clone, Copy)]
+struct Waiting {
+    sample: Sample,
+    /// Periods since the sample before.
+    ticks: u64,
+}
+
 /// The matching under way.
 #[derive(Debug)]
 pub(super) struct Matching {
@@ -72,11 +78,13 @@ pub(super) struct Matching {
     pub(super) max_deviation: Worst,
     pub(super) max_feed: Worst,
     pub(super) is_complete: bool,
-    period_t: f64,
+    pub(super) period_t: f64,
+    /// Largest override the feed may have been run at.
+    pub(super) feed_factor: f64,
     /// Samples that wait for the program.
-    queue: VecDeque<Sample>,
-    /// Position of the last sample fed.
-    last_fed: Option<AxisVector>,
+    queue: VecDeque<Waiting>,
+    /// The last sample fed.
+    last_fed: Option<Sample>,
     /// Position of the last sample matched.
     pub(super) at: Option<AxisVector>,
     pub(super) reach: Reach,
@@ -100,6 +108,7 @@ impl Matching {
             max_feed: Worst::default(),
             is_complete: false,
             period_t: settings.period_t,
+            feed_factor: 1.0,
             queue: VecDeque::new(),
             last_fed: None,
             at: None,
@@ -129,13 +138,21 @@ impl Matching {
     }
 
     pub(super) fn sample(&mut self, sample: &Sample) {
-        // A motion at rest stays where it is in the diagram.
-        let is_at_rest = self.last_fed == Some(sample.position);
-        if is_at_rest || self.is_lost || !sample.position.iter().all(|p| p.is_finite()) {
+        if self.is_lost || !sample.position.iter().all(|p| p.is_finite()) {
             return;
         }
-        self.last_fed = Some(sample.position);
-        self.queue.push_back(*sample);
+        let previous = self.last_fed.replace(*sample);
+        // A motion at rest stays where it is in the diagram.
+        if previous.is_some_and(|previous| previous.position == sample.position) {
+            return;
+        }
+        let ticks = previous.map_or(1, |previous| {
+            sample.tick.saturating_sub(previous.tick).max(1)
+        });
+        self.queue.push_back(Waiting {
+            sample: *sample,
+            ticks,
+        });
         self.advance();
     }
 
@@ -150,7 +167,7 @@ impl Matching {
     /// Matches as many waiting samples as the program allows.
     fn advance(&mut self) {
         while !self.is_lost {
-            let Some(&sample) = self.queue.front() else {
+            let Some(&Waiting { sample, ticks }) = self.queue.front() else {
                 return;
             };
             if self.rows.reach(0) == Presence::Never {
@@ -182,7 +199,7 @@ impl Matching {
                 other => other,
             };
             match passage {
-                Passage::Passed => self.commit(&sample),
+                Passage::Passed => self.commit(&sample, ticks),
                 Passage::Blocked => self.lose(&sample),
                 Passage::NotYet => {
                     self.history.pop_back();
@@ -193,73 +210,8 @@ impl Matching {
         }
     }
 
-    /// The first sample must be where the program starts; false if that is not known yet.
-    fn judge_start(&mut self, sample: &Sample) -> bool {
-        if self.rows.reach(0) != Presence::Here {
-            return false;
-        }
-        if let Some(row) = self.rows.get(0) {
-            let deviation_mm = distance(&(sample.position - row.start));
-            if deviation_mm > EXACT_MM {
-                let kind = ViolationKind::ExactStop { deviation_mm };
-                self.violations.push(sample.tick, sample.line, kind);
-            }
-        }
-        true
-    }
-
-    /// The end of the program must have been reached, exactly.
-    fn judge_end(&mut self) {
-        let Some(at) = self.at else {
-            self.is_complete = self.rows.reach(0) == Presence::Never;
-            if !self.is_complete {
-                self.violations.push(0, 0, ViolationKind::Incomplete);
-            }
-            return;
-        };
-        let Some(end) = self.rows.end_position() else {
-            self.is_complete = true;
-            return;
-        };
-        let (tick, line) = self
-            .history
-            .back()
-            .map_or((0, 0), |column| (column.tick, column.line));
-        let is_reached = self.trouble.is_none() && self.includes_end(&self.reach.clone(), &at);
-        // Where the motion ends at the right place it is a question of deviation.
-        let is_there = distance(&(at - end)) <= EXACT_MM;
-        self.is_complete = is_reached || (is_there && self.widen(Goal::End) == Passage::Passed);
-        if self.trouble.is_some() {
-            self.settle(if self.is_complete {
-                Goal::End
-            } else {
-                Goal::Anything
-            });
-        } else if self.is_complete {
-            self.note_deviation(self.lambda_mm, tick, line);
-        }
-        if self.is_complete {
-            return;
-        }
-        let last = self.reach.end().saturating_sub(1);
-        let is_last = self.rows.reach(self.reach.end()) == Presence::Never;
-        let row = self.rows.get(last);
-        let line = row.map_or(line, |row| row.line);
-        let missed = row.map(|row| (distance(&(at - row.end)), row.tolerance_mm));
-        let kind = match missed {
-            Some((deviation_mm, tolerance_mm))
-                if is_last && !is_there && deviation_mm <= tolerance_mm =>
-            {
-                self.is_complete = true;
-                ViolationKind::ExactStop { deviation_mm }
-            }
-            _ => ViolationKind::Incomplete,
-        };
-        self.violations.push(tick, line, kind);
-    }
-
     /// Takes over what `replay` left in the scratch.
-    fn commit(&mut self, sample: &Sample) {
+    fn commit(&mut self, sample: &Sample, ticks: u64) {
         let before = self.reach.low;
         core::mem::swap(&mut self.reach, &mut self.scratch[0]);
         self.at = Some(sample.position);
@@ -269,7 +221,7 @@ impl Matching {
                 self.settle(Goal::WithinTolerance);
             }
         } else {
-            self.judge_feed(sample, before);
+            self.judge_feed(sample, ticks, before);
             self.note_deviation(self.lambda_mm, sample.tick, sample.line);
         }
         if core::mem::take(&mut self.is_history_void) {
@@ -302,34 +254,6 @@ impl Matching {
         self.queue.clear();
         self.history.clear();
         self.rows.discard();
-    }
-
-    /// Path speed against the feed of the chords the motion may be on.
-    fn judge_feed(&mut self, sample: &Sample, first: usize) {
-        let Some(column) = self.history.back() else {
-            return;
-        };
-        let speed_v = feed_length(&(column.to - column.from)) / self.period_t;
-        let mut feed_v = 0.0_f64;
-        for row in (first..self.reach.end()).filter_map(|index| self.rows.get(index)) {
-            feed_v = feed_v.max(row.feed_v);
-        }
-        if feed_v <= 0.0 {
-            return;
-        }
-        let ratio = speed_v / feed_v;
-        if ratio > self.max_feed.ratio {
-            self.max_feed = Worst {
-                ratio,
-                axis: None,
-                tick: sample.tick,
-                line: sample.line,
-            };
-        }
-        if ratio > FEED_SLACK {
-            let kind = ViolationKind::Feed { ratio };
-            self.violations.push(sample.tick, sample.line, kind);
-        }
     }
 
     pub(super) fn note_deviation(&mut self, deviation_mm: f64, tick: u64, line: u32) {
@@ -382,28 +306,14 @@ impl Matching {
         }
     }
 
-    pub(super) fn is_reached(&mut self, goal: Goal, reach: &Reach) -> bool {
-        let Some(at) = self.history.back().map(|column| column.to) else {
-            return true;
-        };
-        match goal {
-            Goal::Anything => true,
-            Goal::WithinTolerance => self.count_within_tolerance(reach, &at) > 0,
-            Goal::End => self.includes_end(reach, &at),
-        }
-    }
-
-    fn includes_end(&mut self, reach: &Reach, at: &AxisVector) -> bool {
-        let last = reach.end().saturating_sub(1);
-        let is_last = self.rows.reach(reach.end()) == Presence::Never;
-        let Some(row) = self.rows.get(last) else {
-            return false;
-        };
-        is_last && reach.get(last).high >= 1.0 && distance(&(at - row.end)) <= EXACT_MM
+    /// What is kept, in chords, columns and samples.
+    #[cfg(test)]
+    pub(super) fn kept(&self) -> usize {
+        self.rows.kept() + self.history.len() + self.queue.len() + self.reach.intervals.len()
     }
 
     /// Number of intervals of `reach` that are within tolerance at a position.
-    fn count_within_tolerance(&self, reach: &Reach, at: &AxisVector) -> usize {
+    pub(super) fn count_within_tolerance(&self, reach: &Reach, at: &AxisVector) -> usize {
         (reach.low..reach.end())
             .filter(|&i| !self.within_tolerance(reach, i, at).is_empty())
             .count()

@@ -14,8 +14,37 @@ pub(super) const FLATTENING: f64 = 1e-5;
 pub(super) const SMALLEST_TOLERANCE_MM: f64 = 1e-6;
 /// A tolerance counts as kept up to this factor; on arcs the chords come in addition.
 const SLACK: f64 = 1.0 + 1e-6;
-/// Turns sharper than this are corners to a path in exact-path mode, sine of half the angle.
-const CORNER_SB: f64 = 1e-3;
+
+/// A place the motion must pass exactly. Where it passes without a rest (G61), a chord between two
+/// samples on the path cuts it off by what follows from the turn and the curvature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ExactEnd {
+    /// Sine of half the turn.
+    sb: f64,
+    /// Largest curvature on either side, 1/mm.
+    max_k: f64,
+}
+
+impl ExactEnd {
+    /// At rest.
+    const STOP: Self = Self {
+        sb: 0.0,
+        max_k: 0.0,
+    };
+
+    fn passing(from: &Segment, to: &Segment) -> Self {
+        let (before, after) = (from.jet(from.length()), to.jet(0.0));
+        Self {
+            sb: 0.5 * feed_length(&(after.d1 - before.d1)),
+            max_k: before.d2.norm().max(after.d2.norm()),
+        }
+    }
+
+    /// What a chord of some length may cut off, mm.
+    pub(super) fn cut(&self, chord_mm: f64) -> f64 {
+        0.5 * chord_mm * self.sb + chord_mm * chord_mm * self.max_k / 8.0
+    }
+}
 
 /// A chord of the programmed path.
 #[derive(Debug, Clone, Copy)]
@@ -27,7 +56,9 @@ pub(super) struct Row {
     /// Tolerance at its end, mm.
     pub(super) end_tolerance_mm: f64,
     /// Its end must be met.
-    pub(super) is_end_exact: bool,
+    pub(super) exact_end: Option<ExactEnd>,
+    /// What follows has not been fed yet, so whether its end is exact is not known.
+    pub(super) is_open: bool,
     /// Feedrate, mm/s; infinite for a rapid.
     pub(super) feed_v: f64,
     pub(super) line: u32,
@@ -41,9 +72,12 @@ struct Move {
     /// Larger of the tolerances at its start and end.
     tolerance_mm: f64,
     end_tolerance_mm: f64,
-    is_end_exact: bool,
-    /// In exact-path mode: exact if the next move turns off.
-    is_exact_at_turn: bool,
+    exact_end: Option<ExactEnd>,
+    is_exact_path: bool,
+    /// Chords it is made of.
+    chords: u32,
+    /// The next move has not been fed yet.
+    is_open: bool,
 }
 
 /// Whether a chord is there.
@@ -63,11 +97,10 @@ pub(super) struct Rows {
     window: VecDeque<Row>,
     /// Index of the first chord of the window.
     base: usize,
-    ready: VecDeque<Move>,
-    /// Chords already made of the first ready move.
+    /// Moves fed whose chords have not all been made, and the last one as long as it is open.
+    fed: VecDeque<Move>,
+    /// Chords already made of the first of them.
     done: u32,
-    /// The last move fed: what follows it decides about its end.
-    pending: Option<Move>,
     is_ended: bool,
     end_position: Option<AxisVector>,
     default_tolerance_mm: f64,
@@ -83,9 +116,8 @@ impl Rows {
         Self {
             window: VecDeque::new(),
             base: 0,
-            ready: VecDeque::new(),
+            fed: VecDeque::new(),
             done: 0,
-            pending: None,
             is_ended: false,
             end_position: None,
             default_tolerance_mm: tolerance_mm,
@@ -133,8 +165,41 @@ impl Rows {
 
     /// The machine rests here.
     fn stop(&mut self) {
-        if let Some(pending) = &mut self.pending {
-            pending.is_end_exact = true;
+        if let Some(last) = self.fed.back_mut().filter(|last| last.is_open) {
+            last.exact_end = Some(ExactEnd::STOP);
+        }
+    }
+
+    /// What follows the last move is known.
+    fn close(&mut self) {
+        let is_only = self.fed.len() == 1;
+        let Some(last) = self.fed.back_mut() else {
+            return;
+        };
+        last.is_open = false;
+        if is_only && self.done >= last.chords {
+            // Its chords have been made already.
+            if let Some(row) = self.window.back_mut() {
+                row.exact_end = last.exact_end;
+                row.is_open = false;
+            }
+            self.fed.pop_back();
+            self.done = 0;
+        }
+    }
+
+    /// The motion has to bridge a gap in the program (there should be none).
+    fn bridge(&mut self, from: &Move, to: &Segment) {
+        let (start, end) = (from.segment.end(), to.start());
+        if start != end {
+            let segment = Segment::line(start, end);
+            self.fed.push_back(Move {
+                segment,
+                chords: 1,
+                exact_end: None,
+                is_open: false,
+                ..*from
+            });
         }
     }
 
@@ -161,33 +226,29 @@ impl Rows {
             }
             return;
         }
-        if let Some(mut previous) = self.pending.take() {
-            previous.is_end_exact |= previous.is_exact_at_turn && turns(&previous.segment, segment);
-            let gap = segment.start() - previous.segment.end();
-            let (from, to) = (previous.segment.end(), segment.start());
-            self.ready.push_back(previous);
-            if gap.amax() > 0.0 {
-                // Programs are continuous; should one not be, the motion has to bridge the gap.
-                let bridge = Segment::line(from, to);
-                self.ready.push_back(Move {
-                    segment: bridge,
-                    is_end_exact: false,
-                    ..previous
-                });
+        if let Some(previous) = self.fed.back_mut() {
+            if previous.is_exact_path && previous.exact_end.is_none() {
+                previous.exact_end = Some(ExactEnd::passing(&previous.segment, segment));
             }
+            let previous = *previous;
+            self.close();
+            self.bridge(&previous, segment);
         }
         self.end_position = Some(segment.end());
-        self.pending = Some(Move {
+        let tolerance_mm = end_tolerance_mm.max(self.corner_tolerance_mm) * slack;
+        self.fed.push_back(Move {
             segment: *segment,
             line,
             feed_v: match rate {
                 Rate::Rapid => f64::INFINITY,
                 Rate::Feed(feed_v) => feed_v,
             },
-            tolerance_mm: end_tolerance_mm.max(self.corner_tolerance_mm) * slack,
+            tolerance_mm,
             end_tolerance_mm: end_tolerance_mm * slack,
-            is_end_exact: is_stop,
-            is_exact_at_turn: mode == PathMode::ExactPath,
+            exact_end: is_stop.then_some(ExactEnd::STOP),
+            is_exact_path: mode == PathMode::ExactPath,
+            chords: chords(segment, tolerance_mm),
+            is_open: true,
         });
         self.corner_tolerance_mm = end_tolerance_mm;
     }
@@ -195,37 +256,35 @@ impl Rows {
     /// Nothing more will be fed: the end of the program is an exact stop.
     pub(super) fn end(&mut self) {
         self.stop();
-        self.ready.extend(self.pending.take());
+        self.close();
         self.is_ended = true;
     }
 
     /// Drops what has been fed: nothing will be matched any more.
     pub(super) fn discard(&mut self) {
-        self.ready.clear();
+        self.fed.clear();
+        self.done = 0;
         self.window.clear();
     }
 
     /// Makes chord `index` if the program has been fed that far.
     pub(super) fn reach(&mut self, index: usize) -> Presence {
         while self.base + self.window.len() <= index {
-            let Some(&next) = self.ready.front() else {
-                return if self.is_ended {
-                    Presence::Never
-                } else {
-                    Presence::NotYet
-                };
+            let next = match self.fed.front() {
+                Some(next) if self.done < next.chords => *next,
+                _ if self.is_ended => return Presence::Never,
+                _ => return Presence::NotYet,
             };
-            let count = chords(&next);
             let start = match self.window.back() {
                 Some(row) if self.done > 0 => row.end,
                 _ => next.segment.start(),
             };
             self.done += 1;
-            let is_last = self.done >= count;
+            let is_last = self.done >= next.chords;
             let end = if is_last {
                 next.segment.end()
             } else {
-                inner_point(&next, self.done, count)
+                inner_point(&next, self.done)
             };
             self.window.push_back(Row {
                 start,
@@ -236,16 +295,23 @@ impl Rows {
                 } else {
                     next.tolerance_mm
                 },
-                is_end_exact: is_last && next.is_end_exact,
+                exact_end: next.exact_end.filter(|_| is_last),
+                is_open: next.is_open && is_last,
                 feed_v: next.feed_v,
                 line: next.line,
             });
-            if is_last {
-                self.ready.pop_front();
+            if is_last && !next.is_open {
+                self.fed.pop_front();
                 self.done = 0;
             }
         }
         Presence::Here
+    }
+
+    /// Chords and moves kept.
+    #[cfg(test)]
+    pub(super) fn kept(&self) -> usize {
+        self.window.len() + self.fed.len()
     }
 
     /// Chord `index`, if it is in the window.
@@ -262,16 +328,12 @@ impl Rows {
     }
 }
 
-/// Number of chords of a move.
-fn chords(of: &Move) -> u32 {
-    let Segment::Arc(arc) = &of.segment else {
-        return 1;
-    };
+/// Number of chords of a segment.
+fn chords(of: &Segment, tolerance_mm: f64) -> u32 {
+    let Segment::Arc(arc) = of else { return 1 };
     let radius = arc.start_radius().max(arc.end_radius());
     // A chord over the angle α has sagitta R·α²/8, twice the distance that is allowed.
-    let angle = (16.0 * FLATTENING * of.tolerance_mm / radius)
-        .sqrt()
-        .min(0.5);
+    let angle = (16.0 * FLATTENING * tolerance_mm / radius).sqrt().min(0.5);
     let count = (arc.sweep_rad.abs() / angle).ceil().clamp(1.0, 1e9);
     #[expect(
         clippy::cast_possible_truncation,
@@ -282,13 +344,13 @@ fn chords(of: &Move) -> u32 {
     count
 }
 
-/// Point `k` of `count` on an arc, moved outwards by half the sagitta.
-fn inner_point(of: &Move, k: u32, count: u32) -> AxisVector {
-    let fraction = f64::from(k) / f64::from(count);
+/// Point `k` of the chords of an arc, moved outwards by half the sagitta.
+fn inner_point(of: &Move, k: u32) -> AxisVector {
+    let count = f64::from(of.chords);
     let length = of.segment.length();
-    let mut point = of.segment.jet(length * fraction).position;
+    let mut point = of.segment.jet(length * f64::from(k) / count).position;
     if let Segment::Arc(arc) = &of.segment {
-        push_outwards(arc, &mut point, f64::from(count));
+        push_outwards(arc, &mut point, count);
     }
     point
 }
@@ -301,10 +363,4 @@ fn push_outwards(arc: &Arc, point: &mut AxisVector, count: f64) {
         let i = axis.index();
         point[i] = center + (point[i] - center) * factor;
     }
-}
-
-/// Whether the path turns between two segments.
-fn turns(from: &Segment, to: &Segment) -> bool {
-    let (t1, t2) = (from.jet(from.length()).d1, to.jet(0.0).d1);
-    feed_length(&(t2 - t1)) > 2.0 * CORNER_SB
 }

@@ -114,14 +114,11 @@ fn a_smoothed_corner_misses_an_exact_stop() {
         "{deviation_mm}"
     );
     assert!(audit(&polygon(&corner), &smoothed).is_clean());
-    // Exact-path mode asks for the same at a corner, a dwell and an M code everywhere.
-    assert!(
-        !audit(
-            &with_mode(polygon(&corner), 0, PathMode::ExactPath),
-            &smoothed
-        )
-        .is_clean()
-    );
+    // Exact-path mode allows what the chord of two samples on the path cuts off, no more.
+    let path = with_mode(polygon(&corner), 0, PathMode::ExactPath);
+    assert!(audit(&path, &smoothed).is_clean());
+    assert!(!audit(&path, &walk(&cut, 0.002)).is_clean());
+    // A dwell and an M code ask for an exact stop.
     for kind in [ItemKind::Dwell(0.1), ItemKind::Event(Event::MCode(8))] {
         let mut program = polygon(&corner);
         program.insert(1, Item { line: 1, kind });
@@ -324,4 +321,64 @@ fn a_motion_without_a_program_is_found() {
         kinds(&audit(&polygon(&[point(0.0, 0.0), point(1.0, 0.0)]), &[])),
         [ViolationKind::Incomplete]
     );
+}
+
+/// Passing a slight corner in exact-path mode: the chord between two samples on the path cuts it
+/// off, and that is no fault; leaving the path is.
+#[test]
+fn exact_path_mode_allows_the_chord_and_no_more() {
+    for turn in [0.02_f64, 0.3] {
+        let corner = [
+            point(0.0, 0.0),
+            point(5.0, 0.0),
+            point(5.0 + turn.cos(), turn.sin()),
+        ];
+        let program = with_mode(polygon(&corner), 0, PathMode::ExactPath);
+        let mut motion = walk(&corner, 0.1);
+        let at = motion.iter().position(|p| *p == corner[1]);
+        let Some(at) = at else {
+            unreachable!("the walk has the corner")
+        };
+        // Samples before and after the corner but none on it: 0.05 to 0.1 mm around it.
+        motion[at] = corner[1] - (corner[1] - corner[0]).normalize() * 0.003;
+        assert!(audit(&program, &motion).is_clean(), "{turn}");
+        // The same off the path by more than the chord explains, but within tolerance.
+        motion[at] = corner[1] + point(-0.003, 0.005);
+        let report = audit(&program, &motion);
+        assert!(matches!(kinds(&report)[..], [ViolationKind::ExactStop { .. }]) || turn > 0.1);
+        assert!(audit(&polygon(&corner), &motion).is_clean());
+    }
+}
+
+#[test]
+fn an_override_scales_the_feed() {
+    let mut program = polygon(&[point(0.0, 0.0), point(10.0, 0.0)]);
+    if let ItemKind::Move { rate, .. } = &mut program[0].kind {
+        *rate = Rate::Feed(50.0);
+    }
+    for (factor, clean) in [(1.0, false), (1.2, true)] {
+        let mut audit = Audit::new(&settings(Limits::UNLIMITED)).with_override(factor);
+        audit.program(&program[0]);
+        for (tick, position) in (0..).zip(walk(&[point(0.0, 0.0), point(10.0, 0.0)], 0.24)) {
+            audit.sample(&sample(tick, position));
+        }
+        assert_eq!(audit.finish().is_clean(), clean);
+    }
+}
+
+/// Samples lost on the way are a gap, not a motion at a multiple of the feed.
+#[test]
+fn a_gap_is_not_too_fast() {
+    let mut program = polygon(&[point(0.0, 0.0), point(10.0, 0.0)]);
+    if let ItemKind::Move { rate, .. } = &mut program[0].kind {
+        *rate = Rate::Feed(50.0);
+    }
+    let mut audit = Audit::new(&settings(Limits::UNLIMITED));
+    audit.program(&program[0]);
+    for (tick, position) in (0..).zip(walk(&[point(0.0, 0.0), point(10.0, 0.0)], 0.2)) {
+        if !(20..23).contains(&tick) {
+            audit.sample(&sample(tick, position));
+        }
+    }
+    assert_eq!(kinds(&audit.finish()), [ViolationKind::Gap { after: 19 }]);
 }

@@ -1,0 +1,129 @@
+//! Verdicts that come with the matching: start, end, and feed.
+
+use super::Sample;
+use super::column::{Passage, Reach};
+use super::free_space::distance;
+use super::matching::{EXACT_MM, Goal, Matching};
+use super::program::Presence;
+use super::report::{ViolationKind, Worst};
+use glidepath_geometry::{AxisVector, feed_length};
+
+/// The programmed feed counts as kept up to this factor.
+const FEED_SLACK: f64 = 1.0 + 1e-3;
+
+impl Matching {
+    /// The first sample must be where the program starts; false if that is not known yet.
+    pub(super) fn judge_start(&mut self, sample: &Sample) -> bool {
+        if self.rows.reach(0) != Presence::Here {
+            return false;
+        }
+        if let Some(row) = self.rows.get(0) {
+            let deviation_mm = distance(&(sample.position - row.start));
+            if deviation_mm > EXACT_MM {
+                let kind = ViolationKind::ExactStop { deviation_mm };
+                self.violations.push(sample.tick, sample.line, kind);
+            }
+        }
+        true
+    }
+
+    /// The end of the program must have been reached, exactly.
+    pub(super) fn judge_end(&mut self) {
+        let Some(at) = self.at else {
+            self.is_complete = self.rows.reach(0) == Presence::Never;
+            if !self.is_complete {
+                self.violations.push(0, 0, ViolationKind::Incomplete);
+            }
+            return;
+        };
+        let Some(end) = self.rows.end_position() else {
+            self.is_complete = true;
+            return;
+        };
+        let (tick, line) = self
+            .history
+            .back()
+            .map_or((0, 0), |column| (column.tick, column.line));
+        let is_reached = self.trouble.is_none() && self.includes_end(&self.reach.clone(), &at);
+        // Where the motion ends at the right place it is a question of deviation.
+        let is_there = distance(&(at - end)) <= EXACT_MM;
+        self.is_complete = is_reached || (is_there && self.widen(Goal::End) == Passage::Passed);
+        if self.trouble.is_some() {
+            self.settle(if self.is_complete {
+                Goal::End
+            } else {
+                Goal::Anything
+            });
+        } else if self.is_complete {
+            self.note_deviation(self.lambda_mm, tick, line);
+        }
+        if self.is_complete {
+            return;
+        }
+        let last = self.reach.end().saturating_sub(1);
+        let is_last = self.rows.reach(self.reach.end()) == Presence::Never;
+        let row = self.rows.get(last);
+        let line = row.map_or(line, |row| row.line);
+        let missed = row.map(|row| (distance(&(at - row.end)), row.tolerance_mm));
+        let kind = match missed {
+            Some((deviation_mm, tolerance_mm))
+                if is_last && !is_there && deviation_mm <= tolerance_mm =>
+            {
+                self.is_complete = true;
+                ViolationKind::ExactStop { deviation_mm }
+            }
+            _ => ViolationKind::Incomplete,
+        };
+        self.violations.push(tick, line, kind);
+    }
+
+    /// Path speed against the feed of the chords the motion may be on.
+    pub(super) fn judge_feed(&mut self, sample: &Sample, ticks: u64, first: usize) {
+        let Some(column) = self.history.back() else {
+            return;
+        };
+        #[expect(clippy::cast_precision_loss, reason = "a few")]
+        let elapsed_t = self.period_t * ticks as f64;
+        let speed_v = feed_length(&(column.to - column.from)) / elapsed_t;
+        let mut feed_v = 0.0_f64;
+        for row in (first..self.reach.end()).filter_map(|index| self.rows.get(index)) {
+            feed_v = feed_v.max(row.feed_v);
+        }
+        if feed_v <= 0.0 {
+            return;
+        }
+        let ratio = speed_v / (feed_v * self.feed_factor);
+        if ratio > self.max_feed.ratio {
+            self.max_feed = Worst {
+                ratio,
+                axis: None,
+                tick: sample.tick,
+                line: sample.line,
+            };
+        }
+        if ratio > FEED_SLACK {
+            let kind = ViolationKind::Feed { ratio };
+            self.violations.push(sample.tick, sample.line, kind);
+        }
+    }
+
+    pub(super) fn is_reached(&mut self, goal: Goal, reach: &Reach) -> bool {
+        let Some(at) = self.history.back().map(|column| column.to) else {
+            return true;
+        };
+        match goal {
+            Goal::Anything => true,
+            Goal::WithinTolerance => self.count_within_tolerance(reach, &at) > 0,
+            Goal::End => self.includes_end(reach, &at),
+        }
+    }
+
+    fn includes_end(&mut self, reach: &Reach, at: &AxisVector) -> bool {
+        let last = reach.end().saturating_sub(1);
+        let is_last = self.rows.reach(reach.end()) == Presence::Never;
+        let Some(row) = self.rows.get(last) else {
+            return false;
+        };
+        is_last && reach.get(last).high >= 1.0 && distance(&(at - row.end)) <= EXACT_MM
+    }
+}
