@@ -17,9 +17,10 @@ use glidepath_motion::Item;
 use crate::block::{Block, Letters};
 use crate::codes::{Distance, Motion};
 use crate::diagnostic::{Code, Fault, Outcome, Span};
-use crate::interpreter::{Interpreter, whole};
+use crate::interpreter::Interpreter;
 use crate::moves::{MIN_MOVE, motion_span, settled};
 use crate::offsets::Offsets;
+use crate::words::whole;
 
 /// Difference of the radii that is always accepted, mm.
 const RADIUS_TOLERANCE_MM: f64 = 0.0127;

@@ -1,13 +1,15 @@
 //! One line of text, read into the words of one block.
 //!
-//! Nothing here depends on the modal state: the same line always gives the same block. Memory is
-//! fixed, and a block is filled again for every line.
+//! Nothing here depends on the modal state but the parameters a line reads. A block is filled again
+//! for every line, so that none is allocated.
 
 use glidepath_geometry::{AXES, Axis};
 
+use crate::bad_byte::bad_byte;
 use crate::codes::Codes;
-use crate::cursor::{Cursor, bad_byte};
+use crate::cursor::Cursor;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
+use crate::expression::{Parameter, Scope, parameter, value};
 
 /// Letters of the axes in index order, as [`Block`] indices.
 pub(crate) const AXIS_LETTERS: [u8; AXES] = *b"XYZABCUVW";
@@ -20,8 +22,6 @@ pub(crate) enum LineKind {
     Block,
     /// A percent sign by itself: start or end of the tape.
     Percent,
-    /// Left out by block delete.
-    Deleted,
 }
 
 /// The words of a line.
@@ -33,8 +33,18 @@ pub(crate) struct Block {
     present: u32,
     values: [f64; 26],
     spans: [Span; 26],
+    /// Parameters to assign after the block, in order.
+    pub(crate) assignments: Vec<Assignment>,
     /// True if the line has any word or code.
     pub(crate) any: bool,
+}
+
+/// `#1=2`: takes effect after everything else of its block.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Assignment {
+    pub(crate) parameter: Parameter,
+    pub(crate) value: f64,
+    pub(crate) span: Span,
 }
 
 const fn slot(letter: u8) -> usize {
@@ -121,7 +131,8 @@ impl Block {
     }
 
     /// Fills the block from the text of a line.
-    pub(crate) fn parse(&mut self, text: &[u8], block_delete: bool) -> Outcome<()> {
+    pub(crate) fn parse(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
+        self.assignments.clear();
         self.present = 0;
         self.codes = Codes::default();
         self.kind = LineKind::Block;
@@ -129,10 +140,6 @@ impl Block {
         let mut cursor = Cursor::new(text);
         match cursor.next_visible() {
             Some(b'%') => return self.percent(cursor),
-            Some(b'/') if block_delete => {
-                self.kind = LineKind::Deleted;
-                return Ok(());
-            }
             Some(b'/') => cursor.advance(),
             _ => {}
         }
@@ -142,7 +149,16 @@ impl Block {
                 b'(' => cursor.skip_comment()?,
                 b';' => break,
                 b'A'..=b'Z' | b'a'..=b'z' => {
-                    self.word(&mut cursor, byte.to_ascii_uppercase(), start_of_block)?;
+                    self.word(
+                        &mut cursor,
+                        byte.to_ascii_uppercase(),
+                        start_of_block,
+                        scope,
+                    )?;
+                    start_of_block = false;
+                }
+                b'#' => {
+                    self.assignment(&mut cursor, scope)?;
                     start_of_block = false;
                 }
                 _ => return Err(odd_character(text, cursor.at(), byte)),
@@ -169,16 +185,52 @@ impl Block {
         }
     }
 
-    fn word(&mut self, cursor: &mut Cursor<'_>, letter: u8, first: bool) -> Outcome<()> {
+    fn assignment(&mut self, cursor: &mut Cursor<'_>, scope: &dyn Scope) -> Outcome<()> {
+        let start = cursor.at();
+        let parameter = parameter(cursor, scope)?;
+        let span = Span::new(start, cursor.end_of_word());
+        if cursor.next_visible() != Some(b'=') {
+            return Err(
+                Fault::new(Code::Expression, span, "a parameter that nothing uses")
+                    .because("a parameter stands behind a letter, or before `=`")
+                    .help("write the letter of the word in front, or assign a value"),
+            );
+        }
+        cursor.advance();
+        let value = value(cursor, start, scope)?;
+        self.any = true;
+        self.assignments.push(Assignment {
+            parameter,
+            value,
+            span,
+        });
+        Ok(())
+    }
+
+    fn word(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        letter: u8,
+        first: bool,
+        scope: &dyn Scope,
+    ) -> Outcome<()> {
         let start = cursor.at();
         cursor.advance();
         match letter {
             b'N' => return block_number(cursor, start, first),
-            b'O' => return program_number(cursor, start),
+            b'O' => {
+                return Err(Fault::new(
+                    Code::FlowStructure,
+                    Span::new(start, start + 1),
+                    "an O word inside a block",
+                )
+                .because("an O word has a line of its own")
+                .help("put it into a line of its own"));
+            }
             _ => {}
         }
-        let value = cursor.number(start)?;
-        let span = Span::new(start, end_of_word(cursor));
+        let value = value(cursor, start, scope)?;
+        let span = Span::new(start, cursor.end_of_word());
         self.any = true;
         match letter {
             b'G' => self.codes.add_g(value, span),
@@ -202,14 +254,9 @@ impl Block {
     }
 }
 
-/// End of the number just read, blanks behind it left out.
-fn end_of_word(cursor: &Cursor<'_>) -> usize {
-    cursor.at() - cursor.blanks_before()
-}
-
 fn block_number(cursor: &mut Cursor<'_>, start: usize, first: bool) -> Outcome<()> {
     let value = cursor.number(start)?;
-    let span = Span::new(start, end_of_word(cursor));
+    let span = Span::new(start, cursor.end_of_word());
     if !first {
         let message = "a block number that is not at the start of the line";
         return Err(Fault::new(Code::MisplacedBlockNumber, span, message)
@@ -226,23 +273,6 @@ fn block_number(cursor: &mut Cursor<'_>, start: usize, first: bool) -> Outcome<(
     Ok(())
 }
 
-/// `O1234` by itself is the number of the program, and has no effect.
-fn program_number(cursor: &mut Cursor<'_>, start: usize) -> Outcome<()> {
-    if cursor.next_visible().is_some_and(|b| b.is_ascii_digit()) {
-        cursor.number(start)?;
-        while cursor.next_visible() == Some(b'(') {
-            cursor.skip_comment()?;
-        }
-        if matches!(cursor.next_visible(), None | Some(b';')) {
-            return Ok(());
-        }
-    }
-    let span = Span::new(start, end_of_word(cursor).max(start + 1));
-    Err(Fault::new(Code::NotSupported, span, "an O word")
-        .because("subroutines and flow control are not supported yet")
-        .help("post-process the program without subroutines"))
-}
-
 #[cold]
 fn odd_character(text: &[u8], at: usize, byte: u8) -> Box<Fault> {
     let span = Span::new(at, at + 1);
@@ -256,9 +286,6 @@ fn odd_character(text: &[u8], at: usize, byte: u8) -> Box<Fault> {
         b'%' => Fault::new(Code::StrayPercent, span, "a percent sign inside a line")
             .because("a percent sign by itself marks the start or the end of the program")
             .help("give the percent sign a line of its own"),
-        b'#' => Fault::new(Code::NotSupported, span, "a parameter")
-            .because("parameters and expressions are not supported yet")
-            .help("write the numbers"),
         b'@' | b'^' => Fault::new(Code::NotSupported, span, "polar coordinates")
             .because("`@` and `^` are not supported")
             .help("write X and Y"),

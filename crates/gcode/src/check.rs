@@ -6,10 +6,14 @@ use glidepath_geometry::AxisVector;
 
 use crate::diagnostic::Diagnostic;
 use crate::options::Options;
-use crate::program::{Program, Totals};
+use crate::program::Program;
+use crate::totals::Totals;
 
 /// Most findings listed in a [`Report`].
 pub const MAX_FINDINGS: usize = 20;
+
+/// Most lines of subroutines and loops executed by [`check`], each as often as it is.
+pub const MAX_CHECKED_LINES: u64 = 20_000_000;
 
 /// What [`check`] found.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +22,9 @@ pub struct Report {
     pub diagnostics: Vec<Diagnostic>,
     /// Findings beyond those listed.
     pub more: u32,
+    /// False if the program was not read to its end, because its loops go on for longer than
+    /// [`MAX_CHECKED_LINES`]; the part that was read is judged.
+    pub complete: bool,
     /// Counts and sums over the blocks without findings.
     pub totals: Totals,
     /// Machine position at the end, over the blocks without findings.
@@ -35,11 +42,14 @@ impl Report {
 /// Checks a program.
 ///
 /// A block with a finding is left out, and reading goes on behind it, so a later finding may be a
-/// consequence of an earlier one. Only a fatal finding (the input cannot be read) ends the check.
+/// consequence of an earlier one. A finding in an O word, a subroutine or a loop ends the check, as
+/// does one that leaves nothing to understand (the input cannot be read).
 pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
     let mut program = Program::new(reader, options);
     let (mut diagnostics, mut more) = (Vec::new(), 0_u32);
-    while let Some(line) = program.next_line() {
+    while program.kept_lines() < MAX_CHECKED_LINES
+        && let Some(line) = program.next_line()
+    {
         match line {
             Ok(()) => {}
             Err(diagnostic) if diagnostics.len() < MAX_FINDINGS => diagnostics.push(diagnostic),
@@ -49,6 +59,7 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
     Report {
         diagnostics,
         more,
+        complete: program.kept_lines() < MAX_CHECKED_LINES,
         totals: *program.totals(),
         final_position: *program.position(),
     }

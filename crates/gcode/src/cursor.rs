@@ -7,6 +7,7 @@
 //! A number of up to 53 bits of digits and 22 decimals is a quotient of two exact doubles, so one
 //! division rounds it correctly. Longer ones go through the standard library's parser.
 
+use crate::bad_byte::bad_byte;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 
 /// Largest magnitude of a number in a program. Far beyond any machine, and small enough for sums
@@ -41,6 +42,11 @@ impl<'a> Cursor<'a> {
         self.text.get(self.at).copied()
     }
 
+    /// Goes to a byte offset.
+    pub(crate) const fn seek(&mut self, at: usize) {
+        self.at = at;
+    }
+
     pub(crate) const fn advance(&mut self) {
         self.at += 1;
     }
@@ -55,14 +61,25 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Number of spaces and tabs just skipped.
-    pub(crate) fn blanks_before(&self) -> usize {
+    /// End of what was read last, blanks behind it left out.
+    pub(crate) fn end_of_word(&self) -> usize {
         let before = self.text.get(..self.at).unwrap_or_default();
-        before
-            .iter()
-            .rev()
-            .take_while(|b| matches!(b, b' ' | b'\t'))
-            .count()
+        self.at
+            - before
+                .iter()
+                .rev()
+                .take_while(|b| matches!(b, b' ' | b'\t'))
+                .count()
+    }
+
+    /// Skips a word that comes next, in either case; false if it does not.
+    pub(crate) fn eat_word(&mut self, word: &[u8]) -> bool {
+        let next = self.text.get(self.at..self.at + word.len());
+        let found = next.is_some_and(|next| next.eq_ignore_ascii_case(word));
+        if found {
+            self.at += word.len();
+        }
+        found
     }
 
     /// Skips a comment whose `(` comes next.
@@ -102,8 +119,19 @@ impl<'a> Cursor<'a> {
         String::from_utf8_lossy(bytes).into_owned()
     }
 
-    /// Reads a number for the word whose letter is at `word`.
+    /// Reads a number for the word whose letter is at `word`; nothing number-like may follow.
     pub(crate) fn number(&mut self, word: usize) -> Outcome<f64> {
+        self.next_visible();
+        let start = self.at;
+        let value = self.literal(word)?;
+        if matches!(self.peek(), Some(b'+' | b'-')) {
+            self.refuse_tail(start)?;
+        }
+        Ok(value)
+    }
+
+    /// Reads a number that an operator may follow.
+    pub(crate) fn literal(&mut self, word: usize) -> Outcome<f64> {
         let first = self.next_visible();
         let start = self.at;
         let negative = first == Some(b'-');
@@ -133,7 +161,7 @@ impl<'a> Cursor<'a> {
             return Err(self.no_number(word, start));
         }
         let exponent = self.at == end && matches!(self.peek(), Some(b'e' | b'E'));
-        if exponent || matches!(self.peek(), Some(b'.' | b',' | b'+' | b'-')) {
+        if exponent || matches!(self.peek(), Some(b'.' | b',')) {
             self.refuse_tail(start)?;
         }
         let value = match POWERS.get(decimals) {
@@ -191,13 +219,6 @@ impl<'a> Cursor<'a> {
         if let Some(fault) = self.odd_byte(start, rest) {
             return fault;
         }
-        if let [b'#' | b'[', ..] = unsigned {
-            let at = start + rest.len() - unsigned.len();
-            let message = format!("the value of {letter} is a parameter or an expression");
-            return Fault::new(Code::NotSupported, Span::new(word, at + 1), message)
-                .because("parameters and expressions are not supported yet")
-                .help("write the number");
-        }
         let end = start + usize::from(unsigned.len() < rest.len()) + self.tail_length(unsigned);
         if end > start {
             let span = Span::new(start, end);
@@ -206,6 +227,16 @@ impl<'a> Cursor<'a> {
                 "a number is an optional sign, digits, and at most one decimal point among them",
             )
             .help("write one number");
+        }
+        if !letter.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            let span = Span::new(word, word + 1);
+            return Fault::new(
+                Code::Expression,
+                span,
+                format!("no value behind `{letter}`"),
+            )
+            .because("a number, a parameter, a function or a bracket is needed there")
+            .help("write the value");
         }
         Fault::new(
             Code::MissingNumber,
@@ -216,7 +247,7 @@ impl<'a> Cursor<'a> {
         .help("write the number, or remove the letter")
     }
 
-    /// A byte that is no text at all, or an expression's letter, where a number should start.
+    /// A byte that is no text at all, where a number should start.
     fn odd_byte(&self, start: usize, rest: &[u8]) -> Option<Box<Fault>> {
         match rest.first() {
             Some(0 | 0x80..) => Some(bad_byte(self.text, start)),
@@ -270,68 +301,6 @@ const fn to_f64(mantissa: u64) -> f64 {
     mantissa as f64
 }
 
-/// A byte that can start nothing, at `at`.
-#[cold]
-pub(crate) fn bad_byte(text: &[u8], at: usize) -> Box<Fault> {
-    let rest = text.get(at..).unwrap_or_default();
-    match rest.first() {
-        Some(0) => {
-            let run = rest.iter().take_while(|b| **b == 0).count();
-            let span = Span::new(at, at + run);
-            let bytes = if run == 1 {
-                "a NUL byte".into()
-            } else {
-                format!("{run} NUL bytes")
-            };
-            Fault::new(Code::NulByte, span, format!("{bytes} in the text"))
-                .because("the file is damaged, or no text at all")
-                .help("restore the file from its source")
-        }
-        Some(0x80..) => non_ascii(rest, at),
-        Some(&byte) => {
-            let shown = char::from(byte).escape_default().to_string();
-            let message = format!("`{shown}` has no meaning here");
-            Fault::new(Code::BadCharacter, Span::new(at, at + 1), message)
-                .because("a block is made of words: a letter and a number each")
-                .help("remove it, or put it into a comment")
-        }
-        None => Fault::new(
-            Code::BadCharacter,
-            Span::new(at, at + 1),
-            "the line ends too early",
-        ),
-    }
-}
-
-fn non_ascii(rest: &[u8], at: usize) -> Box<Fault> {
-    let head = rest.get(..rest.len().min(4)).unwrap_or_default();
-    let valid = match core::str::from_utf8(head) {
-        Ok(text) => text,
-        Err(e) => core::str::from_utf8(head.get(..e.valid_up_to()).unwrap_or_default())
-            .unwrap_or_default(),
-    };
-    let Some(c) = valid.chars().next() else {
-        let byte = rest.first().copied().unwrap_or_default();
-        let message = format!("byte 0x{byte:02X} is not text");
-        return Fault::new(Code::NonAsciiCharacter, Span::new(at, at + 1), message)
-            .because("outside comments a program is ASCII")
-            .help("save the file as plain text, or restore it from its source");
-    };
-    let help = match c {
-        '\u{2010}'..='\u{2015}' | '\u{2212}' | '\u{fe63}' | '\u{ff0d}' => {
-            "write the ASCII minus sign `-`"
-        }
-        '\u{a0}' | '\u{2000}'..='\u{200b}' | '\u{202f}' | '\u{3000}' => "write an ASCII space",
-        '\u{ff10}'..='\u{ff19}' => "write ASCII digits",
-        _ => "remove it, or put it into a comment",
-    };
-    let span = Span::new(at, at + c.len_utf8());
-    let message = format!("`{c}` (U+{:04X}) is not ASCII", u32::from(c));
-    Fault::new(Code::NonAsciiCharacter, span, message)
-        .because("outside comments a program is ASCII")
-        .help(help)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -356,7 +325,7 @@ mod tests {
 
     #[test]
     fn malformed_numbers_are_pointed_at() {
-        use Code::{MalformedNumber, MissingNumber, NonAsciiCharacter, NotSupported};
+        use Code::{MalformedNumber, MissingNumber, NonAsciiCharacter};
         assert_eq!(read("X1.2.3"), Err((MalformedNumber, 1, 5)));
         assert_eq!(read("X--5"), Err((MalformedNumber, 1, 3)));
         assert_eq!(read("X5-"), Err((MalformedNumber, 1, 2)));
@@ -366,7 +335,6 @@ mod tests {
         assert_eq!(read("X1.5e-05"), Err((MalformedNumber, 1, 7)));
         assert_eq!(read("X"), Err((MissingNumber, 0, 1)));
         assert_eq!(read("XY"), Err((MissingNumber, 0, 1)));
-        assert_eq!(read("X[1+2]"), Err((NotSupported, 0, 2)));
         assert_eq!(read("X\u{2212}5"), Err((NonAsciiCharacter, 1, 3)));
     }
 

@@ -38,6 +38,22 @@ pub enum Code {
     NumberOutOfRange,
     /// A number that must be whole is not.
     NotAnInteger,
+    /// An expression that is not well formed.
+    Expression,
+    /// An operation without a result.
+    Arithmetic,
+    /// A parameter that does not exist, has no value, or cannot be assigned.
+    Parameter,
+    /// O words that do not fit together.
+    FlowStructure,
+    /// A call of a subroutine that is not defined.
+    UnknownSubroutine,
+    /// Calls nested too deeply.
+    CallDepth,
+    /// A loop that neither ends nor does anything.
+    EndlessLoop,
+    /// A subroutine or loop too long to be kept.
+    FlowTooLong,
     /// A word or code of the language that is not supported.
     NotSupported,
     /// A G number that does not exist.
@@ -110,6 +126,14 @@ impl Code {
             Self::MissingNumber => "missing-number",
             Self::NumberOutOfRange => "number-out-of-range",
             Self::NotAnInteger => "not-an-integer",
+            Self::Expression => "expression",
+            Self::Arithmetic => "arithmetic",
+            Self::Parameter => "parameter",
+            Self::FlowStructure => "flow-structure",
+            Self::UnknownSubroutine => "unknown-subroutine",
+            Self::CallDepth => "call-depth",
+            Self::EndlessLoop => "endless-loop",
+            Self::FlowTooLong => "flow-too-long",
             Self::NotSupported => "not-supported",
             Self::UnknownGCode => "unknown-g-code",
             Self::UnknownMCode => "unknown-m-code",

@@ -2,10 +2,11 @@
 //!
 //! ```text
 //! bytes ─ LineSource ─► line ─ Block::parse ─► block ─ Interpreter ─► items (lines, arcs, events)
-//!                                                        │ modal state, offsets
+//!                        ▲          ▲ parameters         │ modal state, offsets
+//!                  Flow (O words)   └────────────────────┘
 //! ```
 //!
-//! A program is read line by line in constant memory. Everything given out is in machine
+//! A program is read line by line in constant memory; subroutines and loops are kept, to a bound. Everything given out is in machine
 //! coordinates, in mm, degrees and mm/s, whatever the program's units and offsets. What is not
 //! understood is never skipped: it is a [`Diagnostic`] with line, column, reason and remedy.
 //!
@@ -26,24 +27,34 @@
 //! ```
 
 mod arc;
+mod bad_byte;
 mod block;
 mod check;
 mod codes;
 mod cursor;
 mod diagnostic;
+mod expression;
+mod flow;
+mod flow_run;
+mod flow_word;
 mod interpreter;
 mod modal;
 mod moves;
 mod offsets;
+mod operation;
 mod options;
+mod parameters;
 mod program;
 mod source;
+mod totals;
+mod words;
 
-pub use check::{MAX_FINDINGS, Report, check};
+pub use check::{MAX_CHECKED_LINES, MAX_FINDINGS, Report, check};
 pub use codes::{Distance, FeedMode, Motion, Units};
 pub use cursor::MAX_NUMBER;
 pub use diagnostic::{Code, Diagnostic, Excerpt};
 pub use modal::{Feed, Modal};
 pub use options::{Machine, Options, Travel};
-pub use program::{Program, Totals};
+pub use program::Program;
 pub use source::MAX_LINE_BYTES;
+pub use totals::Totals;

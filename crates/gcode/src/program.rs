@@ -1,107 +1,35 @@
-//! A program as an iterator of items, and what it amounts to.
+//! A program as an iterator of items.
 
 use std::io::BufRead;
+use std::sync::Arc;
 
-use glidepath_geometry::{AxisVector, LINEAR_XYZ, Segment, UVW};
-use glidepath_motion::{Item, ItemKind, Rate};
+use glidepath_geometry::AxisVector;
+use glidepath_motion::Item;
 
 use crate::block::{Block, LineKind};
-use crate::diagnostic::{Diagnostic, Outcome};
-use crate::interpreter::{Flow, Interpreter};
+use crate::cursor::Cursor;
+use crate::diagnostic::{Code as FaultCode, Diagnostic, Fault, Outcome, Span};
+use crate::flow::{Code, Flow};
+use crate::flow_word::head;
+use crate::interpreter::{Flow as BlockFlow, Interpreter};
 use crate::modal::Modal;
 use crate::options::Options;
+use crate::parameters::{Parameters, ProgramScope};
 use crate::source::LineSource;
+use crate::totals::Totals;
 
-/// Counts and sums over everything read so far.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Totals {
-    /// Lines read, the empty ones included.
-    pub lines: u32,
-    /// Straight feed moves (G1), without those of zero length.
-    pub straight_feeds: u32,
-    /// Arcs (G2, G3).
-    pub arcs: u32,
-    /// Rapid moves (G0, G28, G30), without those of zero length.
-    pub rapids: u32,
-    /// Feed moves that go nowhere. They are left out of the motion.
-    pub zero_length_feeds: u32,
-    /// Rapid moves that go nowhere. They are left out of the motion.
-    pub zero_length_rapids: u32,
-    /// Dwells (G4).
-    pub dwells: u32,
-    /// Events.
-    pub events: u32,
-    /// Path of the feed moves with linear axes, mm.
-    pub feed_length_mm: f64,
-    /// Path of the rapid moves with linear axes, mm.
-    pub rapid_length_mm: f64,
-    /// Path of the feed moves of rotary axes alone, degrees.
-    pub feed_rotary_deg: f64,
-    /// Path of the rapid moves of rotary axes alone, degrees.
-    pub rapid_rotary_deg: f64,
-    /// Time of the feed moves at their feedrate, as if there were no acceleration, s.
-    pub feed_time_s: f64,
-    /// Time of the dwells, s.
-    pub dwell_s: f64,
-    /// Smallest and largest machine coordinates of all moves, from the start of the first; `None`
-    /// without moves.
-    pub bounding_box: Option<(AxisVector, AxisVector)>,
-}
+/// Most kept lines executed in a row without anything coming of them.
+const MAX_IDLE_LINES: u32 = 1_000_000;
 
-impl Totals {
-    fn add(&mut self, item: &Item) {
-        match &item.kind {
-            ItemKind::Move { segment, rate, .. } => self.add_move(segment, *rate),
-            ItemKind::Dwell(seconds) => {
-                self.dwells += 1;
-                self.dwell_s += seconds;
-            }
-            ItemKind::Event(_) => self.events += 1,
-        }
-    }
-
-    fn add_move(&mut self, segment: &Segment, rate: Rate) {
-        let length = segment.length();
-        let (linear, (low, high)) = match segment {
-            Segment::Line(line) => {
-                let d = line.displacement();
-                let linear = LINEAR_XYZ.chain(UVW).any(|axis| d[axis] != 0.0);
-                (
-                    linear,
-                    (line.start.inf(&line.end), line.start.sup(&line.end)),
-                )
-            }
-            Segment::Arc(arc) => (true, arc.bounding_box()),
-        };
-        self.bounding_box = Some(match self.bounding_box {
-            Some((l, h)) => (l.inf(&low), h.sup(&high)),
-            None => (low, high),
-        });
-        match rate {
-            Rate::Rapid => {
-                self.rapids += 1;
-                *(if linear {
-                    &mut self.rapid_length_mm
-                } else {
-                    &mut self.rapid_rotary_deg
-                }) += length;
-            }
-            Rate::Feed(feed_v) => {
-                let arc = matches!(segment, Segment::Arc(_));
-                *(if arc {
-                    &mut self.arcs
-                } else {
-                    &mut self.straight_feeds
-                }) += 1;
-                *(if linear {
-                    &mut self.feed_length_mm
-                } else {
-                    &mut self.feed_rotary_deg
-                }) += length;
-                self.feed_time_s += length / feed_v;
-            }
-        }
-    }
+/// Where the line being executed comes from.
+#[derive(Debug)]
+pub(crate) enum Place {
+    /// The input.
+    Stream,
+    /// A subroutine or structure, and the index of the line.
+    Kept(Arc<Code>, usize),
+    /// A line that is gone: number and text.
+    Past(u32, Box<[u8]>),
 }
 
 /// A program being read: an iterator of [`Item`]s in constant memory.
@@ -110,15 +38,22 @@ impl Totals {
 #[derive(Debug)]
 pub struct Program<R> {
     source: LineSource<R>,
-    interpreter: Interpreter,
+    pub(crate) interpreter: Interpreter,
+    pub(crate) parameters: Parameters,
+    pub(crate) flow: Flow,
+    pub(crate) place: Place,
     block: Block,
     /// Items of the last block; the first `given` of them have been given out.
     items: Vec<Item>,
     given: usize,
     totals: Totals,
+    /// Kept lines executed since the last item.
+    idle_lines: u32,
+    /// Kept lines executed.
+    kept_lines: u64,
     /// A percent line was read.
     percent: bool,
-    /// A block with words was read.
+    /// A line with words was read.
     begun: bool,
     ended: bool,
 }
@@ -129,10 +64,15 @@ impl<R: BufRead> Program<R> {
         Self {
             source: LineSource::new(reader),
             interpreter: Interpreter::new(options),
+            parameters: Parameters::new(),
+            flow: Flow::default(),
+            place: Place::Stream,
             block: Block::default(),
             items: Vec::new(),
             given: 0,
             totals: Totals::default(),
+            idle_lines: 0,
+            kept_lines: 0,
             percent: false,
             begun: false,
             ended: false,
@@ -157,62 +97,162 @@ impl<R: BufRead> Program<R> {
         &self.totals
     }
 
+    /// Lines of subroutines and structures executed so far, each as often as it was.
+    pub(crate) const fn kept_lines(&self) -> u64 {
+        self.kept_lines
+    }
+
     /// Reads the next line and executes it; its items replace those of the line before.
     ///
-    /// `None` after the end. A line with a finding has no effect on the state; unless the finding
-    /// is fatal, the next line can be read.
+    /// `None` after the end. A line with a finding has no effect on the state, and the next line
+    /// can be read, unless what follows depends on it: a finding that is fatal, or in an O word,
+    /// a subroutine or a loop ends the program.
     pub(crate) fn next_line(&mut self) -> Option<Result<(), Diagnostic>> {
         self.items.clear();
         self.given = 0;
         if self.ended {
             return None;
         }
-        match self.read_line() {
+        let result = self.read_line();
+        self.totals.lines = self.source.number();
+        match result {
             Ok(true) => Some(Ok(())),
             Ok(false) => {
                 self.ended = true;
                 None
             }
             Err(fault) => {
-                self.ended = fault.code.is_fatal();
-                self.totals.lines = self.source.number();
-                Some(Err(fault.at(self.source.number(), self.source.text())))
+                let kept = !matches!(self.place, Place::Stream);
+                self.ended |= kept || fault.code.is_fatal();
+                Some(Err(match &self.place {
+                    Place::Stream => fault.at(self.source.number(), self.source.text()),
+                    Place::Past(number, text) => fault.at(*number, text),
+                    Place::Kept(code, index) => match code.lines.get(*index) {
+                        Some(line) => fault.at(line.number, &line.text),
+                        None => fault.at(0, &[]),
+                    },
+                }))
             }
         }
     }
 
     fn read_line(&mut self) -> Outcome<bool> {
-        if !self.source.advance()? {
-            return Ok(false);
+        if let Some((code, index)) = self.flow.next_line() {
+            self.place = Place::Kept(Arc::clone(&code), index);
+            self.kept_lines += 1;
+            self.idle_lines += 1;
+            if self.idle_lines > MAX_IDLE_LINES {
+                return Err(endless());
+            }
+            let has_head = code
+                .lines
+                .get(index)
+                .is_some_and(|line| line.head.is_some());
+            if has_head {
+                return self.execute_flow(&code, index).map(|()| true);
+            }
+            return self.execute_block();
         }
-        let line = self.source.number();
-        self.totals.lines = line;
-        let parsed = self
-            .block
-            .parse(self.source.text(), self.interpreter.options.block_delete);
+        self.place = Place::Stream;
+        if !self.source.advance()? {
+            return self.end_of_input();
+        }
+        if self.is_deleted() {
+            return Ok(true);
+        }
+        let head = head(self.source.text()).inspect_err(|_| self.ended = true)?;
+        if self.flow.recorder.is_none() && head.is_none() {
+            return self.execute_block();
+        }
+        if self.flow.recorder.is_some() && is_percent(self.source.text()) {
+            return self.end_of_input();
+        }
+        self.begun |= head.as_ref().is_some_and(|head| head.keyword.is_some());
+        let (number, text) = (self.source.number(), self.source.text().to_vec());
+        // What follows depends on every O word, so a finding in one ends the program.
+        self.read_flow(number, &text, head)
+            .inspect_err(|_| self.ended = true)?;
+        Ok(true)
+    }
+
+    /// The end of the input, or of the tape: false, or a finding if a part is not complete.
+    fn end_of_input(&mut self) -> Outcome<bool> {
+        self.ended = true;
+        match self.flow.recorder.take() {
+            None => Ok(false),
+            Some(recorder) => {
+                let fault = recorder.unfinished();
+                let (number, text, _) = recorder.first;
+                self.place = Place::Past(number, text);
+                Err(fault)
+            }
+        }
+    }
+
+    fn is_deleted(&self) -> bool {
+        self.interpreter.options.block_delete
+            && Cursor::new(self.source.text()).next_visible() == Some(b'/')
+    }
+
+    /// Executes the line at the present place as a block.
+    fn execute_block(&mut self) -> Outcome<bool> {
+        let (number, text) = match &self.place {
+            Place::Kept(code, index) => match code.lines.get(*index) {
+                Some(line) => (line.number, &*line.text),
+                None => return Ok(true),
+            },
+            _ => (self.source.number(), self.source.text()),
+        };
+        let scope = ProgramScope {
+            parameters: &self.parameters,
+            interpreter: &self.interpreter,
+        };
+        let parsed = self.block.parse(text, &scope);
         self.begun |= self.block.any || parsed.is_err();
         parsed?;
         match self.block.kind {
             LineKind::Block if self.block.any => {}
+            LineKind::Block => return Ok(true),
             LineKind::Percent if self.percent || self.begun => return Ok(false),
             LineKind::Percent => {
                 self.percent = true;
                 return Ok(true);
             }
-            LineKind::Block | LineKind::Deleted => return Ok(true),
+        }
+        for assignment in &self.block.assignments {
+            self.parameters
+                .check_assignable(&assignment.parameter, assignment.span)?;
         }
         let flow = self
             .interpreter
-            .execute(&self.block, line, &mut self.items)?;
+            .execute(&self.block, number, &mut self.items)?;
+        for assignment in &self.block.assignments {
+            self.parameters
+                .assign(&assignment.parameter, assignment.value);
+        }
+        if !self.items.is_empty() {
+            self.idle_lines = 0;
+        }
         for item in &self.items {
             self.totals.add(item);
         }
         self.totals.zero_length_feeds += self.interpreter.zero_length.feeds;
         self.totals.zero_length_rapids += self.interpreter.zero_length.rapids;
         // The items of the last block are still to be given out.
-        self.ended = flow == Flow::End;
+        self.ended = flow == BlockFlow::End;
         Ok(true)
     }
+}
+
+fn is_percent(text: &[u8]) -> bool {
+    Cursor::new(text).next_visible() == Some(b'%')
+}
+
+fn endless() -> Box<Fault> {
+    let message = format!("{MAX_IDLE_LINES} lines of a loop without a move");
+    Fault::new(FaultCode::EndlessLoop, Span::default(), message)
+        .because("a loop that moves nothing for so long would hold up the machine for ever")
+        .help("check the condition that should end it")
 }
 
 impl<R: BufRead> Iterator for Program<R> {

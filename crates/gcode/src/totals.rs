@@ -1,0 +1,96 @@
+//! What a program amounts to.
+
+use glidepath_geometry::{AxisVector, LINEAR_XYZ, Segment, UVW};
+use glidepath_motion::{Item, ItemKind, Rate};
+
+/// Counts and sums over everything read so far.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Totals {
+    /// Lines read, the empty ones included.
+    pub lines: u32,
+    /// Straight feed moves (G1), without those of zero length.
+    pub straight_feeds: u32,
+    /// Arcs (G2, G3).
+    pub arcs: u32,
+    /// Rapid moves (G0, G28, G30), without those of zero length.
+    pub rapids: u32,
+    /// Feed moves that go nowhere. They are left out of the motion.
+    pub zero_length_feeds: u32,
+    /// Rapid moves that go nowhere. They are left out of the motion.
+    pub zero_length_rapids: u32,
+    /// Dwells (G4).
+    pub dwells: u32,
+    /// Events.
+    pub events: u32,
+    /// Path of the feed moves with linear axes, mm.
+    pub feed_length_mm: f64,
+    /// Path of the rapid moves with linear axes, mm.
+    pub rapid_length_mm: f64,
+    /// Path of the feed moves of rotary axes alone, degrees.
+    pub feed_rotary_deg: f64,
+    /// Path of the rapid moves of rotary axes alone, degrees.
+    pub rapid_rotary_deg: f64,
+    /// Time of the feed moves at their feedrate, as if there were no acceleration, s.
+    pub feed_time_s: f64,
+    /// Time of the dwells, s.
+    pub dwell_s: f64,
+    /// Smallest and largest machine coordinates of all moves, from the start of the first; `None`
+    /// without moves.
+    pub bounding_box: Option<(AxisVector, AxisVector)>,
+}
+
+impl Totals {
+    pub(crate) fn add(&mut self, item: &Item) {
+        match &item.kind {
+            ItemKind::Move { segment, rate, .. } => self.add_move(segment, *rate),
+            ItemKind::Dwell(seconds) => {
+                self.dwells += 1;
+                self.dwell_s += seconds;
+            }
+            ItemKind::Event(_) => self.events += 1,
+        }
+    }
+
+    fn add_move(&mut self, segment: &Segment, rate: Rate) {
+        let length = segment.length();
+        let (linear, (low, high)) = match segment {
+            Segment::Line(line) => {
+                let d = line.displacement();
+                let linear = LINEAR_XYZ.chain(UVW).any(|axis| d[axis] != 0.0);
+                (
+                    linear,
+                    (line.start.inf(&line.end), line.start.sup(&line.end)),
+                )
+            }
+            Segment::Arc(arc) => (true, arc.bounding_box()),
+        };
+        self.bounding_box = Some(match self.bounding_box {
+            Some((l, h)) => (l.inf(&low), h.sup(&high)),
+            None => (low, high),
+        });
+        match rate {
+            Rate::Rapid => {
+                self.rapids += 1;
+                *(if linear {
+                    &mut self.rapid_length_mm
+                } else {
+                    &mut self.rapid_rotary_deg
+                }) += length;
+            }
+            Rate::Feed(feed_v) => {
+                let arc = matches!(segment, Segment::Arc(_));
+                *(if arc {
+                    &mut self.arcs
+                } else {
+                    &mut self.straight_feeds
+                }) += 1;
+                *(if linear {
+                    &mut self.feed_length_mm
+                } else {
+                    &mut self.feed_rotary_deg
+                }) += length;
+                self.feed_time_s += length / feed_v;
+            }
+        }
+    }
+}
