@@ -14,8 +14,8 @@
 //! segments can be accelerated through. Where coming to rest at the corner costs less time than
 //! the transition, the joint is a stop.
 
-use crate::scurve::{PathLimits, Profile, reachable_speed};
 use crate::speed_limit::{self, SpeedLimit};
+use crate::stop_or_pass::{Side, stop_is_faster};
 use crate::{PathMode, Settings, Smoothing};
 use glidepath_geometry::{
     AXES, AxisVector, DerivativeBounds, LINEAR_XYZ, PairShape, ROTARY_ABC, Segment, Transition,
@@ -300,9 +300,7 @@ impl Corner<'_> {
             * DEVIATION_MARGIN_R
     }
 
-    /// Compares the times over both segments, with the speeds at their far ends the same: at rest,
-    /// or as fast as both ways allow. A transition has to win in each case, so that replacing stops
-    /// by transitions one after the other never makes a path slower.
+    /// Whether resting at the corner costs less time than the transition.
     fn stop_is_faster(&self, found: &Candidate) -> bool {
         let limits = &self.settings.limits;
         let side = |leg: Leg<'_>, tangent: &AxisVector| {
@@ -316,18 +314,7 @@ impl Corner<'_> {
             }
         };
         let sides = [side(self.from, &self.t1), side(self.to, &self.t2)];
-        let corner_v = found.limit.top_v.min(sides[0].top_v).min(sides[1].top_v);
-        // From a stop neither segment lets one reach the speed of the corner: nothing to compare.
-        if sides
-            .iter()
-            .all(|s| corner_v >= reachable_speed(0.0, s.length_s, s.change))
-        {
-            return false;
-        }
-        let length_s = found.transition.length();
-        [[false, false], [true, false], [false, true], [true, true]]
-            .into_iter()
-            .any(|fast| stop_gain_t(&sides, fast, corner_v, length_s) > 0.0)
+        stop_is_faster(&sides, found.limit.top_v, found.transition.length())
     }
 }
 
@@ -338,54 +325,6 @@ fn greatest_stretch(transition: &Transition) -> f64 {
         .map(|i| length_s * f64::from(i) / f64::from(DEVIATION_POINTS))
         .map(|s| feed_length(&transition.jet(s).d1) * STRETCH_MARGIN_R)
         .fold(1.0, f64::max)
-}
-
-/// A segment beside a corner.
-#[derive(Clone, Copy)]
-struct Side {
-    length_s: f64,
-    /// What a transition leaves of it.
-    left_s: f64,
-    top_v: f64,
-    change: PathLimits,
-}
-
-/// What stopping at the corner gains over passing it at up to `corner_v`, s; with the far end of
-/// each side at rest, or fast.
-fn stop_gain_t(sides: &[Side; 2], fast: [bool; 2], corner_v: f64, transition_s: f64) -> f64 {
-    let far_v = [0, 1].map(|i| {
-        let Side {
-            length_s,
-            left_s,
-            top_v,
-            change,
-        } = sides[i];
-        let reach_v = reachable_speed(0.0, length_s, change)
-            .min(reachable_speed(corner_v, left_s, change))
-            .min(top_v);
-        if fast[i] { reach_v } else { 0.0 }
-    });
-    let corner_v = [0, 1]
-        .map(|i| reachable_speed(far_v[i], sides[i].left_s, sides[i].change))
-        .into_iter()
-        .fold(corner_v, f64::min);
-    let passing_t = transition_s / corner_v;
-    let mut gain_t = passing_t;
-    for (side, far_v) in sides.iter().zip(far_v) {
-        let Side {
-            length_s,
-            left_s,
-            top_v,
-            change,
-        } = *side;
-        let stopping = Profile::new(0.0, far_v, length_s, top_v, change);
-        let passing = Profile::new(corner_v, far_v, left_s, top_v, change);
-        let (Some(stopping), Some(passing)) = (stopping, passing) else {
-            return 0.0;
-        };
-        gain_t += passing.duration_t() - stopping.duration_t();
-    }
-    gain_t
 }
 
 /// The most an arc may give to a joint.

@@ -29,6 +29,7 @@ mod schedule;
 pub mod scurve;
 mod settings;
 mod speed_limit;
+mod stop_or_pass;
 mod tolerance_split;
 
 pub use error::PlanError;

@@ -37,7 +37,6 @@ pub(crate) struct Run {
     pub change: PathLimits,
     /// Above this speed the speed has to be constant.
     pub constant_above_v: f64,
-    short: bool,
     /// Lowest top speed of its curved pieces.
     curved_v: f64,
 }
@@ -51,7 +50,7 @@ pub(crate) struct Leg {
 
 /// Most pieces of one run.
 const MOST_PIECES: usize = 512;
-/// A piece is short if it does not allow this share of its top speed to be gained.
+/// A run is short if it does not allow this share of the speed around it to be gained.
 const USEFUL_CHANGE_R: f64 = 0.1;
 /// Curved pieces belong to one run while their top speeds differ by at most this factor.
 const SIMILAR_SPEED_R: f64 = 2.5;
@@ -65,15 +64,12 @@ impl Run {
             change,
             constant_above_v,
         } = piece.limit;
-        let short = constant_above_v > top_v
-            && reachable_speed((1.0 - USEFUL_CHANGE_R) * top_v, piece.length_s, change) < top_v;
         Self {
             length_s: piece.length_s,
             low_v: top_v,
             high_v: top_v,
             change,
             constant_above_v,
-            short,
             curved_v: if piece.is_straight() {
                 f64::INFINITY
             } else {
@@ -94,13 +90,9 @@ impl Run {
 
     /// Adds the pieces of the next run if both are driven better as one; gives it back if not.
     pub(crate) fn absorb(&mut self, next: Self) -> Option<Self> {
-        let ratio_r = self.curved_v / next.curved_v;
-        let similar = !ratio_r.is_finite()
-            || ratio_r == 0.0
-            || (1.0 / SIMILAR_SPEED_R..=SIMILAR_SPEED_R).contains(&ratio_r);
         let full = self.pieces.len() >= MOST_PIECES
             || self.length_s > 4.0 * slowing_horizon(self.high_v, self.change);
-        if !(self.short && next.short && similar) || full {
+        if full || !(self.continues_straight(&next) || self.is_short_beside(&next)) {
             return Some(next);
         }
         self.length_s += next.length_s;
@@ -110,6 +102,35 @@ impl Run {
         self.change = weaker(self.change, next.change);
         self.pieces.extend(next.pieces);
         None
+    }
+
+    /// Two straight runs of one direction: nothing is lost by driving them as one.
+    fn continues_straight(&self, next: &Self) -> bool {
+        self.curved_v.is_infinite() && next.curved_v.is_infinite() && self.change == next.change
+    }
+
+    /// True if both runs are about as fast, and neither is long enough for a useful change of that
+    /// speed.
+    fn is_short_beside(&self, next: &Self) -> bool {
+        let (mine_v, its_v) = (self.curved_v, next.curved_v);
+        let slower_v = mine_v.min(its_v);
+        let similar = mine_v.is_infinite()
+            || its_v.is_infinite()
+            || mine_v.max(its_v) <= SIMILAR_SPEED_R * slower_v;
+        let may_change = |run: &Self| run.constant_above_v.is_infinite();
+        // What has been put together before was short.
+        let short = |run: &Self| {
+            let is_made_up = run.pieces.len() > 1 && run.curved_v.is_finite();
+            is_made_up
+                || reachable_speed(slower_v, run.length_s, run.change)
+                    < (1.0 + USEFUL_CHANGE_R) * slower_v
+        };
+        slower_v.is_finite()
+            && similar
+            && may_change(self)
+            && may_change(next)
+            && short(self)
+            && short(next)
     }
 
     /// The highest speed at which the run can be entered if it is left at `exit_v`.
