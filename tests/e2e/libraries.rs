@@ -142,7 +142,7 @@ fn a_source_that_dries_up_makes_the_machine_wait_on_the_path() {
     let mut starved = false;
     let recording = Machine::run(
         instance.config(),
-        |config| config.planner_lost_after = None,
+        |config| config.planner_lost_after = Some(Duration::from_millis(600)),
         |machine| {
             let mut watch = machine.watch();
             let look = || {
@@ -152,7 +152,7 @@ fn a_source_that_dries_up_makes_the_machine_wait_on_the_path() {
             let source = |_| Slow {
                 source: program(PROGRAM),
                 given: 0,
-                dry: 5000,
+                dry: 10_000,
             };
             machine.publish(&stop, source, look).unwrap();
         },

@@ -65,8 +65,8 @@ pub struct Config {
     /// Ticks that may be missed within a second before the motion stops with a fault; `None` for
     /// any number.
     pub missed_ticks_allowed: Option<u64>,
-    /// How long the machine waits in the middle of a trajectory for more frames before that is a
-    /// fault; `None` for ever.
+    /// How long the machine waits in the middle of a trajectory for more frames, or for a planner
+    /// without any to repeat its last one, before that is a fault; `None` for ever.
     pub planner_lost_after: Option<Duration>,
     /// Ends the process at the first system call of the real-time thread other than the sleep and
     /// the clock. For tests; [`run`](crate::run) does not return then.

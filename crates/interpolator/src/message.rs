@@ -132,6 +132,8 @@ pub(crate) enum Order {
     Reset,
     /// A frame was refused, or the ports failed.
     Fault(Fault),
+    /// The planner has no new frames, but is there.
+    PlannerLives,
 }
 
 /// Real-time thread to ports thread, every tick.

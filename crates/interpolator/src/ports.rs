@@ -217,7 +217,9 @@ impl<'a> Ports<'a> {
                 Verdict::Pass => {
                     self.ends.frames.enqueue(frame).ok(); // There is room: it was ready.
                 }
-                Verdict::Known => {}
+                Verdict::Known => {
+                    self.ends.orders.enqueue(Order::PlannerLives).ok();
+                }
                 Verdict::Later => {
                     self.pending = Some(frame);
                     return Ok(());

@@ -86,6 +86,11 @@ impl Supply {
         self.starved_ticks = 0;
     }
 
+    /// The planner gave a sign of life: the machine waits on.
+    pub(crate) const fn planner_lives(&mut self) {
+        self.starved_ticks = 0;
+    }
+
     /// True if the motion has to stop, or to stay, for want of frames.
     pub(crate) const fn is_short(&self) -> bool {
         self.short

@@ -11,7 +11,7 @@
 
 use crate::config::Config;
 use crate::differences::{Allowed, Differences};
-use crate::message::{Fault, Happening, Inputs, Report};
+use crate::message::{Fault, Happening, Inputs, Order, Report};
 use crate::program_time::ProgramTime;
 use crate::rate::{Rate, Scene};
 use crate::setpoint::Counters;
@@ -125,6 +125,9 @@ impl<'a> Interpolator<'a> {
             let Some(order) = inputs.orders.dequeue() else {
                 return;
             };
+            if order == Order::PlannerLives {
+                self.supply.planner_lives();
+            }
             let is_open = self.is_open();
             if self.will.obey(order, is_open) {
                 self.track.pass_stop();

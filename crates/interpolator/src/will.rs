@@ -55,6 +55,7 @@ impl Will {
             Order::Reset if is_open => self.abort = true,
             Order::Reset => self.fault = None,
             Order::Fault(fault) => self.fail(fault),
+            Order::PlannerLives => {} // For the supply.
         }
         false
     }

@@ -14,6 +14,9 @@
 //!   horizon, little by little, so that the two can never wait for each other.
 //! * **No loss.** The frame in hand is given up only when the transport says that it is in the
 //!   interpolator's queue; a queue that is full, or not connected yet, gets the same frame again.
+//! * **Slow input.** While the source has nothing, the last frame is offered again now and then. The
+//!   interpolator, which rests for want of frames, knows the frame already and learns from it that its
+//!   planner lives.
 //! * **End.** The last frame carries the flag `LAST`; the run is over when the interpolator says that
 //!   it has executed the epoch, or why not.
 //! * **Stop flag.** The publisher sends an abort: the interpolator comes to rest on the path at once
@@ -44,6 +47,9 @@ const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Frames beyond the horizon for an interpolator that cannot go on with what it has.
 const MORE_FRAMES: u64 = 8;
+
+/// Between two signs of life of a planner without frames.
+const HEARTBEAT: Duration = Duration::from_millis(200);
 
 /// Without news for so long, the caller is told what is waited for.
 const NOTICE_AFTER: Duration = Duration::from_secs(1);
@@ -104,6 +110,10 @@ struct Epoch {
     epoch: u64,
     /// Planned, but not yet in the interpolator's queue.
     in_hand: Option<SetpointFrame>,
+    /// The frame delivered last.
+    last: Option<SetpointFrame>,
+    /// Time waited for items since something was offered.
+    hungry: Duration,
     delivered: u64,
     executed: u64,
     /// Sequence of the first frame that is too far ahead.
@@ -240,7 +250,10 @@ impl<'t> Publisher<'t> {
             }
             waited = match self.turn(pipeline, &mut epoch, control)? {
                 Turn::Busy => Duration::ZERO,
-                Turn::Hungry => HUNGRY_POLL,
+                Turn::Hungry => {
+                    self.show_life(&mut epoch)?;
+                    HUNGRY_POLL
+                }
                 Turn::Wait => POLL,
             };
             if !waited.is_zero() {
@@ -260,6 +273,8 @@ impl<'t> Publisher<'t> {
             boot_id: status.boot_id,
             epoch: status.epoch + 1,
             in_hand: None,
+            last: None,
+            hungry: Duration::ZERO,
             delivered: 0,
             executed: 0,
             limit: self.pace.horizon_frames,
@@ -308,7 +323,7 @@ impl<'t> Publisher<'t> {
                 if !is_due || self.sink.offer(frame)? != Delivery::Delivered {
                     return Ok(Turn::Wait);
                 }
-                epoch.in_hand = None;
+                (epoch.last, epoch.hungry) = (epoch.in_hand.take(), Duration::ZERO);
                 epoch.delivered += 1;
                 if epoch.delivered == 1 {
                     (control.notify)(&Notice::Started { epoch: epoch.epoch });
@@ -333,6 +348,19 @@ impl<'t> Publisher<'t> {
             }
         }
         Ok(Turn::Busy)
+    }
+
+    /// Tells the interpolator, now and then, that there will be more.
+    fn show_life(&mut self, epoch: &mut Epoch) -> Result<(), LinkError> {
+        epoch.hungry += HUNGRY_POLL;
+        if epoch.hungry >= HEARTBEAT
+            && let Some(last) = &epoch.last
+        {
+            epoch.hungry = Duration::ZERO;
+            // If it cannot be delivered now, the next will be.
+            self.sink.offer(last)?;
+        }
+        Ok(())
     }
 
     /// Ends the epoch by command and waits until the machine rests.

@@ -151,6 +151,34 @@ fn a_horizon_below_the_resume_threshold_does_not_deadlock() {
 }
 
 #[test]
+fn a_planner_without_frames_shows_that_it_lives() {
+    let transport = InProcess::default();
+    let interpolator = RefCell::new(Interpolator::new(&transport, 128));
+    let (result, _) = attended(
+        &AtomicBool::new(false),
+        |time| interpolator.borrow_mut().pass(time),
+        |control| {
+            // 10 000 looks at 200 µs are two seconds without items, after enough for some frames.
+            let delays = [0, 0, 0, 0, 0, 0, 10_000];
+            run(
+                &transport,
+                Listed::delayed(&staircase(12), &delays),
+                pace(),
+                control,
+            )
+        },
+    );
+    result.unwrap();
+    let interpolator = interpolator.into_inner();
+    assert!(interpolator.executed == records(&staircase(12), 1));
+    assert!(
+        (8..=10).contains(&interpolator.repeated),
+        "{}",
+        interpolator.repeated
+    );
+}
+
+#[test]
 fn the_stop_flag_aborts() {
     let transport = InProcess::default();
     let interpolator = RefCell::new(Interpolator::new(&transport, 128));

@@ -34,6 +34,8 @@ pub(crate) struct Interpolator {
     pub(crate) executed: Vec<SetpointFrame>,
     pub(crate) deepest: usize,
     pub(crate) starved: u64,
+    /// Times the last frame came again.
+    pub(crate) repeated: u64,
 }
 
 impl Interpolator {
@@ -56,6 +58,7 @@ impl Interpolator {
             executed: Vec::new(),
             deepest: 0,
             starved: 0,
+            repeated: 0,
         }
     }
 
@@ -138,7 +141,11 @@ impl Interpolator {
             } else if self.end != EndOfEpoch::Open {
                 continue;
             }
-            assert_eq!(frame.sequence, self.received, "a gap or a repetition");
+            if frame.sequence + 1 == self.received {
+                self.repeated += 1;
+                continue;
+            }
+            assert_eq!(frame.sequence, self.received, "a gap");
             self.received += 1;
             self.queue.push_back(frame);
         }
