@@ -2,6 +2,7 @@
 
 use glidepath_gcode::{Machine, Options, Program, Report, Travel, check};
 use glidepath_geometry::Axis;
+use glidepath_motion::{Item, ItemKind, Rate};
 use proptest::prelude::*;
 
 fn report(text: &str) -> Report {
@@ -203,7 +204,47 @@ fn a_program_for_motion_ends_at_the_first_finding() {
     assert!(results[0].is_ok() && results[1].is_err());
 }
 
+/// Blocks that are good by themselves; together they may leave the travel.
+fn block() -> impl Strategy<Value = String> {
+    let at = || -60.0..110.0_f64;
+    let by = || -40.0..40.0_f64;
+    prop_oneof![
+        4 => (0..2, at(), at()).prop_map(|(g, x, y)| format!("G90 G{g} X{x:.3} Y{y:.3}")),
+        2 => (by(), by()).prop_map(|(x, y)| format!("G91 G1 X{x:.3} Y{y:.3}")),
+        2 => (2..4, by(), 0.1..30.0_f64).prop_map(|(g, i, j)| format!("G{g} I{i:.3} J{j:.3}")),
+        2 => (2..4, by(), 0.1..30.0_f64, 30.0..90.0_f64)
+            .prop_map(|(g, x, y, r)| format!("G91 G{g} X{x:.3} Y{y:.3} R{r:.3}")),
+        1 => (by(), by()).prop_map(|(x, r)| format!("G10 L2 P1 X{x:.3} R{r:.3}")),
+        1 => by().prop_map(|x| format!("G92 X{x:.3}")),
+    ]
+}
+
 proptest! {
+    #[test]
+    fn moves_join_and_stay_inside_the_travel(
+        blocks in proptest::collection::vec(block(), 1..30)
+    ) {
+        let mut options = mill();
+        options.default_feed_mm_min = Some(1000.0);
+        let mut end = options.start;
+        for item in Program::new(blocks.join("\n").as_bytes(), options) {
+            let Ok(Item { kind: ItemKind::Move { segment, rate, .. }, .. }) = item else {
+                break;
+            };
+            prop_assert_eq!(segment.start(), end);
+            end = segment.end();
+            prop_assert!(segment.length() > 0.0);
+            prop_assert!(matches!(rate, Rate::Rapid) || matches!(rate, Rate::Feed(v) if v > 0.0));
+            // Sampled, not by the box that the interpreter itself looks at.
+            for k in 0..=64 {
+                let point = segment.jet(segment.length() * f64::from(k) / 64.0).position;
+                for axis in 0..2 {
+                    prop_assert!((-50.0001..=100.0001).contains(&point[axis]), "{}", point[axis]);
+                }
+            }
+        }
+    }
+
     #[test]
     fn any_bytes_are_judged_without_a_panic(
         bytes in proptest::collection::vec(any::<u8>(), 0..400)

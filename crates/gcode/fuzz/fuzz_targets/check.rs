@@ -11,7 +11,10 @@ use glidepath_motion::{ItemKind, Rate};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    let travel = Travel { min: -500.0, max: 500.0 };
+    let travel = Travel {
+        min: -500.0,
+        max: 500.0,
+    };
     let options = Options {
         machine: Machine::unlimited().with_travel(Axis::X, travel),
         default_feed_mm_min: Some(1000.0),
@@ -20,7 +23,8 @@ fuzz_target!(|bytes: &[u8]| {
     };
     let report = check(bytes, options.clone());
     let mut end = options.start;
-    for item in Program::new(bytes, options) {
+    // A loop of the program may have no end.
+    for item in Program::new(bytes, options).take(10_000) {
         match item {
             Ok(item) => match item.kind {
                 ItemKind::Move { segment, rate, .. } => {
