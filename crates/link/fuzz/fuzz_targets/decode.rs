@@ -11,7 +11,9 @@ use glidepath_link::{
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|data: &[u8]| {
-    let Some((&choice, bytes)) = data.split_first() else { return };
+    let Some((&choice, bytes)) = data.split_first() else {
+        return;
+    };
     match choice % 8 {
         0 => {
             if let Some(record) = read::<SetpointFrame>(bytes) {
