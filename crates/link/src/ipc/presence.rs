@@ -31,39 +31,35 @@ impl Presence {
     pub(super) fn announce(config: &LinkConfig) -> Result<Self, LinkError> {
         let started = Instant::now();
         loop {
-            config.prepare()?;
-            let path = lock_path(config);
-            let locked = open(&path).and_then(|file| {
-                let locked = file.try_lock_shared().map_err(io::Error::from);
-                locked
-                    .and_then(|()| same_file(&file, &path))
-                    .map(|same| same.then_some(file))
-            });
-            match locked {
-                Ok(Some(lock)) => {
-                    return Ok(Self {
-                        lock,
-                        config: config.clone(),
-                    });
+            // If this fails in passing, the instance is being removed, or was while this was tried.
+            match Self::try_announce(config) {
+                Err(LinkError::Root { source, .. })
+                    if is_passing(&source) && started.elapsed() < PATIENCE =>
+                {
+                    std::thread::sleep(Duration::from_millis(2));
                 }
-                // The instance is being removed, or has been since the file was opened.
-                Ok(None) => {}
-                Err(error) if is_passing(&error) => {}
-                Err(source) => {
-                    return Err(LinkError::Root {
-                        path: path.display().to_string(),
-                        source,
-                    });
-                }
+                result => return result,
             }
-            if started.elapsed() > PATIENCE {
-                let source = io::Error::from(io::ErrorKind::WouldBlock);
-                return Err(LinkError::Root {
-                    path: path.display().to_string(),
-                    source,
-                });
-            }
-            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    fn try_announce(config: &LinkConfig) -> Result<Self, LinkError> {
+        config.prepare()?;
+        let path = lock_path(config);
+        let failed = |source| LinkError::Root {
+            path: path.display().to_string(),
+            source,
+        };
+        let lock = open(&path).map_err(failed)?;
+        lock.try_lock_shared()
+            .map_err(|error| failed(error.into()))?;
+        if same_file(&lock, &path).map_err(failed)? {
+            Ok(Self {
+                lock,
+                config: config.clone(),
+            })
+        } else {
+            Err(failed(io::ErrorKind::NotFound.into()))
         }
     }
 }

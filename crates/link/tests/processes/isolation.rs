@@ -1,8 +1,10 @@
 //! Instances do not meet, other versions and other users' directories are refused.
 
 use crate::instance::{Instance, frame, take, wait_for};
-use glidepath_link::{Delivery, Ipc, LinkConfig, LinkError, Transport};
-use iceoryx2::prelude::{Config, FileName, NodeBuilder, Path, SemanticString, ZeroCopySend, ipc};
+use glidepath_link::{Delivery, Ipc, LinkConfig, LinkError, Transport, remove_leftovers};
+use iceoryx2::prelude::{
+    Config, FileName, Node, NodeBuilder, Path, SemanticString, ZeroCopySend, ipc,
+};
 use std::os::unix::fs::PermissionsExt;
 
 /// A setpoint of a version to come.
@@ -14,6 +16,57 @@ use std::os::unix::fs::PermissionsExt;
     reason = "the derive expands to an unsafe impl, and checks the fields"
 )]
 struct SetpointToCome([f64; 71]);
+
+/// A process of the instance that does not use this crate.
+fn foreign_node(config: &LinkConfig) -> Node<ipc::Service> {
+    let mut settings = Config::default();
+    settings.global.prefix = FileName::new(config.prefix().as_bytes()).unwrap();
+    let directory = config.directory();
+    let root = Path::new(directory.as_os_str().as_encoded_bytes()).unwrap();
+    settings.global.set_root_path(&root);
+    NodeBuilder::new()
+        .config(&settings)
+        .create::<ipc::Service>()
+        .unwrap()
+}
+
+#[test]
+fn nothing_is_removed_under_a_process_that_does_not_use_this_crate() {
+    let instance = Instance::new();
+    let link = instance.connect();
+    let foreigner = foreign_node(&instance.config);
+    drop(link);
+    assert!(!instance.files().is_empty());
+    assert!(!remove_leftovers(&instance.config).unwrap());
+    let setpoints = "glidepath/setpoints".try_into().unwrap();
+    foreigner
+        .service_builder(&setpoints)
+        .publish_subscribe::<u64>()
+        .create()
+        .unwrap();
+    drop(foreigner);
+    assert!(remove_leftovers(&instance.config).unwrap());
+}
+
+#[test]
+fn an_instance_that_comes_and_goes_is_always_there_when_wanted() {
+    let instance = Instance::new();
+    std::thread::scope(|scope| {
+        for thread in 0..crate::peer::CAPACITY.subscribers {
+            let config = &instance.config;
+            scope.spawn(move || {
+                for round in 0..30 {
+                    let link = Ipc::connect(config).unwrap();
+                    let _status = link.status_source().unwrap();
+                    drop(link);
+                    if (round + thread) % 5 == 0 {
+                        remove_leftovers(config).unwrap();
+                    }
+                }
+            });
+        }
+    });
+}
 
 #[test]
 fn another_version_of_a_record_is_a_clear_error() {
