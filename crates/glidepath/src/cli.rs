@@ -148,9 +148,9 @@ pub struct InterpolatorArgs {
     /// Move without real-time privileges too
     #[arg(long)]
     pub best_effort: bool,
-    /// End when the process that started this one ends
-    #[arg(long, hide = true)]
-    pub end_with_parent: bool,
+    /// End when the process with this number, which started this one, ends
+    #[arg(long, hide = true, value_name = "PID")]
+    pub end_with: Option<u32>,
 }
 
 /// Arguments of `planner`.
@@ -168,9 +168,9 @@ pub struct PlannerArgs {
     /// Which shared memory.
     #[command(flatten)]
     pub instance: InstanceArgs,
-    /// End when the process that started this one ends
-    #[arg(long, hide = true)]
-    pub end_with_parent: bool,
+    /// End when the process with this number, which started this one, ends
+    #[arg(long, hide = true, value_name = "PID")]
+    pub end_with: Option<u32>,
 }
 
 /// Arguments of `servo`.
@@ -188,9 +188,9 @@ pub struct ServoArgs {
     /// Write every record received to standard output, for the process that started this one
     #[arg(long, hide = true, conflicts_with_all = ["setpoints", "json"])]
     pub relay: bool,
-    /// End when the process that started this one ends
-    #[arg(long, hide = true)]
-    pub end_with_parent: bool,
+    /// End when the process with this number, which started this one, ends
+    #[arg(long, hide = true, value_name = "PID")]
+    pub end_with: Option<u32>,
 }
 
 /// Arguments of `feed`.

@@ -2,8 +2,10 @@
 
 use crate::config::ConfigError;
 use crate::exit::Exit;
-use glidepath_gcode::Report;
-use glidepath_planner::Refusal;
+use glidepath_gcode::Diagnostic;
+use glidepath_interpolator as interpolator;
+use glidepath_link::LinkError;
+use glidepath_planner::{self as planner, FeedError, Refusal};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -31,13 +33,17 @@ pub enum Failure {
         /// What the system said.
         source: std::io::Error,
     },
-    /// A program has findings; nothing moved.
-    #[error("{program} is rejected; nothing moved")]
+    /// A program has findings.
+    #[error("{program} is rejected; {}", if *moved { "the motion stopped at the last good block" } else { "nothing moved" })]
     Rejected {
         /// The program.
         program: String,
         /// What was found.
-        report: Box<Report>,
+        findings: Vec<Diagnostic>,
+        /// Findings that are not listed.
+        more: u32,
+        /// Whether the part before the finding was run.
+        moved: bool,
     },
     /// A program that passed the check was refused later.
     #[error(transparent)]
@@ -45,6 +51,37 @@ pub enum Failure {
     /// The system refuses to have Ctrl-C handled.
     #[error("cannot handle signals: {0}")]
     Signals(std::io::Error),
+    /// Nobody answers for an instance.
+    #[error(
+        "no interpolator runs in the instance \"{instance}\"; start `glidepath interpolator`, or name \
+         another with --instance"
+    )]
+    NoInterpolator {
+        /// The instance.
+        instance: String,
+    },
+    /// The interpolator refused a command.
+    #[error("{command}: refused, the machine is {state}: {reason}")]
+    CommandRefused {
+        /// The command.
+        command: &'static str,
+        /// What the machine does.
+        state: &'static str,
+        /// Why.
+        reason: String,
+    },
+    /// The interpolator could not start or failed.
+    #[error(transparent)]
+    Interpolator(#[from] interpolator::RunError),
+    /// The planner ended before the end of the motion.
+    #[error(transparent)]
+    Planner(#[from] planner::RunError),
+    /// A program was not streamed to its end.
+    #[error(transparent)]
+    Feed(#[from] FeedError),
+    /// The shared memory cannot be used.
+    #[error(transparent)]
+    Link(#[from] LinkError),
     /// The command is not connected to the stages below yet.
     #[error("this command is not built yet")]
     NotBuilt,
@@ -71,15 +108,45 @@ impl Failure {
         }
     }
 
+    /// A refusal of a program, as the failure to run it.
+    #[must_use]
+    pub fn refused(program: &str, refusal: Refusal, moved: bool) -> Self {
+        match refusal {
+            Refusal::Program { findings, unlisted } => Self::Rejected {
+                program: program.to_owned(),
+                findings,
+                more: unlisted,
+                moved,
+            },
+            refusal => Self::Refused(refusal),
+        }
+    }
+
     /// The exit code.
     #[must_use]
     pub const fn exit(&self) -> Exit {
         match self {
             Self::Configuration(_) => Exit::Configuration,
             Self::Open { .. } => Exit::Usage,
-            Self::Rejected { .. } | Self::Refused(_) => Exit::Rejected,
-            Self::File { .. } | Self::Signals(_) | Self::NotBuilt => Exit::Fault,
-            Self::Interrupted => Exit::Interrupted,
+            Self::Rejected { .. }
+            | Self::Refused(_)
+            | Self::Planner(planner::RunError::Refused(_))
+            | Self::Feed(FeedError::Refused(_) | FeedError::RefusedByPlanner { .. }) => {
+                Exit::Rejected
+            }
+            Self::Interpolator(interpolator::RunError::NotRealTime(_)) => Exit::NotRealTime,
+            Self::Planner(planner::RunError::Interrupted)
+            | Self::Feed(FeedError::Interrupted)
+            | Self::Interrupted => Exit::Interrupted,
+            Self::File { .. }
+            | Self::Signals(_)
+            | Self::NoInterpolator { .. }
+            | Self::CommandRefused { .. }
+            | Self::Interpolator(_)
+            | Self::Planner(_)
+            | Self::Feed(_)
+            | Self::Link(_)
+            | Self::NotBuilt => Exit::Fault,
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Ctrl-C and its relatives, as a flag.
 
+use crate::exit::Exit;
+use rustix::process::{Signal, getppid, set_parent_process_death_signal};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use std::io;
 use std::sync::Arc;
@@ -7,7 +9,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Set when the process was asked to end.
 #[derive(Debug, Clone)]
-pub struct Interrupt(Arc<AtomicBool>);
+pub struct Interrupt {
+    any: Arc<AtomicBool>,
+    /// By SIGTERM, the way services are ended.
+    terminated: Arc<AtomicBool>,
+}
 
 impl Interrupt {
     /// Takes over SIGINT, SIGTERM and SIGHUP. The second of them ends the process at once.
@@ -15,27 +21,57 @@ impl Interrupt {
     /// # Errors
     /// The system refuses the handlers.
     pub fn install() -> io::Result<Self> {
-        let flag = Arc::new(AtomicBool::new(false));
+        let any = Arc::new(AtomicBool::new(false));
+        let terminated = Arc::new(AtomicBool::new(false));
+        signal_hook::flag::register(SIGTERM, Arc::clone(&terminated))?;
         for signal in [SIGINT, SIGTERM, SIGHUP] {
             signal_hook::flag::register_conditional_shutdown(
                 signal,
-                i32::from(crate::exit::Exit::Interrupted as u8),
-                Arc::clone(&flag),
+                i32::from(Exit::Interrupted as u8),
+                Arc::clone(&any),
             )?;
-            signal_hook::flag::register(signal, Arc::clone(&flag))?;
+            signal_hook::flag::register(signal, Arc::clone(&any))?;
         }
-        Ok(Self(flag))
+        Ok(Self { any, terminated })
     }
 
     /// True once the process was asked to end.
     #[must_use]
     pub fn is_set(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        self.any.load(Ordering::Relaxed)
     }
 
-    /// The flag itself, for threads that are to end with the process.
+    /// The flag itself, for libraries that end with it.
     #[must_use]
-    pub fn flag(&self) -> Arc<AtomicBool> {
-        Arc::clone(&self.0)
+    pub fn flag(&self) -> &AtomicBool {
+        &self.any
+    }
+
+    /// How a process ends that runs until it is asked to end: SIGTERM is the regular way.
+    #[must_use]
+    pub fn exit(&self) -> Exit {
+        let regular = self.terminated.load(Ordering::Relaxed) || !self.is_set();
+        if regular {
+            Exit::Done
+        } else {
+            Exit::Interrupted
+        }
+    }
+}
+
+/// Makes this process end (by SIGTERM) when its parent does.
+///
+/// # Errors
+/// The system refuses, or the parent has ended already.
+pub fn end_with(parent: Option<u32>) -> io::Result<()> {
+    let Some(parent) = parent else { return Ok(()) };
+    set_parent_process_death_signal(Some(Signal::TERM))?;
+    let own = getppid().map(|pid| pid.as_raw_nonzero().get());
+    if own.and_then(|own| u32::try_from(own).ok()) == Some(parent) {
+        Ok(())
+    } else {
+        Err(io::Error::other(
+            "the process that started this one has ended",
+        ))
     }
 }

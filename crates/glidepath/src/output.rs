@@ -70,8 +70,14 @@ pub fn failure(failure: &Failure, as_json: bool) -> Exit {
         let reports = error.reports();
         diagnostics(reports.iter().map(|report| report as &dyn Diagnostic));
         note(&format!("error: {error}"));
-    } else if let Failure::Rejected { program, report } = failure {
-        print_findings(program, report);
+    } else if let Failure::Rejected {
+        program,
+        findings,
+        more,
+        ..
+    } = failure
+    {
+        print_findings(program, findings, *more);
         note(&format!("error: {failure}"));
     } else {
         note(&format!("error: {failure}"));
@@ -82,8 +88,9 @@ pub fn failure(failure: &Failure, as_json: bool) -> Exit {
 fn failure_object(failure: &Failure) -> Value {
     let findings: Vec<Value> = match failure {
         Failure::Configuration(error) => configuration_findings(error),
-        Failure::Rejected { program, report } => report
-            .diagnostics
+        Failure::Rejected {
+            program, findings, ..
+        } => findings
             .iter()
             .map(|finding| finding_object(program, finding))
             .collect(),

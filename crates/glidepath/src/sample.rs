@@ -1,6 +1,8 @@
 //! One setpoint as reports and plots see it, whether it was planned or received.
 
+use crate::report::state_name;
 use glidepath_geometry::AxisVector;
+use glidepath_link::Setpoint;
 use glidepath_motion::{Frame, FrameFlags};
 
 /// The machine at one tick.
@@ -47,6 +49,27 @@ impl Sample {
             position: frame.position,
             velocity: frame.velocity,
             acceleration: frame.acceleration,
+        }
+    }
+
+    /// The sample of a setpoint that was received.
+    #[must_use]
+    pub fn received(setpoint: &Setpoint, period_t: f64) -> Self {
+        Self {
+            tick: setpoint.tick,
+            #[allow(
+                clippy::cast_precision_loss,
+                reason = "2^53 periods are a million years"
+            )]
+            time_t: setpoint.tick as f64 * period_t,
+            line: setpoint.line,
+            state: setpoint.state().map_or("unknown", state_name),
+            rapid: setpoint.has(FrameFlags::RAPID),
+            feed_v: setpoint.feed_v,
+            path_s: setpoint.path_s,
+            position: setpoint.position.into(),
+            velocity: setpoint.velocity.into(),
+            acceleration: setpoint.acceleration.into(),
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::output;
 use crate::report::{ProgramFinding, finding_object, grouped};
-use glidepath_gcode::Report;
+use glidepath_gcode::{Diagnostic, Report};
 use serde_json::{Value, json};
 use std::fs::File;
 use std::io::BufReader;
@@ -56,15 +56,16 @@ pub fn accepted(path: &Path, config: &MachineConfig) -> Result<Report, Failure> 
     } else {
         Err(Failure::Rejected {
             program: path.display().to_string(),
-            report: Box::new(report),
+            findings: report.diagnostics,
+            more: report.more,
+            moved: false,
         })
     }
 }
 
 /// Prints a program's findings to standard error.
-pub fn print_findings(name: &str, report: &Report) {
-    let findings: Vec<ProgramFinding<'_>> = report
-        .diagnostics
+pub fn print_findings(name: &str, findings: &[Diagnostic], more: u32) {
+    let findings: Vec<ProgramFinding<'_>> = findings
         .iter()
         .map(|finding| ProgramFinding::new(name, finding))
         .collect();
@@ -73,16 +74,13 @@ pub fn print_findings(name: &str, report: &Report) {
             .iter()
             .map(|finding| finding as &dyn miette::Diagnostic),
     );
-    if report.more > 0 {
-        output::note(&format!(
-            "{name}: {} more findings are not shown",
-            report.more
-        ));
+    if more > 0 {
+        output::note(&format!("{name}: {more} more findings are not shown"));
     }
 }
 
 fn print(name: &str, report: &Report) {
-    print_findings(name, report);
+    print_findings(name, &report.diagnostics, report.more);
     let totals = &report.totals;
     let verdict = match report.diagnostics.len() + usize::try_from(report.more).unwrap_or(0) {
         0 => "no findings".to_owned(),

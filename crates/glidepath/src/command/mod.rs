@@ -1,13 +1,20 @@
 //! The subcommands, one file each.
 
 pub mod check;
-pub mod plan;
+mod feed;
+mod interpolator;
+mod operator;
+mod plan;
+mod planner;
+mod servo;
+mod session;
 
 use crate::cli::{Cli, Command};
 use crate::config;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::output;
+use glidepath_link as link;
 
 /// Does what the command line asks for, and prints its result.
 #[must_use]
@@ -19,8 +26,20 @@ pub fn run(cli: &Cli) -> Exit {
 fn dispatch(command: &Command) -> Result<Exit, Failure> {
     let config = config::load(command.basic().config.as_deref())?;
     match command {
-        Command::Check(args) => check::check(args, &config),
+        Command::Run(_) => Err(Failure::NotBuilt),
         Command::Plan(args) => plan::plan(args, &config),
-        _ => Err(Failure::NotBuilt),
+        Command::Check(args) => check::check(args, &config),
+        Command::Interpolator(args) => interpolator::interpolator(args, &config),
+        Command::Planner(args) => planner::planner(args, &config),
+        Command::Servo(args) => servo::servo(args, &config),
+        Command::Feed(args) => feed::feed(args, &config),
+        Command::Status(args) => operator::status(args, &config),
+        Command::Hold(args) => operator::command(args, &config, "hold", link::Command::Hold),
+        Command::Resume(args) => operator::command(args, &config, "resume", link::Command::Resume),
+        Command::Abort(args) => operator::command(args, &config, "abort", link::Command::Abort),
+        Command::Override(args) => {
+            let command = link::Command::FeedOverride(args.percent / 100.0);
+            operator::command(&args.operator, &config, "override", command)
+        }
     }
 }

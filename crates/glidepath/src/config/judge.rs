@@ -282,11 +282,16 @@ impl Judge {
                 "the number of a CPU of this host",
             )
         });
+        let missed = raw.max_missed_ticks.as_ref().map_or(Some(10), |value| {
+            let help = "ticks missed within a second before the motion stops with a fault";
+            self.whole("interpolator.max_missed_ticks", value, (0, 1_000_000), help)
+        });
         InterpolatorConfig {
             // A value that does not fit was found already: the configuration is refused.
             period_us: period_us.unwrap_or(4000),
             priority: priority.unwrap_or(80),
             cpu,
+            max_missed_ticks: missed.unwrap_or(10),
             horizon_t: self.number_or("interpolator.horizon_s", &raw.horizon_s, &horizon, 0.5),
         }
     }

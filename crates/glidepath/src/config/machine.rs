@@ -50,6 +50,8 @@ pub struct InterpolatorConfig {
     pub cpu: Option<usize>,
     /// Seconds of motion published ahead.
     pub horizon_t: f64,
+    /// Ticks that may be missed within a second before the motion stops with a fault.
+    pub max_missed_ticks: u64,
 }
 
 /// A machine.
@@ -75,6 +77,26 @@ impl MachineConfig {
     #[must_use]
     pub fn period_t(&self) -> f64 {
         f64::from(self.interpolator.period_us) / 1e6
+    }
+
+    /// Interpolation period in nanoseconds.
+    #[must_use]
+    pub fn period_ns(&self) -> u64 {
+        u64::from(self.interpolator.period_us) * 1000
+    }
+
+    /// Lowest and highest position of every axis; infinite where there is no soft limit.
+    #[must_use]
+    pub fn travel(&self) -> (AxisVector, AxisVector) {
+        let mut low = AxisVector::repeat(f64::NEG_INFINITY);
+        let mut high = AxisVector::repeat(f64::INFINITY);
+        for axis in &self.axes {
+            if let Some((min, max)) = axis.travel {
+                low[axis.axis.index()] = min;
+                high[axis.axis.index()] = max;
+            }
+        }
+        (low, high)
     }
 
     /// Limits over all nine axes; an axis the machine does not have is unlimited.

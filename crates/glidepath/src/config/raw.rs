@@ -77,6 +77,7 @@ pub(super) struct RawInterpolator {
     pub(super) priority: Optional<i64>,
     pub(super) cpu: Optional<i64>,
     pub(super) horizon_s: Optional<f64>,
+    pub(super) max_missed_ticks: Optional<i64>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -31,7 +31,7 @@ impl Process {
         let child = Command::new(std::env::current_exe()?)
             .arg(name)
             .args(args)
-            .arg("--end-with-parent")
+            .args(["--end-with", &std::process::id().to_string()])
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .process_group(0)

@@ -1,0 +1,44 @@
+//! `glidepath feed`: a client of a listening planner.
+
+use super::session;
+use crate::cli::FeedArgs;
+use crate::config::MachineConfig;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::output;
+use crate::report::grouped;
+use glidepath_planner::{Control, FeedError, Notice, ProgramSource, feed as stream};
+use serde_json::json;
+
+/// Streams a program, and waits until it is executed.
+///
+/// # Errors
+/// The program is rejected, nobody listens, or the motion ended before the program did.
+pub fn feed(args: &FeedArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    std::fs::File::open(&args.file).map_err(Failure::open(&args.file))?;
+    let interrupt = Interrupt::install().map_err(Failure::Signals)?;
+    let transport = session::join(&args.instance, config)?;
+    let mut notify = |_: &Notice<'_>| {};
+    let mut control = Control {
+        stop: interrupt.flag(),
+        pause: &mut std::thread::sleep,
+        notify: &mut notify,
+    };
+    let name = args.file.display().to_string();
+    let open = |start| ProgramSource::open(&args.file, config.program_options(start));
+    let fed = stream(&transport, open, &mut control).map_err(|error| match error {
+        FeedError::Refused(refusal) => Failure::refused(&name, refusal, false),
+        error => error.into(),
+    })?;
+    if args.basic.json {
+        output::object(&json!({ "program": name, "lines": fed.lines, "items": fed.items }));
+    } else {
+        output::result(&format!(
+            "{name}: executed; {} lines, {} items\n",
+            grouped(fed.lines),
+            grouped(fed.items)
+        ));
+    }
+    Ok(Exit::Done)
+}

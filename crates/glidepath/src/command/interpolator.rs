@@ -1,0 +1,59 @@
+//! `glidepath interpolator`: the real-time process.
+
+use super::session;
+use crate::cli::InterpolatorArgs;
+use crate::config::MachineConfig;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::interrupt::{Interrupt, end_with};
+use crate::output;
+use crate::report::{status_object, status_text};
+use glidepath_interpolator::{Config, RealTime, SoftLimits};
+use glidepath_link::{Ipc, Transport};
+use glidepath_realtime::{Mode, Request};
+
+/// Runs until asked to end; the motion then comes to rest on the path.
+///
+/// # Errors
+/// The host is not real-time capable, or the link cannot be used.
+pub fn interpolator(args: &InterpolatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let interrupt = Interrupt::install().map_err(Failure::Signals)?;
+    end_with(args.end_with).map_err(Failure::Signals)?;
+    let instance = session::instance(&args.instance, config);
+    let link = session::link(&instance, config);
+    let transport = || Ok(Box::new(Ipc::connect(&link)?) as Box<dyn Transport>);
+    let mut log = |line: &str| output::note(&format!("interpolator: {line}"));
+    let settings = settings(config, args.best_effort);
+    let status = glidepath_interpolator::run(&settings, transport, interrupt.flag(), &mut log)?;
+    if args.basic.json {
+        output::object(&status_object(&instance, &status));
+    } else {
+        output::result(&status_text(&instance, &status));
+    }
+    Ok(interrupt.exit())
+}
+
+fn settings(config: &MachineConfig, best_effort: bool) -> Config {
+    let (lowest, highest) = config.travel();
+    let request = Request {
+        priority: Some(i32::from(config.interpolator.priority)),
+        cpu: config.interpolator.cpu,
+        lock_memory: true,
+        prefault_stack: true,
+        hold_cpu_awake: true,
+    };
+    let mode = if best_effort {
+        Mode::BestEffort
+    } else {
+        Mode::Strict
+    };
+    Config {
+        soft_limits: SoftLimits { lowest, highest },
+        start_position: config.home(),
+        horizon_frames: session::pace(config).horizon_frames,
+        real_time: RealTime { mode, request },
+        // On a desk the clock is what it is: missed ticks are counted and reported.
+        missed_ticks_allowed: (!best_effort).then_some(config.interpolator.max_missed_ticks),
+        ..Config::new(config.limits(), config.period_ns())
+    }
+}

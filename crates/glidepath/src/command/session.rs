@@ -1,0 +1,33 @@
+//! Which instance a process takes part in.
+
+use crate::cli::InstanceArgs;
+use crate::config::MachineConfig;
+use crate::failure::Failure;
+use glidepath_link::{Ipc, LinkConfig};
+use glidepath_planner::Pace;
+
+/// The instance asked for: on the command line, else in the configuration, else the default one.
+pub(super) fn instance(args: &InstanceArgs, config: &MachineConfig) -> String {
+    args.instance
+        .clone()
+        .or_else(|| config.instance.clone())
+        .unwrap_or_else(|| MachineConfig::DEFAULT_INSTANCE.to_owned())
+}
+
+/// How the processes of an instance meet.
+pub(super) fn link(instance: &str, config: &MachineConfig) -> LinkConfig {
+    let mut link = LinkConfig::new(instance);
+    let horizon = usize::try_from(pace(config).horizon_frames).unwrap_or(usize::MAX);
+    link.capacity.frames = link.capacity.frames.max(horizon);
+    link
+}
+
+/// How frames are paced.
+pub(super) fn pace(config: &MachineConfig) -> Pace {
+    Pace::new(config.period_ns(), config.interpolator.horizon_t)
+}
+
+/// Joins an instance.
+pub(super) fn join(args: &InstanceArgs, config: &MachineConfig) -> Result<Ipc, Failure> {
+    Ok(Ipc::connect(&link(&instance(args, config), config))?)
+}
