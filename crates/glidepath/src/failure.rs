@@ -4,7 +4,7 @@ use crate::config::ConfigError;
 use crate::exit::Exit;
 use glidepath_gcode::Diagnostic;
 use glidepath_interpolator as interpolator;
-use glidepath_link::LinkError;
+use glidepath_link::{LinkError, RecordingError};
 use glidepath_planner::{self as planner, FeedError, Refusal};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -82,9 +82,25 @@ pub enum Failure {
     /// The shared memory cannot be used.
     #[error(transparent)]
     Link(#[from] LinkError),
-    /// The command is not connected to the stages below yet.
-    #[error("this command is not built yet")]
-    NotBuilt,
+    /// What a process sent cannot be read.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// A process cannot be started or ended.
+    #[error("cannot start or end a process: {0}")]
+    Process(std::io::Error),
+    /// A process ended before its time.
+    #[error("the {name} ended: {reason}")]
+    ProcessEnded {
+        /// Its subcommand.
+        name: &'static str,
+        /// What it said.
+        reason: String,
+        /// What its end means.
+        exit: Exit,
+    },
+    /// A part of this process does not work.
+    #[error("{0} failed")]
+    Thread(&'static str),
     /// The command was interrupted.
     #[error("interrupted")]
     Interrupted,
@@ -146,7 +162,10 @@ impl Failure {
             | Self::Planner(_)
             | Self::Feed(_)
             | Self::Link(_)
-            | Self::NotBuilt => Exit::Fault,
+            | Self::Recording(_)
+            | Self::Process(_)
+            | Self::Thread(_) => Exit::Fault,
+            Self::ProcessEnded { exit, .. } => *exit,
         }
     }
 }

@@ -11,7 +11,6 @@ pub mod interrupt;
 pub mod output;
 pub mod plot;
 pub mod progress;
-pub mod reception;
 pub mod recording;
 pub mod report;
 pub mod sample;

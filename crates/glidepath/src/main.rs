@@ -5,5 +5,5 @@ use glidepath::{cli::Cli, command};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    command::run(&Cli::parse()).into()
+    command::main(&Cli::parse()).into()
 }

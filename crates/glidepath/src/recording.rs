@@ -3,8 +3,10 @@
 use crate::config::MachineConfig;
 use crate::failure::Failure;
 use crate::plot::Plot;
+use crate::report::state_name;
 use crate::sample::Sample;
 use crate::setpoints::CsvWriter;
+use glidepath_link::MachineState;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
@@ -54,7 +56,9 @@ impl Recording {
         if let Some((path, csv)) = &mut self.csv {
             csv.row(sample).map_err(Failure::file("write", path))?;
         }
-        if let Some((_, plot)) = &mut self.plot {
+        // Waiting before and after the program is no part of the picture.
+        let shown = sample.state != state_name(MachineState::Idle);
+        if let Some((_, plot)) = self.plot.as_mut().filter(|_| shown) {
             plot.push(sample);
         }
         Ok(())

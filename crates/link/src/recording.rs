@@ -124,6 +124,15 @@ impl<R: Record, W: Write> Recorder<R, W> {
         Ok(())
     }
 
+    /// Hands over what is buffered.
+    ///
+    /// # Errors
+    ///
+    /// The writer's.
+    pub fn flush(&mut self) -> Result<(), RecordingError> {
+        Ok(self.writer.flush()?)
+    }
+
     /// Records written.
     #[must_use]
     pub const fn written(&self) -> u64 {

@@ -15,7 +15,7 @@ use serde_json::json;
 ///
 /// # Errors
 /// The program is rejected, nobody listens, or the motion ended before the program did.
-pub fn feed(args: &FeedArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+pub(super) fn feed(args: &FeedArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     std::fs::File::open(&args.file).map_err(Failure::open(&args.file))?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let transport = session::join(&args.instance, config)?;

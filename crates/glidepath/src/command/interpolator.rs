@@ -16,13 +16,22 @@ use glidepath_realtime::{Mode, Request};
 ///
 /// # Errors
 /// The host is not real-time capable, or the link cannot be used.
-pub fn interpolator(args: &InterpolatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+pub(super) fn interpolator(
+    args: &InterpolatorArgs,
+    config: &MachineConfig,
+) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     end_with(args.end_with).map_err(Failure::Signals)?;
     let instance = session::instance(&args.instance, config);
     let link = session::link(&instance, config);
     let transport = || Ok(Box::new(Ipc::connect(&link)?) as Box<dyn Transport>);
-    let mut log = |line: &str| output::note(&format!("interpolator: {line}"));
+    // What a process that started this one has to know is in the status.
+    let quiet = args.end_with.is_some();
+    let mut log = |line: &str| {
+        if !quiet {
+            output::note(&format!("interpolator: {line}"));
+        }
+    };
     let settings = settings(config, args.best_effort);
     let status = glidepath_interpolator::run(&settings, transport, interrupt.flag(), &mut log)?;
     if args.basic.json {

@@ -6,6 +6,7 @@ mod interpolator;
 mod operator;
 mod plan;
 mod planner;
+mod run;
 mod servo;
 mod session;
 
@@ -18,7 +19,7 @@ use glidepath_link as link;
 
 /// Does what the command line asks for, and prints its result.
 #[must_use]
-pub fn run(cli: &Cli) -> Exit {
+pub fn main(cli: &Cli) -> Exit {
     let basic = cli.command.basic();
     dispatch(&cli.command).unwrap_or_else(|failure| output::failure(&failure, basic.json))
 }
@@ -26,7 +27,7 @@ pub fn run(cli: &Cli) -> Exit {
 fn dispatch(command: &Command) -> Result<Exit, Failure> {
     let config = config::load(command.basic().config.as_deref())?;
     match command {
-        Command::Run(_) => Err(Failure::NotBuilt),
+        Command::Run(args) => run::run(args, &config),
         Command::Plan(args) => plan::plan(args, &config),
         Command::Check(args) => check::check(args, &config),
         Command::Interpolator(args) => interpolator::interpolator(args, &config),

@@ -22,7 +22,7 @@ const POLL: Duration = Duration::from_millis(2);
 ///
 /// # Errors
 /// No interpolator runs, it does not answer, or it refuses.
-pub fn command(
+pub(super) fn command(
     args: &OperatorArgs,
     config: &MachineConfig,
     name: &'static str,
@@ -94,7 +94,7 @@ fn refusal_text(refusal: CommandRefusal, message: &str) -> String {
 ///
 /// # Errors
 /// No interpolator runs.
-pub fn status(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+pub(super) fn status(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let instance = session::instance(&args.instance, config);
     let transport = session::join(&args.instance, config)?;
     let status = live_status(&transport)?.ok_or_else(|| Failure::NoInterpolator {

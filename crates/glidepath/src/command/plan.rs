@@ -25,7 +25,7 @@ const STEPS_PER_TURN: usize = 512;
 ///
 /// # Errors
 /// The program is rejected, a file cannot be read or written, or the user interrupted.
-pub fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let checked = check::accepted(&args.file, config)?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let (csv, plot) = (args.setpoints.as_deref(), args.plot.as_deref());

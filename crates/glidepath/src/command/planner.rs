@@ -22,7 +22,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// The program is rejected, the motion was aborted or stopped by a fault, or the link failed.
-pub fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     end_with(args.end_with).map_err(Failure::Signals)?;
     let transport = session::join(&args.instance, config)?;

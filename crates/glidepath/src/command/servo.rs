@@ -1,4 +1,5 @@
-//! `glidepath servo`: a mock servo. It takes setpoints as a real one would, and counts.
+//! `glidepath servo`: a mock servo. It takes setpoints and plays them as a real one would, without
+//! drives.
 
 use super::session;
 use crate::cli::ServoArgs;
@@ -7,84 +8,110 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::interrupt::{Interrupt, end_with};
 use crate::output;
-use crate::reception::Reception;
 use crate::recording::Recording;
 use crate::report::grouped;
 use crate::sample::Sample;
-use glidepath_link::{LinkError, Record as _, Setpoint, Transport as _};
+use glidepath_geometry::AXES;
+use glidepath_link::servo::{Servo, ServoCounts, ServoSettings, StopLimits};
+use glidepath_link::{Recorder, Setpoint, Transport as _};
+use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::json;
-use std::io::Write as _;
+use std::io::BufWriter;
 use std::time::Duration;
 
 /// Between two looks for setpoints: a fraction of a period, and a small one of the queue.
 const POLL: Duration = Duration::from_millis(1);
 
+/// Periods without a setpoint after which the servo stops its joints by itself.
+const PATIENCE_PERIODS: u64 = 3;
+
 /// Receives until asked to end.
 ///
 /// # Errors
 /// The link cannot be used, or a file cannot be written.
-pub fn servo(args: &ServoArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+pub(super) fn servo(args: &ServoArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     end_with(args.end_with).map_err(Failure::Signals)?;
     if args.relay {
         return relay(args, config, &interrupt);
     }
     let mut recording = Recording::create(config, args.setpoints.as_deref(), None)?;
-    let mut reception = Reception::default();
     let period_t = config.period_t();
-    receive(args, config, &interrupt, |setpoint| {
-        reception.count(setpoint);
-        recording.push(&Sample::received(setpoint, period_t))?;
-        Ok(true)
+    let counts = play(args, config, &interrupt, |setpoint| {
+        recording
+            .push(&Sample::received(setpoint, period_t))
+            .map(|()| true)
     })?;
     recording.finish("", "")?;
     if args.basic.json {
         output::object(&json!({
-            "received": reception.received,
-            "lost_setpoints": reception.lost,
-            "restarts": reception.restarts,
+            "received": counts.received,
+            "lost_setpoints": counts.lost,
+            "late_setpoints": counts.late,
+            "duplicates": counts.duplicates,
+            "refused": counts.refused,
+            "restarts": counts.restarts,
+            "own_stops": counts.stops,
             "setpoints": args.setpoints,
         }));
     } else {
         output::result(&format!(
-            "servo: {} setpoints, {} lost, {} restarts of the interpolator\n",
-            grouped(reception.received),
-            grouped(reception.lost),
-            reception.restarts
+            "servo: {} setpoints, {} lost, {} late, {} restarts of the interpolator, {} own stops\n",
+            grouped(counts.received),
+            grouped(counts.lost),
+            grouped(counts.late),
+            counts.restarts,
+            counts.stops
         ));
     }
     Ok(interrupt.exit())
 }
 
-/// Passes every record on, byte for byte, until the reader goes away.
+/// Passes every setpoint on, as a recording, until the reader goes away.
 fn relay(args: &ServoArgs, config: &MachineConfig, interrupt: &Interrupt) -> Result<Exit, Failure> {
-    let mut out = std::io::stdout().lock();
-    receive(args, config, interrupt, |setpoint| {
-        Ok(out
-            .write_all(bytemuck::bytes_of(setpoint))
-            .and_then(|()| out.flush())
+    let mut recorder = Recorder::new(BufWriter::new(std::io::stdout().lock()))?;
+    play(args, config, interrupt, |setpoint| {
+        Ok(recorder
+            .write(setpoint)
+            .and_then(|()| recorder.flush())
             .is_ok())
     })?;
     Ok(interrupt.exit())
 }
 
-/// Hands over every setpoint, checked, until `take` gives false or the process is asked to end.
-fn receive(
+/// Plays setpoints and hands over every one, until `take` gives false or the process is asked to end.
+fn play(
     args: &ServoArgs,
     config: &MachineConfig,
     interrupt: &Interrupt,
     mut take: impl FnMut(&Setpoint) -> Result<bool, Failure>,
-) -> Result<(), Failure> {
+) -> Result<ServoCounts, Failure> {
     let transport = session::join(&args.instance, config)?;
-    let mut source = transport.setpoint_source()?;
+    let mut servo = Servo::new(transport.setpoint_source()?, settings(config));
     while !interrupt.is_set() {
-        while let Some(setpoint) = source.take()? {
-            setpoint.check().map_err(LinkError::from)?;
+        while let Some(setpoint) = servo.receive(Monotonic.now_ns())? {
             if !take(&setpoint)? {
-                return Ok(());
+                return Ok(*servo.counts());
             }
         }
+        // A real servo stack hands this to its drives.
+        servo.demand(Monotonic.now_ns());
         std::thread::sleep(POLL);
     }
-    Ok(())
+    Ok(*servo.counts())
+}
+
+fn settings(config: &MachineConfig) -> ServoSettings {
+    let mut settings = ServoSettings {
+        patience_ns: PATIENCE_PERIODS * config.period_ns(),
+        stop: [ServoSettings::default().stop[0]; AXES],
+    };
+    // Trivial kinematics: the joints are the axes.
+    for axis in &config.axes {
+        settings.stop[axis.axis.index()] = StopLimits {
+            acceleration: axis.max_acceleration,
+            jerk: axis.max_jerk,
+        };
+    }
+    settings
 }

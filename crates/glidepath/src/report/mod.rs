@@ -4,12 +4,14 @@ mod finding;
 mod memory;
 mod motion;
 mod quantity;
+mod run;
 mod status;
 
 pub use finding::{ProgramFinding, finding_object};
 pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};
 pub use quantity::{grouped, seconds};
+pub use run::RunReport;
 pub use status::{
     fault_text, quantiles_object, quantiles_text, realtime_object, realtime_text, state_name,
     status_object, status_text, timing_text,

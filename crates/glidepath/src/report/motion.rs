@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Violations listed at most.
-const SHOWN: usize = 20;
+pub(super) const SHOWN: usize = 20;
 
 /// What planning a program took.
 #[derive(Debug, Clone, Copy, Default)]

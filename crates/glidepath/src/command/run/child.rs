@@ -1,14 +1,18 @@
 //! The processes `run` starts: this program again, with another subcommand.
 
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::report::Planning;
 use rustix::process::{Pid, Signal, kill_process};
+use serde_json::Value;
 use std::ffi::OsStr;
-use std::io;
-use std::os::unix::process::CommandExt as _;
+use std::io::{self, Read as _};
+use std::os::unix::process::{CommandExt as _, ExitStatusExt as _};
 use std::process::{Child, ChildStdout, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-/// How long a process may take to end when asked.
-const PATIENCE: Duration = Duration::from_secs(5);
+/// How long a process may take to end when asked: the interpolator brings the machine to rest first.
+const PATIENCE: Duration = Duration::from_secs(10);
 const POLL: Duration = Duration::from_millis(5);
 
 /// One of them. Dropping it ends it, at the latest by force.
@@ -16,11 +20,11 @@ const POLL: Duration = Duration::from_millis(5);
 pub(super) struct Process {
     name: &'static str,
     child: Child,
+    ended: Option<ExitStatus>,
 }
 
 impl Process {
-    /// Starts `glidepath NAME ARGS…`. Standard output can be read from [`Process::take_output`];
-    /// standard error is shared with this process.
+    /// Starts `glidepath NAME ARGS…`. Standard error is shared with this process.
     ///
     /// The process is its own process group: Ctrl-C reaches this process alone, which then ends the
     /// others in the right order. It ends by itself if this process dies.
@@ -36,11 +40,11 @@ impl Process {
             .stdout(Stdio::piped())
             .process_group(0)
             .spawn()?;
-        Ok(Self { name, child })
-    }
-
-    pub(super) const fn name(&self) -> &'static str {
-        self.name
+        Ok(Self {
+            name,
+            child,
+            ended: None,
+        })
     }
 
     /// What the process writes to standard output; `None` the second time.
@@ -48,27 +52,74 @@ impl Process {
         self.child.stdout.take()
     }
 
-    /// How it ended, if it has.
-    pub(super) fn ended(&mut self) -> io::Result<Option<ExitStatus>> {
-        self.child.try_wait()
+    /// Checks that the process has not ended.
+    pub(super) fn must_live(&mut self) -> Result<(), Failure> {
+        match self.poll().map_err(Failure::Process)? {
+            None => Ok(()),
+            Some(status) => Err(self.failure(status)),
+        }
+    }
+
+    /// True if the process has done its work; false if it is still at it.
+    pub(super) fn is_done(&mut self) -> Result<bool, Failure> {
+        match self.poll().map_err(Failure::Process)? {
+            None => Ok(false),
+            Some(status) if status.success() => Ok(true),
+            Some(status) => Err(self.failure(status)),
+        }
+    }
+
+    /// The failure of a process that lives, but does nothing.
+    pub(super) fn silent(&self) -> Failure {
+        Failure::ProcessEnded {
+            name: self.name,
+            reason: "it does not start to work".to_owned(),
+            exit: Exit::Fault,
+        }
+    }
+
+    /// What a planner that has ended reports.
+    pub(super) fn planning(&mut self) -> Result<Planning, Failure> {
+        let report = self.report();
+        let whole = |key: &str| report[key].as_u64();
+        let planning = || {
+            Some(Planning {
+                lines: whole("lines")?,
+                segments: whole("segments")?,
+                plan_wall_s: report["plan_wall_s"].as_f64()?,
+                peak_rss_bytes: whole("peak_rss_bytes"),
+            })
+        };
+        planning().ok_or_else(|| Failure::ProcessEnded {
+            name: self.name,
+            reason: "its report cannot be read".to_owned(),
+            exit: Exit::Fault,
+        })
     }
 
     /// Asks it to end, and waits until it has: by force if it does not listen.
     pub(super) fn end(&mut self) -> io::Result<ExitStatus> {
         let asked = Instant::now();
+        let mut signalled = false;
         while asked.elapsed() < PATIENCE {
-            if let Some(status) = self.child.try_wait()? {
+            if let Some(status) = self.poll()? {
                 return Ok(status);
             }
-            // Again and again: a process that has only just started may not have its handler yet,
-            // but then the signal ends it all the same.
-            if asked.elapsed() < POLL {
+            if !signalled {
                 self.signal(Signal::TERM);
+                signalled = true;
             }
             std::thread::sleep(POLL);
         }
         self.child.kill()?;
         self.child.wait()
+    }
+
+    fn poll(&mut self) -> io::Result<Option<ExitStatus>> {
+        if self.ended.is_none() {
+            self.ended = self.child.try_wait()?;
+        }
+        Ok(self.ended)
     }
 
     fn signal(&self, signal: Signal) {
@@ -77,6 +128,40 @@ impl Process {
         if let Some(pid) = pid {
             // Fails only if it has just ended.
             let _ = kill_process(pid, signal);
+        }
+    }
+
+    /// The JSON object on standard output of a process that has ended; null if there is none.
+    fn report(&mut self) -> Value {
+        let mut text = String::new();
+        let read = self
+            .take_output()
+            .map(|mut output| output.read_to_string(&mut text));
+        match read {
+            Some(Ok(_)) => serde_json::from_str(&text).unwrap_or(Value::Null),
+            _ => Value::Null,
+        }
+    }
+
+    /// Why it ended.
+    fn failure(&mut self, status: ExitStatus) -> Failure {
+        let report = self.report();
+        let exit = match status.code() {
+            Some(1) => Exit::Rejected,
+            Some(3) => Exit::Configuration,
+            Some(4) => Exit::NotRealTime,
+            _ => Exit::Fault,
+        };
+        let reason = match (report["error"].as_str(), status.code(), status.signal()) {
+            (Some(error), ..) => error.to_owned(),
+            (None, Some(code), _) => format!("exit code {code}"),
+            (None, None, Some(signal)) => format!("killed by signal {signal}"),
+            (None, None, None) => "unknown cause".to_owned(),
+        };
+        Failure::ProcessEnded {
+            name: self.name,
+            reason,
+            exit,
         }
     }
 }

@@ -1,0 +1,275 @@
+//! `glidepath run`: the main job on one desk.
+//!
+//! ```text
+//!   run ── starts ──► interpolator ── setpoints ──► servo --relay ─┐ records
+//!    │                     ▲ frames                                ▼
+//!    └──── starts ──► planner FILE                    this process: audit, CSV, plot
+//! ```
+//!
+//! All of them are this program again. However `run` ends, the motion first comes to rest, then the
+//! processes end, then the instance's shared memory is removed.
+
+mod child;
+mod monitor;
+mod relay;
+
+use super::{check, plan::title, session};
+use crate::cli::RunArgs;
+use crate::config::MachineConfig;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::output;
+use crate::progress::Progress;
+use crate::recording::Recording;
+use crate::report::{Planning, RunReport};
+use child::Process;
+use glidepath_link::{Ipc, LinkConfig, Status, remove_leftovers};
+use monitor::Monitor;
+use relay::{Received, Relay};
+use std::ffi::OsString;
+use std::fs::File;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Between two looks at the processes.
+const POLL: Duration = Duration::from_millis(10);
+/// How long a process may take to start working, and the machine to come to rest.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Plans and plays a program, and reports.
+///
+/// # Errors
+/// The program is rejected, real time is not granted, a process failed, or the user interrupted.
+pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let checked = check::accepted(&args.file, config)?;
+    let interrupt = Interrupt::install().map_err(Failure::Signals)?;
+    let plot = plot_path(args);
+    let recording = Recording::create(config, args.setpoints.as_deref(), plot.as_deref())?;
+    let progress = Progress::lines(checked.totals.lines.into());
+    let played = Desk {
+        args,
+        config,
+        interrupt: &interrupt,
+        progress: &progress,
+    }
+    .play(recording);
+    progress.finish();
+    let Played {
+        planning,
+        status,
+        received,
+    } = played?;
+
+    let mut report = RunReport::new(
+        &planning,
+        &received.audit,
+        &received.counts,
+        &status,
+        config,
+    );
+    report.motion.program = args.file.display().to_string();
+    report.motion.setpoints.clone_from(&args.setpoints);
+    report.motion.plot = plot;
+    received
+        .recording
+        .finish(&title(&args.file), &report.motion.caption())?;
+    if args.basic.json {
+        output::object(&report);
+    } else {
+        output::result(&report.text());
+    }
+    Ok(report.motion.exit())
+}
+
+/// Where the plot goes: for people always somewhere.
+fn plot_path(args: &RunArgs) -> Option<PathBuf> {
+    let temporary = || {
+        let stem = args.file.file_stem().unwrap_or_default().to_string_lossy();
+        let name = format!("glidepath-{stem}-{}.svg", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        // The folder is everybody's: never write to what somebody else put there.
+        File::create_new(&path).is_ok().then_some(path)
+    };
+    args.plot
+        .clone()
+        .or_else(|| if args.basic.json { None } else { temporary() })
+}
+
+/// A name for the shared memory that no other run has.
+fn own_instance() -> String {
+    let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
+    let nanos = since.unwrap_or_default().subsec_nanos();
+    format!("run-{}-{nanos:x}", std::process::id())
+}
+
+/// What a run came to.
+struct Played {
+    planning: Planning,
+    status: Status,
+    received: Received,
+}
+
+/// Removes an instance's shared memory when everything that used it is gone.
+struct Leftovers(LinkConfig);
+
+impl Drop for Leftovers {
+    fn drop(&mut self) {
+        if let Err(error) = remove_leftovers(&self.0) {
+            output::note(&format!("cannot remove the shared memory: {error}"));
+        }
+    }
+}
+
+struct Desk<'a> {
+    args: &'a RunArgs,
+    config: &'a MachineConfig,
+    interrupt: &'a Interrupt,
+    progress: &'a Progress,
+}
+
+impl Desk<'_> {
+    /// Starts the processes, waits for the end of the motion, and ends them. Locals go in the order
+    /// opposite to that in which they came: processes, ports, shared memory.
+    fn play(&self, recording: Recording) -> Result<Played, Failure> {
+        let named = self
+            .args
+            .instance
+            .instance
+            .clone()
+            .or_else(|| self.config.instance.clone());
+        let instance = named.unwrap_or_else(own_instance);
+        let leftovers = Leftovers(session::link(&instance, self.config));
+        let transport = Ipc::connect(&leftovers.0)?;
+        let mut monitor = Monitor::new(&transport, &instance)?;
+
+        self.progress.doing("starting");
+        let mut interpolator = self.start("interpolator", &instance)?;
+        self.wait_for(&mut interpolator, || {
+            monitor.observe()?;
+            Ok(monitor.status().is_some())
+        })?;
+        let mut servo = self.start("servo", &instance)?;
+        let output = servo
+            .take_output()
+            .ok_or(Failure::Thread("the servo's output"))?;
+        let relay = Relay::start(output, &self.args.file, self.config, recording)?;
+        self.wait_for(&mut servo, || Ok(relay.seen.received() > 0))?;
+
+        self.progress.doing("running");
+        let mut planner = self.start("planner", &instance)?;
+        let others = [&mut interpolator, &mut servo];
+        let played = self.watch(&mut planner, others, &mut monitor, &relay);
+        if let Err(failure) = played {
+            rest(&mut monitor);
+            return Err(failure);
+        }
+        let planning = planner.planning()?;
+        let status = last_status(&mut monitor)?;
+        servo.end().map_err(Failure::Process)?;
+        let received = relay.finish()?;
+        interpolator.end().map_err(Failure::Process)?;
+        Ok(Played {
+            planning,
+            status,
+            received,
+        })
+    }
+
+    fn start(&self, name: &'static str, instance: &str) -> Result<Process, Failure> {
+        let mut args: Vec<OsString> = vec!["--instance".into(), instance.into()];
+        match name {
+            "planner" => args.extend([self.args.file.clone().into(), "--json".into()]),
+            "servo" => args.push("--relay".into()),
+            _ => {
+                args.push("--json".into());
+                args.extend(self.args.best_effort.then(|| "--best-effort".into()));
+            }
+        }
+        if let Some(config) = &self.args.basic.config {
+            args.extend(["--config".into(), config.into()]);
+        }
+        Process::start(name, args).map_err(Failure::Process)
+    }
+
+    /// Waits until a process that was just started works.
+    fn wait_for(
+        &self,
+        process: &mut Process,
+        mut works: impl FnMut() -> Result<bool, Failure>,
+    ) -> Result<(), Failure> {
+        let started = Instant::now();
+        while !works()? {
+            if self.interrupt.is_set() {
+                return Err(Failure::Interrupted);
+            }
+            process.must_live()?;
+            if started.elapsed() > PATIENCE {
+                return Err(process.silent());
+            }
+            std::thread::sleep(POLL);
+        }
+        Ok(())
+    }
+
+    /// Waits until the planner says that the motion is executed.
+    fn watch(
+        &self,
+        planner: &mut Process,
+        mut others: [&mut Process; 2],
+        monitor: &mut Monitor<'_>,
+        relay: &Relay,
+    ) -> Result<(), Failure> {
+        loop {
+            if self.interrupt.is_set() {
+                return Err(Failure::Interrupted);
+            }
+            for other in &mut others {
+                other.must_live()?;
+            }
+            if relay.is_over() {
+                return Err(Failure::Thread("the thread that receives setpoints"));
+            }
+            if planner.is_done()? {
+                return Ok(());
+            }
+            monitor.observe()?;
+            if let Some(line) = monitor.resume_program_stop()? {
+                self.progress
+                    .note(&format!("line {line}: program stop; going on by itself"));
+            }
+            self.progress.at(relay.seen.line());
+            std::thread::sleep(POLL);
+        }
+    }
+}
+
+/// Brings the machine to rest on the path, if there still is somebody who can.
+fn rest(monitor: &mut Monitor<'_>) {
+    let started = Instant::now();
+    if monitor.observe().is_err() || monitor.rests() || monitor.abort().is_err() {
+        return;
+    }
+    while started.elapsed() < PATIENCE && monitor.observe().is_ok() && !monitor.rests() {
+        std::thread::sleep(POLL);
+    }
+}
+
+/// The status after the end of the motion.
+fn last_status(monitor: &mut Monitor<'_>) -> Result<Status, Failure> {
+    let started = Instant::now();
+    let after = monitor.status().map(|status| status.updated_ns);
+    loop {
+        monitor.observe()?;
+        let newer = monitor
+            .status()
+            .filter(|status| Some(status.updated_ns) != after);
+        if let Some(status) = newer {
+            return Ok(*status);
+        }
+        if started.elapsed() > PATIENCE {
+            return Err(Failure::Thread("the interpolator's status"));
+        }
+        std::thread::sleep(POLL);
+    }
+}

@@ -1,0 +1,80 @@
+//! The interpolator as `run` sees it: its status, and the few commands `run` gives.
+
+use crate::command::operator;
+use crate::failure::Failure;
+use glidepath_link::{
+    Command, LinkError, MachineState, Record as _, Status, Subscriber, Transport,
+};
+
+pub(super) struct Monitor<'t> {
+    transport: &'t dyn Transport,
+    instance: &'t str,
+    source: Box<dyn Subscriber<Status>>,
+    status: Option<Status>,
+    /// The epoch and frame of the program stop that was resumed last.
+    resumed: Option<(u64, u64)>,
+}
+
+impl<'t> Monitor<'t> {
+    pub(super) fn new(transport: &'t dyn Transport, instance: &'t str) -> Result<Self, Failure> {
+        let source = transport.status_source()?;
+        Ok(Self {
+            transport,
+            instance,
+            source,
+            status: None,
+            resumed: None,
+        })
+    }
+
+    /// Takes in the newest status.
+    pub(super) fn observe(&mut self) -> Result<(), Failure> {
+        while let Some(status) = self.source.take()? {
+            status.check().map_err(LinkError::from)?;
+            self.status = Some(status);
+        }
+        Ok(())
+    }
+
+    /// The newest status, `None` before the first.
+    pub(super) const fn status(&self) -> Option<&Status> {
+        self.status.as_ref()
+    }
+
+    fn state(&self) -> Option<MachineState> {
+        self.status.as_ref().and_then(|status| status.state().ok())
+    }
+
+    /// True if the machine cannot move any more.
+    pub(super) fn rests(&self) -> bool {
+        matches!(
+            self.state(),
+            None | Some(MachineState::Idle | MachineState::Faulted)
+        )
+    }
+
+    /// Goes on after a program stop; returns its line the first time it is seen.
+    pub(super) fn resume_program_stop(&mut self) -> Result<Option<u32>, Failure> {
+        let Some(status) = self
+            .status
+            .filter(|_| self.state() == Some(MachineState::ProgramStop))
+        else {
+            return Ok(None);
+        };
+        let at = (status.epoch, status.frames_executed);
+        if self.resumed == Some(at) {
+            return Ok(None);
+        }
+        let reply = operator::send(self.transport, self.instance, Command::Resume)?;
+        // Refused if the status was older than the state: then the next one tells.
+        let accepted = reply.outcome().map_err(LinkError::from)?.is_ok();
+        self.resumed = accepted.then_some(at);
+        Ok(accepted.then_some(status.line))
+    }
+
+    /// Brings the machine to rest on the path, and drops the rest of the program.
+    pub(super) fn abort(&self) -> Result<(), Failure> {
+        // Refused if the machine rests already.
+        operator::send(self.transport, self.instance, Command::Abort).map(|_| ())
+    }
+}

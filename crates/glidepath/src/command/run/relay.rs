@@ -1,0 +1,166 @@
+//! What the mock servo receives, on its way through this process: counted, audited, recorded.
+
+use crate::config::MachineConfig;
+use crate::failure::Failure;
+use crate::recording::Recording;
+use crate::sample::Sample;
+use glidepath_gcode::{Diagnostic, Program};
+use glidepath_geometry::AxisVector;
+use glidepath_link::servo::{Servo, ServoCounts, ServoSettings};
+use glidepath_link::{Replay, Setpoint};
+use glidepath_motion::ItemKind;
+use glidepath_motion::audit::{self, Audit, AuditSettings};
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::thread::JoinHandle;
+
+/// How far the auditor is told the program ahead of the motion, mm of path.
+const AHEAD_MM: f64 = 100.0;
+
+/// How far the reception has come, for the thread that waits.
+#[derive(Debug, Default)]
+pub(super) struct Seen {
+    received: AtomicU64,
+    line: AtomicU32,
+}
+
+impl Seen {
+    /// Setpoints received.
+    pub(super) fn received(&self) -> u64 {
+        self.received.load(Ordering::Relaxed)
+    }
+
+    /// Line being executed.
+    pub(super) fn line(&self) -> u64 {
+        self.line.load(Ordering::Relaxed).into()
+    }
+}
+
+/// What was received in the end.
+#[derive(Debug)]
+pub(super) struct Received {
+    pub(super) counts: ServoCounts,
+    pub(super) audit: audit::Report,
+    pub(super) recording: Recording,
+}
+
+/// The thread that receives.
+#[derive(Debug)]
+pub(super) struct Relay {
+    pub(super) seen: Arc<Seen>,
+    thread: JoinHandle<Result<Received, Failure>>,
+}
+
+impl Relay {
+    /// Receives from a servo's output until that ends.
+    pub(super) fn start(
+        from: impl Read + Send + 'static,
+        program: &Path,
+        config: &MachineConfig,
+        recording: Recording,
+    ) -> Result<Self, Failure> {
+        let seen = Arc::new(Seen::default());
+        let judge = Judge::new(program, config)?;
+        let (shared, period_t) = (Arc::clone(&seen), config.period_t());
+        let thread = std::thread::spawn(move || receive(from, judge, recording, &shared, period_t));
+        Ok(Self { seen, thread })
+    }
+
+    /// True if the servo's output has ended.
+    pub(super) fn is_over(&self) -> bool {
+        self.thread.is_finished()
+    }
+
+    /// Waits for the end of the servo's output.
+    pub(super) fn finish(self) -> Result<Received, Failure> {
+        let panicked = |_| Failure::Thread("the thread that receives setpoints");
+        self.thread.join().map_err(panicked)?
+    }
+}
+
+fn receive(
+    from: impl Read + Send + 'static,
+    mut judge: Judge,
+    mut recording: Recording,
+    seen: &Seen,
+    period_t: f64,
+) -> Result<Received, Failure> {
+    let replay = Replay::<Setpoint, _>::new(BufReader::new(from))?;
+    // Only its counts are wanted: the servo process has played these setpoints in its own time.
+    let mut servo = Servo::new(Box::new(replay), ServoSettings::default());
+    while let Some(setpoint) = servo.receive(0)? {
+        judge.take(&setpoint);
+        recording.push(&Sample::received(&setpoint, period_t))?;
+        seen.line.store(setpoint.line, Ordering::Relaxed);
+        seen.received.fetch_add(1, Ordering::Relaxed);
+    }
+    let counts = *servo.counts();
+    Ok(Received {
+        counts,
+        audit: judge.finish(),
+        recording,
+    })
+}
+
+/// The auditor, and the program it judges by.
+#[derive(Debug)]
+struct Judge {
+    audit: Audit,
+    program: Program<BufReader<File>>,
+    /// Path of the program told so far, mm.
+    told_s: f64,
+}
+
+impl Judge {
+    fn new(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
+        let file = File::open(path).map_err(Failure::open(path))?;
+        let reader = BufReader::with_capacity(1 << 16, file);
+        let audit = Audit::new(&AuditSettings {
+            limits: config.limits(),
+            period_t: config.period_t(),
+            tolerance_mm: config.path.tolerance_mm,
+        });
+        let options = config.program_options(config.home());
+        Ok(Self {
+            audit,
+            program: Program::new(reader, options),
+            told_s: 0.0,
+        })
+    }
+
+    fn take(&mut self, setpoint: &Setpoint) {
+        if setpoint.epoch == 0 {
+            return;
+        }
+        while self.told_s < setpoint.path_s + AHEAD_MM && self.tell() {}
+        self.audit.sample(&audit::Sample {
+            // Not the tick of the clock: after a missed tick the next setpoint is the next of the path.
+            tick: setpoint.number,
+            line: setpoint.line,
+            position: AxisVector::from(setpoint.position),
+            reported: None,
+        });
+    }
+
+    /// Tells the auditor the next item; false at the end. A finding ends it too: the program was
+    /// checked, so that only a file that was changed meanwhile has one, and the auditor then finds
+    /// that the motion went elsewhere.
+    fn tell(&mut self) -> bool {
+        let Some(Ok::<_, Diagnostic>(item)) = self.program.next() else {
+            return false;
+        };
+        if let ItemKind::Move { segment, .. } = &item.kind {
+            self.told_s += segment.length();
+        }
+        self.audit.program(&item);
+        true
+    }
+
+    fn finish(mut self) -> audit::Report {
+        while self.tell() {}
+        self.audit.finish()
+    }
+}

@@ -1,0 +1,84 @@
+//! The report of `run`.
+
+use super::motion::{MotionReport, Planning};
+use super::status::{quantiles_object, realtime_object, timing_text};
+use crate::config::MachineConfig;
+use glidepath_link::Status;
+use glidepath_link::servo::ServoCounts;
+use glidepath_motion::audit::{Report, ViolationKind};
+use serde::Serialize;
+use serde_json::Value;
+
+/// A motion that was played. The names are part of the command line's contract.
+#[derive(Debug, Clone, Serialize)]
+pub struct RunReport {
+    /// The motion, as the servo received it.
+    #[serde(flatten)]
+    pub motion: MotionReport,
+    /// Ticks of the interpolator.
+    pub ticks: u64,
+    /// Ticks it missed.
+    pub missed_ticks: u64,
+    /// Ticks that began late, within their period.
+    pub late_ticks: u64,
+    /// Setpoints the servo received.
+    pub received_setpoints: u64,
+    /// Setpoints that were published and did not reach the servo.
+    pub lost_setpoints: u64,
+    /// How late ticks began: p50, p99, p999, max.
+    pub lateness_us: Value,
+    /// How long the work of a tick took: p50, p99, p999, max.
+    pub work_us: Value,
+    /// What real time was granted.
+    pub realtime: Value,
+    #[serde(skip)]
+    status: Status,
+}
+
+impl RunReport {
+    /// The report of a run, without the names of files.
+    #[must_use]
+    pub fn new(
+        planning: &Planning,
+        audit: &Report,
+        servo: &ServoCounts,
+        status: &Status,
+        config: &MachineConfig,
+    ) -> Self {
+        let mut motion = MotionReport::new(planning, audit, config);
+        // A gap between received setpoints is loss on the way, which is reported as such.
+        motion.violation_count = motion.violation_count.saturating_sub(servo.gaps);
+        motion.violations = audit
+            .violations
+            .iter()
+            .filter(|violation| !matches!(violation.kind, ViolationKind::Gap { .. }))
+            .take(super::motion::SHOWN)
+            .map(ToString::to_string)
+            .collect();
+        Self {
+            motion,
+            ticks: status.ticks,
+            missed_ticks: status.missed_ticks,
+            late_ticks: status.late_ticks,
+            received_setpoints: servo.received,
+            lost_setpoints: servo.lost,
+            lateness_us: quantiles_object(&status.lateness),
+            work_us: quantiles_object(&status.work),
+            realtime: realtime_object(status.grants()),
+            status: *status,
+        }
+    }
+
+    /// The report for people.
+    #[must_use]
+    pub fn text(&self) -> String {
+        format!(
+            "{}{}  servo         {} setpoints received, {} lost\n{}",
+            self.motion.text(),
+            timing_text(&self.status),
+            super::quantity::grouped(self.received_setpoints),
+            super::quantity::grouped(self.lost_setpoints),
+            self.motion.files()
+        )
+    }
+}
