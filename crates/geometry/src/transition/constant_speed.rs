@@ -148,7 +148,7 @@ pub(super) trait Half {
 }
 
 /// A piece is done when it can raise the result by no more than this.
-const WORTH: f64 = 1.02;
+const WORTH: f64 = 1.03;
 /// Pieces get no smaller than 2⁻²⁴ of the half; their enclosure then counts as it is.
 const MAX_DEPTH: u32 = 24;
 

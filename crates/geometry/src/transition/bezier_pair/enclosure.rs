@@ -13,14 +13,14 @@ use super::HalfCurve;
 use crate::bernstein::{differences, halve};
 use crate::transition::constant_speed::{Enclosure, Half, Point};
 
-/// Bernstein coefficients of the polynomials above on a piece.
+/// Bernstein coefficients of the polynomials above on a piece, in their true degrees.
 #[derive(Debug, Clone)]
 pub(super) struct PairPiece {
     w: [f64; 4],
-    v: [[f64; 6]; 2],
-    m: [f64; 11],
-    d: [f64; 7],
-    q: [f64; 19],
+    v: [[f64; 5]; 2],
+    m: [f64; 9],
+    d: [f64; 4],
+    q: [f64; 14],
 }
 
 /// The first half as a set of pieces.
@@ -33,36 +33,23 @@ impl PairHalf {
         let [x, y, w] = half.homogeneous();
         let x = x.map(|x| x * half.turn.cb);
         let y = y.map(|y| y * half.turn.sb);
-        let first = |c: &[f64; 4]| -> [f64; 3] { differences::<f64, 4, 3>(c).map(|e| 3.0 * e) };
-        let second = |c: &[f64; 3]| -> [f64; 2] { differences::<f64, 3, 2>(c).map(|e| 2.0 * e) };
-        let (x1, y1, w1) = (first(&x), first(&y), first(&w));
-        let (x2, y2, w2) = (second(&x1), second(&y1), second(&w1));
-
-        let v: [[f64; 6]; 2] = [(&x, &x1), (&y, &y1)]
-            .map(|(n, n1)| sub(&product::<3, 4, 6>(n1, &w), &product::<4, 3, 6>(n, &w1)));
-        let m: [f64; 11] = add(
-            &product::<6, 6, 11>(&v[0], &v[0]),
-            &product::<6, 6, 11>(&v[1], &v[1]),
+        let v = [wronskian(&w, &x), wronskian(&w, &y)];
+        let m: [f64; 9] = add(
+            &product::<5, 5, 9>(&v[0], &v[0]),
+            &product::<5, 5, 9>(&v[1], &v[1]),
         );
-        let minor = |a1: &[f64; 3], a2: &[f64; 2], b1: &[f64; 3], b2: &[f64; 2]| -> [f64; 4] {
-            sub(&product::<3, 2, 4>(a1, b2), &product::<2, 3, 4>(a2, b1))
-        };
-        let d: [f64; 7] = add(
-            &add(
-                &product::<4, 4, 7>(&x, &minor(&y1, &y2, &w1, &w2)),
-                &product::<4, 4, 7>(&y, &minor(&w1, &w2, &x1, &x2)),
-            ),
-            &product::<4, 4, 7>(&w, &minor(&x1, &x2, &y1, &y2)),
+        let d = double_wronskian(&x, &y, &w);
+        let w1: [f64; 3] = differences::<f64, 4, 3>(&w).map(|e| 3.0 * e);
+        let m1: [f64; 8] = differences::<f64, 9, 8>(&m).map(|e| 8.0 * e);
+        let d1: [f64; 3] = differences::<f64, 4, 3>(&d).map(|e| 3.0 * e);
+        // D'w + 3Dw' is of degree five.
+        let dw: [f64; 6] = add(
+            &product::<3, 4, 6>(&d1, &w),
+            &product::<4, 3, 6>(&d, &w1).map(|e| 3.0 * e),
         );
-        let m1: [f64; 10] = differences::<f64, 11, 10>(&m).map(|e| 10.0 * e);
-        let d1: [f64; 6] = differences::<f64, 7, 6>(&d).map(|e| 6.0 * e);
-        let dw: [f64; 10] = product(&d, &w);
         let q = sub(
-            &add(
-                &product::<9, 11, 19>(&product::<6, 4, 9>(&d1, &w), &m),
-                &product::<9, 11, 19>(&product::<7, 3, 9>(&d, &w1).map(|e| 3.0 * e), &m),
-            ),
-            &product::<10, 10, 19>(&dw, &m1).map(|e| 1.5 * e),
+            &product::<6, 9, 14>(&dw, &m),
+            &product::<7, 8, 14>(&product::<4, 4, 7>(&d, &w), &m1).map(|e| 1.5 * e),
         );
         Self {
             whole: PairPiece { w, v, m, d, q },
@@ -156,23 +143,71 @@ fn sub<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
     core::array::from_fn(|i| a[i] - b[i])
 }
 
+/// a·b' − a'·b of two cubics. The basis gives Bᵢ·Bⱼ' − Bᵢ'·Bⱼ = CᵢCⱼ·(j−i)·t^(i+j−1)·(1−t)^(5−i−j),
+/// so the degree is four, not five.
+fn wronskian(a: &[f64; 4], b: &[f64; 4]) -> [f64; 5] {
+    let mut c = [0.0; 5];
+    for i in 0..4 {
+        for j in i + 1..4 {
+            let k = i + j - 1;
+            let weight = BINOMIAL[3][i] * BINOMIAL[3][j] * step(i, j) / BINOMIAL[4][k];
+            c[k] += weight * (a[i] * b[j] - a[j] * b[i]);
+        }
+    }
+    c
+}
+
+/// det(H, H', H'') of three cubics, likewise; of degree three.
+fn double_wronskian(x: &[f64; 4], y: &[f64; 4], w: &[f64; 4]) -> [f64; 4] {
+    let mut c = [0.0; 4];
+    for i in 0..4 {
+        for j in i + 1..4 {
+            for k in j + 1..4 {
+                let m = i + j + k - 3;
+                let weight = BINOMIAL[3][i]
+                    * BINOMIAL[3][j]
+                    * BINOMIAL[3][k]
+                    * step(i, j)
+                    * step(i, k)
+                    * step(j, k)
+                    / BINOMIAL[3][m];
+                let minor = |a: &[f64; 4], b: &[f64; 4]| a[j] * b[k] - a[k] * b[j];
+                c[m] += weight * (x[i] * minor(y, w) - y[i] * minor(x, w) + w[i] * minor(x, y));
+            }
+        }
+    }
+    c
+}
+
+#[expect(clippy::cast_precision_loss, reason = "below 4")]
+const fn step(from: usize, to: usize) -> f64 {
+    (to - from) as f64
+}
+
 /// Product of two polynomials in Bernstein form; `R` = `N` + `M` − 1.
 fn product<const N: usize, const M: usize, const R: usize>(a: &[f64; N], b: &[f64; M]) -> [f64; R] {
     debug_assert_eq!(N + M - 1, R);
     let mut c = [0.0; R];
     for (i, a) in a.iter().enumerate() {
         for (j, b) in b.iter().enumerate() {
-            c[i + j] += binomial(N - 1, i) * binomial(M - 1, j) / binomial(R - 1, i + j) * a * b;
+            c[i + j] += BINOMIAL[N - 1][i] * BINOMIAL[M - 1][j] / BINOMIAL[R - 1][i + j] * a * b;
         }
     }
     c
 }
 
-/// n over k, for the small n above.
-fn binomial(n: usize, k: usize) -> f64 {
-    (0..k).fold(1.0, |value, i| {
-        #[expect(clippy::cast_precision_loss, reason = "below 19")]
-        let factor = (n - i) as f64 / (i + 1) as f64;
-        value * factor
-    })
-}
+/// n over k at \[n\]\[k\], for the degrees above.
+const BINOMIAL: [[f64; 14]; 14] = {
+    let mut table = [[0.0; 14]; 14];
+    let mut n = 0;
+    while n < 14 {
+        table[n][0] = 1.0;
+        let mut k = 1;
+        while k <= n {
+            table[n][k] = table[n - 1][k - 1] + table[n - 1][k];
+            k += 1;
+        }
+        n += 1;
+    }
+    table
+};
