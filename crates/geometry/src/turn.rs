@@ -68,11 +68,13 @@ pub fn limit_along(direction: &AxisVector, limit: &AxisVector) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Axes whose norm measures the feed at this corner.
+/// Axes whose norm measures the feed at this corner, for directions of unit feed length: the first
+/// group in which one of them has that length. (What little it may have in a group before that is
+/// the rounding of coordinates.)
 pub(crate) fn feed_group(t1: &AxisVector, t2: &AxisVector) -> Range<usize> {
     [LINEAR_XYZ, UVW]
         .into_iter()
-        .find(|group| group.clone().any(|i| t1[i] != 0.0 || t2[i] != 0.0))
+        .find(|group| norm_in(t1, group.clone()).max(norm_in(t2, group.clone())) > 0.5)
         .unwrap_or(ROTARY_ABC)
 }
 

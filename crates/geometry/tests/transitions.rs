@@ -367,6 +367,19 @@ fn feed_in_other_axes_needs_a_blend() {
     assert!((tolerance_half_turn(&t1, &t2) - 0.5).abs() < 1e-15);
 }
 
+/// What rounding leaves in X does not hide a reversal of A.
+#[test]
+fn rounding_in_another_group_is_no_motion() {
+    let mut t1 = AxisVector::zeros();
+    t1[3] = 1.0;
+    let mut t2 = -t1;
+    t2[0] = 1e-9;
+    let turn = Turn::between(&t1, &t2);
+    assert!((turn.sb - 1.0).abs() < 1e-15 && turn.cb < 1e-15, "{turn:?}");
+    let blend = Blend::asymmetric(Profile::Sextic, AxisVector::zeros(), t1, t2, [1.0, 9.0]);
+    assert!(blend.arc_length() > 1.0);
+}
+
 /// The same corner turned into space has the same figures.
 #[test]
 fn rotation_changes_nothing() {

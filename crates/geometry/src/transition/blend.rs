@@ -144,7 +144,8 @@ pub struct Blend {
     arrive: AxisVector,
     /// Direction of departure times its length on that side.
     leave: AxisVector,
-    length: f64,
+    /// The two lengths.
+    d: [f64; 2],
 }
 
 impl Blend {
@@ -177,20 +178,20 @@ impl Blend {
             corner,
             arrive: t1 * d[0],
             leave: t2 * d[1],
-            length: d[0] + d[1],
+            d,
         }
     }
 
     /// Path position at the end, mm: the sum of what it takes from the two sides.
     #[must_use]
     pub const fn length(&self) -> f64 {
-        self.length
+        self.d[0] + self.d[1]
     }
 
     /// Position and derivatives at path position `s`.
     #[must_use]
     pub fn jet(&self, s: f64) -> Jet {
-        let per_s = 1.0 / self.length;
+        let per_s = 1.0 / self.length();
         let u = s * per_s;
         let [g, g1, g2] = self.profile.g(u);
         let position =
@@ -207,7 +208,7 @@ impl Blend {
     /// Largest derivatives per axis: exact.
     #[must_use]
     pub fn bounds(&self) -> DerivativeBounds {
-        let per_s = 1.0 / self.length;
+        let per_s = 1.0 / self.length();
         let change = (self.leave - self.arrive).abs();
         DerivativeBounds {
             d1: self.arrive.abs().sup(&self.leave.abs()) * (2.0 * per_s),
@@ -219,7 +220,7 @@ impl Blend {
     /// True length of the curve in the metric of the feed, mm.
     #[must_use]
     pub fn arc_length(&self) -> f64 {
-        let axes = feed_group(&self.arrive, &self.leave);
+        let axes = feed_group(&(self.arrive / self.d[0]), &(self.leave / self.d[1]));
         let rate = |u: f64| {
             let g = self.profile.g(u)[0];
             norm_in(&(self.arrive * (1.0 - g) + self.leave * g), axes.clone())
