@@ -3,6 +3,7 @@
 mod brute_force;
 mod deviation;
 mod limits;
+mod planted;
 mod program;
 
 use glidepath_geometry::{AxisVector, Segment};
