@@ -16,7 +16,8 @@ pub struct Interrupt {
 }
 
 impl Interrupt {
-    /// Takes over SIGINT, SIGTERM and SIGHUP. The second of them ends the process at once.
+    /// Takes over SIGINT, SIGTERM and SIGHUP. However often they come, the process ends in good order:
+    /// a machine in motion is to be brought to rest first.
     ///
     /// # Errors
     /// The system refuses the handlers.
@@ -25,11 +26,6 @@ impl Interrupt {
         let terminated = Arc::new(AtomicBool::new(false));
         signal_hook::flag::register(SIGTERM, Arc::clone(&terminated))?;
         for signal in [SIGINT, SIGTERM, SIGHUP] {
-            signal_hook::flag::register_conditional_shutdown(
-                signal,
-                i32::from(Exit::Interrupted as u8),
-                Arc::clone(&any),
-            )?;
             signal_hook::flag::register(signal, Arc::clone(&any))?;
         }
         Ok(Self { any, terminated })
