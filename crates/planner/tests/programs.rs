@@ -1,0 +1,263 @@
+//! Whole programs, from text to frames, judged by the auditor and compared with kept plans.
+
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stderr,
+    reason = "a test that fails may panic, and a skipped one says so"
+)]
+
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use glidepath_gcode::{Options, Program};
+use glidepath_geometry::AxisVector;
+use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
+use glidepath_motion::{Effort, Frame, Limits, Planner, Settings, Smoothing};
+use serde_json::Value;
+
+const PERIOD_T: f64 = 0.004;
+
+/// A machine a program is planned for.
+#[derive(Clone, Copy)]
+struct Profile {
+    limits: (f64, f64, f64),
+    tolerance_mm: f64,
+}
+
+const MILL: Profile = Profile {
+    limits: (200.0, 2000.0, 40_000.0),
+    tolerance_mm: 0.02,
+};
+const SEED: Profile = Profile {
+    limits: (100.0, 10_000.0, 1e6),
+    tolerance_mm: 0.05,
+};
+
+/// Program, machine, and the time in s of a motion that stops at every corner.
+const BENCH: [(&str, Profile, f64); 14] = [
+    ("seed5_seed", SEED, 0.10079),
+    ("seed5_mill", MILL, 0.29472),
+    ("square20_seed", SEED, 1.03303),
+    ("square20_mill", MILL, 1.2),
+    ("star_seed", SEED, 2.36925),
+    ("star_mill", MILL, 2.37705),
+    ("zigzag_seed", SEED, 2.09718),
+    ("zigzag_mill", MILL, 5.78084),
+    ("circle_g1_0.1_seed", SEED, 8.92756),
+    ("circle_g1_0.1_mill", MILL, 26.10434),
+    ("circle_g1_0.01_seed", SEED, 41.45145),
+    ("circle_g1_0.01_mill", MILL, 121.20477),
+    ("butterfly_g1_seed", SEED, 79.88193),
+    ("butterfly_g1_mill", MILL, 233.57619),
+];
+
+impl Profile {
+    fn settings(self, smoothing: Smoothing) -> Settings {
+        let (velocity, acceleration, jerk) = self.limits;
+        Settings {
+            limits: Limits::uniform(velocity, acceleration, jerk),
+            tolerance_mm: self.tolerance_mm,
+            smoothing,
+            period_t: PERIOD_T,
+            effort: Effort::Fast,
+        }
+    }
+}
+
+fn data(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../tests/data")
+        .join(path)
+}
+
+/// Plans a program and audits it; `each` sees every frame. The error is the first finding's code.
+fn plan(
+    path: &Path,
+    settings: Settings,
+    options: Options,
+    mut each: impl FnMut(&Frame),
+) -> Result<Report, String> {
+    let file = File::open(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let Settings {
+        limits,
+        period_t,
+        tolerance_mm,
+        ..
+    } = settings;
+    let mut audit = Audit::new(&AuditSettings {
+        limits,
+        period_t,
+        tolerance_mm,
+    });
+    let mut planner = Planner::new(settings, AxisVector::zeros());
+    let mut take = |planner: &mut Planner, audit: &mut Audit| {
+        while let Some(frame) = planner.pop_frame() {
+            audit.sample(&Sample::from(&frame));
+            each(&frame);
+        }
+    };
+    for item in Program::new(BufReader::new(file), options) {
+        let item = item.map_err(|finding| format!("{}: {}", finding.line, finding.message))?;
+        planner.push(&item).map_err(|error| error.to_string())?;
+        audit.program(&item);
+        take(&mut planner, &mut audit);
+    }
+    planner.finish();
+    take(&mut planner, &mut audit);
+    Ok(audit.finish())
+}
+
+#[test]
+fn bench_programs_keep_limits_and_tolerance_and_beat_stopping() {
+    for (name, profile, stopping_t) in BENCH {
+        let path = data(&format!("bench/{name}.ngc"));
+        for smoothing in [
+            Smoothing::Sextic,
+            Smoothing::BezierPair,
+            Smoothing::ExactStop,
+        ] {
+            let report = plan(
+                &path,
+                profile.settings(smoothing),
+                Options::default(),
+                |_| (),
+            )
+            .unwrap_or_else(|finding| panic!("{name}: {finding}"));
+            assert!(
+                report.is_clean() && report.is_complete,
+                "{name} {smoothing:?}: {report:#?}"
+            );
+            assert!(
+                report.max_deviation_mm <= profile.tolerance_mm,
+                "{name} {smoothing:?}: {} mm",
+                report.max_deviation_mm
+            );
+            // A motion begins and ends between samples: a period at each end.
+            let most_t = stopping_t + 2.0 * PERIOD_T;
+            assert!(
+                report.cycle_time_s <= most_t,
+                "{name} {smoothing:?}: {}",
+                report.cycle_time_s
+            );
+        }
+    }
+}
+
+/// Compares with kept plans, to a nanometre: not to the bit, since another machine may round
+/// otherwise. `GLIDEPATH_BLESS=1` keeps the plans of today.
+#[test]
+fn plans_are_those_kept() {
+    let bless = std::env::var_os("GLIDEPATH_BLESS").is_some();
+    for (name, profile, every) in [
+        ("seed5_seed", SEED, 1),
+        ("zigzag_mill", MILL, 20),
+        ("butterfly_g1_seed", SEED, 40),
+    ] {
+        let mut plan_text = String::from("sequence,line,X,Y,Z\n");
+        let path = data(&format!("bench/{name}.ngc"));
+        let settings = profile.settings(Smoothing::Sextic);
+        plan(&path, settings, Options::default(), |frame| {
+            if frame.sequence % every == 0 {
+                let [x, y, z] = [0, 1, 2].map(|i| frame.position[i]);
+                writeln!(
+                    plan_text,
+                    "{},{},{x:.9},{y:.9},{z:.9}",
+                    frame.sequence, frame.line
+                )
+                .expect("text");
+            }
+        })
+        .unwrap_or_else(|finding| panic!("{name}: {finding}"));
+        let kept_path = data(&format!("golden/{name}.csv"));
+        if bless {
+            std::fs::write(&kept_path, &plan_text).expect("writable");
+        }
+        let kept = std::fs::read_to_string(&kept_path).expect("a kept plan");
+        assert_eq!(
+            plan_text.lines().count(),
+            kept.lines().count(),
+            "{name}: number of frames"
+        );
+        for (now, then) in plan_text.lines().zip(kept.lines()).skip(1) {
+            let close = now.split(',').zip(then.split(',')).all(|(a, b)| {
+                let number = |text: &str| text.parse::<f64>().expect("a number");
+                (number(a) - number(b)).abs() <= 2e-9
+            });
+            assert!(close, "{name}: {now} where {then} was kept");
+        }
+    }
+}
+
+/// The corpus programs that a run of the test leaves out unless `GLIDEPATH_LONG` is set: hours of
+/// motion, minutes of audit.
+const LONG: [&str; 3] = [
+    "dense/finish-tiger-65k.nc",
+    "axes/4axis-rotary-xza-51k.ngc",
+    "dense/engrave-dxf473-119k.gcode",
+];
+
+#[test]
+fn corpus_programs_keep_limits_and_tolerance() {
+    let Some(corpus) = std::env::var_os("GLIDEPATH_CORPUS").map(PathBuf::from) else {
+        eprintln!("skipped: GLIDEPATH_CORPUS is not set");
+        return;
+    };
+    let long = std::env::var_os("GLIDEPATH_LONG").is_some();
+    let text = std::fs::read_to_string(corpus.join("EXPECTED.json")).expect("EXPECTED.json");
+    let expected: Value = serde_json::from_str(&text).expect("JSON");
+    let mut planned = 0;
+    for program in expected["programs"].as_array().expect("programs") {
+        let name = program["file"].as_str().expect("file");
+        if LONG.contains(&name) && !long {
+            continue;
+        }
+        let accepted = program["accepted"] == true || program["missing_program_end"] == true;
+        let applicable = program["linuxcnc_applicable"] == true;
+        let settings = MILL.settings(Smoothing::Sextic);
+        let options = Options {
+            default_feed_mm_min: Some(1000.0),
+            ..Options::default()
+        };
+        let report = match plan(&corpus.join(name), settings, options, |_| ()) {
+            Ok(report) => report,
+            Err(finding) => {
+                eprintln!("{name}: refused, {finding}");
+                continue;
+            }
+        };
+        planned += 1;
+        eprintln!(
+            "{name}: {} segments, {:.2} s, {:.4} mm",
+            report.segments, report.cycle_time_s, report.max_deviation_mm
+        );
+        assert!(
+            report.is_clean() && report.is_complete,
+            "{name}: {report:#?}"
+        );
+        if accepted && applicable && program["complete"] == true {
+            let ends = program["final_mm_deg"].as_object().expect("final_mm_deg");
+            for (letter, value) in ends {
+                let axis = letter
+                    .chars()
+                    .next()
+                    .and_then(glidepath_geometry::Axis::from_letter);
+                let (Some(axis), Some(value)) = (axis, value.as_f64()) else {
+                    continue;
+                };
+                let end = report.final_position[axis.index()];
+                let close = (end - value).abs() <= 1e-6 * value.abs().max(1.0);
+                assert!(
+                    close || DIFFERENT_ENDS.contains(&(name, axis.letter())),
+                    "{name}: {axis} ends at {end}, expected {value}"
+                );
+            }
+        }
+    }
+    assert!(planned > 30, "only {planned} programs planned");
+}
+
+/// Ends that differ from the reference: there G92 moves the reported position, and nothing else.
+const DIFFERENT_ENDS: [(&str, char); 1] = [("axes/4axis-rotary-xza-51k.ngc", 'A')];
