@@ -11,6 +11,7 @@
 //! wait ([`Control::pause`]).
 
 mod control;
+mod epoch;
 mod error;
 mod feed;
 mod listen;
@@ -23,12 +24,13 @@ mod source;
 mod stream;
 
 pub use control::{Control, Notice, Progress};
+pub use epoch::Pace;
 pub use error::{Fault, RunError};
 pub use feed::{Fed, FeedError, feed};
 pub use listen::{CLIENT_SILENCE, Listening, listen};
 pub use pipeline::{Output, Pipeline, Statistics};
 pub use program::{PipeSource, ProgramSource};
-pub use publish::{Pace, Publisher};
+pub use publish::Publisher;
 pub use refusal::Refusal;
 pub use source::{ItemSource, Supply};
 use stream::Stream;

@@ -31,10 +31,9 @@ use glidepath_link::{
     Command, Delivery, FaultCause, FrameSink, LinkError, MachineState, SetpointFrame, Transport,
 };
 
+use crate::epoch::Epoch;
 use crate::machine::{HUNGRY_POLL, Machine, POLL, SILENCE, Standing};
-use crate::{
-    Control, ItemSource, Notice, Output, Pipeline, Progress, Refusal, RunError, Statistics,
-};
+use crate::{Control, ItemSource, Notice, Output, Pace, Pipeline, RunError, Statistics};
 
 /// Override the frames are planned with: the planner plans at the programmed feed.
 const PLANNED_OVERRIDE: f64 = 1.0;
@@ -45,9 +44,6 @@ const STEPS_PER_TURN: u32 = 512;
 /// Between two notices of progress.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 
-/// Frames beyond the horizon for an interpolator that cannot go on with what it has.
-const MORE_FRAMES: u64 = 8;
-
 /// Between two signs of life of a planner without frames.
 const HEARTBEAT: Duration = Duration::from_millis(200);
 
@@ -56,33 +52,6 @@ const NOTICE_AFTER: Duration = Duration::from_secs(1);
 
 /// Between two clean-ups of what dead processes hold, while waiting.
 const CLEAN_UP_INTERVAL: Duration = Duration::from_secs(1);
-
-/// How frames are paced.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pace {
-    /// Interpolation period, ns; must be the interpolator's.
-    pub period_ns: u64,
-    /// How far to be ahead of the executed frame, frames, at least 1.
-    pub horizon_frames: u64,
-}
-
-impl Pace {
-    /// A pace of `horizon_t` seconds, rounded up to whole periods.
-    #[must_use]
-    pub fn new(period_ns: u64, horizon_t: f64) -> Self {
-        #[allow(clippy::cast_precision_loss, reason = "periods are below 2^53 ns")]
-        let frames = (horizon_t * 1e9 / period_ns as f64).ceil();
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "the cast saturates, and a negative or undefined horizon becomes one frame"
-        )]
-        Self {
-            period_ns,
-            horizon_frames: (frames as u64).max(1),
-        }
-    }
-}
 
 /// The planner's ports to one interpolator.
 pub struct Publisher<'t> {
@@ -101,27 +70,6 @@ impl std::fmt::Debug for Publisher<'_> {
             .field("pace", &self.pace)
             .finish_non_exhaustive()
     }
-}
-
-/// One epoch under way.
-#[derive(Debug)]
-struct Epoch {
-    boot_id: u64,
-    epoch: u64,
-    /// Planned, but not yet in the interpolator's queue.
-    in_hand: Option<SetpointFrame>,
-    /// The frame delivered last.
-    last: Option<SetpointFrame>,
-    /// Time waited for items since something was offered.
-    hungry: Duration,
-    delivered: u64,
-    executed: u64,
-    /// Sequence of the first frame that is too far ahead.
-    limit: u64,
-    started: bool,
-    /// Set when the pipeline has no more frames.
-    ended: Option<Result<(), Refusal>>,
-    since_progress: Duration,
 }
 
 /// What a turn of publishing came to.
@@ -239,10 +187,9 @@ impl<'t> Publisher<'t> {
             }
             self.machine.observe()?;
             pipeline.source().attend(waited);
-            let completed = self.follow(&mut epoch)?;
-            let all_out = epoch.in_hand.is_none() && epoch.ended.is_some();
-            if all_out && (completed || epoch.delivered == 0) {
-                report(&epoch, pipeline, self.machine.line(), self.pace, control);
+            epoch.follow(self.standing(&epoch)?);
+            if epoch.is_over() {
+                self.report(&epoch, pipeline, control);
                 if let Some(Err(refusal)) = epoch.ended {
                     return Err(refusal.into());
                 }
@@ -262,52 +209,15 @@ impl<'t> Publisher<'t> {
             }
             if epoch.since_progress >= PROGRESS_INTERVAL {
                 epoch.since_progress = Duration::ZERO;
-                report(&epoch, pipeline, self.machine.line(), self.pace, control);
+                self.report(&epoch, pipeline, control);
             }
         }
     }
 
     fn next_epoch(&self) -> Result<Epoch, RunError> {
         let status = self.machine.status().ok_or(RunError::InterpolatorLost)?;
-        Ok(Epoch {
-            boot_id: status.boot_id,
-            epoch: status.epoch + 1,
-            in_hand: None,
-            last: None,
-            hungry: Duration::ZERO,
-            delivered: 0,
-            executed: 0,
-            limit: self.pace.horizon_frames,
-            started: false,
-            ended: None,
-            since_progress: Duration::ZERO,
-        })
-    }
-
-    /// Takes over how the epoch stands; true if it is completed.
-    fn follow(&self, epoch: &mut Epoch) -> Result<bool, RunError> {
-        match self
-            .machine
-            .standing(epoch.boot_id, epoch.epoch, epoch.started)?
-        {
-            Standing::NotStarted => Ok(false),
-            Standing::Open {
-                executed,
-                received,
-                starved,
-            } => {
-                (epoch.started, epoch.executed) = (true, executed);
-                epoch.limit = executed.saturating_add(self.pace.horizon_frames);
-                if starved && received == epoch.delivered {
-                    epoch.limit = epoch.limit.max(received.saturating_add(MORE_FRAMES));
-                }
-                Ok(false)
-            }
-            Standing::Completed => {
-                (epoch.started, epoch.executed) = (true, epoch.delivered);
-                Ok(true)
-            }
-        }
+        let number = status.epoch.saturating_add(1);
+        Ok(Epoch::new(status.boot_id, number, self.pace.horizon_frames))
     }
 
     /// Plans and offers frames until there is nothing to do or it is time to look around.
@@ -318,15 +228,17 @@ impl<'t> Publisher<'t> {
         control: &mut Control<'_>,
     ) -> Result<Turn, RunError> {
         for _ in 0..STEPS_PER_TURN {
-            if let Some(frame) = &epoch.in_hand {
-                let is_due = frame.sequence < epoch.limit;
-                if !is_due || self.sink.offer(frame)? != Delivery::Delivered {
+            if let Some(frame) = epoch.in_hand {
+                if frame.sequence >= epoch.limit()
+                    || self.sink.offer(&frame)? != Delivery::Delivered
+                {
                     return Ok(Turn::Wait);
                 }
-                (epoch.last, epoch.hungry) = (epoch.in_hand.take(), Duration::ZERO);
-                epoch.delivered += 1;
-                if epoch.delivered == 1 {
-                    (control.notify)(&Notice::Started { epoch: epoch.epoch });
+                epoch.delivered();
+                if frame.sequence == 0 {
+                    (control.notify)(&Notice::Started {
+                        epoch: epoch.number,
+                    });
                 }
             }
             if epoch.ended.is_some() {
@@ -336,7 +248,7 @@ impl<'t> Publisher<'t> {
                 Ok(Output::Frame(frame)) => {
                     epoch.in_hand = Some(SetpointFrame::from_frame(
                         &frame,
-                        epoch.epoch,
+                        epoch.number,
                         self.pace.period_ns,
                         PLANNED_OVERRIDE,
                     ));
@@ -348,6 +260,22 @@ impl<'t> Publisher<'t> {
             }
         }
         Ok(Turn::Busy)
+    }
+
+    fn standing(&self, epoch: &Epoch) -> Result<Standing, RunError> {
+        self.machine
+            .standing(epoch.boot_id, epoch.number, epoch.is_known())
+    }
+
+    fn report<S: ItemSource>(
+        &self,
+        epoch: &Epoch,
+        pipeline: &Pipeline<S>,
+        control: &mut Control<'_>,
+    ) {
+        let line = self.machine.line();
+        let progress = epoch.progress(pipeline.statistics(), line, self.pace.period_ns);
+        (control.notify)(&Notice::Progress(progress));
     }
 
     /// Tells the interpolator, now and then, that there will be more.
@@ -365,7 +293,7 @@ impl<'t> Publisher<'t> {
 
     /// Ends the epoch by command and waits until the machine rests.
     fn abort(&mut self, epoch: &Epoch, control: &mut Control<'_>) -> Result<(), RunError> {
-        if epoch.delivered == 0 {
+        if !epoch.has_begun() {
             return Ok(());
         }
         // If the interpolator cannot be told, it stops by starvation.
@@ -375,10 +303,7 @@ impl<'t> Publisher<'t> {
         let mut waited = Duration::ZERO;
         while waited < SILENCE {
             self.machine.observe()?;
-            match self
-                .machine
-                .standing(epoch.boot_id, epoch.epoch, epoch.started)
-            {
+            match self.standing(epoch) {
                 Ok(Standing::Open { .. } | Standing::NotStarted) => {}
                 Ok(Standing::Completed) | Err(_) => break,
             }
@@ -387,27 +312,4 @@ impl<'t> Publisher<'t> {
         }
         Ok(())
     }
-}
-
-fn report<S: ItemSource>(
-    epoch: &Epoch,
-    pipeline: &Pipeline<S>,
-    line: u32,
-    pace: Pace,
-    control: &mut Control<'_>,
-) {
-    // The first frame is the state at time 0: n frames are n − 1 periods of motion.
-    let periods = epoch.delivered.saturating_sub(1);
-    #[allow(
-        clippy::cast_precision_loss,
-        reason = "for people; far below 2^53 periods"
-    )]
-    let published_t = periods as f64 * pace.period_ns as f64 * 1e-9;
-    (control.notify)(&Notice::Progress(Progress {
-        planned: pipeline.statistics(),
-        published: epoch.delivered,
-        executed: epoch.executed,
-        published_t,
-        line,
-    }));
 }

@@ -1,0 +1,146 @@
+//! One epoch under way, from its first frame to its last, as the planner keeps the books of it.
+
+use std::time::Duration;
+
+use glidepath_link::SetpointFrame;
+
+use crate::machine::Standing;
+use crate::{Progress, Refusal, Statistics};
+
+/// Frames beyond the horizon for an interpolator that cannot go on with what it has.
+const MORE_FRAMES: u64 = 8;
+
+/// How frames are paced.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pace {
+    /// Interpolation period, ns; must be the interpolator's.
+    pub period_ns: u64,
+    /// How far to be ahead of the executed frame, frames, at least 1.
+    pub horizon_frames: u64,
+}
+
+impl Pace {
+    /// A pace of `horizon_t` seconds, rounded up to whole periods.
+    #[must_use]
+    pub fn new(period_ns: u64, horizon_t: f64) -> Self {
+        #[allow(clippy::cast_precision_loss, reason = "periods are below 2^53 ns")]
+        let frames = (horizon_t * 1e9 / period_ns as f64).ceil();
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "the cast saturates, and a negative or undefined horizon becomes one frame"
+        )]
+        Self {
+            period_ns,
+            horizon_frames: (frames as u64).max(1),
+        }
+    }
+}
+
+/// The books of an epoch.
+#[derive(Debug)]
+pub(crate) struct Epoch {
+    /// The life of the interpolator that executes it.
+    pub(crate) boot_id: u64,
+    pub(crate) number: u64,
+    /// Planned, but not yet in the interpolator's queue.
+    pub(crate) in_hand: Option<SetpointFrame>,
+    /// The frame delivered last.
+    pub(crate) last: Option<SetpointFrame>,
+    /// Set when the pipeline has no more frames.
+    pub(crate) ended: Option<Result<(), Refusal>>,
+    /// Time waited for items since something was offered.
+    pub(crate) hungry: Duration,
+    /// Time waited since the last notice of progress.
+    pub(crate) since_progress: Duration,
+    horizon_frames: u64,
+    delivered: u64,
+    standing: Standing,
+}
+
+impl Epoch {
+    pub(crate) const fn new(boot_id: u64, number: u64, horizon_frames: u64) -> Self {
+        Self {
+            boot_id,
+            number,
+            in_hand: None,
+            last: None,
+            ended: None,
+            hungry: Duration::ZERO,
+            since_progress: Duration::ZERO,
+            horizon_frames,
+            delivered: 0,
+            standing: Standing::NotStarted,
+        }
+    }
+
+    /// Learns how the interpolator sees it.
+    pub(crate) const fn follow(&mut self, standing: Standing) {
+        self.standing = standing;
+    }
+
+    /// The frame in hand has arrived.
+    pub(crate) const fn delivered(&mut self) {
+        (self.last, self.hungry) = (self.in_hand.take(), Duration::ZERO);
+        self.delivered += 1;
+    }
+
+    /// Whether any frame was delivered.
+    pub(crate) const fn has_begun(&self) -> bool {
+        self.delivered > 0
+    }
+
+    /// Whether the interpolator executes it, or has.
+    pub(crate) const fn is_known(&self) -> bool {
+        !matches!(self.standing, Standing::NotStarted)
+    }
+
+    /// Whether every frame was planned, delivered and executed.
+    pub(crate) const fn is_over(&self) -> bool {
+        let is_out = self.in_hand.is_none() && self.ended.is_some();
+        is_out && (matches!(self.standing, Standing::Completed) || !self.has_begun())
+    }
+
+    /// Sequence of the first frame that is too far ahead.
+    pub(crate) const fn limit(&self) -> u64 {
+        let limit = self.executed().saturating_add(self.horizon_frames);
+        match self.standing {
+            Standing::Open {
+                received,
+                starved: true,
+                ..
+            } if received == self.delivered && received >= limit => {
+                received.saturating_add(MORE_FRAMES)
+            }
+            _ => limit,
+        }
+    }
+
+    /// What to tell of it. `line` is the source line being executed.
+    pub(crate) const fn progress(
+        &self,
+        planned: Statistics,
+        line: u32,
+        period_ns: u64,
+    ) -> Progress {
+        // The first frame is the state at time 0: n frames are n - 1 periods of motion.
+        let periods = self.delivered.saturating_sub(1);
+        #[allow(clippy::cast_precision_loss, reason = "for people; far below 2^53 ns")]
+        let published_t = (periods.saturating_mul(period_ns)) as f64 * 1e-9;
+        Progress {
+            planned,
+            published: self.delivered,
+            executed: self.executed(),
+            published_t,
+            line,
+        }
+    }
+
+    const fn executed(&self) -> u64 {
+        match self.standing {
+            Standing::NotStarted => 0,
+            Standing::Open { executed, .. } => executed,
+            Standing::Completed => self.delivered,
+        }
+    }
+}
