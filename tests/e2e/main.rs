@@ -6,3 +6,4 @@
 )]
 
 mod libraries;
+mod processes;

@@ -34,7 +34,8 @@ impl Instance {
             .unwrap();
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
         let mut config = LinkConfig::new(&format!("e2e-{}-{count}", std::process::id()));
-        config.root = root.path().join("link");
+        // Where processes look that have this directory as their runtime directory.
+        config.root = root.path().join("glidepath");
         Self {
             config,
             root,
@@ -60,13 +61,33 @@ impl Instance {
         Ipc::connect(&self.config).unwrap()
     }
 
-    /// What of this instance lies in shared memory.
+    /// Writes a file for the test; returns its path.
+    #[must_use]
+    pub fn file(&self, name: &str, text: &str) -> String {
+        let path = self.root.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    }
+
+    /// The path of a file that a process is to write.
+    #[must_use]
+    pub fn path(&self, name: &str) -> String {
+        self.root.path().join(name).to_str().unwrap().to_owned()
+    }
+
+    /// What lies in shared memory of this instance, and of others that a process made in the same
+    /// runtime directory.
     #[must_use]
     pub fn shared_memory(&self) -> Vec<String> {
         let prefix = self.config.prefix();
+        let of_directory = prefix
+            .trim_start_matches("gp_")
+            .trim_start_matches(&self.config.instance);
         let files = std::fs::read_dir("/dev/shm").unwrap();
         let names = files.filter_map(|file| file.ok()?.file_name().into_string().ok());
-        names.filter(|name| name.starts_with(&prefix)).collect()
+        names
+            .filter(|name| name.starts_with("gp_") && name.contains(of_directory))
+            .collect()
     }
 }
 

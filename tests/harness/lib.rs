@@ -3,6 +3,7 @@
 //! * [`Instance`]: shared memory of its own for each test, one test at a time, and the proof that
 //!   nothing of it is left behind;
 //! * [`Watchdog`]: ends a test that hangs;
+//! * [`Process`]: processes of the real binary, which [`glidepath`] finds and builds;
 //! * [`Machine`]: interpolator, recorder and planner as threads of the test, joined by the transport
 //!   that real processes use.
 #![allow(
@@ -13,10 +14,16 @@
     reason = "a harness fails its test by panicking"
 )]
 
+mod binary;
 mod instance;
 mod machine;
+mod process;
+mod setpoint_file;
 mod watchdog;
 
+pub use binary::glidepath;
 pub use instance::Instance;
 pub use machine::{Machine, Recording, Watch, plan, program, program_from, settings};
+pub use process::{Output, Process};
+pub use setpoint_file::SetpointFile;
 pub use watchdog::Watchdog;

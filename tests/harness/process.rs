@@ -1,0 +1,164 @@
+//! Processes of the program under test.
+
+use std::io::{Read, Write};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use rustix::process::{Pid, Signal, kill_process};
+
+use crate::{Instance, glidepath};
+
+/// How long a process may take for anything: far longer than it ever should.
+const PATIENCE: Duration = Duration::from_secs(60);
+const POLL: Duration = Duration::from_millis(5);
+
+/// What a process left.
+#[derive(Debug)]
+pub struct Output {
+    /// Its exit status.
+    pub status: ExitStatus,
+    /// What it wrote to standard output.
+    pub stdout: String,
+    /// What it wrote to standard error.
+    pub stderr: String,
+}
+
+impl Output {
+    /// Asserts that it ended with the exit code, and shows what it said if not.
+    #[must_use]
+    pub fn expect(self, code: i32) -> Self {
+        assert_eq!(self.status.code(), Some(code), "{self:#?}");
+        self
+    }
+
+    /// Standard output as one JSON object.
+    #[must_use]
+    pub fn json(&self) -> serde_json::Value {
+        match serde_json::from_str(&self.stdout) {
+            Ok(value) => value,
+            Err(error) => panic!("not one JSON object ({error}): {self:#?}"),
+        }
+    }
+}
+
+/// A process under way. Dropping it kills it.
+#[derive(Debug)]
+pub struct Process {
+    child: Child,
+    stdout: Option<JoinHandle<String>>,
+    stderr: Option<JoinHandle<String>>,
+}
+
+impl Process {
+    /// Starts `glidepath` with arguments, in the runtime directory of the instance. What it writes
+    /// is collected, so that it never waits for a reader.
+    #[must_use]
+    pub fn start(instance: &Instance, arguments: &[&str]) -> Self {
+        let mut child = Command::new(glidepath())
+            .args(arguments)
+            .env("XDG_RUNTIME_DIR", instance.directory())
+            .env("TMPDIR", instance.directory())
+            .env("NO_COLOR", "1")
+            .current_dir(instance.directory())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let stdout = child.stdout.take().map(collect);
+        let stderr = child.stderr.take().map(collect);
+        Self {
+            child,
+            stdout,
+            stderr,
+        }
+    }
+
+    /// Starts one of the processes that meet in shared memory.
+    #[must_use]
+    pub fn join(instance: &Instance, arguments: &[&str]) -> Self {
+        let name = &instance.config().instance;
+        Self::start(instance, &[arguments, &["--instance", name]].concat())
+    }
+
+    /// Writes to its standard input, and closes that.
+    pub fn feed(&mut self, text: &str) {
+        let mut stdin = self.child.stdin.take().unwrap();
+        // A process that has ended early is found by its exit status.
+        let _written = stdin.write_all(text.as_bytes());
+    }
+
+    /// Its process number.
+    #[must_use]
+    pub fn id(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Sends it a signal.
+    pub fn signal(&self, signal: Signal) {
+        // Not waited for yet, so the number is still its own.
+        let pid = Pid::from_raw(self.child.id().try_into().unwrap()).unwrap();
+        kill_process(pid, signal).unwrap();
+    }
+
+    /// Whether it still runs.
+    pub fn runs(&mut self) -> bool {
+        self.child.try_wait().unwrap().is_none()
+    }
+
+    /// Waits for its end.
+    #[must_use]
+    pub fn wait(mut self) -> Output {
+        drop(self.child.stdin.take());
+        let begun = Instant::now();
+        let status = loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                break status;
+            }
+            if begun.elapsed() > PATIENCE {
+                self.child.kill().unwrap();
+                let (_, stdout, stderr) = (self.child.wait(), self.stdout(), self.stderr());
+                panic!("no end after {PATIENCE:?}:\n{stdout}\n{stderr}");
+            }
+            std::thread::sleep(POLL);
+        };
+        Output {
+            status,
+            stdout: self.stdout(),
+            stderr: self.stderr(),
+        }
+    }
+
+    /// Asks it to end, as a service manager does, and waits for that.
+    #[must_use]
+    pub fn end(self) -> Output {
+        self.signal(Signal::TERM);
+        self.wait()
+    }
+
+    fn stdout(&mut self) -> String {
+        self.stdout.take().unwrap().join().unwrap()
+    }
+
+    fn stderr(&mut self) -> String {
+        self.stderr.take().unwrap().join().unwrap()
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        // Nobody is left to tell.
+        let _killed = self.child.kill();
+        let _ended = self.child.wait();
+    }
+}
+
+fn collect<R: Read + Send + 'static>(mut pipe: R) -> JoinHandle<String> {
+    std::thread::spawn(move || {
+        let mut bytes = Vec::new();
+        // Cut short, it is shown as far as it came.
+        let _end = pipe.read_to_end(&mut bytes);
+        String::from_utf8_lossy(&bytes).into_owned()
+    })
+}

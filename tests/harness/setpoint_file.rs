@@ -1,0 +1,44 @@
+//! Setpoints as CSV.
+
+use std::path::Path;
+
+/// The rows of a file, without what tells when: two executions of the same plan have the same, if
+/// rows at rest are counted once.
+#[derive(Debug, PartialEq, Eq)]
+pub struct SetpointFile {
+    rows: Vec<String>,
+}
+
+impl SetpointFile {
+    /// Reads the columns from the path position on, which are all that is common to a plan and to a
+    /// run of it: position, velocity and acceleration of every axis, with every digit.
+    #[must_use]
+    pub fn read(path: &Path) -> Self {
+        let text = std::fs::read_to_string(path).unwrap();
+        let mut lines = text.lines();
+        let header = "tick,time_s,line,state,feed_mm_s,path_mm,";
+        assert!(
+            lines.next().unwrap().starts_with(header),
+            "{}: header",
+            path.display()
+        );
+        let state = |line: &str| line.splitn(7, ',').nth(6).unwrap().to_owned();
+        Self {
+            rows: lines.map(state).collect(),
+        }
+    }
+
+    /// The rows with repetitions left out: before the motion, after it, and where it rests.
+    #[must_use]
+    pub fn moving(&self) -> Vec<&str> {
+        let mut rows: Vec<_> = self.rows.iter().map(String::as_str).collect();
+        rows.dedup();
+        rows
+    }
+
+    /// Whether nothing ever moved.
+    #[must_use]
+    pub fn is_still(&self) -> bool {
+        self.moving().len() <= 1
+    }
+}
