@@ -40,7 +40,9 @@ fn planned(instance: &Instance, program: &str) -> SetpointFile {
     let _report = Process::start(instance, &["plan", program, "--setpoints", &csv, "--json"])
         .wait()
         .expect(0);
-    SetpointFile::read(Path::new(&csv))
+    let setpoints = SetpointFile::read(Path::new(&csv));
+    assert!(!setpoints.is_still(), "an empty plan proves nothing");
+    setpoints
 }
 
 /// Interpolator and mock servo, as services would run them.
