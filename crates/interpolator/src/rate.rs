@@ -17,8 +17,8 @@
 //! hand: the positions it would publish are computed, tick by tick to three ticks past its end, and
 //! their differences compared with the limits. Only a ramp that passes is committed, and a committed
 //! ramp is followed until a better one passes. Hence the invariant that makes this safe: **at every
-//! tick, following what is committed breaks no limit and needs no frame that is not here.** Doing
-//! nothing is always possible; a steady rate r ≤ 1 is inside the limits because the plan is.
+//! tick, following what is committed breaks no limit and needs no frame that is not here.** A steady
+//! rate r ≤ 1 is inside the limits because the plan is.
 //!
 //! What is tried, in this order, until one passes or the tick's budget of samples is used up (the
 //! next tick then goes on from there):
@@ -29,20 +29,23 @@
 //!   slower, there is room to go on. This is what gets away from a plan at its limits.
 //!
 //! While the rate is on its way by a slow or a partial ramp, faster ones are tried at every tick.
-//! Most candidates fail in their first samples, so a tick rarely uses its budget.
+//! Most candidates fail in their first samples, so a tick rarely uses its budget. Where nothing passes
+//! the rate stays and the next tick tries again from another place: a plan that brakes at its limits
+//! cannot be made to brake harder, but it will be slow soon.
 //!
-//! Where nothing passes the rate stays and the next tick tries again from another place: a plan that
-//! brakes at its limits cannot be made to brake harder, but it will be slow soon. If that goes on
-//! for [`PATIENCE_T`] or frames run out, the stop must not wait for ever: then limits are relaxed,
-//! a little at first, and the excess is counted and reported.
+//! That leaves the question whether there will be any stop before the frames run out. So motion goes
+//! on only with a stop in [`reserve`], played through beforehand.
 //!
 //! A ramp to rate 1 is stretched so that it ends on the grid of the frames: from there on the
 //! setpoints are the frames, bit for bit.
+
+mod reserve;
 
 use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
 use crate::ramp::{Bounds, Instant, Ramp};
 use crate::track::Track;
+use reserve::{Reserve, Steady};
 
 /// Stretching of the candidates, fast to slow.
 const PACES: [f64; 6] = [1.0, 0.8, 0.63, 0.5, 0.36, 0.22];
@@ -76,15 +79,17 @@ const CANDIDATES: [Candidate; 18] = {
 
 /// Samples a tick may spend on playing candidates through.
 const BUDGET: u32 = 400;
-/// Time without any passable ramp after which limits are relaxed, s.
-const PATIENCE_T: f64 = 1.0;
-/// Parts by which limits are relaxed, each for a tenth of a second.
-const RELAXED: [f64; 6] = [1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1];
 /// Largest bounds of a ramp: a change from 0 to 1 takes at least four ticks.
 const FASTEST: Bounds = Bounds {
     alpha: 0.5,
     beta: 0.25,
 };
+/// The least change of the rate worth a ramp part of the way.
+const LEAST_CHANGE: f64 = 1e-3;
+/// The rate from which on a ramp to the full rate may end beside the grid.
+const NEARLY_FULL: f64 = 0.9;
+/// How near to the grid a ramp must end, periods.
+const ON_GRID: f64 = 1e-10;
 /// A better ramp ends at least this much earlier, ticks.
 const GAIN: f64 = 0.5;
 
@@ -94,9 +99,10 @@ pub(crate) struct Scene<'a> {
     pub(crate) track: &'a Track,
     pub(crate) published: &'a Differences,
     pub(crate) allowed: &'a Allowed,
-    pub(crate) period_t: f64,
-    /// Frames ahead whose speed counts.
+    /// Frames a stop from full speed takes.
     pub(crate) reach: u64,
+    /// There are as many frames ahead as there will ever be.
+    pub(crate) is_fully_supplied: bool,
 }
 
 /// Program time and its rate.
@@ -105,6 +111,9 @@ pub(crate) struct Rate {
     /// Where the ramp, or the steady rate, started.
     start: ProgramTime,
     ramp: Option<Ramp>,
+    /// The frame that held the motion when the ramp was played through. It does so to its end, even
+    /// if motion could pass it by now: what the ramp would publish after it was not looked at.
+    held_at: Option<u64>,
     /// Ticks since `start`.
     ticks: u32,
     now: ProgramTime,
@@ -112,12 +121,16 @@ pub(crate) struct Rate {
     slope: f64,
     /// Stretching of the ramp.
     pace: f64,
-    /// Ticks with a goal and no ramp towards it.
-    waited: u32,
     /// The candidate at which the last tick ran out of budget.
     resume_at: usize,
-    /// Part by which the last committed ramp may break limits; 0 if not at all.
-    excess: f64,
+    reserve: Option<Reserve>,
+    /// Where the search for a reserve goes on, and whether it came to its end without one.
+    search_at: usize,
+    all_tried: bool,
+    /// Ticks in which limits were relaxed in the search.
+    insisted: usize,
+    /// The ramp being followed is the reserve, which may break limits by this part.
+    taken: Option<f64>,
 }
 
 /// Program time of one tick.
@@ -128,8 +141,10 @@ pub(crate) struct Advance {
     pub(crate) slope: f64,
 }
 
+/// What trying a ramp has shown.
+#[derive(Debug, Clone, Copy)]
 enum Trial {
-    Passed,
+    Passed(Option<Reserve>),
     Barred,
     OutOfBudget,
 }
@@ -140,14 +155,18 @@ impl Rate {
         Self {
             start: time,
             ramp: None,
+            held_at: None,
             ticks: 0,
             now: time,
             rate,
             slope: 0.0,
             pace: 0.0,
-            waited: 0,
             resume_at: 0,
-            excess: 0.0,
+            reserve: None,
+            search_at: 0,
+            all_tried: false,
+            insisted: 0,
+            taken: None,
         }
     }
 
@@ -159,13 +178,21 @@ impl Rate {
         }
     }
 
-    /// The part by which limits had to be relaxed for the present ramp, usually 0.
-    pub(crate) const fn excess(&self) -> f64 {
-        self.excess
+    /// True if the frames ran so low that the stop in reserve was begun.
+    pub(crate) const fn has_taken_reserve(&self) -> bool {
+        self.taken.is_some()
+    }
+
+    /// The part by which limits may be broken now, usually 0.
+    pub(crate) fn excess(&self) -> f64 {
+        self.taken.unwrap_or(0.0)
     }
 
     /// Advances program time by one tick.
     pub(crate) fn advance(&mut self) -> Advance {
+        if self.ramp.is_none() {
+            self.count_down();
+        }
         match self.ramp {
             None => self.now = self.now.after(self.rate),
             Some(ramp) => {
@@ -176,7 +203,7 @@ impl Rate {
                     rate,
                     slope,
                 } = ramp.at(t);
-                self.now = self.start.after(elapsed);
+                self.now = self.clamped(self.start.after(elapsed));
                 (self.rate, self.slope) = (rate, slope);
                 if t >= ramp.duration() {
                     (self.rate, self.slope) = (ramp.target(), 0.0);
@@ -185,15 +212,31 @@ impl Rate {
                     }
                     self.ramp = None;
                 }
+                if self
+                    .held_at
+                    .is_some_and(|held| self.now == ProgramTime::at(held))
+                {
+                    self.rest_at(self.now, self.rate);
+                }
             }
         }
         self.now()
     }
 
+    /// Program time not past the frame that holds the ramp.
+    fn clamped(&self, time: ProgramTime) -> ProgramTime {
+        match self.held_at {
+            Some(held) if time.sequence >= held => ProgramTime::at(held),
+            _ => time,
+        }
+    }
+
     /// Moves program time to where it is held: the motion is at rest there, so any rate will do.
     pub(crate) fn rest_at(&mut self, time: ProgramTime, rate: f64) {
         *self = Self {
-            excess: self.excess,
+            search_at: self.search_at,
+            all_tried: self.all_tried,
+            insisted: self.insisted,
             ..Self::new(time, rate)
         };
     }
@@ -205,10 +248,9 @@ impl Rate {
         let heading = self.ramp.map_or(self.rate, |ramp| ramp.target());
         let arrives = heading == goal;
         if arrives && (self.ramp.is_none() || self.pace >= PACES[0]) {
-            self.waited = 0;
             return;
         }
-        let fastest = self.fastest(scene);
+        let fastest = scene.fastest_from(self.now.sequence);
         let mut budget = BUDGET;
         let first = core::mem::take(&mut self.resume_at);
         for k in 0..CANDIDATES.len() {
@@ -216,7 +258,8 @@ impl Rate {
             let Some(&Candidate { part, pace }) = CANDIDATES.get(place) else {
                 continue;
             };
-            if !self.is_better(part, pace, goal, heading) {
+            let is_tiny = part < 1.0 && part * (goal - self.rate).abs() < LEAST_CHANGE;
+            if is_tiny || !self.is_better(part, pace, goal, heading) {
                 continue;
             }
             let target = if part < 1.0 {
@@ -230,18 +273,18 @@ impl Rate {
             if arrives && ramp.duration() > self.remaining() - GAIN {
                 continue;
             }
-            match self.play(&ramp, scene, scene.allowed, &mut budget) {
-                Trial::Passed => return self.commit(ramp, pace, 0.0),
+            match self.try_ramp(&ramp, scene, &mut budget) {
+                Trial::Passed(reserve) => {
+                    self.commit(ramp, pace, reserve);
+                    self.held_at = scene.track.stop();
+                    return;
+                }
                 Trial::Barred => {}
                 Trial::OutOfBudget => {
                     self.resume_at = place;
-                    break;
+                    return;
                 }
             }
-        }
-        if !arrives {
-            self.waited = self.waited.saturating_add(1);
-            self.insist(goal, fastest, scene);
         }
     }
 
@@ -261,44 +304,6 @@ impl Rate {
             .map_or(0.0, |ramp| ramp.duration() - f64::from(self.ticks))
     }
 
-    /// Bounds of the fastest ramp worth trying: no axis needs more than its limits for it at the
-    /// highest speed ahead.
-    fn fastest(&self, scene: &Scene<'_>) -> Bounds {
-        let stop = scene.track.longest_stop(self.now.sequence, scene.reach);
-        Bounds {
-            alpha: FASTEST.alpha.min(1.0 / stop.by_acceleration),
-            beta: FASTEST.beta.min(1.0 / stop.by_jerk_squared),
-        }
-    }
-
-    /// Nothing passes: after [`PATIENCE_T`], or when frames run out, commits the fastest ramp that
-    /// passes relaxed limits.
-    fn insist(&mut self, goal: f64, fastest: Bounds, scene: &Scene<'_>) {
-        let waited_t = f64::from(self.waited) * scene.period_t;
-        let over = waited_t - PATIENCE_T;
-        if over <= 0.0 {
-            return;
-        }
-        let mut budget = BUDGET;
-        for (step, part) in RELAXED.into_iter().enumerate() {
-            if f64::from(u32::try_from(step).unwrap_or(u32::MAX)) * 0.1 > over {
-                return;
-            }
-            let allowed = scene.allowed.relaxed(part);
-            for pace in PACES {
-                let Some(ramp) = self.ramp_to(goal, fastest.paced(pace)) else {
-                    continue;
-                };
-                if matches!(
-                    self.play(&ramp, scene, &allowed, &mut budget),
-                    Trial::Passed
-                ) {
-                    return self.commit(ramp, pace, part);
-                }
-            }
-        }
-    }
-
     /// A ramp from the present, if there is one; one to rate 1 ends on the grid of the frames.
     fn ramp_to(&self, target: f64, bounds: Bounds) -> Option<Ramp> {
         let ramp = Ramp::plan(self.rate, self.slope, target, bounds)?;
@@ -308,7 +313,7 @@ impl Rate {
         // The frame reached at rate 1 is behind the grid by what was lost, so lose a whole number.
         let wanted = {
             let over = (self.now.fraction - ramp.loss()).rem_euclid(1.0);
-            ramp.loss() + over
+            ramp.loss() + if over > 1.0 - ON_GRID { 0.0 } else { over }
         };
         let (mut slow, mut fast) = (0.25, 1.0);
         for _ in 0..48 {
@@ -320,41 +325,97 @@ impl Rate {
                 fast = pace;
             }
         }
-        Ramp::plan(self.rate, self.slope, target, bounds.paced(fast))
-    }
-
-    /// Plays a ramp through to three ticks past its end.
-    fn play(&self, ramp: &Ramp, scene: &Scene<'_>, allowed: &Allowed, budget: &mut u32) -> Trial {
-        let mut published = *scene.published;
-        let end = ramp.duration() + 3.0;
-        let mut t = 0.0;
-        while t < end {
-            if *budget == 0 {
-                return Trial::OutOfBudget;
-            }
-            *budget -= 1;
-            t += 1.0;
-            let time = self.now.after(ramp.at(t).elapsed);
-            let Some(position) = scene.track.position(time) else {
-                return Trial::Barred;
-            };
-            if !published.allow(&position, allowed) {
-                return Trial::Barred;
-            }
-            published = published.then(&position);
+        let on_grid = Ramp::plan(self.rate, self.slope, target, bounds.paced(fast))?;
+        if (on_grid.loss() - wanted).abs() < ON_GRID {
+            return Some(on_grid);
         }
-        Trial::Passed
+        // So near to the full rate there is too little time left to lose.
+        (self.rate > NEARLY_FULL && self.ramp.is_none()).then_some(ramp)
     }
 
-    const fn commit(&mut self, ramp: Ramp, pace: f64, excess: f64) {
+    /// Plays a ramp through, and looks for a stop after it if it does not end in one.
+    fn try_ramp(&self, ramp: &Ramp, scene: &Scene<'_>, budget: &mut u32) -> Trial {
+        let cue = Cue {
+            time: self.now,
+            published: *scene.published,
+            is_held: true,
+        };
+        let played = play(ramp, cue, scene.track, scene.allowed, budget);
+        if played != Played::Passed || ramp.target() <= 0.0 || scene.track.stop().is_some() {
+            return match played {
+                Played::Passed => Trial::Passed(None),
+                Played::Barred => Trial::Barred,
+                Played::OutOfBudget => Trial::OutOfBudget,
+            };
+        }
+        let end = self.now.after(ramp.at(ramp.duration().ceil()).elapsed);
+        let mut from_first = 0;
+        let steady = Steady {
+            time: end,
+            rate: ramp.target(),
+        };
+        match Reserve::find(steady, 0, scene, scene.allowed, &mut from_first, budget) {
+            Some(reserve) => Trial::Passed(Some(reserve)),
+            None => Trial::Barred,
+        }
+    }
+
+    const fn commit(&mut self, ramp: Ramp, pace: f64, reserve: Option<Reserve>) {
         self.start = self.now;
         self.ticks = 0;
         self.ramp = Some(ramp);
+        self.held_at = None;
         self.pace = pace;
-        self.excess = excess;
-        self.waited = 0;
+        self.reserve = reserve;
+        self.taken = None;
         self.resume_at = 0;
     }
+}
+
+/// What playing a ramp through has shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Played {
+    Passed,
+    Barred,
+    OutOfBudget,
+}
+
+/// Where a ramp is played from.
+#[derive(Debug, Clone, Copy)]
+struct Cue {
+    time: ProgramTime,
+    /// The positions published before it.
+    published: Differences,
+    /// Whether motion stands at what holds it now. A reserve is for after that.
+    is_held: bool,
+}
+
+/// Plays a ramp through to three ticks past its end.
+fn play(ramp: &Ramp, cue: Cue, track: &Track, allowed: &Allowed, budget: &mut u32) -> Played {
+    let mut published = cue.published;
+    let end = ramp.duration() + 3.0;
+    let mut t = 0.0;
+    while t < end {
+        if *budget == 0 {
+            return Played::OutOfBudget;
+        }
+        *budget -= 1;
+        t += 1.0;
+        let time = cue.time.after(ramp.at(t).elapsed);
+        let time = if cue.is_held {
+            track.clamped(time)
+        } else {
+            time
+        };
+        let Some(position) = track.position(time) else {
+            return Played::Barred;
+        };
+        if !published.allow(&position, allowed) {
+            return Played::Barred;
+        }
+        published = published.then(&position);
+    }
+    Played::Passed
 }
 
 #[cfg(test)]

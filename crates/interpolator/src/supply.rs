@@ -1,34 +1,31 @@
 //! Whether there are frames enough to go on.
 //!
-//! The motion must be able to stop on the frames at hand. Two thresholds on the number of frames
-//! ahead, in units of the frames a stop from full speed takes (program time runs at half rate on
-//! average while r falls to 0 in V/A + A/J):
-//!
-//! ```text
-//! 0 ────────── low ─────────── high ──────────── horizon
-//!   stop now     |  go on as before  |   go on, also from rest
-//! ```
-//!
-//! Frames that end at rest are always enough: the plan stops by itself.
+//! That the motion can stop on the frames at hand is the business of the stop in reserve (see
+//! `rate`). Once it was taken, or the motion stands for want of frames, it is not worth while to go
+//! on for each frame that drips in: it goes on when as many are ahead as two stops from full speed
+//! take (program time runs at half rate on average while r falls to 0 in V/A + A/J), or when the
+//! frames end at rest.
 
 use crate::config::Config;
 use crate::differences::Differences;
-use crate::rate::Advance;
+use crate::rate::Rate;
 use crate::track::Track;
 
-/// Room for the stop to begin late, where the plan is at its limits, in stops.
-const STOPS_AHEAD: f64 = 2.0;
+/// Frames ahead to go on with, in stops.
+const STOPS_AHEAD: f64 = 3.0;
 /// Frames on top of that, for very short stops.
-const SPARE: u64 = 8;
+const SPARE: u64 = 10;
 
 /// Watch over the frames ahead.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Supply {
-    low: u64,
-    high: u64,
+    enough: u64,
     reach: u64,
+    full: u64,
     short: bool,
+    fully: bool,
     out: bool,
+    barred: bool,
     starved_ticks: u64,
     patience_ticks: u64,
 }
@@ -51,24 +48,27 @@ impl Supply {
             .map(|(stop, _)| *stop)
             .fold(0.0, f64::max);
         let reach = (0.5 * stop_t / config.period_t()).ceil().min(1e6);
-        let low = ((STOPS_AHEAD * reach) as u64 + SPARE).min(config.horizon_frames * 3 / 4);
+        let enough = (STOPS_AHEAD * reach) as u64 + SPARE;
         let patience_ticks = config.planner_lost_after.map_or(u64::MAX, |patience| {
             (patience.as_nanos() / u128::from(config.period_ns.max(1)))
                 .try_into()
                 .unwrap_or(u64::MAX)
         });
         Self {
-            low,
-            high: (low + low / 4 + 1).min(config.horizon_frames),
+            // What the planner never publishes ahead cannot be waited for.
+            enough: enough.min(config.horizon_frames * 3 / 4),
             reach: reach as u64,
+            full: config.horizon_frames * 9 / 10,
             short: false,
+            fully: false,
             out: false,
+            barred: false,
             starved_ticks: 0,
             patience_ticks,
         }
     }
 
-    /// Frames whose speed matters for a stop that begins now.
+    /// Frames a stop from full speed takes.
     pub(crate) const fn reach(&self) -> u64 {
         self.reach
     }
@@ -96,23 +96,37 @@ impl Supply {
         self.short
     }
 
+    /// True if the motion stands at a barrier.
+    pub(crate) const fn is_barred(&self) -> bool {
+        self.barred
+    }
+
     /// True at rest at the end of the frames, where the plan rests too.
     pub(crate) const fn is_out(&self) -> bool {
         self.out
     }
 
+    /// True if the frames ahead are about as many as the planner ever publishes.
+    pub(crate) const fn is_fully_supplied(&self) -> bool {
+        self.fully
+    }
+
     /// Looks at the frames ahead. Returns true once if the planner must be taken for lost: the
     /// motion was held up in the middle of its way for too long.
-    pub(crate) fn watch(&mut self, track: &Track, now: Advance, published: &Differences) -> bool {
-        let ahead = track.end().saturating_sub(now.time.sequence + 1);
-        let ends_at_rest = track.stop().is_some();
-        if ends_at_rest || ahead >= self.high {
+    pub(crate) fn watch(&mut self, track: &Track, rate: &Rate, published: &Differences) -> bool {
+        let time = rate.now().time;
+        let ahead = track.end().saturating_sub(time.sequence + 1);
+        self.fully = ahead >= self.full;
+        let is_barred = track.barrier() == Some(time.sequence);
+        if ahead >= self.enough || track.ends_at_rest() {
             self.short = false;
-        } else if ahead < self.low {
+        } else if rate.has_taken_reserve() || is_barred {
             self.short = true;
         }
-        self.out = ends_at_rest && ahead == 0;
-        if self.short && published.is_at_rest() {
+        self.out = track.ends_at_rest() && ahead == 0;
+        // It is known how to go on from a barrier only when it is known how to stop after it.
+        self.barred = is_barred && !track.ends_at_rest();
+        if (self.short || self.barred) && published.is_at_rest() {
             self.starved_ticks += 1;
         } else {
             self.starved_ticks = 0;

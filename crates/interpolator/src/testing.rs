@@ -30,3 +30,144 @@ pub(crate) fn frame_of<const N: usize>(
         ..<SetpointFrame as bytemuck::Zeroable>::zeroed()
     }
 }
+
+use crate::config::Config;
+use crate::message::{HAPPENINGS, Happening, Inputs, Order, PortsEnds, Report, Rings};
+use crate::tick::Interpolator;
+use glidepath_geometry::AxisVector;
+use glidepath_link::{MachineState, Setpoint};
+use glidepath_realtime::{EventReader, Events, Wake, event_ring};
+use heapless::spsc::Producer;
+use std::collections::VecDeque;
+
+/// The real-time thread's state with a grid of its own instead of a clock.
+pub(crate) struct Rig {
+    pub(crate) interpolator: Interpolator<'static>,
+    pub(crate) inputs: Inputs<'static>,
+    pub(crate) ends: PortsEnds<'static>,
+    pub(crate) reports: Producer<'static, Report>,
+    pub(crate) happenings: EventReader<'static, Happening>,
+    pub(crate) config: Config,
+    /// Frames that have not yet been published.
+    pub(crate) feed: VecDeque<SetpointFrame>,
+    pub(crate) setpoints: Vec<Setpoint>,
+    pub(crate) last: Option<Report>,
+    tick: u64,
+}
+
+impl Rig {
+    pub(crate) fn new(config: Config) -> Self {
+        let rings = Box::leak(Box::<Rings>::default());
+        let events = Box::leak(Box::<Events<Happening, HAPPENINGS>>::default());
+        let ((inputs, reports), ends) = rings.split();
+        let (writer, happenings) = event_ring(events);
+        let interpolator = Interpolator::new(&config, 77, writer);
+        let (feed, setpoints) = (VecDeque::new(), Vec::new());
+        Self {
+            interpolator,
+            inputs,
+            ends,
+            reports,
+            happenings,
+            config,
+            feed,
+            setpoints,
+            last: None,
+            tick: 0,
+        }
+    }
+
+    /// The default machine at 4 ms.
+    pub(crate) fn mill() -> Self {
+        Self::new(Config::new(mill(), 4_000_000))
+    }
+
+    pub(crate) fn order(&mut self, order: Order) {
+        self.ends.orders.enqueue(order).unwrap();
+    }
+
+    /// Moves up to `count` frames into the ring.
+    pub(crate) fn publish(&mut self, count: usize) {
+        for _ in 0..count {
+            if !self.ends.frames.ready() {
+                return;
+            }
+            let Some(frame) = self.feed.pop_front() else {
+                return;
+            };
+            self.ends.frames.enqueue(frame).unwrap();
+        }
+    }
+
+    /// One period, without new frames.
+    pub(crate) fn tick(&mut self) -> Setpoint {
+        self.tick_late(0, 0)
+    }
+
+    /// A tick that comes late, after missed ones.
+    pub(crate) fn tick_late(&mut self, missed: u64, lateness_ns: u64) -> Setpoint {
+        self.tick += 1 + missed;
+        let scheduled_ns = self.tick * self.config.period_ns;
+        let woke_ns = scheduled_ns + lateness_ns;
+        let wake = Wake {
+            tick: self.tick,
+            scheduled_ns,
+            woke_ns,
+            missed,
+        };
+        let report = self.interpolator.tick(&wake, &mut self.inputs);
+        self.setpoints.push(report.setpoint);
+        self.last = Some(report);
+        report.setpoint
+    }
+
+    /// Ticks with the planner keeping up, until a condition or `most` ticks.
+    pub(crate) fn run_until(
+        &mut self,
+        most: usize,
+        mut done: impl FnMut(&Setpoint) -> bool,
+    ) -> bool {
+        for _ in 0..most {
+            self.publish(4);
+            let setpoint = self.tick();
+            if done(&setpoint) {
+                return true;
+            }
+        }
+        false
+    }
+
+    pub(crate) fn run(&mut self, ticks: usize) {
+        self.run_until(ticks, |_| false);
+    }
+
+    pub(crate) fn state(&self) -> MachineState {
+        self.interpolator.state
+    }
+
+    /// Everything that was published, with the rest before it.
+    pub(crate) fn positions(&self) -> Vec<AxisVector> {
+        let first = self.config.start_position;
+        let published = self.setpoints.iter().map(|s| AxisVector::from(s.position));
+        std::iter::repeat_n(first, 3).chain(published).collect()
+    }
+
+    /// Whether limits were relaxed for a stop.
+    pub(crate) fn has_relaxed(&mut self) -> bool {
+        let mut relaxed = false;
+        while let Some(happening) = self.happenings.read() {
+            relaxed |= matches!(happening, Happening::Relaxed { .. });
+        }
+        relaxed
+    }
+
+    /// The largest ratio to any limit, by finite differences of everything published.
+    pub(crate) fn worst_ratio(&self) -> f64 {
+        let ratios = audit(
+            &self.positions(),
+            &self.config.limits,
+            self.config.period_t(),
+        );
+        ratios.into_iter().fold(0.0, f64::max)
+    }
+}

@@ -92,8 +92,8 @@ impl<'a> Interpolator<'a> {
         self.take_frames(inputs);
         self.watch_supply();
         let setpoint = if self.is_open() {
-            self.steer(wake);
-            self.advance();
+            self.steer();
+            self.advance(wake);
             self.evaluate(wake)
         } else {
             self.standing(wake)
@@ -181,40 +181,46 @@ impl<'a> Interpolator<'a> {
     }
 
     fn watch_supply(&mut self) {
-        if self.is_open()
-            && self
-                .supply
-                .watch(&self.track, self.rate.now(), &self.published)
-        {
+        if self.is_open() && self.supply.watch(&self.track, &self.rate, &self.published) {
             self.fail(FaultCause::PlannerLost);
         }
     }
 
-    /// Chooses the rate. Where the plan itself rests, any rate is at rest.
-    fn steer(&mut self, wake: &Wake) {
+    /// Chooses the rate, and how to stop if no more frames come. Where the plan itself rests, any
+    /// rate is at rest, but it takes a new reserve to go on from there.
+    #[allow(clippy::float_cmp, reason = "a steady rate is a copy of the goal")]
+    fn steer(&mut self) {
         let goal = self.goal();
-        let now = self.rate.now().time;
-        let rests = now.fraction <= 0.0 && self.track.frame(now.sequence).is_some_and(is_at_rest);
-        if rests && self.published.is_at_rest() {
-            self.rate.rest_at(now, goal);
-            return;
+        let now = self.rate.now();
+        let rests = self.plan_rests() && self.published.is_at_rest();
+        if rests && now.rate != goal {
+            self.track.bar(now.time.sequence);
+            self.rate.rest_at(now.time, goal);
         }
-        let before = self.rate.excess();
         let scene = Scene {
             track: &self.track,
             published: &self.published,
             allowed: &self.allowed,
-            period_t: self.period_t,
             reach: self.supply.reach(),
+            is_fully_supplied: self.supply.is_fully_supplied(),
         };
-        self.rate.steer(goal, &scene);
-        if self.rate.excess() > before {
-            let part = self.rate.excess();
-            self.happenings.write(Happening::Relaxed {
-                tick: wake.tick,
-                part,
-            });
+        if !rests {
+            self.rate.steer(goal, &scene);
         }
+        if self.rate.secure(goal, &scene) {
+            self.track.unbar();
+        }
+    }
+
+    /// True where the plan itself is at rest.
+    fn plan_rests(&self) -> bool {
+        let now = self.rate.now().time;
+        now.fraction <= 0.0 && self.track.frame(now.sequence).is_some_and(is_at_rest)
+    }
+
+    /// True if the machine stands, because program time does or because the plan rests.
+    fn is_standing(&self) -> bool {
+        self.published.is_at_rest() && (self.rate.now().rate <= 0.0 || self.plan_rests())
     }
 
     /// The rate that is wanted: the commanded override over the planned one, if nothing stops.
@@ -231,8 +237,16 @@ impl<'a> Interpolator<'a> {
     }
 
     /// Advances program time, not past a frame that holds the motion.
-    fn advance(&mut self) {
+    fn advance(&mut self, wake: &Wake) {
+        let before = self.rate.excess();
         let time = self.rate.advance().time;
+        if self.rate.excess() > before {
+            let part = self.rate.excess();
+            self.happenings.write(Happening::Relaxed {
+                tick: wake.tick,
+                part,
+            });
+        }
         let held = self.track.clamped(time);
         if held != time {
             self.rate.rest_at(held, self.rate.now().rate);
@@ -264,13 +278,13 @@ impl<'a> Interpolator<'a> {
             .copied()
             .unwrap_or(self.passed);
         self.passed = frame;
-        if self.will.is_stopping() && self.published.is_at_rest() {
+        if self.will.is_stopping() && self.is_standing() {
             self.close(if self.will.fault().is_some() {
                 EndOfEpoch::Faulted
             } else {
                 EndOfEpoch::Aborted
             });
-        } else if frame.has(FrameFlags::LAST) && self.published.is_at_rest() {
+        } else if frame.has(FrameFlags::LAST) && self.is_standing() {
             self.close(EndOfEpoch::Completed);
         } else if frame.has(FrameFlags::PROGRAM_STOP)
             && self.track.program_stop() == Some(now.sequence)
@@ -295,8 +309,9 @@ impl<'a> Interpolator<'a> {
     }
 
     fn change_state(&mut self, wake: &Wake) {
-        let standing = self.published.is_at_rest();
-        let to = self.will.state(self.is_open(), standing, &self.supply);
+        let to = self
+            .will
+            .state(self.is_open(), self.is_standing(), &self.supply);
         if to != self.state {
             let (from, line) = (self.state, self.passed.line);
             self.happenings.write(Happening::State {
@@ -309,3 +324,6 @@ impl<'a> Interpolator<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,8 +8,9 @@
 //! released │ oldest … now … newest │ free          a ring over sequence numbers
 //! ```
 //!
-//! At a frame that holds the motion (`PROGRAM_STOP`, the last frame, or the newest one if it is at
-//! rest) program time stands until something changes: everything later is evaluated as that frame.
+//! Two kinds of frames hold the motion: the next program stop, until the operator lets it pass, and
+//! the *barrier*, the latest frame at rest, until it is known how to stop after it. Program time
+//! stands there: everything later is evaluated as that frame.
 
 use crate::program_time::ProgramTime;
 use glidepath_geometry::AxisVector;
@@ -97,8 +98,10 @@ pub(crate) struct Track {
     stop_times: Box<[StopTime]>,
     oldest: u64,
     len: usize,
-    /// The first frame from which program time may not go on by itself.
-    stop: Option<u64>,
+    /// The first program stop not yet passed.
+    program_stop: Option<u64>,
+    /// A frame at rest that motion may not pass.
+    barrier: Option<u64>,
     period_t: f64,
     limits: Limits,
 }
@@ -114,7 +117,8 @@ impl Track {
             stop_times: vec![StopTime::default(); TRACK_CAPACITY].into_boxed_slice(),
             oldest: 0,
             len: 0,
-            stop: None,
+            program_stop: None,
+            barrier: None,
             period_t,
             limits,
         }
@@ -128,7 +132,8 @@ impl Track {
     /// Forgets everything.
     pub(crate) const fn clear(&mut self) {
         self.len = 0;
-        self.stop = None;
+        self.program_stop = None;
+        self.barrier = None;
     }
 
     pub(crate) const fn is_full(&self) -> bool {
@@ -160,8 +165,11 @@ impl Track {
                 by_jerk_squared: speed.component_div(&self.limits.jerk).max() / (t * t),
             };
         }
-        if self.stop.is_none() && frame.has(FrameFlags::PROGRAM_STOP) {
-            self.stop = Some(frame.sequence);
+        if is_at_rest(frame) {
+            self.barrier = Some(frame.sequence);
+        }
+        if self.program_stop.is_none() && frame.has(FrameFlags::PROGRAM_STOP) {
+            self.program_stop = Some(frame.sequence);
         }
     }
 
@@ -191,27 +199,51 @@ impl Track {
         self.oldest + self.len as u64
     }
 
-    /// The first frame with a program stop that was not passed yet.
+    /// The first program stop that was not passed yet.
     pub(crate) const fn program_stop(&self) -> Option<u64> {
-        self.stop
+        self.program_stop
     }
 
-    /// The frame at which program time stands by itself: a program stop, or the newest if at rest.
+    /// The frame at rest that motion may not pass.
+    pub(crate) const fn barrier(&self) -> Option<u64> {
+        self.barrier
+    }
+
+    /// Motion, at rest at a frame, may not pass it, or the barrier after it if there is one.
+    pub(crate) fn bar(&mut self, sequence: u64) {
+        self.barrier.get_or_insert(sequence);
+    }
+
+    /// Motion may pass the barrier.
+    pub(crate) const fn unbar(&mut self) {
+        self.barrier = None;
+    }
+
+    /// The frame at which program time stands by itself.
     pub(crate) fn stop(&self) -> Option<u64> {
-        self.stop.or_else(|| {
-            self.newest()
-                .filter(|frame| is_at_rest(frame))
-                .map(|f| f.sequence)
-        })
+        match (self.program_stop, self.barrier) {
+            (Some(stop), Some(barrier)) => Some(stop.min(barrier)),
+            (stop, barrier) => stop.or(barrier),
+        }
     }
 
-    /// Lets program time pass a program stop; finds the next one.
+    /// True if the motion comes to rest by itself on the frames at hand.
+    pub(crate) fn ends_at_rest(&self) -> bool {
+        self.program_stop.is_some() || self.newest().is_some_and(is_at_rest)
+    }
+
+    /// Lets motion pass the program stop it stands at, once it is known how to stop after it.
     pub(crate) fn pass_stop(&mut self) {
-        let Some(passed) = self.stop else { return };
-        self.stop = (passed + 1..self.end()).find(|&s| {
+        let Some(passed) = self.program_stop else {
+            return;
+        };
+        self.program_stop = (passed + 1..self.end()).find(|&s| {
             self.frame(s)
                 .is_some_and(|f| f.has(FrameFlags::PROGRAM_STOP))
         });
+        self.barrier = (passed..self.end())
+            .rev()
+            .find(|&s| self.frame(s).is_some_and(is_at_rest));
     }
 
     /// The longest of the stop times of up to `count` frames from one on.
@@ -232,9 +264,8 @@ impl Track {
         }
     }
 
-    /// Position at a time; `None` outside the owned frames.
+    /// Planned position at a time; `None` outside the owned frames.
     pub(crate) fn position(&self, time: ProgramTime) -> Option<AxisVector> {
-        let time = self.clamped(time);
         let frame = self.frame(time.sequence)?;
         if time.fraction <= 0.0 {
             return Some(AxisVector::from(frame.position));
@@ -333,7 +364,7 @@ mod tests {
         for k in 0..TRACK_CAPACITY as u64 {
             track.push(&frame_of(k, [0.1], [1.0], [0.0]));
         }
-        assert!(track.is_full() && track.stop().is_none());
+        assert!(track.is_full() && track.stop().is_none() && !track.ends_at_rest());
         track.release_before(10);
         assert!(track.frame(9).is_none() && track.frame(10).is_some());
         track.push(&frame_of(TRACK_CAPACITY as u64, [0.1], [0.0], [0.0]));
@@ -344,7 +375,7 @@ mod tests {
             fraction: 0.5,
         };
         assert_eq!(track.clamped(beyond), ProgramTime::at(512));
-        assert!(track.position(beyond).is_some());
+        assert!(track.position(beyond).is_none());
         track.clear();
         assert!(track.position(ProgramTime::at(512)).is_none());
     }

@@ -116,7 +116,8 @@ impl Will {
             (true, _) if self.is_stopping() => Stopping,
             (true, _) if self.program_stop => ProgramStop,
             (true, _) if self.hold || self.feed_override <= 0.0 => choose(Held, Holding),
-            (true, _) if supply.is_short() || supply.is_out() => choose(Starved, Starving),
+            (true, _) if supply.is_short() => choose(Starved, Starving),
+            (true, _) if standing && (supply.is_out() || supply.is_barred()) => Starved,
             (true, _) => Running,
         }
     }

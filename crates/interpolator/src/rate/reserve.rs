@@ -1,0 +1,384 @@
+//! The stop in reserve: how the motion comes to rest if no more frames arrive.
+//!
+//! While program time advances at a steady rate, a reserve says: so many ticks from now, a certain
+//! ramp to rest may begin; it has been played through, and needs only frames that are here. As long
+//! as frames keep coming, a later one is found well before, and replaces it. If none is found in
+//! time, it is taken.
+//!
+//! ```text
+//!       now          reserve begins      rests      newest frame
+//! ───────┼──────────────────┼──────────────┼────────────┤
+//!        │◄─ steady rate ──►│◄──── r → 0 ─►│
+//! ```
+//!
+//! No reserve is needed where the frames themselves hold the motion: before a program stop, and
+//! before a frame at rest that motion may not yet pass (a barrier, see [`Track`]). An epoch begins at
+//! such a frame, so it begins to move with a reserve, and always has one.
+//!
+//! A plan can be at its limits on so many axes, for so long, that no stop inside the limits begins
+//! anywhere in the frames at hand. If they are as many as can be expected, waiting would be for
+//! ever; then limits are relaxed for the reserve, as little as possible. It is not likely to be
+//! taken, and the excess is reported if it is.
+
+use super::{Cue, FASTEST, Played, Rate, Scene, play};
+use crate::differences::{Allowed, Differences};
+use crate::program_time::ProgramTime;
+use crate::ramp::{Bounds, Ramp};
+
+/// Samples a tick may spend on finding a reserve.
+const BUDGET: u32 = 250;
+/// What it costs to set up a candidate, in samples.
+const SET_UP: u32 = 6;
+/// Places between the latest possible and the earliest useful at which a stop of a shape may begin.
+const PLACES: usize = 48;
+/// A reserve is replaced only by one that begins this much later, ticks.
+const GAIN: u32 = 3;
+/// Before a reserve begins, this many ticks are left to relaxed limits.
+const URGENT: u32 = 14;
+/// Parts by which limits are relaxed, each for two ticks.
+const RELAXED: [f64; 7] = [1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1, 1.0];
+
+/// A shape of a stop: how much of the rate goes at first, and how fast.
+#[derive(Debug, Clone, Copy)]
+struct Shape {
+    part: f64,
+    pace: f64,
+}
+
+/// The shapes, simple ones first. One that does not take the whole rate at first gets away from a
+/// plan at its limits: then there is room for a second ramp that takes the rest.
+const SHAPES: [Shape; 7] = [
+    Shape {
+        part: 1.0,
+        pace: 1.0,
+    },
+    Shape {
+        part: 1.0,
+        pace: 0.7,
+    },
+    Shape {
+        part: 1.0,
+        pace: 0.45,
+    },
+    Shape {
+        part: 0.3,
+        pace: 1.0,
+    },
+    Shape {
+        part: 0.3,
+        pace: 0.6,
+    },
+    Shape {
+        part: 0.1,
+        pace: 0.8,
+    },
+    Shape {
+        part: 0.6,
+        pace: 0.8,
+    },
+];
+
+/// All candidates: every shape at every place.
+const CANDIDATES: usize = PLACES * SHAPES.len();
+
+/// Between the end of the first ramp and the second: ticks, and the second's pace.
+const SECOND: [(f64, f64); 8] = [
+    (3.0, 1.0),
+    (3.0, 0.6),
+    (6.0, 1.0),
+    (6.0, 0.6),
+    (10.0, 1.0),
+    (10.0, 0.6),
+    (15.0, 1.0),
+    (15.0, 0.6),
+];
+
+/// A ramp that begins some ticks from now.
+#[derive(Debug, Clone, Copy)]
+struct Later {
+    in_ticks: u32,
+    ramp: Ramp,
+}
+
+/// A stop that was played through.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reserve {
+    first: Later,
+    /// Takes what the first leaves; counted from the end of the first.
+    second: Option<Later>,
+    /// Part by which it may break limits.
+    excess: f64,
+}
+
+/// A steady rate that begins at a place.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Steady {
+    pub(super) time: ProgramTime,
+    pub(super) rate: f64,
+}
+
+impl Steady {
+    /// A tick of it, the third or later, with the positions published before it.
+    fn cue(self, tick: f64, scene: &Scene<'_>) -> Option<Cue> {
+        let time = |back: f64| self.time.after(self.rate * (tick - back));
+        let at = |back: f64| scene.track.position(time(back));
+        let first = Differences::at_rest(at(3.0)?);
+        let published = first.then(&at(2.0)?).then(&at(1.0)?).then(&at(0.0)?);
+        Some(Cue {
+            time: time(0.0),
+            published,
+            is_held: false,
+        })
+    }
+}
+
+impl Reserve {
+    /// A late stop that passes, after at least `at_least` ticks of a steady rate. Goes on at
+    /// candidate `search_at`, where the last search ended; [`CANDIDATES`] if that was the end.
+    pub(super) fn find(
+        from: Steady,
+        at_least: u32,
+        scene: &Scene<'_>,
+        allowed: &Allowed,
+        search_at: &mut usize,
+        budget: &mut u32,
+    ) -> Option<Self> {
+        let earliest = f64::from(at_least.max(3));
+        for candidate in *search_at..CANDIDATES {
+            *search_at = candidate;
+            if *budget < SET_UP {
+                return None;
+            }
+            let Some(&shape) = SHAPES.get(candidate / PLACES) else {
+                continue;
+            };
+            let Some((latest, ramp)) = latest(from, shape, scene) else {
+                continue;
+            };
+            #[allow(clippy::cast_precision_loss, reason = "small numbers")]
+            let (place, places) = ((candidate % PLACES) as f64, PLACES as f64);
+            let step = ((latest - earliest) / places).max(1.0);
+            let begins = (latest - place * step).floor();
+            if begins < earliest {
+                continue;
+            }
+            *budget -= SET_UP;
+            let found = stop_at(from, begins, &ramp, scene, allowed, budget);
+            if found.is_some() {
+                *search_at = 0;
+                return found;
+            }
+        }
+        *search_at = CANDIDATES;
+        None
+    }
+}
+
+/// The stop that begins at a tick with a ramp, if it passes.
+fn stop_at(
+    from: Steady,
+    begins: f64,
+    ramp: &Ramp,
+    scene: &Scene<'_>,
+    allowed: &Allowed,
+    budget: &mut u32,
+) -> Option<Reserve> {
+    let cue = from.cue(begins, scene)?;
+    if play(ramp, cue, scene.track, allowed, budget) != Played::Passed {
+        return None;
+    }
+    let second = if ramp.target() > 0.0 {
+        let time = cue.time.after(ramp.at(ramp.duration().ceil()).elapsed);
+        Some(second_ramp(
+            Steady {
+                time,
+                rate: ramp.target(),
+            },
+            scene,
+            allowed,
+            budget,
+        )?)
+    } else {
+        None
+    };
+    let first = Later {
+        in_ticks: whole(begins),
+        ramp: *ramp,
+    };
+    Some(Reserve {
+        first,
+        second,
+        excess: 0.0,
+    })
+}
+
+/// A ramp to rest soon after the first.
+fn second_ramp(
+    from: Steady,
+    scene: &Scene<'_>,
+    allowed: &Allowed,
+    budget: &mut u32,
+) -> Option<Later> {
+    let bounds = scene.fastest_from(from.time.sequence);
+    SECOND.iter().find_map(|&(begins, pace)| {
+        let ramp = Ramp::plan(from.rate, 0.0, 0.0, bounds.paced(pace))?;
+        let cue = from.cue(begins, scene)?;
+        let played = play(&ramp, cue, scene.track, allowed, budget);
+        (played == Played::Passed).then_some(Later {
+            in_ticks: whole(begins),
+            ramp,
+        })
+    })
+}
+
+/// The latest whole tick at which a stop of a shape can begin, and its first ramp.
+fn latest(from: Steady, shape: Shape, scene: &Scene<'_>) -> Option<(f64, Ramp)> {
+    let Steady { time, rate } = from;
+    let last = scene.track.end().checked_sub(time.sequence + 1)?;
+    #[allow(clippy::cast_precision_loss, reason = "a number of frames at hand")]
+    let (ahead, reach) = (last as f64 - time.fraction, scene.reach as f64);
+    let about = (ahead - 2.0 * reach * rate).max(0.0);
+    let bounds = scene.fastest_from(time.after(about).sequence);
+    let target = rate * (1.0 - shape.part);
+    let ramp = Ramp::plan(rate, 0.0, target, bounds.paced(shape.pace))?;
+    let rest = Ramp::plan(target, 0.0, 0.0, bounds)?;
+    let gap = 4.0 * target;
+    let length = ramp.at(ramp.duration()).elapsed + rest.at(rest.duration()).elapsed + gap;
+    Some((((ahead - length) / rate).floor(), ramp))
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "not negative, and less than the frames at hand over the rate"
+)]
+const fn whole(ticks: f64) -> u32 {
+    ticks as u32
+}
+
+impl Scene<'_> {
+    /// Bounds of the fastest ramp worth trying at a place: no axis needs more than its limits for it
+    /// at the highest speed ahead.
+    pub(super) fn fastest_from(&self, sequence: u64) -> Bounds {
+        let stop = self.track.longest_stop(sequence, self.reach);
+        Bounds {
+            alpha: FASTEST.alpha.min(1.0 / stop.by_acceleration),
+            beta: FASTEST.beta.min(1.0 / stop.by_jerk_squared),
+        }
+    }
+}
+
+impl Rate {
+    /// Makes sure that there is a stop in reserve. Returns whether there is a new one, so that
+    /// motion may pass a barrier.
+    pub(crate) fn secure(&mut self, goal: f64, scene: &Scene<'_>) -> bool {
+        if self.ramp.is_some() || self.rate <= 0.0 {
+            return false;
+        }
+        if scene.track.ends_at_rest() {
+            self.reserve = None;
+            return false;
+        }
+        let (left, is_exact) = match (&self.reserve, scene.track.barrier()) {
+            (Some(reserve), _) => (reserve.first.in_ticks, reserve.excess <= 0.0),
+            (None, Some(barrier)) => (self.ticks_to(barrier), true),
+            (None, None) => (0, false),
+        };
+        let enough = u32::try_from(scene.reach.max(16) * 3).unwrap_or(u32::MAX);
+        // With the goal to stop, what is here is as good as what may come.
+        if is_exact && (left >= enough || goal <= 0.0) {
+            return false;
+        }
+        let at_least = if is_exact { left + GAIN } else { 0 };
+        let mut found = self.find_exact(at_least, scene);
+        if found.is_some() {
+            (self.all_tried, self.insisted) = (false, 0);
+        } else if self.all_tried && left <= URGENT && scene.is_fully_supplied {
+            found = self.find_relaxed(left + 1, scene);
+        }
+        if found.is_some() {
+            self.reserve = found;
+        }
+        found.is_some()
+    }
+
+    fn find_exact(&mut self, at_least: u32, scene: &Scene<'_>) -> Option<Reserve> {
+        let (from, mut budget) = (self.steady(), BUDGET);
+        if self.search_at >= CANDIDATES {
+            self.search_at = 0;
+            self.all_tried = true;
+        }
+        Reserve::find(
+            from,
+            at_least,
+            scene,
+            scene.allowed,
+            &mut self.search_at,
+            &mut budget,
+        )
+    }
+
+    /// A stop that passes limits relaxed as little as possible: more at every other tick.
+    fn find_relaxed(&mut self, at_least: u32, scene: &Scene<'_>) -> Option<Reserve> {
+        let step = (self.insisted / 2).min(RELAXED.len() - 1);
+        self.insisted += 1;
+        let excess = RELAXED.get(step).copied()?;
+        let (allowed, mut budget) = (scene.allowed.relaxed(excess), BUDGET);
+        // One tick for the simple shapes, one for the others.
+        let mut start = if self.insisted % 2 == 0 {
+            CANDIDATES / 2
+        } else {
+            0
+        };
+        let found = Reserve::find(
+            self.steady(),
+            at_least,
+            scene,
+            &allowed,
+            &mut start,
+            &mut budget,
+        )?;
+        Some(Reserve { excess, ..found })
+    }
+
+    const fn steady(&self) -> Steady {
+        Steady {
+            time: self.now,
+            rate: self.rate,
+        }
+    }
+
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "a number of ticks; the cast saturates"
+    )]
+    fn ticks_to(&self, sequence: u64) -> u32 {
+        let frames = sequence.saturating_sub(self.now.sequence) as f64 - self.now.fraction;
+        (frames / self.rate).max(0.0) as u32
+    }
+
+    /// One tick less until the reserve begins; begins it.
+    pub(super) fn count_down(&mut self) {
+        let Some(reserve) = &mut self.reserve else {
+            return;
+        };
+        if reserve.first.in_ticks > 0 {
+            reserve.first.in_ticks -= 1;
+            return;
+        }
+        let Reserve {
+            first,
+            second,
+            excess,
+        } = *reserve;
+        let rest = second.map(|second| Reserve {
+            first: second,
+            second: None,
+            excess,
+        });
+        self.commit(first.ramp, 0.0, rest);
+        self.taken = Some(excess);
+    }
+}
