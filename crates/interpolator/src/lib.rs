@@ -38,6 +38,11 @@ mod tick;
 mod track;
 mod will;
 
+/// Unit tests prove that the real-time thread does not allocate.
+#[cfg(test)]
+#[global_allocator]
+static ALLOCATOR: glidepath_realtime::CountingAllocator = glidepath_realtime::CountingAllocator;
+
 pub use config::{Config, RealTime, SoftLimits};
 pub use loops::RunError;
 pub use run::run;

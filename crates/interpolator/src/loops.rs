@@ -106,3 +106,6 @@ pub(crate) fn guard(config: &Config) -> Result<(), SentinelError> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

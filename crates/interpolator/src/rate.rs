@@ -37,7 +37,9 @@
 //! on only with a stop in [`reserve`], played through beforehand.
 //!
 //! A ramp to rate 1 is stretched so that it ends on the grid of the frames: from there on the
-//! setpoints are the frames, bit for bit.
+//! setpoints are the frames, bit for bit. Between its grid points a plan may exceed its jerk limit by
+//! a little (0.53 % if jerk steps in the middle of a period): r³ makes up for that at any lower steady
+//! rate, hence [`BESIDE_FULL`].
 
 mod reserve;
 
@@ -86,12 +88,16 @@ const FASTEST: Bounds = Bounds {
 };
 /// The least change of the rate worth a ramp part of the way.
 const LEAST_CHANGE: f64 = 1e-3;
-/// The rate from which on a ramp to the full rate may end beside the grid.
-const NEARLY_FULL: f64 = 0.9;
+/// The highest rate that a ramp part of the way to the full rate ends at: nearer to it there is too
+/// little time left to lose to get back to the grid.
+const PARTIAL_MOST: f64 = 0.9;
 /// How near to the grid a ramp must end, periods.
 const ON_GRID: f64 = 1e-10;
 /// A better ramp ends at least this much earlier, ticks.
 const GAIN: f64 = 0.5;
+
+/// The highest steady rate below 1.
+pub(crate) const BESIDE_FULL: f64 = 0.998;
 
 /// What the choice of a ramp depends on.
 #[derive(Debug, Clone, Copy)]
@@ -143,6 +149,10 @@ pub(crate) struct Advance {
 
 /// What trying a ramp has shown.
 #[derive(Debug, Clone, Copy)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "it lives on the stack for a moment; no boxes here"
+)]
 enum Trial {
     Passed(Option<Reserve>),
     Barred,
@@ -258,15 +268,17 @@ impl Rate {
             let Some(&Candidate { part, pace }) = CANDIDATES.get(place) else {
                 continue;
             };
-            let is_tiny = part < 1.0 && part * (goal - self.rate).abs() < LEAST_CHANGE;
-            if is_tiny || !self.is_better(part, pace, goal, heading) {
+            if !self.is_better(part, pace, goal, heading) {
                 continue;
             }
             let target = if part < 1.0 {
-                self.rate + part * (goal - self.rate)
+                (self.rate + part * (goal - self.rate)).min(PARTIAL_MOST.max(self.rate))
             } else {
                 goal
             };
+            if part < 1.0 && (target - self.rate).abs() < LEAST_CHANGE {
+                continue;
+            }
             let Some(ramp) = self.ramp_to(target, fastest.paced(pace)) else {
                 continue;
             };
@@ -315,7 +327,7 @@ impl Rate {
             let over = (self.now.fraction - ramp.loss()).rem_euclid(1.0);
             ramp.loss() + if over > 1.0 - ON_GRID { 0.0 } else { over }
         };
-        let (mut slow, mut fast) = (0.25, 1.0);
+        let (mut slow, mut fast) = (0.02, 1.0);
         for _ in 0..48 {
             let pace = 0.5 * (slow + fast);
             let loss = Ramp::plan(self.rate, self.slope, target, bounds.paced(pace))?.loss();
@@ -326,11 +338,8 @@ impl Rate {
             }
         }
         let on_grid = Ramp::plan(self.rate, self.slope, target, bounds.paced(fast))?;
-        if (on_grid.loss() - wanted).abs() < ON_GRID {
-            return Some(on_grid);
-        }
-        // So near to the full rate there is too little time left to lose.
-        (self.rate > NEARLY_FULL && self.ramp.is_none()).then_some(ramp)
+        // If there is too little time left to lose, another tick will be nearer to the grid.
+        ((on_grid.loss() - wanted).abs() < ON_GRID).then_some(on_grid)
     }
 
     /// Plays a ramp through, and looks for a stop after it if it does not end in one.

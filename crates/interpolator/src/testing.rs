@@ -1,5 +1,16 @@
 //! What unit tests share.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    clippy::cast_possible_wrap,
+    clippy::float_cmp,
+    clippy::unwrap_used,
+    unreachable_pub,
+    reason = "a test: numbers are small, bits are compared on purpose, failures are panics"
+)]
+
 #[path = "../tests/synthetic/mod.rs"]
 mod synthetic;
 

@@ -13,7 +13,7 @@ use crate::config::Config;
 use crate::differences::{Allowed, Differences};
 use crate::message::{Fault, Happening, Inputs, Order, Report};
 use crate::program_time::ProgramTime;
-use crate::rate::{Rate, Scene};
+use crate::rate::{BESIDE_FULL, Rate, Scene};
 use crate::setpoint::Counters;
 use crate::supply::Supply;
 use crate::track::{Track, is_at_rest};
@@ -232,8 +232,13 @@ impl<'a> Interpolator<'a> {
             .track
             .frame(self.rate.now().time.sequence)
             .unwrap_or(&self.passed);
-        self.will
-            .rate(frame.has(FrameFlags::RAPID), frame.planned_override)
+        let is_rapid = frame.has(FrameFlags::RAPID);
+        let rate = self.will.rate(is_rapid, frame.planned_override);
+        if rate < 1.0 {
+            rate.min(BESIDE_FULL)
+        } else {
+            rate
+        }
     }
 
     /// Advances program time, not past a frame that holds the motion.
@@ -325,5 +330,7 @@ impl<'a> Interpolator<'a> {
     }
 }
 
+#[cfg(test)]
+mod planned;
 #[cfg(test)]
 mod tests;

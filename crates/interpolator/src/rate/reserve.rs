@@ -325,7 +325,7 @@ impl Rate {
         let excess = RELAXED.get(step).copied()?;
         let (allowed, mut budget) = (scene.allowed.relaxed(excess), BUDGET);
         // One tick for the simple shapes, one for the others.
-        let mut start = if self.insisted % 2 == 0 {
+        let mut start = if self.insisted.is_multiple_of(2) {
             CANDIDATES / 2
         } else {
             0

@@ -1,8 +1,19 @@
 //! Random holds, resumes and overrides over motions at their limits.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    clippy::cast_possible_wrap,
+    clippy::float_cmp,
+    clippy::unwrap_used,
+    unreachable_pub,
+    reason = "a test: numbers are small, bits are compared on purpose, failures are panics"
+)]
+
 use super::*;
-use crate::testing::{Numbers, audit, mill, plan, records};
-use crate::track::TRACK_CAPACITY;
+use crate::testing::{audit, mill, plan, records};
+use crate::track::{TRACK_CAPACITY, is_at_rest};
 use glidepath_geometry::AxisVector;
 use glidepath_link::SetpointFrame;
 use glidepath_motion::Limits;
@@ -51,7 +62,13 @@ impl Player {
             reach: 19,
             is_fully_supplied: true,
         };
-        self.rate.steer(goal, &scene);
+        let now = self.rate.now().time;
+        let rests = now.fraction <= 0.0 && self.track.frame(now.sequence).is_some_and(is_at_rest);
+        if rests && self.published.is_at_rest() {
+            self.rate.rest_at(now, goal);
+        } else {
+            self.rate.steer(goal, &scene);
+        }
         if self.rate.secure(goal, &scene) {
             self.track.unbar();
         }

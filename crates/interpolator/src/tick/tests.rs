@@ -1,5 +1,16 @@
 //! The real-time thread's work, tick by tick, with a grid instead of a clock.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    clippy::cast_possible_wrap,
+    clippy::float_cmp,
+    clippy::unwrap_used,
+    unreachable_pub,
+    reason = "a test: numbers are small, bits are compared on purpose, failures are panics"
+)]
+
 use super::*;
 use crate::message::Order;
 use crate::testing::{Numbers, Rig, lines, mill, plan, records};

@@ -1,6 +1,16 @@
 //! Synthetic trajectories, at their limits as often as not: every axis by itself makes one
 //! point-to-point move after the other, with phases of whole periods and the jerk at its limit or
 //! zero. Jerk is constant inside every period, so the quintic between two frames is the motion.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    clippy::cast_possible_wrap,
+    clippy::float_cmp,
+    clippy::unwrap_used,
+    unreachable_pub,
+    reason = "a test: numbers are small, bits are compared on purpose, failures are panics"
+)]
 #![allow(dead_code, reason = "each test binary uses its part")]
 
 use glidepath_geometry::{AXES, AxisVector};

@@ -1,0 +1,156 @@
+//! The same with motion as the planner makes it: polylines with rounded corners, arcs' worth of
+//! short chords, exact stops, dwells.
+
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    clippy::cast_possible_wrap,
+    clippy::float_cmp,
+    clippy::unwrap_used,
+    unreachable_pub,
+    reason = "a test: numbers are small, bits are compared on purpose, failures are panics"
+)]
+
+use super::*;
+use crate::message::Order;
+use crate::testing::{Numbers, Rig, mill};
+use glidepath_geometry::Segment;
+use glidepath_motion::{
+    Effort, Item, ItemKind, PathMode, Planner, Rate as Speed, Settings, Smoothing,
+};
+use proptest::prelude::*;
+
+/// Frames of a random program of up to three axes.
+fn program(seed: u64, moves: usize, smoothing: Smoothing) -> Vec<SetpointFrame> {
+    let settings = Settings {
+        limits: mill(),
+        tolerance_mm: 0.02,
+        smoothing,
+        period_t: 0.004,
+        effort: Effort::Fast,
+    };
+    let mut numbers = Numbers::new(seed);
+    let mut planner = Planner::new(settings, AxisVector::zeros());
+    let (mut at, mut heading) = (AxisVector::zeros(), 0.0_f64);
+    for line in 1..=moves {
+        // Long moves between runs of short chords that turn a little each.
+        let is_chord = numbers.unit() < 0.7;
+        let length = if is_chord {
+            0.05 + numbers.unit()
+        } else {
+            1.0 + 30.0 * numbers.unit()
+        };
+        heading += if is_chord { 0.4 } else { 6.0 } * (numbers.unit() - 0.5);
+        let mut to = at;
+        to[0] += length * heading.cos();
+        to[1] += length * heading.sin();
+        to[2] += 0.2 * length * (numbers.unit() - 0.5);
+        let rate = if numbers.unit() < 0.2 {
+            Speed::Rapid
+        } else {
+            Speed::Feed(20.0 + 180.0 * numbers.unit())
+        };
+        let mode = if numbers.unit() < 0.1 {
+            PathMode::ExactStop
+        } else {
+            PathMode::Continuous { tolerance_mm: None }
+        };
+        let kind = ItemKind::Move {
+            segment: Segment::line(at, to),
+            rate,
+            mode,
+        };
+        planner
+            .push(&Item {
+                line: line as u32,
+                kind,
+            })
+            .unwrap();
+        at = to;
+    }
+    planner.finish();
+    let frames: Vec<_> = std::iter::from_fn(|| planner.pop_frame()).collect();
+    crate::testing::records(&frames, 1, 4_000_000)
+}
+
+fn positions(frames: &[SetpointFrame]) -> Vec<AxisVector> {
+    frames
+        .iter()
+        .map(|f| AxisVector::from(f.position))
+        .collect()
+}
+
+/// Half a second ahead, as the planner publishes.
+fn publish(rig: &mut Rig, sent: &mut usize) {
+    let executed = rig.interpolator.rate.now().time.sequence as usize;
+    while *sent < executed + 125 && !rig.feed.is_empty() {
+        rig.publish(1);
+        *sent += 1;
+    }
+}
+
+#[test]
+fn planned_time_is_run_time() {
+    for seed in 0..40 {
+        let frames = program(seed, 60, Smoothing::Sextic);
+        let mut rig = Rig::mill();
+        rig.feed.extend(&frames);
+        let mut sent = 0;
+        for _ in 0..frames.len() + 200 {
+            publish(&mut rig, &mut sent);
+            rig.tick();
+        }
+        let at = |sequence| {
+            rig.setpoints
+                .iter()
+                .position(|s| s.sequence == sequence)
+                .unwrap()
+        };
+        let last = frames.len() - 1;
+        assert_eq!(at(last as u64) - at(1), last - 1, "seed {seed}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 100, ..ProptestConfig::default() })]
+    #[test]
+    fn commands_and_death_keep_the_limits_of_planned_motion(
+        seed in 0_u64..1_000_000,
+        dies_at in 0.2_f64..2.0,
+        commands in prop::collection::vec((0_u8..5, 1_usize..120), 0..12),
+    ) {
+        let frames = program(seed, 40, Smoothing::Sextic);
+        let planned = crate::testing::audit(&positions(&frames), &mill(), 0.004);
+        let planned = planned.into_iter().fold(1.0, f64::max);
+        let mut rig = Rig::mill();
+        let kept = ((frames.len() as f64 * dies_at) as usize).clamp(10, frames.len());
+        rig.feed.extend(&frames[..kept]);
+        let (mut sent, mut numbers) = (0, Numbers::new(seed));
+        for (command, ticks) in commands {
+            match command {
+                0 | 1 => rig.order(Order::Hold),
+                2 => rig.order(Order::Resume),
+                3 => rig.order(Order::FeedOverride(numbers.unit())),
+                _ => rig.order(Order::FeedOverride(1.0)),
+            }
+            for _ in 0..ticks {
+                publish(&mut rig, &mut sent);
+                rig.tick();
+            }
+        }
+        rig.order(Order::Resume);
+        rig.order(Order::FeedOverride(1.0));
+        for _ in 0..frames.len() * 2 + 1_500 {
+            publish(&mut rig, &mut sent);
+            rig.tick();
+        }
+        prop_assert!(matches!(
+            rig.state(), MachineState::Idle | MachineState::Faulted | MachineState::Starved
+        ), "{:?}", rig.state());
+        let ratio = rig.worst_ratio();
+        let relaxed = rig.has_relaxed();
+        prop_assert!(!relaxed, "relaxed; {ratio} planned {planned}");
+        prop_assert!(ratio <= 1.0 + 1e-6, "{ratio} planned {planned}");
+    }
+}
