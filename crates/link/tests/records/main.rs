@@ -2,122 +2,20 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use bytemuck::Zeroable;
-use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Segment};
+use glidepath_geometry::{AXES, AxisVector, Segment};
 use glidepath_link::{
     Command, CommandKind, CommandRefusal, CommandReply, CommandRequest, EndOfEpoch, EventKind,
     FRAME_REFUSALS, FaultCause, FrameRefusal, MachineState, OVERRIDE_MAX, Record, RecordError,
     RequestKind, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status,
     StreamItem, Text, decode,
 };
-use glidepath_motion::{Event, Frame, FrameFlags, Item, ItemKind, PathMode, Rate};
+use glidepath_motion::{Item, ItemKind, PathMode, Rate};
 use proptest::prelude::*;
+use strategies::{command, frame, item};
+
+mod strategies;
 
 const NOT_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
-
-fn finite() -> impl Strategy<Value = f64> {
-    any::<f64>().prop_filter("finite", |value| value.is_finite())
-}
-
-fn positive() -> impl Strategy<Value = f64> {
-    finite()
-        .prop_map(f64::abs)
-        .prop_filter("positive", |value| *value >= f64::MIN_POSITIVE)
-}
-
-fn vector() -> impl Strategy<Value = AxisVector> {
-    proptest::array::uniform9(finite()).prop_map(AxisVector::from)
-}
-
-fn event() -> impl Strategy<Value = Event> {
-    prop_oneof![
-        finite().prop_map(Event::SpindleSpeed),
-        any::<u32>().prop_map(Event::SelectTool),
-        any::<u32>().prop_map(Event::MCode),
-        any::<u32>().prop_map(Event::ProgramStop),
-        Just(Event::OptionalStop),
-    ]
-}
-
-prop_compose! {
-    fn frame()(
-        (sequence, line, flags) in (any::<u64>(), any::<u32>(), 0..64_u32),
-        event in proptest::option::of(event()),
-        (path_v, path_s) in (finite(), finite()),
-        (position, velocity, acceleration) in (vector(), vector(), vector()),
-    ) -> Frame {
-        let flags = FrameFlags(flags);
-        Frame { sequence, line, flags, event, path_v, path_s, position, velocity, acceleration }
-    }
-}
-
-fn plane() -> impl Strategy<Value = Plane> {
-    use Plane::{Uv, Vw, Wu, Xy, Yz, Zx};
-    proptest::sample::select(vec![Xy, Zx, Yz, Uv, Wu, Vw])
-}
-
-fn segment() -> impl Strategy<Value = Segment> {
-    let arc = (
-        vector(),
-        vector(),
-        plane(),
-        proptest::array::uniform2(finite()),
-        positive(),
-        any::<bool>(),
-    );
-    prop_oneof![
-        (vector(), vector()).prop_map(|(start, end)| Segment::line(start, end)),
-        arc.prop_map(|(start, end, plane, center, sweep, clockwise)| {
-            let sweep_rad = if clockwise { -sweep } else { sweep };
-            Segment::Arc(Arc {
-                start,
-                end,
-                plane,
-                center,
-                sweep_rad,
-            })
-        }),
-    ]
-}
-
-fn item() -> impl Strategy<Value = StreamItem> {
-    let rate = prop_oneof![Just(Rate::Rapid), positive().prop_map(Rate::Feed)];
-    let mode = prop_oneof![
-        Just(PathMode::ExactStop),
-        Just(PathMode::ExactPath),
-        proptest::option::of(positive())
-            .prop_map(|tolerance_mm| PathMode::Continuous { tolerance_mm }),
-    ];
-    let kind = prop_oneof![
-        (segment(), rate, mode).prop_map(|(segment, rate, mode)| ItemKind::Move {
-            segment,
-            rate,
-            mode
-        }),
-        finite().prop_map(|dwell| ItemKind::Dwell(dwell.abs())),
-        event().prop_map(ItemKind::Event),
-    ];
-    prop_oneof![
-        Just(StreamItem::Open),
-        Just(StreamItem::End),
-        (any::<u32>(), kind).prop_map(|(line, kind)| StreamItem::Item(Item { line, kind })),
-    ]
-}
-
-fn command() -> impl Strategy<Value = Command> {
-    prop_oneof![
-        proptest::sample::select(vec![
-            Command::Ping,
-            Command::Hold,
-            Command::Resume,
-            Command::Abort,
-            Command::StopAtEndOfBlock,
-            Command::Reset,
-        ]),
-        (0.0..=OVERRIDE_MAX).prop_map(Command::FeedOverride),
-        (0.0..=OVERRIDE_MAX).prop_map(Command::RapidOverride),
-        any::<bool>().prop_map(Command::SingleStep),
-    ]
-}
 
 fn bits(vector: &AxisVector) -> [u64; AXES] {
     <[f64; AXES]>::from(*vector).map(f64::to_bits)
