@@ -2,8 +2,8 @@
 
 use crate::{audit_within, polygon, sample, settings};
 use glidepath_geometry::AxisVector;
-use glidepath_motion::Limits;
 use glidepath_motion::audit::{Audit, AuditSettings, ViolationKind};
+use glidepath_motion::{ItemKind, Limits, PathMode};
 use proptest::prelude::*;
 
 /// Axes that move: two of XYZ, one rotary, one of UVW.
@@ -132,10 +132,19 @@ proptest! {
 
     /// However the two streams are interleaved, the verdict is the same.
     #[test]
-    fn interleaving_does_not_matter((program, motion) in pair(1.0, 0.05), lead in 1..6_usize) {
+    fn interleaving_does_not_matter(
+        (program, motion) in pair(1.0, 0.05), lead in 1..6_usize, stops in any::<u8>(),
+    ) {
         let settings = AuditSettings { tolerance_mm: 0.04, ..settings(Limits::UNLIMITED) };
-        let want = audit_within(0.04, &polygon(&program), &motion);
-        let items = polygon(&program);
+        let mut items = polygon(&program);
+        for (index, item) in items.iter_mut().enumerate() {
+            if let ItemKind::Move { mode, .. } = &mut item.kind
+                && stops & (1 << index) != 0
+            {
+                *mode = PathMode::ExactPath;
+            }
+        }
+        let want = audit_within(0.04, &items, &motion);
         let mut audit = Audit::new(&settings);
         let mut fed = 0;
         for (tick, &position) in (0..).zip(&motion) {

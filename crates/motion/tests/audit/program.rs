@@ -1,6 +1,6 @@
 //! What the program asks for besides lines: arcs, exact stops, tolerances of its own, feed.
 
-use crate::{PERIOD, TOLERANCE, audit, item, point, polygon, sample, settings, walk};
+use crate::{PERIOD, TOLERANCE, audit, audit_within, item, point, polygon, sample, settings, walk};
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
 use glidepath_motion::audit::{Audit, Report, ViolationKind};
 use glidepath_motion::{Event, Item, ItemKind, Limits, PathMode, Rate};
@@ -72,6 +72,23 @@ fn the_deviation_of_chords_from_an_arc_is_their_sagitta() {
             "{error} of {sagitta}"
         );
     }
+}
+
+/// The chords that stand for an arc are on both sides of it, at most 1e-5 of the tolerance away
+/// (half as much again at its ends).
+#[test]
+fn an_arc_is_flattened_on_both_sides() {
+    let arc = helix(10.0, 1.0, 0.0);
+    let report = audit_within(
+        10.0,
+        &[item(1, Segment::Arc(arc))],
+        &sampled(&arc, 100_000, 1.0),
+    );
+    assert!(
+        report.max_deviation_mm < 1.6e-4,
+        "{}",
+        report.max_deviation_mm
+    );
 }
 
 #[test]
@@ -188,6 +205,73 @@ fn the_tolerance_of_the_program_counts_where_it_holds() {
         (deviation_mm - 0.4 * 0.5_f64.sqrt()).abs() < 1e-6,
         "{deviation_mm}"
     );
+}
+
+/// A side has the larger of the tolerances at its two corners.
+#[test]
+fn a_side_after_a_loose_corner_is_loose() {
+    let corners = [
+        point(0.0, 0.0),
+        point(5.0, 0.0),
+        point(5.0, 5.0),
+        point(0.0, 5.0),
+    ];
+    let beside = [
+        corners[0],
+        corners[1],
+        point(4.7, 1.0),
+        point(4.7, 2.0),
+        point(5.0, 3.0),
+    ];
+    let motion = walk(&[&beside[..], &corners[2..]].concat(), 0.1);
+    let loose = PathMode::Continuous {
+        tolerance_mm: Some(0.5),
+    };
+    for (index, clean) in [(0, true), (1, true), (2, false)] {
+        let report = audit(&with_mode(polygon(&corners), index, loose), &motion);
+        assert_eq!(report.is_clean(), clean, "{index}: {:?}", report.violations);
+    }
+}
+
+#[test]
+fn two_missed_stops_are_two() {
+    let corners = [(0.0, 0.0), (5.0, 0.0), (5.0, 0.05), (10.0, 0.05)].map(|(x, y)| point(x, y));
+    let cut = [
+        corners[0],
+        point(4.99, 0.0),
+        point(5.0, 0.01),
+        point(5.0, 0.046),
+    ];
+    let cut = [&cut[..], &[point(5.004, 0.05), corners[3]]].concat();
+    let mut program = with_mode(polygon(&corners), 0, PathMode::ExactStop);
+    program = with_mode(program, 1, PathMode::ExactStop);
+    let missed: Vec<_> = kinds(&audit(&program, &walk(&cut, 0.01)))
+        .into_iter()
+        .map(|kind| match kind {
+            ViolationKind::ExactStop { deviation_mm } => (deviation_mm * 1e5).round() / 1e5,
+            other => unreachable!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(missed, [0.00707, 0.00283]);
+}
+
+#[test]
+fn two_bulges_are_two() {
+    let path = [point(0.0, 0.0), point(10.0, 0.0)];
+    let mut motion = walk(&path, 0.02);
+    motion[100] += point(0.0, 0.05);
+    motion[103] += point(0.0, 0.03);
+    let bulges: Vec<_> = audit(&polygon(&path), &motion)
+        .violations
+        .into_iter()
+        .map(|violation| match violation.kind {
+            ViolationKind::Deviation { deviation_mm } => {
+                (violation.tick, (deviation_mm * 1e5).round())
+            }
+            other => unreachable!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(bulges, [(100, 5000.0), (103, 3000.0)]);
 }
 
 #[test]
