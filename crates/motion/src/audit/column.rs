@@ -134,10 +134,6 @@ pub(super) fn step(
                 top = top.from(bottom.low);
             }
         }
-        if row.is_open && !top.is_empty() {
-            // Whether the corner may be passed like this depends on what follows.
-            return Passage::NotYet;
-        }
         next.intervals.push(right);
         bottom = top;
         index += 1;

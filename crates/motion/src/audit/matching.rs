@@ -92,6 +92,8 @@ pub(super) struct Matching {
     /// Travel of the motion over the history, mm.
     travel_mm: f64,
     pub(super) lambda_mm: f64,
+    /// The level up to which the full history has been searched for something better, in vain.
+    pub(super) searched_mm: f64,
     pub(super) trouble: Option<Trouble>,
     /// The history must not be gone back to.
     pub(super) is_history_void: bool,
@@ -122,6 +124,7 @@ impl Matching {
             history: VecDeque::new(),
             travel_mm: 0.0,
             lambda_mm: SMALLEST_TOLERANCE_MM,
+            searched_mm: 0.0,
             trouble: None,
             is_history_void: false,
             is_lost: false,

@@ -57,8 +57,6 @@ pub(super) struct Row {
     pub(super) end_tolerance_mm: f64,
     /// Its end must be met.
     pub(super) exact_end: Option<ExactEnd>,
-    /// What follows has not been fed yet, so whether its end is exact is not known.
-    pub(super) is_open: bool,
     /// Feedrate, mm/s; infinite for a rapid.
     pub(super) feed_v: f64,
     pub(super) line: u32,
@@ -178,10 +176,9 @@ impl Rows {
         };
         last.is_open = false;
         if is_only && self.done >= last.chords {
-            // Its chords have been made already.
+            // Its chords have been made already; none was passed, as the next one was not there.
             if let Some(row) = self.window.back_mut() {
                 row.exact_end = last.exact_end;
-                row.is_open = false;
             }
             self.fed.pop_back();
             self.done = 0;
@@ -296,7 +293,6 @@ impl Rows {
                     next.tolerance_mm
                 },
                 exact_end: next.exact_end.filter(|_| is_last),
-                is_open: next.is_open && is_last,
                 feed_v: next.feed_v,
                 line: next.line,
             });

@@ -115,24 +115,23 @@ impl Matching {
         let short = self.history.len().saturating_sub(SHORT);
         let from = self.lambda_mm;
         let (mut start, mut found) = (short, self.search(short, from, cap, goal, level));
-        if short > 0 {
-            let better = match found {
-                Found::NotYet => return found,
-                Found::At(lambda) if lambda - from > 8.0 * resolution(lambda) => {
-                    Some(lambda - 2.0 * resolution(lambda))
+        // A slow motion needs more than the last columns. The full history is searched whenever the
+        // level has risen by some percent since that was last done.
+        let worth = 1.02 * self.searched_mm + 8.0 * resolution(self.searched_mm);
+        let better = match found {
+            Found::NotYet => return found,
+            Found::At(lambda) => (lambda > worth).then(|| lambda - 2.0 * resolution(lambda)),
+            Found::Nowhere => Some(cap),
+        };
+        if let Some(better) = better.filter(|&better| short > 0 && better > from) {
+            match self.replay(0, &level(better), goal) {
+                Passage::Passed => {
+                    (start, found) = (0, self.search(0, from, better, goal, level));
                 }
-                Found::At(_) => None,
-                Found::Nowhere => Some(cap),
-            };
-            if let Some(better) = better {
-                match self.replay(0, &level(better), goal) {
-                    Passage::Passed => {
-                        (start, found) = (0, self.search(0, from, better, goal, level));
-                    }
-                    Passage::Blocked => {}
-                    Passage::NotYet => return Found::NotYet,
-                }
+                Passage::Blocked => {}
+                Passage::NotYet => return Found::NotYet,
             }
+            self.searched_mm = better;
         }
         if let Found::At(lambda_mm) = found {
             self.replay_and_keep(start, &level(lambda_mm));

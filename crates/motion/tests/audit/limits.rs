@@ -201,6 +201,39 @@ fn what_is_not_a_number_is_found() {
     );
 }
 
+/// Coordinates are rounded: their third difference at a short period is noise, not jerk.
+#[test]
+fn rounding_far_from_the_origin_is_no_jerk() {
+    let period_t = 1.25e-4;
+    let limits = Limits::uniform(1e4, 1e9, 1.0);
+    let mut audit = Audit::new(&AuditSettings {
+        limits,
+        period_t,
+        tolerance_mm: TOLERANCE,
+    });
+    // At rest, but for the last bit of the coordinate.
+    let at = 8000.0_f64;
+    for tick in 0..100_u32 {
+        let jitter = if tick % 2 == 0 {
+            0.0
+        } else {
+            at * f64::EPSILON / 2.0
+        };
+        audit.sample(&sample(u64::from(tick), point(at + jitter, 0.0)));
+    }
+    let report = audit.finish();
+    assert!(
+        report.max_jerk_ratio.ratio > 1.0,
+        "{:?}",
+        report.max_jerk_ratio
+    );
+    let jerks = report
+        .violations
+        .iter()
+        .filter(|v| matches!(v.kind, ViolationKind::Jerk { .. }));
+    assert_eq!(jerks.count(), 0, "{:?}", report.violations);
+}
+
 #[test]
 fn nothing_at_all_is_clean() {
     let report = Audit::new(&settings(1.0)).finish();

@@ -301,6 +301,43 @@ fn detours_below_the_tolerance_are_no_fault() {
     }
 }
 
+/// The program goes back by less than two tolerances, the motion does not: half of it is enough if
+/// the matching hurries on in time, however slow the motion.
+#[test]
+fn a_step_back_is_matched_in_time() {
+    let back = [(0.0, 0.0), (1.03, 0.0), (1.0, 0.0), (2.0, 0.0)].map(|(x, y)| point(x, y));
+    for step in [0.3, 0.01, 1e-3, 1e-4] {
+        let report = audit(&polygon(&back), &walk(&[back[0], back[3]], step));
+        assert!(
+            report.is_clean() && report.is_complete,
+            "{step}: {:?}",
+            report.violations
+        );
+        // A level found by rising is searched again after two percent.
+        let excess = report.max_deviation_mm / 0.015 - 1.0;
+        assert!(
+            (-1e-4..0.021).contains(&excess),
+            "{step}: {}",
+            report.max_deviation_mm
+        );
+    }
+}
+
+/// A program that jumps is no excuse for a motion that does: the gap has to be run.
+#[test]
+fn a_jump_in_the_program_is_bridged() {
+    let (a, b, c, d) = (
+        point(0.0, 0.0),
+        point(5.0, 0.0),
+        point(5.0, 3.0),
+        point(0.0, 3.0),
+    );
+    let program = [item(1, Segment::line(a, b)), item(2, Segment::line(c, d))];
+    assert!(audit(&program, &walk(&[a, b, c, d], 0.2)).is_clean());
+    let detour = walk(&[a, b, point(8.0, 1.5), c, d], 0.2);
+    assert!(!audit(&program, &detour).is_clean());
+}
+
 /// Two passes a hundredth apart, and a crossing: neither may be taken for the other.
 #[test]
 fn passes_near_each_other_are_told_apart() {
