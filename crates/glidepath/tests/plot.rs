@@ -86,6 +86,23 @@ fn a_plot_shows_path_and_every_quantity_with_its_limits() {
 }
 
 #[test]
+fn an_axis_that_rests_takes_no_room() {
+    let svg = plot(&[Axis::X, Axis::A], (0..400).map(wander));
+    assert!(svg.contains(">X jerk<") && !svg.contains(">A jerk<"));
+}
+
+#[test]
+fn a_program_in_the_xz_plane_is_seen_from_the_front() {
+    let lathe = |tick| {
+        let mut sample = wander(tick);
+        sample.position[1] = 0.0;
+        sample
+    };
+    let svg = plot(&[Axis::X, Axis::Z], (0..400).map(lathe));
+    assert!(svg.contains(">front: ") && !svg.contains(">top: "));
+}
+
+#[test]
 fn a_flat_program_has_no_side_views() {
     let flat = |tick| {
         let mut sample = wander(tick);

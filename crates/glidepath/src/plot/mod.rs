@@ -136,7 +136,10 @@ impl Plot {
             width: right - LEFT,
             height: bottom - 84.0 - 56.0,
         };
-        if high[2] > low[2] {
+        let moves = |axis: usize| high[axis] > low[axis];
+        if moves(2) && !moves(1) {
+            view::draw(svg, View::Front, &self.track, &top);
+        } else if moves(2) {
             let half = Area {
                 width: 660.0,
                 ..top
@@ -179,7 +182,11 @@ impl Plot {
             signed: false,
         };
         let mut strips = vec![feed];
+        let moving = |curves: &[Envelope; 3]| curves.iter().any(|curve| curve.peak() > 0.0);
         for (axis, curves) in self.axes.iter().zip(&self.curves) {
+            if !moving(curves) {
+                continue;
+            }
             let i = axis.index();
             let limits = [
                 self.limits.velocity,
