@@ -77,6 +77,7 @@ macro_rules! conformance {
             a_consumer_that_went_away_is_reported_and_may_come_back,
             frames_of_a_planner_that_went_away_still_arrive,
             there_is_one_consumer_of_frames,
+            there_are_two_senders_at_most,
             setpoints_reach_every_subscriber,
             setpoints_never_wait_and_loss_is_a_gap,
             a_late_subscriber_gets_the_last_setpoint,

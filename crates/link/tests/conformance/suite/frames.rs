@@ -180,3 +180,17 @@ pub(crate) fn there_is_one_consumer_of_frames<F: Fixture>(fixture: &F) {
         Err(LinkError::Taken { .. })
     ));
 }
+
+pub(crate) fn there_are_two_senders_at_most<F: Fixture>(fixture: &F) {
+    let ends = [fixture.connect(), fixture.connect(), fixture.connect()];
+    let [one, two, three] = &ends;
+    let _frames = (one.frame_sink().unwrap(), two.frame_sink().unwrap());
+    assert!(matches!(three.frame_sink(), Err(LinkError::Taken { .. })));
+    let setpoints = (one.setpoint_sink().unwrap(), two.setpoint_sink().unwrap());
+    assert!(matches!(
+        three.setpoint_sink(),
+        Err(LinkError::Taken { .. })
+    ));
+    drop(setpoints);
+    three.setpoint_sink().unwrap();
+}
