@@ -10,6 +10,8 @@ use glidepath_geometry::{AxisVector, feed_length};
 
 /// The programmed feed counts as kept up to this factor.
 const FEED_SLACK: f64 = 1.0 + 1e-3;
+/// Latest rests kept in mind.
+const RESTS: usize = 64;
 
 impl Matching {
     /// The first sample must be where the program starts; false if that is not known yet.
@@ -56,6 +58,12 @@ impl Matching {
             });
         } else if self.is_complete {
             self.note_deviation(self.lambda_mm, tick, line);
+        }
+        if let Some(sample) = self.last_fed {
+            self.note_rest(at, sample.tick.saturating_sub(self.since_tick));
+            if self.is_complete {
+                self.judge_dwell(self.reach.end().saturating_sub(1), &sample);
+            }
         }
         if self.is_complete {
             return;
@@ -125,5 +133,48 @@ impl Matching {
             return false;
         };
         is_last && reach.get(last).high >= 1.0 && distance(&(at - row.end)) <= EXACT_MM
+    }
+
+    /// Keeps in mind that the motion rested somewhere.
+    pub(super) fn note_rest(&mut self, at: AxisVector, rest_ticks: u64) {
+        if rest_ticks > 0 {
+            self.rests.push_back((at, rest_ticks));
+        }
+        if self.rests.len() > RESTS {
+            self.rests.pop_front();
+        }
+    }
+
+    /// Dwells at the ends of the chords from `first` on that have been left behind.
+    pub(super) fn judge_dwells(&mut self, first: usize, sample: &Sample) {
+        for index in first..self.reach.low {
+            self.judge_dwell(index, sample);
+        }
+    }
+
+    /// The dwell at the end of a chord.
+    pub(super) fn judge_dwell(&mut self, index: usize, sample: &Sample) {
+        let Some(row) = self.rows.get(index).filter(|row| row.dwell_t > 0.0) else {
+            return;
+        };
+        let is_here = |at: &AxisVector| distance(&(at - row.end)) <= EXACT_MM;
+        let ticks = self
+            .rests
+            .iter()
+            .filter(|(at, _)| is_here(at))
+            .map(|&(_, ticks)| ticks)
+            .max();
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "exact for two million years of ticks"
+        )]
+        let rested_t = ticks.unwrap_or(0) as f64 * self.period_t;
+        // A dwell need not begin or end on the grid.
+        let missing_t = row.dwell_t - rested_t;
+        if missing_t > self.period_t {
+            let line = row.line;
+            self.violations
+                .push(sample.tick, line, ViolationKind::Dwell { missing_t });
+        }
     }
 }

@@ -67,6 +67,8 @@ struct Waiting {
     sample: Sample,
     /// Periods since the sample before.
     ticks: u64,
+    /// Periods for which the position before it was kept.
+    rest_ticks: u64,
 }
 
 /// The matching under way.
@@ -84,7 +86,11 @@ pub(super) struct Matching {
     /// Samples that wait for the program.
     queue: VecDeque<Waiting>,
     /// The last sample fed.
-    last_fed: Option<Sample>,
+    pub(super) last_fed: Option<Sample>,
+    /// Tick at which the last position fed was taken up.
+    pub(super) since_tick: u64,
+    /// The latest rests: where, and for how many periods.
+    pub(super) rests: VecDeque<(AxisVector, u64)>,
     /// Position of the last sample matched.
     pub(super) at: Option<AxisVector>,
     pub(super) reach: Reach,
@@ -113,6 +119,8 @@ impl Matching {
             feed_factor: 1.0,
             queue: VecDeque::new(),
             last_fed: None,
+            since_tick: 0,
+            rests: VecDeque::new(),
             at: None,
             reach: Reach {
                 low: 0,
@@ -152,9 +160,13 @@ impl Matching {
         let ticks = previous.map_or(1, |previous| {
             sample.tick.saturating_sub(previous.tick).max(1)
         });
+        let rest_ticks =
+            previous.map_or(0, |previous| previous.tick.saturating_sub(self.since_tick));
+        self.since_tick = sample.tick;
         self.queue.push_back(Waiting {
             sample: *sample,
             ticks,
+            rest_ticks,
         });
         self.advance();
     }
@@ -170,9 +182,10 @@ impl Matching {
     /// Matches as many waiting samples as the program allows.
     fn advance(&mut self) {
         while !self.is_lost {
-            let Some(&Waiting { sample, ticks }) = self.queue.front() else {
+            let Some(&waiting) = self.queue.front() else {
                 return;
             };
+            let sample = waiting.sample;
             if self.rows.reach(0) == Presence::Never {
                 // Nothing moves in the program: the motion has to stay where it is.
                 if self.at.is_some() {
@@ -202,7 +215,7 @@ impl Matching {
                 other => other,
             };
             match passage {
-                Passage::Passed => self.commit(&sample, ticks),
+                Passage::Passed => self.commit(&waiting),
                 Passage::Blocked => self.lose(&sample),
                 Passage::NotYet => {
                     self.history.pop_back();
@@ -214,17 +227,27 @@ impl Matching {
     }
 
     /// Takes over what `replay` left in the scratch.
-    fn commit(&mut self, sample: &Sample, ticks: u64) {
+    fn commit(
+        &mut self,
+        &Waiting {
+            sample,
+            ticks,
+            rest_ticks,
+        }: &Waiting,
+    ) {
         let before = self.reach.low;
         core::mem::swap(&mut self.reach, &mut self.scratch[0]);
-        self.at = Some(sample.position);
+        if let Some(at) = self.at.replace(sample.position) {
+            self.note_rest(at, rest_ticks);
+        }
         self.queue.pop_front();
+        self.judge_dwells(before, &sample);
         if self.trouble.is_some() {
             if self.count_within_tolerance(&self.reach, &sample.position) > 0 {
                 self.settle(Goal::WithinTolerance);
             }
         } else {
-            self.judge_feed(sample, ticks, before);
+            self.judge_feed(&sample, ticks, before);
             self.note_deviation(self.lambda_mm, sample.tick, sample.line);
         }
         if core::mem::take(&mut self.is_history_void) {

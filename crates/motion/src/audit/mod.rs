@@ -9,7 +9,7 @@
 //! * the deviation, both ways and in order (`matching`): each sample and the straight line between
 //!   two samples is within tolerance of the programmed path, each programmed point within tolerance
 //!   of the motion, and both are passed in the same order;
-//! * exact stops, the programmed feed, and that the path was run to its end.
+//! * exact stops, dwells, the programmed feed, and that the path was run to its end.
 //!
 //! Memory is bounded by how far the program is fed ahead of the samples; work is linear in both.
 

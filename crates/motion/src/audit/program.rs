@@ -57,6 +57,8 @@ pub(super) struct Row {
     pub(super) end_tolerance_mm: f64,
     /// Its end must be met.
     pub(super) exact_end: Option<ExactEnd>,
+    /// Time to rest at its end, s.
+    pub(super) dwell_t: f64,
     /// Feedrate, mm/s; infinite for a rapid.
     pub(super) feed_v: f64,
     pub(super) line: u32,
@@ -71,6 +73,7 @@ struct Move {
     tolerance_mm: f64,
     end_tolerance_mm: f64,
     exact_end: Option<ExactEnd>,
+    dwell_t: f64,
     is_exact_path: bool,
     /// Chords it is made of.
     chords: u32,
@@ -153,7 +156,10 @@ impl Rows {
                 rate,
                 mode,
             } => self.feed_move(item.line, segment, *rate, *mode),
-            ItemKind::Dwell(_) => self.stop(),
+            ItemKind::Dwell(dwell_t) => {
+                self.stop();
+                self.dwell(*dwell_t);
+            }
             ItemKind::Event(event) => match event {
                 Event::SpindleSpeed(_) | Event::SelectTool(_) => {}
                 Event::MCode(_) | Event::ProgramStop(_) | Event::OptionalStop => self.stop(),
@@ -168,6 +174,13 @@ impl Rows {
         }
     }
 
+    /// The machine rests here for a time; before the first move there is nothing to attach that to.
+    fn dwell(&mut self, dwell_t: f64) {
+        if let Some(last) = self.fed.back_mut().filter(|last| last.is_open) {
+            last.dwell_t += dwell_t;
+        }
+    }
+
     /// What follows the last move is known.
     fn close(&mut self) {
         let is_only = self.fed.len() == 1;
@@ -179,6 +192,7 @@ impl Rows {
             // Its chords have been made already; none was passed, as the next one was not there.
             if let Some(row) = self.window.back_mut() {
                 row.exact_end = last.exact_end;
+                row.dwell_t = last.dwell_t;
             }
             self.fed.pop_back();
             self.done = 0;
@@ -194,6 +208,7 @@ impl Rows {
                 segment,
                 chords: 1,
                 exact_end: None,
+                dwell_t: 0.0,
                 is_open: false,
                 ..*from
             });
@@ -243,6 +258,7 @@ impl Rows {
             tolerance_mm,
             end_tolerance_mm: end_tolerance_mm * slack,
             exact_end: is_stop.then_some(ExactEnd::STOP),
+            dwell_t: 0.0,
             is_exact_path: mode == PathMode::ExactPath,
             chords: chords(segment, tolerance_mm),
             is_open: true,
@@ -293,6 +309,7 @@ impl Rows {
                     next.tolerance_mm
                 },
                 exact_end: next.exact_end.filter(|_| is_last),
+                dwell_t: if is_last { next.dwell_t } else { 0.0 },
                 feed_v: next.feed_v,
                 line: next.line,
             });

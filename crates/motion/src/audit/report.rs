@@ -71,6 +71,11 @@ pub enum ViolationKind {
         /// The distance by which it was missed, mm or degrees.
         deviation_mm: f64,
     },
+    /// A dwell was cut short by more than a period.
+    Dwell {
+        /// By how much, s.
+        missing_t: f64,
+    },
     /// The motion left the path by so much that it could not be followed any more; what comes
     /// after is not checked for deviation.
     Lost,
@@ -128,6 +133,7 @@ impl fmt::Display for Violation {
             ViolationKind::ExactStop { deviation_mm } => {
                 write!(f, "exact stop missed by {deviation_mm:.6} mm")
             }
+            ViolationKind::Dwell { missing_t } => write!(f, "dwell cut short by {missing_t:.6} s"),
             ViolationKind::Lost => write!(f, "the motion does not follow the program any more"),
             ViolationKind::Incomplete => write!(f, "the motion ends before the program does"),
         }

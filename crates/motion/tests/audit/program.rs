@@ -136,7 +136,7 @@ fn a_smoothed_corner_misses_an_exact_stop() {
     assert!(audit(&path, &smoothed).is_clean());
     assert!(!audit(&path, &walk(&cut, 0.002)).is_clean());
     // A dwell and an M code ask for an exact stop.
-    for kind in [ItemKind::Dwell(0.1), ItemKind::Event(Event::MCode(8))] {
+    for kind in [ItemKind::Dwell(0.0), ItemKind::Event(Event::MCode(8))] {
         let mut program = polygon(&corner);
         program.insert(1, Item { line: 1, kind });
         assert!(audit(&program, &exact).is_clean());
@@ -502,4 +502,37 @@ fn a_gap_is_not_too_fast() {
         }
     }
     assert_eq!(kinds(&audit.finish()), [ViolationKind::Gap { after: 19 }]);
+}
+
+#[test]
+fn a_dwell_cut_short_is_found() {
+    let path = [point(0.0, 0.0), point(5.0, 0.0), point(5.0, 5.0)];
+    let dwell = |dwell_t| Item {
+        line: 1,
+        kind: ItemKind::Dwell(dwell_t),
+    };
+    // 25 periods in the middle, 10 at the end.
+    let mut motion = walk(&path[..2], 0.1);
+    motion.extend([path[1]; 25]);
+    motion.extend(&walk(&path[1..], 0.1)[1..]);
+    motion.extend([path[2]; 10]);
+    for (middle_t, end_t, missing) in [
+        (0.1, 0.04, vec![]),
+        (0.12, 0.04, vec![0.02]),
+        (0.1, 0.05, vec![0.01]),
+        (0.2, 0.2, vec![0.1, 0.16]),
+    ] {
+        let mut program = polygon(&path);
+        program.insert(1, dwell(middle_t));
+        program.push(dwell(0.5 * end_t));
+        program.push(dwell(0.5 * end_t));
+        let found: Vec<_> = kinds(&audit(&program, &motion))
+            .into_iter()
+            .map(|kind| match kind {
+                ViolationKind::Dwell { missing_t } => (missing_t * 1e6).round() / 1e6,
+                other => unreachable!("{other:?}"),
+            })
+            .collect();
+        assert_eq!(found, missing);
+    }
 }
