@@ -48,10 +48,17 @@ const ROUNDING_MM: f64 = 1e-7;
 /// more: then the longest decides, so the result is zero only for a zero displacement.
 #[must_use]
 pub fn feed_length(displacement: &AxisVector) -> f64 {
-    let lengths = [LINEAR_XYZ, UVW, ROTARY_ABC]
-        .map(|group| group.map(|i| displacement[i] * displacement[i]).sum::<f64>().sqrt());
+    let lengths = [LINEAR_XYZ, UVW, ROTARY_ABC].map(|group| {
+        group
+            .map(|i| displacement[i] * displacement[i])
+            .sum::<f64>()
+            .sqrt()
+    });
     let longest = lengths.into_iter().fold(0.0, f64::max);
-    lengths.into_iter().find(|&length| length > ROUNDING_MM).unwrap_or(longest)
+    lengths
+        .into_iter()
+        .find(|&length| length > ROUNDING_MM)
+        .unwrap_or(longest)
 }
 
 impl Line {

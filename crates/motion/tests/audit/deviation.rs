@@ -1,20 +1,12 @@
 //! The matching of motion and program.
 
-use crate::{audit, point, polygon, walk};
+use crate::{audit, kinds, point, polygon, walk};
 use glidepath_geometry::AxisVector;
 use glidepath_motion::audit::{Report, ViolationKind};
 
 fn clean(report: &Report) {
     assert!(report.is_clean(), "{:?}", report.violations);
     assert!(report.is_complete);
-}
-
-fn kinds(report: &Report) -> Vec<ViolationKind> {
-    report
-        .violations
-        .iter()
-        .map(|violation| violation.kind)
-        .collect()
 }
 
 fn square() -> Vec<AxisVector> {

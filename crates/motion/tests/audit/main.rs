@@ -5,9 +5,10 @@ mod deviation;
 mod limits;
 mod planted;
 mod program;
+mod timing;
 
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
+use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample, ViolationKind};
 use glidepath_motion::{Item, ItemKind, Limits, PathMode, Rate};
 
 const PERIOD: f64 = 0.004;
@@ -91,4 +92,12 @@ fn audit_within(tolerance_mm: f64, program: &[Item], positions: &[AxisVector]) -
         audit.sample(&sample(tick, position));
     }
     audit.finish()
+}
+
+fn kinds(report: &Report) -> Vec<ViolationKind> {
+    report
+        .violations
+        .iter()
+        .map(|violation| violation.kind)
+        .collect()
 }
