@@ -94,7 +94,7 @@ impl<'a> Services<'a> {
 
 #[test]
 fn a_run_is_the_plan_bit_for_bit() {
-    let (instance, _watchdog) = (Instance::new(), Watchdog::new(PATIENCE));
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let program = instance.file("program.ngc", PROGRAM);
     let csv = instance.path("run.csv");
     let run = [
@@ -125,7 +125,7 @@ fn a_run_is_the_plan_bit_for_bit() {
 
 #[test]
 fn file_pipe_and_feed_give_the_same_setpoints() {
-    let (instance, _watchdog) = (Instance::new(), Watchdog::new(PATIENCE));
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let program = instance.file("program.ngc", PROGRAM);
     let planned = planned(&instance, &program);
     let ways: [(&str, Way); 3] = [
@@ -165,7 +165,7 @@ fn play_feed(instance: &Instance, program: &str) {
 
 #[test]
 fn an_interrupted_run_leaves_nothing_behind() {
-    let (instance, _watchdog) = (Instance::new(), Watchdog::new(PATIENCE));
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let program = instance.file("program.ngc", &long_program());
     let csv = instance.path("run.csv");
     let run = Process::join(
@@ -196,7 +196,7 @@ fn an_interrupted_run_leaves_nothing_behind() {
 
 #[test]
 fn a_run_whose_child_dies_ends_as_a_fault_and_leaves_nothing_behind() {
-    let (instance, _watchdog) = (Instance::new(), Watchdog::new(PATIENCE));
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let program = instance.file("program.ngc", &long_program());
     for victim in ["interpolator", "planner", "servo"] {
         let run = Process::join(&instance, &["run", &program, "--best-effort", "--json"]);
@@ -219,7 +219,7 @@ fn a_run_whose_child_dies_ends_as_a_fault_and_leaves_nothing_behind() {
 
 #[test]
 fn a_malformed_program_is_rejected_without_motion() {
-    let (instance, _watchdog) = (Instance::new(), Watchdog::new(PATIENCE));
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let program = instance.file("broken.ngc", "G1 X10 F3000\nG1 X1O Y5\nG1 X20\nG777\n");
     let services = Services::start(&instance);
     let output = Process::join(&instance, &["planner", &program])
@@ -237,7 +237,7 @@ fn a_malformed_program_is_rejected_without_motion() {
 
 #[test]
 fn an_error_in_a_pipe_stops_the_motion_before_it() {
-    let (instance, _watchdog) = (Instance::new(), Watchdog::new(PATIENCE));
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let good = "G21 G90 F6000\nG1 X10 Y5\nG1 X20\n";
     let planned = planned(&instance, &instance.file("good.ngc", good));
     let services = Services::start(&instance);
@@ -250,7 +250,7 @@ fn an_error_in_a_pipe_stops_the_motion_before_it() {
 
 #[test]
 fn a_killed_planner_leaves_the_machine_at_rest_and_a_new_one_goes_on() {
-    let (instance, _watchdog) = (Instance::new(), Watchdog::new(PATIENCE));
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let program = instance.file("program.ngc", &long_program());
     let services = Services::start(&instance);
     let planner = Process::join(&instance, &["planner", &program]);
@@ -285,7 +285,7 @@ fn a_killed_planner_leaves_the_machine_at_rest_and_a_new_one_goes_on() {
 
 #[test]
 fn a_second_client_is_refused_and_a_killed_one_is_forgotten() {
-    let (instance, _watchdog) = (Instance::new(), Watchdog::new(PATIENCE));
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let program = instance.file("program.ngc", &long_program());
     let home = instance.file("home.ngc", "G21 G90 F6000\nG1 X0 Y0\n");
     let services = Services::start(&instance);
@@ -303,6 +303,44 @@ fn a_second_client_is_refused_and_a_killed_one_is_forgotten() {
     assert_eq!(status.position.map(f64::abs).map(f64::to_bits), [0; 9]);
     let _listener = planner.end().expect(0);
     let _received = services.end();
+}
+
+#[test]
+fn a_second_planner_is_refused_and_does_not_disturb_the_first() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let program = instance.file("program.ngc", PROGRAM);
+    let planned = planned(&instance, &program);
+    let services = Services::start(&instance);
+    let first = Process::join(&instance, &["planner", &program]);
+    let _moving = services.wait(|status| status.frames_executed > 50);
+    let second = Process::join(&instance, &["planner", &program]).wait();
+    assert!(!second.status.success(), "{second:#?}");
+    assert!(second.stderr.contains("another planner"), "{second:#?}");
+    let _first = first.wait().expect(0);
+    assert_eq!(services.end().0.moving(), planned.moving());
+}
+
+#[test]
+fn a_program_ten_times_as_long_takes_no_more_memory() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let peak_rss = |blocks: u32| {
+        let mut text = "G21 G90 G64 P0.02 F6000\n".to_owned();
+        for i in 0..blocks {
+            let t = f64::from(i) * 0.01;
+            text.push_str(&format!(
+                "G1 X{:.4} Y{:.4}\n",
+                50.0 * t.sin(),
+                50.0 * (1.01 * t).cos()
+            ));
+        }
+        let program = instance.file("dense.ngc", &text);
+        let report = Process::start(&instance, &["plan", &program, "--json"]).wait();
+        let report = report.expect(0).json();
+        assert_eq!(report["segments"].as_u64(), Some(u64::from(blocks)));
+        report["peak_rss_bytes"].as_f64().unwrap()
+    };
+    let (short, long) = (peak_rss(5_000), peak_rss(50_000));
+    assert!(long < 1.3 * short, "{short} bytes, then {long}");
 }
 
 /// Waits until frames of an instance are executed.

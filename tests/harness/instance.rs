@@ -7,6 +7,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use glidepath_link::{Ipc, LinkConfig, remove_leftovers};
 use tempfile::TempDir;
 
+use crate::glidepath;
+
 /// An instance of its own. While it lives no other test has one, in this process or another: the
 /// tests run processes at the speed of the clock, and would take each other's processor.
 #[derive(Debug)]
@@ -41,6 +43,15 @@ impl Instance {
             root,
             _alone: alone,
         }
+    }
+
+    /// The same for a test of processes, with the binary at hand: that can take long where it has to
+    /// be built.
+    #[must_use]
+    pub fn for_processes() -> Self {
+        let instance = Self::new();
+        let _binary = glidepath();
+        instance
     }
 
     /// How processes find each other.

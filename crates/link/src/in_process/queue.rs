@@ -1,7 +1,6 @@
 //! The frame queue: bounded, ordered, one consumer.
 
 use super::Shared;
-use crate::service::SENDERS;
 use crate::{Delivery, FrameSink, LinkError, SetpointFrame, Subscriber};
 use std::collections::VecDeque;
 
@@ -10,7 +9,7 @@ pub(super) struct FrameQueue {
     service: &'static str,
     capacity: usize,
     frames: VecDeque<SetpointFrame>,
-    senders: usize,
+    has_sender: bool,
     has_consumer: bool,
 }
 
@@ -21,7 +20,7 @@ impl FrameQueue {
             service,
             capacity,
             frames,
-            senders: 0,
+            has_sender: false,
             has_consumer: false,
         }
     }
@@ -32,20 +31,20 @@ pub(super) struct Sink(Shared<FrameQueue>);
 impl Sink {
     pub(super) fn new(queue: &Shared<FrameQueue>) -> Result<Self, LinkError> {
         let mut inner = queue.lock();
-        if inner.senders == SENDERS {
+        if inner.has_sender {
             return Err(LinkError::Taken {
                 service: inner.service,
-                role: "sender",
+                role: "planner",
             });
         }
-        inner.senders += 1;
+        inner.has_sender = true;
         Ok(Self(queue.clone()))
     }
 }
 
 impl Drop for Sink {
     fn drop(&mut self) {
-        self.0.lock().senders -= 1;
+        self.0.lock().has_sender = false;
     }
 }
 

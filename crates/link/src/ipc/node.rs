@@ -13,6 +13,7 @@ use iceoryx2::prelude::{
 use iceoryx2::service::builder::publish_subscribe::PublishSubscribeOpenOrCreateError as TopicError;
 use iceoryx2::service::builder::request_response::RequestResponseOpenOrCreateError as ExchangeError;
 use iceoryx2::service::port_factory::{publish_subscribe, request_response};
+use std::fs::File;
 use std::time::Instant;
 
 pub(super) type TopicService<R> = publish_subscribe::PortFactory<ipc::Service, R, ()>;
@@ -34,7 +35,7 @@ pub(super) struct Session {
     node: Node<ipc::Service>,
     searched: Cell<Option<Instant>>,
     /// After the node, so that its files are gone when the last one out looks.
-    _presence: Presence,
+    presence: Presence,
 }
 
 /// The settings of the transport for an instance; never those of the user or the machine.
@@ -75,7 +76,7 @@ impl Session {
         Ok(Self {
             node,
             searched: Cell::new(None),
-            _presence: presence,
+            presence,
         })
     }
 
@@ -106,6 +107,16 @@ impl Session {
             }
             made => made,
         }
+    }
+
+    /// Claims a part in a service that one process at a time may play.
+    pub(super) fn claim_part(
+        &self,
+        service: &'static str,
+        role: &'static str,
+    ) -> Result<File, LinkError> {
+        let claimed = self.presence.claim(role)?;
+        claimed.ok_or(LinkError::Taken { service, role })
     }
 
     /// Opens the service of a topic or of the frames.

@@ -64,6 +64,26 @@ impl Presence {
     }
 }
 
+impl Presence {
+    /// Claims a part that one process at a time may play, until the file is dropped or the process
+    /// ends, however it does. `None` if another plays it.
+    pub(super) fn claim(&self, part: &str) -> Result<Option<File>, LinkError> {
+        let path = self.config.directory().join(part);
+        let claim = || {
+            let file = open(&path)?;
+            match file.try_lock() {
+                Ok(()) => Ok(Some(file)),
+                Err(TryLockError::WouldBlock) => Ok(None),
+                Err(TryLockError::Error(error)) => Err(error),
+            }
+        };
+        claim().map_err(|source| LinkError::Root {
+            path: path.display().to_string(),
+            source,
+        })
+    }
+}
+
 impl Drop for Presence {
     fn drop(&mut self) {
         // The last one out removes the files. If that fails they do no harm: the next one does.

@@ -7,6 +7,7 @@ use iceoryx2::port::subscriber::{Subscriber as RawSubscriber, SubscriberCreateEr
 use iceoryx2::port::update_connections::UpdateConnections;
 use iceoryx2::port::{BackpressureAction, DegradationAction, SendError};
 use iceoryx2::prelude::{BackpressureStrategy, ipc};
+use std::fs::File;
 use std::rc::Rc;
 
 fn make_publisher<R: Record>(
@@ -37,6 +38,9 @@ fn make_publisher<R: Record>(
 pub(super) struct Frames {
     service: &'static str,
     port: RawPublisher<ipc::Service, SetpointFrame, ()>,
+    /// Held while this is the planner: the frames of two would mix. The service has room for two
+    /// publishers, because a dead one keeps its place until it is cleaned up.
+    _part: File,
     session: Rc<Session>,
 }
 
@@ -46,9 +50,11 @@ impl Frames {
         factory: &TopicService<SetpointFrame>,
         session: &Rc<Session>,
     ) -> Result<Self, LinkError> {
+        let part = session.claim_part(service, "planner")?;
         Ok(Self {
             service,
             port: make_publisher(service, factory)?,
+            _part: part,
             session: Rc::clone(session),
         })
     }

@@ -181,11 +181,9 @@ pub(crate) fn there_is_one_consumer_of_frames<F: Fixture>(fixture: &F) {
     ));
 }
 
-pub(crate) fn there_are_two_senders_at_most<F: Fixture>(fixture: &F) {
+pub(crate) fn there_are_two_publishers_of_setpoints_at_most<F: Fixture>(fixture: &F) {
     let ends = [fixture.connect(), fixture.connect(), fixture.connect()];
     let [one, two, three] = &ends;
-    let _frames = (one.frame_sink().unwrap(), two.frame_sink().unwrap());
-    assert!(matches!(three.frame_sink(), Err(LinkError::Taken { .. })));
     let setpoints = (one.setpoint_sink().unwrap(), two.setpoint_sink().unwrap());
     assert!(matches!(
         three.setpoint_sink(),
@@ -193,4 +191,13 @@ pub(crate) fn there_are_two_senders_at_most<F: Fixture>(fixture: &F) {
     ));
     drop(setpoints);
     three.setpoint_sink().unwrap();
+}
+
+pub(crate) fn there_is_one_planner<F: Fixture>(fixture: &F) {
+    let planner = fixture.connect();
+    let sink = planner.frame_sink().unwrap();
+    let another = fixture.connect();
+    assert!(matches!(another.frame_sink(), Err(LinkError::Taken { .. })));
+    drop(sink);
+    let _sink = another.frame_sink().unwrap();
 }
