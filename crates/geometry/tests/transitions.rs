@@ -223,6 +223,44 @@ fn planar(theta: f64) -> (AxisVector, AxisVector) {
     (t1, t2)
 }
 
+/// At a constant rate of path position the acceleration and the jerk of a blend keep one direction,
+/// and their largest values are those of the formulas.
+#[test]
+fn a_blend_accelerates_in_one_direction() {
+    const V: f64 = 30.0;
+    for profile in [Profile::Sextic, Profile::Quartic] {
+        for theta in [0.01, 1.0, 2.0, 3.1] {
+            let (t1, t2) = planar(theta);
+            let turn = Turn::between(&t1, &t2);
+            let normal = (t2 - t1) / (2.0 * turn.sb);
+            let blend = Blend::new(profile, AxisVector::zeros(), t1, t2, 0.4);
+            let (mut peak_a, mut peak_j) = (0.0_f64, 0.0_f64);
+            for i in 0..=20_000 {
+                let jet = blend.jet(blend.length() * f64::from(i) / 20_000.0);
+                let (a, j) = (jet.d2 * V.powi(2), jet.d3 * V.powi(3));
+                assert!((a - normal * a.dot(&normal)).norm() <= 1e-12 * a.norm());
+                assert!((j - normal * j.dot(&normal)).norm() <= 1e-12 * j.norm());
+                (peak_a, peak_j) = (peak_a.max(a.norm()), peak_j.max(j.norm()));
+            }
+            let formulas = (
+                profile.peak_acceleration(0.4, turn.sb, V),
+                profile.peak_jerk(0.4, turn.sb, V),
+            );
+            assert!(
+                (peak_a / formulas.0 - 1.0).abs() < 1e-6,
+                "{peak_a} {formulas:?}"
+            );
+            assert!(
+                (peak_j / formulas.1 - 1.0).abs() < 1e-6,
+                "{peak_j} {formulas:?}"
+            );
+            // Slowest in the middle: cos β of the rate.
+            let middle = blend.jet(0.4).d1.norm();
+            assert!((middle - turn.cb).abs() < 1e-12, "{middle}");
+        }
+    }
+}
+
 #[test]
 fn a_reversal_turns_back_smoothly() {
     let (t1, _) = planar(0.0);

@@ -147,6 +147,74 @@ fn the_published_example() {
     }
 }
 
+/// The same example to full precision, for the pair and the sextic, with the split and with the whole
+/// tolerance allowed to each.
+#[test]
+fn the_published_example_to_all_digits() {
+    const A: f64 = 1e4;
+    const TEXT: &str = include_str!(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../tests/data/method/corner-vectors.json"
+    ));
+    let file: serde_json::Value = serde_json::from_str(TEXT).unwrap();
+    let cases = file["paper_example"]["corners"].as_object().unwrap();
+    assert_eq!(cases.len(), 4);
+    for (name, wanted) in cases {
+        let split = if name.ends_with("allocated") {
+            ToleranceSplit::new(0.05, A, PERIOD)
+        } else {
+            ToleranceSplit {
+                smoothing_mm: 0.05,
+                chord_mm: 0.05,
+            }
+        };
+        for (corner, want) in example_corners().iter().zip(wanted.as_array().unwrap()) {
+            let turn = corner.turn;
+            let pair = name.starts_with("pair");
+            let by_tolerance = if pair {
+                PairShape::distance_for(split.smoothing_mm, turn.sb)
+            } else {
+                Profile::Sextic.distance_for(split.smoothing_mm, turn.sb)
+            };
+            let d = by_tolerance.min(corner.share);
+            let (deviation, max_k) = if pair {
+                let max_k = PairShape::CUBIC.junction_curvature(d, turn);
+                (PairShape::deviation(d, turn.sb), max_k)
+            } else {
+                (
+                    Profile::Sextic.deviation(d, turn.sb),
+                    Profile::Sextic.max_curvature(d, turn),
+                )
+            };
+            let (v_acc, v_chord) = (
+                (A / max_k).sqrt(),
+                chord_speed(max_k, split.chord_mm, PERIOD),
+            );
+            for (key, got) in [
+                ("theta_rad", turn.theta_rad()),
+                ("d_from_tolerance", by_tolerance),
+                ("d", d),
+                ("deviation", deviation),
+                ("kappa_max", max_k),
+                ("v_acc", v_acc),
+                ("v_chord", v_chord),
+                ("v_cap", v_acc.min(v_chord)),
+                (
+                    "v_cap_time_law",
+                    Profile::Sextic.acceleration_cap(d, turn.sb, A),
+                ),
+            ] {
+                if let Some(want) = want[key].as_f64() {
+                    assert!(
+                        (got / want - 1.0).abs() < 1e-12,
+                        "{name} {key}: {got} {want}"
+                    );
+                }
+            }
+        }
+    }
+}
+
 /// Errors of the chords when a corner is run at constant rate of path position `v`, worst of 16
 /// sampling phases: distance of the programmed corner from the chords.
 fn corner_error(corner: &Corner, transition: &Transition, d: f64, v: f64) -> f64 {
