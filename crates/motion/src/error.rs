@@ -41,4 +41,14 @@ pub enum PlanError {
         /// The time, s.
         dwell_t: f64,
     },
+    /// An override is not a positive factor, or that of rapids is above 1.
+    #[error(
+        "the overrides {feed_r} (feed) and {rapid_r} (rapids) are not both positive, rapids at most 1"
+    )]
+    Override {
+        /// Factor on feedrates.
+        feed_r: f64,
+        /// Factor on rapids.
+        rapid_r: f64,
+    },
 }

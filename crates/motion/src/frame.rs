@@ -45,6 +45,8 @@ pub struct Frame {
     pub flags: FrameFlags,
     /// The event that happens at this instant, at most one a frame.
     pub event: Option<Event>,
+    /// The override this was planned with: of the feed, or of rapids on a rapid.
+    pub planned_override: f64,
     /// Rate of path position, mm/s.
     pub path_v: f64,
     /// Path position since the start of the program, mm.

@@ -14,7 +14,7 @@
 //! segments can be accelerated through. Where coming to rest at the corner costs less time than
 //! the transition, the joint is a stop.
 
-use crate::speed_limit::{self, SpeedLimit};
+use crate::speed_limit::{self, CurveRule, SpeedLimit};
 use crate::stop_or_pass::{Side, stop_is_faster};
 use crate::{PathMode, Settings, Smoothing};
 use glidepath_geometry::{
@@ -28,7 +28,7 @@ pub(crate) struct Leg<'a> {
     pub segment: &'a Segment,
     pub mode: PathMode,
     pub length_s: f64,
-    /// Programmed rate, or `f64::INFINITY` for a rapid.
+    /// Wanted rate, overrides included.
     pub rate_v: f64,
 }
 
@@ -47,7 +47,7 @@ pub(crate) enum Joint {
     Blend {
         transition: Transition,
         trim_s: f64,
-        limit: SpeedLimit,
+        curve: CurveRule,
     },
 }
 
@@ -129,7 +129,7 @@ pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, settings: &Settings) -> Joint {
         Some(found) if !corner.stop_is_faster(&found) => Joint::Blend {
             transition: found.transition,
             trim_s: found.d_s,
-            limit: found.limit,
+            curve: found.curve,
         },
         _ => stop,
     }
@@ -186,6 +186,7 @@ struct Corner<'a> {
 struct Candidate {
     d_s: f64,
     transition: Transition,
+    curve: CurveRule,
     limit: SpeedLimit,
     /// Deviation and chord error together, mm.
     error_mm: f64,
@@ -261,24 +262,29 @@ impl Corner<'_> {
         };
         let bounds = transition.bounds();
         let limits = &self.settings.limits;
-        let rate_v = match self.family {
-            Family::Hermite => self.rate_v / greatest_stretch(&transition),
-            _ => self.rate_v,
+        let mut curve = CurveRule {
+            bounds,
+            gentle: self.gentle,
+            stretch_r: match self.family {
+                Family::Hermite => greatest_stretch(&transition),
+                _ => 1.0,
+            },
+            chord_v: f64::INFINITY,
         };
-        let limit = if self.gentle {
-            speed_limit::curved(&bounds, rate_v, limits)
-        } else {
-            speed_limit::constant(&bounds, rate_v, limits)
-        };
+        let limit = curve.limit(self.rate_v, limits);
         let deviation_mm = match self.family {
             Family::Hermite => self.measured_deviation_mm(&transition, d_s),
             // Both families are symmetric: they are farthest from the program at the corner.
             _ => tolerance_norm(&(transition.jet(0.5 * transition.length()).position - corner)),
         };
-        let error_mm = deviation_mm + chord_error_mm(&bounds, limit.top_v, self.settings.period_t);
+        let period_t = self.settings.period_t;
+        let error_mm = deviation_mm + chord_error_mm(&bounds, limit.top_v, period_t);
+        let left_mm = (self.tolerance_mm - deviation_mm).max(0.0);
+        curve.chord_v = (left_mm / chord_error_mm(&bounds, 1.0, period_t)).sqrt();
         (limit.top_v > 0.0 && error_mm.is_finite()).then_some(Candidate {
             d_s,
             transition,
+            curve,
             limit,
             error_mm,
         })

@@ -21,6 +21,7 @@ mod frame;
 mod item;
 mod joint;
 mod limits;
+mod override_;
 mod path;
 mod planner;
 mod run;
@@ -36,6 +37,7 @@ pub use error::PlanError;
 pub use frame::{Frame, FrameFlags};
 pub use item::{Event, Item, ItemKind, PathMode, Rate};
 pub use limits::Limits;
+pub use override_::Override;
 pub use planner::Planner;
 pub use settings::{Effort, Settings, Smoothing};
 pub use tolerance_split::{

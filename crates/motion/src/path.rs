@@ -4,8 +4,9 @@
 //! pending, and what comes out depends on the order of the items alone.
 
 use crate::joint::{Joint, Leg, join};
-use crate::speed_limit::{self, SpeedLimit};
-use crate::{Event, Item, ItemKind, PathMode, PlanError, Rate, Settings};
+use crate::override_::{Override, ProgrammedRate};
+use crate::speed_limit::{self, SpeedLimit, SpeedRule};
+use crate::{Event, Item, ItemKind, Limits, PathMode, PlanError, Rate, Settings};
 use glidepath_geometry::{AxisVector, Jet, Segment, Transition};
 
 /// Moves shorter than this are carried into the next one: below the resolution of programs, where
@@ -19,7 +20,10 @@ pub(crate) struct Piece {
     /// Where in the shape the piece begins.
     from_s: f64,
     pub length_s: f64,
+    rule: SpeedRule,
     pub limit: SpeedLimit,
+    /// The override that `limit` was computed with.
+    pub planned: Override,
     pub line: u32,
     pub rapid: bool,
     /// Events that happen when the piece is entered, without stopping.
@@ -36,6 +40,42 @@ impl Piece {
     /// True for a line.
     pub(crate) fn is_straight(&self) -> bool {
         matches!(self.shape, Shape::Segment(Segment::Line(_)))
+    }
+
+    /// The override that applies to the piece, as planned.
+    pub(crate) const fn planned_override(&self) -> f64 {
+        if self.rapid {
+            self.planned.rapid_r
+        } else {
+            self.planned.feed_r
+        }
+    }
+
+    /// The same piece under another override.
+    pub(crate) fn under(self, planned: Override, limits: &Limits) -> Self {
+        Self {
+            limit: self.rule.limit(planned, limits),
+            planned,
+            ..self
+        }
+    }
+
+    /// The piece up to `s` after its start.
+    pub(crate) fn before(self, s: f64) -> Self {
+        Self {
+            length_s: s,
+            ..self
+        }
+    }
+
+    /// What is left of the piece `s` after its start. Its events have happened.
+    pub(crate) fn after(self, s: f64) -> Self {
+        Self {
+            from_s: self.from_s + s,
+            length_s: self.length_s - s,
+            events: Vec::new(),
+            ..self
+        }
     }
 
     /// Position and derivatives `s` after the start of the piece.
@@ -82,8 +122,9 @@ pub(crate) enum Element {
 struct Pending {
     segment: Segment,
     length_s: f64,
+    rate: ProgrammedRate,
+    /// The rate under the override at hand, where the segment can be driven at it.
     rate_v: f64,
-    rapid: bool,
     line: u32,
     mode: PathMode,
     /// Length at the start that the joint before has replaced.
@@ -106,6 +147,7 @@ impl Pending {
 #[derive(Debug)]
 pub(crate) struct PathFront {
     settings: Settings,
+    wanted: Override,
     pending: Option<Pending>,
     /// Where the pieces made so far, and the pending segment, end.
     position: AxisVector,
@@ -113,17 +155,30 @@ pub(crate) struct PathFront {
     program_position: AxisVector,
     events: Vec<Event>,
     line: u32,
+    last_rate: Rate,
 }
 
 impl PathFront {
     pub(crate) const fn new(settings: Settings, start: AxisVector) -> Self {
         Self {
             settings,
+            wanted: Override::NONE,
             pending: None,
             position: start,
             program_position: start,
             events: Vec::new(),
             line: 0,
+            last_rate: Rate::Rapid,
+        }
+    }
+
+    /// Plans what follows with another override.
+    pub(crate) fn set_override(&mut self, wanted: Override) {
+        self.wanted = wanted;
+        if let Some(mut pending) = self.pending.take() {
+            let chord_v = self.chord_speed(&pending.segment, pending.mode);
+            pending.rate_v = pending.rate.under(wanted).min(chord_v);
+            self.pending = Some(pending);
         }
     }
 
@@ -170,6 +225,7 @@ impl PathFront {
     ) -> Result<(), PlanError> {
         check(line, &segment, rate, mode, &self.program_position)?;
         self.program_position = segment.end();
+        self.last_rate = rate;
         let segment = starting_at(segment, self.position);
         let length_s = segment.length();
         let is_arc = matches!(segment, Segment::Arc(_));
@@ -178,15 +234,18 @@ impl PathFront {
         {
             return Ok(());
         }
-        let rate_v = match rate {
-            Rate::Rapid => f64::INFINITY,
-            Rate::Feed(feed_v) => feed_v,
+        let axes_v = {
+            let d1 = segment.jet(0.0).d1;
+            speed_limit::straight(&d1, f64::INFINITY, &self.settings.limits).top_v
         };
+        let rate = ProgrammedRate { rate, axes_v };
         let mut next = Pending {
             segment,
             length_s,
-            rate_v: self.rate_within_chord_error(&segment, rate_v, mode),
-            rapid: rate == Rate::Rapid,
+            rate,
+            rate_v: rate
+                .under(self.wanted)
+                .min(self.chord_speed(&segment, mode)),
             line,
             mode,
             trimmed_s: 0.0,
@@ -203,7 +262,7 @@ impl PathFront {
     /// Decides the joint between two segments and puts out all of the first.
     fn join(&self, before: Pending, next: &mut Pending, out: &mut Vec<Element>) {
         let joint = join(before.leg(), next.leg(), &self.settings);
-        let (line, rapid) = (before.line, before.rapid && next.rapid);
+        let (line, rates) = (before.line, [before.rate, next.rate]);
         match joint {
             Joint::Straight => self.put_segment(before, 0.0, out),
             Joint::Stop { exact } => {
@@ -218,18 +277,18 @@ impl PathFront {
             Joint::Blend {
                 transition,
                 trim_s,
-                limit,
+                curve,
             } => {
                 self.put_segment(before, trim_s, out);
-                out.push(Element::Piece(Piece {
-                    length_s: transition.length(),
-                    shape: Shape::Transition(Box::new(transition)),
-                    from_s: 0.0,
-                    limit,
-                    line,
-                    rapid,
-                    events: core::mem::take(&mut next.events),
-                }));
+                let length_s = transition.length();
+                let shape = Shape::Transition(Box::new(transition));
+                let rule = SpeedRule::Transition {
+                    curve: Box::new(curve),
+                    rates,
+                };
+                let mut piece = self.piece(shape, (0.0, length_s), rule, line);
+                piece.events = core::mem::take(&mut next.events);
+                out.push(Element::Piece(piece));
                 next.trimmed_s = trim_s;
             }
         }
@@ -242,44 +301,62 @@ impl PathFront {
         if length_s <= 1e-12 * pending.length_s {
             return;
         }
-        let limits = &self.settings.limits;
-        let limit = match &pending.segment {
-            Segment::Line(_) => {
-                let d1 = pending.segment.jet(0.0).d1;
-                speed_limit::straight(&d1, pending.rate_v, limits)
-            }
-            Segment::Arc(arc) => speed_limit::arc(arc, pending.rate_v, limits),
+        let rule = match &pending.segment {
+            Segment::Line(_) => SpeedRule::Straight {
+                d1: pending.segment.jet(0.0).d1,
+                rate: pending.rate,
+            },
+            Segment::Arc(arc) => SpeedRule::Arc {
+                arc: *arc,
+                rate: pending.rate,
+                chord_v: self.chord_speed(&pending.segment, pending.mode),
+            },
         };
-        out.push(Element::Piece(Piece {
-            shape: Shape::Segment(pending.segment),
-            from_s: pending.trimmed_s,
-            length_s,
-            limit,
-            line: pending.line,
-            rapid: pending.rapid,
-            events: pending.events,
-        }));
+        let shape = Shape::Segment(pending.segment);
+        let mut piece = self.piece(shape, (pending.trimmed_s, length_s), rule, pending.line);
+        piece.events = pending.events;
+        out.push(Element::Piece(piece));
     }
 
-    /// The rate at which the chords of one period stay within tolerance of an arc.
-    fn rate_within_chord_error(&self, segment: &Segment, rate_v: f64, mode: PathMode) -> f64 {
+    /// A piece of a shape: where in the shape it starts, and how long it is.
+    fn piece(
+        &self,
+        shape: Shape,
+        (from_s, length_s): (f64, f64),
+        rule: SpeedRule,
+        line: u32,
+    ) -> Piece {
+        Piece {
+            shape,
+            from_s,
+            length_s,
+            limit: rule.limit(self.wanted, &self.settings.limits),
+            rapid: rule.is_rapid(),
+            rule,
+            planned: self.wanted,
+            line,
+            events: Vec::new(),
+        }
+    }
+
+    /// The speed at which the chords of one period reach the tolerance of an arc.
+    fn chord_speed(&self, segment: &Segment, mode: PathMode) -> f64 {
         let Segment::Arc(arc) = segment else {
-            return rate_v;
+            return f64::INFINITY;
         };
         let radius_mm = arc.start_radius().max(arc.end_radius());
         let omega = arc.sweep_rad / arc.length();
         let curvature_k = radius_mm * omega * omega;
         let tolerance_mm = mode.tolerance_mm(&self.settings);
-        rate_v.min((8.0 * tolerance_mm / curvature_k).sqrt() / self.settings.period_t)
+        (8.0 * tolerance_mm / curvature_k).sqrt() / self.settings.period_t
     }
 
     /// Ends the path at rest.
     fn rest(&mut self, kind: RestKind, line: u32, out: &mut Vec<Element>) {
         if let Some(pending) = self.pending.take() {
-            let (rate_v, pending_line, rapid) = (pending.rate_v, pending.line, pending.rapid);
             self.put_segment(pending, 0.0, out);
-            self.put_remainder(rate_v, pending_line, rapid, out);
         }
+        self.put_remainder(out);
         for event in core::mem::take(&mut self.events) {
             out.push(Element::Rest(Rest {
                 kind: RestKind::Event(event),
@@ -290,7 +367,7 @@ impl PathFront {
     }
 
     /// Makes up for moves that were too short to be made by themselves.
-    fn put_remainder(&mut self, rate_v: f64, line: u32, rapid: bool, out: &mut Vec<Element>) {
+    fn put_remainder(&mut self, out: &mut Vec<Element>) {
         let segment = Segment::line(self.position, self.program_position);
         let length_s = segment.length();
         if length_s <= 0.0 {
@@ -298,19 +375,23 @@ impl PathFront {
         }
         out.push(Element::Rest(Rest {
             kind: RestKind::Corner,
-            line,
+            line: self.line,
         }));
         self.position = self.program_position;
-        let limit = speed_limit::straight(&segment.jet(0.0).d1, rate_v, &self.settings.limits);
-        out.push(Element::Piece(Piece {
-            shape: Shape::Segment(segment),
-            from_s: 0.0,
-            length_s,
-            limit,
-            line,
-            rapid,
-            events: Vec::new(),
-        }));
+        let d1 = segment.jet(0.0).d1;
+        let axes_v = speed_limit::straight(&d1, f64::INFINITY, &self.settings.limits).top_v;
+        let rate = ProgrammedRate {
+            rate: self.last_rate,
+            axes_v,
+        };
+        let rule = SpeedRule::Straight { d1, rate };
+        let shape = Shape::Segment(segment);
+        out.push(Element::Piece(self.piece(
+            shape,
+            (0.0, length_s),
+            rule,
+            self.line,
+        )));
     }
 }
 

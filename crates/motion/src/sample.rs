@@ -26,6 +26,20 @@ pub(crate) struct Sampler {
     position: AxisVector,
     path_s: f64,
     line: u32,
+    planned_override: f64,
+    /// Speed at the end of the last stretch.
+    speed_v: f64,
+}
+
+/// What comes next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "nearly every step is a frame")]
+pub(crate) enum Step {
+    Frame(Frame),
+    /// The next stretch; only if asked to stop there.
+    Junction,
+    /// Nothing more is settled.
+    End,
 }
 
 #[derive(Debug)]
@@ -48,6 +62,18 @@ struct Resting {
     line: u32,
 }
 
+impl Stretch {
+    /// Position and speed of the last frame, if it is in the cruise of a stretch of one piece.
+    fn cruise(&self, first_frame_t: f64, period_t: f64) -> Option<(f64, f64)> {
+        let ([_], [leg]) = (self.pieces.as_slice(), self.legs.as_slice()) else {
+            return None;
+        };
+        let t = first_frame_t + f64::from(self.frames.checked_sub(1)?) * period_t;
+        let is_cruise = leg.profile.cruise_t().contains(&t);
+        is_cruise.then(|| (leg.profile.at(t).position_s, leg.profile.peak_v()))
+    }
+}
+
 impl Sampler {
     pub(crate) fn new(period_t: f64, start: AxisVector) -> Self {
         let first = Resting {
@@ -66,28 +92,33 @@ impl Sampler {
             position: start,
             path_s: 0.0,
             line: 0,
+            planned_override: 1.0,
+            speed_v: 0.0,
         }
     }
 
-    /// The next frame, as far as the motion is settled.
-    pub(crate) fn next_frame(&mut self, settled: &mut VecDeque<Settled>) -> Option<Frame> {
+    /// The next frame, as far as the motion is settled. With `pause`, stops at the next junction.
+    pub(crate) fn next_frame(&mut self, settled: &mut VecDeque<Settled>, pause: bool) -> Step {
         loop {
             if let Some(resting) = &mut self.rest {
                 if resting.frames > 0 {
                     resting.frames -= 1;
                     let resting = *resting;
-                    return Some(self.rest_frame(resting));
+                    return Step::Frame(self.rest_frame(resting));
                 }
                 self.rest = None;
             }
             if self.stretch.is_some() {
                 if let Some(frame) = self.motion_frame() {
-                    return Some(frame);
+                    return Step::Frame(frame);
                 }
                 self.stretch = None;
+                if pause {
+                    return Step::Junction;
+                }
             }
-            match settled.pop_front()? {
-                Settled::Motion { pieces, legs } => {
+            match settled.pop_front() {
+                Some(Settled::Motion { pieces, legs }) => {
                     self.stretch = Some(Stretch {
                         pieces,
                         legs,
@@ -98,8 +129,40 @@ impl Sampler {
                     });
                     self.enter_piece();
                 }
-                Settled::Rest(rest) => self.enter_rest(rest),
+                Some(Settled::Rest(rest)) => {
+                    self.speed_v = 0.0;
+                    self.enter_rest(rest);
+                }
+                None => return Step::End,
             }
+        }
+    }
+
+    /// The speed at which the motion can be planned anew from where the last frame is, if it has no
+    /// acceleration along the path there: at a junction, at rest, or cruising along a single piece.
+    pub(crate) fn steady_v(&self) -> Option<f64> {
+        match &self.stretch {
+            None => Some(self.speed_v),
+            Some(stretch) => stretch
+                .cruise(self.first_frame_t, self.period_t)
+                .map(|(_, v)| v),
+        }
+    }
+
+    /// What is left of the stretch at hand after the last frame, where it is cruising.
+    pub(crate) fn rest_of_stretch(&self) -> Option<Piece> {
+        let stretch = self.stretch.as_ref()?;
+        let (s, _) = stretch.cruise(self.first_frame_t, self.period_t)?;
+        Some(stretch.pieces.first()?.clone().after(s))
+    }
+
+    /// Gives up what [`Sampler::rest_of_stretch`] returned: it was planned anew.
+    pub(crate) fn drop_stretch(&mut self) {
+        if let Some(stretch) = self.stretch.take()
+            && let Some((s, _)) = stretch.cruise(self.first_frame_t, self.period_t)
+        {
+            self.path_s += s;
+            self.first_frame_t = self.period_t;
         }
     }
 
@@ -159,6 +222,7 @@ impl Sampler {
             line: self.line,
             flags,
             event,
+            planned_override: self.planned_override,
             path_v: 0.0,
             path_s: self.path_s,
             position: self.position,
@@ -215,6 +279,7 @@ impl Sampler {
                 FrameFlags::default()
             },
             event: self.events.pop_front(),
+            planned_override: piece.planned_override(),
             path_v: v,
             path_s: self.path_s + (s - stretch.piece_s),
             position: jet.position,
@@ -243,6 +308,7 @@ impl Sampler {
         {
             self.events.extend(piece.events.iter().copied());
             self.line = piece.line;
+            self.planned_override = piece.planned_override();
         }
     }
 
@@ -256,6 +322,7 @@ impl Sampler {
         if let Some(stretch) = &self.stretch
             && let Some(piece) = stretch.pieces.last()
         {
+            self.speed_v = stretch.legs.last().map_or(0.0, |leg| leg.profile.exit_v());
             self.position = piece.jet(piece.length_s).position;
             self.path_s += piece.length_s;
         }

@@ -26,6 +26,16 @@ pub(crate) enum Settled {
     Rest(Rest),
 }
 
+impl Settled {
+    /// What it was made of.
+    pub(crate) fn elements(&self) -> Vec<Element> {
+        match self {
+            Self::Motion { pieces, .. } => pieces.iter().cloned().map(Element::Piece).collect(),
+            Self::Rest(rest) => vec![Element::Rest(*rest)],
+        }
+    }
+}
+
 /// Pieces waiting in a chain before some are settled whatever their length.
 const MOST_WAITING: usize = 4096;
 
@@ -49,6 +59,8 @@ pub(crate) struct Scheduler {
     /// The speeds at the ends of the waiting runs as they were planned when the runs before them
     /// were settled.
     planned_v: Vec<f64>,
+    /// The speed at the start leaves no way to slow down in time.
+    infeasible: bool,
 }
 
 const NO_LIMITS: PathLimits = PathLimits {
@@ -67,7 +79,42 @@ impl Scheduler {
             weakest: NO_LIMITS,
             entry_v: 0.0,
             planned_v: Vec::new(),
+            infeasible: false,
         }
+    }
+
+    /// A scheduler for path that is entered at a speed, with zero acceleration along it.
+    pub(crate) fn entered_at(entry_v: f64) -> Self {
+        Self {
+            entry_v,
+            ..Self::new()
+        }
+    }
+
+    /// All pieces that are not settled, in order.
+    pub(crate) fn pieces(&self) -> impl Iterator<Item = Piece> {
+        self.waiting
+            .iter()
+            .chain(&self.open)
+            .flat_map(|run| run.pieces.iter().cloned())
+    }
+
+    /// Ends the open run, so that a junction comes next.
+    pub(crate) fn close_run(&mut self) {
+        if let Some(run) = self.open.take() {
+            self.enqueue(run);
+        }
+    }
+
+    /// Makes sure of a plan from the speed at hand to rest at the end of the waiting runs; false if
+    /// there is none.
+    pub(crate) fn is_feasible(&mut self) -> bool {
+        if self.waiting.is_empty() {
+            self.close_run();
+        }
+        let planned_v = self.forward_pass(&self.backward_pass());
+        self.planned_v = planned_v;
+        !self.infeasible
     }
 
     /// Takes the next element and appends what it settles.
@@ -88,9 +135,7 @@ impl Scheduler {
                 }
             }
             Element::Rest(rest) => {
-                if let Some(run) = self.open.take() {
-                    self.enqueue(run);
-                }
+                self.close_run();
                 self.settle(self.waiting.len(), out);
                 self.fastest_v = 0.0;
                 self.weakest = NO_LIMITS;
@@ -157,18 +202,22 @@ impl Scheduler {
     }
 
     /// The speed at the end of each waiting run.
-    fn forward_pass(&self, highest_v: &[f64]) -> Vec<f64> {
+    fn forward_pass(&mut self, highest_v: &[f64]) -> Vec<f64> {
         let mut entry_v = self.entry_v;
         let mut on_plan = true;
         let mut planned_v = Vec::with_capacity(self.waiting.len());
         for (i, run) in self.waiting.iter().enumerate() {
             let before_v = self.planned_v.get(i).copied().filter(|_| on_plan);
-            let exit_v = match run.exit_speed(entry_v, highest_v[i + 1]) {
-                Some(exit_v) if entry_v <= highest_v[i] * ROUNDING_R || before_v.is_none() => {
+            let exit_v = match (run.exit_speed(entry_v, highest_v[i + 1]), before_v) {
+                (Some(exit_v), _) if entry_v <= highest_v[i] * ROUNDING_R => {
                     on_plan &= before_v == Some(exit_v);
                     exit_v
                 }
-                _ => before_v.unwrap_or(0.0),
+                (_, Some(exit_v)) => exit_v,
+                (exit_v, None) => {
+                    self.infeasible = true;
+                    exit_v.unwrap_or(0.0)
+                }
             };
             planned_v.push(exit_v);
             entry_v = exit_v;

@@ -11,8 +11,9 @@
 //! share is fixed here, so that a piece has one top speed, one acceleration and one jerk, all of
 //! which may be used at once anywhere on it.
 
-use crate::Limits;
+use crate::override_::{Override, ProgrammedRate};
 use crate::scurve::PathLimits;
+use crate::{Limits, Rate};
 use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds};
 
 /// What a piece of path allows.
@@ -24,6 +25,78 @@ pub(crate) struct SpeedLimit {
     pub change: PathLimits,
     /// Above this speed the speed has to be constant; infinite where it never has to.
     pub constant_above_v: f64,
+}
+
+/// What the speed limit of a piece is computed from, so that it can be computed again when the
+/// override changes.
+#[derive(Debug, Clone)]
+pub(crate) enum SpeedRule {
+    /// A line in the direction `d1`.
+    Straight {
+        d1: AxisVector,
+        rate: ProgrammedRate,
+    },
+    /// An arc, and the speed at which the chords of one period reach its tolerance.
+    Arc {
+        arc: Arc,
+        rate: ProgrammedRate,
+        chord_v: f64,
+    },
+    /// A transition between two segments.
+    Transition {
+        curve: Box<CurveRule>,
+        rates: [ProgrammedRate; 2],
+    },
+}
+
+/// The speed limit of a transition.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CurveRule {
+    pub bounds: DerivativeBounds,
+    /// Whether the speed may change on it.
+    pub gentle: bool,
+    /// How much faster than its path position the tool moves, at most, ≥ 1.
+    pub stretch_r: f64,
+    /// The speed at which deviation and chord error reach the tolerance.
+    pub chord_v: f64,
+}
+
+impl SpeedRule {
+    pub(crate) fn limit(&self, wanted: Override, limits: &Limits) -> SpeedLimit {
+        match self {
+            Self::Straight { d1, rate } => straight(d1, rate.under(wanted), limits),
+            Self::Arc {
+                arc: curve,
+                rate,
+                chord_v,
+            } => arc(curve, rate.under(wanted).min(*chord_v), limits),
+            Self::Transition { curve, rates } => {
+                curve.limit(rates[0].under(wanted).min(rates[1].under(wanted)), limits)
+            }
+        }
+    }
+}
+
+impl SpeedRule {
+    /// True if only rapids touch the piece.
+    pub(crate) fn is_rapid(&self) -> bool {
+        let is_rapid = |rate: &ProgrammedRate| rate.rate == Rate::Rapid;
+        match self {
+            Self::Straight { rate, .. } | Self::Arc { rate, .. } => is_rapid(rate),
+            Self::Transition { rates, .. } => rates.iter().all(is_rapid),
+        }
+    }
+}
+
+impl CurveRule {
+    pub(crate) fn limit(&self, rate_v: f64, limits: &Limits) -> SpeedLimit {
+        let rate_v = (rate_v / self.stretch_r).min(self.chord_v);
+        if self.gentle {
+            curved(&self.bounds, rate_v, limits)
+        } else {
+            constant(&self.bounds, rate_v, limits)
+        }
+    }
 }
 
 /// Share of an axis' acceleration and jerk spent on following a curve at its top speed.

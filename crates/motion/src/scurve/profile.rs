@@ -109,6 +109,18 @@ impl Profile {
         self.phases.map(|phase| phase.duration_t)
     }
 
+    /// The speed at the end, mm/s.
+    #[must_use]
+    pub const fn exit_v(&self) -> f64 {
+        self.end.speed_v
+    }
+
+    /// When the phase of constant speed starts and ends, s from the start of the profile.
+    #[must_use]
+    pub fn cruise_t(&self) -> core::ops::Range<f64> {
+        self.phases[3].start_t..self.phases[4].start_t
+    }
+
     /// Where the phase of constant speed starts and ends, mm from the start of the profile.
     #[must_use]
     pub fn cruise_s(&self) -> (f64, f64) {
