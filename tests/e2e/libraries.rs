@@ -41,7 +41,7 @@ fn assert_played_exactly(recording: &Recording, epoch: u64, frames: &[Frame]) {
         }
         assert_eq!(setpoint.sequence, next, "frames left out");
         let frame = &frames[usize::try_from(next).unwrap()];
-        let record = SetpointFrame::from_frame(frame, epoch, 4_000_000, 1.0);
+        let record = SetpointFrame::from_frame(frame, epoch, 4_000_000);
         let played = [setpoint.position, setpoint.velocity, setpoint.acceleration];
         let planned = [record.position, record.velocity, record.acceleration];
         let bits = |state: [[f64; 9]; 3]| state.map(|vector| vector.map(f64::to_bits));

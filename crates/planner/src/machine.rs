@@ -7,6 +7,7 @@ use glidepath_link::{
     Client, Command, CommandReply, CommandRequest, EndOfEpoch, LinkError, MachineState, Record,
     Status, Subscriber, Transport,
 };
+use glidepath_motion::Override;
 
 use crate::{Control, RunError};
 
@@ -103,6 +104,14 @@ impl Machine {
     /// The last status of an interpolator that lives.
     pub(crate) fn status(&self) -> Option<&Status> {
         self.latest.as_ref().filter(|_| self.alive)
+    }
+
+    /// The override to plan with, if one was commanded that can be planned with. An override of
+    /// zero cannot: the interpolator holds the motion then.
+    pub(crate) fn wanted_override(&self) -> Option<Override> {
+        let status = self.status()?;
+        let (feed_r, rapid_r) = (status.feed_override, status.rapid_override.min(1.0));
+        (feed_r > 0.0 && rapid_r > 0.0).then_some(Override { feed_r, rapid_r })
     }
 
     /// How the epoch stands, or why it is over before its end.

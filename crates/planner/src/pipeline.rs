@@ -15,7 +15,7 @@
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
-use glidepath_motion::{Frame, Item, ItemKind, Planner, Settings};
+use glidepath_motion::{Frame, Item, ItemKind, Override, Planner, Settings};
 
 use crate::{ItemSource, Refusal, Supply};
 
@@ -63,6 +63,7 @@ pub struct Pipeline<S> {
     program: Program,
     statistics: Statistics,
     clock: Option<fn() -> Duration>,
+    wanted: Override,
 }
 
 impl<S: ItemSource> Pipeline<S> {
@@ -75,6 +76,7 @@ impl<S: ItemSource> Pipeline<S> {
             program: Program::Open,
             statistics: Statistics::default(),
             clock: None,
+            wanted: Override::NONE,
         }
     }
 
@@ -127,6 +129,14 @@ impl<S: ItemSource> Pipeline<S> {
                 Output::End => return Ok(None),
                 Output::Item(_) | Output::Pending => {}
             }
+        }
+    }
+
+    /// Plans what no frame was given out of with this override, if it is another than before.
+    pub(crate) fn follow_override(&mut self, wanted: Override) {
+        // A refusal cannot be: status records with overrides out of range are not accepted.
+        if wanted != self.wanted && self.planner.set_override(wanted).is_ok() {
+            self.wanted = wanted;
         }
     }
 

@@ -35,9 +35,6 @@ use crate::epoch::Epoch;
 use crate::machine::{HUNGRY_POLL, Machine, POLL, SILENCE, Standing};
 use crate::{Control, ItemSource, Notice, Output, Pace, Pipeline, RunError, Statistics};
 
-/// Override the frames are planned with: the planner plans at the programmed feed.
-const PLANNED_OVERRIDE: f64 = 1.0;
-
 /// Steps of the pipeline between two looks at status and stop flag.
 const STEPS_PER_TURN: u32 = 512;
 
@@ -186,6 +183,9 @@ impl<'t> Publisher<'t> {
                 return Err(RunError::Interrupted);
             }
             self.machine.observe()?;
+            if let Some(wanted) = self.machine.wanted_override() {
+                pipeline.follow_override(wanted);
+            }
             pipeline.source().attend(waited);
             epoch.follow(self.standing(&epoch)?);
             if epoch.is_over() {
@@ -250,7 +250,6 @@ impl<'t> Publisher<'t> {
                         &frame,
                         epoch.number,
                         self.pace.period_ns,
-                        PLANNED_OVERRIDE,
                     ));
                 }
                 Ok(Output::Item(_)) => {}

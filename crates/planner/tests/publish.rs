@@ -40,7 +40,7 @@ fn records(items: &[glidepath_motion::Item], epoch: u64) -> Vec<SetpointFrame> {
     let frames = frames_of(items, AxisVector::zeros());
     frames
         .iter()
-        .map(|f| SetpointFrame::from_frame(f, epoch, PERIOD_NS, 1.0))
+        .map(|f| SetpointFrame::from_frame(f, epoch, PERIOD_NS))
         .collect()
 }
 

@@ -152,6 +152,7 @@ pub fn integrate(jerks: &[Vec<f64>], period_t: f64, start: AxisVector) -> Vec<Fr
             line: k as u32 / 50 + 1,
             flags,
             event: None,
+            planned_override: 1.0,
             path_v: v.norm(),
             path_s,
             position: p,
@@ -178,7 +179,7 @@ pub fn integrate(jerks: &[Vec<f64>], period_t: f64, start: AxisVector) -> Vec<Fr
 pub fn records(frames: &[Frame], epoch: u64, period_ns: u64) -> Vec<SetpointFrame> {
     frames
         .iter()
-        .map(|f| SetpointFrame::from_frame(f, epoch, period_ns, 1.0))
+        .map(|f| SetpointFrame::from_frame(f, epoch, period_ns))
         .collect()
 }
 

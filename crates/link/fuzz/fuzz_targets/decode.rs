@@ -22,7 +22,6 @@ fuzz_target!(|data: &[u8]| {
                     &frame,
                     record.epoch,
                     record.period_ns,
-                    record.planned_override,
                 );
                 // An event without a number says the same whatever number comes with it.
                 assert_eq!(back.to_frame().expect("it was checked"), frame);

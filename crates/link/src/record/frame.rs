@@ -57,7 +57,7 @@ pub struct SetpointFrame {
 impl SetpointFrame {
     /// The record of a planned frame, bit for bit.
     #[must_use]
-    pub fn from_frame(frame: &Frame, epoch: u64, period_ns: u64, planned_override: f64) -> Self {
+    pub fn from_frame(frame: &Frame, epoch: u64, period_ns: u64) -> Self {
         let (event_kind, event_value) = event::encode(frame.event);
         Self {
             epoch,
@@ -70,7 +70,7 @@ impl SetpointFrame {
             event_value,
             path_v: frame.path_v,
             path_s: frame.path_s,
-            planned_override,
+            planned_override: frame.planned_override,
             position: frame.position.into(),
             velocity: frame.velocity.into(),
             acceleration: frame.acceleration.into(),
@@ -89,6 +89,7 @@ impl SetpointFrame {
             line: self.line,
             flags: FrameFlags(self.flags),
             event: self.event()?,
+            planned_override: self.planned_override,
             path_v: self.path_v,
             path_s: self.path_s,
             position: AxisVector::from(self.position),

@@ -33,11 +33,23 @@ prop_compose! {
     pub(crate) fn frame()(
         (sequence, line, flags) in (any::<u64>(), any::<u32>(), 0..64_u32),
         event in proptest::option::of(event()),
+        planned_override in 0.001..=OVERRIDE_MAX,
         (path_v, path_s) in (finite(), finite()),
         (position, velocity, acceleration) in (vector(), vector(), vector()),
     ) -> Frame {
         let flags = FrameFlags(flags);
-        Frame { sequence, line, flags, event, path_v, path_s, position, velocity, acceleration }
+        Frame {
+            sequence,
+            line,
+            flags,
+            event,
+            planned_override,
+            path_v,
+            path_s,
+            position,
+            velocity,
+            acceleration,
+        }
     }
 }
 
