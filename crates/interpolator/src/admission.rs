@@ -285,3 +285,6 @@ const fn refusal_of(error: &RecordError) -> FrameRefusal {
         _ => FrameRefusal::Malformed,
     }
 }
+
+#[cfg(test)]
+mod tests;

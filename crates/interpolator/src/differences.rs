@@ -74,17 +74,26 @@ impl Differences {
     }
 
     /// Whether one more position is within the limits.
-    #[allow(clippy::indexing_slicing, reason = "the index runs over the axes")]
     pub(crate) fn allow(&self, position: &AxisVector, allowed: &Allowed) -> bool {
+        let mut next = *self;
+        next.take(position, allowed)
+    }
+
+    /// Adds one more position; returns whether it is within the limits. One loop over plain arrays.
+    #[allow(clippy::indexing_slicing, reason = "the index runs over the axes")]
+    pub(crate) fn take(&mut self, position: &AxisVector, allowed: &Allowed) -> bool {
         let [velocity, acceleration, jerk] = &allowed.0;
         let mut inside = true;
         for i in 0..AXES {
             let first = position[i] - self.position[i];
             let second = first - self.first[i];
             let third = second - self.second[i];
-            inside &= first.abs() <= velocity[i]
-                && second.abs() <= acceleration[i]
-                && third.abs() <= jerk[i];
+            inside &= first.abs() <= velocity[i];
+            inside &= second.abs() <= acceleration[i];
+            inside &= third.abs() <= jerk[i];
+            self.position[i] = position[i];
+            self.first[i] = first;
+            self.second[i] = second;
         }
         inside
     }

@@ -31,6 +31,7 @@ mod rate;
 mod run;
 mod setpoint;
 mod status;
+mod stepped;
 mod supply;
 #[cfg(test)]
 mod testing;
@@ -46,3 +47,4 @@ static ALLOCATOR: glidepath_realtime::CountingAllocator = glidepath_realtime::Co
 pub use config::{Config, RealTime, SoftLimits};
 pub use loops::RunError;
 pub use run::run;
+pub use stepped::{Stepped, stepped};

@@ -80,7 +80,13 @@ const CANDIDATES: [Candidate; 18] = {
 };
 
 /// Samples a tick may spend on playing candidates through.
-const BUDGET: u32 = 400;
+const BUDGET: u32 = 200;
+/// What it costs to set up a candidate, and to stretch one from a slope, in samples.
+const SET_UP: u32 = 4;
+const SEARCH: u32 = 20;
+/// Halvings of the range of paces, from the slowest to 1, in the search for the grid.
+const SEARCH_STEPS: u32 = 40;
+const SLOWEST: f64 = 0.02;
 /// Largest bounds of a ramp: a change from 0 to 1 takes at least four ticks.
 const FASTEST: Bounds = Bounds {
     alpha: 0.5,
@@ -272,19 +278,22 @@ impl Rate {
                 continue;
             }
             let target = if part < 1.0 {
-                (self.rate + part * (goal - self.rate)).min(PARTIAL_MOST.max(self.rate))
+                let most = PARTIAL_MOST.max(self.rate.min(BESIDE_FULL));
+                (self.rate + part * (goal - self.rate)).min(most)
             } else {
                 goal
             };
             if part < 1.0 && (target - self.rate).abs() < LEAST_CHANGE {
                 continue;
             }
-            let Some(ramp) = self.ramp_to(target, fastest.paced(pace)) else {
+            let within = if arrives {
+                self.remaining() - GAIN
+            } else {
+                f64::INFINITY
+            };
+            let Some(ramp) = self.ramp_to(target, fastest.paced(pace), within, &mut budget) else {
                 continue;
             };
-            if arrives && ramp.duration() > self.remaining() - GAIN {
-                continue;
-            }
             match self.try_ramp(&ramp, scene, &mut budget) {
                 Trial::Passed(reserve) => {
                     self.commit(ramp, pace, reserve);
@@ -316,30 +325,41 @@ impl Rate {
             .map_or(0.0, |ramp| ramp.duration() - f64::from(self.ticks))
     }
 
-    /// A ramp from the present, if there is one; one to rate 1 ends on the grid of the frames.
-    fn ramp_to(&self, target: f64, bounds: Bounds) -> Option<Ramp> {
-        let ramp = Ramp::plan(self.rate, self.slope, target, bounds)?;
+    /// A ramp from the present, if there is one of less than so many ticks; one to rate 1 ends on the
+    /// grid of the frames.
+    fn ramp_to(&self, target: f64, bounds: Bounds, within: f64, budget: &mut u32) -> Option<Ramp> {
+        let plan = |pace| Ramp::plan(self.rate, self.slope, target, bounds.paced(pace));
+        *budget = budget.saturating_sub(SET_UP);
+        let ramp = plan(1.0).filter(|ramp| ramp.duration() < within)?;
         if target < 1.0 {
             return Some(ramp);
         }
         // The frame reached at rate 1 is behind the grid by what was lost, so lose a whole number.
-        let wanted = {
-            let over = (self.now.fraction - ramp.loss()).rem_euclid(1.0);
-            ramp.loss() + if over > 1.0 - ON_GRID { 0.0 } else { over }
-        };
-        let (mut slow, mut fast) = (0.02, 1.0);
-        for _ in 0..48 {
-            let pace = 0.5 * (slow + fast);
-            let loss = Ramp::plan(self.rate, self.slope, target, bounds.paced(pace))?.loss();
-            if loss > wanted {
-                slow = pace;
+        let over = (self.now.fraction - ramp.loss()).rem_euclid(1.0);
+        let wanted = ramp.loss() + if over > 1.0 - ON_GRID { 0.0 } else { over };
+        let on_grid = if self.slope == 0.0 {
+            // The same curve, stretched: so is the loss.
+            plan(if wanted > 0.0 {
+                ramp.loss() / wanted
             } else {
-                fast = pace;
+                1.0
+            })?
+        } else {
+            *budget = budget.saturating_sub(SEARCH);
+            let (mut slow, mut fast) = (SLOWEST, 1.0);
+            for _ in 0..SEARCH_STEPS {
+                let pace = 0.5 * (slow + fast);
+                if plan(pace)?.loss() > wanted {
+                    slow = pace;
+                } else {
+                    fast = pace;
+                }
             }
-        }
-        let on_grid = Ramp::plan(self.rate, self.slope, target, bounds.paced(fast))?;
+            plan(fast)?
+        };
         // If there is too little time left to lose, another tick will be nearer to the grid.
-        ((on_grid.loss() - wanted).abs() < ON_GRID).then_some(on_grid)
+        let is_on_grid = (on_grid.loss() - wanted).abs() < ON_GRID;
+        (is_on_grid && on_grid.duration() < within).then_some(on_grid)
     }
 
     /// Plays a ramp through, and looks for a stop after it if it does not end in one.
@@ -419,10 +439,9 @@ fn play(ramp: &Ramp, cue: Cue, track: &Track, allowed: &Allowed, budget: &mut u3
         let Some(position) = track.position(time) else {
             return Played::Barred;
         };
-        if !published.allow(&position, allowed) {
+        if !published.take(&position, allowed) {
             return Played::Barred;
         }
-        published = published.then(&position);
     }
     Played::Passed
 }

@@ -13,7 +13,7 @@
 //! stands there: everything later is evaluated as that frame.
 
 use crate::program_time::ProgramTime;
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AXES, AxisVector};
 use glidepath_link::SetpointFrame;
 use glidepath_motion::{FrameFlags, Limits};
 
@@ -59,9 +59,15 @@ impl Quintic {
         ])
     }
 
+    /// Written as a loop over plain arrays: this is most of the work of a tick.
+    #[allow(clippy::indexing_slicing, reason = "the index runs over the axes")]
     fn position(&self, u: f64) -> AxisVector {
         let [c0, c1, c2, c3, c4, c5] = &self.0;
-        ((((c5 * u + c4) * u + c3) * u + c2) * u + c1) * u + c0
+        let mut position = [0.0; AXES];
+        for i in 0..AXES {
+            position[i] = ((((c5[i] * u + c4[i]) * u + c3[i]) * u + c2[i]) * u + c1[i]) * u + c0[i];
+        }
+        AxisVector::from(position)
     }
 
     fn kinematic(&self, u: f64) -> Kinematic {

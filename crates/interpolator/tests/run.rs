@@ -36,7 +36,7 @@ fn config() -> Config {
 
 /// A trajectory for a period of 1 ms: that of 4 ms, four times as fast.
 fn trajectory(seed: u64, ticks: usize, epoch: u64, start: AxisVector) -> Vec<SetpointFrame> {
-    let mut frames = records(&lines(seed, ticks, &mill(), 0.004), epoch, PERIOD_NS);
+    let mut frames = records(&lines(seed, 3, ticks, &mill(), 0.004), epoch, PERIOD_NS);
     for frame in &mut frames {
         for i in 0..frame.position.len() {
             frame.position[i] += start[i];

@@ -19,7 +19,7 @@ fn the_loop_never_allocates() {
         mut feed,
         ..
     } = Rig::mill();
-    feed.extend(records(&lines(3, 4_000, &mill(), 0.004), 1, 4_000_000));
+    feed.extend(records(&lines(3, 3, 4_000, &mill(), 0.004), 1, 4_000_000));
     let stop = AtomicBool::new(false);
     let calls = std::thread::scope(|scope| {
         let stop = &stop;

@@ -26,7 +26,7 @@ use crate::program_time::ProgramTime;
 use crate::ramp::{Bounds, Ramp};
 
 /// Samples a tick may spend on finding a reserve.
-const BUDGET: u32 = 250;
+const BUDGET: u32 = 120;
 /// What it costs to set up a candidate, in samples.
 const SET_UP: u32 = 6;
 /// Places between the latest possible and the earliest useful at which a stop of a shape may begin.

@@ -85,7 +85,7 @@ fn at_full_rate_the_setpoints_are_the_frames_bit_for_bit() {
 
 #[test]
 fn hold_stops_on_the_path_and_resume_goes_on_from_the_same_bits() {
-    let frames = records(&lines(8, 600, &mill(), 0.004), 1, 4_000_000);
+    let frames = records(&lines(8, 3, 600, &mill(), 0.004), 1, 4_000_000);
     let mut rig = Rig::mill();
     rig.feed.extend(&frames);
     rig.run(100);
@@ -437,7 +437,7 @@ fn there_is_always_a_stop_in_reserve() {
 fn a_healthy_supply_is_never_slowed_down() {
     for seed in 0..100 {
         let mut rig = Rig::mill();
-        let frames = records(&lines(seed, 600, &mill(), 0.004), 1, 4_000_000);
+        let frames = records(&lines(seed, 3, 600, &mill(), 0.004), 1, 4_000_000);
         rig.feed.extend(&frames);
         let mut sent = 0;
         for _ in 0..frames.len() + 100 {

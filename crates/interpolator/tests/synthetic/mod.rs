@@ -117,14 +117,18 @@ pub fn plan(
 
 /// Moves along straight lines in random directions, one after the other: what a planner makes of a
 /// program with exact stops. The axis with the largest part is at its limits, the others follow.
-pub fn lines(seed: u64, ticks: usize, limits: &Limits, period_t: f64) -> Vec<Frame> {
+pub fn lines(seed: u64, axes: usize, ticks: usize, limits: &Limits, period_t: f64) -> Vec<Frame> {
     let mut numbers = Numbers::new(seed + 1);
     let mut jerks: Vec<Vec<f64>> = vec![Vec::new(); AXES];
     while jerks[0].len() < ticks {
         let (v, a, j) = (limits.velocity[0], limits.acceleration[0], limits.jerk[0]);
         let along = one_move(&mut numbers, v, a, j, period_t);
-        let direction = [1.0, numbers.unit(), -numbers.unit()];
-        for (axis, part) in jerks.iter_mut().zip(direction) {
+        for (i, axis) in jerks.iter_mut().enumerate().take(axes) {
+            let part = if i == 0 {
+                1.0
+            } else {
+                2.0 * numbers.unit() - 1.0
+            };
             axis.extend(along.iter().map(|x| x * j * part));
         }
     }

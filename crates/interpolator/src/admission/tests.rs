@@ -1,0 +1,191 @@
+//! Every way a frame can be wrong.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::cast_possible_truncation,
+    reason = "a test"
+)]
+
+use super::*;
+use crate::testing::{lines, mill, records};
+
+const PERIOD_NS: u64 = 4_000_000;
+
+fn config() -> Config {
+    let mut config = Config::new(mill(), PERIOD_NS);
+    config.soft_limits = SoftLimits {
+        lowest: AxisVector::repeat(-500.0),
+        highest: AxisVector::repeat(500.0),
+    };
+    config
+}
+
+fn idle() -> Machine {
+    Machine {
+        state: MachineState::Idle,
+        position: AxisVector::zeros(),
+        epoch: 0,
+        is_open: false,
+    }
+}
+
+/// The machine while an epoch is executed.
+fn running(epoch: u64) -> Machine {
+    Machine {
+        state: MachineState::Running,
+        epoch,
+        is_open: true,
+        ..idle()
+    }
+}
+
+fn frames(epoch: u64) -> Vec<SetpointFrame> {
+    records(&lines(7, 3, 300, &mill(), 0.004), epoch, PERIOD_NS)
+}
+
+/// Judges all frames after a change to one of them; the first verdict that is not `Pass`.
+fn first_objection(at: usize, change: impl FnOnce(&mut SetpointFrame)) -> Option<(usize, Verdict)> {
+    let mut frames = frames(1);
+    change(&mut frames[at]);
+    let mut admission = Admission::new(&config());
+    frames.iter().enumerate().find_map(|(i, frame)| {
+        let machine = if i == 0 { idle() } else { running(1) };
+        let verdict = admission.judge(frame, &machine);
+        (verdict != Verdict::Pass).then_some((i, verdict))
+    })
+}
+
+fn refusal(at: usize, change: impl FnOnce(&mut SetpointFrame)) -> (usize, FrameRefusal) {
+    match first_objection(at, change).unwrap() {
+        (i, Verdict::Refused(refusal)) => (i, refusal),
+        (
+            i,
+            Verdict::Fault(Fault {
+                cause: FaultCause::Frame(refusal),
+                ..
+            }),
+        ) => (i, refusal),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_planned_trajectory_passes() {
+    assert_eq!(first_objection(0, |_| ()), None);
+}
+
+#[test]
+fn each_defect_has_its_reason() {
+    let last = frames(1).len() - 1;
+    let of = |at, change: fn(&mut SetpointFrame)| refusal(at, change);
+    assert_eq!(
+        of(50, |f| f.velocity[2] = f64::NAN),
+        (50, FrameRefusal::NotFinite)
+    );
+    assert_eq!(of(50, |f| f.flags = 1 << 31), (50, FrameRefusal::Malformed));
+    assert_eq!(
+        of(50, |f| f.period_ns = 1_000_000),
+        (50, FrameRefusal::Period)
+    );
+    assert_eq!(of(50, |f| f.sequence = 60), (50, FrameRefusal::Sequence));
+    assert_eq!(
+        of(50, |f| f.position[0] += 10.0),
+        (50, FrameRefusal::Velocity)
+    );
+    assert_eq!(of(50, |f| f.position[0] += 0.2).0, 50);
+    assert_eq!(of(50, |f| f.position[5] += 0.004), (50, FrameRefusal::Jerk));
+    assert_eq!(
+        of(50, |f| f.velocity[1] += 2.0),
+        (50, FrameRefusal::Discontinuous)
+    );
+    assert_eq!(
+        of(50, |f| f.acceleration[1] += 400.0),
+        (50, FrameRefusal::Discontinuous)
+    );
+    assert_eq!(
+        of(50, |f| f.position[0] = 501.0),
+        (50, FrameRefusal::SoftLimit)
+    );
+    assert_eq!(
+        of(last, |f| f.velocity[0] = 0.01),
+        (last, FrameRefusal::NotAtRest)
+    );
+    assert_eq!(
+        of(0, |f| f.velocity[0] = 0.01),
+        (0, FrameRefusal::NotAtRest)
+    );
+    assert_eq!(
+        of(0, |f| f.position[0] = 1e-6),
+        (0, FrameRefusal::Elsewhere)
+    );
+    assert_eq!(of(0, |f| f.flags = 0), (0, FrameRefusal::Epoch));
+}
+
+#[test]
+fn a_fault_names_line_axis_and_limit_and_ends_the_epoch() {
+    let (at, verdict) = first_objection(50, |f| f.position[5] += 0.004).unwrap();
+    let Verdict::Fault(fault) = verdict else {
+        panic!("{verdict:?}")
+    };
+    let frame = frames(1)[at];
+    assert_eq!(
+        (fault.sequence, fault.line, fault.axis),
+        (50, frame.line, Some(Axis::C))
+    );
+    assert!(fault.limit > 0.0 && fault.value.abs() > fault.limit);
+
+    let mut admission = Admission::new(&config());
+    let mut broken = frames(1);
+    broken[50].position[0] += 10.0;
+    let verdicts: Vec<_> = broken
+        .iter()
+        .enumerate()
+        .map(|(i, f)| admission.judge(f, &if i == 0 { idle() } else { running(1) }))
+        .collect();
+    assert!(verdicts[..50].iter().all(|v| *v == Verdict::Pass));
+    assert!(
+        verdicts[51..]
+            .iter()
+            .all(|v| *v == Verdict::Refused(FrameRefusal::Epoch))
+    );
+}
+
+#[test]
+fn what_was_accepted_may_come_again() {
+    let frames = frames(1);
+    let mut admission = Admission::new(&config());
+    assert_eq!(admission.judge(&frames[0], &idle()), Verdict::Pass);
+    for frame in &frames[1..20] {
+        assert_eq!(admission.judge(frame, &running(1)), Verdict::Pass);
+    }
+    assert_eq!(admission.judge(&frames[12], &running(1)), Verdict::Known);
+    assert_eq!(admission.judge(&frames[20], &running(1)), Verdict::Pass);
+    assert_eq!(admission.received(), 21);
+}
+
+#[test]
+fn a_new_epoch_waits_until_the_machine_stands() {
+    let mut admission = Admission::new(&config());
+    assert_eq!(admission.judge(&frames(1)[0], &idle()), Verdict::Pass);
+    // The real-time thread has not opened the first yet, then it runs it.
+    assert_eq!(admission.judge(&frames(2)[0], &idle()), Verdict::Later);
+    assert_eq!(admission.judge(&frames(2)[0], &running(1)), Verdict::Later);
+    let starved = Machine {
+        state: MachineState::Starved,
+        ..running(1)
+    };
+    assert_eq!(admission.judge(&frames(2)[0], &starved), Verdict::Pass);
+    // What is left of the first is over.
+    let refused = Verdict::Refused(FrameRefusal::Epoch);
+    assert_eq!(admission.judge(&frames(1)[1], &running(2)), refused);
+    // An aborted epoch gets no more frames, and a fault lets none begin.
+    let aborted = Machine { epoch: 2, ..idle() };
+    assert_eq!(admission.judge(&frames(2)[1], &aborted), refused);
+    let faulted = Machine {
+        state: MachineState::Faulted,
+        ..aborted
+    };
+    admission.note(&faulted);
+    assert_eq!(admission.judge(&frames(3)[0], &faulted), refused);
+    assert_eq!(admission.judge(&frames(3)[0], &aborted), Verdict::Pass);
+}

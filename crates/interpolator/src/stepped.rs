@@ -1,0 +1,76 @@
+//! An interpolator that is driven by hand.
+
+use crate::config::Config;
+use crate::message::{HAPPENINGS, Happening, Inputs, Order, PortsEnds, Rings};
+use crate::tick::Interpolator;
+use glidepath_link::{Command, Setpoint, SetpointFrame};
+use glidepath_realtime::{Events, Wake, event_ring};
+
+/// The work of the real-time thread without a thread, a clock or ports: for measurements and
+/// simulation. Frames are not judged: they must be those of a planner.
+pub struct Stepped<'a> {
+    interpolator: Interpolator<'a>,
+    inputs: Inputs<'a>,
+    ends: PortsEnds<'a>,
+    period_ns: u64,
+    tick: u64,
+}
+
+impl core::fmt::Debug for Stepped<'_> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Stepped")
+            .field("tick", &self.tick)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Calls `drive` with an interpolator at rest.
+pub fn stepped<R>(config: &Config, drive: impl FnOnce(&mut Stepped<'_>) -> R) -> R {
+    let mut rings = Box::<Rings>::default();
+    let mut events = Box::<Events<Happening, HAPPENINGS>>::default();
+    let ((inputs, _reports), ends) = rings.split();
+    let (writer, _happenings) = event_ring(&mut events);
+    let interpolator = Interpolator::new(config, 1, writer);
+    let period_ns = config.period_ns;
+    drive(&mut Stepped {
+        interpolator,
+        inputs,
+        ends,
+        period_ns,
+        tick: 0,
+    })
+}
+
+impl Stepped<'_> {
+    /// Gives it a frame; false if its ring is full.
+    pub fn offer(&mut self, frame: &SetpointFrame) -> bool {
+        self.ends.frames.enqueue(*frame).is_ok()
+    }
+
+    /// Gives it a command; false if there are too many, or it is not one of the motion.
+    pub fn command(&mut self, command: Command) -> bool {
+        let order = match command {
+            Command::Hold => Order::Hold,
+            Command::Resume => Order::Resume,
+            Command::FeedOverride(ratio) => Order::FeedOverride(ratio),
+            Command::RapidOverride(ratio) => Order::RapidOverride(ratio),
+            Command::Abort => Order::Abort,
+            Command::Reset => Order::Reset,
+            Command::Ping | Command::StopAtEndOfBlock | Command::SingleStep(_) => return false,
+        };
+        self.ends.orders.enqueue(order).is_ok()
+    }
+
+    /// One period, on time.
+    pub fn tick(&mut self) -> Setpoint {
+        self.tick += 1;
+        let scheduled_ns = self.tick * self.period_ns;
+        let wake = Wake {
+            tick: self.tick,
+            scheduled_ns,
+            woke_ns: scheduled_ns,
+            missed: 0,
+        };
+        self.interpolator.tick(&wake, &mut self.inputs).setpoint
+    }
+}
