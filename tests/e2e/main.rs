@@ -6,4 +6,6 @@
 )]
 
 mod libraries;
-mod processes;
+mod programs;
+mod run;
+mod services;

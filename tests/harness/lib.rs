@@ -4,6 +4,7 @@
 //!   nothing of it is left behind;
 //! * [`Watchdog`]: ends a test that hangs;
 //! * [`Process`]: processes of the real binary, which [`glidepath`] finds and builds;
+//! * [`Services`]: an interpolator and a servo as processes;
 //! * [`Machine`]: interpolator, recorder and planner as threads of the test, joined by the transport
 //!   that real processes use.
 #![allow(
@@ -18,6 +19,7 @@ mod binary;
 mod instance;
 mod machine;
 mod process;
+mod services;
 mod setpoint_file;
 mod watchdog;
 
@@ -25,5 +27,6 @@ pub use binary::glidepath;
 pub use instance::Instance;
 pub use machine::{Machine, Recording, Watch, plan, program, program_from, settings};
 pub use process::{Output, Process};
+pub use services::{Services, planned};
 pub use setpoint_file::SetpointFile;
 pub use watchdog::Watchdog;

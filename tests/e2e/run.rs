@@ -1,0 +1,168 @@
+//! `glidepath run` and `glidepath plan`.
+
+use std::path::Path;
+use std::time::Duration;
+
+use glidepath_link::Transport;
+use glidepath_tests::{Instance, Process, SetpointFile, Watchdog, planned};
+use rustix::process::Signal;
+
+use crate::programs::{PROGRAM, long_program};
+
+const PATIENCE: Duration = Duration::from_secs(240);
+
+#[test]
+fn a_run_is_the_plan_bit_for_bit() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let program = instance.file("program.ngc", PROGRAM);
+    let csv = instance.path("run.csv");
+    let run = [
+        "run",
+        &program,
+        "--best-effort",
+        "--setpoints",
+        &csv,
+        "--json",
+    ];
+    let report = Process::start(&instance, &run).wait().expect(0).json();
+    let received = SetpointFile::read(Path::new(&csv));
+    assert_eq!(received.moving(), planned(&instance, &program).moving());
+    assert_eq!(report["lost_setpoints"], 0, "{report:#}");
+    assert_eq!(report["segments"], 7, "{report:#}");
+    assert!(
+        report["max_deviation_mm"].as_f64().unwrap() <= 0.02,
+        "{report:#}"
+    );
+    for ratio in [
+        "max_velocity_ratio",
+        "max_acceleration_ratio",
+        "max_jerk_ratio",
+    ] {
+        assert!(report[ratio].as_f64().unwrap() <= 1.0 + 1e-6, "{report:#}");
+    }
+}
+
+#[test]
+fn an_interrupted_run_leaves_nothing_behind() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let program = instance.file("program.ngc", &long_program());
+    let csv = instance.path("run.csv");
+    let run = Process::join(
+        &instance,
+        &[
+            "run",
+            &program,
+            "--best-effort",
+            "--setpoints",
+            &csv,
+            "--json",
+        ],
+    );
+    wait_for_motion(&instance);
+    let children = children_of(run.id());
+    assert_eq!(children.len(), 3, "interpolator, planner and servo");
+    run.signal(Signal::INT);
+    let _output = run.wait().expect(130);
+    for child in children {
+        assert!(
+            !Path::new(&format!("/proc/{child}")).exists(),
+            "process {child} is left"
+        );
+    }
+    assert_eq!(instance.shared_memory(), Vec::<String>::new());
+    assert!(!SetpointFile::read(Path::new(&csv)).is_still());
+}
+
+#[test]
+fn a_run_whose_child_dies_ends_as_a_fault_and_leaves_nothing_behind() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let program = instance.file("program.ngc", &long_program());
+    for victim in ["interpolator", "planner", "servo"] {
+        let run = Process::join(&instance, &["run", &program, "--best-effort", "--json"]);
+        wait_for_motion(&instance);
+        let children = children_of(run.id());
+        let killed = children
+            .iter()
+            .find(|pid| command_of(**pid).contains(&victim.to_owned()));
+        kill(*killed.unwrap());
+        let _output = run.wait().expect(5);
+        for child in children {
+            assert!(
+                !Path::new(&format!("/proc/{child}")).exists(),
+                "{victim}: {child} is left"
+            );
+        }
+        assert_eq!(instance.shared_memory(), Vec::<String>::new(), "{victim}");
+    }
+}
+
+#[test]
+fn a_program_ten_times_as_long_takes_no_more_memory() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let peak_rss = |blocks: u32| {
+        let mut text = "G21 G90 G64 P0.02 F6000\n".to_owned();
+        for i in 0..blocks {
+            let t = f64::from(i) * 0.01;
+            text.push_str(&format!(
+                "G1 X{:.4} Y{:.4}\n",
+                50.0 * t.sin(),
+                50.0 * (1.01 * t).cos()
+            ));
+        }
+        let program = instance.file("dense.ngc", &text);
+        let report = Process::start(&instance, &["plan", &program, "--json"]).wait();
+        let report = report.expect(0).json();
+        assert_eq!(report["segments"].as_u64(), Some(u64::from(blocks)));
+        report["peak_rss_bytes"].as_f64().unwrap()
+    };
+    let (short, long) = (peak_rss(5_000), peak_rss(50_000));
+    assert!(long < 1.3 * short, "{short} bytes, then {long}");
+}
+
+#[test]
+fn a_malformed_program_is_not_run() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let program = instance.file("broken.ngc", "G1 X10 F3000\nG1 X1O Y5\n");
+    let csv = instance.path("run.csv");
+    let run = ["run", &program, "--best-effort", "--setpoints", &csv];
+    let output = Process::start(&instance, &run).wait().expect(1);
+    assert!(output.stderr.contains("broken.ngc:2:6"), "{output:#?}");
+    assert!(!Path::new(&csv).exists() || SetpointFile::read(Path::new(&csv)).is_still());
+}
+
+/// Waits until frames of an instance are executed.
+fn wait_for_motion(instance: &Instance) {
+    let transport = instance.connect();
+    let mut source = transport.status_source().unwrap();
+    while source
+        .take()
+        .unwrap()
+        .is_none_or(|status| status.frames_executed < 100)
+    {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+fn children_of(pid: u32) -> Vec<u32> {
+    let mut children = Vec::new();
+    for thread in std::fs::read_dir(format!("/proc/{pid}/task")).unwrap() {
+        let list = std::fs::read_to_string(thread.unwrap().path().join("children")).unwrap();
+        children.extend(
+            list.split_whitespace()
+                .map(|child| child.parse::<u32>().unwrap()),
+        );
+    }
+    children
+}
+
+fn command_of(pid: u32) -> Vec<String> {
+    let line = std::fs::read(format!("/proc/{pid}/cmdline")).unwrap();
+    line.split(|byte| *byte == 0)
+        .map(|part| String::from_utf8_lossy(part).into_owned())
+        .collect()
+}
+
+fn kill(pid: u32) {
+    let pid = rustix::process::Pid::from_raw(pid.try_into().unwrap()).unwrap();
+    rustix::process::kill_process(pid, Signal::KILL).unwrap();
+}
