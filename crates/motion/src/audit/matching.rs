@@ -101,6 +101,8 @@ pub(super) struct Matching {
     /// The level up to which the full history has been searched for something better, in vain.
     pub(super) searched_mm: f64,
     pub(super) trouble: Option<Trouble>,
+    /// Cells looked at for a motion out of tolerance.
+    pub(super) trouble_cells: usize,
     /// The history must not be gone back to.
     pub(super) is_history_void: bool,
     is_lost: bool,
@@ -134,6 +136,7 @@ impl Matching {
             lambda_mm: SMALLEST_TOLERANCE_MM,
             searched_mm: 0.0,
             trouble: None,
+            trouble_cells: 0,
             is_history_void: false,
             is_lost: false,
             scratch: [Reach::default(), Reach::default()],

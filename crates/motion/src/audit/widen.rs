@@ -12,6 +12,9 @@ const MAX_REACH: usize = 20_000;
 /// Out of tolerance by more than this, the motion is lost, mm.
 const MAX_FLOOR_MM: f64 = 1e4;
 
+/// Cells worth spending, in all, on a motion that is out of tolerance; then it is lost.
+const MAX_TROUBLE_CELLS: usize = 60_000_000;
+
 /// Result of a search for a level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Found {
@@ -34,6 +37,13 @@ impl Matching {
         now.clone_from(start.unwrap_or(&self.reach));
         let mut passage = Passage::Passed;
         for index in from..self.history.len() {
+            if level.floor_mm > 0.0 {
+                self.trouble_cells += now.intervals.len();
+                if self.trouble_cells > MAX_TROUBLE_CELLS {
+                    passage = Passage::Blocked;
+                    break;
+                }
+            }
             let column = &self.history[index];
             passage = step(&mut self.rows, &now, column, level, &mut next);
             if passage != Passage::Passed {

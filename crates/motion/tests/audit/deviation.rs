@@ -106,3 +106,22 @@ fn a_program_not_run_to_its_end_is_found() {
     assert_eq!(kinds(&report), [ViolationKind::Incomplete]);
     assert!(!report.is_complete);
 }
+
+/// A motion that has nothing to do with a dense program is given up, not followed at any price.
+#[test]
+fn a_hopeless_motion_is_lost() {
+    let circle: Vec<_> = (0..=20_000)
+        .map(|k| {
+            let angle = 0.0003 * f64::from(k);
+            point(30.0 * angle.cos(), 30.0 * angle.sin())
+        })
+        .collect();
+    let motion: Vec<_> = circle.iter().rev().step_by(10).copied().collect();
+    let report = audit(&polygon(&circle), &motion);
+    assert!(
+        kinds(&report).contains(&ViolationKind::Lost),
+        "{:?}",
+        report.violations
+    );
+    assert!(!report.is_complete);
+}
