@@ -13,7 +13,7 @@ const MAX_REACH: usize = 20_000;
 const MAX_FLOOR_MM: f64 = 1e4;
 
 /// Cells worth spending, in all, on a motion that is out of tolerance; then it is lost.
-const MAX_TROUBLE_CELLS: usize = 60_000_000;
+const MAX_TROUBLE_CELLS: usize = 20_000_000;
 
 /// Result of a search for a level.
 #[derive(Debug, Clone, Copy, PartialEq)]
