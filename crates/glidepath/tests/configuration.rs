@@ -133,7 +133,7 @@ fn a_value_out_of_range_is_given_with_unit_and_range() {
     let (message, place, help) = only(&format!("{AXIS}[interpolator]\nperiod_us = 50\n"));
     assert_eq!(message, "interpolator.period_us = 50 is out of range");
     assert_eq!(place, Some((8, 13)));
-    assert_eq!(help, "give 100 to 100000: µs between two setpoints");
+    assert_eq!(help, "give 250 to 20000: µs between two setpoints");
     let (message, _, help) = only(&format!("{AXIS}[path]\nsmoothing = \"spline\"\n"));
     assert_eq!(message, "path.smoothing = \"spline\" is not known");
     assert_eq!(
@@ -147,6 +147,30 @@ fn a_value_out_of_range_is_given_with_unit_and_range() {
         message,
         "axis X has no travel: min_position = -10 mm is not below max_position = -10 mm"
     );
+}
+
+#[test]
+fn the_horizon_covers_the_stops_of_the_machine() {
+    // 100/1000 + 1000/10000 s to stop.
+    let (message, place, help) = only(&format!("{AXIS}[interpolator]\nhorizon_s = 0.5\n"));
+    assert_eq!(
+        message,
+        "interpolator.horizon_s = 0.5 s is too short for this machine"
+    );
+    assert_eq!(place, Some((8, 13)));
+    assert_eq!(
+        help,
+        "give at least 0.600 s, three stops from full speed of the slowest axis"
+    );
+    let (message, place, help) = only(&format!("{AXIS}[interpolator]\nperiod_us = 1000\n"));
+    assert_eq!(
+        message,
+        "interpolator.period_us = 1000 is too short for this machine"
+    );
+    assert_eq!(place, Some((8, 13)));
+    assert!(help.starts_with("give at least 1172: 512 frames"), "{help}");
+    let config = config::parse("m.toml", AXIS).unwrap();
+    assert!((config.interpolator.horizon_t - 0.6).abs() < 1e-12);
 }
 
 #[test]

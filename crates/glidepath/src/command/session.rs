@@ -1,7 +1,7 @@
 //! Which instance a process takes part in.
 
 use crate::cli::InstanceArgs;
-use crate::config::MachineConfig;
+use crate::config::{MAX_FRAMES_AHEAD, MachineConfig};
 use crate::failure::Failure;
 use glidepath_link::{Ipc, LinkConfig};
 use glidepath_planner::Pace;
@@ -17,14 +17,18 @@ pub(super) fn instance(args: &InstanceArgs, config: &MachineConfig) -> String {
 /// How the processes of an instance meet.
 pub(super) fn link(instance: &str, config: &MachineConfig) -> LinkConfig {
     let mut link = LinkConfig::new(instance);
-    let horizon = usize::try_from(pace(config).horizon_frames).unwrap_or(usize::MAX);
-    link.capacity.frames = link.capacity.frames.max(horizon);
+    let ahead = usize::try_from(pace(config).horizon_frames).unwrap_or(usize::MAX);
+    link.capacity.frames = link.capacity.frames.max(ahead);
     link
 }
 
 /// How frames are paced.
 pub(super) fn pace(config: &MachineConfig) -> Pace {
-    Pace::new(config.period_ns(), config.interpolator.horizon_t)
+    let pace = Pace::new(config.period_ns(), config.interpolator.horizon_t);
+    Pace {
+        horizon_frames: pace.horizon_frames.min(MAX_FRAMES_AHEAD.into()),
+        ..pace
+    }
 }
 
 /// Joins an instance.

@@ -1,6 +1,7 @@
 //! [`RawConfig`] to [`MachineConfig`]: every value in its range, all findings at once.
 
 use super::finding::Finding;
+use super::horizon;
 use super::machine::{AxisConfig, InterpolatorConfig, Kinematics, MachineConfig, PathConfig};
 use super::raw::{Optional, RawAxis, RawConfig, RawInterpolator, RawLink, RawPath};
 use glidepath_geometry::Axis;
@@ -34,11 +35,12 @@ pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<Finding>> {
             span: Some(axes_span),
         });
     }
+    let interpolator = judge.interpolator(&raw.interpolator, &axes);
     let config = MachineConfig {
         kinematics,
         axes,
         path: judge.path(raw.path),
-        interpolator: judge.interpolator(&raw.interpolator),
+        interpolator,
         instance: judge.instance(raw.link),
     };
     if judge.findings.is_empty() {
@@ -251,10 +253,10 @@ impl Judge {
         }
     }
 
-    fn interpolator(&mut self, raw: &RawInterpolator) -> InterpolatorConfig {
-        let horizon = Range {
-            min: 0.1,
-            max: 10.0,
+    fn interpolator(&mut self, raw: &RawInterpolator, axes: &[AxisConfig]) -> InterpolatorConfig {
+        let range = Range {
+            min: 0.05,
+            max: 60.0,
             unit: "s",
             help: "longer outlasts slower input, shorter answers an override sooner",
         };
@@ -262,7 +264,7 @@ impl Judge {
             self.whole(
                 "interpolator.period_us",
                 value,
-                (100, 100_000),
+                (250, 20_000),
                 "µs between two setpoints",
             )
         });
@@ -286,14 +288,28 @@ impl Judge {
             let help = "ticks missed within a second before the motion stops with a fault";
             self.whole("interpolator.max_missed_ticks", value, (0, 1_000_000), help)
         });
-        InterpolatorConfig {
+        let horizon_t = horizon::default_t(axes);
+        let horizon_t = self.number_or("interpolator.horizon_s", &raw.horizon_s, &range, horizon_t);
+        let config = InterpolatorConfig {
             // A value that does not fit was found already: the configuration is refused.
             period_us: period_us.unwrap_or(4000),
             priority: priority.unwrap_or(80),
             cpu,
             max_missed_ticks: missed.unwrap_or(10),
-            horizon_t: self.number_or("interpolator.horizon_s", &raw.horizon_s, &horizon, 0.5),
+            horizon_t,
+        };
+        // Only numbers that are good by themselves can be judged together.
+        if self.findings.is_empty()
+            && let Some(mut finding) = horizon::finding(&config, axes)
+        {
+            let (horizon, period) = (raw.horizon_s.as_ref(), raw.period_us.as_ref());
+            let span = horizon
+                .map(Spanned::span)
+                .filter(|_| finding.key.ends_with("horizon_s"));
+            finding.span = span.or_else(|| period.map(Spanned::span));
+            self.findings.push(finding);
         }
+        config
     }
 
     fn instance(&mut self, raw: RawLink) -> Option<String> {

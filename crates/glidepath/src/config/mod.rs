@@ -3,12 +3,14 @@
 //! or a value out of range refuses the file, with the place and the remedy.
 
 mod finding;
+mod horizon;
 mod judge;
 mod machine;
 mod parse;
 mod raw;
 
 pub use finding::{ConfigError, Finding, FindingReport};
+pub use horizon::MAX_FRAMES_AHEAD;
 pub use judge::{INSTANCE_RULE, is_instance_name};
 pub use machine::{AxisConfig, InterpolatorConfig, Kinematics, MachineConfig, PathConfig};
 
