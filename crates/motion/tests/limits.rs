@@ -6,12 +6,15 @@
     reason = "a test that fails may panic"
 )]
 
+mod support;
+
 use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Segment};
 use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
 use glidepath_motion::{
     Effort, Frame, Item, ItemKind, Limits, PathMode, Planner, Rate, Settings, Smoothing,
 };
 use proptest::prelude::*;
+use support::cases;
 
 /// One random step of a program.
 #[derive(Debug, Clone)]
@@ -257,16 +260,6 @@ fn any_limits() -> impl Strategy<Value = Limits> {
             }
         }),
     ]
-}
-
-/// A seeded sample for every run; `PROPTEST_CASES` sets how many for a long one.
-fn cases(number: u32) -> ProptestConfig {
-    let long = std::env::var_os("PROPTEST_CASES").is_some();
-    if long {
-        ProptestConfig::default()
-    } else {
-        ProptestConfig::with_cases(number)
-    }
 }
 
 proptest! {

@@ -6,32 +6,13 @@
     reason = "a test that fails may panic"
 )]
 
+mod support;
+
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
 use glidepath_motion::audit::{Audit, AuditSettings, Sample, ViolationKind};
-use glidepath_motion::{
-    Effort, Frame, Item, ItemKind, Limits, Override, PathMode, PlanError, Planner, Rate, Settings,
-    Smoothing,
-};
+use glidepath_motion::{Frame, Item, ItemKind, Override, PlanError, Planner, Rate, Settings};
 use proptest::prelude::*;
-
-const FREE: PathMode = PathMode::Continuous { tolerance_mm: None };
-
-fn mill() -> Settings {
-    Settings {
-        limits: Limits::uniform(200.0, 2000.0, 40_000.0),
-        tolerance_mm: 0.02,
-        smoothing: Smoothing::Sextic,
-        period_t: 0.004,
-        effort: Effort::Fast,
-    }
-}
-
-fn at(x: f64, y: f64) -> AxisVector {
-    let mut point = AxisVector::zeros();
-    point[0] = x;
-    point[1] = y;
-    point
-}
+use support::{FREE, at, cases, mill};
 
 fn item(line: u32, segment: Segment, rate: Rate) -> Item {
     Item {
@@ -235,14 +216,5 @@ proptest! {
         prop_assert!((frames[frames.len() - 1].position - from).amax() < 1e-9);
         let gaps = (0..).zip(&frames).filter(|(i, frame)| frame.sequence != *i).count();
         prop_assert_eq!(gaps, 0);
-    }
-}
-
-fn cases(number: u32) -> ProptestConfig {
-    let long = std::env::var_os("PROPTEST_CASES").is_some();
-    if long {
-        ProptestConfig::default()
-    } else {
-        ProptestConfig::with_cases(number)
     }
 }

@@ -6,31 +6,15 @@
     reason = "a test that fails may panic"
 )]
 
+mod support;
+
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_motion::{
-    Effort, Event, Frame, FrameFlags, Item, ItemKind, Limits, PathMode, PlanError, Planner, Rate,
-    Settings, Smoothing,
+    Event, Frame, FrameFlags, Item, ItemKind, Limits, PathMode, PlanError, Planner, Rate, Settings,
+    Smoothing,
 };
 use proptest::prelude::*;
-
-const FREE: PathMode = PathMode::Continuous { tolerance_mm: None };
-
-fn mill() -> Settings {
-    Settings {
-        limits: Limits::uniform(200.0, 2000.0, 40_000.0),
-        tolerance_mm: 0.02,
-        smoothing: Smoothing::Sextic,
-        period_t: 0.004,
-        effort: Effort::Fast,
-    }
-}
-
-fn at(x: f64, y: f64) -> AxisVector {
-    let mut point = AxisVector::zeros();
-    point[0] = x;
-    point[1] = y;
-    point
-}
+use support::{FREE, at, cases, mill};
 
 fn moves(points: &[AxisVector], feed_v: f64, mode: PathMode) -> Vec<ItemKind> {
     points
@@ -360,16 +344,6 @@ fn a_machine_in_micrometres_takes_the_same_time() {
             "frame {}",
             a.sequence
         );
-    }
-}
-
-/// A seeded sample for every run; `PROPTEST_CASES` sets how many for a long one.
-fn cases(number: u32) -> ProptestConfig {
-    let long = std::env::var_os("PROPTEST_CASES").is_some();
-    if long {
-        ProptestConfig::default()
-    } else {
-        ProptestConfig::with_cases(number)
     }
 }
 
