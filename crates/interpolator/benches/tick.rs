@@ -15,10 +15,12 @@
 #[path = "../tests/synthetic/mod.rs"]
 mod synthetic;
 
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AxisVector, Segment};
 use glidepath_interpolator::{Config, Stepped, stepped};
 use glidepath_link::{Command, SetpointFrame};
-use glidepath_motion::Frame;
+use glidepath_motion::{
+    Effort, Frame, Item, ItemKind, PathMode, Planner, Rate, Settings, Smoothing,
+};
 use glidepath_realtime::Histogram;
 use rustix::time::{ClockId, clock_gettime};
 use std::hint::black_box;
@@ -79,6 +81,38 @@ fn measure(name: &str, frames: &[Frame], mut command: impl FnMut(usize) -> Optio
     );
 }
 
+/// A rounded zigzag as the planner makes it.
+fn planned() -> Vec<Frame> {
+    let settings = Settings {
+        limits: mill(),
+        tolerance_mm: 0.02,
+        smoothing: Smoothing::Sextic,
+        period_t: 0.004,
+        effort: Effort::Fast,
+    };
+    let mut planner = Planner::new(settings, AxisVector::zeros());
+    let mut at = AxisVector::zeros();
+    for line in 1..=20_000 {
+        let mut to = at;
+        let step = f64::from(line);
+        (to[0], to[1]) = (
+            at[0] + 3.0 * (0.7 * step).cos(),
+            at[1] + 3.0 * (0.9 * step).sin(),
+        );
+        let kind = ItemKind::Move {
+            segment: Segment::line(at, to),
+            rate: Rate::Feed(100.0),
+            mode: PathMode::Continuous { tolerance_mm: None },
+        };
+        if planner.push(&Item { line, kind }).is_err() {
+            break;
+        }
+        at = to;
+    }
+    planner.finish();
+    std::iter::from_fn(|| planner.pop_frame()).collect()
+}
+
 fn count(ticks: usize) {
     let mut feed = Feed::new(&lines(1, 9, ticks, &mill(), 0.004));
     stepped(&Config::new(mill(), 4_000_000), |stepped| {
@@ -124,6 +158,9 @@ fn main() {
             operator,
         );
     }
+    let planned = planned();
+    measure("planned zigzag", &planned, |_| None);
+    measure("planned zigzag, operator", &planned, operator);
     let worst = plan(1, 9, 100_000, &mill(), 0.004, AxisVector::zeros());
     measure("9 axes, each at its own limits", &worst, |_| None);
     measure("9 axes, each at its own limits, operator", &worst, operator);
