@@ -16,6 +16,9 @@ const STOPS_AHEAD: f64 = 3.0;
 /// Frames on top of that, for very short stops.
 const SPARE: u64 = 10;
 
+/// Ticks without a new frame after which no more are expected soon.
+const QUIET_TICKS: u64 = 5;
+
 /// Watch over the frames ahead.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Supply {
@@ -26,6 +29,9 @@ pub(crate) struct Supply {
     fully: bool,
     out: bool,
     barred: bool,
+    /// Sequence after the newest frame, and for how many ticks it has been that.
+    end: u64,
+    quiet_ticks: u64,
     starved_ticks: u64,
     patience_ticks: u64,
 }
@@ -63,6 +69,8 @@ impl Supply {
             fully: false,
             out: false,
             barred: false,
+            end: 0,
+            quiet_ticks: 0,
             starved_ticks: 0,
             patience_ticks,
         }
@@ -118,7 +126,16 @@ impl Supply {
         let ahead = track.end().saturating_sub(time.sequence + 1);
         self.fully = ahead >= self.full;
         let is_barred = track.barrier() == Some(time.sequence);
-        if ahead >= self.enough || track.ends_at_rest() {
+        self.quiet_ticks = if track.end() == self.end {
+            self.quiet_ticks + 1
+        } else {
+            0
+        };
+        self.end = track.end();
+        // Frames that end at rest while more are coming in are no reason to go: motion would only
+        // stand again where they end.
+        let is_all = track.ends_at_last() || self.quiet_ticks >= QUIET_TICKS;
+        if ahead >= self.enough || (track.ends_at_rest() && is_all) {
             self.short = false;
         } else if rate.has_taken_reserve() || is_barred {
             self.short = true;

@@ -238,6 +238,12 @@ impl Track {
         self.program_stop.is_some() || self.newest().is_some_and(is_at_rest)
     }
 
+    /// True if the last frame of the program is here.
+    pub(crate) fn ends_at_last(&self) -> bool {
+        self.newest()
+            .is_some_and(|frame| frame.has(FrameFlags::LAST))
+    }
+
     /// Lets motion pass the program stop it stands at, once it is known how to stop after it.
     pub(crate) fn pass_stop(&mut self) {
         let Some(passed) = self.program_stop else {

@@ -454,3 +454,30 @@ fn a_healthy_supply_is_never_slowed_down() {
         assert_eq!(at(last as u64) - at(1), last - 1, "seed {seed}");
     }
 }
+
+/// A program that begins with a dwell, from a planner that is slow to start.
+#[test]
+fn motion_starts_once_and_is_not_held_up_again() {
+    let motion = lines(4, 3, 300, &mill(), 0.004);
+    let mut frames = vec![motion[0]; 5];
+    frames.extend(motion);
+    for (sequence, frame) in frames.iter_mut().enumerate() {
+        frame.sequence = sequence as u64;
+        frame.flags = FrameFlags(frame.flags.0 & !FrameFlags::FIRST.0);
+    }
+    frames[0].flags = FrameFlags::FIRST;
+    let mut rig = Rig::mill();
+    rig.feed.extend(records(&frames, 1, 4_000_000));
+    for _ in 0..frames.len() + 200 {
+        rig.publish(3);
+        rig.tick();
+    }
+    let at = |sequence| {
+        rig.setpoints
+            .iter()
+            .position(|s| s.sequence == sequence)
+            .unwrap()
+    };
+    let last = frames.len() - 1;
+    assert_eq!(at(last as u64) - at(1), last - 1);
+}
