@@ -30,6 +30,8 @@ pub(crate) struct Leg<'a> {
     pub length_s: f64,
     /// Wanted rate, overrides included.
     pub rate_v: f64,
+    /// How far the segment is from the program already, mm.
+    pub error_mm: f64,
 }
 
 /// How the path passes from one segment to the next.
@@ -118,10 +120,7 @@ pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, settings: &Settings) -> Joint {
         t2: jet_out.d1,
         rate_v,
         gentle: turn.sb <= GENTLE_SB && turn.cb > 0.0,
-        tolerance_mm: from
-            .mode
-            .tolerance_mm(settings)
-            .min(to.mode.tolerance_mm(settings)),
+        tolerance_mm: tolerance_mm - from.error_mm.max(to.error_mm),
         family,
         settings,
     };

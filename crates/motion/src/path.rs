@@ -1,153 +1,30 @@
 //! The path front: items in, pieces of smooth path and rests out.
 //!
-//! A segment is held back until the next item tells how it is left; so at most one segment is
-//! pending, and what comes out depends on the order of the items alone.
+//! A segment is held back until what follows tells how it is left: the last one may still be merged
+//! with the next, and the one before it waits for the joint between the two. What comes out depends
+//! on the order of the items alone.
 
-use crate::joint::{Joint, Leg, join};
+use crate::joint::{Joint, join};
+use crate::merge::Dropped;
 use crate::override_::{Override, ProgrammedRate};
-use crate::speed_limit::{self, SpeedLimit, SpeedRule};
-use crate::{Event, Item, ItemKind, Limits, PathMode, PlanError, Rate, Settings};
-use glidepath_geometry::{AxisVector, Jet, Segment, Transition};
+use crate::pending::{Pending, axes_speed};
+use crate::piece::{Element, Piece, Rest, RestKind, Shape};
+use crate::speed_limit::{self, SpeedRule};
+use crate::{Event, Item, ItemKind, PathMode, PlanError, Rate, Settings};
+use glidepath_geometry::{AxisVector, Segment};
 
 /// Moves shorter than this are carried into the next one: below the resolution of programs, where
 /// directions are rounding noise.
 const SHORTEST_MOVE_MM: f64 = 1e-6;
-
-/// A smooth piece of path with one speed limit.
-#[derive(Debug, Clone)]
-pub(crate) struct Piece {
-    shape: Shape,
-    /// Where in the shape the piece begins.
-    from_s: f64,
-    pub length_s: f64,
-    rule: SpeedRule,
-    pub limit: SpeedLimit,
-    /// The override that `limit` was computed with.
-    pub planned: Override,
-    pub line: u32,
-    pub rapid: bool,
-    /// Events that happen when the piece is entered, without stopping.
-    pub events: Vec<Event>,
-}
-
-#[derive(Debug, Clone)]
-enum Shape {
-    Segment(Segment),
-    Transition(Box<Transition>),
-}
-
-impl Piece {
-    /// True for a line.
-    pub(crate) fn is_straight(&self) -> bool {
-        matches!(self.shape, Shape::Segment(Segment::Line(_)))
-    }
-
-    /// The override that applies to the piece, as planned.
-    pub(crate) const fn planned_override(&self) -> f64 {
-        if self.rapid {
-            self.planned.rapid_r
-        } else {
-            self.planned.feed_r
-        }
-    }
-
-    /// The same piece under another override.
-    pub(crate) fn under(self, planned: Override, limits: &Limits) -> Self {
-        Self {
-            limit: self.rule.limit(planned, limits),
-            planned,
-            ..self
-        }
-    }
-
-    /// The piece up to `s` after its start.
-    pub(crate) fn before(self, s: f64) -> Self {
-        Self {
-            length_s: s,
-            ..self
-        }
-    }
-
-    /// What is left of the piece `s` after its start. Its events have happened.
-    pub(crate) fn after(self, s: f64) -> Self {
-        Self {
-            from_s: self.from_s + s,
-            length_s: self.length_s - s,
-            events: Vec::new(),
-            ..self
-        }
-    }
-
-    /// Position and derivatives `s` after the start of the piece.
-    pub(crate) fn jet(&self, s: f64) -> Jet {
-        match &self.shape {
-            Shape::Segment(segment) => segment.jet(self.from_s + s),
-            Shape::Transition(transition) => transition.jet(self.from_s + s),
-        }
-    }
-}
-
-/// What follows a piece of path where the machine comes to rest.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum RestKind {
-    /// The motion goes on in the same period.
-    Corner,
-    /// One setpoint is exactly there.
-    ExactStop,
-    /// For a time, s.
-    Dwell(f64),
-    /// For an event.
-    Event(Event),
-    /// End of the program.
-    End,
-}
-
-/// A rest and where it is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Rest {
-    pub kind: RestKind,
-    pub line: u32,
-}
-
-/// What the path front makes.
-#[derive(Debug, Clone)]
-#[allow(clippy::large_enum_variant, reason = "nearly every element is a piece")]
-pub(crate) enum Element {
-    Piece(Piece),
-    Rest(Rest),
-}
-
-/// A segment whose end is not decided yet.
-#[derive(Debug)]
-struct Pending {
-    segment: Segment,
-    length_s: f64,
-    rate: ProgrammedRate,
-    /// The rate under the override at hand, where the segment can be driven at it.
-    rate_v: f64,
-    line: u32,
-    mode: PathMode,
-    /// Length at the start that the joint before has replaced.
-    trimmed_s: f64,
-    events: Vec<Event>,
-}
-
-impl Pending {
-    fn leg(&self) -> Leg<'_> {
-        Leg {
-            segment: &self.segment,
-            mode: self.mode,
-            length_s: self.length_s,
-            rate_v: self.rate_v,
-        }
-    }
-}
 
 /// Turns items into pieces and rests.
 #[derive(Debug)]
 pub(crate) struct PathFront {
     settings: Settings,
     wanted: Override,
+    /// The segment that may still be merged with what follows.
+    open: Option<Pending>,
+    /// The segment before it, whose end is not decided.
     pending: Option<Pending>,
     /// Where the pieces made so far, and the pending segment, end.
     position: AxisVector,
@@ -163,6 +40,7 @@ impl PathFront {
         Self {
             settings,
             wanted: Override::NONE,
+            open: None,
             pending: None,
             position: start,
             program_position: start,
@@ -175,10 +53,10 @@ impl PathFront {
     /// Plans what follows with another override.
     pub(crate) fn set_override(&mut self, wanted: Override) {
         self.wanted = wanted;
-        if let Some(mut pending) = self.pending.take() {
-            let chord_v = self.chord_speed(&pending.segment, pending.mode);
-            pending.rate_v = pending.rate.under(wanted).min(chord_v);
-            self.pending = Some(pending);
+        let settings = self.settings;
+        for held in self.open.iter_mut().chain(&mut self.pending) {
+            let chord_v = chord_speed(&held.segment, held.mode, &settings);
+            held.rate_v = held.rate.under(wanted).min(chord_v);
         }
     }
 
@@ -234,29 +112,44 @@ impl PathFront {
         {
             return Ok(());
         }
-        let axes_v = {
-            let d1 = segment.jet(0.0).d1;
-            speed_limit::straight(&d1, f64::INFINITY, &self.settings.limits).top_v
-        };
+        let axes_v = axes_speed(&segment, &self.settings);
         let rate = ProgrammedRate { rate, axes_v };
-        let mut next = Pending {
+        let next = Pending {
             segment,
             length_s,
             rate,
             rate_v: rate
                 .under(self.wanted)
-                .min(self.chord_speed(&segment, mode)),
+                .min(chord_speed(&segment, mode, &self.settings)),
             line,
             mode,
             trimmed_s: 0.0,
             events: core::mem::take(&mut self.events),
+            dropped: Dropped::default(),
+        };
+        self.position = segment.end();
+        let settings = &self.settings;
+        if self
+            .open
+            .as_mut()
+            .is_some_and(|open| open.merge(&next, settings))
+        {
+            return Ok(());
+        }
+        self.close(out);
+        self.open = Some(next);
+        Ok(())
+    }
+
+    /// Nothing more is merged with the open segment: joins it to the one before.
+    fn close(&mut self, out: &mut Vec<Element>) {
+        let Some(mut open) = self.open.take() else {
+            return;
         };
         if let Some(before) = self.pending.take() {
-            self.join(before, &mut next, out);
+            self.join(before, &mut open, out);
         }
-        self.position = segment.end();
-        self.pending = Some(next);
-        Ok(())
+        self.pending = Some(open);
     }
 
     /// Decides the joint between two segments and puts out all of the first.
@@ -309,7 +202,7 @@ impl PathFront {
             Segment::Arc(arc) => SpeedRule::Arc {
                 arc: *arc,
                 rate: pending.rate,
-                chord_v: self.chord_speed(&pending.segment, pending.mode),
+                chord_v: chord_speed(&pending.segment, pending.mode, &self.settings),
             },
         };
         let shape = Shape::Segment(pending.segment);
@@ -339,20 +232,9 @@ impl PathFront {
         }
     }
 
-    /// The speed at which the chords of one period reach the tolerance of an arc.
-    fn chord_speed(&self, segment: &Segment, mode: PathMode) -> f64 {
-        let Segment::Arc(arc) = segment else {
-            return f64::INFINITY;
-        };
-        let radius_mm = arc.start_radius().max(arc.end_radius());
-        let omega = arc.sweep_rad / arc.length();
-        let curvature_k = radius_mm * omega * omega;
-        let tolerance_mm = mode.tolerance_mm(&self.settings);
-        (8.0 * tolerance_mm / curvature_k).sqrt() / self.settings.period_t
-    }
-
     /// Ends the path at rest.
     fn rest(&mut self, kind: RestKind, line: u32, out: &mut Vec<Element>) {
+        self.close(out);
         if let Some(pending) = self.pending.take() {
             self.put_segment(pending, 0.0, out);
         }
@@ -393,6 +275,17 @@ impl PathFront {
             self.line,
         )));
     }
+}
+
+/// The speed at which the chords of one period reach the tolerance of an arc.
+fn chord_speed(segment: &Segment, mode: PathMode, settings: &Settings) -> f64 {
+    let Segment::Arc(arc) = segment else {
+        return f64::INFINITY;
+    };
+    let radius_mm = arc.start_radius().max(arc.end_radius());
+    let omega = arc.sweep_rad / arc.length();
+    let curvature_k = radius_mm * omega * omega;
+    (8.0 * mode.tolerance_mm(settings) / curvature_k).sqrt() / settings.period_t
 }
 
 /// The same segment from a start that differs by less than [`SHORTEST_MOVE_MM`].

@@ -1,6 +1,7 @@
 //! The planner: items in, frames out.
 
-use crate::path::{Element, PathFront, Piece};
+use crate::path::PathFront;
+use crate::piece::{Element, Piece};
 use crate::sample::{Sampler, Step};
 use crate::schedule::{Scheduler, Settled};
 use crate::scurve::{PathLimits, slowing_horizon};

@@ -21,7 +21,7 @@
 //! order, and lowering the peak of an S-curve lowers it everywhere. So every step is feasible, and
 //! there is nothing to go back on.
 
-use crate::path::Piece;
+use crate::piece::Piece;
 use crate::scurve::{PathLimits, Profile, ramp_fits, reachable_speed, slowing_horizon};
 use crate::speed_limit::SpeedLimit;
 

@@ -4,7 +4,7 @@
 //! a period before its first frame, and that fraction is carried, never rounded. Times and positions
 //! are kept relative to the stretch, so a long program loses no digits.
 
-use crate::path::{Piece, Rest, RestKind};
+use crate::piece::{Piece, Rest, RestKind};
 use crate::run::Leg;
 use crate::schedule::Settled;
 use crate::{Event, Frame, FrameFlags};

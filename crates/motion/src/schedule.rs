@@ -12,7 +12,7 @@
 //! from which one could stop, one may be unable to slow down just a little. Then the motion follows
 //! the plan that was made when its speed was settled, which ends at rest, until it meets the new one.
 
-use crate::path::{Element, Piece, Rest};
+use crate::piece::{Element, Piece, Rest};
 use crate::run::{Leg, Run};
 use crate::scurve::{PathLimits, slowing_horizon};
 use std::collections::VecDeque;

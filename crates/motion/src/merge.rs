@@ -1,0 +1,79 @@
+//! Merging of dense chords: programs made by CAM follow a curve with many more lines than its
+//! tolerance asks for.
+//!
+//! Corner by corner, a curve of chords of length h is driven at a speed that falls with the cube
+//! root of h, because each transition can be no longer than its chords. So lines that follow each
+//! other are drawn together into one as long as it stays within a share of the tolerance:
+//!
+//! ```text
+//!        q1   q2   q3
+//!      ·····•····•····•·····
+//!   A •─────────────────────• P      each dropped vertex q within ε of A–P, in order
+//! ```
+//!
+//! Every dropped vertex is matched with the point of A–P that is as far along it, and these points
+//! follow each other. Between two vertices both polylines are straight, so what holds at the
+//! vertices holds everywhere, both ways: program and merged line are within ε of each other, in
+//! order, in every group of axes. What is left of the tolerance is for the transitions.
+
+use crate::joint::tolerance_norm;
+use core::ops::Range;
+use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+
+/// Share of the tolerance that merging may use. On a circle the best is 0.62; less leaves more to
+/// the corners that end a merged stretch.
+pub(crate) const MERGE_SHARE_R: f64 = 0.5;
+/// Most vertices dropped from one line.
+const MOST_DROPPED: usize = 64;
+
+/// The vertices a line has drawn together.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Dropped {
+    vertices: Vec<AxisVector>,
+    /// Largest distance of one of them from the line, mm.
+    pub error_mm: f64,
+}
+
+impl Dropped {
+    /// Drops the vertex `through` if the line from `start` to `end` stays within `allowed_mm` of it
+    /// and of those dropped before. Changes nothing if not.
+    pub(crate) fn extend(
+        &mut self,
+        start: &AxisVector,
+        through: &AxisVector,
+        end: &AxisVector,
+        allowed_mm: f64,
+    ) -> bool {
+        let (before, after) = (through - start, end - through);
+        let line = end - start;
+        let group = moving_group(&line);
+        let is_one_kind = moving_group(&before) == group && moving_group(&after) == group;
+        if self.vertices.len() >= MOST_DROPPED || !is_one_kind {
+            return false;
+        }
+        let square_mm2: f64 = group.clone().map(|i| line[i] * line[i]).sum();
+        let mut passed_u = 0.0;
+        let mut error_mm = 0.0_f64;
+        for vertex in self.vertices.iter().chain([through]) {
+            let offset = vertex - start;
+            let u = group.clone().map(|i| offset[i] * line[i]).sum::<f64>() / square_mm2;
+            let distance_mm = tolerance_norm(&(offset - line * u));
+            if !(passed_u..=1.0).contains(&u) || distance_mm > allowed_mm {
+                return false;
+            }
+            passed_u = u;
+            error_mm = error_mm.max(distance_mm);
+        }
+        self.vertices.push(*through);
+        self.error_mm = error_mm;
+        true
+    }
+}
+
+/// The axes that measure the feed of a displacement.
+fn moving_group(displacement: &AxisVector) -> Range<usize> {
+    [LINEAR_XYZ, UVW]
+        .into_iter()
+        .find(|group| group.clone().any(|i| displacement[i].abs() > 1e-7))
+        .unwrap_or(ROTARY_ABC)
+}

@@ -1,0 +1,111 @@
+//! Pieces of smooth path, and the rests between them.
+
+use crate::override_::Override;
+use crate::speed_limit::{SpeedLimit, SpeedRule};
+use crate::{Event, Limits};
+use glidepath_geometry::{Jet, Segment, Transition};
+
+/// A smooth piece of path with one speed limit.
+#[derive(Debug, Clone)]
+pub(crate) struct Piece {
+    pub shape: Shape,
+    /// Where in the shape the piece begins.
+    pub from_s: f64,
+    pub length_s: f64,
+    pub rule: SpeedRule,
+    pub limit: SpeedLimit,
+    /// The override that `limit` was computed with.
+    pub planned: Override,
+    pub line: u32,
+    pub rapid: bool,
+    /// Events that happen when the piece is entered, without stopping.
+    pub events: Vec<Event>,
+}
+
+/// The curve a piece is cut from.
+#[derive(Debug, Clone)]
+pub(crate) enum Shape {
+    Segment(Segment),
+    Transition(Box<Transition>),
+}
+
+impl Piece {
+    /// True for a line.
+    pub(crate) fn is_straight(&self) -> bool {
+        matches!(self.shape, Shape::Segment(Segment::Line(_)))
+    }
+
+    /// The override that applies to the piece, as planned.
+    pub(crate) const fn planned_override(&self) -> f64 {
+        if self.rapid {
+            self.planned.rapid_r
+        } else {
+            self.planned.feed_r
+        }
+    }
+
+    /// The same piece under another override.
+    pub(crate) fn under(self, planned: Override, limits: &Limits) -> Self {
+        Self {
+            limit: self.rule.limit(planned, limits),
+            planned,
+            ..self
+        }
+    }
+
+    /// The piece up to `s` after its start.
+    pub(crate) fn before(self, s: f64) -> Self {
+        Self {
+            length_s: s,
+            ..self
+        }
+    }
+
+    /// What is left of the piece `s` after its start. Its events have happened.
+    pub(crate) fn after(self, s: f64) -> Self {
+        Self {
+            from_s: self.from_s + s,
+            length_s: self.length_s - s,
+            events: Vec::new(),
+            ..self
+        }
+    }
+
+    /// Position and derivatives `s` after the start of the piece.
+    pub(crate) fn jet(&self, s: f64) -> Jet {
+        match &self.shape {
+            Shape::Segment(segment) => segment.jet(self.from_s + s),
+            Shape::Transition(transition) => transition.jet(self.from_s + s),
+        }
+    }
+}
+
+/// What follows a piece of path where the machine comes to rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum RestKind {
+    /// The motion goes on in the same period.
+    Corner,
+    /// One setpoint is exactly there.
+    ExactStop,
+    /// For a time, s.
+    Dwell(f64),
+    /// For an event.
+    Event(Event),
+    /// End of the program.
+    End,
+}
+
+/// A rest and where it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Rest {
+    pub kind: RestKind,
+    pub line: u32,
+}
+
+/// What the path front makes.
+#[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "nearly every element is a piece")]
+pub(crate) enum Element {
+    Piece(Piece),
+    Rest(Rest),
+}
