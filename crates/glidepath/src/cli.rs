@@ -58,6 +58,15 @@ pub enum Command {
     /// Come to rest on the path and drop the rest of the program
     #[command(after_help = "Example: glidepath abort")]
     Abort(OperatorArgs),
+    /// Is this host fit for real time? With the fix for each no
+    #[command(after_help = "Example: glidepath doctor --config mill.toml")]
+    Doctor(DoctorArgs),
+    /// Measure how late the real-time loop wakes on this host
+    #[command(
+        after_help = "Example: glidepath jitter --seconds 60 --full-tick --against-cyclictest \
+                            --plot jitter.svg"
+    )]
+    Jitter(JitterArgs),
 }
 
 /// Configuration and form of the report: the same for every command.
@@ -228,6 +237,44 @@ pub struct OverrideArgs {
     pub operator: OperatorArgs,
 }
 
+/// Arguments of `doctor`.
+#[derive(Debug, Args)]
+pub struct DoctorArgs {
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+}
+
+/// Arguments of `jitter`. What is not given is taken from the configuration.
+#[derive(Debug, Args)]
+pub struct JitterArgs {
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Period of the loop, µs
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(50..=1_000_000))]
+    pub period_us: Option<u32>,
+    /// How long to measure, s
+    #[arg(long, value_name = "S", default_value_t = 10,
+          value_parser = clap::value_parser!(u32).range(1..=604_800))]
+    pub seconds: u32,
+    /// CPU the loop is pinned to
+    #[arg(long, value_name = "N")]
+    pub cpu: Option<usize>,
+    /// SCHED_FIFO priority, 1 to 99
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=99))]
+    pub priority: Option<u8>,
+    /// Do the interpolator's work in every period, on a synthetic motion
+    #[arg(long)]
+    pub full_tick: bool,
+    /// Run cyclictest in the same window on the same CPU, and compare
+    #[arg(long)]
+    pub against_cyclictest: bool,
+    /// Write a plot of the lateness (SVG)
+    #[arg(long, value_name = "SVG")]
+    pub plot: Option<PathBuf>,
+}
+
 fn percent(text: &str) -> Result<f64, &'static str> {
     text.parse()
         .ok()
@@ -251,6 +298,8 @@ impl Command {
                 &args.basic
             }
             Self::Override(args) => &args.operator.basic,
+            Self::Doctor(args) => &args.basic,
+            Self::Jitter(args) => &args.basic,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::config::ConfigError;
 use crate::exit::Exit;
+use crate::jitter::CyclictestError;
 use glidepath_gcode::Diagnostic;
 use glidepath_interpolator as interpolator;
 use glidepath_link::{LinkError, RecordingError};
@@ -98,6 +99,9 @@ pub enum Failure {
         /// What its end means.
         exit: Exit,
     },
+    /// The tool to compare with does not run.
+    #[error(transparent)]
+    Cyclictest(#[from] CyclictestError),
     /// A part of this process does not work.
     #[error("{0} failed")]
     Thread(&'static str),
@@ -143,7 +147,7 @@ impl Failure {
     pub const fn exit(&self) -> Exit {
         match self {
             Self::Configuration(_) => Exit::Configuration,
-            Self::Open { .. } => Exit::Usage,
+            Self::Open { .. } | Self::Cyclictest(CyclictestError::Absent) => Exit::Usage,
             Self::Rejected { .. }
             | Self::Refused(_)
             | Self::Planner(planner::RunError::Refused(_))
@@ -164,6 +168,7 @@ impl Failure {
             | Self::Link(_)
             | Self::Recording(_)
             | Self::Process(_)
+            | Self::Cyclictest(_)
             | Self::Thread(_) => Exit::Fault,
             Self::ProcessEnded { exit, .. } => *exit,
         }

@@ -8,6 +8,7 @@ pub mod config;
 pub mod exit;
 pub mod failure;
 pub mod interrupt;
+pub mod jitter;
 pub mod output;
 pub mod plot;
 pub mod progress;

@@ -19,14 +19,24 @@ impl Progress {
         Self(bar)
     }
 
+    /// A bar that counts the seconds of a measurement.
+    #[must_use]
+    pub fn seconds(total: u64) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template("{msg:10} {wide_bar} {pos} of {len} s") {
+            bar.set_style(style);
+        }
+        Self(bar)
+    }
+
     /// What is being done.
     pub fn doing(&self, what: &'static str) {
         self.0.set_message(what);
     }
 
-    /// The line reached.
-    pub fn at(&self, line: u64) {
-        self.0.set_position(line);
+    /// The line or second reached.
+    pub fn at(&self, position: u64) {
+        self.0.set_position(position);
     }
 
     /// Prints a line above the bar, or to standard error where there is no bar.

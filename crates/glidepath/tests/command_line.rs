@@ -59,6 +59,8 @@ fn every_command_explains_itself_with_an_example() {
         "resume",
         "override",
         "abort",
+        "doctor",
+        "jitter",
     ] {
         assert!(top.contains(&format!("\n  {command} ")), "{command}");
         let help = String::from_utf8(glidepath(&[command, "--help"]).stdout).unwrap();

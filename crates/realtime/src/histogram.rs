@@ -53,6 +53,25 @@ impl Histogram {
         self.hdr.saturating_record(value_ns);
     }
 
+    /// Counts everything that another histogram holds.
+    pub fn merge(&mut self, other: &Self) {
+        self.max_ns = self.max_ns.max(other.max_ns);
+        // Fails only where the ranges differ, which are the same for all.
+        let _ = self.hdr.add(&other.hdr);
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        self.max_ns = 0;
+        self.hdr.reset();
+    }
+
+    /// The smallest value, to the resolution; 0 of an empty histogram.
+    #[must_use]
+    pub fn min_ns(&self) -> u64 {
+        self.hdr.min()
+    }
+
     /// Counts of every bucket that holds something: upper end of the bucket in ns, number.
     pub fn buckets(&self) -> impl Iterator<Item = (u64, u64)> + '_ {
         self.hdr
@@ -101,6 +120,17 @@ mod tests {
             assert!(got >= want && got - want <= want / 50, "{got} for {want}");
         }
         assert_eq!(histogram.buckets().map(|(_, n)| n).sum::<u64>(), 1_000);
+    }
+
+    #[test]
+    fn merging_is_counting_both() {
+        let (mut a, mut b) = (Histogram::new(), Histogram::new());
+        a.record(100);
+        b.record(7_000);
+        a.merge(&b);
+        b.clear();
+        assert_eq!((a.quantiles().count, a.quantiles().max_ns), (2, 7_000));
+        assert_eq!((a.min_ns(), b.quantiles()), (100, Quantiles::default()));
     }
 
     #[test]

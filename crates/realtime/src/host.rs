@@ -1,56 +1,85 @@
-//! Facts about the host that decide how well it keeps time.
+//! Reading what the kernel tells of itself in `/proc`, `/sys` and `/dev`.
 
+use core::ops::RangeInclusive;
 use std::fs;
+use std::path::{Path, PathBuf};
 
-/// What the kernel says of itself. Each fact is `None` where the host does not tell.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct HostFacts {
-    /// Kernel release, e.g. `6.12.0-rt`.
-    pub kernel: Option<String>,
-    /// The kernel is fully preemptible (`PREEMPT_RT`): only then has latency a bound.
-    pub preempt_rt: bool,
-    /// `kernel.sched_rt_runtime_us`: how much of every second real-time threads may run; −1 is all.
-    pub rt_runtime_us: Option<i64>,
-    /// Source of the clock; anything but `tsc` (or an architecture's counter) is slow to read.
-    pub clock_source: Option<String>,
-    /// Processors the kernel keeps other work off (`isolcpus`), as a list such as `2-3`.
-    pub isolated_cpus: Option<String>,
-    /// The processor says that it is a guest of a hypervisor, whose scheduling adds to latency.
-    pub virtual_machine: bool,
+/// A tree with the files of `/proc`, `/sys` and `/dev`: that of the host, or one made up for a test.
+#[derive(Debug, Clone)]
+pub struct Host {
+    root: PathBuf,
 }
 
-impl HostFacts {
-    /// Reads them. Never fails: what cannot be read is absent.
+impl Host {
+    /// The host this process runs on.
     #[must_use]
-    pub fn read() -> Self {
-        let kernel = line("/proc/sys/kernel/osrelease");
-        let version = line("/proc/sys/kernel/version").unwrap_or_default();
+    pub fn here() -> Self {
+        Self::at("/")
+    }
+
+    /// The tree below `root`.
+    #[must_use]
+    pub fn at(root: impl AsRef<Path>) -> Self {
         Self {
-            preempt_rt: version.contains("PREEMPT_RT")
-                || line("/sys/kernel/realtime").as_deref() == Some("1"),
-            kernel,
-            rt_runtime_us: line("/proc/sys/kernel/sched_rt_runtime_us")
-                .and_then(|text| text.parse().ok()),
-            clock_source: line("/sys/devices/system/clocksource/clocksource0/current_clocksource"),
-            isolated_cpus: line("/sys/devices/system/cpu/isolated").filter(|l| !l.is_empty()),
-            virtual_machine: fs::read_to_string("/proc/cpuinfo").is_ok_and(|text| {
-                text.lines()
-                    .any(|l| l.starts_with("flags") && l.contains(" hypervisor"))
-            }),
+            root: root.as_ref().to_owned(),
         }
+    }
+
+    /// Where a file of the host is; `path` without a leading slash.
+    #[must_use]
+    pub fn path(&self, path: &str) -> PathBuf {
+        self.root.join(path)
+    }
+
+    /// A whole file; `None` if it cannot be read.
+    #[must_use]
+    pub fn text(&self, path: &str) -> Option<String> {
+        fs::read_to_string(self.path(path)).ok()
+    }
+
+    /// A file of one line, without the space around it; `None` if it cannot be read or is empty.
+    #[must_use]
+    pub fn line(&self, path: &str) -> Option<String> {
+        let text = self.text(path)?;
+        let line = text.trim();
+        (!line.is_empty()).then(|| line.to_owned())
+    }
+
+    /// A file of one number.
+    #[must_use]
+    pub fn number(&self, path: &str) -> Option<i64> {
+        self.line(path)?.parse().ok()
     }
 }
 
-fn line(path: &str) -> Option<String> {
-    fs::read_to_string(path)
-        .ok()
-        .map(|text| text.trim().to_owned())
+/// A set of processors as the kernel writes it: `0-3,6`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct CpuList(Vec<RangeInclusive<usize>>);
+
+impl CpuList {
+    /// Reads a list; what is no number or range, such as `(null)`, is left out.
+    pub(crate) fn parse(text: &str) -> Self {
+        let range = |part: &str| {
+            let (first, last) = part.split_once('-').unwrap_or((part, part));
+            Some(first.trim().parse().ok()?..=last.trim().parse().ok()?)
+        };
+        Self(text.split(',').filter_map(range).collect())
+    }
+
+    pub(crate) fn contains(&self, cpu: usize) -> bool {
+        self.0.iter().any(|range| range.contains(&cpu))
+    }
+}
+
+/// The rest of the line of a file like `/proc/self/status` that begins with `name`.
+pub(crate) fn field<'a>(status: &'a str, name: &str) -> Option<&'a str> {
+    let rest = status.lines().find_map(|line| line.strip_prefix(name))?;
+    Some(rest.trim())
 }
 
 /// A value in KiB of a file like `/proc/self/status`.
 pub(crate) fn field_kib(status: &str, name: &str) -> Option<u64> {
-    let rest = status.lines().find_map(|line| line.strip_prefix(name))?;
-    rest.split_whitespace().next()?.parse().ok()
+    field(status, name)?.split_whitespace().next()?.parse().ok()
 }
 
 #[cfg(test)]
@@ -66,7 +95,17 @@ mod tests {
 
     #[test]
     fn every_linux_tells_its_release() {
-        let facts = HostFacts::read();
-        assert!(facts.kernel.is_some_and(|kernel| kernel.contains('.')));
+        let release = Host::here().line("proc/sys/kernel/osrelease");
+        assert!(release.is_some_and(|release| release.contains('.')));
+    }
+
+    #[test]
+    fn lists_of_processors_are_read() {
+        let list = CpuList::parse("0-2,6\n");
+        let held: Vec<_> = (0..8).filter(|&cpu| list.contains(cpu)).collect();
+        assert_eq!(held, [0, 1, 2, 6]);
+        for nothing in ["", "\n", "(null)", "a-b", "3-1"] {
+            assert!((0..8).all(|cpu| !CpuList::parse(nothing).contains(cpu)));
+        }
     }
 }

@@ -6,6 +6,7 @@
 //!   prefaulted memory, processor idle states) and reads every setting back; [`Mode::Strict`]
 //!   refuses to go on without any of it, [`Mode::BestEffort`] says what was granted;
 //! * [`DeadlineTimer`] wakes the thread on an absolute grid that never moves;
+//! * [`doctor`] says beforehand whether the host is fit for that, and how to mend it;
 //! * [`event_ring`] and [`Histogram`] carry what happened to a thread that may write logs;
 //! * [`forbid_system_calls`] and [`CountingAllocator`] prove, in tests, that the thread makes no system call
 //!   and no allocation.
@@ -15,9 +16,11 @@
 
 mod clock;
 mod deadline;
+pub mod doctor;
 mod event_ring;
 mod histogram;
 mod host;
+mod processor_time;
 mod setup;
 mod sys;
 
@@ -25,7 +28,8 @@ pub use clock::{Clock, Monotonic};
 pub use deadline::{DeadlineTimer, Wake};
 pub use event_ring::{EventReader, EventWriter, Events, event_ring};
 pub use histogram::{Histogram, Quantiles};
-pub use host::HostFacts;
+pub use host::Host;
+pub use processor_time::ProcessorTime;
 pub use setup::{Entered, Grants, Item, Mode, NotRealTime, Outcome, Refusal, Request, enter};
 pub use sys::alloc::CountingAllocator;
 pub use sys::seccomp::{SENTINEL_EXIT_CODE, SentinelError, forbid_system_calls};

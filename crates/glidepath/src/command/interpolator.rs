@@ -42,7 +42,8 @@ pub(super) fn interpolator(
     Ok(interrupt.exit())
 }
 
-fn settings(config: &MachineConfig, best_effort: bool) -> Config {
+/// What the process is started with.
+pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
     let (lowest, highest) = config.travel();
     let request = Request {
         priority: Some(i32::from(config.interpolator.priority)),

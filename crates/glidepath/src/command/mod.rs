@@ -1,8 +1,10 @@
 //! The subcommands, one file each.
 
 pub mod check;
+mod doctor;
 mod feed;
 mod interpolator;
+mod jitter;
 mod operator;
 mod plan;
 mod planner;
@@ -42,5 +44,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
             let command = link::Command::FeedOverride(args.percent / 100.0);
             operator::command(&args.operator, &config, "override", command)
         }
+        Command::Doctor(args) => Ok(doctor::doctor(args, &config)),
+        Command::Jitter(args) => jitter::jitter(args, &config),
     }
 }

@@ -7,6 +7,7 @@
 
 mod colour;
 mod envelope;
+mod lateness;
 mod strip;
 mod svg;
 mod ticks;
@@ -18,6 +19,7 @@ use colour::{CURVES, INK, QUIET};
 use envelope::Envelope;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_motion::Limits;
+pub use lateness::{Series, lateness};
 use strip::{Strip, TimeAxis};
 use svg::{Anchor, Area, Svg};
 use track::{Track, TrackPoint};

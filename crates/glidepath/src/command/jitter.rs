@@ -1,0 +1,65 @@
+//! `glidepath jitter`: how late does the real-time loop wake on this host?
+
+use super::interpolator;
+use crate::cli::JitterArgs;
+use crate::config::MachineConfig;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::jitter::{JitterReport, Motion, Setup, measure};
+use crate::output;
+use crate::progress::Progress;
+use std::path::Path;
+
+/// Measures, reports and draws. An interrupted measurement is reported as far as it went.
+///
+/// # Errors
+/// cyclictest does not run, a thread cannot be started, or the plot cannot be written.
+pub(super) fn jitter(args: &JitterArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let interrupt = Interrupt::install().map_err(Failure::Signals)?;
+    let setup = setup(args, config)?;
+    let progress = Progress::seconds(setup.seconds.into());
+    progress.doing("measuring");
+    let measured = measure(&setup, &progress, interrupt.flag())?;
+    progress.finish();
+    for refusal in measured.grants.refusals() {
+        output::note(&format!("not granted: {refusal}"));
+    }
+    let report = JitterReport::new(&setup, &measured);
+    if let Some(path) = &args.plot {
+        write(path, &report.plot())?;
+    }
+    if args.basic.json {
+        output::object(&report.object());
+    } else {
+        output::result(&report.text());
+    }
+    if interrupt.is_set() {
+        return Ok(Exit::Interrupted);
+    }
+    Ok(Exit::Done)
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    std::fs::write(path, text).map_err(Failure::file("write", path))
+}
+
+fn setup(args: &JitterArgs, config: &MachineConfig) -> Result<Setup, Failure> {
+    let mut config = config.clone();
+    let interpolator = &mut config.interpolator;
+    interpolator.period_us = args.period_us.unwrap_or(interpolator.period_us);
+    interpolator.priority = args.priority.unwrap_or(interpolator.priority);
+    interpolator.cpu = args.cpu.or(interpolator.cpu);
+    let settings = interpolator::settings(&config, true);
+    let motion = args
+        .full_tick
+        .then(|| Motion::plan(&config, settings))
+        .transpose()?;
+    Ok(Setup {
+        period_ns: config.period_ns(),
+        seconds: args.seconds,
+        request: settings.real_time.request,
+        motion,
+        against_cyclictest: args.against_cyclictest,
+    })
+}

@@ -1,0 +1,81 @@
+//! The loop that is measured.
+
+use core::sync::atomic::{AtomicBool, Ordering};
+use glidepath_realtime::{Clock, DeadlineTimer, EventWriter};
+
+/// One period.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Beat {
+    /// From the deadline the thread waited for to its waking.
+    pub lateness_ns: u64,
+    /// Deadlines that passed meanwhile.
+    pub missed: u64,
+    /// From waking to the end of the work.
+    pub work_ns: u64,
+    /// Whether the work moved the machine.
+    pub is_moving: bool,
+}
+
+/// Waits, works and writes a beat, until `stop` is set. Makes no system call but the sleep.
+pub(super) fn beat<C: Clock>(
+    timer: &mut DeadlineTimer<C>,
+    beats: &mut EventWriter<'_, Beat>,
+    stop: &AtomicBool,
+    work: &mut dyn FnMut() -> bool,
+) {
+    while !stop.load(Ordering::Relaxed) {
+        let wake = timer.wait();
+        let is_moving = work();
+        let work_ns = timer.clock().now_ns().saturating_sub(wake.woke_ns);
+        beats.write(Beat {
+            lateness_ns: wake.lateness_ns() + wake.missed * timer.period_ns(),
+            missed: wake.missed,
+            work_ns,
+            is_moving,
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glidepath_realtime::{Events, event_ring};
+
+    /// Wakes late by 30, 250, 0, 0, … ns.
+    struct Script {
+        now_ns: u64,
+        delays_ns: std::vec::IntoIter<u64>,
+    }
+
+    impl Clock for Script {
+        fn now_ns(&self) -> u64 {
+            self.now_ns
+        }
+
+        fn sleep_until(&mut self, deadline_ns: u64) {
+            self.now_ns = self.now_ns.max(deadline_ns) + self.delays_ns.next().unwrap_or(0);
+        }
+    }
+
+    #[test]
+    fn lateness_counts_from_the_deadline_that_was_waited_for() {
+        let clock = Script {
+            now_ns: 0,
+            delays_ns: vec![30, 250, 0].into_iter(),
+        };
+        let mut timer = DeadlineTimer::new(clock, 1_000, 100);
+        let mut events = Events::<Beat, 8>::default();
+        let (mut writer, mut reader) = event_ring(&mut events);
+        let stop = AtomicBool::new(false);
+        let mut left = 3;
+        beat(&mut timer, &mut writer, &stop, &mut || {
+            left -= 1;
+            stop.store(left == 0, Ordering::Relaxed);
+            true
+        });
+        let beats: Vec<_> = std::iter::from_fn(|| reader.read()).collect();
+        let seen: Vec<_> = beats.iter().map(|b| (b.lateness_ns, b.missed)).collect();
+        assert_eq!(seen, [(30, 0), (250, 2), (0, 0)]);
+        assert!(beats.iter().all(|b| b.is_moving && b.work_ns == 0));
+    }
+}

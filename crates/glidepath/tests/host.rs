@@ -1,0 +1,90 @@
+//! `doctor` and `jitter` with the real binary, on whatever host the tests run.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a test that fails may panic"
+)]
+
+use serde_json::Value;
+use std::process::{Command, Output};
+
+fn glidepath(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_glidepath"))
+        .args(args)
+        .output()
+        .unwrap()
+}
+
+fn object(output: &Output) -> Value {
+    let text = String::from_utf8(output.stdout.clone()).unwrap();
+    serde_json::from_str(&text).expect(&text)
+}
+
+#[test]
+fn doctor_ends_with_what_it_found() {
+    let output = glidepath(&["doctor", "--json"]);
+    let object = object(&output);
+    let checks = object["checks"].as_array().unwrap();
+    let missing = checks.iter().any(|check| check["verdict"] == "missing");
+    assert_eq!(object["fit"], !missing);
+    assert_eq!(output.status.code(), Some(if missing { 4 } else { 0 }));
+    for check in checks {
+        assert_eq!(
+            check["remedy"].is_null(),
+            check["verdict"] == "ok",
+            "{check}"
+        );
+    }
+    let text = String::from_utf8(glidepath(&["doctor"]).stdout).unwrap();
+    assert_eq!(text.lines().count(), checks.len() + 2, "{text}");
+}
+
+#[test]
+fn jitter_measures_the_tick_and_draws() {
+    let folder = tempfile::tempdir().unwrap();
+    let plot = folder.path().join("jitter.svg");
+    let path = plot.to_str().unwrap();
+    let args = ["jitter", "--seconds", "1", "--period-us", "2000"];
+    let output = glidepath(&[&args[..], &["--full-tick", "--json", "--plot", path]].concat());
+    assert_eq!(output.status.code(), Some(0));
+    let object = object(&output);
+    assert_eq!(object["period_us"], 2000.0);
+    assert_eq!(object["load"], "full tick");
+    let ticks = object["ticks"].as_u64().unwrap();
+    let moving = object["moving_ticks"].as_u64().unwrap();
+    assert!(moving > 0 && moving <= ticks, "{moving} of {ticks}");
+    let counted: u64 = object["histogram"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|bin| bin["count"].as_u64().unwrap())
+        .sum();
+    assert_eq!(counted, ticks);
+    assert_eq!(object["cyclictest"], Value::Null);
+    assert!(std::fs::read_to_string(plot).unwrap().starts_with("<svg"));
+}
+
+#[test]
+fn without_cyclictest_jitter_says_how_to_get_it() {
+    let output = Command::new(env!("CARGO_BIN_EXE_glidepath"))
+        .args(["jitter", "--seconds", "1", "--against-cyclictest"])
+        .env("PATH", "/nonexistent")
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(text.contains("apt install rt-tests"), "{text}");
+}
+
+#[test]
+fn what_jitter_cannot_do_is_a_usage_error() {
+    for args in [
+        ["jitter", "--seconds", "0"],
+        ["jitter", "--period-us", "10"],
+        ["jitter", "--priority", "100"],
+        ["jitter", "--cpu", "-1"],
+    ] {
+        assert_eq!(glidepath(&args).status.code(), Some(2), "{args:?}");
+    }
+}

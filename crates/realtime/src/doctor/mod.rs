@@ -1,0 +1,114 @@
+//! Is this host fit for real time?
+//!
+//! Each [`Check`] looks at one thing and says what it found and, where that is not good, how to mend
+//! it. What [`enter`](crate::enter) would be refused is *missing*; what only makes the thread late is
+//! a *warning*. Nothing is changed and nothing is tried out: the checks read files of a [`Host`].
+
+mod kernel;
+mod privileges;
+mod processor;
+#[cfg(test)]
+mod tests;
+
+use crate::Host;
+
+/// What a check found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// As it should be, or of no effect here.
+    Ok,
+    /// Real time works, but later or less surely than it could.
+    Warning,
+    /// Required, and not there: a strict start is refused.
+    Missing,
+}
+
+impl Verdict {
+    /// The verdict in one word.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::Warning => "warning",
+            Self::Missing => "missing",
+        }
+    }
+}
+
+/// The finding of one check.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Check {
+    /// What was looked at, in a word or two.
+    pub name: &'static str,
+    /// How good it is.
+    pub verdict: Verdict,
+    /// What was found.
+    pub found: String,
+    /// How to mend it; `None` if it is [`Verdict::Ok`].
+    pub remedy: Option<String>,
+}
+
+impl Check {
+    fn ok(name: &'static str, found: impl Into<String>) -> Self {
+        Self {
+            name,
+            verdict: Verdict::Ok,
+            found: found.into(),
+            remedy: None,
+        }
+    }
+
+    fn warning(name: &'static str, found: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self {
+            name,
+            verdict: Verdict::Warning,
+            found: found.into(),
+            remedy: Some(remedy.into()),
+        }
+    }
+
+    fn missing(name: &'static str, found: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self {
+            verdict: Verdict::Missing,
+            ..Self::warning(name, found, remedy)
+        }
+    }
+}
+
+/// What the real-time thread is going to ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Demand {
+    /// The processor it is pinned to.
+    pub cpu: Option<usize>,
+    /// `SCHED_FIFO` priority, 1 to 99.
+    pub priority: i32,
+}
+
+/// Makes every check. Privileges are those of the calling process.
+#[must_use]
+pub fn examine(host: &Host, demand: Demand) -> Vec<Check> {
+    let mut checks = vec![
+        kernel::preemption(host),
+        privileges::scheduling(host, demand.priority),
+        privileges::memory_lock(host),
+        privileges::group_budget(host),
+        privileges::idle_latency(host),
+        kernel::throttling(host),
+        kernel::clock_source(host),
+    ];
+    if let Some(cpu) = demand.cpu {
+        checks.extend([
+            processor::available(host, cpu),
+            processor::isolation(host, cpu),
+            processor::tickless(host, cpu),
+            processor::interrupts(host, cpu),
+            processor::siblings(host, cpu),
+            processor::governor(host, cpu),
+            processor::overheating(host, cpu),
+        ]);
+    } else {
+        checks.push(processor::not_chosen());
+    }
+    checks.push(kernel::steal(host));
+    checks
+}
