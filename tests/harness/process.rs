@@ -89,6 +89,18 @@ impl Process {
         let _written = stdin.write_all(text.as_bytes());
     }
 
+    /// Writes to its standard input, which stays open.
+    pub fn write(&mut self, text: &str) {
+        let mut stdin = self.child.stdin.as_ref().unwrap();
+        // A process that has ended early is found by its exit status.
+        let _written = stdin.write_all(text.as_bytes());
+    }
+
+    /// Closes its standard input.
+    pub fn close(&mut self) {
+        drop(self.child.stdin.take());
+    }
+
     /// Its process number.
     #[must_use]
     pub fn id(&self) -> u32 {
