@@ -1,7 +1,9 @@
 //! cyclictest of the rt-tests, the usual measure of a host's latency, run beside the loop.
 //!
-//! Both threads have the same priority on the same processor and the same period. They start at
-//! unrelated times, so their wake-ups keep a fixed distance; each works for some µs of the period.
+//! Both threads have the same priority on the same processor and the same period. cyclictest is told
+//! to wake on whole seconds and their divisions, and the loop wakes half a period later, so that
+//! neither finds the processor woken by the other. (With a period that does not divide a second the
+//! distance is another, but fixed.)
 
 use super::Setup;
 use glidepath_realtime::{Grants, Item};
@@ -84,6 +86,7 @@ impl Drop for Cyclictest {
 fn arguments(setup: &Setup, grants: &Grants) -> Vec<String> {
     let mut arguments = vec![
         "--quiet".to_owned(),
+        "--secaligned".to_owned(),
         format!("--interval={}", setup.period_ns / 1_000),
         format!("--duration={}", setup.seconds),
         format!("--histogram={LONGEST_US}"),
@@ -225,7 +228,7 @@ mod tests {
         let arguments = arguments(&setup, &Grants::NONE).join(" ");
         assert_eq!(
             arguments,
-            "--quiet --interval=4000 --duration=20 --histogram=100000"
+            "--quiet --secaligned --interval=4000 --duration=20 --histogram=100000"
         );
     }
 }

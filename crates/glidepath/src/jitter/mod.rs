@@ -119,7 +119,7 @@ fn real_time(
         return;
     };
     let mut run = |work: &mut dyn FnMut() -> bool| {
-        let origin_ns = Monotonic.now_ns() + LEAD_NS;
+        let origin_ns = between_seconds(Monotonic.now_ns() + LEAD_NS, setup.period_ns);
         let mut timer = DeadlineTimer::new(Monotonic, origin_ns, setup.period_ns);
         if tell.send(entered.grants).is_ok() {
             beat(&mut timer, &mut writer, stop, work);
@@ -132,6 +132,16 @@ fn real_time(
             run(&mut || player.tick(interpolator));
         }),
     }
+}
+
+/// The first time at or after `earliest_ns` that is half a period off the grid of whole seconds, on which
+/// cyclictest wakes.
+///
+/// A thread that wakes shortly after another finds the processor awake and its caches warm, and looks
+/// better by up to 20 µs than the one before it. Half a period apart neither does.
+const fn between_seconds(earliest_ns: u64, period_ns: u64) -> u64 {
+    let half_ns = period_ns / 2;
+    (earliest_ns + half_ns).div_ceil(period_ns) * period_ns - half_ns
 }
 
 /// The calling thread: collects the beats, second by second.
@@ -178,4 +188,18 @@ fn observe(
         lost_beats: reader.newly_dropped(),
         cyclictest,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_loop_beats_between_the_beats_of_cyclictest() {
+        for earliest_ns in [10_000, 10_001, 11_999, 12_000, 12_001, 13_999] {
+            let origin_ns = between_seconds(earliest_ns, 4_000);
+            assert_eq!(origin_ns % 4_000, 2_000);
+            assert!((earliest_ns..earliest_ns + 4_000).contains(&origin_ns));
+        }
+    }
 }
