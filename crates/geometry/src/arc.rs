@@ -159,19 +159,27 @@ impl Arc {
         let from = self.start_angle_rad();
         let to = from + self.sweep_rad;
         let (a, b) = if from < to { (from, to) } else { (to, from) };
-        let length = self.length();
-        let mut k = (a / quarter).ceil();
-        // Four quadrant points show every bulge of a turn at constant radius; a few turns more cover
-        // a radius that changes.
-        let last = (b / quarter).floor().min(k + 4.0 * 4.0);
-        while k <= last && self.sweep_rad.abs() > 0.0 {
-            let fraction = (k * quarter - from) / self.sweep_rad;
-            let point = self.jet(length * fraction).position;
-            for axis in [first.index(), second.index()] {
-                low[axis] = low[axis].min(point[axis]);
-                high[axis] = high[axis].max(point[axis]);
+        let drift = (self.end_radius() - self.start_radius()) / self.sweep_rad;
+        let (k_first, k_last) = ((a / quarter).floor(), (b / quarter).ceil());
+        // With a radius that only grows or only shrinks, the first or the last turn bulges most.
+        let turn = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+        for k in turn
+            .map(|i| k_first + i)
+            .into_iter()
+            .chain(turn.map(|i| k_last - i))
+        {
+            // r cos(φ − k·90°) is extreme where tan(φ − k·90°) = r′/r.
+            let radius = self.start_radius() + drift * (k * quarter - from);
+            let angle = k * quarter + drift.atan2(radius);
+            if angle > a && angle < b {
+                let point = self
+                    .jet(self.length() * (angle - from) / self.sweep_rad)
+                    .position;
+                for axis in [first.index(), second.index()] {
+                    low[axis] = low[axis].min(point[axis]);
+                    high[axis] = high[axis].max(point[axis]);
+                }
             }
-            k += 1.0;
         }
         (low, high)
     }

@@ -32,7 +32,8 @@ impl Default for Capacity {
     fn default() -> Self {
         Self {
             frames: 256,
-            setpoints: 64,
+            // Four seconds at 4 ms: on a busy host an ordinary process may not run for half a second.
+            setpoints: 1024,
             subscribers: 16,
         }
     }
