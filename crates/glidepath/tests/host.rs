@@ -72,9 +72,15 @@ fn without_cyclictest_jitter_says_how_to_get_it() {
         .env("PATH", "/nonexistent")
         .output()
         .unwrap();
-    assert_eq!(output.status.code(), Some(2));
     let text = String::from_utf8(output.stderr).unwrap();
-    assert!(text.contains("apt install rt-tests"), "{text}");
+    if text.contains("not granted: SCHED_FIFO") {
+        // Then cyclictest would refuse to run, and the measurement goes on without it.
+        assert_eq!(output.status.code(), Some(0));
+        assert!(text.contains("cyclictest was left out"), "{text}");
+    } else {
+        assert_eq!(output.status.code(), Some(2));
+        assert!(text.contains("apt install rt-tests"), "{text}");
+    }
 }
 
 #[test]

@@ -9,6 +9,7 @@ use crate::interrupt::Interrupt;
 use crate::jitter::{JitterReport, Motion, Setup, measure};
 use crate::output;
 use crate::progress::Progress;
+use glidepath_realtime::Item;
 use std::path::Path;
 
 /// Measures, reports and draws. An interrupted measurement is reported as far as it went.
@@ -24,6 +25,9 @@ pub(super) fn jitter(args: &JitterArgs, config: &MachineConfig) -> Result<Exit, 
     progress.finish();
     for refusal in measured.grants.refusals() {
         output::note(&format!("not granted: {refusal}"));
+    }
+    if args.against_cyclictest && !measured.grants.is_granted(Item::Scheduling) {
+        output::note("cyclictest was left out: it does not run without SCHED_FIFO");
     }
     let report = JitterReport::new(&setup, &measured);
     if let Some(path) = &args.plot {
