@@ -9,7 +9,7 @@
 //! * a program from where the machine stands takes it home, after a reset where one is needed;
 //! * shared memory holds no more than before.
 //!
-//! A sample runs by default. `GLIDEPATH_FAULTS=256 cargo test -p glidepath-tests faults -- --nocapture`
+//! A sample runs by default. `GLIDEPATH_FAULTS=256 cargo test -p glidepath-tests whatever_goes_wrong -- --nocapture`
 //! runs so many cases, every cell of the matrix as often as the others, and prints a table;
 //! `GLIDEPATH_FAULTS_SEED` chooses other moments. The seed decides what is tried, and when it is meant
 //! to happen; what is under way then is up to the machine's clock.

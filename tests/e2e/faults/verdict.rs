@@ -51,8 +51,8 @@ impl Verdict {
         self
     }
 
-    /// The setpoints just end: nobody says that the machine stands still there, and the servo stops
-    /// by itself.
+    /// The setpoints just end, in the middle of the motion, and are judged up to there. How a servo
+    /// then stops by itself is a matter of its own tests; here it must say that it did.
     pub(super) fn cut_off(mut self) -> Self {
         self.ratios = [0.0; 3];
         let last = self.last_tick;
