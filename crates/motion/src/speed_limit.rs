@@ -14,7 +14,7 @@
 use crate::override_::{Override, ProgrammedRate};
 use crate::scurve::PathLimits;
 use crate::{Limits, Rate};
-use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds};
+use glidepath_geometry::{Arc, AxisVector, DerivativeBounds, limit_along};
 
 /// What a piece of path allows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -105,21 +105,13 @@ const FOLLOW_JERK_R: f64 = 0.4;
 /// Share of the jerk spent on the product of acceleration along the path and curvature.
 const CROSS_JERK_R: f64 = 0.3;
 
-/// The largest x with x·coefficient ≤ limit on every axis.
-fn largest(limit: &AxisVector, coefficient: &AxisVector) -> f64 {
-    (0..AXES)
-        .filter(|&i| coefficient[i].abs() > 0.0)
-        .map(|i| limit[i] / coefficient[i].abs())
-        .fold(f64::INFINITY, f64::min)
-}
-
 /// A straight piece in the direction `d1`, at most at `rate_v`.
 pub(crate) fn straight(d1: &AxisVector, rate_v: f64, limits: &Limits) -> SpeedLimit {
     SpeedLimit {
-        top_v: rate_v.min(largest(&limits.velocity, d1)),
+        top_v: rate_v.min(limit_along(d1, &limits.velocity)),
         change: PathLimits {
-            accel_a: largest(&limits.acceleration, d1),
-            jerk_j: largest(&limits.jerk, d1),
+            accel_a: limit_along(d1, &limits.acceleration),
+            jerk_j: limit_along(d1, &limits.jerk),
         },
         constant_above_v: f64::INFINITY,
     }
@@ -129,9 +121,9 @@ pub(crate) fn straight(d1: &AxisVector, rate_v: f64, limits: &Limits) -> SpeedLi
 /// and below, enough is left to change speed.
 pub(crate) fn constant(bounds: &DerivativeBounds, rate_v: f64, limits: &Limits) -> SpeedLimit {
     let top_v = rate_v
-        .min(largest(&limits.velocity, &bounds.d1))
-        .min(largest(&limits.acceleration, &bounds.d2).sqrt())
-        .min(largest(&limits.jerk, &bounds.d3).cbrt());
+        .min(limit_along(&bounds.d1, &limits.velocity))
+        .min(limit_along(&bounds.d2, &limits.acceleration).sqrt())
+        .min(limit_along(&bounds.d3, &limits.jerk).cbrt());
     let constant_above_v = 0.5 * top_v;
     let change = curved(bounds, constant_above_v, limits).change;
     SpeedLimit {
@@ -144,14 +136,15 @@ pub(crate) fn constant(bounds: &DerivativeBounds, rate_v: f64, limits: &Limits) 
 /// A curve on which the speed may change.
 pub(crate) fn curved(bounds: &DerivativeBounds, rate_v: f64, limits: &Limits) -> SpeedLimit {
     let top_v = rate_v
-        .min(largest(&limits.velocity, &bounds.d1))
-        .min((FOLLOW_ACCEL_R * largest(&limits.acceleration, &bounds.d2)).sqrt())
-        .min((FOLLOW_JERK_R * largest(&limits.jerk, &bounds.d3)).cbrt());
+        .min(limit_along(&bounds.d1, &limits.velocity))
+        .min((FOLLOW_ACCEL_R * limit_along(&bounds.d2, &limits.acceleration)).sqrt())
+        .min((FOLLOW_JERK_R * limit_along(&bounds.d3, &limits.jerk)).cbrt());
     let left_a = limits.acceleration - bounds.d2 * (top_v * top_v);
     let cross = bounds.d2 * (3.0 * top_v);
-    let accel_a = largest(&left_a, &bounds.d1).min(CROSS_JERK_R * largest(&limits.jerk, &cross));
+    let accel_a =
+        limit_along(&bounds.d1, &left_a).min(CROSS_JERK_R * limit_along(&cross, &limits.jerk));
     let left_j = limits.jerk - bounds.d3 * top_v.powi(3) - cross * accel_a;
-    let jerk_j = largest(&left_j, &bounds.d1);
+    let jerk_j = limit_along(&bounds.d1, &left_j);
     SpeedLimit {
         top_v,
         change: PathLimits { accel_a, jerk_j },
