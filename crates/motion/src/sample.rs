@@ -185,11 +185,7 @@ impl Sampler {
             RestKind::End => resting(1, FrameFlags::LAST, None),
         };
         // Events of the motion that still wait happen first.
-        let waiting = self.events.len() as u64;
-        let frames = match rest.kind {
-            RestKind::End => resting.frames,
-            _ => resting.frames + waiting,
-        };
+        let frames = resting.frames + self.events.len() as u64;
         self.rest = Some(Resting { frames, ..resting });
         self.first_frame_t = self.period_t;
     }
@@ -208,11 +204,12 @@ impl Sampler {
         let last = resting.frames == 0;
         let queued = self.events.pop_front();
         let event = queued.or(if last { resting.event } else { None });
-        let flags = if last && queued.is_none() || !resting.flags.contains(FrameFlags::PROGRAM_STOP)
-        {
-            resting.flags
-        } else {
+        // The end and the wait for the operator come when nothing is left to happen before them.
+        let is_final = FrameFlags::PROGRAM_STOP.with(FrameFlags::LAST).0;
+        let flags = if queued.is_some() && resting.flags.0 & is_final != 0 {
             FrameFlags::EXACT_STOP
+        } else {
+            resting.flags
         };
         if resting.line > 0 {
             self.line = resting.line;

@@ -243,6 +243,36 @@ fn events_happen_in_order_and_m_codes_at_rest() {
 }
 
 #[test]
+fn events_of_a_move_shorter_than_a_period_all_happen_before_the_end() {
+    let leg = |from: AxisVector, to: AxisVector| moves(&[from, to], 60.0, FREE).remove(0);
+    let items = numbered(vec![
+        leg(at(0.0, 0.0), at(10.0, 0.0)),
+        ItemKind::Event(Event::SpindleSpeed(1000.0)),
+        ItemKind::Event(Event::SelectTool(3)),
+        ItemKind::Event(Event::SpindleSpeed(2000.0)),
+        leg(at(10.0, 0.0), at(10.00001, 0.0)),
+    ]);
+    let frames = plan(&items, mill(), 1);
+    let events: Vec<_> = frames.iter().filter_map(|frame| frame.event).collect();
+    let expected = [
+        Event::SpindleSpeed(1000.0),
+        Event::SelectTool(3),
+        Event::SpindleSpeed(2000.0),
+    ];
+    assert_eq!(events, expected, "order of events");
+    let ends = frames
+        .iter()
+        .filter(|f| f.flags.contains(FrameFlags::LAST))
+        .count();
+    assert_eq!(ends, 1, "one last frame");
+    assert_eq!(
+        frames[frames.len() - 1].flags,
+        FrameFlags::LAST,
+        "at the end"
+    );
+}
+
+#[test]
 fn moves_below_the_resolution_are_neither_lost_nor_a_hindrance() {
     let points: Vec<_> = (0..=5000).map(|i| at(f64::from(i) * 1e-7, 0.0)).collect();
     let frames = plan(&numbered(moves(&points, 60.0, FREE)), mill(), 1);

@@ -25,7 +25,5 @@ mod speed_change;
 
 pub use phase::PathState;
 pub use profile::Profile;
-pub use ramp::{
-    PathLimits, ramp_duration, ramp_fits, ramp_length, reachable_speed, slowing_horizon,
-};
+pub use ramp::{PathLimits, ramp_fits, ramp_length, reachable_speed, slowing_horizon};
 pub use speed_change::SpeedChange;

@@ -46,8 +46,7 @@ impl Ramp {
 }
 
 /// Duration of a ramp between two speeds, s.
-#[must_use]
-pub fn ramp_duration(from_v: f64, to_v: f64, limits: PathLimits) -> f64 {
+fn ramp_duration(from_v: f64, to_v: f64, limits: PathLimits) -> f64 {
     Ramp::new(to_v - from_v, limits).duration_t()
 }
 
