@@ -52,6 +52,8 @@
 //! ```
 
 mod arc;
+mod auxiliary;
+mod axis_words;
 mod bad_byte;
 mod block;
 mod check;
@@ -66,6 +68,7 @@ mod interpreter;
 mod modal;
 mod moves;
 mod offsets;
+mod once;
 mod operation;
 mod options;
 mod parameters;

@@ -1,0 +1,97 @@
+//! Codes that act once (group 0): coordinate systems, offsets, reference positions.
+
+use glidepath_geometry::AxisVector;
+use glidepath_motion::Item;
+
+use crate::block::Block;
+use crate::codes::{Coded, Distance, Motion, Once};
+use crate::diagnostic::{Code, Fault, Outcome, Span};
+use crate::interpreter::Interpreter;
+use crate::offsets::overlay;
+use crate::words::{missing, require_axes, unused, whole};
+
+impl Interpreter {
+    pub(crate) fn act_once(
+        &mut self,
+        block: &Block,
+        once: Coded<Once>,
+        motion: Option<Motion>,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let position = self.state.position;
+        match once.code {
+            // The dwell comes earlier, the machine coordinates with the motion.
+            Once::Dwell => {}
+            Once::MachineCoordinates => self.check_machine_coordinates(once.span, motion)?,
+            Once::SetData => self.set_data(block, once.span)?,
+            Once::GoToReference(index) => self.go_to_reference(block, index, out)?,
+            Once::SetReference(index) => {
+                if let Some(reference) = self.offsets.reference.get_mut(index) {
+                    *reference = position;
+                }
+            }
+            Once::LocalOffset => {
+                let values = self.axis_values(block);
+                require_axes(block, once.span, "G52")?;
+                self.offsets.shift = overlay(self.offsets.shift, &values);
+                self.offsets.saved_shift = self.offsets.shift;
+            }
+            Once::SetOffset => {
+                let values = self.axis_values(block);
+                require_axes(block, once.span, "G92")?;
+                self.offsets.set_shift(position, &values);
+            }
+            Once::ClearOffset => {
+                self.offsets.shift = AxisVector::zeros();
+                self.offsets.saved_shift = AxisVector::zeros();
+            }
+            Once::SuspendOffset => self.offsets.shift = AxisVector::zeros(),
+            Once::RestoreOffset => self.offsets.shift = self.offsets.saved_shift,
+        }
+        Ok(())
+    }
+
+    fn check_machine_coordinates(&self, span: Span, motion: Option<Motion>) -> Outcome<()> {
+        let fault = |message: &str| Fault::new(Code::MachineCoordinates, span, message);
+        match motion {
+            Some(Motion::Rapid | Motion::Linear) => {}
+            _ => {
+                return Err(fault("G53 without a straight move")
+                    .because("machine coordinates hold for one G0 or G1 block")
+                    .help("write G0 or G1 and the axis words into this block"));
+            }
+        }
+        if self.state.modal.distance == Distance::Incremental {
+            return Err(fault("G53 with incremental distances (G91)")
+                .because("machine coordinates are absolute")
+                .help("write G90 into this block"));
+        }
+        Ok(())
+    }
+
+    /// G10 L2 and L20.
+    fn set_data(&mut self, block: &Block, span: Span) -> Outcome<()> {
+        let kind = whole(block, b'L', 99)?.ok_or_else(|| missing(span, "G10", "L", "2 or 20"))?;
+        if kind != 2 && kind != 20 {
+            let message = format!("G10 L{kind} is not supported");
+            return Err(Fault::new(Code::NotSupported, block.span(b'L'), message)
+                .because("only coordinate systems (L2 and L20) can be set"));
+        }
+        let system = whole(block, b'P', 9)?
+            .ok_or_else(|| missing(span, "G10", "P", "the coordinate system, 1 for G54"))?;
+        let index = usize::try_from(system).unwrap_or_default();
+        let index = index.checked_sub(1).unwrap_or(self.offsets.active);
+        let values = self.axis_values(block);
+        if kind == 20 {
+            if block.get(b'R').is_some() {
+                return Err(unused('R', block.span(b'R')));
+            }
+            self.offsets
+                .set_current(index, self.state.position, &values);
+        } else if let Some(slot) = self.offsets.systems.get_mut(index) {
+            slot.origin = overlay(slot.origin, &values);
+            slot.rotation_deg = block.get(b'R').unwrap_or(slot.rotation_deg);
+        }
+        Ok(())
+    }
+}
