@@ -1,0 +1,255 @@
+//! Does a motion follow the path? The check that every motion passes before it is handed out.
+//!
+//! The motion is the polyline through its positions at the periods. It follows the path if both can
+//! be run through together, neither ever going back, without being further apart than the tolerance:
+//! that keeps every point of the motion near the path, and every vertex of the path near the motion,
+//! in order. All pairs (point of path, point of motion) that can be reached so are found chord by
+//! chord of the motion:
+//!
+//! ```text
+//!   path ▲
+//!        │    ┌───┬───┐    In one cell (chord × piece) the pairs that are near are a convex set, so
+//!    n+1 │    │   │ ╱ │    only its edges matter: what is reached on the right edge and on top
+//!        │    ├───┼───┤    follows from what is reached on the left edge and at the bottom.
+//!    n   │    │ ╱─│─  │    [`Place`] holds the right edges: the part of the path at which the
+//!        └────┴───┴───┴─▶  other walker may be while the motion is at its present position.
+//!               motion
+//! ```
+//!
+//! This is the reachable set of the Fréchet distance (Alt and Godau 1995), with the tolerance of each
+//! piece as its threshold. Distances are taken by groups of axes: XYZ together, UVW together, each
+//! rotary axis by itself.
+
+use super::track::{Piece, Track};
+use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+
+/// Part of a chord, as parameters 0…1; empty if `from` > `to`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Span {
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+impl Span {
+    const EMPTY: Self = Self { from: 1.0, to: 0.0 };
+    const WHOLE: Self = Self { from: 0.0, to: 1.0 };
+
+    pub(super) fn is_empty(self) -> bool {
+        // Not a number is nowhere.
+        !matches!(
+            self.from.partial_cmp(&self.to),
+            Some(core::cmp::Ordering::Less | core::cmp::Ordering::Equal)
+        )
+    }
+
+    fn not_before(self, from: f64) -> Self {
+        Self {
+            from: self.from.max(from),
+            to: self.to,
+        }
+    }
+
+    fn cut(self, other: Self) -> Self {
+        Self {
+            from: self.from.max(other.from),
+            to: self.to.min(other.to),
+        }
+    }
+}
+
+/// The places on the path the motion may be at: a span of each of some consecutive pieces.
+#[derive(Debug, Clone)]
+pub(super) struct Place {
+    /// The first piece.
+    pub(super) first: usize,
+    pub(super) spans: Vec<Span>,
+}
+
+impl Place {
+    /// At the start of a piece.
+    pub(super) fn start_of(index: usize) -> Self {
+        Self {
+            first: index,
+            spans: vec![Span { from: 0.0, to: 0.0 }],
+        }
+    }
+
+    /// Takes over another place, without giving up the memory.
+    pub(super) fn copy_from(&mut self, other: &Self) {
+        self.first = other.first;
+        self.spans.clone_from(&other.spans);
+    }
+
+    /// The furthest piece it has a part of.
+    pub(super) fn last(&self) -> usize {
+        self.first + self.spans.len().saturating_sub(1)
+    }
+
+    /// True if the end of the path has been reached.
+    pub(super) fn is_at_end(&self, track: &Track) -> bool {
+        track.is_last(self.last()) && self.spans.last().is_some_and(|span| span.to >= 1.0)
+    }
+
+    /// The place nearest to a position that is not before `(piece, parameter)`.
+    pub(super) fn nearest(
+        &self,
+        track: &Track,
+        position: &AxisVector,
+        not_before: (usize, f64),
+    ) -> (usize, f64) {
+        let mut best = (f64::INFINITY, not_before);
+        for (offset, span) in self.spans.iter().enumerate() {
+            let index = self.first + offset;
+            let Some(piece) = track.get(index) else {
+                continue;
+            };
+            if index < not_before.0 || span.is_empty() {
+                continue;
+            }
+            let along = piece.end - piece.start;
+            let foot = (position - piece.start).dot(&along) / along.norm_squared();
+            let u = if foot.is_finite() {
+                foot.clamp(span.from, span.to)
+            } else {
+                span.to
+            };
+            let u = if index == not_before.0 {
+                u.max(not_before.1)
+            } else {
+                u
+            };
+            let distance_r = piece.distance_r(&(position - (piece.start + along * u)));
+            if distance_r < best.0 {
+                best = (distance_r, (index, u));
+            }
+        }
+        best.1
+    }
+
+    fn trim(&mut self) {
+        while self.spans.last().is_some_and(|span| span.is_empty()) {
+            self.spans.pop();
+        }
+        let empty = self.spans.iter().take_while(|span| span.is_empty()).count();
+        self.spans.drain(..empty);
+        self.first += empty;
+    }
+}
+
+/// Walks a motion along a path.
+#[derive(Debug)]
+pub(super) struct Follower {
+    pub(super) place: Place,
+    next: Place,
+}
+
+impl Follower {
+    pub(super) fn new(place: Place) -> Self {
+        let next = place.clone();
+        Self { place, next }
+    }
+
+    /// Goes straight from one position to the next. False if that leaves the path; then the place is
+    /// what it was.
+    pub(super) fn step(&mut self, track: &Track, from: &AxisVector, to: &AxisVector) -> bool {
+        self.next.spans.clear();
+        self.next.first = self.place.first;
+        let end = self.place.first + self.place.spans.len();
+        let mut bottom = Span::EMPTY;
+        let mut index = self.place.first;
+        while index < end || !bottom.is_empty() {
+            let Some(piece) = track.get(index) else { break };
+            let left = match self.place.spans.get(index - self.place.first) {
+                Some(span) => *span,
+                None => Span::EMPTY,
+            };
+            let (right, top) = cell(
+                piece,
+                corner_tolerance(track, index),
+                left,
+                bottom,
+                [from, to],
+            );
+            self.next.spans.push(right);
+            bottom = top;
+            index += 1;
+        }
+        self.next.trim();
+        if self.next.spans.is_empty() {
+            return false;
+        }
+        core::mem::swap(&mut self.place, &mut self.next);
+        true
+    }
+}
+
+/// Share of a piece's own tolerance that holds at its end: the smaller one of both sides.
+fn corner_tolerance(track: &Track, index: usize) -> f64 {
+    match (track.get(index), track.get(index + 1)) {
+        (Some(piece), Some(next)) => (next.tolerance_mm / piece.tolerance_mm)
+            .min(next.tolerance_deg / piece.tolerance_deg)
+            .min(1.0),
+        _ => 1.0,
+    }
+}
+
+/// What is reached on the right edge and on top of a cell.
+fn cell(
+    piece: &Piece,
+    corner_r: f64,
+    left: Span,
+    bottom: Span,
+    [from, to]: [&AxisVector; 2],
+) -> (Span, Span) {
+    if left.is_empty() && bottom.is_empty() {
+        return (Span::EMPTY, Span::EMPTY);
+    }
+    let mut right = near(piece, 1.0, &piece.start, &piece.end, to);
+    if bottom.is_empty() {
+        right = right.not_before(left.from);
+    }
+    let mut top = near(piece, corner_r, from, to, &piece.end);
+    if left.is_empty() {
+        top = top.not_before(bottom.from);
+    }
+    (right, top)
+}
+
+/// The part of the chord from `a` to `b` that is near a point, within `share_r` tolerances.
+fn near(piece: &Piece, share_r: f64, a: &AxisVector, b: &AxisVector, point: &AxisVector) -> Span {
+    let along = b - a;
+    let offset = point - a;
+    let mut span = Span::WHOLE;
+    let groups = [LINEAR_XYZ, UVW]
+        .into_iter()
+        .map(|axes| (axes, piece.tolerance_mm))
+        .chain(ROTARY_ABC.map(|i| (i..i + 1, piece.tolerance_deg)));
+    for (axes, tolerance) in groups {
+        let threshold = tolerance * share_r;
+        let (mut along_2, mut dot) = (0.0, 0.0);
+        for i in axes.clone() {
+            along_2 += along[i] * along[i];
+            dot += along[i] * offset[i];
+        }
+        // A chord too short to have a direction is a point.
+        let has_direction = along_2 > 1e-20 * threshold * threshold;
+        let foot = if has_direction { dot / along_2 } else { 0.0 };
+        let mut across_2 = 0.0;
+        for i in axes {
+            let across = offset[i] - along[i] * foot;
+            across_2 += across * across;
+        }
+        let room_2 = threshold * threshold - across_2;
+        if room_2.is_nan() || room_2 < 0.0 {
+            return Span::EMPTY;
+        }
+        if has_direction {
+            let half = (room_2 / along_2).sqrt();
+            span = span.cut(Span {
+                from: foot - half,
+                to: foot + half,
+            });
+        }
+    }
+    span
+}

@@ -1,0 +1,100 @@
+//! The plan that always works: straight to a vertex of the path, at rest at both ends.
+//!
+//! From a place within tolerance of a point of a piece, the straight line to the end of the piece
+//! stays within tolerance of the piece, because distances between two straight motions are convex. So
+//! whatever else fails, a leg brings the motion to the next vertex. Its seven-phase profile keeps the
+//! limits of every axis at every instant, hence all differences over a period.
+
+use super::Period;
+use super::track::Piece;
+use crate::Limits;
+use crate::scurve::{PathLimits, Profile};
+use glidepath_geometry::{AXES, AxisVector, feed_length};
+
+/// A straight motion from rest to rest.
+#[derive(Debug, Clone)]
+pub(super) struct StopLeg {
+    from: AxisVector,
+    pub(super) to: AxisVector,
+    /// The piece at whose end it ends.
+    pub(super) piece: usize,
+    /// Change of every axis per unit of path.
+    along: AxisVector,
+    profile: Profile,
+}
+
+impl StopLeg {
+    /// From a position near a piece to the end of that piece; `None` if the motion is there.
+    pub(super) fn new(
+        limits: &Limits,
+        from: AxisVector,
+        index: usize,
+        piece: &Piece,
+    ) -> Option<Self> {
+        let displacement = piece.end - from;
+        let length_s = feed_length(&displacement);
+        if length_s <= 0.0 || !length_s.is_finite() {
+            return None;
+        }
+        let along = displacement / length_s;
+        let bounds = directional(limits, &along);
+        let profile = Profile::new(
+            0.0,
+            0.0,
+            length_s,
+            piece.top_v.min(bounds.speed_v),
+            bounds.path,
+        )?;
+        Some(Self {
+            from,
+            to: piece.end,
+            piece: index,
+            along,
+            profile,
+        })
+    }
+
+    pub(super) const fn duration_t(&self) -> f64 {
+        self.profile.duration_t()
+    }
+
+    /// The state `t` seconds after the start, 0 ≤ t < duration; where on the path that is, is not
+    /// known here.
+    pub(super) fn at(&self, t: f64) -> Period {
+        let state = self.profile.at(t);
+        Period {
+            position: self.from + self.along * state.position_s,
+            velocity: self.along * state.speed_v,
+            acceleration: self.along * state.accel_a,
+            path_v: state.speed_v,
+            path_s: 0.0,
+            tag: 0,
+            rest_at_end: false,
+        }
+    }
+}
+
+/// Limits of the path in a direction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bounds {
+    pub(super) speed_v: f64,
+    pub(super) path: PathLimits,
+}
+
+/// The largest path speed, acceleration and jerk at which no axis exceeds its own; `along` is the
+/// change of every axis per unit of path.
+pub(super) fn directional(limits: &Limits, along: &AxisVector) -> Bounds {
+    let least = |of: &AxisVector| {
+        (0..AXES)
+            .filter(|&i| along[i] != 0.0)
+            .map(|i| of[i] / along[i].abs())
+            .fold(Limits::UNLIMITED, f64::min)
+    };
+    Bounds {
+        speed_v: least(&limits.velocity),
+        path: PathLimits {
+            accel_a: least(&limits.acceleration),
+            jerk_j: least(&limits.jerk),
+        },
+    }
+}
