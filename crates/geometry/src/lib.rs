@@ -13,6 +13,7 @@
 mod arc;
 mod axis;
 mod bernstein;
+mod nurbs;
 mod quadrature;
 mod segment;
 mod transition;
@@ -20,6 +21,7 @@ mod turn;
 
 pub use arc::{Arc, Plane};
 pub use axis::{AXES, Axis, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+pub use nurbs::{MAX_DEGREE, Nurbs, NurbsError, NurbsJet, NurbsPath, Span, SpanCurvature};
 pub use segment::{Jet, Line, Segment, feed_length};
 pub use transition::{
     BezierPair, Blend, DerivativeBounds, HeadingCurve, Hermite, PairShape, Profile, Transition,

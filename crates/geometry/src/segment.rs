@@ -40,7 +40,7 @@ pub enum Segment {
 
 /// A displacement below this in a group of axes is rounding of coordinates, not a move: 0.1 nm (or
 /// 1e-7 degrees).
-const ROUNDING_MM: f64 = 1e-7;
+pub(crate) const ROUNDING_MM: f64 = 1e-7;
 
 /// Feed length of a displacement: XYZ if it has any, else UVW, else degrees of rotation.
 ///
