@@ -186,10 +186,12 @@ fn a_cusp_has_a_length_and_a_parameter_everywhere() {
     }
 }
 
+type Change<'a> = &'a dyn Fn(&mut Vec<AxisVector>, &mut Vec<f64>, &mut Vec<f64>);
+
 #[test]
 fn bad_definitions_are_refused_by_name() {
     let (degree, points, weights, knots) = definition("star");
-    let with = |change: &dyn Fn(&mut Vec<AxisVector>, &mut Vec<f64>, &mut Vec<f64>)| {
+    let with = |change: Change<'_>| {
         let (mut p, mut w, mut k) = (points.clone(), weights.clone(), knots.clone());
         change(&mut p, &mut w, &mut k);
         Nurbs::new(degree, &p, &w, &k).expect_err("bad")

@@ -272,7 +272,7 @@ mod tests {
 
     #[test]
     fn every_root_inside_is_found() {
-        let inside = [0.05, 0.25, 0.2500001, 0.5, 0.75, 0.999];
+        let inside = [0.05, 0.25, 0.2501, 0.5, 0.75, 0.999];
         let mut all = inside.to_vec();
         all.extend([-0.3, 1.2, 2.0]);
         let found = roots_of(&with_roots(&all));

@@ -1,6 +1,11 @@
 //! Reference curves and an evaluation of NURBS that shares nothing with the crate's.
 
-#![allow(dead_code, reason = "each test file uses its part")]
+#![allow(
+    dead_code,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "each test file uses its part, and a test that fails may panic"
+)]
 
 use glidepath_geometry::{AxisVector, Nurbs};
 use serde_json::Value;
