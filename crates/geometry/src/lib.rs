@@ -13,6 +13,7 @@
 mod arc;
 mod axis;
 mod bernstein;
+pub mod number;
 mod nurbs;
 mod quadrature;
 mod segment;

@@ -1,0 +1,121 @@
+//! Pose from strut lengths.
+//!
+//! Newton's method on position and rotation: solve J δ = l − l(pose), move by the first three
+//! components and turn by the rotation vector of the last three, R ← exp(δω) R. Turning by a rotation
+//! vector, not adding to angles, keeps convergence quadratic away from level.
+//!
+//! Up to forty real poses have the same lengths. Only the one next to the last known pose is the
+//! machine's, so a step that leaves its neighbourhood is a failure, not progress.
+
+use super::{Hexapod, Pose, STRUTS};
+use crate::{JointVector, KinematicsError};
+use glidepath_geometry::AxisVector;
+use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
+
+/// Newton steps at most; two to five are taken.
+const STEPS: usize = 20;
+/// Residual at which a pose is exact, relative to the longest strut.
+const EXACT: f64 = 4e-15;
+/// Residual at which rounding may end the iteration.
+const GOOD: f64 = 1e-12;
+
+/// The pose next to `near` with these lengths, as axes.
+pub(super) fn forward(
+    hexapod: &Hexapod,
+    joints: &JointVector,
+    near: &AxisVector,
+) -> Result<AxisVector, KinematicsError> {
+    let (pose, _) = newton(hexapod, joints, hexapod.pose(near))?;
+    let tip = pose.position + pose.rotation * hexapod.tool;
+    let angles = angles_deg(&pose.rotation);
+    let mut axes = AxisVector::zeros();
+    axes.fixed_rows_mut::<3>(0).copy_from(&tip);
+    for (i, angle) in angles.into_iter().enumerate() {
+        let turns = ((near[3 + i] - angle) / 360.0).round();
+        axes[3 + i] = angle + 360.0 * turns;
+    }
+    Ok(axes)
+}
+
+/// Solves for the pose; returns it with the number of steps.
+pub(super) fn newton(
+    hexapod: &Hexapod,
+    joints: &JointVector,
+    start: Pose,
+) -> Result<(Pose, usize), KinematicsError> {
+    let scale = joints.fixed_rows::<STRUTS>(0).amax();
+    let mut pose = start;
+    let mut last = f64::INFINITY;
+    for step in 0..STEPS {
+        let struts = hexapod.struts(&pose);
+        let residual = Vector6::from_fn(|i, _| joints[i] - struts[i].norm());
+        let size = residual.amax() / scale;
+        if size <= EXACT || (size <= GOOD && size >= 0.5 * last) {
+            return Ok((pose, step));
+        }
+        last = size;
+        let delta = hexapod
+            .rows(&pose)
+            .lu()
+            .solve(&residual)
+            .filter(|delta| delta.iter().all(|d| d.is_finite()))
+            .ok_or(KinematicsError::NotConverged)?;
+        let turn = Vector3::new(delta[3], delta[4], delta[5]);
+        // Half a turn in one step is another assembly mode.
+        if turn.norm() > core::f64::consts::PI {
+            return Err(KinematicsError::NotConverged);
+        }
+        pose.position += Vector3::new(delta[0], delta[1], delta[2]);
+        pose.rotation =
+            (Rotation3::new(turn) * Rotation3::from_matrix_unchecked(pose.rotation)).into_inner();
+    }
+    Err(KinematicsError::NotConverged)
+}
+
+/// A, B and C of R = Rz(C) Ry(B) Rx(A), with B from −90° to 90°.
+fn angles_deg(r: &Matrix3<f64>) -> [f64; 3] {
+    let a = r.m32.atan2(r.m33);
+    let b = (-r.m31).atan2(r.m32.hypot(r.m33));
+    let c = r.m21.atan2(r.m11);
+    [a, b, c].map(f64::to_degrees)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Kinematics;
+
+    #[test]
+    fn few_steps_from_the_home_pose() {
+        let hexapod = Hexapod::paired(400.0, 150.0, 15.0);
+        let home = AxisVector::from_column_slice(&[0.0, 0.0, 500.0, 0., 0., 0., 0., 0., 0.]);
+        let mut worst = 0;
+        for i in 0..64 {
+            let sign = |bit: u32| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
+            let mut axes = home;
+            for (k, reach) in [80.0, 80.0, 80.0, 12.0, 12.0, 12.0].into_iter().enumerate() {
+                axes[k] += sign(u32::try_from(k).unwrap()) * reach;
+            }
+            let joints = hexapod.inverse(&axes).unwrap();
+            let (pose, steps) = newton(&hexapod, &joints, hexapod.pose(&home)).unwrap();
+            let wanted = hexapod.pose(&axes);
+            assert!((pose.position - wanted.position).norm() < 1e-9);
+            assert!((pose.rotation - wanted.rotation).norm() < 1e-11);
+            worst = worst.max(steps);
+        }
+        assert!(worst <= 7, "{worst} steps");
+    }
+
+    #[test]
+    fn two_steps_from_the_last_tick() {
+        let hexapod = Hexapod::paired(400.0, 150.0, 15.0);
+        let mut axes =
+            AxisVector::from_column_slice(&[30., -20., 500., 5.0, -3.0, 10.0, 0., 0., 0.]);
+        let before = hexapod.pose(&axes);
+        axes[0] += 0.4;
+        axes[5] += 0.1;
+        let joints = hexapod.inverse(&axes).unwrap();
+        let (_, steps) = newton(&hexapod, &joints, before).unwrap();
+        assert!(steps <= 3, "{steps}");
+    }
+}

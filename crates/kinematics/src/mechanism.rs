@@ -1,0 +1,77 @@
+//! One of the mechanisms, chosen when a machine is configured.
+
+use crate::machine::{AxisSeries, Conditioning, JointSeries, JointVector, Kinematics};
+use crate::{
+    CoreXy, FiveAxis, Hexapod, KinematicsError, LinearDelta, RotaryDelta, Scara,
+    TranslationalHexapod, Trivial,
+};
+use glidepath_geometry::AxisVector;
+
+/// A machine's mechanism: plain data, copied to whoever needs it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a machine has one, and the real-time thread owns it without a heap"
+)]
+pub enum Mechanism {
+    /// Each axis has a drive of its own.
+    Trivial(Trivial),
+    /// One belt for X and Y.
+    CoreXy(CoreXy),
+    /// Carriages on vertical towers.
+    LinearDelta(LinearDelta),
+    /// Swinging arms.
+    RotaryDelta(RotaryDelta),
+    /// Two arms in the plane.
+    Scara(Scara),
+    /// Two rotary axes with tool centre point.
+    FiveAxis(FiveAxis),
+    /// Six struts, six degrees of freedom.
+    Hexapod(Hexapod),
+    /// Six struts, translation only.
+    Translational(TranslationalHexapod),
+}
+
+macro_rules! each {
+    ($mechanism:expr, $machine:ident => $call:expr) => {
+        match $mechanism {
+            Mechanism::Trivial($machine) => $call,
+            Mechanism::CoreXy($machine) => $call,
+            Mechanism::LinearDelta($machine) => $call,
+            Mechanism::RotaryDelta($machine) => $call,
+            Mechanism::Scara($machine) => $call,
+            Mechanism::FiveAxis($machine) => $call,
+            Mechanism::Hexapod($machine) => $call,
+            Mechanism::Translational($machine) => $call,
+        }
+    };
+}
+
+impl Kinematics for Mechanism {
+    fn joints(&self) -> usize {
+        each!(self, machine => machine.joints())
+    }
+
+    fn inverse_series<const N: usize>(
+        &self,
+        axes: &AxisSeries<N>,
+    ) -> Result<JointSeries<N>, KinematicsError> {
+        each!(self, machine => machine.inverse_series(axes))
+    }
+
+    fn forward(
+        &self,
+        joints: &JointVector,
+        near: &AxisVector,
+    ) -> Result<AxisVector, KinematicsError> {
+        each!(self, machine => machine.forward(joints, near))
+    }
+
+    fn conditioning(&self, axes: &AxisVector) -> Result<Conditioning, KinematicsError> {
+        each!(self, machine => machine.conditioning(axes))
+    }
+
+    fn admit(&self, axes: &AxisVector) -> Result<(), KinematicsError> {
+        each!(self, machine => machine.admit(axes))
+    }
+}

@@ -1,0 +1,93 @@
+//! Points and rotations in space whose coordinates are series.
+
+use glidepath_geometry::number::{Number, Series};
+use nalgebra::Vector3;
+
+/// A point along a parameter.
+pub(crate) type Point<const N: usize> = [Series<N>; 3];
+
+/// Degrees to radians.
+pub(crate) const RAD: f64 = core::f64::consts::PI / 180.0;
+
+/// Sum of two vectors.
+pub(crate) fn add<const N: usize>(a: Point<N>, b: Point<N>) -> Point<N> {
+    core::array::from_fn(|i| a[i] + b[i])
+}
+
+/// A vector and a constant one.
+pub(crate) fn offset<const N: usize>(a: Point<N>, b: &Vector3<f64>) -> Point<N> {
+    core::array::from_fn(|i| a[i] + Series::constant(b[i]))
+}
+
+/// A constant vector.
+pub(crate) fn constant<const N: usize>(a: &Vector3<f64>) -> Point<N> {
+    core::array::from_fn(|i| Series::constant(a[i]))
+}
+
+/// A constant vector times a series.
+pub(crate) fn stretched<const N: usize>(a: &Vector3<f64>, by: Series<N>) -> Point<N> {
+    core::array::from_fn(|i| by.scale(a[i]))
+}
+
+/// Length squared.
+pub(crate) fn norm_squared<const N: usize>(a: Point<N>) -> Series<N> {
+    a[0].square() + a[1].square() + a[2].square()
+}
+
+/// A rotation about one of the axes of space, 0 for x, by an angle in degrees.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Turn<const N: usize> {
+    axis: usize,
+    sin: Series<N>,
+    cos: Series<N>,
+}
+
+impl<const N: usize> Turn<N> {
+    pub(crate) fn new(axis: usize, angle_deg: Series<N>) -> Self {
+        let (sin, cos) = angle_deg.scale(RAD).sin_cos();
+        Self { axis, sin, cos }
+    }
+
+    /// Right-handed about the axis.
+    pub(crate) fn apply(&self, a: Point<N>) -> Point<N> {
+        let (i, j) = ((self.axis + 1) % 3, (self.axis + 2) % 3);
+        let mut turned = a;
+        turned[i] = self.cos * a[i] - self.sin * a[j];
+        turned[j] = self.sin * a[i] + self.cos * a[j];
+        turned
+    }
+
+    /// The other way round.
+    pub(crate) fn undo(&self, a: Point<N>) -> Point<N> {
+        Self {
+            sin: -self.sin,
+            ..*self
+        }
+        .apply(a)
+    }
+}
+
+/// A rotation by an angle in degrees of a plain vector.
+pub(crate) fn turned(axis: usize, angle_deg: f64, a: &Vector3<f64>) -> Vector3<f64> {
+    let turn = Turn::new(axis, Series::<1>::new([angle_deg]));
+    turn.apply(constant(a)).map(|s| s.value()).into()
+}
+
+/// The lower of the two points at the same distance from three centres.
+pub(crate) fn below_three([a, b, c]: [Vector3<f64>; 3], distance_mm: f64) -> Option<Vector3<f64>> {
+    // A frame with a at its origin, b on its first axis and c in its first plane.
+    let ab = b - a;
+    let d = ab.norm();
+    let ex = ab / d;
+    let ac = c - a;
+    let i = ex.dot(&ac);
+    let across = ac - ex * i;
+    let j = across.norm();
+    let ey = across / j;
+    let ez = ex.cross(&ey);
+    let x = 0.5 * d;
+    let y = 0.5 * (i * i + j * j - 2.0 * i * x) / j;
+    let square = distance_mm * distance_mm - x * x - y * y;
+    let down = if ez.z > 0.0 { -1.0 } else { 1.0 };
+    (square >= 0.0).then(|| a + ex * x + ey * y + ez * (down * square.sqrt()))
+}

@@ -1,0 +1,60 @@
+//! Each axis has a drive of its own.
+
+use crate::machine::{AxisSeries, Conditioning, JointSeries, JointVector, Kinematics};
+use crate::{AxisList, KinematicsError};
+use glidepath_geometry::AxisVector;
+use glidepath_geometry::number::{Number, Series};
+
+/// Joint 0 is the machine's first axis, joint 1 its second, and so on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Trivial {
+    /// The machine's axes.
+    pub axes: AxisList,
+}
+
+impl Kinematics for Trivial {
+    fn joints(&self) -> usize {
+        self.axes.len()
+    }
+
+    fn inverse_series<const N: usize>(
+        &self,
+        axes: &AxisSeries<N>,
+    ) -> Result<JointSeries<N>, KinematicsError> {
+        let mut joints = [Series::constant(0.0); crate::JOINTS];
+        pass_through(self.axes, axes, &mut joints);
+        Ok(joints)
+    }
+
+    fn forward(
+        &self,
+        joints: &JointVector,
+        _near: &AxisVector,
+    ) -> Result<AxisVector, KinematicsError> {
+        let mut axes = AxisVector::zeros();
+        pass_back(self.axes, joints.as_slice(), &mut axes);
+        Ok(axes)
+    }
+
+    fn conditioning(&self, _axes: &AxisVector) -> Result<Conditioning, KinematicsError> {
+        Ok(Conditioning::PERFECT)
+    }
+}
+
+/// Copies axes to the joints at the beginning of `joints`.
+pub(crate) fn pass_through<const N: usize>(
+    list: AxisList,
+    axes: &AxisSeries<N>,
+    joints: &mut [Series<N>],
+) {
+    for (joint, axis) in joints.iter_mut().zip(list.iter()) {
+        *joint = axes[axis.index()];
+    }
+}
+
+/// Copies joints from the beginning of `joints` back to their axes.
+pub(crate) fn pass_back(list: AxisList, joints: &[f64], axes: &mut AxisVector) {
+    for (joint, axis) in joints.iter().zip(list.iter()) {
+        axes[axis.index()] = *joint;
+    }
+}
