@@ -1,5 +1,7 @@
 //! Every check vector of a mechanism.
 
+#![allow(clippy::unwrap_used, reason = "a test")]
+
 mod support;
 
 use glidepath_geometry::{Axis, AxisVector, Jet};
