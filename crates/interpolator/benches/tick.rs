@@ -110,7 +110,7 @@ fn planned() -> Vec<Frame> {
         at = to;
     }
     planner.finish();
-    std::iter::from_fn(|| planner.pop_frame()).collect()
+    std::iter::from_fn(|| planner.pop_frame().ok().flatten()).collect()
 }
 
 fn count(ticks: usize) {

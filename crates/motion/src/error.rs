@@ -51,4 +51,13 @@ pub enum PlanError {
         /// Factor on rapids.
         rapid_r: f64,
     },
+    /// No motion was found from one frame to the next. This is a defect of the planner: the frames
+    /// before it stand, and none follows.
+    #[error(
+        "line {line}: no motion within the limits was found; no frame after this line is given out"
+    )]
+    NoMotion {
+        /// Source line.
+        line: u32,
+    },
 }

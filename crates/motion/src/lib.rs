@@ -17,7 +17,10 @@
 
 pub mod audit;
 mod error;
+mod fast;
 mod frame;
+mod grid;
+mod guard;
 mod item;
 mod joint;
 mod limits;

@@ -1,13 +1,9 @@
 //! The planner: items in, frames out.
 
-use crate::path::PathFront;
-use crate::piece::{Element, Piece};
-use crate::sample::{Sampler, Step};
-use crate::schedule::{Scheduler, Settled};
-use crate::scurve::{PathLimits, slowing_horizon};
-use crate::{Frame, Item, Limits, Override, PlanError, Settings};
+use crate::fast::FastEngine;
+use crate::guard::Guard;
+use crate::{Frame, Item, Override, PlanError, Settings};
 use glidepath_geometry::AxisVector;
-use std::collections::VecDeque;
 
 /// Plans a program as it comes, in memory that does not grow with its length.
 ///
@@ -39,21 +35,19 @@ use std::collections::VecDeque;
 ///     },
 /// })?;
 /// planner.finish();
-/// let last = std::iter::from_fn(|| planner.pop_frame()).last();
+/// let mut last = None;
+/// while let Some(frame) = planner.pop_frame()? {
+///     last = Some(frame);
+/// }
 /// assert_eq!(last.map(|frame| frame.position), Some(end));
 /// # Ok::<(), glidepath_motion::PlanError>(())
 /// ```
 #[derive(Debug)]
 pub struct Planner {
-    front: PathFront,
-    scheduler: Scheduler,
-    sampler: Sampler,
-    elements: Vec<Element>,
-    settled: VecDeque<Settled>,
-    finished: bool,
-    limits: Limits,
-    /// An override that is not in the plan yet.
-    wanted: Option<Override>,
+    engine: FastEngine,
+    guard: Guard,
+    /// Why there are no more frames.
+    failed: Option<PlanError>,
 }
 
 impl Planner {
@@ -61,14 +55,9 @@ impl Planner {
     #[must_use]
     pub fn new(settings: Settings, start: AxisVector) -> Self {
         Self {
-            front: PathFront::new(settings, start),
-            scheduler: Scheduler::new(),
-            sampler: Sampler::new(settings.period_t, start),
-            elements: Vec::new(),
-            settled: VecDeque::new(),
-            finished: false,
-            limits: settings.limits,
-            wanted: None,
+            engine: FastEngine::new(settings, start),
+            guard: Guard::new(&settings),
+            failed: None,
         }
     }
 
@@ -76,48 +65,47 @@ impl Planner {
     ///
     /// # Errors
     /// If the item is not finite, does not start where the last one ended, or has a feedrate,
-    /// tolerance or dwell out of range. The planner is then as if the item had not been given.
+    /// tolerance or dwell out of range. The planner is then as if the item had not been given. After
+    /// [`Planner::pop_frame`] has failed, its error.
     pub fn push(&mut self, item: &Item) -> Result<(), PlanError> {
-        self.front.push(item, &mut self.elements)?;
-        self.schedule();
-        Ok(())
+        match self.failed {
+            Some(error) => Err(error),
+            None => self.engine.push(item),
+        }
     }
 
     /// No more items: what is planned ends at rest. Further calls do nothing.
     pub fn finish(&mut self) {
-        if !self.finished {
-            self.finished = true;
-            self.front.finish(&mut self.elements);
-            self.schedule();
-        }
+        self.engine.finish();
     }
 
     /// The next frame, if the motion is settled that far. Without more items it never is beyond a
     /// certain point until [`Planner::finish`].
-    pub fn pop_frame(&mut self) -> Option<Frame> {
-        loop {
-            let was_planned = self.plan_anew();
-            match self.sampler.next_frame(&mut self.settled, !was_planned) {
-                Step::Frame(frame) => return Some(frame),
-                Step::Junction => {}
-                Step::End => return None,
-            }
-            // At a junction. If the override cannot be had from here, go on to the next one.
-            if !self.plan_anew() {
-                match self.sampler.next_frame(&mut self.settled, false) {
-                    Step::Frame(frame) => return Some(frame),
-                    Step::Junction | Step::End => return None,
-                }
-            }
+    ///
+    /// # Errors
+    /// [`PlanError::NoMotion`] if planning failed inside: there is no frame that continues the motion
+    /// within the limits. No more frames follow, and every call gives the same error. Whoever plays
+    /// the frames must then stop on those it has.
+    pub fn pop_frame(&mut self) -> Result<Option<Frame>, PlanError> {
+        if let Some(error) = self.failed {
+            return Err(error);
         }
+        let taken = self.engine.pop_frame().and_then(|frame| {
+            if let Some(frame) = &frame {
+                self.guard.check(frame)?;
+            }
+            Ok(frame)
+        });
+        self.failed = taken.as_ref().err().copied();
+        taken
     }
 
     /// Plans what no frame was taken of with another override: rates times their override, limits
     /// unchanged.
     ///
-    /// The new plan begins at the next place where the motion has no acceleration along the path; a
-    /// lower override takes effect as soon after that as the speed can be brought down. Each frame
-    /// tells the override it was planned with.
+    /// A lower override takes effect as soon as the speed can be brought down; the fast engine begins
+    /// at the next place where the motion has no acceleration along the path. Each frame tells the
+    /// override it was planned with.
     ///
     /// # Errors
     /// If a factor is not a positive number, or that of rapids is above 1.
@@ -127,111 +115,7 @@ impl Planner {
         if !valid {
             return Err(PlanError::Override { feed_r, rapid_r });
         }
-        self.front.set_override(wanted);
-        self.wanted = Some(wanted);
+        self.engine.set_override(wanted);
         Ok(())
-    }
-
-    /// Puts a wanted override into the plan if that can be done from the last frame. True if there
-    /// is none left to put in.
-    fn plan_anew(&mut self) -> bool {
-        let Some(wanted) = self.wanted else {
-            return true;
-        };
-        let Some(entry_v) = self.sampler.steady_v() else {
-            return false;
-        };
-        let mut scheduler = Scheduler::entered_at(entry_v);
-        let mut settled = VecDeque::new();
-        let limits = self.limits;
-        let rest_of_stretch = self.sampler.rest_of_stretch().map(Element::Piece);
-        let elements = rest_of_stretch
-            .into_iter()
-            .chain(self.settled.iter().flat_map(Settled::elements))
-            .chain(self.scheduler.pieces().map(Element::Piece));
-        let mut slowing = Slowing::new(entry_v, wanted);
-        for element in elements {
-            let piece = match element {
-                Element::Piece(piece) => piece,
-                rest @ Element::Rest(_) => {
-                    slowing.over = true;
-                    scheduler.push(rest, &mut settled);
-                    continue;
-                }
-            };
-            let (old, new) = slowing.split(piece);
-            if let Some(old) = old {
-                scheduler.push(Element::Piece(old), &mut settled);
-            }
-            if let Some(new) = new {
-                if !core::mem::replace(&mut slowing.over, true) {
-                    scheduler.close_run();
-                }
-                scheduler.push(Element::Piece(new.under(wanted, &limits)), &mut settled);
-            }
-        }
-        if !scheduler.is_feasible() {
-            return false;
-        }
-        self.sampler.drop_stretch();
-        self.scheduler = scheduler;
-        self.settled = settled;
-        self.wanted = None;
-        true
-    }
-
-    fn schedule(&mut self) {
-        for element in self.elements.drain(..) {
-            self.scheduler.push(element, &mut self.settled);
-        }
-    }
-}
-
-/// The path on which a speed is brought down to a lower override: there the old one still holds.
-struct Slowing {
-    from_v: f64,
-    to: Override,
-    passed_s: f64,
-    weakest: Option<PathLimits>,
-    over: bool,
-}
-
-impl Slowing {
-    const fn new(from_v: f64, to: Override) -> Self {
-        Self {
-            from_v,
-            to,
-            passed_s: 0.0,
-            weakest: None,
-            over: false,
-        }
-    }
-
-    /// What of the next piece is still needed for it, and what is not.
-    fn split(&mut self, piece: Piece) -> (Option<Piece>, Option<Piece>) {
-        let Override { feed_r, rapid_r } = piece.planned;
-        let is_lower = self.to.feed_r < feed_r || self.to.rapid_r < rapid_r;
-        if self.over || !is_lower {
-            return (None, Some(piece));
-        }
-        let change = piece.limit.change;
-        let weakest = self.weakest.map_or(change, |weakest| PathLimits {
-            accel_a: weakest.accel_a.min(change.accel_a),
-            jerk_j: weakest.jerk_j.min(change.jerk_j),
-        });
-        let needed_s = slowing_horizon(self.from_v, weakest) - self.passed_s;
-        self.weakest = Some(weakest);
-        self.passed_s += piece.length_s;
-        let may_change = piece.limit.constant_above_v.is_infinite();
-        if needed_s <= 0.0 {
-            (None, Some(piece))
-        } else if may_change && needed_s < 0.99 * piece.length_s {
-            (
-                Some(piece.clone().before(needed_s)),
-                Some(piece.after(needed_s)),
-            )
-        } else {
-            (Some(piece), None)
-        }
     }
 }

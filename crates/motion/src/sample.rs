@@ -4,29 +4,24 @@
 //! a period before its first frame, and that fraction is carried, never rounded. Times and positions
 //! are kept relative to the stretch, so a long program loses no digits.
 
-use crate::piece::{Piece, Rest, RestKind};
+use crate::Frame;
+use crate::grid::{FrameGrid, Moving, Passing};
+use crate::piece::Piece;
 use crate::run::Leg;
 use crate::schedule::Settled;
-use crate::{Event, Frame, FrameFlags};
 use glidepath_geometry::AxisVector;
 use std::collections::VecDeque;
 
 /// Makes frames of settled motion, one at a time.
 #[derive(Debug)]
 pub(crate) struct Sampler {
+    grid: FrameGrid,
     period_t: f64,
-    sequence: u64,
     /// Time from the start of the stretch at hand to its first frame, 0 < t ≤ period.
     first_frame_t: f64,
     stretch: Option<Stretch>,
-    /// Frames still to come at rest.
-    rest: Option<Resting>,
-    events: VecDeque<Event>,
-    /// Where the last stretch ended.
-    position: AxisVector,
+    /// Path position at the start of the piece at hand.
     path_s: f64,
-    line: u32,
-    planned_override: f64,
     /// Speed at the end of the last stretch.
     speed_v: f64,
 }
@@ -40,6 +35,10 @@ pub(crate) enum Step {
     Junction,
     /// Nothing more is settled.
     End,
+    /// The motion settled for the path that begins at a line does not lead to its end.
+    Broken {
+        line: u32,
+    },
 }
 
 #[derive(Debug)]
@@ -52,14 +51,6 @@ struct Stretch {
     piece_s: f64,
     /// Frames made since the leg at hand started.
     frames: u32,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Resting {
-    frames: u64,
-    flags: FrameFlags,
-    event: Option<Event>,
-    line: u32,
 }
 
 impl Stretch {
@@ -76,23 +67,12 @@ impl Stretch {
 
 impl Sampler {
     pub(crate) fn new(period_t: f64, start: AxisVector) -> Self {
-        let first = Resting {
-            frames: 1,
-            flags: FrameFlags::FIRST,
-            event: None,
-            line: 0,
-        };
         Self {
+            grid: FrameGrid::new(period_t, start),
             period_t,
-            sequence: 0,
             first_frame_t: period_t,
             stretch: None,
-            rest: Some(first),
-            events: VecDeque::new(),
-            position: start,
             path_s: 0.0,
-            line: 0,
-            planned_override: 1.0,
             speed_v: 0.0,
         }
     }
@@ -100,13 +80,8 @@ impl Sampler {
     /// The next frame, as far as the motion is settled. With `pause`, stops at the next junction.
     pub(crate) fn next_frame(&mut self, settled: &mut VecDeque<Settled>, pause: bool) -> Step {
         loop {
-            if let Some(resting) = &mut self.rest {
-                if resting.frames > 0 {
-                    resting.frames -= 1;
-                    let resting = *resting;
-                    return Step::Frame(self.rest_frame(resting));
-                }
-                self.rest = None;
+            if let Some(frame) = self.grid.rest_frame() {
+                return Step::Frame(frame);
             }
             if self.stretch.is_some() {
                 if let Some(frame) = self.motion_frame() {
@@ -119,6 +94,10 @@ impl Sampler {
             }
             match settled.pop_front() {
                 Some(Settled::Motion { pieces, legs }) => {
+                    if !leads_to_the_end(&pieces, &legs) {
+                        let line = pieces.first().map_or(0, |piece| piece.line);
+                        return Step::Broken { line };
+                    }
                     self.stretch = Some(Stretch {
                         pieces,
                         legs,
@@ -131,7 +110,9 @@ impl Sampler {
                 }
                 Some(Settled::Rest(rest)) => {
                     self.speed_v = 0.0;
-                    self.enter_rest(rest);
+                    if self.grid.enter_rest(rest) {
+                        self.first_frame_t = self.period_t;
+                    }
                 }
                 None => return Step::End,
             }
@@ -164,70 +145,6 @@ impl Sampler {
             self.path_s += s;
             self.first_frame_t = self.period_t;
         }
-    }
-
-    fn enter_rest(&mut self, rest: Rest) {
-        let resting = |frames, flags, event| Resting {
-            frames,
-            flags,
-            event,
-            line: rest.line,
-        };
-        let at_rest = FrameFlags::EXACT_STOP;
-        let resting = match rest.kind {
-            RestKind::Corner => return,
-            RestKind::ExactStop => resting(1, at_rest, None),
-            RestKind::Dwell(dwell_t) => resting(1 + self.periods(dwell_t), FrameFlags::DWELL, None),
-            RestKind::Event(event @ (Event::ProgramStop(_) | Event::OptionalStop)) => {
-                resting(1, at_rest.with(FrameFlags::PROGRAM_STOP), Some(event))
-            }
-            RestKind::Event(event) => resting(1, at_rest, Some(event)),
-            RestKind::End => resting(1, FrameFlags::LAST, None),
-        };
-        // Events of the motion that still wait happen first.
-        let frames = resting.frames + self.events.len() as u64;
-        self.rest = Some(Resting { frames, ..resting });
-        self.first_frame_t = self.period_t;
-    }
-
-    /// Whole periods that a time takes.
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a float to integer cast saturates, and the time is not negative"
-    )]
-    fn periods(&self, time_t: f64) -> u64 {
-        (time_t / self.period_t - 1e-9).ceil().max(0.0) as u64
-    }
-
-    fn rest_frame(&mut self, resting: Resting) -> Frame {
-        let last = resting.frames == 0;
-        let queued = self.events.pop_front();
-        let event = queued.or(if last { resting.event } else { None });
-        // The end and the wait for the operator come when nothing is left to happen before them.
-        let is_final = FrameFlags::PROGRAM_STOP.with(FrameFlags::LAST).0;
-        let flags = if queued.is_some() && resting.flags.0 & is_final != 0 {
-            FrameFlags::EXACT_STOP
-        } else {
-            resting.flags
-        };
-        if resting.line > 0 {
-            self.line = resting.line;
-        }
-        let frame = Frame {
-            sequence: self.sequence,
-            line: self.line,
-            flags,
-            event,
-            planned_override: self.planned_override,
-            path_v: 0.0,
-            path_s: self.path_s,
-            position: self.position,
-            velocity: AxisVector::zeros(),
-            acceleration: AxisVector::zeros(),
-        };
-        self.sequence += 1;
-        frame
     }
 
     /// The next frame of the stretch, or `None` after setting up for the next one.
@@ -267,24 +184,13 @@ impl Sampler {
         let piece = stretch.pieces.get(stretch.piece)?;
         let jet = piece.jet(s - stretch.piece_s);
         let (v, a) = (state.speed_v, state.accel_a);
-        let frame = Frame {
-            sequence: self.sequence,
-            line: piece.line,
-            flags: if piece.rapid {
-                FrameFlags::RAPID
-            } else {
-                FrameFlags::default()
-            },
-            event: self.events.pop_front(),
-            planned_override: piece.planned_override(),
+        Some(self.grid.motion_frame(&Moving {
             path_v: v,
             path_s: self.path_s + (s - stretch.piece_s),
             position: jet.position,
             velocity: jet.d1 * v,
             acceleration: jet.d2 * (v * v) + jet.d1 * a,
-        };
-        self.sequence += 1;
-        Some(frame)
+        }))
     }
 
     /// Goes on to the next piece of the stretch.
@@ -303,9 +209,14 @@ impl Sampler {
         if let Some(stretch) = &self.stretch
             && let Some(piece) = stretch.pieces.get(stretch.piece)
         {
-            self.events.extend(piece.events.iter().copied());
-            self.line = piece.line;
-            self.planned_override = piece.planned_override();
+            self.grid.enter(
+                Passing {
+                    line: piece.line,
+                    rapid: piece.rapid,
+                    planned_override: piece.planned_override(),
+                },
+                &piece.events,
+            );
         }
     }
 
@@ -320,8 +231,71 @@ impl Sampler {
             && let Some(piece) = stretch.pieces.last()
         {
             self.speed_v = stretch.legs.last().map_or(0.0, |leg| leg.profile.exit_v());
-            self.position = piece.jet(piece.length_s).position;
             self.path_s += piece.length_s;
+            self.grid
+                .leave(piece.jet(piece.length_s).position, self.path_s);
         }
+    }
+}
+
+/// True if the S-curves of a stretch follow each other from its start to its end.
+fn leads_to_the_end(pieces: &[Piece], legs: &[Leg]) -> bool {
+    let length_s: f64 = pieces.iter().map(|piece| piece.length_s).sum();
+    let rounding_s = 1e-9 * length_s.max(1.0);
+    let mut driven_s = 0.0;
+    for leg in legs {
+        if (leg.from_s - driven_s).abs() > rounding_s {
+            return false;
+        }
+        driven_s = leg.from_s + leg.profile.at(leg.profile.duration_t()).position_s;
+    }
+    (driven_s - length_s).abs() <= rounding_s
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::override_::{Override, ProgrammedRate};
+    use crate::piece::Shape;
+    use crate::speed_limit::SpeedRule;
+    use crate::{Limits, Rate};
+    use glidepath_geometry::Segment;
+
+    #[test]
+    fn a_stretch_without_a_motion_to_its_end_is_never_jumped_over() {
+        let (start, mut end) = (AxisVector::zeros(), AxisVector::zeros());
+        end[0] = 3.0;
+        let segment = Segment::line(start, end);
+        let rule = SpeedRule::Straight {
+            d1: segment.jet(0.0).d1,
+            rate: ProgrammedRate {
+                rate: Rate::Feed(10.0),
+                axes_v: 200.0,
+            },
+        };
+        let piece = Piece {
+            shape: Shape::Segment(segment),
+            from_s: 0.0,
+            length_s: 3.0,
+            limit: rule.limit(Override::NONE, &Limits::uniform(200.0, 2000.0, 40_000.0)),
+            rule,
+            planned: Override::NONE,
+            line: 17,
+            rapid: false,
+            events: Vec::new(),
+        };
+        let mut settled = VecDeque::from([Settled::Motion {
+            pieces: vec![piece],
+            legs: Vec::new(),
+        }]);
+        let mut sampler = Sampler::new(0.004, start);
+        assert!(matches!(
+            sampler.next_frame(&mut settled, false),
+            Step::Frame(_)
+        ));
+        assert_eq!(
+            sampler.next_frame(&mut settled, false),
+            Step::Broken { line: 17 }
+        );
     }
 }

@@ -51,7 +51,7 @@ fn audited(items: &[Item], settings: Settings) -> Report {
         planner.push(item).expect("a valid item");
     }
     planner.finish();
-    while let Some(frame) = planner.pop_frame() {
+    while let Some(frame) = planner.pop_frame().expect("a motion") {
         audit.sample(&Sample::from(&frame));
     }
     audit.finish()

@@ -136,7 +136,7 @@ fn arc(start: AxisVector, plane: Plane, center: [f64; 2], sweep_rad: f64, rise_m
 
 /// Takes all frames there are; a motion that crawls is a fault, not a matter of patience.
 fn take(planner: &mut Planner, frames: &mut Vec<Frame>) {
-    while let Some(frame) = planner.pop_frame() {
+    while let Some(frame) = planner.pop_frame().expect("a motion") {
         frames.push(frame);
         assert!(frames.len() < 1_000_000, "the motion crawls: {frame:?}");
     }

@@ -35,13 +35,13 @@ fn plan(items: &[Item], settings: Settings, changes: &[(u64, Override)]) -> Vec<
         while let Some((_, wanted)) = changes.next_if(|(when, _)| *when <= frames.len() as u64) {
             planner.set_override(*wanted).expect("a valid override");
         }
-        match planner.pop_frame() {
+        match planner.pop_frame().expect("a motion") {
             Some(frame) => frames.push(frame),
             None => match rest.next() {
                 Some(item) => planner.push(item).expect("a valid item"),
                 None => {
                     planner.finish();
-                    match planner.pop_frame() {
+                    match planner.pop_frame().expect("a motion") {
                         Some(frame) => frames.push(frame),
                         None => return frames,
                     }

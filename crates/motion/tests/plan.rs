@@ -41,11 +41,15 @@ fn plan(items: &[Item], settings: Settings, every: usize) -> Vec<Frame> {
     for (i, item) in items.iter().enumerate() {
         planner.push(item).expect("valid item");
         if i % every == 0 {
-            frames.extend(std::iter::from_fn(|| planner.pop_frame()));
+            frames.extend(std::iter::from_fn(|| {
+                planner.pop_frame().expect("a motion")
+            }));
         }
     }
     planner.finish();
-    frames.extend(std::iter::from_fn(|| planner.pop_frame()));
+    frames.extend(std::iter::from_fn(|| {
+        planner.pop_frame().expect("a motion")
+    }));
     frames
 }
 
@@ -123,7 +127,7 @@ fn frames_come_before_the_program_ends_and_memory_stays_bounded() {
             .push(&Item { line: i + 1, kind })
             .expect("valid item");
         position = next;
-        while planner.pop_frame().is_some() {
+        while planner.pop_frame().expect("a motion").is_some() {
             frames += 1;
             first_after = first_after.or(Some(i)).filter(|_| frames > 1);
         }
@@ -346,7 +350,7 @@ fn a_bad_item_is_refused_and_changes_nothing() {
         .push(&item(segment, Rate::Rapid, FREE))
         .expect("goes on as if nothing had been");
     planner.finish();
-    let last = std::iter::from_fn(|| planner.pop_frame())
+    let last = std::iter::from_fn(|| planner.pop_frame().expect("a motion"))
         .last()
         .expect("frames");
     assert_eq!(last.position, at(1.0, 0.0), "end");

@@ -53,6 +53,8 @@ enum Program {
     Open,
     /// No more items; frames may remain. Holds the reason if the program ended early.
     Ended(Option<Refusal>),
+    /// Planning failed inside: there are no more frames.
+    Broken,
 }
 
 /// Source and planner, joined.
@@ -94,7 +96,8 @@ impl<S: ItemSource> Pipeline<S> {
     ///
     /// # Errors
     /// The reason why the program ended early, once, after the last frame of the motion that stops
-    /// at the last good item. From then on the pipeline is at its end.
+    /// at the last good item. If planning failed inside ([`Refusal::leaves_motion_open`]), it comes
+    /// at once, and the frames given out do not end at rest. From then on the pipeline is at its end.
     pub fn advance(&mut self) -> Result<Output, Refusal> {
         let Some(clock) = self.clock else {
             return self.step();
@@ -106,11 +109,22 @@ impl<S: ItemSource> Pipeline<S> {
     }
 
     fn step(&mut self) -> Result<Output, Refusal> {
-        if let Some(frame) = self.planner.pop_frame() {
-            self.statistics.frames += 1;
-            return Ok(Output::Frame(frame));
+        if matches!(self.program, Program::Broken) {
+            return Ok(Output::End);
+        }
+        match self.planner.pop_frame() {
+            Ok(Some(frame)) => {
+                self.statistics.frames += 1;
+                return Ok(Output::Frame(frame));
+            }
+            Ok(None) => {}
+            Err(error) => {
+                self.program = Program::Broken;
+                return Err(error.into());
+            }
         }
         match &mut self.program {
+            Program::Broken => Ok(Output::End),
             Program::Open => Ok(self.take_item()),
             Program::Ended(refusal) => refusal.take().map_or(Ok(Output::End), Err),
         }

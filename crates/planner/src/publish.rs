@@ -255,6 +255,10 @@ impl<'t> Publisher<'t> {
                 Ok(Output::Item(_)) => {}
                 Ok(Output::Pending) => return Ok(Turn::Hungry),
                 Ok(Output::End) => epoch.ended = Some(Ok(())),
+                Err(refusal) if refusal.leaves_motion_open() => {
+                    self.abort(epoch, control)?;
+                    return Err(refusal.into());
+                }
                 Err(refusal) => epoch.ended = Some(Err(refusal)),
             }
         }

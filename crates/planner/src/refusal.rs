@@ -37,3 +37,12 @@ pub enum Refusal {
     #[error("the stream broke off: {0}")]
     StreamFailed(#[source] LinkError),
 }
+
+impl Refusal {
+    /// True if the frames given out before do not end at rest: whoever plays them has to stop the
+    /// motion.
+    #[must_use]
+    pub const fn leaves_motion_open(&self) -> bool {
+        matches!(self, Self::Plan(PlanError::NoMotion { .. }))
+    }
+}

@@ -94,7 +94,7 @@ fn plan(
     });
     let mut planner = Planner::new(settings, AxisVector::zeros());
     let mut take = |planner: &mut Planner, audit: &mut Audit| {
-        while let Some(frame) = planner.pop_frame() {
+        while let Some(frame) = planner.pop_frame().expect("a motion") {
             audit.sample(&Sample::from(&frame));
             each(&frame);
         }

@@ -70,7 +70,7 @@ fn program(seed: u64, moves: usize, smoothing: Smoothing) -> Vec<SetpointFrame> 
         at = to;
     }
     planner.finish();
-    let frames: Vec<_> = std::iter::from_fn(|| planner.pop_frame()).collect();
+    let frames: Vec<_> = std::iter::from_fn(|| planner.pop_frame().ok().flatten()).collect();
     crate::testing::records(&frames, 1, 4_000_000)
 }
 

@@ -1,0 +1,195 @@
+//! The fast engine: corners replaced by transitions, and closed-form S-curves along the path.
+//!
+//! ```text
+//!  item ──PathFront──▶ pieces, rests ──Scheduler──▶ settled motion ──Sampler──▶ frames
+//! ```
+
+use crate::path::PathFront;
+use crate::piece::{Element, Piece};
+use crate::sample::{Sampler, Step};
+use crate::schedule::{Scheduler, Settled};
+use crate::scurve::{PathLimits, slowing_horizon};
+use crate::{Frame, Item, Limits, Override, PlanError, Settings};
+use glidepath_geometry::AxisVector;
+use std::collections::VecDeque;
+
+/// The fast engine, as [`crate::Planner`] uses it.
+#[derive(Debug)]
+pub(crate) struct FastEngine {
+    front: PathFront,
+    scheduler: Scheduler,
+    sampler: Sampler,
+    elements: Vec<Element>,
+    settled: VecDeque<Settled>,
+    finished: bool,
+    limits: Limits,
+    /// An override that is not in the plan yet.
+    wanted: Option<Override>,
+}
+
+impl FastEngine {
+    /// A planner for a machine at rest at `start`.
+    pub(crate) fn new(settings: Settings, start: AxisVector) -> Self {
+        Self {
+            front: PathFront::new(settings, start),
+            scheduler: Scheduler::new(),
+            sampler: Sampler::new(settings.period_t, start),
+            elements: Vec::new(),
+            settled: VecDeque::new(),
+            finished: false,
+            limits: settings.limits,
+            wanted: None,
+        }
+    }
+
+    /// Takes the next item; see [`crate::Planner::push`].
+    pub(crate) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
+        self.front.push(item, &mut self.elements)?;
+        self.schedule();
+        Ok(())
+    }
+
+    /// No more items: what is planned ends at rest. Further calls do nothing.
+    pub(crate) fn finish(&mut self) {
+        if !self.finished {
+            self.finished = true;
+            self.front.finish(&mut self.elements);
+            self.schedule();
+        }
+    }
+
+    /// The next frame; see [`crate::Planner::pop_frame`].
+    pub(crate) fn pop_frame(&mut self) -> Result<Option<Frame>, PlanError> {
+        loop {
+            let was_planned = self.plan_anew();
+            match self.sampler.next_frame(&mut self.settled, !was_planned) {
+                Step::Frame(frame) => return Ok(Some(frame)),
+                Step::Junction => {}
+                Step::End => return Ok(None),
+                Step::Broken { line } => return Err(PlanError::NoMotion { line }),
+            }
+            // At a junction. If the override cannot be had from here, go on to the next one.
+            if !self.plan_anew() {
+                match self.sampler.next_frame(&mut self.settled, false) {
+                    Step::Frame(frame) => return Ok(Some(frame)),
+                    Step::Junction | Step::End => return Ok(None),
+                    Step::Broken { line } => return Err(PlanError::NoMotion { line }),
+                }
+            }
+        }
+    }
+
+    /// Plans what no frame was taken of with another override: rates times their override, limits
+    /// unchanged.
+    ///
+    /// The new plan begins at the next place where the motion has no acceleration along the path; a
+    /// lower override takes effect as soon after that as the speed can be brought down. Each frame
+    /// tells the override it was planned with.
+    pub(crate) fn set_override(&mut self, wanted: Override) {
+        self.front.set_override(wanted);
+        self.wanted = Some(wanted);
+    }
+
+    /// Puts a wanted override into the plan if that can be done from the last frame. True if there
+    /// is none left to put in.
+    fn plan_anew(&mut self) -> bool {
+        let Some(wanted) = self.wanted else {
+            return true;
+        };
+        let Some(entry_v) = self.sampler.steady_v() else {
+            return false;
+        };
+        let mut scheduler = Scheduler::entered_at(entry_v);
+        let mut settled = VecDeque::new();
+        let limits = self.limits;
+        let rest_of_stretch = self.sampler.rest_of_stretch().map(Element::Piece);
+        let elements = rest_of_stretch
+            .into_iter()
+            .chain(self.settled.iter().flat_map(Settled::elements))
+            .chain(self.scheduler.pieces().map(Element::Piece));
+        let mut slowing = Slowing::new(entry_v, wanted);
+        for element in elements {
+            let piece = match element {
+                Element::Piece(piece) => piece,
+                rest @ Element::Rest(_) => {
+                    slowing.over = true;
+                    scheduler.push(rest, &mut settled);
+                    continue;
+                }
+            };
+            let (old, new) = slowing.split(piece);
+            if let Some(old) = old {
+                scheduler.push(Element::Piece(old), &mut settled);
+            }
+            if let Some(new) = new {
+                if !core::mem::replace(&mut slowing.over, true) {
+                    scheduler.close_run();
+                }
+                scheduler.push(Element::Piece(new.under(wanted, &limits)), &mut settled);
+            }
+        }
+        if !scheduler.is_feasible() {
+            return false;
+        }
+        self.sampler.drop_stretch();
+        self.scheduler = scheduler;
+        self.settled = settled;
+        self.wanted = None;
+        true
+    }
+
+    fn schedule(&mut self) {
+        for element in self.elements.drain(..) {
+            self.scheduler.push(element, &mut self.settled);
+        }
+    }
+}
+
+/// The path on which a speed is brought down to a lower override: there the old one still holds.
+struct Slowing {
+    from_v: f64,
+    to: Override,
+    passed_s: f64,
+    weakest: Option<PathLimits>,
+    over: bool,
+}
+
+impl Slowing {
+    const fn new(from_v: f64, to: Override) -> Self {
+        Self {
+            from_v,
+            to,
+            passed_s: 0.0,
+            weakest: None,
+            over: false,
+        }
+    }
+
+    /// What of the next piece is still needed for it, and what is not.
+    fn split(&mut self, piece: Piece) -> (Option<Piece>, Option<Piece>) {
+        let Override { feed_r, rapid_r } = piece.planned;
+        let is_lower = self.to.feed_r < feed_r || self.to.rapid_r < rapid_r;
+        if self.over || !is_lower {
+            return (None, Some(piece));
+        }
+        let change = piece.limit.change;
+        let weakest = self.weakest.map_or(change, |weakest| PathLimits {
+            accel_a: weakest.accel_a.min(change.accel_a),
+            jerk_j: weakest.jerk_j.min(change.jerk_j),
+        });
+        let needed_s = slowing_horizon(self.from_v, weakest) - self.passed_s;
+        self.weakest = Some(weakest);
+        self.passed_s += piece.length_s;
+        let may_change = piece.limit.constant_above_v.is_infinite();
+        if needed_s <= 0.0 {
+            (None, Some(piece))
+        } else if may_change && needed_s < 0.99 * piece.length_s {
+            (
+                Some(piece.clone().before(needed_s)),
+                Some(piece.after(needed_s)),
+            )
+        } else {
+            (Some(piece), None)
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! The period grid: what every frame has besides the state of the axes.
+//!
+//! Frames are numbered without gaps. Events are told one a frame, in order, at the place where they
+//! happen or as soon after it as there is a frame; a rest lasts until all of them are told. Engines
+//! say what they pass and where they rest; the frames are made here, so that they tell the same
+//! story whoever planned them.
+
+use crate::piece::{Rest, RestKind};
+use crate::{Event, Frame, FrameFlags};
+use glidepath_geometry::AxisVector;
+use std::collections::VecDeque;
+
+/// Makes frames, one for each period.
+#[derive(Debug)]
+pub(crate) struct FrameGrid {
+    period_t: f64,
+    sequence: u64,
+    passing: Passing,
+    events: VecDeque<Event>,
+    /// Frames still to come at rest.
+    rest: Option<Resting>,
+    /// Where the machine rests, or was at rest last.
+    position: AxisVector,
+    path_s: f64,
+}
+
+/// What part of the program the motion is on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Passing {
+    pub line: u32,
+    pub rapid: bool,
+    /// The override it was planned with.
+    pub planned_override: f64,
+}
+
+/// The motion at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Moving {
+    pub path_v: f64,
+    pub path_s: f64,
+    pub position: AxisVector,
+    pub velocity: AxisVector,
+    pub acceleration: AxisVector,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Resting {
+    frames: u64,
+    flags: FrameFlags,
+    event: Option<Event>,
+    line: u32,
+}
+
+impl FrameGrid {
+    /// The grid of a machine at rest at `start`; the first frame says so.
+    pub(crate) const fn new(period_t: f64, start: AxisVector) -> Self {
+        let first = Resting {
+            frames: 1,
+            flags: FrameFlags::FIRST,
+            event: None,
+            line: 0,
+        };
+        Self {
+            period_t,
+            sequence: 0,
+            passing: Passing {
+                line: 0,
+                rapid: false,
+                planned_override: 1.0,
+            },
+            events: VecDeque::new(),
+            rest: Some(first),
+            position: start,
+            path_s: 0.0,
+        }
+    }
+
+    /// The motion comes to another part of the program, whose events happen from now on.
+    pub(crate) fn enter(&mut self, passing: Passing, events: &[Event]) {
+        self.events.extend(events);
+        self.passing = passing;
+    }
+
+    /// The motion comes to rest.
+    pub(crate) const fn leave(&mut self, position: AxisVector, path_s: f64) {
+        self.position = position;
+        self.path_s = path_s;
+    }
+
+    /// Sets up the frames of a rest; false if it has none.
+    pub(crate) fn enter_rest(&mut self, rest: Rest) -> bool {
+        let resting = |frames, flags, event| Resting {
+            frames,
+            flags,
+            event,
+            line: rest.line,
+        };
+        let at_rest = FrameFlags::EXACT_STOP;
+        let resting = match rest.kind {
+            RestKind::Corner => return false,
+            RestKind::ExactStop => resting(1, at_rest, None),
+            RestKind::Dwell(dwell_t) => resting(1 + self.periods(dwell_t), FrameFlags::DWELL, None),
+            RestKind::Event(event @ (Event::ProgramStop(_) | Event::OptionalStop)) => {
+                resting(1, at_rest.with(FrameFlags::PROGRAM_STOP), Some(event))
+            }
+            RestKind::Event(event) => resting(1, at_rest, Some(event)),
+            RestKind::End => resting(1, FrameFlags::LAST, None),
+        };
+        // Events of the motion that still wait happen first.
+        let frames = resting.frames + self.events.len() as u64;
+        self.rest = Some(Resting { frames, ..resting });
+        true
+    }
+
+    /// Whole periods that a time takes.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a float to integer cast saturates, and the time is not negative"
+    )]
+    fn periods(&self, time_t: f64) -> u64 {
+        (time_t / self.period_t - 1e-9).ceil().max(0.0) as u64
+    }
+
+    /// The next frame at rest, if the machine rests.
+    pub(crate) fn rest_frame(&mut self) -> Option<Frame> {
+        let resting = self.rest.as_mut()?;
+        if resting.frames == 0 {
+            self.rest = None;
+            return None;
+        }
+        resting.frames -= 1;
+        let resting = *resting;
+        let last = resting.frames == 0;
+        let queued = self.events.pop_front();
+        let event = queued.or(if last { resting.event } else { None });
+        // The end and the wait for the operator come when nothing is left to happen before them.
+        let is_final = FrameFlags::PROGRAM_STOP.with(FrameFlags::LAST).0;
+        let flags = if queued.is_some() && resting.flags.0 & is_final != 0 {
+            FrameFlags::EXACT_STOP
+        } else {
+            resting.flags
+        };
+        if resting.line > 0 {
+            self.passing.line = resting.line;
+        }
+        let at_rest = Moving {
+            path_v: 0.0,
+            path_s: self.path_s,
+            position: self.position,
+            velocity: AxisVector::zeros(),
+            acceleration: AxisVector::zeros(),
+        };
+        Some(self.frame(&at_rest, flags, event))
+    }
+
+    /// The next frame of a motion.
+    pub(crate) fn motion_frame(&mut self, moving: &Moving) -> Frame {
+        let flags = if self.passing.rapid {
+            FrameFlags::RAPID
+        } else {
+            FrameFlags::default()
+        };
+        let event = self.events.pop_front();
+        self.frame(moving, flags, event)
+    }
+
+    const fn frame(&mut self, state: &Moving, flags: FrameFlags, event: Option<Event>) -> Frame {
+        let sequence = self.sequence;
+        self.sequence += 1;
+        Frame {
+            sequence,
+            line: self.passing.line,
+            flags,
+            event,
+            planned_override: self.passing.planned_override,
+            path_v: state.path_v,
+            path_s: state.path_s,
+            position: state.position,
+            velocity: state.velocity,
+            acceleration: state.acceleration,
+        }
+    }
+}

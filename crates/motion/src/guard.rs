@@ -1,0 +1,108 @@
+//! The last look at a frame before it is given out: it must continue the motion.
+//!
+//! A plan that keeps the limits always passes. What is caught is a plan with a hole in it: a piece
+//! of path left out, a state that is not a number. Such a frame must never be published, whatever
+//! the cause; no motion at all is better.
+
+use crate::{Frame, Limits, PlanError, Settings};
+use glidepath_geometry::{AXES, AxisVector};
+
+/// Follows the frames.
+#[derive(Debug)]
+pub(crate) struct Guard {
+    /// Largest first, second and third difference of each axis, mm or degrees.
+    most: [AxisVector; 3],
+    /// Position, and its first and second differences, at the last frame.
+    last: Option<[AxisVector; 3]>,
+}
+
+/// How far above a limit a difference has to be to count as a hole in the plan. Rounding is far below
+/// it, a hole mostly far above.
+const ALLOWANCE_R: f64 = 1.01;
+/// What rounding of large positions makes of a difference, mm.
+const ROUNDING_MM: f64 = 1e-8;
+
+impl Guard {
+    pub(crate) fn new(settings: &Settings) -> Self {
+        let Limits {
+            velocity,
+            acceleration,
+            jerk,
+        } = settings.limits;
+        let t = settings.period_t;
+        let most = [velocity * t, acceleration * (t * t), jerk * t.powi(3)]
+            .map(|most| most.map(|x| x.mul_add(ALLOWANCE_R, ROUNDING_MM)));
+        Self { most, last: None }
+    }
+
+    /// Refuses a frame that does not follow the one before.
+    pub(crate) fn check(&mut self, frame: &Frame) -> Result<(), PlanError> {
+        let zero = AxisVector::zeros();
+        let [position, first, second] = self.last.unwrap_or([frame.position, zero, zero]);
+        let new_first = frame.position - position;
+        let new_second = new_first - first;
+        let differences = [new_first, new_second, new_second - second];
+        // Not a number is not within a limit.
+        let follows = differences
+            .iter()
+            .zip(&self.most)
+            .all(|(difference, most)| (0..AXES).all(|i| difference[i].abs() <= most[i]));
+        let is_state = [frame.velocity, frame.acceleration]
+            .iter()
+            .all(|x| x.iter().all(|x| x.is_finite()));
+        if !(follows && is_state) {
+            return Err(PlanError::NoMotion { line: frame.line });
+        }
+        self.last = Some([frame.position, new_first, new_second]);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Effort, FrameFlags, Smoothing};
+
+    fn guard() -> Guard {
+        Guard::new(&Settings {
+            limits: Limits::uniform(200.0, 2000.0, 40_000.0),
+            tolerance_mm: 0.02,
+            smoothing: Smoothing::Sextic,
+            period_t: 0.004,
+            effort: Effort::Fast,
+        })
+    }
+
+    fn frame(x: f64) -> Frame {
+        let mut position = AxisVector::zeros();
+        position[0] = x;
+        Frame {
+            sequence: 0,
+            line: 9,
+            flags: FrameFlags::default(),
+            event: None,
+            planned_override: 1.0,
+            path_v: 0.0,
+            path_s: 0.0,
+            position,
+            velocity: AxisVector::zeros(),
+            acceleration: AxisVector::zeros(),
+        }
+    }
+
+    #[test]
+    fn a_jump_is_refused_and_steady_motion_is_not() {
+        // A step of the jerk allowed, after a rest anywhere.
+        let most = 40_000.0 * 0.004_f64.powi(3);
+        let mut sound = guard();
+        for x in [500.0, 500.0, 500.0 + most, 500.0 + 4.0 * most] {
+            assert_eq!(sound.check(&frame(x)), Ok(()), "{x}");
+        }
+        for x in [500.0 + 1.1 * most, 499.0, f64::NAN] {
+            let mut guard = guard();
+            assert_eq!(guard.check(&frame(500.0)), Ok(()), "first");
+            let refused = Err(PlanError::NoMotion { line: 9 });
+            assert_eq!(guard.check(&frame(x)), refused, "{x}");
+        }
+    }
+}
