@@ -7,7 +7,8 @@
 //! ```
 //!
 //! * [`run`] starts both threads;
-//! * `tick` is one period of the real-time thread, and reads like a table of contents: what it owns
+//! * `tick` is one period of the real-time thread, done just before the deadline but for the time
+//!   stamp, and reads like a table of contents: what it owns
 //!   is a `track` (the frames ahead), a `rate` (of program time: the essay on hold, resume and
 //!   override is there), a `supply` (are there frames enough?) and a `will` (what stops the motion);
 //! * `admission` judges every frame before the real-time thread sees it;

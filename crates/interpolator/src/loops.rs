@@ -1,16 +1,17 @@
 //! The two threads.
 //!
 //! ```text
-//! grid            |────────────|────────────|
-//! real-time       ▐█░ tick      ▐█░
-//! ports              ▐███░ 200 µs later: setpoints out, commands and frames in
+//! grid            |─────────────|─────────────|
+//! real-time     ▓▓█           ▓▓█              prepares the setpoint, spins, hands it over in time
+//! ports              ▐███░         ▐███░       200 µs later: setpoints out, commands and frames in
 //! ```
 //!
-//! Both wake on the same grid, the second a fixed phase later, so that a setpoint leaves the process
-//! a known time after its tick.
+//! Both keep the same grid. The real-time thread rises a little before it, so that neither the host's
+//! latency nor cold caches delay a setpoint; the ports thread wakes a fixed phase after it, so that a
+//! setpoint leaves the process a known time after its tick.
 
 use crate::config::Config;
-use crate::message::{Inputs, Report};
+use crate::message::{Inputs, Report, Timing};
 use crate::tick::Interpolator;
 use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_link::{FaultCause, LinkError};
@@ -21,6 +22,9 @@ use heapless::spsc::Producer;
 
 /// Time from a tick to the work of the ports thread, as long as it fits into the period.
 const PHASE_NS: u64 = 200_000;
+
+/// Time from rising to the tick, as long as it is a small part of the period.
+const LEAD_NS: u64 = 100_000;
 
 /// By how much the priority of the ports thread is lower.
 const LOWER: i32 = 10;
@@ -52,6 +56,12 @@ pub enum RunError {
     Thread(&'static str),
 }
 
+/// By how much the real-time thread rises before a tick: more than a quiet host is late, and a
+/// small part of the period.
+pub(crate) fn lead_ns(period_ns: u64) -> u64 {
+    LEAD_NS.min(period_ns / 10)
+}
+
 /// When the ports thread wakes after a tick.
 pub(crate) fn phase_ns(period_ns: u64) -> u64 {
     PHASE_NS.min(period_ns / 4)
@@ -75,14 +85,22 @@ pub(crate) fn real_time<C: Clock>(
     stop: &AtomicBool,
 ) {
     while !stop.load(Ordering::Relaxed) {
+        let rise = timer.rise();
+        let mut report = interpolator.prepare(timer.next().tick, inputs);
+        let prepared_ns = timer.clock().now_ns();
         let wake = timer.wait();
-        let report = interpolator.tick(&wake, inputs);
+        interpolator.stamp(&mut report, &wake);
         if reports.enqueue(report).is_err() {
             // Nobody has taken a report for a second: the drives get nothing either.
             interpolator.counters.reports_lost += 1;
             interpolator.fail(FaultCause::Ports);
         }
-        interpolator.counters.work_ns = timer.clock().now_ns().saturating_sub(wake.woke_ns);
+        let done_ns = timer.clock().now_ns();
+        interpolator.counters.timing = Timing {
+            latency_ns: rise.latency_ns(),
+            work_ns: (prepared_ns - rise.woke_ns) + (done_ns - wake.woke_ns),
+            response_ns: done_ns - wake.scheduled_ns,
+        };
     }
 }
 

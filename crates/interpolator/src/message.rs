@@ -136,6 +136,17 @@ pub(crate) enum Order {
     PlannerLives,
 }
 
+/// How long the steps of a tick took, ns; all 0 before the first.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Timing {
+    /// From the time at which the thread was to rise to its waking.
+    pub(crate) latency_ns: u64,
+    /// All work of the tick, before and at the deadline.
+    pub(crate) work_ns: u64,
+    /// From the deadline to the setpoint handed over.
+    pub(crate) response_ns: u64,
+}
+
 /// Real-time thread to ports thread, every tick.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Report {
@@ -147,8 +158,8 @@ pub(crate) struct Report {
     pub(crate) frames_executed: u64,
     /// Frames the real-time thread owns and has not reached.
     pub(crate) queue_depth: u64,
-    /// Work of the tick before this one.
-    pub(crate) work_ns: u64,
+    /// Of the tick before this one.
+    pub(crate) timing: Timing,
     pub(crate) late_ticks: u64,
     pub(crate) reports_lost: u64,
     pub(crate) feed_override: f64,

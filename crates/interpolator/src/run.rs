@@ -1,7 +1,7 @@
 //! Running an interpolator until it is told to stop.
 
 use crate::config::Config;
-use crate::loops::{RunError, enter_ports, enter_real_time, guard, phase_ns, real_time};
+use crate::loops::{RunError, enter_ports, enter_real_time, guard, lead_ns, phase_ns, real_time};
 use crate::message::{HAPPENINGS, Happening, Inputs, Report, Rings};
 use crate::ports::Ports;
 use crate::tick::Interpolator;
@@ -81,7 +81,8 @@ fn real_time_thread(
     if tell.send((origin_ns, entered.grants)).is_err() {
         return Ok(());
     }
-    let mut timer = DeadlineTimer::new(Monotonic, origin_ns, config.period_ns);
+    let mut timer = DeadlineTimer::new(Monotonic, origin_ns, config.period_ns)
+        .with_lead(lead_ns(config.period_ns));
     guard(config)?;
     real_time(&mut interpolator, inputs, reports, &mut timer, ended);
     if config.forbid_system_calls {

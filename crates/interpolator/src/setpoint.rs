@@ -1,7 +1,7 @@
 //! What is published in a tick.
 
 use crate::config::Config;
-use crate::message::Report;
+use crate::message::{Report, Timing};
 use crate::tick::Interpolator;
 use glidepath_geometry::AXES;
 use glidepath_link::{FaultCause, OVERRIDE_MAX, Setpoint, SetpointFrame, SetpointMarks};
@@ -14,7 +14,9 @@ pub(crate) struct Counters {
     pub(crate) missed_ticks: u64,
     pub(crate) late_ticks: u64,
     pub(crate) reports_lost: u64,
-    pub(crate) work_ns: u64,
+    /// Of the tick before.
+    pub(crate) timing: Timing,
+    period_ns: u64,
     late_from_ns: u64,
     ticks_per_s: u64,
     missed_allowed: u64,
@@ -29,7 +31,8 @@ impl Counters {
             missed_ticks: 0,
             late_ticks: 0,
             reports_lost: 0,
-            work_ns: 0,
+            timing: Timing::default(),
+            period_ns: config.period_ns,
             // A wake-up is never quite on time: late is what eats a quarter of the period.
             late_from_ns: config.period_ns / 4,
             ticks_per_s: (1_000_000_000 / config.period_ns.max(1)).max(1),
@@ -54,6 +57,26 @@ impl Counters {
         wake.missed > 0 && self.missed_in_second > self.missed_allowed
     }
 
+    /// Writes into a report when it was, and how the host kept time so far.
+    pub(crate) const fn stamp(&self, report: &mut Report, wake: &Wake) {
+        let setpoint = &mut report.setpoint;
+        setpoint.tick = wake.tick;
+        setpoint.scheduled_ns = wake.scheduled_ns;
+        setpoint.apply_ns = wake.scheduled_ns + self.period_ns;
+        setpoint.lateness_ns = wake.lateness_ns();
+        setpoint.missed_ticks = self.missed_ticks;
+        setpoint.marks = 0;
+        if self.is_late(wake) {
+            setpoint.marks |= SetpointMarks::LATE.0;
+        }
+        if wake.missed > 0 {
+            setpoint.marks |= SetpointMarks::AFTER_MISSED.0;
+        }
+        report.timing = self.timing;
+        report.late_ticks = self.late_ticks;
+        report.reports_lost = self.reports_lost;
+    }
+
     const fn is_late(&self, wake: &Wake) -> bool {
         wake.lateness_ns() >= self.late_from_ns
     }
@@ -61,7 +84,7 @@ impl Counters {
 
 impl Interpolator<'_> {
     /// The setpoint at the present program time.
-    pub(crate) fn evaluate(&mut self, wake: &Wake) -> Setpoint {
+    pub(crate) fn evaluate(&mut self, tick: u64) -> Setpoint {
         let now = self.rate.now();
         let (Some(motion), Some(path), Some(frame)) = (
             self.track.kinematic(now.time),
@@ -72,10 +95,10 @@ impl Interpolator<'_> {
             // still is all that is left.
             self.fail(FaultCause::Output);
             self.rate.rest_at(now.time, 0.0);
-            return self.standing(wake);
+            return self.standing();
         };
-        let mut setpoint = self.blank(wake, &frame);
-        self.check(&motion.position, wake.tick);
+        let mut setpoint = self.blank(&frame);
+        self.check(&motion.position, tick);
         let per_s = self.period_t.recip();
         if now.rate >= 1.0 && now.slope == 0.0 && now.time.fraction <= 0.0 {
             (setpoint.position, setpoint.velocity, setpoint.acceleration) =
@@ -102,42 +125,36 @@ impl Interpolator<'_> {
     }
 
     /// The setpoint of a machine at rest without an epoch.
-    pub(crate) fn standing(&mut self, wake: &Wake) -> Setpoint {
+    pub(crate) fn standing(&mut self) -> Setpoint {
         let position = *self.published.position();
         self.published = self.published.then(&position);
         let passed = self.passed;
         Setpoint {
             position: position.into(),
             path_s: passed.path_s,
-            ..self.blank(wake, &passed)
+            ..self.blank(&passed)
         }
     }
 
-    /// Everything that does not depend on the motion.
-    fn blank(&mut self, wake: &Wake, frame: &SetpointFrame) -> Setpoint {
+    /// Everything that does not depend on the motion, without the stamp.
+    fn blank(&mut self, frame: &SetpointFrame) -> Setpoint {
         let number = self.counters.number;
         self.counters.number += 1;
-        let mut marks = 0;
-        if self.counters.is_late(wake) {
-            marks |= SetpointMarks::LATE.0;
-        }
-        if wake.missed > 0 {
-            marks |= SetpointMarks::AFTER_MISSED.0;
-        }
         Setpoint {
             boot_id: self.boot_id,
             number,
-            tick: wake.tick,
-            scheduled_ns: wake.scheduled_ns,
-            apply_ns: wake.scheduled_ns + self.period_ns,
-            lateness_ns: wake.lateness_ns(),
-            missed_ticks: self.counters.missed_ticks,
+            // The stamp at the deadline sets these.
+            tick: 0,
+            scheduled_ns: 0,
+            apply_ns: 0,
+            lateness_ns: 0,
+            missed_ticks: 0,
+            marks: 0,
             epoch: self.epoch,
             sequence: frame.sequence,
             fraction: 0.0,
             line: frame.line,
             flags: frame.flags,
-            marks,
             state: self.state.code(),
             event_kind: 0,
             reserved: 0,
@@ -172,9 +189,9 @@ impl Interpolator<'_> {
             } else {
                 0
             },
-            work_ns: self.counters.work_ns,
-            late_ticks: self.counters.late_ticks,
-            reports_lost: self.counters.reports_lost,
+            timing: Timing::default(),
+            late_ticks: 0,
+            reports_lost: 0,
             feed_override,
             rapid_override,
         }

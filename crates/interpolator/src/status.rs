@@ -36,8 +36,8 @@ impl StatusBook {
     /// Counts a tick.
     pub(crate) fn count(&mut self, report: &Report) {
         self.lateness.record(report.setpoint.lateness_ns);
-        if report.work_ns > 0 {
-            self.work.record(report.work_ns);
+        if report.setpoint.number > 0 {
+            self.work.record(report.timing.work_ns);
         }
     }
 

@@ -71,6 +71,8 @@ impl Stepped<'_> {
             woke_ns: scheduled_ns,
             missed: 0,
         };
-        self.interpolator.tick(&wake, &mut self.inputs).setpoint
+        let mut report = self.interpolator.prepare(self.tick, &mut self.inputs);
+        self.interpolator.stamp(&mut report, &wake);
+        report.setpoint
     }
 }

@@ -126,7 +126,8 @@ impl Rig {
             woke_ns,
             missed,
         };
-        let report = self.interpolator.tick(&wake, &mut self.inputs);
+        let mut report = self.interpolator.prepare(self.tick, &mut self.inputs);
+        self.interpolator.stamp(&mut report, &wake);
         self.setpoints.push(report.setpoint);
         self.last = Some(report);
         report.setpoint

@@ -2,9 +2,13 @@
 //!
 //! ```text
 //! orders ─► will ─┐
-//! frames ─► track ┼─► supply ─► steer ─► advance ─► setpoint ─► settle ─► report
-//!                 └─ enough to go on?  rate  program time   check   end of epoch, program stop
+//! frames ─► track ┼─► supply ─► steer ─► advance ─► setpoint ─► settle ─► report ─┊─► stamp
+//!                 └─ enough to go on?  rate  program time   check   end of epoch,  deadline
+//!                                                                   program stop
 //! ```
+//!
+//! Everything but the stamp is done shortly before the deadline: how long it takes, and how cold the
+//! caches are after the sleep, does not delay the setpoint.
 //!
 //! No step allocates, locks, waits or calls the system. Work is bounded: so many orders and frames a
 //! tick, and a budget for the choice of a ramp.
@@ -35,7 +39,6 @@ const EXCESS_FAULT: f64 = 0.05;
 
 /// The real-time thread's state.
 pub(crate) struct Interpolator<'a> {
-    pub(crate) period_ns: u64,
     pub(crate) period_t: f64,
     pub(crate) boot_id: u64,
     pub(crate) track: Track,
@@ -66,7 +69,6 @@ impl<'a> Interpolator<'a> {
         let mut passed = <SetpointFrame as bytemuck::Zeroable>::zeroed();
         passed.position = config.start_position.into();
         Self {
-            period_ns: config.period_ns,
             period_t,
             boot_id,
             track: Track::new(period_t, config.limits),
@@ -85,30 +87,26 @@ impl<'a> Interpolator<'a> {
         }
     }
 
-    /// One period: reads the rings, advances program time, and says where the axes are to be.
-    pub(crate) fn tick(&mut self, wake: &Wake, inputs: &mut Inputs<'_>) -> Report {
-        self.count(wake);
+    /// One period: reads the rings, advances program time, and says where the axes are to be. Needs
+    /// nothing but the rings, so it is done before the deadline of the tick.
+    pub(crate) fn prepare(&mut self, tick: u64, inputs: &mut Inputs<'_>) -> Report {
         self.obey(inputs);
         self.take_frames(inputs);
         self.watch_supply();
         let setpoint = if self.is_open() {
             self.steer();
-            self.advance(wake);
-            self.evaluate(wake)
+            self.advance(tick);
+            self.evaluate(tick)
         } else {
-            self.standing(wake)
+            self.standing()
         };
         self.settle();
-        self.change_state(wake);
+        self.change_state(tick);
         self.report(setpoint)
     }
 
-    /// True while an epoch is being executed.
-    pub(crate) fn is_open(&self) -> bool {
-        !self.track.is_empty()
-    }
-
-    fn count(&mut self, wake: &Wake) {
+    /// What is left to do at the deadline: the time it really was.
+    pub(crate) fn stamp(&mut self, report: &mut Report, wake: &Wake) {
         if wake.missed > 0 {
             self.happenings.write(Happening::Missed {
                 tick: wake.tick,
@@ -118,6 +116,12 @@ impl<'a> Interpolator<'a> {
         if self.counters.count(wake) {
             self.fail(FaultCause::MissedTicks);
         }
+        self.counters.stamp(report, wake);
+    }
+
+    /// True while an epoch is being executed.
+    pub(crate) fn is_open(&self) -> bool {
+        !self.track.is_empty()
     }
 
     fn obey(&mut self, inputs: &mut Inputs<'_>) {
@@ -242,15 +246,12 @@ impl<'a> Interpolator<'a> {
     }
 
     /// Advances program time, not past a frame that holds the motion.
-    fn advance(&mut self, wake: &Wake) {
+    fn advance(&mut self, tick: u64) {
         let before = self.rate.excess();
         let time = self.rate.advance().time;
         if self.rate.excess() > before {
             let part = self.rate.excess();
-            self.happenings.write(Happening::Relaxed {
-                tick: wake.tick,
-                part,
-            });
+            self.happenings.write(Happening::Relaxed { tick, part });
         }
         let held = self.track.clamped(time);
         if held != time {
@@ -313,14 +314,14 @@ impl<'a> Interpolator<'a> {
             .fail(Fault::new(cause, self.passed.line, self.passed.sequence));
     }
 
-    fn change_state(&mut self, wake: &Wake) {
+    fn change_state(&mut self, tick: u64) {
         let to = self
             .will
             .state(self.is_open(), self.is_standing(), &self.supply);
         if to != self.state {
             let (from, line) = (self.state, self.passed.line);
             self.happenings.write(Happening::State {
-                tick: wake.tick,
+                tick,
                 from,
                 to,
                 line,

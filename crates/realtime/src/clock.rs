@@ -10,6 +10,17 @@ pub trait Clock {
 
     /// Returns once [`now_ns`](Self::now_ns) is `deadline_ns` or later.
     fn sleep_until(&mut self, deadline_ns: u64);
+
+    /// The same without giving the processor away; returns the time.
+    fn spin_until(&mut self, deadline_ns: u64) -> u64 {
+        loop {
+            let now_ns = self.now_ns();
+            if now_ns >= deadline_ns {
+                return now_ns;
+            }
+            core::hint::spin_loop();
+        }
+    }
 }
 
 /// `CLOCK_MONOTONIC`: the same in every process of the host, not set back by anybody.

@@ -25,7 +25,7 @@ mod setup;
 mod sys;
 
 pub use clock::{Clock, Monotonic};
-pub use deadline::{DeadlineTimer, Wake};
+pub use deadline::{DeadlineTimer, Rise, Wake};
 pub use event_ring::{EventReader, EventWriter, Events, event_ring};
 pub use histogram::{Histogram, Quantiles};
 pub use host::Host;
