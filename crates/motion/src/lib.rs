@@ -30,6 +30,7 @@ mod path;
 mod pending;
 mod piece;
 mod planner;
+pub mod preview;
 mod run;
 mod sample;
 mod schedule;

@@ -150,11 +150,38 @@ impl SpanCurvature {
     /// has one), and perhaps points where it is not. Between two neighbours of them, and between them
     /// and the ends of the span, the curvature is monotone. A circular arc gives none.
     pub fn critical(&self, mut found: impl FnMut(f64)) {
-        let Some(extreme) = self.extreme() else {
-            return;
-        };
         let (from_u, h) = (self.from_u, self.to_u - self.from_u);
-        extreme.roots(&mut |t| found(from_u + h * t));
+        let still = self.standstills();
+        let mut still = still.iter().copied().flatten().peekable();
+        if let Some(extreme) = self.extreme() {
+            extreme.roots(&mut |t| {
+                while let Some(cusp) = still.next_if(|cusp| *cusp <= t) {
+                    found(from_u + h * cusp);
+                }
+                found(from_u + h * t);
+            });
+        }
+        still.for_each(|cusp| found(from_u + h * cusp));
+    }
+
+    /// Where the curve stands still inside the span, ascending. There E has a root as well, but a
+    /// multiple one, which comes out with few digits; of |N|² it is a minimum, found with all.
+    fn standstills(&self) -> [Option<f64>; super::MAX_DEGREE] {
+        let mut still = [None; super::MAX_DEGREE];
+        let square = squared(&self.hodograph);
+        let least = (STANDSTILL * self.largest).powi(2);
+        if square.min() > least {
+            return still;
+        }
+        let mut slots = still.iter_mut();
+        square.derivative().roots(&mut |t| {
+            if square.at(t) <= least
+                && let Some(slot) = slots.next()
+            {
+                *slot = Some(t);
+            }
+        });
+        still
     }
 
     /// E, or none if the curvature is constant.

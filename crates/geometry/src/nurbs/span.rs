@@ -88,8 +88,9 @@ impl Span {
         &self.feed[..=self.degree]
     }
 
-    /// Position and derivatives by `u`, which is clamped to the span.
-    pub(super) fn jet(&self, u: f64) -> NurbsJet {
+    /// Position and derivatives by `u`, which is clamped to the span; at its ends those of its side.
+    #[must_use]
+    pub fn jet(&self, u: f64) -> NurbsJet {
         let h = self.to_u - self.from_u;
         let homogeneous = derivatives(&self.axes, self.degree, self.local(u));
         let a: [AxisVector; 4] = homogeneous.map(|v| v.fixed_rows::<AXES>(0).into_owned());

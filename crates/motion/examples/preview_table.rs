@@ -1,0 +1,14 @@
+//! The table in the documentation of `glidepath_motion::preview`: points evaluated by the three
+//! methods on the reference curves.
+//!
+//! `cargo run --release -p glidepath-motion --example preview_table > crates/motion/src/preview/table.md`
+#![allow(clippy::print_stdout, reason = "a command that prints")]
+
+#[path = "../tests/preview/curves.rs"]
+mod curves;
+#[path = "../tests/preview/table.rs"]
+mod table;
+
+fn main() {
+    print!("{}", table::markdown());
+}
