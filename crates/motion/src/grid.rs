@@ -33,6 +33,15 @@ pub(crate) struct Passing {
     pub planned_override: f64,
 }
 
+impl Passing {
+    /// Before the first move.
+    pub(crate) const NONE: Self = Self {
+        line: 0,
+        rapid: false,
+        planned_override: 1.0,
+    };
+}
+
 /// The motion at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Moving {
@@ -63,11 +72,7 @@ impl FrameGrid {
         Self {
             period_t,
             sequence: 0,
-            passing: Passing {
-                line: 0,
-                rapid: false,
-                planned_override: 1.0,
-            },
+            passing: Passing::NONE,
             events: VecDeque::new(),
             rest: Some(first),
             position: start,
@@ -79,6 +84,25 @@ impl FrameGrid {
     pub(crate) fn enter(&mut self, passing: Passing, events: &[Event]) {
         self.events.extend(events);
         self.passing = passing;
+    }
+
+    /// The motion goes on within that part, at a place with another line or override.
+    pub(crate) const fn pass(&mut self, passing: Passing) {
+        self.passing = passing;
+    }
+
+    /// The line passed last.
+    pub(crate) const fn line(&self) -> u32 {
+        self.passing.line
+    }
+
+    /// A frame of another grid as the next of this one; its path position is kept.
+    pub(crate) const fn relay(&mut self, frame: Frame) -> Frame {
+        self.passing.line = frame.line;
+        self.passing.planned_override = frame.planned_override;
+        let sequence = self.sequence;
+        self.sequence += 1;
+        Frame { sequence, ..frame }
     }
 
     /// The motion comes to rest.

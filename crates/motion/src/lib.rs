@@ -25,6 +25,7 @@ mod item;
 mod joint;
 mod limits;
 mod merge;
+mod optimal;
 mod override_;
 mod path;
 mod pending;

@@ -15,7 +15,7 @@ use glidepath_geometry::{AxisVector, Segment};
 
 /// Moves shorter than this are carried into the next one: below the resolution of programs, where
 /// directions are rounding noise.
-const SHORTEST_MOVE_MM: f64 = 1e-6;
+pub(crate) const SHORTEST_MOVE_MM: f64 = 1e-6;
 
 /// Turns items into pieces and rests.
 #[derive(Debug)]
@@ -289,7 +289,7 @@ fn chord_speed(segment: &Segment, mode: PathMode, settings: &Settings) -> f64 {
 }
 
 /// The same segment from a start that differs by less than [`SHORTEST_MOVE_MM`].
-fn starting_at(mut segment: Segment, start: AxisVector) -> Segment {
+pub(crate) fn starting_at(mut segment: Segment, start: AxisVector) -> Segment {
     match &mut segment {
         Segment::Line(line) => line.start = start,
         Segment::Arc(arc) => arc.start = start,
@@ -297,7 +297,8 @@ fn starting_at(mut segment: Segment, start: AxisVector) -> Segment {
     segment
 }
 
-fn check(
+/// Refuses a move that cannot be planned.
+pub(crate) fn check(
     line: u32,
     segment: &Segment,
     rate: Rate,

@@ -2,7 +2,8 @@
 
 use crate::fast::FastEngine;
 use crate::guard::Guard;
-use crate::{Frame, Item, Override, PlanError, Settings};
+use crate::optimal::OptimalEngine;
+use crate::{Effort, Frame, Item, Override, PlanError, Settings, Smoothing};
 use glidepath_geometry::AxisVector;
 
 /// Plans a program as it comes, in memory that does not grow with its length.
@@ -18,9 +19,9 @@ use glidepath_geometry::AxisVector;
 /// let settings = Settings {
 ///     limits: Limits::uniform(200.0, 2000.0, 40_000.0),
 ///     tolerance_mm: 0.02,
-///     smoothing: Smoothing::Sextic,
+///     smoothing: Smoothing::Auto,
 ///     period_t: 0.004,
-///     effort: Effort::Fast,
+///     effort: Effort::Optimal,
 /// };
 /// let start = AxisVector::zeros();
 /// let mut end = start;
@@ -44,10 +45,28 @@ use glidepath_geometry::AxisVector;
 /// ```
 #[derive(Debug)]
 pub struct Planner {
-    engine: FastEngine,
+    engine: Engine,
     guard: Guard,
     /// Why there are no more frames.
     failed: Option<PlanError>,
+}
+
+/// How motion is planned.
+#[derive(Debug)]
+enum Engine {
+    Fast(Box<FastEngine>),
+    Optimal(Box<OptimalEngine>),
+}
+
+impl Engine {
+    fn new(settings: Settings, start: AxisVector) -> Self {
+        match (settings.effort, settings.smoothing) {
+            (Effort::Optimal, Smoothing::Auto) => {
+                Self::Optimal(Box::new(OptimalEngine::new(settings, start)))
+            }
+            _ => Self::Fast(Box::new(FastEngine::new(settings, start))),
+        }
+    }
 }
 
 impl Planner {
@@ -55,7 +74,7 @@ impl Planner {
     #[must_use]
     pub fn new(settings: Settings, start: AxisVector) -> Self {
         Self {
-            engine: FastEngine::new(settings, start),
+            engine: Engine::new(settings, start),
             guard: Guard::new(&settings),
             failed: None,
         }
@@ -68,15 +87,21 @@ impl Planner {
     /// tolerance or dwell out of range. The planner is then as if the item had not been given. After
     /// [`Planner::pop_frame`] has failed, its error.
     pub fn push(&mut self, item: &Item) -> Result<(), PlanError> {
-        match self.failed {
-            Some(error) => Err(error),
-            None => self.engine.push(item),
+        if let Some(error) = self.failed {
+            return Err(error);
+        }
+        match &mut self.engine {
+            Engine::Fast(engine) => engine.push(item),
+            Engine::Optimal(engine) => engine.push(item),
         }
     }
 
     /// No more items: what is planned ends at rest. Further calls do nothing.
     pub fn finish(&mut self) {
-        self.engine.finish();
+        match &mut self.engine {
+            Engine::Fast(engine) => engine.finish(),
+            Engine::Optimal(engine) => engine.finish(),
+        }
     }
 
     /// The next frame, if the motion is settled that far. Without more items it never is beyond a
@@ -90,7 +115,11 @@ impl Planner {
         if let Some(error) = self.failed {
             return Err(error);
         }
-        let taken = self.engine.pop_frame().and_then(|frame| {
+        let taken = match &mut self.engine {
+            Engine::Fast(engine) => engine.pop_frame(),
+            Engine::Optimal(engine) => engine.pop_frame(),
+        };
+        let taken = taken.and_then(|frame| {
             if let Some(frame) = &frame {
                 self.guard.check(frame)?;
             }
@@ -105,7 +134,7 @@ impl Planner {
     ///
     /// A lower override takes effect as soon as the speed can be brought down; the fast engine begins
     /// at the next place where the motion has no acceleration along the path. Each frame tells the
-    /// override it was planned with.
+    /// override it was planned with: while the speed is brought down, one in between.
     ///
     /// # Errors
     /// If a factor is not a positive number, or that of rapids is above 1.
@@ -115,7 +144,10 @@ impl Planner {
         if !valid {
             return Err(PlanError::Override { feed_r, rapid_r });
         }
-        self.engine.set_override(wanted);
+        match &mut self.engine {
+            Engine::Fast(engine) => engine.set_override(wanted),
+            Engine::Optimal(engine) => engine.set_override(wanted),
+        }
         Ok(())
     }
 }

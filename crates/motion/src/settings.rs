@@ -2,13 +2,17 @@
 
 use crate::Limits;
 
-/// Which curve replaces a corner.
+/// How corners are passed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Smoothing {
-    /// The uniform sextic ("B6").
+    /// As the effort does it best: anywhere within the tolerance ([`Effort::Optimal`]), or by the
+    /// uniform sextic ([`Effort::Fast`]).
     #[default]
+    Auto,
+    /// The uniform sextic ("B6") replaces a corner, whatever the effort.
     Sextic,
-    /// The rational Bézier pair of the published method, at constant corner speed.
+    /// The rational Bézier pair of the published method, at constant corner speed, whatever the
+    /// effort.
     BezierPair,
     /// No curve: the machine rests at every corner.
     ExactStop,
@@ -17,8 +21,11 @@ pub enum Smoothing {
 /// How much work planning may cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Effort {
-    /// Corner transitions and closed-form S-curves.
+    /// Geometry and time law are optimised together, in a window that moves along the path: near the
+    /// least time that the limits and the tolerance allow.
     #[default]
+    Optimal,
+    /// Corner transitions and closed-form S-curves: some hundred times less work.
     Fast,
 }
 
@@ -30,7 +37,7 @@ pub struct Settings {
     /// Tolerance in mm, smoothing and chord error together, > 0; G64 P overrides it. It holds for
     /// the XYZ group, the UVW group, and (in degrees) for the rotary axes.
     pub tolerance_mm: f64,
-    /// The curve at corners.
+    /// How corners are passed; what names a curve is planned with [`Effort::Fast`].
     pub smoothing: Smoothing,
     /// Interpolation period in seconds, > 0.
     pub period_t: f64,

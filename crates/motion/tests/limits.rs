@@ -273,16 +273,40 @@ proptest! {
         period_t in prop_oneof![Just(0.004), Just(0.001)],
     ) {
         let smoothing = if pair { Smoothing::BezierPair } else { Smoothing::Sextic };
-        let settings = settings(limits, 0.02, smoothing, period_t);
-        let items = items(&steps);
-        let frames = plan(&items, settings);
-        let report = audit(&items, &frames, &settings);
-        prop_assert!(report.is_clean(), "{:#?}", report);
-        let end = items.iter().rev().find_map(|item| match item.kind {
-            ItemKind::Move { segment, .. } => Some(segment.end()),
-            _ => None,
-        });
-        let last = frames.last().expect("frames").position;
-        prop_assert!((last - end.unwrap_or_default()).amax() <= 1e-9, "ends at {last}");
+        keeps_limits(&steps, &settings(limits, 0.02, smoothing, period_t))?;
     }
+}
+
+proptest! {
+    #![proptest_config(cases(30))]
+
+    #[test]
+    fn random_programs_planned_optimally_keep_the_limits_and_reach_their_end(
+        steps in prop::collection::vec(any_step(), 1..25),
+        limits in any_limits(),
+        period_t in prop_oneof![Just(0.004), Just(0.001)],
+    ) {
+        let settings = Settings {
+            effort: Effort::Optimal,
+            ..settings(limits, 0.02, Smoothing::Auto, period_t)
+        };
+        keeps_limits(&steps, &settings)?;
+    }
+}
+
+fn keeps_limits(steps: &[Step], settings: &Settings) -> Result<(), TestCaseError> {
+    let items = items(steps);
+    let frames = plan(&items, *settings);
+    let report = audit(&items, &frames, settings);
+    prop_assert!(report.is_clean(), "{:#?}", report);
+    let end = items.iter().rev().find_map(|item| match item.kind {
+        ItemKind::Move { segment, .. } => Some(segment.end()),
+        _ => None,
+    });
+    let last = frames.last().expect("frames").position;
+    prop_assert!(
+        (last - end.unwrap_or_default()).amax() <= 1e-9,
+        "ends at {last}"
+    );
+    Ok(())
 }

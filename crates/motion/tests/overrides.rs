@@ -12,7 +12,7 @@ use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
 use glidepath_motion::audit::{Audit, AuditSettings, Sample, ViolationKind};
 use glidepath_motion::{Frame, Item, ItemKind, Override, PlanError, Planner, Rate, Settings};
 use proptest::prelude::*;
-use support::{FREE, at, cases, mill};
+use support::{FREE, at, cases, efforts, mill, optimal};
 
 fn item(line: u32, segment: Segment, rate: Rate) -> Item {
     Item {
@@ -87,134 +87,205 @@ fn part() -> Vec<Item> {
 
 #[test]
 fn an_override_from_the_start_gives_the_plan_of_that_feed() {
-    for factor in [0.5, 2.0] {
-        let overridden = plan(&part(), mill(), &[(0, feed(factor))]);
-        let scaled: Vec<_> = part()
-            .into_iter()
-            .map(|item| match item.kind {
-                ItemKind::Move { segment, .. } => {
-                    self::item(item.line, segment, Rate::Feed(40.0 * factor))
-                }
-                _ => item,
-            })
-            .collect();
-        let programmed = plan(&scaled, mill(), &[]);
-        assert_eq!(overridden.len(), programmed.len(), "{factor}");
+    for settings in efforts() {
+        for factor in [0.5, 2.0] {
+            let overridden = plan(&part(), settings, &[(0, feed(factor))]);
+            let scaled: Vec<_> = part()
+                .into_iter()
+                .map(|item| match item.kind {
+                    ItemKind::Move { segment, .. } => {
+                        self::item(item.line, segment, Rate::Feed(40.0 * factor))
+                    }
+                    _ => item,
+                })
+                .collect();
+            let programmed = plan(&scaled, settings, &[]);
+            assert_eq!(overridden.len(), programmed.len(), "{factor}");
+        }
     }
 }
 
 #[test]
 fn an_override_on_the_way_takes_effect_within_a_horizon() {
-    let frames = |changes: &[(u64, Override)]| plan(&part(), mill(), changes);
-    let full = frames(&[]);
-    for when in [50_usize, 200, 400, 700] {
-        let from_s = full[when].path_s;
-        for factor in [0.5, 2.0] {
-            let other = frames(&[(0, feed(factor))]);
-            let left = other.iter().filter(|frame| frame.path_s > from_s).count();
-            let expected = (when + left) as f64;
-            let actual = frames(&[(when as u64, feed(factor))]).len() as f64;
-            let horizon = 0.5 / 0.004;
-            assert!(
-                (actual - expected).abs() <= 0.02 * expected + horizon,
-                "{factor} at {when}: {actual} frames, expected about {expected}"
-            );
+    for settings in [mill()] {
+        let frames = |changes: &[(u64, Override)]| plan(&part(), settings, changes);
+        let full = frames(&[]);
+        for when in [50_usize, 200, 400, 700] {
+            let from_s = full[when].path_s;
+            for factor in [0.5, 2.0] {
+                let other = frames(&[(0, feed(factor))]);
+                let left = other.iter().filter(|frame| frame.path_s > from_s).count();
+                let expected = (when + left) as f64;
+                let actual = frames(&[(when as u64, feed(factor))]).len() as f64;
+                let horizon = 0.5 / 0.004;
+                assert!(
+                    (actual - expected).abs() <= 0.02 * expected + horizon,
+                    "{factor} at {when}: {actual} frames, expected about {expected}"
+                );
+            }
         }
     }
 }
 
 #[test]
 fn frames_tell_their_override() {
-    let frames = plan(&part(), mill(), &[(300, feed(1.5))]);
-    let told: Vec<_> = frames.iter().map(|frame| frame.planned_override).collect();
-    let change = told
-        .iter()
-        .position(|&r| r > 1.25)
-        .expect("the override arrives");
-    assert!((300..400).contains(&change), "arrives at {change}");
-    assert!(
-        told[..change].iter().all(|&r| (r - 1.0).abs() < 1e-12),
-        "before"
-    );
-    assert!(
-        told[change..].iter().all(|&r| (r - 1.5).abs() < 1e-12),
-        "after"
-    );
+    for settings in efforts() {
+        let frames = plan(&part(), settings, &[(300, feed(1.5))]);
+        let told: Vec<_> = frames.iter().map(|frame| frame.planned_override).collect();
+        let change = told
+            .iter()
+            .position(|&r| r > 1.25)
+            .expect("the override arrives");
+        assert!((300..400).contains(&change), "arrives at {change}");
+        assert!(
+            told[..change].iter().all(|&r| (r - 1.0).abs() < 1e-12),
+            "before"
+        );
+        assert!(
+            told[change..].iter().all(|&r| (r - 1.5).abs() < 1e-12),
+            "after"
+        );
+    }
 }
 
 #[test]
 fn a_rapid_keeps_to_its_own_override() {
-    let rapid = [item(
-        1,
-        Segment::line(at(0.0, 0.0), at(200.0, 0.0)),
-        Rate::Rapid,
-    )];
-    let slow = Override {
-        feed_r: 2.0,
-        rapid_r: 0.25,
-    };
-    let frames = plan(&rapid, mill(), &[(0, slow)]);
-    let peak_v = frames.iter().map(|frame| frame.path_v).fold(0.0, f64::max);
-    assert!((peak_v - 50.0).abs() < 1e-6, "{peak_v}");
+    for settings in efforts() {
+        let rapid = [item(
+            1,
+            Segment::line(at(0.0, 0.0), at(200.0, 0.0)),
+            Rate::Rapid,
+        )];
+        let slow = Override {
+            feed_r: 2.0,
+            rapid_r: 0.25,
+        };
+        let frames = plan(&rapid, settings, &[(0, slow)]);
+        let peak_v = frames.iter().map(|frame| frame.path_v).fold(0.0, f64::max);
+        assert!((peak_v - 50.0).abs() < 1e-6, "{peak_v}");
+    }
 }
 
 #[test]
 fn nonsense_is_refused() {
-    let mut planner = Planner::new(mill(), AxisVector::zeros());
-    for (feed_r, rapid_r) in [
-        (0.0, 1.0),
-        (-1.0, 1.0),
-        (f64::INFINITY, 1.0),
-        (1.0, 1.5),
-        (1.0, 0.0),
-    ] {
-        let refused = planner.set_override(Override { feed_r, rapid_r });
-        assert_eq!(
-            refused,
-            Err(PlanError::Override { feed_r, rapid_r }),
-            "{feed_r} {rapid_r}"
-        );
+    for settings in efforts() {
+        let mut planner = Planner::new(settings, AxisVector::zeros());
+        for (feed_r, rapid_r) in [
+            (0.0, 1.0),
+            (-1.0, 1.0),
+            (f64::INFINITY, 1.0),
+            (1.0, 1.5),
+            (1.0, 0.0),
+        ] {
+            let refused = planner.set_override(Override { feed_r, rapid_r });
+            assert_eq!(
+                refused,
+                Err(PlanError::Override { feed_r, rapid_r }),
+                "{feed_r} {rapid_r}"
+            );
+        }
     }
+}
+
+type Steps = Vec<(f64, f64, f64, f64, u8)>;
+type Changes = Vec<(u64, f64, f64)>;
+
+fn any_steps() -> impl Strategy<Value = Steps> {
+    let step = (
+        -1.0..1.0_f64,
+        -1.0..1.0_f64,
+        -1.5..1.3_f64,
+        0.7..2.0_f64,
+        0..8_u8,
+    );
+    prop::collection::vec(step, 2..30)
+}
+
+fn any_changes() -> impl Strategy<Value = Changes> {
+    prop::collection::vec((0..120_u64, 0.1..2.0_f64, 0.1..1.0_f64), 0..12)
 }
 
 proptest! {
     #![proptest_config(cases(200))]
 
     #[test]
-    fn overrides_at_any_time_keep_limits_and_path(
-        steps in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64, -1.5..1.3_f64, 0.7..2.0_f64, 0..8_u8), 2..30),
-        changes in prop::collection::vec((0..120_u64, 0.1..2.0_f64, 0.1..1.0_f64), 0..12),
-    ) {
-        let mut items = Vec::new();
-        let mut from = AxisVector::zeros();
-        for (line, (x, y, log_length, log_feed, kind)) in (1..).zip(steps) {
-            let to = from + at(x, y) * 10_f64.powf(log_length);
-            let feed_v = 10_f64.powf(log_feed);
-            let rate = if kind == 0 { Rate::Rapid } else { Rate::Feed(feed_v) };
-            items.push(item(line, Segment::line(from, to), rate));
-            from = to;
-        }
-        let mut when = 0;
-        let changes: Vec<_> = changes
-            .into_iter()
-            .map(|(wait, feed_r, rapid_r)| {
-                when += wait;
-                (when, Override { feed_r, rapid_r })
-            })
-            .collect();
-        let settings = mill();
-        let frames = plan(&items, settings, &changes);
-        let Settings { limits, period_t, tolerance_mm, .. } = settings;
-        let mut audit = Audit::new(&AuditSettings { limits, period_t, tolerance_mm });
-        items.iter().for_each(|item| audit.program(item));
-        frames.iter().for_each(|frame| audit.sample(&Sample::from(frame)));
-        let report = audit.finish();
-        // The auditor knows the programmed feed, not the overrides.
-        let is_fast = |kind: &ViolationKind| matches!(kind, ViolationKind::Feed { ratio } if *ratio <= 2.0);
-        let found: Vec<_> = report.violations.iter().filter(|v| !is_fast(&v.kind)).collect();
-        prop_assert!(found.is_empty() && report.is_complete, "{found:?} {report:#?}");
-        prop_assert!((frames[frames.len() - 1].position - from).amax() < 1e-9);
-        let gaps = (0..).zip(&frames).filter(|(i, frame)| frame.sequence != *i).count();
-        prop_assert_eq!(gaps, 0);
+    fn overrides_at_any_time_keep_limits_and_path(steps in any_steps(), changes in any_changes()) {
+        keeps_limits_and_path(steps, changes, mill())?;
     }
+}
+
+proptest! {
+    #![proptest_config(cases(30))]
+
+    #[test]
+    fn overrides_of_an_optimal_plan_keep_limits_and_path(
+        steps in any_steps(),
+        changes in any_changes(),
+    ) {
+        keeps_limits_and_path(steps, changes, optimal())?;
+    }
+}
+
+fn keeps_limits_and_path(
+    steps: Steps,
+    changes: Changes,
+    settings: Settings,
+) -> Result<(), TestCaseError> {
+    let mut items = Vec::new();
+    let mut from = AxisVector::zeros();
+    for (line, (x, y, log_length, log_feed, kind)) in (1..).zip(steps) {
+        let to = from + at(x, y) * 10_f64.powf(log_length);
+        let feed_v = 10_f64.powf(log_feed);
+        let rate = if kind == 0 {
+            Rate::Rapid
+        } else {
+            Rate::Feed(feed_v)
+        };
+        items.push(item(line, Segment::line(from, to), rate));
+        from = to;
+    }
+    let mut when = 0;
+    let changes: Vec<_> = changes
+        .into_iter()
+        .map(|(wait, feed_r, rapid_r)| {
+            when += wait;
+            (when, Override { feed_r, rapid_r })
+        })
+        .collect();
+    let frames = plan(&items, settings, &changes);
+    let Settings {
+        limits,
+        period_t,
+        tolerance_mm,
+        ..
+    } = settings;
+    let mut audit = Audit::new(&AuditSettings {
+        limits,
+        period_t,
+        tolerance_mm,
+    });
+    items.iter().for_each(|item| audit.program(item));
+    frames
+        .iter()
+        .for_each(|frame| audit.sample(&Sample::from(frame)));
+    let report = audit.finish();
+    // The auditor knows the programmed feed, not the overrides.
+    let is_fast =
+        |kind: &ViolationKind| matches!(kind, ViolationKind::Feed { ratio } if *ratio <= 2.0);
+    let found: Vec<_> = report
+        .violations
+        .iter()
+        .filter(|v| !is_fast(&v.kind))
+        .collect();
+    prop_assert!(
+        found.is_empty() && report.is_complete,
+        "{found:?} {report:#?}"
+    );
+    prop_assert!((frames[frames.len() - 1].position - from).amax() < 1e-9);
+    let gaps = (0..)
+        .zip(&frames)
+        .filter(|(i, frame)| frame.sequence != *i)
+        .count();
+    prop_assert_eq!(gaps, 0);
+    Ok(())
 }

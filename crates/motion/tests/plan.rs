@@ -14,7 +14,7 @@ use glidepath_motion::{
     Smoothing,
 };
 use proptest::prelude::*;
-use support::{FREE, at, cases, mill};
+use support::{FREE, at, cases, efforts, mill, optimal};
 
 fn moves(points: &[AxisVector], feed_v: f64, mode: PathMode) -> Vec<ItemKind> {
     points
@@ -72,50 +72,70 @@ fn rosette(count: u32) -> Vec<AxisVector> {
 
 #[test]
 fn frames_are_numbered_and_start_and_end_at_rest() {
-    let frames = plan(&numbered(moves(&rosette(300), 80.0, FREE)), mill(), 1);
-    for (sequence, frame) in (0..).zip(&frames) {
-        assert_eq!(frame.sequence, sequence, "gap");
+    for settings in efforts() {
+        let frames = plan(&numbered(moves(&rosette(300), 80.0, FREE)), settings, 1);
+        for (sequence, frame) in (0..).zip(&frames) {
+            assert_eq!(frame.sequence, sequence, "gap");
+        }
+        let (first, last) = (frames[0], frames[frames.len() - 1]);
+        assert_eq!(first.flags, FrameFlags::FIRST, "first flag");
+        assert_eq!(last.flags, FrameFlags::LAST, "last flag");
+        assert_eq!(
+            (first.path_v, last.path_v),
+            (0.0, 0.0),
+            "at rest at both ends"
+        );
+        assert!(
+            last.position.amax() < 1e-12,
+            "closed curve ends at {}",
+            last.position
+        );
+        let backwards = frames
+            .windows(2)
+            .filter(|pair| pair[1].path_s < pair[0].path_s)
+            .count();
+        assert_eq!(backwards, 0, "path position never falls");
     }
-    let (first, last) = (frames[0], frames[frames.len() - 1]);
-    assert_eq!(first.flags, FrameFlags::FIRST, "first flag");
-    assert_eq!(last.flags, FrameFlags::LAST, "last flag");
-    assert_eq!(
-        (first.path_v, last.path_v),
-        (0.0, 0.0),
-        "at rest at both ends"
-    );
-    assert!(
-        last.position.amax() < 1e-12,
-        "closed curve ends at {}",
-        last.position
-    );
-    let backwards = frames
-        .windows(2)
-        .filter(|pair| pair[1].path_s < pair[0].path_s)
-        .count();
-    assert_eq!(backwards, 0, "path position never falls");
 }
 
 #[test]
 fn frames_do_not_depend_on_when_they_are_taken() {
-    let items = numbered(moves(&rosette(2000), 80.0, FREE));
-    let one_by_one = plan(&items, mill(), 1);
-    for every in [7, 100, 100_000] {
-        assert_eq!(
-            one_by_one,
-            plan(&items, mill(), every),
-            "taken every {every} items"
-        );
+    for settings in efforts() {
+        let items = numbered(moves(&rosette(2000), 80.0, FREE));
+        let one_by_one = plan(&items, settings, 1);
+        for every in [7, 100, 100_000] {
+            assert_eq!(
+                one_by_one,
+                plan(&items, settings, every),
+                "taken every {every} items"
+            );
+        }
     }
 }
 
 #[test]
 fn frames_come_before_the_program_ends_and_memory_stays_bounded() {
-    let mut planner = Planner::new(mill(), AxisVector::zeros());
+    let (first_after, frames) = first_frames(mill(), 60_000);
+    assert!(
+        first_after < 10_000,
+        "first moving frame only after {first_after} segments"
+    );
+    assert!(frames > 1000, "{frames} frames before the end");
+    let (first_after, frames) = first_frames(optimal(), 3000);
+    assert!(
+        first_after < 1500,
+        "first moving frame only after {first_after} segments"
+    );
+    assert!(frames > 200, "{frames} frames before the end");
+}
+
+/// The segment after which the first moving frame comes, and how many come before the program ends.
+fn first_frames(settings: Settings, count: u32) -> (u32, u32) {
+    let mut planner = Planner::new(settings, AxisVector::zeros());
     let mut first_after = None;
     let mut frames = 0_u32;
     let mut position = at(0.0, 0.0);
-    for i in 0..60_000_u32 {
+    for i in 0..count {
         let next = position + at(0.05, if i % 2 == 0 { 0.01 } else { -0.01 });
         let segment = Segment::line(position, next);
         let kind = ItemKind::Move {
@@ -132,66 +152,69 @@ fn frames_come_before_the_program_ends_and_memory_stays_bounded() {
             first_after = first_after.or(Some(i)).filter(|_| frames > 1);
         }
     }
-    let first_after = first_after.expect("frames before the end");
-    assert!(
-        first_after < 10_000,
-        "first moving frame only after {first_after} segments"
-    );
-    assert!(frames > 1000, "{frames} frames before the end");
+    (first_after.expect("frames before the end"), frames)
 }
 
 #[test]
 fn an_exact_stop_has_a_frame_exactly_at_its_corner() {
-    let corner = at(3.0, 0.1);
-    let points = [at(0.0, 0.0), corner, at(5.0, 2.0)];
-    let frames = plan(
-        &numbered(moves(&points, 60.0, PathMode::ExactStop)),
-        mill(),
-        1,
-    );
-    let stop = frames
-        .iter()
-        .find(|frame| frame.flags.contains(FrameFlags::EXACT_STOP));
-    let stop = stop.expect("a stop");
-    assert_eq!(
-        (stop.position, stop.velocity),
-        (corner, AxisVector::zeros()),
-        "rests at the corner"
-    );
+    for settings in efforts() {
+        let corner = at(3.0, 0.1);
+        let points = [at(0.0, 0.0), corner, at(5.0, 2.0)];
+        let frames = plan(
+            &numbered(moves(&points, 60.0, PathMode::ExactStop)),
+            settings,
+            1,
+        );
+        let stop = frames
+            .iter()
+            .find(|frame| frame.flags.contains(FrameFlags::EXACT_STOP));
+        let stop = stop.expect("a stop");
+        assert_eq!(
+            (stop.position, stop.velocity),
+            (corner, AxisVector::zeros()),
+            "rests at the corner"
+        );
+    }
 }
 
 #[test]
 fn exact_path_passes_through_every_corner_and_does_not_stop_on_a_straight() {
-    let points = [at(0.0, 0.0), at(5.0, 0.0), at(10.0, 0.0), at(10.0, 7.0)];
-    let frames = plan(
-        &numbered(moves(&points, 60.0, PathMode::ExactPath)),
-        mill(),
-        1,
-    );
-    let nearest = |point: AxisVector| {
-        frames
+    for settings in efforts() {
+        let points = [at(0.0, 0.0), at(5.0, 0.0), at(10.0, 0.0), at(10.0, 7.0)];
+        let frames = plan(
+            &numbered(moves(&points, 60.0, PathMode::ExactPath)),
+            settings,
+            1,
+        );
+        let nearest = |point: AxisVector| {
+            frames
+                .iter()
+                .map(|f| (f.position - point).norm())
+                .fold(f64::INFINITY, f64::min)
+        };
+        assert!(nearest(at(10.0, 0.0)) < 1e-3, "{}", nearest(at(10.0, 0.0)));
+        let on_line = frames
             .iter()
-            .map(|f| (f.position - point).norm())
-            .fold(f64::INFINITY, f64::min)
-    };
-    assert!(nearest(at(10.0, 0.0)) < 1e-3, "{}", nearest(at(10.0, 0.0)));
-    let on_line = frames
-        .iter()
-        .all(|f| f.position[1].abs() < 1e-9 || f.position[0] > 10.0 - 1e-9);
-    assert!(on_line, "leaves the path");
-    let halfway = frames
-        .iter()
-        .find(|f| f.position[0] >= 5.0)
-        .expect("passes the middle");
-    assert!(
-        halfway.path_v > 50.0,
-        "slows to {} on a straight",
-        halfway.path_v
-    );
+            .all(|f| f.position[1].abs() < 1e-9 || f.position[0] > 10.0 - 1e-9);
+        assert!(on_line, "leaves the path");
+        let halfway = frames
+            .iter()
+            .find(|f| f.position[0] >= 5.0)
+            .expect("passes the middle");
+        assert!(
+            halfway.path_v > 50.0,
+            "slows to {} on a straight",
+            halfway.path_v
+        );
+    }
 }
 
 #[test]
 fn events_happen_in_order_and_m_codes_at_rest() {
+    check_events(mill());
+}
+
+fn check_events(settings: Settings) {
     let leg = |from: AxisVector, to: AxisVector| moves(&[from, to], 60.0, FREE).remove(0);
     let (a, b, c, d) = (at(0.0, 0.0), at(10.0, 0.0), at(20.0, 0.0), at(30.0, 0.0));
     let items = numbered(vec![
@@ -205,7 +228,7 @@ fn events_happen_in_order_and_m_codes_at_rest() {
         leg(c, d),
         ItemKind::Event(Event::MCode(5)),
     ]);
-    let frames = plan(&items, mill(), 1);
+    let frames = plan(&items, settings, 1);
     let seen: Vec<_> = frames
         .iter()
         .filter_map(|f| f.event.map(|event| (event, f)))
@@ -248,112 +271,118 @@ fn events_happen_in_order_and_m_codes_at_rest() {
 
 #[test]
 fn events_of_a_move_shorter_than_a_period_all_happen_before_the_end() {
-    let leg = |from: AxisVector, to: AxisVector| moves(&[from, to], 60.0, FREE).remove(0);
-    let items = numbered(vec![
-        leg(at(0.0, 0.0), at(10.0, 0.0)),
-        ItemKind::Event(Event::SpindleSpeed(1000.0)),
-        ItemKind::Event(Event::SelectTool(3)),
-        ItemKind::Event(Event::SpindleSpeed(2000.0)),
-        leg(at(10.0, 0.0), at(10.00001, 0.0)),
-    ]);
-    let frames = plan(&items, mill(), 1);
-    let events: Vec<_> = frames.iter().filter_map(|frame| frame.event).collect();
-    let expected = [
-        Event::SpindleSpeed(1000.0),
-        Event::SelectTool(3),
-        Event::SpindleSpeed(2000.0),
-    ];
-    assert_eq!(events, expected, "order of events");
-    let ends = frames
-        .iter()
-        .filter(|f| f.flags.contains(FrameFlags::LAST))
-        .count();
-    assert_eq!(ends, 1, "one last frame");
-    assert_eq!(
-        frames[frames.len() - 1].flags,
-        FrameFlags::LAST,
-        "at the end"
-    );
+    for settings in efforts() {
+        let leg = |from: AxisVector, to: AxisVector| moves(&[from, to], 60.0, FREE).remove(0);
+        let items = numbered(vec![
+            leg(at(0.0, 0.0), at(10.0, 0.0)),
+            ItemKind::Event(Event::SpindleSpeed(1000.0)),
+            ItemKind::Event(Event::SelectTool(3)),
+            ItemKind::Event(Event::SpindleSpeed(2000.0)),
+            leg(at(10.0, 0.0), at(10.00001, 0.0)),
+        ]);
+        let frames = plan(&items, settings, 1);
+        let events: Vec<_> = frames.iter().filter_map(|frame| frame.event).collect();
+        let expected = [
+            Event::SpindleSpeed(1000.0),
+            Event::SelectTool(3),
+            Event::SpindleSpeed(2000.0),
+        ];
+        assert_eq!(events, expected, "order of events");
+        let ends = frames
+            .iter()
+            .filter(|f| f.flags.contains(FrameFlags::LAST))
+            .count();
+        assert_eq!(ends, 1, "one last frame");
+        assert_eq!(
+            frames[frames.len() - 1].flags,
+            FrameFlags::LAST,
+            "at the end"
+        );
+    }
 }
 
 #[test]
 fn moves_below_the_resolution_are_neither_lost_nor_a_hindrance() {
-    let points: Vec<_> = (0..=5000).map(|i| at(f64::from(i) * 1e-7, 0.0)).collect();
-    let frames = plan(&numbered(moves(&points, 60.0, FREE)), mill(), 1);
-    let last = frames[frames.len() - 1].position;
-    assert_eq!(last, points[5000], "ends where the program ends");
-    assert!(
-        frames.len() < 2000,
-        "{} frames for half a micrometre",
-        frames.len()
-    );
+    for settings in efforts() {
+        let points: Vec<_> = (0..=5000).map(|i| at(f64::from(i) * 1e-7, 0.0)).collect();
+        let frames = plan(&numbered(moves(&points, 60.0, FREE)), settings, 1);
+        let last = frames[frames.len() - 1].position;
+        assert_eq!(last, points[5000], "ends where the program ends");
+        assert!(
+            frames.len() < 2000,
+            "{} frames for half a micrometre",
+            frames.len()
+        );
+    }
 }
 
 #[test]
 fn a_bad_item_is_refused_and_changes_nothing() {
-    let mut planner = Planner::new(mill(), AxisVector::zeros());
-    let segment = Segment::line(at(0.0, 0.0), at(1.0, 0.0));
-    let item = |segment, rate, mode| Item {
-        line: 7,
-        kind: ItemKind::Move {
-            segment,
-            rate,
-            mode,
-        },
-    };
-    let apart = Segment::line(at(0.5, 0.0), at(1.0, 0.0));
-    let infinite = Segment::line(at(0.0, 0.0), at(f64::INFINITY, 0.0));
-    let tight = PathMode::Continuous {
-        tolerance_mm: Some(0.0),
-    };
-    let refused = [
-        (
-            item(apart, Rate::Rapid, FREE),
-            PlanError::Gap {
-                line: 7,
-                gap_mm: 0.5,
+    for settings in efforts() {
+        let mut planner = Planner::new(settings, AxisVector::zeros());
+        let segment = Segment::line(at(0.0, 0.0), at(1.0, 0.0));
+        let item = |segment, rate, mode| Item {
+            line: 7,
+            kind: ItemKind::Move {
+                segment,
+                rate,
+                mode,
             },
-        ),
-        (
-            item(infinite, Rate::Rapid, FREE),
-            PlanError::NotFinite { line: 7 },
-        ),
-        (
-            item(segment, Rate::Feed(0.0), FREE),
-            PlanError::Feed {
-                line: 7,
-                feed_v: 0.0,
-            },
-        ),
-        (
-            item(segment, Rate::Rapid, tight),
-            PlanError::Tolerance {
-                line: 7,
-                tolerance_mm: 0.0,
-            },
-        ),
-        (
-            Item {
-                line: 7,
-                kind: ItemKind::Dwell(-1.0),
-            },
-            PlanError::Dwell {
-                line: 7,
-                dwell_t: -1.0,
-            },
-        ),
-    ];
-    for (item, expected) in refused {
-        assert_eq!(planner.push(&item), Err(expected), "{item:?}");
+        };
+        let apart = Segment::line(at(0.5, 0.0), at(1.0, 0.0));
+        let infinite = Segment::line(at(0.0, 0.0), at(f64::INFINITY, 0.0));
+        let tight = PathMode::Continuous {
+            tolerance_mm: Some(0.0),
+        };
+        let refused = [
+            (
+                item(apart, Rate::Rapid, FREE),
+                PlanError::Gap {
+                    line: 7,
+                    gap_mm: 0.5,
+                },
+            ),
+            (
+                item(infinite, Rate::Rapid, FREE),
+                PlanError::NotFinite { line: 7 },
+            ),
+            (
+                item(segment, Rate::Feed(0.0), FREE),
+                PlanError::Feed {
+                    line: 7,
+                    feed_v: 0.0,
+                },
+            ),
+            (
+                item(segment, Rate::Rapid, tight),
+                PlanError::Tolerance {
+                    line: 7,
+                    tolerance_mm: 0.0,
+                },
+            ),
+            (
+                Item {
+                    line: 7,
+                    kind: ItemKind::Dwell(-1.0),
+                },
+                PlanError::Dwell {
+                    line: 7,
+                    dwell_t: -1.0,
+                },
+            ),
+        ];
+        for (item, expected) in refused {
+            assert_eq!(planner.push(&item), Err(expected), "{item:?}");
+        }
+        planner
+            .push(&item(segment, Rate::Rapid, FREE))
+            .expect("goes on as if nothing had been");
+        planner.finish();
+        let last = std::iter::from_fn(|| planner.pop_frame().expect("a motion"))
+            .last()
+            .expect("frames");
+        assert_eq!(last.position, at(1.0, 0.0), "end");
     }
-    planner
-        .push(&item(segment, Rate::Rapid, FREE))
-        .expect("goes on as if nothing had been");
-    planner.finish();
-    let last = std::iter::from_fn(|| planner.pop_frame().expect("a motion"))
-        .last()
-        .expect("frames");
-    assert_eq!(last.position, at(1.0, 0.0), "end");
 }
 
 #[test]
@@ -369,15 +398,18 @@ fn a_machine_in_micrometres_takes_the_same_time() {
     };
     let points = rosette(400);
     let large: Vec<_> = points.iter().map(|p| p * 1000.0).collect();
-    let frames = plan(&numbered(moves(&points, 80.0, FREE)), mill(), 1);
-    let scaled = plan(&numbered(moves(&large, 80_000.0, FREE)), in_um(mill()), 1);
-    assert_eq!(frames.len(), scaled.len(), "same number of periods");
-    for (a, b) in frames.iter().zip(&scaled) {
-        assert!(
-            (a.position * 1000.0 - b.position).amax() < 1e-3,
-            "frame {}",
-            a.sequence
-        );
+    for settings in efforts() {
+        let frames = plan(&numbered(moves(&points, 80.0, FREE)), settings, 1);
+        let large = numbered(moves(&large, 80_000.0, FREE));
+        let scaled = plan(&large, in_um(settings), 1);
+        assert_eq!(frames.len(), scaled.len(), "same number of periods");
+        for (a, b) in frames.iter().zip(&scaled) {
+            assert!(
+                (a.position * 1000.0 - b.position).amax() < 1e-3,
+                "frame {}",
+                a.sequence
+            );
+        }
     }
 }
 
@@ -406,5 +438,49 @@ proptest! {
         // Whether to stop is decided corner by corner, from the two segments beside it; over a whole
         // path that can cost a few percent where a chain of stops would have been best.
         prop_assert!(smooth_t <= 1.1 * stop_t + 1.0, "{smooth_t} ticks against {stop_t}");
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(20))]
+
+    #[test]
+    fn frames_do_not_depend_on_how_pushing_and_taking_interleave(
+        steps in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64, -1.5..1.0_f64, 0..12_u8), 2..40),
+        takes in prop::collection::vec(0..60_usize, 1..40),
+    ) {
+        let mut kinds = Vec::new();
+        let mut from = at(0.0, 0.0);
+        for (x, y, log_length, kind) in steps {
+            let to = from + at(x, y) * 10_f64.powf(log_length);
+            let mode = match kind {
+                0 => PathMode::ExactStop,
+                1 | 2 => PathMode::ExactPath,
+                _ => FREE,
+            };
+            match kind {
+                3 => kinds.push(ItemKind::Dwell(0.01)),
+                4 => kinds.push(ItemKind::Event(Event::SpindleSpeed(x))),
+                5 => kinds.push(ItemKind::Event(Event::MCode(8))),
+                _ => {}
+            }
+            kinds.extend(moves(&[from, to], 60.0, mode));
+            from = to;
+        }
+        let items = numbered(kinds);
+        for settings in efforts() {
+            let all_at_once = plan(&items, settings, usize::MAX);
+            let mut planner = Planner::new(settings, AxisVector::zeros());
+            let mut frames = Vec::new();
+            for (item, &takes) in items.iter().zip(takes.iter().cycle()) {
+                planner.push(item).expect("a valid item");
+                for _ in 0..takes {
+                    frames.extend(planner.pop_frame().expect("a motion"));
+                }
+            }
+            planner.finish();
+            frames.extend(std::iter::from_fn(|| planner.pop_frame().expect("a motion")));
+            prop_assert_eq!(&all_at_once, &frames);
+        }
     }
 }

@@ -246,7 +246,11 @@ impl Judge {
                     ("exact-stop", Smoothing::ExactStop),
                 ],
             ),
-            effort: self.choice("path.effort", raw.effort, &[("fast", Effort::Fast)]),
+            effort: self.choice(
+                "path.effort",
+                raw.effort,
+                &[("fast", Effort::Fast), ("optimal", Effort::Optimal)],
+            ),
             default_feed: raw
                 .default_feed
                 .map(|value| self.number("path.default_feed", &value, &feed)),

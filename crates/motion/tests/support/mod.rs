@@ -20,6 +20,20 @@ pub(crate) fn mill() -> Settings {
     }
 }
 
+/// The same machine planned with either effort.
+pub(crate) fn efforts() -> [Settings; 2] {
+    [mill(), optimal()]
+}
+
+/// The same machine planned optimally.
+pub(crate) fn optimal() -> Settings {
+    Settings {
+        smoothing: Smoothing::Auto,
+        effort: Effort::Optimal,
+        ..mill()
+    }
+}
+
 /// A point in the XY plane.
 pub(crate) fn at(x: f64, y: f64) -> AxisVector {
     let mut point = AxisVector::zeros();

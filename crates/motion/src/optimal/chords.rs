@@ -1,0 +1,367 @@
+//! Moves to the straight pieces that the window planner follows.
+//!
+//! ```text
+//!  arc     ──flattened──▶ chords within a small share of the tolerance of it
+//!  chords  ──merged─────▶ pieces within a small share of the tolerance of them
+//! ```
+//!
+//! Both steps keep what they give within a known distance of what they take, both ways and in order,
+//! so the tolerance of a piece is what is left after the two distances: a motion within that of the
+//! pieces is within the tolerance of the program. Pieces cost the window planner work, and tolerance
+//! gains it time; the shares below leave nearly all of it to the motion.
+
+use super::intake::{Intake, Move, Work};
+use super::ledger::Part;
+use crate::merge::Dropped;
+use crate::override_::ProgrammedRate;
+use crate::pending::axes_speed;
+use crate::piece::Rest;
+use crate::window::Reference;
+use crate::{Event, Item, Rate, Settings};
+use glidepath_geometry::{Arc, AxisVector, Segment, feed_length};
+use std::collections::VecDeque;
+
+/// Share of the tolerance that chords of an arc may be away from it.
+const FLATTENING_R: f64 = 0.05;
+/// Share of the tolerance that a merged piece may be away from the chords it replaces.
+const MERGING_R: f64 = 0.1;
+/// Largest turn from one chord of an arc to the next, rad.
+const LARGEST_TURN_RAD: f64 = 0.5;
+
+/// What the program comes down to.
+#[derive(Debug)]
+#[allow(clippy::large_enum_variant, reason = "short-lived, one at a time")]
+pub(super) enum Product {
+    /// A straight piece. Its tag and its speed are for the taker to fill in.
+    Piece(Part, Reference),
+    Exact(Item),
+    ExactEnd,
+    Rest(Rest),
+}
+
+/// Makes pieces of moves, as they are asked for.
+#[derive(Debug)]
+pub(super) struct Chords {
+    settings: Settings,
+    flattening: Option<Flattening>,
+    /// The chord that may still be merged with what follows.
+    open: Option<Open>,
+    ready: VecDeque<Product>,
+}
+
+/// A move that is being cut into chords.
+#[derive(Debug)]
+struct Flattening {
+    of: Move,
+    /// Where the chords made so far end.
+    at: AxisVector,
+    done: u32,
+    count: u32,
+    error_mm: f64,
+}
+
+#[derive(Debug)]
+struct Chord {
+    start: AxisVector,
+    end: AxisVector,
+    rate: Rate,
+    tolerance_mm: f64,
+    /// Distance from the program, mm.
+    error_mm: f64,
+    line: u32,
+    events: Vec<Event>,
+}
+
+#[derive(Debug)]
+struct Open {
+    chord: Chord,
+    dropped: Dropped,
+    /// Where further lines begin, mm after its start.
+    lines: Vec<(f64, u32)>,
+}
+
+impl Chords {
+    pub(super) const fn new(settings: Settings) -> Self {
+        Self {
+            settings,
+            flattening: None,
+            open: None,
+            ready: VecDeque::new(),
+        }
+    }
+
+    /// The next product, as far as the program is known.
+    pub(super) fn next(&mut self, intake: &mut Intake) -> Option<Product> {
+        loop {
+            if let Some(product) = self.ready.pop_front() {
+                return Some(product);
+            }
+            if let Some(chord) = self.flattening.as_mut().and_then(Flattening::next) {
+                self.take(chord);
+                continue;
+            }
+            self.flattening = None;
+            match intake.next()? {
+                Work::Move(of) => self.flattening = Some(Flattening::new(of)),
+                Work::Exact(item) => self.put(Product::Exact(item)),
+                Work::ExactEnd => self.put(Product::ExactEnd),
+                Work::Rest(rest) => self.put(Product::Rest(rest)),
+            }
+        }
+    }
+
+    /// Puts out something that ends a piece.
+    fn put(&mut self, product: Product) {
+        self.close();
+        self.ready.push_back(product);
+    }
+
+    fn take(&mut self, chord: Chord) {
+        if let Some(open) = &mut self.open
+            && open.merge(&chord)
+        {
+            return;
+        }
+        self.close();
+        self.open = Some(Open {
+            chord,
+            dropped: Dropped::default(),
+            lines: Vec::new(),
+        });
+    }
+
+    /// Nothing more is merged with the open chord.
+    fn close(&mut self) {
+        let Some(open) = self.open.take() else {
+            return;
+        };
+        let Open { chord, lines, .. } = open;
+        let segment = Segment::line(chord.start, chord.end);
+        let length_s = segment.length();
+        let rate = ProgrammedRate {
+            rate: chord.rate,
+            axes_v: axes_speed(&segment, &self.settings),
+        };
+        let left_mm = chord.tolerance_mm - chord.error_mm;
+        let reference = Reference {
+            end: chord.end,
+            top_v: rate.axes_v,
+            tolerance_mm: left_mm,
+            tolerance_deg: left_mm,
+            tag: 0,
+        };
+        let part = Part {
+            line: chord.line,
+            lines,
+            rate,
+            length_s,
+            events: chord.events,
+        };
+        self.ready.push_back(Product::Piece(part, reference));
+    }
+}
+
+impl Open {
+    /// Draws the next chord together with this one, if both are driven alike and the tolerance
+    /// allows it.
+    fn merge(&mut self, next: &Chord) -> bool {
+        let chord = &mut self.chord;
+        let alike = chord.rate == next.rate
+            && matches!(chord.rate, Rate::Feed(_))
+            && chord.tolerance_mm.total_cmp(&next.tolerance_mm).is_eq()
+            && next.events.is_empty();
+        let allowed_mm = MERGING_R * chord.tolerance_mm;
+        let base_mm = (chord.error_mm - self.dropped.error_mm).max(next.error_mm);
+        if !alike
+            || !self
+                .dropped
+                .extend(&chord.start, &chord.end, &next.end, allowed_mm)
+        {
+            return false;
+        }
+        let last_line = self.lines.last().map_or(chord.line, |&(_, line)| line);
+        if next.line != last_line {
+            let passed_s = feed_length(&(chord.end - chord.start));
+            self.lines.push((passed_s, next.line));
+        }
+        chord.end = next.end;
+        chord.error_mm = base_mm + self.dropped.error_mm;
+        true
+    }
+}
+
+impl Flattening {
+    fn new(of: Move) -> Self {
+        let (count, error_mm) = match &of.segment {
+            Segment::Line(_) => (1, 0.0),
+            Segment::Arc(arc) => cuts(arc, FLATTENING_R * of.tolerance_mm),
+        };
+        Self {
+            at: of.segment.start(),
+            of,
+            done: 0,
+            count,
+            error_mm,
+        }
+    }
+
+    fn next(&mut self) -> Option<Chord> {
+        if self.done >= self.count {
+            return None;
+        }
+        self.done += 1;
+        let segment = &self.of.segment;
+        let end = if self.done == self.count {
+            segment.end()
+        } else {
+            let share = f64::from(self.done) / f64::from(self.count);
+            segment.jet(segment.length() * share).position
+        };
+        Some(Chord {
+            start: core::mem::replace(&mut self.at, end),
+            end,
+            rate: self.of.rate,
+            tolerance_mm: self.of.tolerance_mm,
+            error_mm: self.error_mm,
+            line: self.of.line,
+            events: core::mem::take(&mut self.of.events),
+        })
+    }
+}
+
+/// How many chords an arc is cut into, and how far they are from it at most: |q″|·h²/8 for chords of
+/// length h, between points of equal path position.
+fn cuts(arc: &Arc, allowed_mm: f64) -> (u32, f64) {
+    let length_s = arc.length();
+    let radius_mm = arc.start_radius().max(arc.end_radius());
+    let drift = (arc.end_radius() - arc.start_radius()).abs() / length_s;
+    let omega = arc.sweep_rad.abs() / length_s;
+    let second_k = radius_mm * omega * omega + 2.0 * drift * omega;
+    let by_error = length_s * (second_k / (8.0 * allowed_mm)).sqrt();
+    let by_turn = arc.sweep_rad.abs() / LARGEST_TURN_RAD;
+    let count = by_error.max(by_turn).ceil().clamp(1.0, 4e9);
+    let chord_s = length_s / count;
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped"
+    )]
+    let number = count as u32;
+    (number, second_k * chord_s * chord_s / 8.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optimal::intake::Intake;
+    use crate::{Effort, ItemKind, Limits, PathMode, Smoothing};
+    use glidepath_geometry::Plane;
+
+    fn settings() -> Settings {
+        Settings {
+            limits: Limits::uniform(200.0, 2000.0, 40_000.0),
+            tolerance_mm: 0.02,
+            smoothing: Smoothing::Auto,
+            period_t: 0.004,
+            effort: Effort::Optimal,
+        }
+    }
+
+    fn pieces(segments: &[Segment]) -> Vec<(Part, Reference)> {
+        let start = segments[0].start();
+        let (mut intake, mut chords) = (Intake::new(settings(), start), Chords::new(settings()));
+        for (line, segment) in (1..).zip(segments) {
+            let kind = ItemKind::Move {
+                segment: *segment,
+                rate: Rate::Feed(50.0),
+                mode: PathMode::Continuous { tolerance_mm: None },
+            };
+            assert_eq!(intake.push(&Item { line, kind }), Ok(()));
+        }
+        intake.finish();
+        let mut pieces = Vec::new();
+        while let Some(product) = chords.next(&mut intake) {
+            if let Product::Piece(part, reference) = product {
+                pieces.push((part, reference));
+            }
+        }
+        pieces
+    }
+
+    fn distance_mm(a: &AxisVector, b: &AxisVector, point: &AxisVector) -> f64 {
+        let along = b - a;
+        let u = (along.dot(&(point - a)) / along.norm_squared()).clamp(0.0, 1.0);
+        (point - (a + along * u)).norm()
+    }
+
+    #[test]
+    fn chords_of_a_helix_and_their_tolerance_stay_within_that_of_the_program() {
+        let mut start = AxisVector::zeros();
+        start[0] = 10.0;
+        let mut end = start;
+        end[2] = 3.0;
+        let arc = Arc {
+            start,
+            end,
+            plane: Plane::Xy,
+            center: [0.0, 0.0],
+            sweep_rad: core::f64::consts::TAU * 2.0,
+        };
+        let pieces = pieces(&[Segment::Arc(arc)]);
+        let mut from = start;
+        let mut worst_mm = 0.0_f64;
+        for (part, reference) in &pieces {
+            assert_eq!(part.line, 1);
+            let left_mm = reference.tolerance_mm;
+            for k in 0..=2000 {
+                let at = arc.jet(arc.length() * f64::from(k) / 2000.0).position;
+                // Only the turn the chord belongs to is near it.
+                let gap_mm = distance_mm(&from, &reference.end, &at);
+                let along = (at - from).norm() + (at - reference.end).norm();
+                if along < 1.001 * (reference.end - from).norm() {
+                    worst_mm = worst_mm.max(gap_mm);
+                    assert!(gap_mm + left_mm <= 0.02 + 1e-12, "{gap_mm} and {left_mm}");
+                }
+            }
+            assert!(left_mm >= 0.018);
+            from = reference.end;
+        }
+        assert_eq!(from, end);
+        assert!(
+            worst_mm > 0.5e-3,
+            "the tolerance of flattening is used: {worst_mm}"
+        );
+        assert!(pieces.len() < 600, "{}", pieces.len());
+    }
+
+    #[test]
+    fn dense_chords_merge_and_tell_their_lines() {
+        let point = |i: u32| {
+            let mut point = AxisVector::zeros();
+            let x = 0.01 * f64::from(i);
+            (point[0], point[1]) = (x, 0.02 * x * x);
+            point
+        };
+        let segments: Vec<_> = (0..500)
+            .map(|i| Segment::line(point(i), point(i + 1)))
+            .collect();
+        let pieces = pieces(&segments);
+        assert!(pieces.len() < 60, "{}", pieces.len());
+        let (mut from, mut next_line) = (point(0), 1);
+        for (part, reference) in &pieces {
+            let lines = [(0.0, part.line)]
+                .into_iter()
+                .chain(part.lines.iter().copied());
+            for (start_s, line) in lines {
+                assert_eq!(line, next_line, "every block in order");
+                let vertex = point(line - 1);
+                let gap_mm = distance_mm(&from, &reference.end, &vertex);
+                assert!(gap_mm + reference.tolerance_mm <= 0.02 + 1e-12, "{gap_mm}");
+                assert!(((vertex - from).norm() - start_s).abs() < 1e-3, "{start_s}");
+                next_line += 1;
+            }
+            from = reference.end;
+        }
+        assert_eq!(next_line, 501);
+    }
+}

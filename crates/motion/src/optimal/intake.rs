@@ -1,0 +1,200 @@
+//! Items in, checked; what there is to do out, in order: moves, exact moves, rests.
+
+use crate::path::{SHORTEST_MOVE_MM, check, starting_at};
+use crate::piece::{Rest, RestKind};
+use crate::{Event, Item, ItemKind, PathMode, PlanError, Rate, Settings};
+use glidepath_geometry::{AxisVector, Segment};
+use std::collections::VecDeque;
+
+/// One thing to do.
+#[derive(Debug, Clone)]
+pub(super) enum Work {
+    /// Follow a segment within a tolerance.
+    Move(Move),
+    /// An item of a stretch to be passed exactly.
+    Exact(Item),
+    /// Such a stretch ends here; a rest follows.
+    ExactEnd,
+    Rest(Rest),
+}
+
+/// A segment to be followed within a tolerance.
+#[derive(Debug, Clone)]
+pub(super) struct Move {
+    pub(super) segment: Segment,
+    pub(super) rate: Rate,
+    pub(super) tolerance_mm: f64,
+    pub(super) line: u32,
+    /// Events that happen when it is entered.
+    pub(super) events: Vec<Event>,
+}
+
+/// Takes items and keeps what they ask for until it is done.
+#[derive(Debug)]
+pub(super) struct Intake {
+    settings: Settings,
+    works: VecDeque<Work>,
+    /// Where the moves taken so far end.
+    position: AxisVector,
+    /// Where the program is; differs by moves too short to be made.
+    program_position: AxisVector,
+    /// Events that wait for the move they happen on.
+    events: Vec<(u32, Event)>,
+    stretch: Stretch,
+    last: (u32, Rate),
+    finished: bool,
+}
+
+/// What the moves since the last rest are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stretch {
+    None,
+    Free,
+    Exact,
+}
+
+impl Intake {
+    pub(super) const fn new(settings: Settings, start: AxisVector) -> Self {
+        Self {
+            settings,
+            works: VecDeque::new(),
+            position: start,
+            program_position: start,
+            events: Vec::new(),
+            stretch: Stretch::None,
+            last: (0, Rate::Rapid),
+            finished: false,
+        }
+    }
+
+    /// The next thing to do, if it is known.
+    pub(super) fn next(&mut self) -> Option<Work> {
+        self.works.pop_front()
+    }
+
+    /// Takes an item; changes nothing if it is refused.
+    pub(super) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
+        let line = item.line;
+        match item.kind {
+            ItemKind::Move {
+                segment,
+                rate,
+                mode,
+            } => {
+                check(line, &segment, rate, mode, &self.program_position)?;
+                self.push_move(line, segment, rate, mode);
+                self.last.1 = rate;
+            }
+            ItemKind::Dwell(dwell_t) => {
+                if !(dwell_t >= 0.0 && dwell_t.is_finite()) {
+                    return Err(PlanError::Dwell { line, dwell_t });
+                }
+                self.rest(RestKind::Dwell(dwell_t), line);
+            }
+            ItemKind::Event(event @ (Event::SpindleSpeed(_) | Event::SelectTool(_))) => {
+                self.events.push((line, event));
+            }
+            ItemKind::Event(event) => self.rest(RestKind::Event(event), line),
+        }
+        self.last.0 = line;
+        Ok(())
+    }
+
+    /// No more items: the path ends at rest.
+    pub(super) fn finish(&mut self) {
+        if !core::mem::replace(&mut self.finished, true) {
+            self.rest(RestKind::End, self.last.0);
+        }
+    }
+
+    fn push_move(&mut self, line: u32, segment: Segment, rate: Rate, mode: PathMode) {
+        let stretch = match mode {
+            PathMode::ExactPath => Stretch::Exact,
+            PathMode::ExactStop | PathMode::Continuous { .. } => Stretch::Free,
+        };
+        if self.stretch != Stretch::None && self.stretch != stretch {
+            self.end_stretch();
+            self.put_rest(RestKind::ExactStop, self.last.0);
+        }
+        self.program_position = segment.end();
+        let segment = starting_at(segment, self.position);
+        let is_arc = matches!(segment, Segment::Arc(_));
+        if (segment.end() - segment.start()).amax() < SHORTEST_MOVE_MM
+            && (!is_arc || segment.length() < SHORTEST_MOVE_MM)
+        {
+            return;
+        }
+        self.stretch = stretch;
+        self.position = segment.end();
+        let events = core::mem::take(&mut self.events);
+        if stretch == Stretch::Exact {
+            let events = events.into_iter().map(|(line, event)| Item {
+                line,
+                kind: ItemKind::Event(event),
+            });
+            self.works.extend(events.map(Work::Exact));
+            self.works.push_back(Work::Exact(Item {
+                line,
+                kind: ItemKind::Move {
+                    segment,
+                    rate,
+                    mode,
+                },
+            }));
+            return;
+        }
+        self.works.push_back(Work::Move(Move {
+            segment,
+            rate,
+            tolerance_mm: mode.tolerance_mm(&self.settings),
+            line,
+            events: events.into_iter().map(|(_, event)| event).collect(),
+        }));
+        if mode == PathMode::ExactStop {
+            self.end_stretch();
+            self.put_rest(RestKind::ExactStop, line);
+        }
+    }
+
+    /// Ends the path at rest.
+    fn rest(&mut self, kind: RestKind, line: u32) {
+        self.end_stretch();
+        for (_, event) in core::mem::take(&mut self.events) {
+            self.put_rest(RestKind::Event(event), line);
+        }
+        self.put_rest(kind, line);
+    }
+
+    fn put_rest(&mut self, kind: RestKind, line: u32) {
+        self.works.push_back(Work::Rest(Rest { kind, line }));
+    }
+
+    fn end_stretch(&mut self) {
+        let segment = Segment::line(self.position, self.program_position);
+        let (line, rate) = self.last;
+        // Moves that were too short to be made by themselves.
+        let is_left = segment.length() > 0.0;
+        if self.stretch == Stretch::Exact {
+            if is_left {
+                let mode = PathMode::ExactPath;
+                let kind = ItemKind::Move {
+                    segment,
+                    rate,
+                    mode,
+                };
+                self.works.push_back(Work::Exact(Item { line, kind }));
+            }
+            self.works.push_back(Work::ExactEnd);
+        } else if is_left {
+            self.works.push_back(Work::Move(Move {
+                segment,
+                rate,
+                tolerance_mm: self.settings.tolerance_mm,
+                line,
+                events: Vec::new(),
+            }));
+        }
+        self.position = self.program_position;
+        self.stretch = Stretch::None;
+    }
+}
