@@ -15,10 +15,10 @@ use glidepath_geometry::{Arc, Axis, AxisVector, LINEAR_XYZ, Plane, Segment};
 use glidepath_motion::Item;
 
 use crate::block::{Block, Letters};
-use crate::codes::{Distance, Motion};
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::interpreter::Interpreter;
-use crate::moves::{MIN_MOVE, motion_span, settled};
+use crate::modes::{Distance, Motion};
+use crate::moves::{MIN_MOVE, Pace, motion_span, settled};
 use crate::offsets::Offsets;
 use crate::words::whole;
 
@@ -51,8 +51,16 @@ impl Interpreter {
     ) -> Outcome<()> {
         let plane = self.state.modal.plane;
         let (first, second) = plane.axes();
-        let start = self.state.path_end;
-        let target = self.target(block);
+        if self.state.leaving_contour {
+            return Err(arc_off_contour(motion_span(block)));
+        }
+        let compensated = self.compensation.is_some();
+        let start = if compensated {
+            self.state.position
+        } else {
+            self.state.path_end
+        };
+        let target = self.target(block)?;
         let end = settled(start, target, [Some(first), Some(second)]);
         self.check_plane(block, plane, &start, &end)?;
         check_center_words(block, plane)?;
@@ -86,12 +94,16 @@ impl Interpreter {
             center,
             sweep_rad,
         };
+        let segment = Segment::Arc(arc);
+        let speed = self.speed(block, &segment, Pace::Feed)?;
+        if compensated {
+            self.state.position = target;
+            return self.contour_move(block, segment, speed, out);
+        }
         let (low, high) = arc.bounding_box();
         self.check_limits(block, &low, &high, "a point")?;
-        let segment = Segment::Arc(arc);
-        let rate = self.rate(block, &segment)?;
         self.state.position = target;
-        self.push_move(segment, rate, out);
+        self.push_move(segment, speed, out);
         Ok(())
     }
 
@@ -165,6 +177,14 @@ impl Interpreter {
         check_radii(block, ends, center)?;
         Ok(center)
     }
+}
+
+#[cold]
+fn arc_off_contour(span: Span) -> Box<Fault> {
+    let message = "an arc as the first move after cutter radius compensation";
+    Fault::new(Code::CutterRadius, span, message)
+        .because("the tool stands beside the programmed point, where the arc does not begin")
+        .help("make a straight move first")
 }
 
 /// In-plane machine coordinates of a program point.

@@ -3,11 +3,13 @@
 use glidepath_motion::{Event, Item, ItemKind};
 
 use crate::block::Block;
-use crate::codes::{Coded, FeedMode, Once};
+use crate::codes::Coded;
 use crate::diagnostic::{Code, Fault, Outcome};
 use crate::interpreter::Interpreter;
 use crate::modal::Feed;
-use crate::words::{MAX_TOOL, missing, negative, whole};
+use crate::modes::{FeedMode, Once};
+use crate::spindle::Turning;
+use crate::words::{missing, negative};
 
 impl Interpreter {
     /// Feed mode and F.
@@ -29,36 +31,35 @@ impl Interpreter {
                 .because("a move at that feedrate would never end")
                 .help("write a positive feedrate; use M0 to stop"));
         }
-        if modal.feed_mode == FeedMode::PerMinute {
-            modal.feed = Some(Feed {
-                linear_v: feed * modal.units.mm() / 60.0,
-                rotary_v: feed / 60.0,
-            });
-        }
+        let per_second = match modal.feed_mode {
+            FeedMode::PerMinute => 60.0,
+            FeedMode::PerRevolution => 1.0,
+            FeedMode::InverseTime => return Ok(()),
+        };
+        modal.feed = Some(Feed {
+            linear_v: feed * modal.units.mm() / per_second,
+            rotary_v: feed / per_second,
+        });
         Ok(())
     }
 
-    /// S, T, tool change, spindle, coolant, overrides and dwell.
-    pub(crate) fn auxiliary(&self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
-        if let Some(speed) = block.get(b'S') {
-            if speed < 0.0 {
-                return Err(negative(block, b'S', "the spindle speed"));
-            }
-            self.push(out, ItemKind::Event(Event::SpindleSpeed(speed)));
-        }
-        if let Some(tool) = whole(block, b'T', MAX_TOOL)? {
-            self.push(out, ItemKind::Event(Event::SelectTool(tool)));
-        }
+    /// S, T, tool change, spindle, coolant, overrides, inputs and outputs, dwell.
+    pub(crate) fn auxiliary(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        self.spindle_speed(block, out)?;
+        self.select_tool(block, out)?;
         let codes = &block.codes;
-        let in_order = [
-            codes.tool_change,
-            codes.spindle,
-            codes.coolant,
-            codes.overrides,
-        ];
+        if let Some(Coded { code, .. }) = codes.spindle {
+            self.state.spindle.turning = match code {
+                3 => Some(Turning::Clockwise),
+                4 => Some(Turning::Counterclockwise),
+                _ => None,
+            };
+        }
+        let in_order = [codes.spindle, codes.coolant, codes.overrides];
         for Coded { code, .. } in in_order.into_iter().flatten() {
             self.push(out, ItemKind::Event(Event::MCode(code)));
         }
+        self.input_output(block, out)?;
         if let Some(Coded {
             code: Once::Dwell,
             span,

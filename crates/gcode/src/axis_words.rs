@@ -3,31 +3,37 @@
 use glidepath_geometry::{AXES, Axis};
 
 use crate::block::{AXIS_WORDS, Block, Letters};
-use crate::codes::{Coded, Motion};
-use crate::diagnostic::{Code, Fault, Outcome};
+use crate::codes::Coded;
+use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::interpreter::Interpreter;
+use crate::modes::{Motion, ToolLength};
+use crate::moves::motion_span;
+use crate::words::missing;
 
 impl Interpreter {
     /// The motion the block makes, if any: its own code, or the modal one if it has axis words
     /// that nothing else takes.
     pub(crate) fn motion_of(&self, block: &Block) -> Outcome<Option<Motion>> {
-        let taken = block.codes.once.filter(|once| once.code.takes_axes());
-        let has_axes = block.has_any(AXIS_WORDS);
+        let once = block.codes.once.filter(|once| once.code.takes_axes());
+        let length = block.codes.tool_length.filter(|length| match length.code {
+            ToolLength::FromWords => true,
+            ToolLength::Add => block.get(b'H').is_none(),
+            _ => false,
+        });
+        let taken = once.is_some() || length.is_some();
+        let has_axes = block.has_axes();
+        if let (Some(_), Some(Coded { span, .. })) = (once, length) {
+            return Err(conflict(span));
+        }
         match (block.codes.motion, taken) {
             (
                 Some(Coded {
                     code: Some(_),
                     span,
                 }),
-                Some(_),
-            ) => Err(Fault::new(
-                Code::AxisWordsConflict,
-                span,
-                "two codes want the axis words",
-            )
-            .because("G10, G28, G30, G52 and G92 take them for themselves")
-            .help("write two blocks")),
-            (Some(Coded { code: None, span }), None) if has_axes => {
+                true,
+            ) => Err(conflict(span)),
+            (Some(Coded { code: None, span }), false) if has_axes => {
                 Err(
                     Fault::new(Code::NoMotionMode, span, "axis words in a block with G80")
                         .because("G80 ends the motion mode, so nothing uses them")
@@ -36,16 +42,20 @@ impl Interpreter {
             }
             (
                 Some(Coded {
-                    code: Some(motion), ..
+                    code: Some(motion),
+                    span,
                 }),
-                None,
+                false,
             ) => {
-                let arc = matches!(motion, Motion::ArcClockwise | Motion::ArcCounterclockwise);
-                let moves = has_axes || arc;
-                Ok(moves.then_some(motion))
+                let needs = matches!(motion, Motion::Cycle(_) | Motion::Probe(_));
+                if needs && !has_axes {
+                    let meaning = "where to go";
+                    return Err(missing(span, "a cycle or probing move", "an axis", meaning));
+                }
+                Ok((has_axes || motion.is_arc()).then_some(motion))
             }
-            (_, Some(_)) => Ok(None),
-            (_, None) => self.modal_motion(block, has_axes),
+            (_, true) => Ok(None),
+            (_, false) => self.modal_motion(block, has_axes),
         }
     }
 
@@ -53,17 +63,14 @@ impl Interpreter {
         let modal = self.state.modal.motion;
         if has_axes {
             return modal.map(Some).ok_or_else(|| {
-                let first = block.axes().map(|(axis, _)| block.axis_span(axis));
-                let span = first.min_by_key(|span| span.start).unwrap_or_default();
+                let span = motion_span(block);
                 Fault::new(Code::NoMotionMode, span, "axis words without a motion mode")
-                    .because("no G0, G1, G2 or G3 is in force")
+                    .because("no G0, G1, G2, G3 or cycle is in force")
                     .help("write the motion code in front of them")
             });
         }
         let center = block.has_any(Letters::of(b"IJK"));
-        Ok(modal.filter(|motion| {
-            center && matches!(motion, Motion::ArcClockwise | Motion::ArcCounterclockwise)
-        }))
+        Ok(modal.filter(|motion| center && motion.is_arc()))
     }
 
     pub(crate) fn check_axes(&self, block: &Block) -> Outcome<()> {
@@ -90,8 +97,9 @@ impl Interpreter {
             }
         }
     }
-    /// Axis words in mm and degrees.
-    pub(crate) fn axis_values(&self, block: &Block) -> [Option<f64>; AXES] {
+
+    /// Axis words in mm and degrees, X and Y in the place of polar words, X halved in diameter mode.
+    pub(crate) fn axis_values(&self, block: &Block) -> Outcome<[Option<f64>; AXES]> {
         let scale = self.state.modal.units.mm();
         let mut values = [None; AXES];
         for (axis, value) in block.axes() {
@@ -101,6 +109,21 @@ impl Interpreter {
                 value * scale
             });
         }
-        values
+        if self.state.modal.diameter {
+            values[0] = values[0].map(|x| 0.5 * x);
+        }
+        self.resolve_polar(block, &mut values)?;
+        Ok(values)
     }
+}
+
+#[cold]
+fn conflict(span: Span) -> Box<Fault> {
+    Fault::new(
+        Code::AxisWordsConflict,
+        span,
+        "two codes want the axis words",
+    )
+    .because("G10, G28, G30, G52, G92 and G43.1 take them for themselves")
+    .help("write two blocks")
 }

@@ -33,10 +33,19 @@ pub(crate) struct Block {
     present: u32,
     values: [f64; 26],
     spans: [Span; 26],
+    /// `@` and `^`.
+    pub(crate) polar: [Option<PolarWord>; 2],
     /// Parameters to assign after the block, in order.
     pub(crate) assignments: Vec<Assignment>,
     /// True if the line has any word or code.
     pub(crate) any: bool,
+}
+
+/// A polar word: distance or angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PolarWord {
+    pub(crate) value: f64,
+    pub(crate) span: Span,
 }
 
 /// `#1=2`: takes effect after everything else of its block.
@@ -70,6 +79,10 @@ impl Letters {
         Self(bits)
     }
 
+    pub(crate) const fn has(self, letter: u8) -> bool {
+        self.0 & bit(letter) != 0
+    }
+
     pub(crate) const fn and(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
@@ -98,6 +111,11 @@ impl Block {
         } else {
             self.spans[slot(letter)]
         }
+    }
+
+    /// True if the block has an axis word or a polar one.
+    pub(crate) const fn has_axes(&self) -> bool {
+        self.has_any(AXIS_WORDS) || self.polar[0].is_some() || self.polar[1].is_some()
     }
 
     /// True if the block has any of these words.
@@ -134,6 +152,7 @@ impl Block {
     pub(crate) fn parse(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
         self.assignments.clear();
         self.present = 0;
+        self.polar = [None, None];
         self.codes = Codes::default();
         self.kind = LineKind::Block;
         self.any = false;
@@ -155,6 +174,10 @@ impl Block {
                         start_of_block,
                         scope,
                     )?;
+                    start_of_block = false;
+                }
+                b'@' | b'^' => {
+                    self.polar_word(&mut cursor, usize::from(byte == b'^'), scope)?;
                     start_of_block = false;
                 }
                 b'#' => {
@@ -207,6 +230,24 @@ impl Block {
         Ok(())
     }
 
+    fn polar_word(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        which: usize,
+        scope: &dyn Scope,
+    ) -> Outcome<()> {
+        let start = cursor.at();
+        cursor.advance();
+        let value = value(cursor, start, scope)?;
+        let span = Span::new(start, cursor.end_of_word());
+        if self.polar[which].is_some() {
+            return Err(duplicate(if which == 0 { '@' } else { '^' }, span));
+        }
+        self.any = true;
+        self.polar[which] = Some(PolarWord { value, span });
+        Ok(())
+    }
+
     fn word(
         &mut self,
         cursor: &mut Cursor<'_>,
@@ -235,15 +276,7 @@ impl Block {
         match letter {
             b'G' => self.codes.add_g(value, span),
             b'M' => self.codes.add_m(value, span),
-            b'E' => Err(Fault::new(Code::UnknownWord, span, "there is no E word")
-                .because("no extruder or analog output is driven from here")
-                .help("remove it")),
-            _ if self.present & bit(letter) != 0 => {
-                let message = format!("a second {} in the block", char::from(letter));
-                Err(Fault::new(Code::DuplicateWord, span, message)
-                    .because("a block has each word once")
-                    .help("remove one of them, or write two blocks"))
-            }
+            _ if self.present & bit(letter) != 0 => Err(duplicate(char::from(letter), span)),
             _ => {
                 self.present |= bit(letter);
                 self.values[slot(letter)] = value;
@@ -252,6 +285,17 @@ impl Block {
             }
         }
     }
+}
+
+#[cold]
+fn duplicate(letter: char, span: Span) -> Box<Fault> {
+    Fault::new(
+        Code::DuplicateWord,
+        span,
+        format!("a second {letter} in the block"),
+    )
+    .because("a block has each word once")
+    .help("remove one of them, or write two blocks")
 }
 
 fn block_number(cursor: &mut Cursor<'_>, start: usize, first: bool) -> Outcome<()> {
@@ -286,9 +330,6 @@ fn odd_character(text: &[u8], at: usize, byte: u8) -> Box<Fault> {
         b'%' => Fault::new(Code::StrayPercent, span, "a percent sign inside a line")
             .because("a percent sign by itself marks the start or the end of the program")
             .help("give the percent sign a line of its own"),
-        b'@' | b'^' => Fault::new(Code::NotSupported, span, "polar coordinates")
-            .because("`@` and `^` are not supported")
-            .help("write X and Y"),
         b'$' => Fault::new(Code::NotSupported, span, "`$` (spindle number)")
             .because("there is one spindle; commands of a controller are no part of a program")
             .help("remove it"),

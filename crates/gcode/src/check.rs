@@ -12,9 +12,6 @@ use crate::totals::Totals;
 /// Most findings listed in a [`Report`].
 pub const MAX_FINDINGS: usize = 20;
 
-/// Most lines of subroutines and loops executed by [`check`], each as often as it is.
-pub const MAX_CHECKED_LINES: u64 = 20_000_000;
-
 /// What [`check`] found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
@@ -23,7 +20,7 @@ pub struct Report {
     /// Findings beyond those listed.
     pub more: u32,
     /// False if the program was not read to its end, because its loops go on for longer than
-    /// [`MAX_CHECKED_LINES`]; the part that was read is judged.
+    /// [`crate::LoopLimits`] allow; the part that was read is judged.
     pub complete: bool,
     /// Counts and sums over the blocks without findings.
     pub totals: Totals,
@@ -45,9 +42,10 @@ impl Report {
 /// consequence of an earlier one. A finding in an O word, a subroutine or a loop ends the check, as
 /// does one that leaves nothing to understand (the input cannot be read).
 pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
+    let most = options.loops.checked_lines;
     let mut program = Program::new(reader, options);
     let (mut diagnostics, mut more) = (Vec::new(), 0_u32);
-    while program.kept_lines() < MAX_CHECKED_LINES
+    while program.kept_lines() < most
         && let Some(line) = program.next_line()
     {
         match line {
@@ -59,7 +57,7 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
     Report {
         diagnostics,
         more,
-        complete: program.kept_lines() < MAX_CHECKED_LINES,
+        complete: program.kept_lines() < most,
         totals: *program.totals(),
         final_position: *program.position(),
     }

@@ -6,103 +6,11 @@ use glidepath_geometry::Plane;
 use glidepath_motion::PathMode;
 
 use crate::diagnostic::{Code, Fault, Outcome, Span};
-
-/// Motion modes (group 1).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Motion {
-    /// G0.
-    Rapid,
-    /// G1.
-    Linear,
-    /// G2.
-    ArcClockwise,
-    /// G3.
-    ArcCounterclockwise,
-}
-
-/// Codes that act once (group 0).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Once {
-    /// G4.
-    Dwell,
-    /// G10.
-    SetData,
-    /// G28, G30: go by way of the given point to the reference position of that index.
-    GoToReference(usize),
-    /// G28.1, G30.1.
-    SetReference(usize),
-    /// G52.
-    LocalOffset,
-    /// G53.
-    MachineCoordinates,
-    /// G92.
-    SetOffset,
-    /// G92.1.
-    ClearOffset,
-    /// G92.2.
-    SuspendOffset,
-    /// G92.3.
-    RestoreOffset,
-}
-
-impl Once {
-    /// True if the code takes the axis words of its block for itself.
-    pub(crate) const fn takes_axes(self) -> bool {
-        matches!(
-            self,
-            Self::SetData | Self::GoToReference(_) | Self::LocalOffset | Self::SetOffset
-        )
-    }
-}
-
-/// Meaning of axis words (group 3) or of I, J, K (group 4).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Distance {
-    /// G90, G90.1.
-    Absolute,
-    /// G91, G91.1.
-    Incremental,
-}
-
-/// Meaning of F (group 5).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FeedMode {
-    /// G93: one over the minutes the move takes.
-    InverseTime,
-    /// G94: per minute.
-    PerMinute,
-}
-
-/// Length units (group 6).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Units {
-    /// G20.
-    Inch,
-    /// G21.
-    Millimetre,
-}
-
-impl Units {
-    /// Millimetres in one unit.
-    #[must_use]
-    pub const fn mm(self) -> f64 {
-        match self {
-            Self::Inch => 25.4,
-            Self::Millimetre => 1.0,
-        }
-    }
-}
-
-/// How M codes stop (group 4 of the M codes).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Stop {
-    /// M0 or M60.
-    Program(u32),
-    /// M1.
-    Optional,
-    /// M2 or M30.
-    End,
-}
+use crate::modes::{
+    CutterRadius, Cycle, Distance, FeedMode, Motion, Once, Probe, Retract, Side, SpindleMode, Stop,
+    ToolLength, Units,
+};
+use crate::refused::{refused_g, refused_m, unknown_g, unknown_m};
 
 /// A code and where it stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,11 +30,12 @@ pub(crate) struct Codes {
     pub(crate) arc_distance: Option<Coded<Distance>>,
     pub(crate) feed_mode: Option<Coded<FeedMode>>,
     pub(crate) units: Option<Coded<Units>>,
-    pub(crate) cutter_comp: Option<Coded<()>>,
-    pub(crate) tool_length: Option<Coded<()>>,
-    pub(crate) retract: Option<Coded<()>>,
-    pub(crate) spindle_mode: Option<Coded<()>>,
-    pub(crate) diameter: Option<Coded<()>>,
+    pub(crate) cutter_radius: Option<Coded<CutterRadius>>,
+    pub(crate) tool_length: Option<Coded<ToolLength>>,
+    pub(crate) retract: Option<Coded<Retract>>,
+    pub(crate) spindle_mode: Option<Coded<SpindleMode>>,
+    /// True for G7: X words are diameters.
+    pub(crate) diameter: Option<Coded<bool>>,
     /// Index of the coordinate system, from 0 for G54.
     pub(crate) system: Option<Coded<usize>>,
     /// The tolerance of G64 comes from its P word.
@@ -136,6 +45,10 @@ pub(crate) struct Codes {
     pub(crate) coolant: Option<Coded<u32>>,
     pub(crate) overrides: Option<Coded<u32>>,
     pub(crate) stop: Option<Coded<Stop>>,
+    /// M19.
+    pub(crate) orient: Option<Coded<u32>>,
+    /// M62 to M68.
+    pub(crate) input_output: Option<Coded<u32>>,
 }
 
 impl Codes {
@@ -159,8 +72,14 @@ impl Codes {
             191 => set(&mut self.plane, Plane::Vw, span),
             200 => set(&mut self.units, Units::Inch, span),
             210 => set(&mut self.units, Units::Millimetre, span),
-            400 => set(&mut self.cutter_comp, (), span),
-            490 => set(&mut self.tool_length, (), span),
+            382..=385 => self.set_motion(Some(Motion::Probe(probe(tenths))), span),
+            400 | 410 | 411 | 420 | 421 => {
+                set(&mut self.cutter_radius, cutter_radius(tenths), span)
+            }
+            430 => set(&mut self.tool_length, ToolLength::FromTable, span),
+            431 => set(&mut self.tool_length, ToolLength::FromWords, span),
+            432 => set(&mut self.tool_length, ToolLength::Add, span),
+            490 => set(&mut self.tool_length, ToolLength::Cancel, span),
             540 | 550 | 560 | 570 | 580 | 590 | 591..=593 => {
                 set(&mut self.system, system_index(tenths), span)
             }
@@ -171,15 +90,21 @@ impl Codes {
                 PathMode::Continuous { tolerance_mm: None },
                 span,
             ),
-            80 => set(&mut self.diameter, (), span),
+            70 | 80 => set(&mut self.diameter, tenths == 70, span),
+            730 | 740 | 810..=860 | 890 if tenths % 10 == 0 => {
+                self.set_motion(Some(Motion::Cycle(cycle(tenths))), span)
+            }
             900 => set(&mut self.distance, Distance::Absolute, span),
             910 => set(&mut self.distance, Distance::Incremental, span),
             901 => set(&mut self.arc_distance, Distance::Absolute, span),
             911 => set(&mut self.arc_distance, Distance::Incremental, span),
             930 => set(&mut self.feed_mode, FeedMode::InverseTime, span),
             940 => set(&mut self.feed_mode, FeedMode::PerMinute, span),
-            970 => set(&mut self.spindle_mode, (), span),
-            980 | 990 => set(&mut self.retract, (), span),
+            950 => set(&mut self.feed_mode, FeedMode::PerRevolution, span),
+            960 => set(&mut self.spindle_mode, SpindleMode::SurfaceSpeed, span),
+            970 => set(&mut self.spindle_mode, SpindleMode::Revolutions, span),
+            980 => set(&mut self.retract, Retract::Initial, span),
+            990 => set(&mut self.retract, Retract::RPlane, span),
             _ => Err(refused_g(tenths, value, span)),
         }
     }
@@ -207,17 +132,44 @@ impl Codes {
             1 => set(&mut self.stop, Stop::Optional, span),
             2 | 30 => set(&mut self.stop, Stop::End, span),
             3..=5 => set(&mut self.spindle, number, span),
-            6 => set(&mut self.tool_change, number, span),
+            6 | 61 => set(&mut self.tool_change, number, span),
             7..=9 => set(&mut self.coolant, number, span),
             48 | 49 => set(&mut self.overrides, number, span),
-            19 | 50..=53 | 61..=68 | 70..=73 | 98 | 99 => Err(Fault::new(
-                Code::NotSupported,
-                span,
-                format!("M{number} is not supported"),
-            )
-            .because("skipping it could change what the machine does")),
-            _ => Err(unknown_m(value, span)),
+            19 => set(&mut self.orient, number, span),
+            62..=68 => set(&mut self.input_output, number, span),
+            _ => Err(refused_m(number, value, span)),
         }
+    }
+}
+
+const fn cycle(tenths: u32) -> Cycle {
+    match tenths {
+        730 => Cycle::ChipBreak,
+        740 => Cycle::TapLeft,
+        820 => Cycle::DrillDwell,
+        830 => Cycle::Peck,
+        840 => Cycle::TapRight,
+        850 => Cycle::Bore,
+        860 => Cycle::BoreStop,
+        890 => Cycle::BoreDwell,
+        _ => Cycle::Drill,
+    }
+}
+
+const fn probe(tenths: u32) -> Probe {
+    Probe {
+        toward: matches!(tenths, 382 | 383),
+        must: matches!(tenths, 382 | 384),
+    }
+}
+
+const fn cutter_radius(tenths: u32) -> CutterRadius {
+    match tenths {
+        410 => CutterRadius::FromTable(Side::Left),
+        411 => CutterRadius::FromWord(Side::Left),
+        420 => CutterRadius::FromTable(Side::Right),
+        421 => CutterRadius::FromWord(Side::Right),
+        _ => CutterRadius::Off,
     }
 }
 
@@ -275,47 +227,4 @@ fn set<T>(slot: &mut Option<Coded<T>>, code: T, span: Span) -> Outcome<()> {
     }
     *slot = Some(Coded { code, span });
     Ok(())
-}
-
-#[cold]
-fn unknown_g(value: f64, span: Span) -> Box<Fault> {
-    Fault::new(Code::UnknownGCode, span, format!("there is no G{value}"))
-        .because("skipping it could change what the machine does")
-        .help("remove it, or put it into a comment")
-}
-
-#[cold]
-fn unknown_m(value: f64, span: Span) -> Box<Fault> {
-    Fault::new(Code::UnknownMCode, span, format!("there is no M{value}"))
-        .because("an unknown M code could have been meant to stop something")
-        .help("remove it, or put it into a comment")
-}
-
-/// Codes that exist and are not supported, each with what it is.
-#[cold]
-fn refused_g(tenths: u32, value: f64, span: Span) -> Box<Fault> {
-    let what = match tenths {
-        50..=53 | 62 | 63 => "spline",
-        70 => "lathe diameter mode",
-        330 | 331 | 760 => "spindle-synchronised motion",
-        382..=385 => "probing",
-        410..=429 => "cutter radius compensation",
-        430..=439 => "tool length offset",
-        730 | 740 | 810..=890 => "canned cycle",
-        950 => "feed per revolution",
-        960 => "constant surface speed",
-        _ => return unknown_g(value, span),
-    };
-    let message = format!("G{value} ({what}) is not supported");
-    let help = match what {
-        "lathe diameter mode" => "write X as a radius and remove G7",
-        "cutter radius compensation" => "let the CAM system compensate, and remove G41 and G42",
-        "tool length offset" => "let the CAM system or a work offset account for it",
-        "canned cycle" => "write the moves out as G0 and G1",
-        "feed per revolution" => "use feed per minute (G94)",
-        _ => "remove it",
-    };
-    Fault::new(Code::NotSupported, span, message)
-        .because("skipping it would make another motion than the program's")
-        .help(help)
 }

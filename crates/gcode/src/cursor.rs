@@ -228,7 +228,8 @@ impl<'a> Cursor<'a> {
             )
             .help("write one number");
         }
-        if !letter.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        let is_word = |c: char| c.is_ascii_alphabetic() || matches!(c, '@' | '^');
+        if !letter.starts_with(is_word) {
             let span = Span::new(word, word + 1);
             return Fault::new(
                 Code::Expression,

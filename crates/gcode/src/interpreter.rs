@@ -1,20 +1,29 @@
 //! The modal interpreter: one block at a time, in the order RS274/NGC prescribes.
 //!
 //! Whatever stands where in a line, a block acts in this order: feed mode, F, S, T, tool change,
-//! spindle, coolant, overrides, dwell, plane, units, coordinate system, path mode, distance modes,
-//! then G10, G28, G30, G52 or G92, then the motion, and last the stop.
+//! spindle, coolant, overrides, inputs and outputs, dwell, plane, units, diameter mode, cutter
+//! radius, tool length, coordinate system, path mode, distance modes, retract mode, then G10, G28,
+//! G30, G52 or G92, then the motion, and last the stop.
 //!
 //! A block that is refused has no effect at all: the state from before it is put back.
+
+use std::sync::Arc;
 
 use glidepath_geometry::AxisVector;
 use glidepath_motion::{Event, Item, ItemKind};
 
 use crate::block::Block;
-use crate::codes::{Coded, Stop};
+use crate::codes::Coded;
+use crate::compensation::Compensation;
+use crate::cycle::Cycles;
 use crate::diagnostic::Outcome;
 use crate::modal::Modal;
+use crate::modes::{Motion, Stop};
 use crate::offsets::Offsets;
 use crate::options::Options;
+use crate::probe::ProbeResult;
+use crate::spindle::Spindle;
+use crate::tool_table::ToolTable;
 use crate::words::{check_words, path_mode};
 
 /// What follows a block.
@@ -36,10 +45,25 @@ pub(crate) struct ZeroLength {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct State {
     pub(crate) modal: Modal,
-    /// Where the program has brought the machine, machine coordinates.
+    /// Where the program has brought the machine, machine coordinates. With cutter radius
+    /// compensation that is the programmed contour, not the tool.
     pub(crate) position: AxisVector,
-    /// End of the last segment given out. Within [`crate::moves::MIN_MOVE`] of `position`.
+    /// End of the last segment made. Within [`crate::moves::MIN_MOVE`] of `position`, unless cutter
+    /// radius compensation is on or was just turned off.
     pub(crate) path_end: AxisVector,
+    pub(crate) spindle: Spindle,
+    /// Tool number of the last T word.
+    pub(crate) selected_tool: u32,
+    /// Tool number in the spindle; 0: none.
+    pub(crate) tool: u32,
+    pub(crate) cycles: Cycles,
+    pub(crate) probe: ProbeResult,
+    /// Value of the input M66 read last.
+    pub(crate) input: f64,
+    /// G41 or G42 is in force, be it with a radius of zero.
+    pub(crate) on_contour: bool,
+    /// Cutter radius compensation was turned off and no move has been made since.
+    pub(crate) leaving_contour: bool,
 }
 
 /// Turns blocks into items.
@@ -48,6 +72,9 @@ pub(crate) struct Interpreter {
     pub(crate) options: Options,
     pub(crate) state: State,
     pub(crate) offsets: Offsets,
+    pub(crate) compensation: Option<Compensation>,
+    /// The tool table, with what G10 has made of it.
+    pub(crate) tools: Option<Arc<ToolTable>>,
     /// Of the block executed last.
     pub(crate) zero_length: ZeroLength,
     /// Line of the block being executed.
@@ -58,14 +85,25 @@ impl Interpreter {
     pub(crate) fn new(options: Options) -> Self {
         let start = options.start;
         let modal = Modal::new(options.default_feed_mm_min);
+        let tools = options.tools.clone();
         Self {
             options,
             state: State {
                 modal,
                 position: start,
                 path_end: start,
+                spindle: Spindle::default(),
+                selected_tool: 0,
+                tool: 0,
+                cycles: Cycles::default(),
+                probe: ProbeResult::default(),
+                input: 0.0,
+                on_contour: false,
+                leaving_contour: false,
             },
             offsets: Offsets::new(),
+            compensation: None,
+            tools,
             zero_length: ZeroLength::default(),
             line: 0,
         }
@@ -81,14 +119,19 @@ impl Interpreter {
         self.line = line;
         self.zero_length = ZeroLength::default();
         let state = self.state;
-        let changes_offsets = block.codes.once.is_some() || block.codes.system.is_some();
-        let offsets = changes_offsets.then(|| self.offsets.clone());
+        let codes = &block.codes;
+        let changes_offsets =
+            codes.once.is_some() || codes.system.is_some() || codes.tool_length.is_some();
+        let offsets = changes_offsets.then(|| (self.offsets.clone(), self.tools.clone()));
+        let compensation = self.compensation.clone();
         let result = self.run(block, out);
         if result.is_err() {
             out.clear();
             self.state = state;
-            if let Some(offsets) = offsets {
+            self.compensation = compensation;
+            if let Some((offsets, tools)) = offsets {
                 self.offsets = offsets;
+                self.tools = tools;
             }
         }
         result
@@ -98,20 +141,28 @@ impl Interpreter {
         let motion = self.motion_of(block)?;
         check_words(block, motion)?;
         self.check_axes(block)?;
+        self.check_compensated(block)?;
         self.feed(block)?;
         self.auxiliary(block, out)?;
-        self.modes(block)?;
+        self.modes(block, out)?;
         if let Some(once) = block.codes.once {
             self.act_once(block, once, motion, out)?;
         }
         if let Some(Coded { code, .. }) = block.codes.motion {
             self.state.modal.motion = code;
+            if !matches!(code, Some(Motion::Cycle(_))) {
+                self.state.cycles = Cycles::default();
+            }
         }
         if let Some(motion) = motion {
             self.motion(block, motion, out)?;
         }
-        Ok(match block.codes.stop.map(|stop| stop.code) {
-            Some(Stop::End) => Flow::End,
+        let stop = block.codes.stop.map(|stop| stop.code);
+        Ok(match stop {
+            Some(Stop::End) => {
+                self.end_compensation(out)?;
+                Flow::End
+            }
             Some(Stop::Program(number)) => {
                 self.push(out, ItemKind::Event(Event::ProgramStop(number)));
                 Flow::Continue
@@ -124,15 +175,21 @@ impl Interpreter {
         })
     }
 
-    pub(crate) fn push(&self, out: &mut Vec<Item>, kind: ItemKind) {
-        out.push(Item {
+    /// Gives out an item, in order with the moves cutter radius compensation still holds back.
+    pub(crate) fn push(&mut self, out: &mut Vec<Item>, kind: ItemKind) {
+        let item = Item {
             line: self.line,
             kind,
-        });
+        };
+        match &mut self.compensation {
+            Some(compensation) => compensation.push_item(item, out),
+            None => out.push(item),
+        }
     }
 
-    /// Plane, units, coordinate system, path mode, distance modes.
-    fn modes(&mut self, block: &Block) -> Outcome<()> {
+    /// Plane, units, diameter mode, cutter radius, tool length, coordinate system, path mode,
+    /// distance modes, retract mode.
+    fn modes(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
         let (modal, codes) = (&mut self.state.modal, &block.codes);
         if let Some(Coded { code, .. }) = codes.plane {
             modal.plane = code;
@@ -140,6 +197,16 @@ impl Interpreter {
         if let Some(Coded { code, .. }) = codes.units {
             modal.units = code;
         }
+        if let Some(Coded { code, .. }) = codes.diameter {
+            modal.diameter = code;
+        }
+        if let Some(coded) = codes.cutter_radius {
+            self.cutter_radius(block, coded, out)?;
+        }
+        if let Some(coded) = codes.tool_length {
+            self.tool_length(block, coded)?;
+        }
+        let modal = &mut self.state.modal;
         if let Some(Coded { code, .. }) = codes.system {
             self.offsets.active = code;
         }
@@ -151,6 +218,9 @@ impl Interpreter {
         }
         if let Some(Coded { code, .. }) = codes.arc_distance {
             modal.arc_distance = code;
+        }
+        if let Some(Coded { code, .. }) = codes.retract {
+            modal.retract = code;
         }
         Ok(())
     }

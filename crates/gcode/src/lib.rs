@@ -1,9 +1,9 @@
 //! RS274/NGC text to canonical machining moves, with diagnostics.
 //!
 //! ```text
-//! bytes ─ LineSource ─► line ─ Block::parse ─► block ─ Interpreter ─► items (lines, arcs, events)
-//!                        ▲          ▲ parameters         │ modal state, offsets
-//!                  Flow (O words)   └────────────────────┘
+//! bytes ─ LineSource ─► line ─ Block::parse ─► block ─ Interpreter ─► Compensation ─► items
+//!                        ▲          ▲ parameters         │ modal state,  (cutter radius)
+//!                  Flow (O words)   └────────────────────┘ offsets, tools
 //! ```
 //!
 //! A program is read line by line in constant memory; subroutines and loops are kept, to a bound. Everything given out is in machine
@@ -12,28 +12,37 @@
 //!
 //! # The language
 //!
-//! RS274/NGC as LinuxCNC reads it. A program starts in G17 G21 G54 G64 G80 G90 G91.1 G94.
+//! RS274/NGC as LinuxCNC reads it. A program starts in G8 G17 G21 G40 G49 G54 G64 G80 G90 G91.1 G94
+//! G97 G98.
 //!
 //! | words | what they do |
 //! |---|---|
 //! | G0 G1 G2 G3 G80 | moves; arcs with I J K or R, P turns, helices, in every plane |
 //! | G4 P | dwell, seconds |
+//! | G7 G8 | X words are diameters, radii |
 //! | G10 L2, L20 (P, R); G54 … G59.3; G52; G92 … G92.3; G53 | coordinate systems |
-//! | G17 G18 G19, G17.1 G18.1 G19.1 | plane of arcs |
+//! | G10 L1, L10, L11 (P, R, Q) | tool table, until the program ends |
+//! | G17 G18 G19, G17.1 G18.1 G19.1 | plane of arcs and cycles |
 //! | G20 G21 | inch, millimetre |
 //! | G28 G30, G28.1 G30.1 | reference positions, machine zero until they are set |
+//! | G38.2 … G38.5 | probing, only with simulated connections |
+//! | G40 G41 G42 D, G41.1 G42.1 D L | cutter radius compensation, in G17 and G18 |
+//! | G43 H, G43.1, G43.2 H, G49 | tool length offsets, on every axis |
 //! | G61 G61.1 G64 P Q | path mode; Q is checked and not used |
+//! | G73 G74 G81 … G86 G89, G98 G99 | canned cycles, L holes each |
 //! | G90 G91, G90.1 G91.1 | absolute, incremental; of I J K |
-//! | G93 G94 F | inverse time, per minute |
-//! | S T M0 M1 M3–M9 M48 M49 M60 | events, in order with the motion |
+//! | G93 G94 G95 F | inverse time, per minute, per revolution |
+//! | G96 S D, G97 S | cutting speed, revolutions |
+//! | `@` `^` | polar words for X and Y |
+//! | S T M0 M1 M3–M9 M48 M49 M60 M61 Q | events, in order with the motion |
+//! | M19, M62 … M68 | events, only with simulated connections |
 //! | M2 M30, `%` | end of the program; the end of the input is one too |
-//! | G8 G40 G49 G97 G98 G99 | accepted: they name what is the case anyway |
 //! | N, `/`, `( )`, `;`, `O1234` alone | no effect (`/`: [`Options::block_delete`]) |
 //! | `#1`, `#<name>`, `[ ]`, functions | parameters and expressions |
 //! | O words | `sub` `call` `return`, `if`, `while`, `do`, `repeat`, `break`, `continue` |
 //!
-//! Not supported, and refused: canned cycles, splines, cutter radius compensation, tool lengths,
-//! probing, threading, feed per revolution, polar words, subroutines in other files.
+//! Not supported, and refused by name: splines, threading (G33, G76), G70 to G72, G87, G88, M50 to
+//! M53, M70 to M73, subroutines in other files.
 //!
 //! [`Program`] gives the items of a program for motion, and ends at the first finding. [`check`]
 //! reads a program to its end and lists all findings.
@@ -58,31 +67,43 @@ mod bad_byte;
 mod block;
 mod check;
 mod codes;
+mod compensation;
 mod cursor;
+mod cycle;
 mod diagnostic;
 mod expression;
+mod finding_code;
 mod flow;
 mod flow_run;
 mod flow_word;
+mod input_output;
 mod interpreter;
 mod modal;
+mod modes;
 mod moves;
 mod offsets;
 mod once;
 mod operation;
 mod options;
 mod parameters;
+mod polar;
+mod probe;
 mod program;
+mod refused;
 mod source;
+mod spindle;
+mod tool;
+mod tool_table;
 mod totals;
 mod words;
 
-pub use check::{MAX_CHECKED_LINES, MAX_FINDINGS, Report, check};
-pub use codes::{Distance, FeedMode, Motion, Units};
+pub use check::{MAX_FINDINGS, Report, check};
 pub use cursor::MAX_NUMBER;
 pub use diagnostic::{Code, Diagnostic, Excerpt};
 pub use modal::{Feed, Modal};
-pub use options::{Machine, Options, Travel};
+pub use modes::{Cycle, Distance, FeedMode, Motion, Probe, Retract, Units};
+pub use options::{Connections, LoopLimits, Machine, Options, Travel};
 pub use program::Program;
 pub use source::MAX_LINE_BYTES;
+pub use tool_table::{MAX_TOOLS, Tool, ToolTable};
 pub use totals::Totals;

@@ -3,14 +3,15 @@
 use glidepath_geometry::Plane;
 use glidepath_motion::PathMode;
 
-use crate::codes::{Distance, FeedMode, Motion, Units};
+use crate::modes::{Distance, FeedMode, Motion, Retract, Units};
 
-/// A feedrate of G94.
+/// A feedrate of G94, or a feed per revolution of G95.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Feed {
-    /// For moves of linear axes, mm/s, > 0.
+    /// For moves of linear axes, mm/s or mm per revolution, > 0.
     pub linear_v: f64,
-    /// For moves of rotary axes alone, °/s, > 0. The same F word, which inches do not scale.
+    /// For moves of rotary axes alone, °/s or ° per revolution, > 0. The same F word, which inches
+    /// do not scale.
     pub rotary_v: f64,
 }
 
@@ -27,16 +28,20 @@ pub struct Modal {
     pub arc_distance: Distance,
     /// Meaning of F.
     pub feed_mode: FeedMode,
-    /// Feedrate of G94; `None` until one is given. G93 takes its F from every block.
+    /// Feedrate of G94 or G95; `None` until one is given. G93 takes its F from every block.
     pub feed: Option<Feed>,
     /// Length units.
     pub units: Units,
     /// Path mode.
     pub path_mode: PathMode,
+    /// Where canned cycles retract to.
+    pub retract: Retract,
+    /// True in G7: X words are diameters.
+    pub diameter: bool,
 }
 
 impl Modal {
-    /// The state at the start of a program: G17 G21 G54 G64 G80 G90 G91.1 G94.
+    /// The state at the start of a program: G8 G17 G21 G54 G64 G80 G90 G91.1 G94 G98.
     #[must_use]
     pub fn new(default_feed_mm_min: Option<f64>) -> Self {
         Self {
@@ -51,6 +56,8 @@ impl Modal {
             }),
             units: Units::Millimetre,
             path_mode: PathMode::Continuous { tolerance_mm: None },
+            retract: Retract::Initial,
+            diameter: false,
         }
     }
 }

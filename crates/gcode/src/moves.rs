@@ -4,9 +4,9 @@ use glidepath_geometry::{AXES, Axis, AxisVector, LINEAR_XYZ, Segment, UVW};
 use glidepath_motion::{Item, ItemKind, Rate};
 
 use crate::block::{AXIS_WORDS, Block};
-use crate::codes::{Distance, FeedMode, Motion, Once};
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::interpreter::Interpreter;
+use crate::modes::{Distance, FeedMode, Motion, Once};
 use crate::offsets::overlay;
 
 /// Displacements of an axis up to this, mm or degrees, are rounding of coordinates, and no motion.
@@ -16,6 +16,33 @@ pub(crate) const MIN_MOVE: f64 = 1e-9;
 
 /// Relative slack of the soft limits, for the rounding of unit conversions.
 const LIMIT_SLACK: f64 = 1e-9;
+
+/// At which speed a block moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pace {
+    Rapid,
+    Feed,
+}
+
+/// Speed of a move whose segment is not known yet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Speed {
+    Rapid,
+    /// mm/s or °/s.
+    Feed(f64),
+    /// G93: moves of this length per minute.
+    Moves(f64),
+}
+
+impl Speed {
+    pub(crate) fn rate(self, segment: &Segment) -> Rate {
+        match self {
+            Self::Rapid => Rate::Rapid,
+            Self::Feed(feed_v) => Rate::Feed(feed_v),
+            Self::Moves(per_minute) => Rate::Feed(segment.length() * per_minute / 60.0),
+        }
+    }
+}
 
 impl Interpreter {
     /// Makes the motion of a block.
@@ -27,56 +54,62 @@ impl Interpreter {
     ) -> Outcome<()> {
         match motion {
             Motion::Rapid | Motion::Linear => {
-                let target = self.target(block);
-                self.straight(block, target, motion == Motion::Rapid, out)
+                let target = self.target(block)?;
+                let pace = if motion == Motion::Rapid {
+                    Pace::Rapid
+                } else {
+                    Pace::Feed
+                };
+                self.straight(block, target, pace, out)?;
             }
-            Motion::ArcClockwise | Motion::ArcCounterclockwise => self.arc(block, motion, out),
+            Motion::ArcClockwise | Motion::ArcCounterclockwise => self.arc(block, motion, out)?,
+            Motion::Cycle(cycle) => self.cycle(block, cycle, out)?,
+            Motion::Probe(_) => self.probe(block, out)?,
         }
+        self.follow_surface(out);
+        Ok(())
     }
 
     /// Machine coordinates the axis words of a block lead to.
-    pub(crate) fn target(&self, block: &Block) -> AxisVector {
-        let values = self.axis_values(block);
-        let position = self.state.position;
+    pub(crate) fn target(&self, block: &Block) -> Outcome<AxisVector> {
+        let mut values = self.axis_values(block)?;
         let machine = block
             .codes
             .once
             .is_some_and(|o| o.code == Once::MachineCoordinates);
         if machine {
-            return overlay(position, &values);
+            return Ok(overlay(self.state.position, &values));
         }
-        let incremental = self.state.modal.distance == Distance::Incremental;
+        if self.state.modal.distance == Distance::Absolute {
+            return Ok(self.absolute_target(&values));
+        }
         if self.offsets.is_rotated() && (values[0].is_some() || values[1].is_some()) {
-            let mut program = self.offsets.to_program(position);
-            for (axis, value) in (0..AXES).zip(values) {
-                if let Some(value) = value {
-                    program[axis] = if incremental {
-                        program[axis] + value
-                    } else {
-                        value
-                    };
-                }
-            }
-            let turned = self.offsets.to_machine(program);
-            let mut target = self.plain_target(&values, incremental);
-            (target[0], target[1]) = (turned[0], turned[1]);
-            return target;
+            let mut by = AxisVector::zeros();
+            (by[0], by[1]) = (values[0].unwrap_or(0.0), values[1].unwrap_or(0.0));
+            let turned = self.offsets.system().rotate(by, 1.0);
+            (values[0], values[1]) = (Some(turned[0]), Some(turned[1]));
         }
-        self.plain_target(&values, incremental)
+        let mut target = self.state.position;
+        for (axis, value) in values.into_iter().enumerate() {
+            target[axis] += value.unwrap_or(0.0);
+        }
+        Ok(target)
     }
 
-    /// [`Self::target`] without rotation.
-    fn plain_target(&self, values: &[Option<f64>; AXES], incremental: bool) -> AxisVector {
+    /// Machine coordinates of program coordinates; an axis without a value stays where it is.
+    pub(crate) fn absolute_target(&self, values: &[Option<f64>; AXES]) -> AxisVector {
         let mut target = self.state.position;
-        let origin = self.offsets.system().origin;
+        let offsets = &self.offsets;
+        let origin = offsets.system().origin;
         for axis in 0..AXES {
             if let Some(value) = values[axis] {
-                target[axis] = if incremental {
-                    target[axis] + value
-                } else {
-                    value + (self.offsets.shift[axis] + origin[axis])
-                };
+                target[axis] = value + (offsets.shift[axis] + origin[axis] + offsets.tool[axis]);
             }
+        }
+        if offsets.is_rotated() && (values[0].is_some() || values[1].is_some()) {
+            let program = overlay(offsets.to_program(self.state.position), values);
+            let turned = offsets.to_machine(program);
+            (target[0], target[1]) = (turned[0], turned[1]);
         }
         target
     }
@@ -86,43 +119,42 @@ impl Interpreter {
         &mut self,
         block: &Block,
         target: AxisVector,
-        rapid: bool,
+        pace: Pace,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
+        self.state.leaving_contour = false;
+        if self.compensation.is_some() {
+            return self.compensated_straight(block, target, pace, out);
+        }
         let start = self.state.path_end;
         let end = settled(start, target, [None, None]);
         self.state.position = target;
         if end == start {
-            let counter = if rapid {
-                &mut self.zero_length.rapids
-            } else {
-                &mut self.zero_length.feeds
-            };
-            *counter += 1;
+            self.count_zero_length(pace);
             return Ok(());
         }
         self.check_limits(block, &end, &end, "the end")?;
         let segment = Segment::line(start, end);
-        let rate = if rapid {
-            Rate::Rapid
-        } else {
-            self.rate(block, &segment)?
-        };
-        self.push_move(segment, rate, out);
+        let speed = self.speed(block, &segment, pace)?;
+        self.push_move(segment, speed, out);
         Ok(())
     }
 
-    pub(crate) fn push_move(&mut self, segment: Segment, rate: Rate, out: &mut Vec<Item>) {
+    pub(crate) const fn count_zero_length(&mut self, pace: Pace) {
+        match pace {
+            Pace::Rapid => self.zero_length.rapids += 1,
+            Pace::Feed => self.zero_length.feeds += 1,
+        }
+    }
+
+    pub(crate) fn push_move(&mut self, segment: Segment, speed: Speed, out: &mut Vec<Item>) {
         self.state.path_end = segment.end();
-        let mode = self.state.modal.path_mode;
-        self.push(
-            out,
-            ItemKind::Move {
-                segment,
-                rate,
-                mode,
-            },
-        );
+        let kind = ItemKind::Move {
+            segment,
+            rate: speed.rate(&segment),
+            mode: self.state.modal.path_mode,
+        };
+        self.push(out, kind);
     }
 
     /// G28 and G30: by way of the programmed point to the reference position, at rapid speed. With
@@ -135,7 +167,8 @@ impl Interpreter {
     ) -> Outcome<()> {
         let all = !block.has_any(AXIS_WORDS);
         if !all {
-            self.straight(block, self.target(block), true, out)?;
+            let target = self.target(block)?;
+            self.straight(block, target, Pace::Rapid, out)?;
         }
         let reference = self
             .offsets
@@ -144,18 +177,21 @@ impl Interpreter {
             .copied()
             .unwrap_or_default();
         let mut target = self.state.position;
-        let values = self.axis_values(block);
+        let values = self.axis_values(block)?;
         for axis in Axis::ALL {
             let i = axis.index();
             if values[i].is_some() || (all && self.options.machine.has(axis)) {
                 target[i] = reference[i];
             }
         }
-        self.straight(block, target, true, out)
+        self.straight(block, target, Pace::Rapid, out)
     }
 
-    /// Rate of a feed move.
-    pub(crate) fn rate(&self, block: &Block, segment: &Segment) -> Outcome<Rate> {
+    /// Speed of a move along a segment, or one like it.
+    pub(crate) fn speed(&self, block: &Block, segment: &Segment, pace: Pace) -> Outcome<Speed> {
+        if pace == Pace::Rapid {
+            return Ok(Speed::Rapid);
+        }
         let modal = &self.state.modal;
         if modal.feed_mode == FeedMode::InverseTime {
             let per_minute = block.get(b'F').ok_or_else(|| {
@@ -167,7 +203,7 @@ impl Interpreter {
                 .because("with G93 every feed move has its own F: one over its minutes")
                 .help("add the F word, or go back to G94")
             })?;
-            return Ok(Rate::Feed(segment.length() * per_minute / 60.0));
+            return Ok(Speed::Moves(per_minute));
         }
         let feed = modal.feed.ok_or_else(|| {
             Fault::new(
@@ -175,17 +211,28 @@ impl Interpreter {
                 motion_span(block),
                 "a feed move without a feedrate",
             )
-            .because("no F word came before it since the program, or G94, began")
+            .because("no F word came before it since the program, or its feed mode, began")
             .help("write an F word")
         })?;
         let displacement = segment.end() - segment.start();
         let linear = LINEAR_XYZ.chain(UVW).any(|axis| displacement[axis] != 0.0);
         let turns = matches!(segment, Segment::Arc(_));
-        Ok(Rate::Feed(if linear || turns {
+        let feed = if linear || turns {
             feed.linear_v
         } else {
             feed.rotary_v
-        }))
+        };
+        if modal.feed_mode == FeedMode::PerMinute {
+            return Ok(Speed::Feed(feed));
+        }
+        let speed = self.state.spindle.speed;
+        if speed <= 0.0 {
+            let message = "a feed per revolution (G95) of a spindle without a speed";
+            return Err(Fault::new(Code::Spindle, motion_span(block), message)
+                .because("the move would never end")
+                .help("write an S word above zero, or go back to G94"));
+        }
+        Ok(Speed::Feed(feed * speed / 60.0))
     }
 
     /// Refuses a move whose box, from `low` to `high`, leaves the travel of an axis that moves.
@@ -236,8 +283,10 @@ pub(crate) fn settled(
 pub(crate) fn motion_span(block: &Block) -> Span {
     let code = block.codes.motion.map(|motion| motion.span);
     let axes = block.axes().map(|(axis, _)| block.axis_span(axis));
+    let polar = block.polar.into_iter().flatten().map(|word| word.span);
     code.into_iter()
         .chain(axes)
+        .chain(polar)
         .min_by_key(|span| span.start)
         .unwrap_or_default()
 }

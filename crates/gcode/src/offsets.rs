@@ -1,7 +1,7 @@
 //! Coordinate systems: from program to machine coordinates and back.
 //!
 //! ```text
-//! machine = origin(G54 …) + R(θ) · (program + offset(G92, G52))
+//! machine = tool offset(G43) + origin(G54 …) + R(θ) · (program + offset(G92, G52))
 //! ```
 //!
 //! R turns X and Y about the Z axis by the angle of the coordinate system (G10 L2 R). Everything
@@ -36,6 +36,8 @@ pub(crate) struct Offsets {
     pub(crate) systems: [System; SYSTEMS],
     /// Index of the active system.
     pub(crate) active: usize,
+    /// Tool offset in force (G43), machine axes.
+    pub(crate) tool: AxisVector,
     /// Offset of G92 or G52 in force.
     pub(crate) shift: AxisVector,
     /// The offset G92.3 brings back.
@@ -53,6 +55,7 @@ impl Offsets {
         Self {
             systems: [system; SYSTEMS],
             active: 0,
+            tool: AxisVector::zeros(),
             shift: AxisVector::zeros(),
             saved_shift: AxisVector::zeros(),
             reference: [AxisVector::zeros(); 2],
@@ -75,15 +78,21 @@ impl Offsets {
 
     pub(crate) fn to_machine(&self, program: AxisVector) -> AxisVector {
         let system = self.system();
-        system.rotate(program + self.shift, 1.0) + system.origin
+        system.rotate(program + self.shift, 1.0) + (system.origin + self.tool)
     }
 
     pub(crate) fn to_program(&self, machine: AxisVector) -> AxisVector {
         self.to_program_in(self.system(), machine)
     }
 
+    /// Program coordinates in the coordinate system of that index.
+    pub(crate) fn in_system(&self, index: usize, machine: AxisVector) -> AxisVector {
+        let system = self.systems.get(index).unwrap_or_else(|| self.system());
+        self.to_program_in(system, machine)
+    }
+
     fn to_program_in(&self, system: &System, machine: AxisVector) -> AxisVector {
-        system.rotate(machine - system.origin, -1.0) - self.shift
+        system.rotate(machine - (system.origin + self.tool), -1.0) - self.shift
     }
 
     /// G10 L20: moves the origin of a system so that the machine position has the given program
@@ -98,7 +107,7 @@ impl Offsets {
             return;
         };
         let program = overlay(self.to_program_in(&system, machine), wanted);
-        let origin = machine - system.rotate(program + self.shift, 1.0);
+        let origin = machine - self.tool - system.rotate(program + self.shift, 1.0);
         // An axis that was not named, and is not turned along with one that was, stays exact.
         let turned = system.rotation_deg != 0.0 && (wanted[0].is_some() || wanted[1].is_some());
         for axis in 0..AXES {
@@ -154,6 +163,7 @@ mod tests {
         offsets.systems[0].origin = point(10.0, 20.0, 30.0);
         offsets.systems[0].rotation_deg = 90.0;
         offsets.shift = point(1.0, 2.0, 3.0);
+        offsets.tool = point(0.0, 0.0, 0.5);
         offsets
     }
 
@@ -161,7 +171,7 @@ mod tests {
     fn a_quarter_turn_by_hand() {
         // (4, 5) + (1, 2) = (5, 7), turned to (-7, 5), moved to (3, 25).
         let machine = rotated().to_machine(point(4.0, 5.0, 6.0));
-        assert!((machine - point(3.0, 25.0, 39.0)).norm() < 1e-12);
+        assert!((machine - point(3.0, 25.0, 39.5)).norm() < 1e-12);
         assert!((rotated().to_program(machine) - point(4.0, 5.0, 6.0)).norm() < 1e-12);
     }
 

@@ -4,9 +4,10 @@ use glidepath_geometry::AxisVector;
 use glidepath_motion::Item;
 
 use crate::block::Block;
-use crate::codes::{Coded, Distance, Motion, Once};
+use crate::codes::Coded;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::interpreter::Interpreter;
+use crate::modes::{Distance, Motion, Once};
 use crate::offsets::overlay;
 use crate::words::{missing, require_axes, unused, whole};
 
@@ -31,13 +32,13 @@ impl Interpreter {
                 }
             }
             Once::LocalOffset => {
-                let values = self.axis_values(block);
+                let values = self.axis_values(block)?;
                 require_axes(block, once.span, "G52")?;
                 self.offsets.shift = overlay(self.offsets.shift, &values);
                 self.offsets.saved_shift = self.offsets.shift;
             }
             Once::SetOffset => {
-                let values = self.axis_values(block);
+                let values = self.axis_values(block)?;
                 require_axes(block, once.span, "G92")?;
                 self.offsets.set_shift(position, &values);
             }
@@ -69,19 +70,26 @@ impl Interpreter {
         Ok(())
     }
 
-    /// G10 L2 and L20.
+    /// G10.
     fn set_data(&mut self, block: &Block, span: Span) -> Outcome<()> {
-        let kind = whole(block, b'L', 99)?.ok_or_else(|| missing(span, "G10", "L", "2 or 20"))?;
-        if kind != 2 && kind != 20 {
-            let message = format!("G10 L{kind} is not supported");
-            return Err(Fault::new(Code::NotSupported, block.span(b'L'), message)
-                .because("only coordinate systems (L2 and L20) can be set"));
+        let kind = whole(block, b'L', 99)?.ok_or_else(|| {
+            let meaning = "2 or 20 for a coordinate system, 1, 10 or 11 for a tool";
+            missing(span, "G10", "L", meaning)
+        })?;
+        match kind {
+            2 | 20 => {}
+            1 | 10 | 11 => return self.set_tool(block, kind, span),
+            _ => {
+                let message = format!("G10 L{kind} is not supported");
+                return Err(Fault::new(Code::NotSupported, block.span(b'L'), message)
+                    .because("coordinate systems (L2, L20) and tools (L1, L10, L11) can be set"));
+            }
         }
         let system = whole(block, b'P', 9)?
             .ok_or_else(|| missing(span, "G10", "P", "the coordinate system, 1 for G54"))?;
         let index = usize::try_from(system).unwrap_or_default();
         let index = index.checked_sub(1).unwrap_or(self.offsets.active);
-        let values = self.axis_values(block);
+        let values = self.axis_values(block)?;
         if kind == 20 {
             if block.get(b'R').is_some() {
                 return Err(unused('R', block.span(b'R')));

@@ -1,6 +1,10 @@
 //! What a program is read for: the machine, and how the operator set it up.
 
+use std::sync::Arc;
+
 use glidepath_geometry::{AXES, Axis, AxisVector};
+
+use crate::tool_table::ToolTable;
 
 /// Where an axis may go, in machine coordinates: mm, or degrees for a rotary axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,16 +75,56 @@ pub struct Options {
     pub block_delete: bool,
     /// Where the machine stands, in machine coordinates.
     pub start: AxisVector,
+    /// Lengths and diameters of the tools. `None`: blocks that need them are errors.
+    pub tools: Option<Arc<ToolTable>>,
+    /// What inputs, outputs and the probe are.
+    pub connections: Connections,
+    /// How long loops may go on.
+    pub loops: LoopLimits,
+}
+
+/// What inputs, outputs (M62 to M68), spindle orientation (M19) and the probe (G38) are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Connections {
+    /// Nothing: blocks that need them are errors.
+    #[default]
+    None,
+    /// Simulated: outputs are events, inputs read zero and never keep waiting, and the probe makes
+    /// contact at the end of its move.
+    Simulated,
+}
+
+/// How long subroutines and loops may go on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LoopLimits {
+    /// Most of their lines executed in a row without anything coming of them; more is an error.
+    pub idle_lines: u32,
+    /// Most of their lines executed by [`crate::check`], each as often as it is.
+    pub checked_lines: u64,
+}
+
+impl Default for LoopLimits {
+    /// A million idle lines, twenty million checked ones.
+    fn default() -> Self {
+        Self {
+            idle_lines: 1_000_000,
+            checked_lines: 20_000_000,
+        }
+    }
 }
 
 impl Default for Options {
-    /// All nine axes without soft limits, no default feedrate, block delete off, at machine zero.
+    /// All nine axes without soft limits, no default feedrate, block delete off, at machine zero, no
+    /// tool table, nothing connected.
     fn default() -> Self {
         Self {
             machine: Machine::unlimited(),
             default_feed_mm_min: None,
             block_delete: false,
             start: AxisVector::zeros(),
+            tools: None,
+            connections: Connections::None,
+            loops: LoopLimits::default(),
         }
     }
 }

@@ -4,10 +4,13 @@
 //! |---|---|
 //! | `#1` … `#30` | local to a subroutine call; its arguments at first |
 //! | `#31` … `#5000` | global, zero at first |
+//! | `#5061` … `#5070` | program coordinates of the last probing move's end; 1: contact was made |
 //! | `#5161` …, `#5181` … | positions of G28 and G30, machine coordinates |
 //! | `#5210`, `#5211` … | is G92 in force, and its offsets |
 //! | `#5220` | active coordinate system, 1 for G54 |
 //! | `#5221` …, `#5241` … | origins of G54, G55 …; the tenth of each is its rotation |
+//! | `#5399` | input read by M66 last |
+//! | `#5400` … `#5413` | tool in the spindle: number, offsets in force, diameter, –, –, orientation |
 //! | `#5420` … `#5428` | program coordinates of the position, in the units in force |
 //! | other numbers to `#5602` | read as zero |
 //! | `#<name>` | local to a subroutine call |
@@ -17,12 +20,12 @@
 
 use std::collections::BTreeMap;
 
-use glidepath_geometry::AXES;
+use glidepath_geometry::{AXES, AxisVector};
 
-use crate::codes::{Distance, Units};
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::expression::{Parameter, Scope, no_parameter};
 use crate::interpreter::Interpreter;
+use crate::modes::{Distance, Units};
 
 /// Parameters local to a subroutine call.
 pub(crate) const LOCALS: usize = 30;
@@ -189,13 +192,18 @@ impl Scope for ProgramScope<'_> {
 /// Program coordinate of an axis in the units in force.
 fn coordinate(interpreter: &Interpreter, axis: usize) -> f64 {
     let program = interpreter.offsets.to_program(interpreter.state.position);
+    in_units(interpreter, program, axis)
+}
+
+/// One axis of a vector in the units in force.
+fn in_units(interpreter: &Interpreter, vector: AxisVector, axis: usize) -> f64 {
     let rotary = (3..6).contains(&axis);
     let scale = if rotary {
         1.0
     } else {
         interpreter.state.modal.units.mm()
     };
-    program.get(axis).copied().unwrap_or(0.0) / scale
+    vector.get(axis).copied().unwrap_or(0.0) / scale
 }
 
 /// Value of a numbered parameter that shows the state of the machine.
@@ -204,6 +212,12 @@ fn machine(interpreter: &Interpreter, number: u32) -> f64 {
     let offsets = &interpreter.offsets;
     let index_from = |first: usize| number - first;
     match number {
+        5061..=5069 => in_units(
+            interpreter,
+            interpreter.state.probe.contact,
+            index_from(5061),
+        ),
+        5070 => f64::from(u8::from(interpreter.state.probe.made)),
         5161..=5169 => offsets.reference[0][index_from(5161)],
         5181..=5189 => offsets.reference[1][index_from(5181)],
         5210 => f64::from(u8::from(offsets.shift.iter().any(|v| *v != 0.0))),
@@ -220,13 +234,24 @@ fn machine(interpreter: &Interpreter, number: u32) -> f64 {
                     _ => 0.0,
                 })
         }
+        5399 => interpreter.state.input,
+        5400 => f64::from(interpreter.state.tool),
+        5401..=5409 => in_units(interpreter, offsets.tool, index_from(5401)),
+        5410 | 5413 => {
+            let tool = interpreter.tools.as_ref();
+            let tool = tool.and_then(|tools| tools.get(interpreter.state.tool));
+            tool.map_or(0.0, |tool| match number {
+                5410 => tool.diameter_mm / interpreter.state.modal.units.mm(),
+                _ => f64::from(tool.orientation),
+            })
+        }
         5420..=5428 => coordinate(interpreter, index_from(5420)),
         _ => 0.0,
     }
 }
 
 /// Names that show the state and cannot be assigned.
-const READ_ONLY: [&str; 15] = [
+const READ_ONLY: [&str; 17] = [
     "_x",
     "_y",
     "_z",
@@ -242,6 +267,8 @@ const READ_ONLY: [&str; 15] = [
     "_incremental",
     "_feed",
     "_call_level",
+    "_current_tool",
+    "_selected_tool",
 ];
 
 /// Value of a name that shows the state.
@@ -258,6 +285,8 @@ fn state(interpreter: &Interpreter, parameters: &Parameters, name: &str) -> Opti
         13 => modal
             .feed
             .map_or(0.0, |feed| feed.linear_v * 60.0 / modal.units.mm()),
-        _ => f64::from(u32::try_from(parameters.call_level()).unwrap_or(u32::MAX)),
+        14 => f64::from(u32::try_from(parameters.call_level()).unwrap_or(u32::MAX)),
+        15 => f64::from(interpreter.state.tool),
+        _ => f64::from(interpreter.state.selected_tool),
     })
 }

@@ -18,9 +18,6 @@ use crate::parameters::{Parameters, ProgramScope};
 use crate::source::LineSource;
 use crate::totals::Totals;
 
-/// Most kept lines executed in a row without anything coming of them.
-const MAX_IDLE_LINES: u32 = 1_000_000;
-
 /// Where the line being executed comes from.
 #[derive(Debug)]
 pub(crate) enum Place {
@@ -141,8 +138,9 @@ impl<R: BufRead> Program<R> {
             self.place = Place::Kept(Arc::clone(&code), index);
             self.kept_lines += 1;
             self.idle_lines += 1;
-            if self.idle_lines > MAX_IDLE_LINES {
-                return Err(endless());
+            let most = self.interpreter.options.loops.idle_lines;
+            if self.idle_lines > most {
+                return Err(endless(most));
             }
             let has_head = code
                 .lines
@@ -179,13 +177,24 @@ impl<R: BufRead> Program<R> {
     fn end_of_input(&mut self) -> Outcome<bool> {
         self.ended = true;
         match self.flow.recorder.take() {
-            None => Ok(false),
+            None => {
+                self.interpreter.end_compensation(&mut self.items)?;
+                self.count();
+                Ok(false)
+            }
             Some(recorder) => {
                 let fault = recorder.unfinished();
                 let (number, text, _) = recorder.first;
                 self.place = Place::Past(number, text);
                 Err(fault)
             }
+        }
+    }
+
+    /// Adds the items of a line to the totals.
+    fn count(&mut self) {
+        for item in &self.items {
+            self.totals.add(item);
         }
     }
 
@@ -213,7 +222,7 @@ impl<R: BufRead> Program<R> {
         match self.block.kind {
             LineKind::Block if self.block.any => {}
             LineKind::Block => return Ok(true),
-            LineKind::Percent if self.percent || self.begun => return Ok(false),
+            LineKind::Percent if self.percent || self.begun => return self.end_of_input(),
             LineKind::Percent => {
                 self.percent = true;
                 return Ok(true);
@@ -233,9 +242,7 @@ impl<R: BufRead> Program<R> {
         if !self.items.is_empty() {
             self.idle_lines = 0;
         }
-        for item in &self.items {
-            self.totals.add(item);
-        }
+        self.count();
         self.totals.zero_length_feeds += self.interpreter.zero_length.feeds;
         self.totals.zero_length_rapids += self.interpreter.zero_length.rapids;
         // The items of the last block are still to be given out.
@@ -248,8 +255,8 @@ fn is_percent(text: &[u8]) -> bool {
     Cursor::new(text).next_visible() == Some(b'%')
 }
 
-fn endless() -> Box<Fault> {
-    let message = format!("{MAX_IDLE_LINES} lines of a loop without a move");
+fn endless(lines: u32) -> Box<Fault> {
+    let message = format!("{lines} lines of a loop without a move");
     Fault::new(FaultCode::EndlessLoop, Span::default(), message)
         .because("a loop that moves nothing for so long would hold up the machine for ever")
         .help("check the condition that should end it")

@@ -3,59 +3,106 @@
 use glidepath_motion::PathMode;
 
 use crate::block::{AXIS_WORDS, Block, Letters};
-use crate::codes::{Motion, Once};
 use crate::diagnostic::{Code, Fault, Outcome, Span};
+use crate::modes::{CutterRadius, Cycle, Motion, Once, SpindleMode, ToolLength};
 
 /// Largest tool number.
 pub(crate) const MAX_TOOL: u32 = 999_999;
 
+/// The words each code of a block takes besides F, S and T.
+fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 9] {
+    let codes = &block.codes;
+    let none = Letters::of(b"");
+    let once = codes.once.map(|once| once.code);
+    let axes_once = once.is_some_and(Once::takes_axes);
+    [
+        match motion {
+            Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Letters::of(b"IJKRP"),
+            Some(Motion::Cycle(cycle)) => match cycle {
+                Cycle::Drill | Cycle::Bore => Letters::of(b"RL"),
+                Cycle::ChipBreak | Cycle::Peck => Letters::of(b"RLQ"),
+                _ => Letters::of(b"RLP"),
+            },
+            _ => none,
+        },
+        match codes.tool_length.map(|length| length.code) {
+            Some(ToolLength::FromTable) => Letters::of(b"H"),
+            Some(ToolLength::Add) => Letters::of(b"H").and(AXIS_WORDS),
+            Some(ToolLength::FromWords) => AXIS_WORDS,
+            _ => none,
+        },
+        match codes.cutter_radius.map(|radius| radius.code) {
+            Some(CutterRadius::FromTable(_)) => Letters::of(b"D"),
+            Some(CutterRadius::FromWord(_)) => Letters::of(b"DL"),
+            _ => none,
+        },
+        match once {
+            Some(Once::Dwell) => Letters::of(b"P"),
+            Some(Once::SetData) => match block.get(b'L') {
+                Some(2.0 | 20.0) => Letters::of(b"LPR"),
+                _ => Letters::of(b"LPRQIJ"),
+            },
+            _ => none,
+        },
+        match codes.path_mode.map(|mode| mode.code) {
+            Some(PathMode::Continuous { .. }) => Letters::of(b"PQ"),
+            _ => none,
+        },
+        match codes.spindle_mode.map(|mode| mode.code) {
+            Some(SpindleMode::SurfaceSpeed) => Letters::of(b"D"),
+            _ => none,
+        },
+        match codes.input_output.map(|code| code.code) {
+            Some(62..=65) => Letters::of(b"P"),
+            Some(66) => Letters::of(b"PELQ"),
+            Some(_) => Letters::of(b"EQ"),
+            None => none,
+        },
+        match (codes.tool_change.map(|code| code.code), codes.orient) {
+            (Some(61), _) => Letters::of(b"Q"),
+            (_, Some(_)) => Letters::of(b"RPQ"),
+            _ => none,
+        },
+        if motion.is_some() || axes_once {
+            AXIS_WORDS
+        } else {
+            none
+        },
+    ]
+}
+
 /// Refuses words that nothing in the block uses, and words that two codes want.
 pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> {
-    let arc = matches!(
-        motion,
-        Some(Motion::ArcClockwise | Motion::ArcCounterclockwise)
-    );
-    let once = block.codes.once.map(|once| once.code);
-    let dwell = once == Some(Once::Dwell);
-    let data = once == Some(Once::SetData);
-    let blend = block
-        .codes
-        .path_mode
-        .is_some_and(|mode| matches!(mode.code, PathMode::Continuous { .. }));
-
-    let mut used = Letters::of(b"FST");
-    for (uses, letters) in [
-        (
-            motion.is_some() || once.is_some_and(Once::takes_axes),
-            AXIS_WORDS,
-        ),
-        (arc, Letters::of(b"IJKRP")),
-        (data, Letters::of(b"LPR")),
-        (dwell, Letters::of(b"P")),
-        (blend, Letters::of(b"PQ")),
-    ] {
-        if uses {
-            used = used.and(letters);
-        }
-    }
+    let taken = taken(block, motion);
+    let always = Letters::of(b"FST");
+    let used = taken.iter().fold(always, |used, one| used.and(*one));
     if let Some((letter, span)) = block.unused(used) {
         return Err(unused(letter, span));
     }
-    let wants_p = [arc, data, dwell, blend]
-        .into_iter()
-        .filter(|wants| *wants)
-        .count();
-    if wants_p > 1 && block.get(b'P').is_some() {
-        let message = "it is not clear which code the P word belongs to";
-        return Err(Fault::new(Code::AmbiguousWord, block.span(b'P'), message)
-            .because("two codes of the block take a P word")
-            .help("write two blocks"));
+    // The axes are settled already: by which code takes them.
+    for letter in *b"PQLRDHE" {
+        if block.get(letter).is_none() {
+            continue;
+        }
+        let wants = taken.iter().filter(|one| one.has(letter)).count();
+        if wants > 1 {
+            let letter_name = char::from(letter);
+            let message = format!("it is not clear which code the {letter_name} word belongs to");
+            return Err(Fault::new(Code::AmbiguousWord, block.span(letter), message)
+                .because(format!("two codes of the block take {letter_name}"))
+                .help("write two blocks"));
+        }
     }
     Ok(())
 }
 
 #[cold]
 pub(crate) fn unused(letter: char, span: Span) -> Box<Fault> {
+    if letter == 'E' {
+        return Fault::new(Code::UnknownWord, span, "nothing in the block uses E")
+            .because("E is a word of M66, M67 and M68 only; there is no extruder")
+            .help("remove it; read programs of printers with the dialect `marlin`");
+    }
     Fault::new(
         Code::UnusedWord,
         span,

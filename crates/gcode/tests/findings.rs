@@ -53,8 +53,12 @@ fn codes_and_words() {
     refuses("G-1", "1:1 unknown-g-code");
     refuses("G99999999", "1:1 unknown-g-code");
     refuses("G1 M117", "1:4 unknown-m-code");
-    refuses("G41 D1", "1:1 not-supported");
-    refuses("M19 R90", "1:1 not-supported");
+    refuses("G76 X1", "1:1 not-supported");
+    refuses("M19 R90", "1:1 not-connected");
+    refuses("M64 P1", "1:1 not-connected");
+    refuses("G38.2 X1 F1", "1:1 not-connected");
+    refuses("G41 D1", "1:5 unknown-tool");
+    refuses("G43 H1", "1:5 unknown-tool");
     refuses("G0 X1 E2", "1:7 unknown-word");
     refuses("G0 X1 X2", "1:7 duplicate-word");
     refuses("G0 G1 X1 F1", "1:4 modal-group-conflict");
@@ -78,7 +82,8 @@ fn codes_and_words() {
     refuses("G52", "1:1 missing-word");
     refuses("G10 P1 X0", "1:1 missing-word");
     refuses("G10 L2 X0", "1:1 missing-word");
-    refuses("G10 L1 P1 X0", "1:5 not-supported");
+    refuses("G10 L1 P1 X0", "1:8 unknown-tool");
+    refuses("G10 L3 P1 X0", "1:5 not-supported");
     refuses("G10 L2 P10 X0", "1:8 invalid-value");
 }
 

@@ -40,6 +40,34 @@ pub enum Event {
     ProgramStop(u32),
     /// M1: like [`Event::ProgramStop`] if the operator asked for optional stops.
     OptionalStop,
+    /// A digital output. Does not stop the motion.
+    DigitalOutput {
+        /// Its number, below 2²⁴.
+        number: u32,
+        /// On or off.
+        on: bool,
+    },
+    /// An analog output. Does not stop the motion.
+    AnalogOutput {
+        /// Its number, below 2²⁴.
+        number: u32,
+        /// Its value, in the output's unit.
+        value: f64,
+    },
+}
+
+impl Event {
+    /// True if the machine rests while it happens.
+    #[must_use]
+    pub const fn is_at_rest(&self) -> bool {
+        match self {
+            Self::SpindleSpeed(_)
+            | Self::SelectTool(_)
+            | Self::DigitalOutput { .. }
+            | Self::AnalogOutput { .. } => false,
+            Self::MCode(_) | Self::ProgramStop(_) | Self::OptionalStop => true,
+        }
+    }
 }
 
 /// One thing to do, and where the program says so.

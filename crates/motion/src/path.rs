@@ -79,10 +79,10 @@ impl PathFront {
                 }
                 self.rest(RestKind::Dwell(dwell_t), item.line, out);
             }
-            ItemKind::Event(event @ (Event::SpindleSpeed(_) | Event::SelectTool(_))) => {
-                self.events.push(event);
+            ItemKind::Event(event) if event.is_at_rest() => {
+                self.rest(RestKind::Event(event), item.line, out);
             }
-            ItemKind::Event(event) => self.rest(RestKind::Event(event), item.line, out),
+            ItemKind::Event(event) => self.events.push(event),
         }
         self.line = item.line;
         Ok(())

@@ -147,8 +147,8 @@ impl MachineConfig {
         Options {
             machine,
             default_feed_mm_min,
-            block_delete: false,
             start,
+            ..Options::default()
         }
     }
 

@@ -1,11 +1,14 @@
 //! Events on the wire: a code and one number.
+//!
+//! The lowest byte of the code is the kind; what is above it is the number of an output, and zero
+//! for every other kind.
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
 use glidepath_motion::Event;
 
 coded! {
-    /// What `event_kind` says; `event_value` is the speed, tool or M code.
+    /// What the lowest byte of `event_kind` says; `event_value` is the speed, tool, M code or value.
     pub enum EventKind {
         /// No event.
         None = 0,
@@ -19,11 +22,19 @@ coded! {
         ProgramStop = 4,
         /// M1.
         OptionalStop = 5,
+        /// Digital output; the value is 1 for on, 0 for off.
+        DigitalOutput = 6,
+        /// Analog output.
+        AnalogOutput = 7,
     }
 }
 
+/// Bits of the kind; the number of an output is above them.
+const KIND_BITS: u32 = 8;
+
 /// Code and value of an event.
 pub(crate) fn encode(event: Option<Event>) -> (u32, f64) {
+    let mut output = 0;
     let (kind, value) = match event {
         None => (EventKind::None, 0.0),
         Some(Event::SpindleSpeed(speed)) => (EventKind::SpindleSpeed, speed),
@@ -31,8 +42,16 @@ pub(crate) fn encode(event: Option<Event>) -> (u32, f64) {
         Some(Event::MCode(code)) => (EventKind::MCode, f64::from(code)),
         Some(Event::ProgramStop(code)) => (EventKind::ProgramStop, f64::from(code)),
         Some(Event::OptionalStop) => (EventKind::OptionalStop, 0.0),
+        Some(Event::DigitalOutput { number, on }) => {
+            output = number;
+            (EventKind::DigitalOutput, f64::from(u8::from(on)))
+        }
+        Some(Event::AnalogOutput { number, value }) => {
+            output = number;
+            (EventKind::AnalogOutput, value)
+        }
     };
-    (kind.code(), value)
+    (kind.code() | output << KIND_BITS, value)
 }
 
 /// The event of a code and value.
@@ -43,6 +62,13 @@ pub(crate) fn decode(
 ) -> Result<Option<Event>, RecordError> {
     let fields = Fields(record);
     fields.finite("event_value", value)?;
+    let number = kind >> KIND_BITS;
+    let is_output = |kind: u32| {
+        kind == EventKind::DigitalOutput.code() || kind == EventKind::AnalogOutput.code()
+    };
+    let lowest = kind & ((1 << KIND_BITS) - 1);
+    // A number beside a kind that has none makes a code that does not exist.
+    let kind = if is_output(lowest) { lowest } else { kind };
     Ok(match fields.code::<EventKind>("event_kind", kind)? {
         EventKind::None => None,
         EventKind::SpindleSpeed => Some(Event::SpindleSpeed(value)),
@@ -50,5 +76,11 @@ pub(crate) fn decode(
         EventKind::MCode => Some(Event::MCode(fields.whole("event_value", value)?)),
         EventKind::ProgramStop => Some(Event::ProgramStop(fields.whole("event_value", value)?)),
         EventKind::OptionalStop => Some(Event::OptionalStop),
+        EventKind::DigitalOutput => {
+            fields.range("event_value", value, 0.0, 1.0)?;
+            let on = fields.whole("event_value", value)? == 1;
+            Some(Event::DigitalOutput { number, on })
+        }
+        EventKind::AnalogOutput => Some(Event::AnalogOutput { number, value }),
     })
 }

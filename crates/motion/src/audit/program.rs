@@ -4,7 +4,7 @@
 //! polygon is as far outside at its corners as it is inside between them: the distance from the arc
 //! is half the sagitta.
 
-use crate::{Event, Item, ItemKind, PathMode, Rate};
+use crate::{Item, ItemKind, PathMode, Rate};
 use glidepath_geometry::{Arc, AxisVector, Segment, feed_length};
 use std::collections::VecDeque;
 
@@ -160,10 +160,8 @@ impl Rows {
                 self.stop();
                 self.dwell(*dwell_t);
             }
-            ItemKind::Event(event) => match event {
-                Event::SpindleSpeed(_) | Event::SelectTool(_) => {}
-                Event::MCode(_) | Event::ProgramStop(_) | Event::OptionalStop => self.stop(),
-            },
+            ItemKind::Event(event) if event.is_at_rest() => self.stop(),
+            ItemKind::Event(_) => {}
         }
     }
 

@@ -1,0 +1,53 @@
+//! Probing: G38.2 to G38.5.
+//!
+//! No probe is read here, so these are refused unless the program is read with
+//! [`crate::Connections::Simulated`]. Then the probe makes contact exactly at the end of its move:
+//! the move is a feed move that comes to rest, and `#5061` to `#5070` tell of it.
+
+use glidepath_geometry::{AXES, AxisVector};
+use glidepath_motion::{Item, PathMode};
+
+use crate::block::Block;
+use crate::diagnostic::{Code, Fault, Outcome};
+use crate::interpreter::Interpreter;
+use crate::modes::FeedMode;
+use crate::moves::{MIN_MOVE, Pace, motion_span};
+
+/// What `#5061` to `#5070` show.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct ProbeResult {
+    /// Program coordinates of the contact, mm and degrees.
+    pub(crate) contact: AxisVector,
+    /// True if the last probing move made contact.
+    pub(crate) made: bool,
+}
+
+impl Interpreter {
+    pub(crate) fn probe(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        let span = motion_span(block);
+        self.require_connection(span, "probe")?;
+        if self.state.modal.feed_mode != FeedMode::PerMinute {
+            let message = "probing needs a feedrate per minute";
+            return Err(Fault::new(Code::MissingFeed, span, message)
+                .because("the move ends where contact is made, so its time is not known")
+                .help("write G94"));
+        }
+        let target = self.target(block)?;
+        let far = (0..AXES).any(|axis| (target[axis] - self.state.position[axis]).abs() > MIN_MOVE);
+        if !far {
+            let message = "the probe would not move";
+            return Err(Fault::new(Code::InvalidValue, span, message)
+                .because("the end of the move is where the machine stands")
+                .help("write an end in the direction of the part"));
+        }
+        let mode = core::mem::replace(&mut self.state.modal.path_mode, PathMode::ExactStop);
+        let moved = self.straight(block, target, Pace::Feed, out);
+        self.state.modal.path_mode = mode;
+        moved?;
+        self.state.probe = ProbeResult {
+            contact: self.offsets.to_program(target),
+            made: true,
+        };
+        Ok(())
+    }
+}

@@ -1,0 +1,76 @@
+//! Codes that are refused: those that do not exist, and those that are not supported.
+
+use crate::diagnostic::{Code, Fault, Span};
+
+#[cold]
+pub(crate) fn unknown_g(value: f64, span: Span) -> Box<Fault> {
+    Fault::new(Code::UnknownGCode, span, format!("there is no G{value}"))
+        .because("skipping it could change what the machine does")
+        .help("remove it, or put it into a comment")
+}
+
+#[cold]
+pub(crate) fn unknown_m(value: f64, span: Span) -> Box<Fault> {
+    Fault::new(Code::UnknownMCode, span, format!("there is no M{value}"))
+        .because("an unknown M code could have been meant to stop something")
+        .help("remove it, or put it into a comment")
+}
+
+/// G codes that exist and are not supported, each with what it is.
+#[cold]
+pub(crate) fn refused_g(tenths: u32, value: f64, span: Span) -> Box<Fault> {
+    let (what, help) = match tenths {
+        50..=53 | 62 | 63 => ("spline", "let the CAM system write lines and arcs"),
+        330 | 331 | 760 => (
+            "spindle-synchronised motion",
+            "no encoder of a spindle is read; cut threads with a tap or a mill (G84, G2, G3)",
+        ),
+        700..=703 | 710..=713 | 720..=723 => (
+            "lathe contour cycle",
+            "let the CAM system write the passes out",
+        ),
+        870 => (
+            "back boring",
+            "write the moves out; the spindle has to stop in a known position for them",
+        ),
+        880 => (
+            "boring with retraction by hand",
+            "use G86 or G89, which retract by themselves",
+        ),
+        434 | 435 => (
+            "tool centre point control",
+            "let the CAM system write the positions of the axes",
+        ),
+        _ => return unknown_g(value, span),
+    };
+    Fault::new(
+        Code::NotSupported,
+        span,
+        format!("G{value} ({what}) is not supported"),
+    )
+    .because("skipping it would make another motion than the program's")
+    .help(help)
+}
+
+/// M codes that exist and are not supported, each with what it is.
+#[cold]
+pub(crate) fn refused_m(number: u32, value: f64, span: Span) -> Box<Fault> {
+    let what = match number {
+        50..=53 => "overrides switched by the program",
+        70..=73 => "saved modal state",
+        98 | 99 => "subprogram call of another dialect",
+        _ => return unknown_m(value, span),
+    };
+    let help = match number {
+        50..=53 => "remove it; the operator sets the overrides",
+        98 | 99 => "write O words (sub, call), or select the dialect it is from",
+        _ => "set the modes again by their codes",
+    };
+    Fault::new(
+        Code::NotSupported,
+        span,
+        format!("M{number} ({what}) is not supported"),
+    )
+    .because("skipping it could change what the machine does")
+    .help(help)
+}
