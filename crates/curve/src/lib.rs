@@ -1,0 +1,35 @@
+//! Space curves given by formulas, stepped in equal chords with proven error.
+//!
+//! ```text
+//!   x(t), y(t), z(t)       ParametricCurve ─┐
+//!                                           ├─ stepper ─▶ chord after chord ─▶ line segments
+//!   f(x,y,z) = 0 = g       ImplicitCurve ───┘              each with a bound on its error
+//! ```
+//!
+//! A chord of length L leads from a point of the curve to the *first* point at distance L. With
+//! L = v·T for every tick, the tool moves at exactly constant speed from setpoint to setpoint. Every
+//! end point is computed from the curve itself, not from the point before, so errors do not
+//! accumulate over any number of laps.
+//!
+//! The formulas are read by [`Expression`], which evaluates over any
+//! [`Number`](glidepath_geometry::number::Number): with derivatives for the solvers, over intervals
+//! for the proofs. This is a crate of its own, not part of `geometry`, because curves of text belong to
+//! the reading of programs; the real-time side, which depends on `geometry`, has no use for them.
+//!
+//! Source of the equal chords: Lu, Zhao, Wang, Jiang, *Research on space curve interpolation of equal
+//! chord length for parallel machine tool*, Machinery Design & Manufacture 2010 no. 3. Its methods are
+//! here for comparison ([`parametric::Method::Bisection`], [`implicit::linear_step`]); what is used by
+//! default differs where they fail: a bracket that proves the first crossing, a corrector that puts
+//! implicit points on the curve, and an error bound that holds over the whole arc.
+
+mod expression;
+pub mod implicit;
+pub mod parametric;
+mod rule;
+mod sagitta;
+
+pub use expression::{Expression, ExpressionError};
+pub use implicit::ImplicitCurve;
+pub use parametric::ParametricCurve;
+pub use rule::{Chord, ChordRule, CurveError};
+pub use sagitta::{arc_over_chord, chord_mm, sagitta_mm};

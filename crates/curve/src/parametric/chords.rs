@@ -1,0 +1,84 @@
+//! A parametric curve as a sequence of chords whose error is proven.
+
+use super::step::{Method, ParametricStepper, Step};
+use super::{ParametricCurve, breaks};
+use crate::{Chord, ChordRule, CurveError, chord_mm};
+
+/// Chords from one end of a domain to the other.
+#[derive(Debug, Clone)]
+pub struct ParametricChords<'a> {
+    stepper: ParametricStepper<'a>,
+    curve: &'a ParametricCurve,
+    rule: ChordRule,
+    /// Cusps and the end, the last first.
+    limits: Vec<f64>,
+    last_mm: f64,
+}
+
+impl<'a> ParametricChords<'a> {
+    /// Chords over `from` < `to`. Cusps become ends of chords.
+    ///
+    /// # Errors
+    /// The curve is not defined or not bounded somewhere, or stands still.
+    pub fn new(
+        curve: &'a ParametricCurve,
+        (from, to): (f64, f64),
+        rule: ChordRule,
+    ) -> Result<Self, CurveError> {
+        let mut limits = breaks(curve, from, to)?;
+        limits.push(to);
+        limits.reverse();
+        Ok(Self {
+            stepper: ParametricStepper::new(curve, from, Method::Newton),
+            curve,
+            rule,
+            limits,
+            last_mm: f64::INFINITY,
+        })
+    }
+
+    /// The next chord; `None` after the last.
+    ///
+    /// # Errors
+    /// The error of no chord can be bounded.
+    pub fn next_chord(&mut self) -> Result<Option<Chord>, CurveError> {
+        let Some(&limit) = self.limits.last() else {
+            return Ok(None);
+        };
+        let curvature = self.stepper.local().curvature_k();
+        let round = if curvature.is_finite() {
+            chord_mm(curvature, self.rule.error_mm)
+        } else {
+            self.rule.longest_mm
+        };
+        let mut wanted = self.rule.longest_mm.min(round).min(1.5 * self.last_mm);
+        loop {
+            let step = self.stepper.look(wanted, limit)?;
+            let error_mm = self.curve.chord_error_mm(self.stepper.t(), step.t);
+            if let Some(error_mm) = error_mm.filter(|error| *error <= self.rule.error_mm) {
+                return Ok(Some(self.take(&step, wanted, error_mm)));
+            }
+            wanted *= 0.7;
+            if wanted < self.rule.shortest_mm() {
+                return Err(CurveError::Unbounded {
+                    t: self.stepper.t(),
+                });
+            }
+        }
+    }
+
+    fn take(&mut self, step: &Step, wanted: f64, error_mm: f64) -> Chord {
+        // The way back from a cusp begins as slowly as the way to it ended.
+        self.last_mm = wanted;
+        self.stepper.advance(step);
+        if step.is_end {
+            self.limits.pop();
+        }
+        Chord {
+            point: step.local.point,
+            chord_mm: step.chord_mm,
+            error_mm,
+            is_proven: true,
+        }
+    }
+}
