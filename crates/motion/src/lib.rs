@@ -16,6 +16,7 @@
 //! | `_k` | curvature, 1/mm |
 
 pub mod audit;
+pub mod diagnosis;
 mod error;
 mod fast;
 mod frame;

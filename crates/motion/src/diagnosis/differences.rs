@@ -1,0 +1,78 @@
+//! How much of each limit of the axes a period uses, by finite differences of the positions.
+
+use crate::Limits;
+use crate::joint::tolerance_norm;
+use glidepath_geometry::{Axis, AxisVector};
+
+/// Below this an axis is not moving, mm or degrees a period: rounding.
+const STILL_MM: f64 = 1e-12;
+
+/// Follows the positions.
+#[derive(Debug)]
+pub(super) struct Differences {
+    /// Largest differences of first, second and third order.
+    most: [AxisVector; 3],
+    position: AxisVector,
+    first: AxisVector,
+    second: AxisVector,
+}
+
+/// What a period uses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Used {
+    /// The axis that uses most of its velocity, acceleration and jerk, and what share.
+    pub(super) ratios: [Option<(Axis, f64)>; 3],
+    /// How far the straight line of the period is from a curve with its acceleration across, mm.
+    pub(super) chord_mm: f64,
+    pub(super) is_at_rest: bool,
+}
+
+impl Differences {
+    pub(super) fn new(limits: &Limits, period_t: f64) -> Self {
+        let zero = AxisVector::zeros();
+        Self {
+            most: [
+                limits.velocity * period_t,
+                limits.acceleration * period_t.powi(2),
+                limits.jerk * period_t.powi(3),
+            ],
+            position: zero,
+            first: zero,
+            second: zero,
+        }
+    }
+
+    /// The next position; before the first the machine is at rest there.
+    pub(super) fn next(&mut self, position: &AxisVector, is_first: bool) -> Used {
+        if is_first {
+            self.position = *position;
+        }
+        let first = position - self.position;
+        let second = first - self.first;
+        let third = second - self.second;
+        self.position = *position;
+        self.first = first;
+        self.second = second;
+        let ratios = [first, second, third].map(|difference| difference.abs());
+        let length_2 = first.norm_squared();
+        let across = if length_2 > 0.0 {
+            second - first * (second.dot(&first) / length_2)
+        } else {
+            second
+        };
+        Used {
+            ratios: [0, 1, 2].map(|k| largest(&ratios[k], &self.most[k])),
+            chord_mm: tolerance_norm(&across) / 8.0,
+            is_at_rest: first.amax() <= STILL_MM,
+        }
+    }
+}
+
+/// The axis that uses the largest share of its limit.
+fn largest(difference: &AxisVector, most: &AxisVector) -> Option<(Axis, f64)> {
+    Axis::ALL
+        .into_iter()
+        .zip(difference.component_div(most).iter())
+        .map(|(axis, &ratio)| (axis, ratio))
+        .reduce(|a, b| if b.1 > a.1 { b } else { a })
+}
