@@ -1,7 +1,7 @@
 //! The command line.
 
 use crate::config::{INSTANCE_RULE, is_instance_name};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// Plans G-code under velocity, acceleration and jerk limits, and plays it in hard real time.
@@ -58,6 +58,12 @@ pub enum Command {
     /// Come to rest on the path and drop the rest of the program
     #[command(after_help = "Example: glidepath abort")]
     Abort(OperatorArgs),
+    /// Find where a NURBS is too sharp for its feedrate
+    #[command(
+        after_help = "Example: glidepath preview butterfly.json --method certified --feed 6000 \
+                            --period-us 1000 --chord-error 0.001 --json"
+    )]
+    Preview(PreviewArgs),
     /// Is this host fit for real time? With the fix for each no
     #[command(after_help = "Example: glidepath doctor --config mill.toml")]
     Doctor(DoctorArgs),
@@ -237,6 +243,42 @@ pub struct OverrideArgs {
     pub operator: OperatorArgs,
 }
 
+/// How `preview` reads a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PreviewMethod {
+    /// Tick by tick
+    Traditional,
+    /// By growing steps, and back where they meet something
+    AdvanceRetreat,
+    /// By bounds and roots of polynomials: misses nothing
+    Certified,
+}
+
+/// Arguments of `preview`. What is not given is taken from the curve file or the configuration.
+#[derive(Debug, Args)]
+pub struct PreviewArgs {
+    /// The curve file (TOML or JSON)
+    pub file: PathBuf,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// How to read the curve
+    #[arg(long, value_enum, default_value = "certified")]
+    pub method: PreviewMethod,
+    /// Period of a setpoint, µs
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(50..=1_000_000))]
+    pub period_us: Option<u32>,
+    /// Feedrate, mm/min
+    #[arg(long, value_name = "MM_PER_MIN", value_parser = positive)]
+    pub feed: Option<f64>,
+    /// Chord error of one tick, mm; without it the path tolerance
+    #[arg(long, value_name = "MM", value_parser = positive)]
+    pub chord_error: Option<f64>,
+    /// Write a plot of the curve, coloured by the speed it allows (SVG)
+    #[arg(long, value_name = "SVG")]
+    pub plot: Option<PathBuf>,
+}
+
 /// Arguments of `doctor`.
 #[derive(Debug, Args)]
 pub struct DoctorArgs {
@@ -275,6 +317,13 @@ pub struct JitterArgs {
     pub plot: Option<PathBuf>,
 }
 
+fn positive(text: &str) -> Result<f64, &'static str> {
+    text.parse()
+        .ok()
+        .filter(|number: &f64| *number > 0.0 && number.is_finite())
+        .ok_or("give a number greater than zero")
+}
+
 fn percent(text: &str) -> Result<f64, &'static str> {
     text.parse()
         .ok()
@@ -298,6 +347,7 @@ impl Command {
                 &args.basic
             }
             Self::Override(args) => &args.operator.basic,
+            Self::Preview(args) => &args.basic,
             Self::Doctor(args) => &args.basic,
             Self::Jitter(args) => &args.basic,
         }

@@ -1,6 +1,7 @@
 //! Why a command did not do what was asked.
 
 use crate::config::ConfigError;
+use crate::curve_file::CurveError;
 use crate::exit::Exit;
 use crate::jitter::CyclictestError;
 use glidepath_gcode::Diagnostic;
@@ -46,6 +47,12 @@ pub enum Failure {
         /// Whether the part before the finding was run.
         moved: bool,
     },
+    /// A curve file has a finding.
+    #[error("the curve is rejected: {0}")]
+    Curve(#[from] Box<CurveError>),
+    /// No feedrate is known.
+    #[error("no feedrate: give --feed, or `feed` in the curve file")]
+    NoFeed,
     /// A program that passed the check was refused later.
     #[error(transparent)]
     Refused(#[from] Refusal),
@@ -147,8 +154,11 @@ impl Failure {
     pub const fn exit(&self) -> Exit {
         match self {
             Self::Configuration(_) => Exit::Configuration,
-            Self::Open { .. } | Self::Cyclictest(CyclictestError::Absent) => Exit::Usage,
+            Self::Open { .. } | Self::NoFeed | Self::Cyclictest(CyclictestError::Absent) => {
+                Exit::Usage
+            }
             Self::Rejected { .. }
+            | Self::Curve(_)
             | Self::Refused(_)
             | Self::Planner(planner::RunError::Refused(_))
             | Self::Feed(FeedError::Refused(_) | FeedError::RefusedByPlanner { .. }) => {

@@ -5,6 +5,7 @@ pub mod cli;
 pub mod clock;
 pub mod command;
 pub mod config;
+pub mod curve_file;
 pub mod exit;
 pub mod failure;
 pub mod interrupt;

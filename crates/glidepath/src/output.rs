@@ -80,6 +80,9 @@ pub fn failure(failure: &Failure, as_json: bool) -> Exit {
         print_findings(program, findings, *more);
         note(&format!("error: {failure}"));
     } else {
+        if let Failure::Curve(error) = failure {
+            diagnostics([error.as_ref() as &dyn Diagnostic]);
+        }
         note(&format!("error: {failure}"));
     }
     failure.exit()
@@ -94,6 +97,7 @@ fn failure_object(failure: &Failure) -> Value {
             .iter()
             .map(|finding| finding_object(program, finding))
             .collect(),
+        Failure::Curve(error) => vec![error.object()],
         _ => Vec::new(),
     };
     json!({

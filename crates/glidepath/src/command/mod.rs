@@ -8,6 +8,7 @@ mod jitter;
 mod operator;
 mod plan;
 mod planner;
+mod preview;
 mod run;
 mod servo;
 mod session;
@@ -44,6 +45,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
             let command = link::Command::FeedOverride(args.percent / 100.0);
             operator::command(&args.operator, &config, "override", command)
         }
+        Command::Preview(args) => preview::preview(args, &config),
         Command::Doctor(args) => Ok(doctor::doctor(args, &config)),
         Command::Jitter(args) => jitter::jitter(args, &config),
     }

@@ -41,6 +41,7 @@ pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<Finding>> {
         axes,
         path: judge.path(raw.path),
         interpolator,
+        preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
     };
     if judge.findings.is_empty() {
@@ -51,15 +52,15 @@ pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<Finding>> {
 }
 
 /// What a number may be.
-struct Range {
-    min: f64,
-    max: f64,
-    unit: &'static str,
+pub(super) struct Range {
+    pub(super) min: f64,
+    pub(super) max: f64,
+    pub(super) unit: &'static str,
     /// How to choose a value.
-    help: &'static str,
+    pub(super) help: &'static str,
 }
 
-struct Judge {
+pub(super) struct Judge {
     findings: Vec<Finding>,
 }
 
@@ -84,7 +85,13 @@ impl Judge {
         number
     }
 
-    fn number_or(&mut self, key: &str, value: &Optional<f64>, range: &Range, default: f64) -> f64 {
+    pub(super) fn number_or(
+        &mut self,
+        key: &str,
+        value: &Optional<f64>,
+        range: &Range,
+        default: f64,
+    ) -> f64 {
         value
             .as_ref()
             .map_or(default, |value| self.number(key, value, range))

@@ -2,6 +2,7 @@
 
 use glidepath_gcode::{Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
+use glidepath_motion::preview::AdvanceRetreat;
 use glidepath_motion::{Effort, Limits, Settings, Smoothing};
 
 /// How axes and joints belong together.
@@ -65,6 +66,8 @@ pub struct MachineConfig {
     pub path: PathConfig,
     /// The real-time side.
     pub interpolator: InterpolatorConfig,
+    /// The preview by advance and retreat.
+    pub preview: AdvanceRetreat,
     /// Name of the machine's shared memory; `None` if the file gives none.
     pub instance: Option<String>,
 }

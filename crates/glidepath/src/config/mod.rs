@@ -7,12 +7,14 @@ mod horizon;
 mod judge;
 mod machine;
 mod parse;
+mod preview;
 mod raw;
 
 pub use finding::{ConfigError, Finding, FindingReport};
 pub use horizon::MAX_FRAMES_AHEAD;
 pub use judge::{INSTANCE_RULE, is_instance_name};
 pub use machine::{AxisConfig, InterpolatorConfig, Kinematics, MachineConfig, PathConfig};
+pub(crate) use parse::nearest;
 
 use std::path::Path;
 

@@ -20,6 +20,8 @@ pub(super) struct RawConfig {
     pub(super) interpolator: RawInterpolator,
     #[serde(default)]
     pub(super) link: RawLink,
+    #[serde(default)]
+    pub(super) preview: RawPreview,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -84,4 +86,11 @@ pub(super) struct RawInterpolator {
 #[serde(deny_unknown_fields, default)]
 pub(super) struct RawLink {
     pub(super) instance: Optional<String>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawPreview {
+    pub(super) growth: Optional<f64>,
+    pub(super) max_growth: Optional<f64>,
 }

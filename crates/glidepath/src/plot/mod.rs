@@ -6,6 +6,7 @@
 //! positions: what a drive makes of them, not what the planner says about them.
 
 mod colour;
+pub mod curve;
 mod envelope;
 mod lateness;
 mod strip;

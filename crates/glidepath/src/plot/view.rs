@@ -153,6 +153,13 @@ pub(super) fn draw(svg: &mut Svg, view: View, track: &Track, area: &Area) {
     }
 }
 
+/// Where a point of the view stands, in pixels.
+pub(super) fn pixel(view: View, track: &Track, area: &Area, at: [f64; 3]) -> (f64, f64) {
+    let scale = Scale::fit(area, view.extent(track));
+    let (x, y) = view.project(at);
+    (scale.x(x), scale.y(y))
+}
+
 fn grid(svg: &mut Svg, scale: &Scale, area: &Area) {
     let (left, top) = scale.mm(area.x, area.y);
     let (right, bottom) = scale.mm(area.right(), area.bottom());

@@ -1,0 +1,81 @@
+//! What is wrong with a curve file, and where.
+
+use core::fmt;
+use core::ops::Range;
+use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
+use serde_json::{Value, json};
+
+/// One thing to mend in a curve file.
+#[derive(Debug)]
+pub struct CurveError {
+    file: String,
+    message: String,
+    pub(super) help: String,
+    span: Range<usize>,
+    source: NamedSource<String>,
+}
+
+impl CurveError {
+    /// A finding at some bytes of the text.
+    pub(super) fn new(
+        file: &str,
+        text: &str,
+        span: Range<usize>,
+        message: String,
+        help: &str,
+    ) -> Box<Self> {
+        Box::new(Self {
+            file: file.to_owned(),
+            message,
+            help: help.to_owned(),
+            span,
+            source: NamedSource::new(file, text.to_owned()),
+        })
+    }
+
+    /// Line and column, both from 1; the column counts characters.
+    #[must_use]
+    pub fn place(&self) -> (usize, usize) {
+        let text = self.source.inner();
+        let before = text.get(..self.span.start).unwrap_or_default();
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let column = before.get(line_start..).unwrap_or_default().chars().count();
+        (1 + before.matches('\n').count(), 1 + column)
+    }
+
+    /// As an object among the findings of a `--json` report.
+    #[must_use]
+    pub fn object(&self) -> Value {
+        let (line, column) = self.place();
+        json!({
+            "program": self.file,
+            "line": line,
+            "column": column,
+            "message": self.message,
+            "help": self.help,
+        })
+    }
+}
+
+impl fmt::Display for CurveError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for CurveError {}
+
+impl Diagnostic for CurveError {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new(&self.help))
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        Some(&self.source)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let label = LabeledSpan::underline(self.span.clone());
+        Some(Box::new(core::iter::once(label)))
+    }
+}
