@@ -49,11 +49,20 @@ pub enum Command {
     /// Feed hold: come to rest on the path
     #[command(after_help = "Example: glidepath hold")]
     Hold(OperatorArgs),
-    /// Go on after a hold or a program stop
+    /// Go on after a hold, a program stop or the end of a block
     #[command(after_help = "Example: glidepath resume")]
     Resume(OperatorArgs),
-    /// Set the feed override
-    #[command(after_help = "Example: glidepath override 80")]
+    /// Go on to the end of the block, and rest there
+    #[command(after_help = "Example: glidepath stop-at-block-end && glidepath step")]
+    Step(OperatorArgs),
+    /// Come to rest at the end of the present block, or of the first at which that is possible
+    #[command(after_help = "Example: glidepath stop-at-block-end")]
+    StopAtBlockEnd(OperatorArgs),
+    /// Rest at the end of every block, or do so no longer; `resume` or `step` goes on
+    #[command(after_help = "Example: glidepath single-block on")]
+    SingleBlock(SingleBlockArgs),
+    /// Set the override of the feed, or of rapids
+    #[command(after_help = "Examples: glidepath override 80 · glidepath override --rapid 25")]
     Override(OverrideArgs),
     /// Come to rest on the path and drop the rest of the program
     #[command(after_help = "Example: glidepath abort")]
@@ -234,10 +243,33 @@ pub struct OperatorArgs {
 
 /// Arguments of `override`.
 #[derive(Debug, Args)]
+#[group(id = "factor", required = true, multiple = true)]
 pub struct OverrideArgs {
     /// Percent of the programmed feedrate, 0 to 200
-    #[arg(value_parser = percent)]
-    pub percent: f64,
+    #[arg(value_parser = percent, group = "factor")]
+    pub percent: Option<f64>,
+    /// Percent of the speed of rapids, 0 to 100
+    #[arg(long, value_name = "PERCENT", value_parser = rapid_percent, group = "factor")]
+    pub rapid: Option<f64>,
+    /// Which interpolator.
+    #[command(flatten)]
+    pub operator: OperatorArgs,
+}
+
+/// On or off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Switch {
+    /// On.
+    On,
+    /// Off.
+    Off,
+}
+
+/// Arguments of `single-block`.
+#[derive(Debug, Args)]
+pub struct SingleBlockArgs {
+    /// Whether to rest at the end of every block
+    pub switch: Switch,
     /// Which interpolator.
     #[command(flatten)]
     pub operator: OperatorArgs,
@@ -325,10 +357,16 @@ fn positive(text: &str) -> Result<f64, &'static str> {
 }
 
 fn percent(text: &str) -> Result<f64, &'static str> {
-    text.parse()
-        .ok()
-        .filter(|percent| (0.0..=200.0).contains(percent))
-        .ok_or("give a number from 0 to 200")
+    percent_to(200.0, text).ok_or("give a number from 0 to 200")
+}
+
+fn rapid_percent(text: &str) -> Result<f64, &'static str> {
+    percent_to(100.0, text).ok_or("give a number from 0 to 100")
+}
+
+fn percent_to(most: f64, text: &str) -> Option<f64> {
+    let percent = text.parse().ok()?;
+    (0.0..=most).contains(&percent).then_some(percent)
 }
 
 impl Command {
@@ -343,9 +381,13 @@ impl Command {
             Self::Planner(args) => &args.basic,
             Self::Servo(args) => &args.basic,
             Self::Feed(args) => &args.basic,
-            Self::Status(args) | Self::Hold(args) | Self::Resume(args) | Self::Abort(args) => {
-                &args.basic
-            }
+            Self::Status(args)
+            | Self::Hold(args)
+            | Self::Resume(args)
+            | Self::Step(args)
+            | Self::StopAtBlockEnd(args)
+            | Self::Abort(args) => &args.basic,
+            Self::SingleBlock(args) => &args.operator.basic,
             Self::Override(args) => &args.operator.basic,
             Self::Preview(args) => &args.basic,
             Self::Doctor(args) => &args.basic,

@@ -35,7 +35,7 @@ pub(crate) fn answer(
 type Refusal = (CommandRefusal, &'static str);
 
 fn order_for(command: Command, state: MachineState) -> Result<Option<Order>, Refusal> {
-    use MachineState::{Faulted, Held, Holding, Idle, ProgramStop};
+    use MachineState::{Faulted, Held, Holding, Idle, ProgramStop, Stopping};
     let only = |allowed: bool, order, why| {
         if allowed {
             Ok(Some(order))
@@ -72,9 +72,17 @@ fn order_for(command: Command, state: MachineState) -> Result<Option<Order>, Ref
             Order::Reset,
             "no fault is latched, or the motion has not yet come to rest",
         ),
-        Command::StopAtEndOfBlock | Command::SingleStep(_) => {
-            Err((CommandRefusal::Unsupported, "not built in this version"))
-        }
+        Command::StopAtEndOfBlock => only(
+            !matches!(state, Idle | Faulted | Stopping),
+            Order::StopAtEndOfBlock,
+            "no program runs: there is no block to stop at the end of",
+        ),
+        Command::SingleBlock(on) => Ok(Some(Order::SingleBlock(on))),
+        Command::Step => only(
+            matches!(state, Holding | Held | ProgramStop),
+            Order::Step,
+            "nothing is held: a step goes on after a hold, a program stop or the end of a block",
+        ),
     }
 }
 

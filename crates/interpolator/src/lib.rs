@@ -20,6 +20,7 @@
 //! the path.
 
 mod admission;
+mod block_end;
 mod commands;
 mod config;
 mod differences;

@@ -90,6 +90,7 @@ impl fmt::Display for Fault {
             FaultCause::MissedTicks => write!(f, "too many missed ticks")?,
             FaultCause::Output => write!(f, "a setpoint would break a limit")?,
             FaultCause::Ports => write!(f, "the ports are not served")?,
+            FaultCause::RealTime => write!(f, "the real-time thread died")?,
         }
         if let Some(axis) = self.axis {
             write!(f, ", axis {axis}: {} (allowed {})", self.value, self.limit)?;
@@ -123,6 +124,11 @@ const fn describe(refusal: FrameRefusal) -> &'static str {
 pub(crate) enum Order {
     Hold,
     Resume,
+    /// Go on to the end of the block.
+    Step,
+    StopAtEndOfBlock,
+    /// Rest at the end of every block, or no longer.
+    SingleBlock(bool),
     /// As a ratio, ≥ 0.
     FeedOverride(f64),
     /// As a ratio, ≥ 0.
@@ -164,6 +170,8 @@ pub(crate) struct Report {
     pub(crate) reports_lost: u64,
     pub(crate) feed_override: f64,
     pub(crate) rapid_override: f64,
+    pub(crate) single_block: bool,
+    pub(crate) relaxed_stops: u64,
 }
 
 /// Something for the log.

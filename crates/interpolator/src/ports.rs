@@ -215,6 +215,7 @@ impl<'a> Ports<'a> {
             };
             match self.admission.judge(&frame, &machine) {
                 Verdict::Pass => {
+                    self.book.passed(&frame);
                     self.ends.frames.enqueue(frame).ok(); // There is room: it was ready.
                 }
                 Verdict::Known => {

@@ -34,59 +34,30 @@
 //! cannot be made to brake harder, but it will be slow soon.
 //!
 //! That leaves the question whether there will be any stop before the frames run out. So motion goes
-//! on only with a stop in [`reserve`], played through beforehand.
+//! on only with a stop in [`reserve`], played through beforehand. To come to rest at the end of a block
+//! is a reserve, too, that ends at a given frame and is taken on purpose: see [`arrival`].
 //!
 //! A ramp to rate 1 is stretched so that it ends on the grid of the frames: from there on the
 //! setpoints are the frames, bit for bit. Between its grid points a plan may exceed its jerk limit by
 //! a little (0.53 % if jerk steps in the middle of a period): r³ makes up for that at any lower steady
 //! rate, hence [`BESIDE_FULL`].
 
+mod arrival;
+mod candidate;
+mod play;
 mod reserve;
 
 use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
 use crate::ramp::{Bounds, Instant, Ramp};
 use crate::track::Track;
+use arrival::Search;
+use candidate::{CANDIDATES, Candidate, PACES};
+use play::{Cue, Played, play};
 use reserve::{Reserve, Steady};
-
-/// Stretching of the candidates, fast to slow.
-const PACES: [f64; 6] = [1.0, 0.8, 0.63, 0.5, 0.36, 0.22];
-
-/// A ramp to try: how much of the way to the goal, and how fast.
-#[derive(Debug, Clone, Copy)]
-struct Candidate {
-    part: f64,
-    pace: f64,
-}
-
-/// Everything that is tried, best first.
-const CANDIDATES: [Candidate; 18] = {
-    let mut all = [Candidate {
-        part: 1.0,
-        pace: PACES[0],
-    }; 18];
-    let mut i = 0;
-    while i < PACES.len() {
-        all[i].pace = PACES[i];
-        i += 1;
-    }
-    let parts = [0.6, 0.3, 0.12, 0.04];
-    while i < all.len() {
-        all[i].part = parts[(i - PACES.len()) / 3];
-        all[i].pace = PACES[(i - PACES.len()) % 3 * 2];
-        i += 1;
-    }
-    all
-};
 
 /// Samples a tick may spend on playing candidates through.
 const BUDGET: u32 = 200;
-/// What it costs to set up a candidate, and to stretch one from a slope, in samples.
-const SET_UP: u32 = 4;
-const SEARCH: u32 = 20;
-/// Halvings of the range of paces, from the slowest to 1, in the search for the grid.
-const SEARCH_STEPS: u32 = 40;
-const SLOWEST: f64 = 0.02;
 /// Largest bounds of a ramp: a change from 0 to 1 takes at least four ticks.
 const FASTEST: Bounds = Bounds {
     alpha: 0.5,
@@ -97,8 +68,6 @@ const LEAST_CHANGE: f64 = 1e-3;
 /// The highest rate that a ramp part of the way to the full rate ends at: nearer to it there is too
 /// little time left to lose to get back to the grid.
 const PARTIAL_MOST: f64 = 0.9;
-/// How near to the grid a ramp must end, periods.
-const ON_GRID: f64 = 1e-10;
 /// A better ramp ends at least this much earlier, ticks.
 const GAIN: f64 = 0.5;
 
@@ -115,6 +84,8 @@ pub(crate) struct Scene<'a> {
     pub(crate) reach: u64,
     /// There are as many frames ahead as there will ever be.
     pub(crate) is_fully_supplied: bool,
+    /// The end of a block, where the plan moves and the motion is to come to rest.
+    pub(crate) block_end: Option<u64>,
 }
 
 /// Program time and its rate.
@@ -143,6 +114,16 @@ pub(crate) struct Rate {
     insisted: usize,
     /// The ramp being followed is the reserve, which may break limits by this part.
     taken: Option<f64>,
+    /// The ramp being followed, or the next, comes to rest at this frame, the end of a block.
+    arrives_at: Option<u64>,
+    /// Where the search for such a ramp goes on: after the steady rate, and after the candidate at
+    /// which the last tick ran out of budget.
+    arrival_search: usize,
+    trial_search: usize,
+    /// The end of the block turned out to be too near.
+    has_missed: bool,
+    /// Candidates that did not pass, one after the other, at rest.
+    barred: usize,
 }
 
 /// Program time of one tick.
@@ -183,6 +164,11 @@ impl Rate {
             all_tried: false,
             insisted: 0,
             taken: None,
+            arrives_at: None,
+            arrival_search: 0,
+            trial_search: 0,
+            has_missed: false,
+            barred: 0,
         }
     }
 
@@ -225,6 +211,11 @@ impl Rate {
                     (self.rate, self.slope) = (ramp.target(), 0.0);
                     if self.rate >= 1.0 {
                         self.now = self.now.snapped();
+                    } else if self.rate <= 0.0
+                        && let Some(frame) = self.arrives_at.take()
+                    {
+                        // But for rounding it is there.
+                        self.now = ProgramTime::at(frame);
                     }
                     self.ramp = None;
                 }
@@ -253,6 +244,8 @@ impl Rate {
             search_at: self.search_at,
             all_tried: self.all_tried,
             insisted: self.insisted,
+            arrival_search: self.arrival_search,
+            has_missed: self.has_missed,
             ..Self::new(time, rate)
         };
     }
@@ -266,14 +259,20 @@ impl Rate {
         if arrives && (self.ramp.is_none() || self.pace >= PACES[0]) {
             return;
         }
+        // On the way to rest at the end of a block nothing but a stop before it is wanted.
+        if self.arrives_at.is_some() && goal > 0.0 {
+            return;
+        }
         let fastest = scene.fastest_from(self.now.sequence);
         let mut budget = BUDGET;
         let first = core::mem::take(&mut self.resume_at);
+        let mut search_at = core::mem::take(&mut self.trial_search);
         for k in 0..CANDIDATES.len() {
             let place = (first + k) % CANDIDATES.len();
             let Some(&Candidate { part, pace }) = CANDIDATES.get(place) else {
                 continue;
             };
+            self.barred += 1;
             if !self.is_better(part, pace, goal, heading) {
                 continue;
             }
@@ -294,19 +293,23 @@ impl Rate {
             let Some(ramp) = self.ramp_to(target, fastest.paced(pace), within, &mut budget) else {
                 continue;
             };
-            match self.try_ramp(&ramp, scene, &mut budget) {
+            match self.try_ramp(&ramp, scene, &mut search_at, &mut budget) {
                 Trial::Passed(reserve) => {
                     self.commit(ramp, pace, reserve);
                     self.held_at = scene.track.stop();
                     return;
                 }
-                Trial::Barred => {}
+                Trial::Barred => search_at = 0,
                 Trial::OutOfBudget => {
+                    self.barred -= 1;
+                    self.trial_search = search_at;
                     self.resume_at = place;
                     return;
                 }
             }
         }
+        // Nothing gets away from here that rests at the end of the block.
+        self.has_missed |= self.rate <= 0.0 && self.barred >= CANDIDATES.len();
     }
 
     /// Whether a candidate, if it passes, is better than what is committed.
@@ -325,64 +328,40 @@ impl Rate {
             .map_or(0.0, |ramp| ramp.duration() - f64::from(self.ticks))
     }
 
-    /// A ramp from the present, if there is one of less than so many ticks; one to rate 1 ends on the
-    /// grid of the frames.
-    fn ramp_to(&self, target: f64, bounds: Bounds, within: f64, budget: &mut u32) -> Option<Ramp> {
-        let plan = |pace| Ramp::plan(self.rate, self.slope, target, bounds.paced(pace));
-        *budget = budget.saturating_sub(SET_UP);
-        let ramp = plan(1.0).filter(|ramp| ramp.duration() < within)?;
-        if target < 1.0 {
-            return Some(ramp);
-        }
-        // The frame reached at rate 1 is behind the grid by what was lost, so lose a whole number.
-        let over = (self.now.fraction - ramp.loss()).rem_euclid(1.0);
-        let wanted = ramp.loss() + if over > 1.0 - ON_GRID { 0.0 } else { over };
-        let on_grid = if self.slope == 0.0 {
-            // The same curve, stretched: so is the loss.
-            plan(if wanted > 0.0 {
-                ramp.loss() / wanted
-            } else {
-                1.0
-            })?
-        } else {
-            *budget = budget.saturating_sub(SEARCH);
-            let (mut slow, mut fast) = (SLOWEST, 1.0);
-            for _ in 0..SEARCH_STEPS {
-                let pace = 0.5 * (slow + fast);
-                if plan(pace)?.loss() > wanted {
-                    slow = pace;
-                } else {
-                    fast = pace;
-                }
-            }
-            plan(fast)?
-        };
-        // If there is too little time left to lose, another tick will be nearer to the grid.
-        let is_on_grid = (on_grid.loss() - wanted).abs() < ON_GRID;
-        (is_on_grid && on_grid.duration() < within).then_some(on_grid)
-    }
-
     /// Plays a ramp through, and looks for a stop after it if it does not end in one.
-    fn try_ramp(&self, ramp: &Ramp, scene: &Scene<'_>, budget: &mut u32) -> Trial {
+    fn try_ramp(
+        &self,
+        ramp: &Ramp,
+        scene: &Scene<'_>,
+        search_at: &mut usize,
+        budget: &mut u32,
+    ) -> Trial {
         let cue = Cue {
             time: self.now,
             published: *scene.published,
             is_held: true,
         };
-        let played = play(ramp, cue, scene.track, scene.allowed, budget);
-        if played != Played::Passed || ramp.target() <= 0.0 || scene.track.stop().is_some() {
-            return match played {
-                Played::Passed => Trial::Passed(None),
-                Played::Barred => Trial::Barred,
-                Played::OutOfBudget => Trial::OutOfBudget,
-            };
+        match play(ramp, cue, scene.track, scene.allowed, budget) {
+            Played::Passed if ramp.target() <= 0.0 => return Trial::Passed(None),
+            Played::Passed => {}
+            Played::Barred => return Trial::Barred,
+            Played::OutOfBudget => return Trial::OutOfBudget,
         }
-        let end = self.now.after(ramp.at(ramp.duration().ceil()).elapsed);
-        let mut from_first = 0;
         let steady = Steady {
-            time: end,
+            time: self.now.after(ramp.at(ramp.duration().ceil()).elapsed),
             rate: ramp.target(),
         };
+        if let Some(frame) = scene.block_end {
+            return match Reserve::arriving_at(frame, steady, scene, search_at, budget) {
+                Search::Found(reserve) => Trial::Passed(Some(reserve)),
+                Search::Open => Trial::OutOfBudget,
+                Search::Barred | Search::OutOfReach => Trial::Barred,
+            };
+        }
+        let mut from_first = 0;
+        if scene.track.stop().is_some() {
+            return Trial::Passed(None);
+        }
         match Reserve::find(steady, 0, scene, scene.allowed, &mut from_first, budget) {
             Some(reserve) => Trial::Passed(Some(reserve)),
             None => Trial::Barred,
@@ -398,52 +377,11 @@ impl Rate {
         self.reserve = reserve;
         self.taken = None;
         self.resume_at = 0;
+        self.arrives_at = None;
+        self.arrival_search = 0;
+        self.trial_search = 0;
+        self.barred = 0;
     }
-}
-
-/// What playing a ramp through has shown.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Played {
-    Passed,
-    Barred,
-    OutOfBudget,
-}
-
-/// Where a ramp is played from.
-#[derive(Debug, Clone, Copy)]
-struct Cue {
-    time: ProgramTime,
-    /// The positions published before it.
-    published: Differences,
-    /// Whether motion stands at what holds it now. A reserve is for after that.
-    is_held: bool,
-}
-
-/// Plays a ramp through to three ticks past its end.
-fn play(ramp: &Ramp, cue: Cue, track: &Track, allowed: &Allowed, budget: &mut u32) -> Played {
-    let mut published = cue.published;
-    let end = ramp.duration() + 3.0;
-    let mut t = 0.0;
-    while t < end {
-        if *budget == 0 {
-            return Played::OutOfBudget;
-        }
-        *budget -= 1;
-        t += 1.0;
-        let time = cue.time.after(ramp.at(t).elapsed);
-        let time = if cue.is_held {
-            track.clamped(time)
-        } else {
-            time
-        };
-        let Some(position) = track.position(time) else {
-            return Played::Barred;
-        };
-        if !published.take(&position, allowed) {
-            return Played::Barred;
-        }
-    }
-    Played::Passed
 }
 
 #[cfg(test)]

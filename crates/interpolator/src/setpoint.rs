@@ -14,6 +14,7 @@ pub(crate) struct Counters {
     pub(crate) missed_ticks: u64,
     pub(crate) late_ticks: u64,
     pub(crate) reports_lost: u64,
+    pub(crate) relaxed_stops: u64,
     /// Of the tick before.
     pub(crate) timing: Timing,
     period_ns: u64,
@@ -31,6 +32,7 @@ impl Counters {
             missed_ticks: 0,
             late_ticks: 0,
             reports_lost: 0,
+            relaxed_stops: 0,
             timing: Timing::default(),
             period_ns: config.period_ns,
             // A wake-up is never quite on time: late is what eats a quarter of the period.
@@ -157,7 +159,7 @@ impl Interpolator<'_> {
             flags: frame.flags,
             state: self.state.code(),
             event_kind: 0,
-            reserved: 0,
+            block: frame.block,
             event_value: 0.0,
             path_s: 0.0,
             feed_v: 0.0,
@@ -194,6 +196,8 @@ impl Interpolator<'_> {
             reports_lost: 0,
             feed_override,
             rapid_override,
+            single_block: self.will.is_single_block(),
+            relaxed_stops: self.counters.relaxed_stops,
         }
     }
 }

@@ -4,7 +4,9 @@ use crate::admission::Admission;
 use crate::config::Config;
 use crate::message::{FRAMES, Report};
 use crate::track::TRACK_CAPACITY;
-use glidepath_link::{EndOfEpoch, FrameRefusal, Grants, MachineState, Quantiles, Status, Text};
+use glidepath_link::{
+    EndOfEpoch, FrameRefusal, Grants, MachineState, Quantiles, SetpointFrame, Status, Text,
+};
 use glidepath_realtime::{Histogram, Item, Mode};
 
 /// The status, and what it is worked out from.
@@ -50,6 +52,15 @@ impl StatusBook {
         *count == 1
     }
 
+    /// A frame passed to the real-time thread. The first one of a program tells which program that is,
+    /// and where it starts; that of a planner that goes on with one tells of a block.
+    pub(crate) const fn passed(&mut self, frame: &SetpointFrame) {
+        if frame.sequence == 0 && frame.block == 0 {
+            self.status.program = frame.program;
+            self.status.program_start = frame.position;
+        }
+    }
+
     pub(crate) fn last_error(&mut self, text: &str) {
         self.status.last_error = Text::new(text);
     }
@@ -90,6 +101,9 @@ impl StatusBook {
         status.missed_ticks = setpoint.missed_ticks;
         status.late_ticks = report.late_ticks;
         status.setpoints_lost = report.reports_lost;
+        status.relaxed_stops = report.relaxed_stops;
+        status.block = setpoint.block;
+        status.single_block = report.single_block.into();
         (status.lateness, status.work) = (lateness, work);
         self.write_fault(report);
     }

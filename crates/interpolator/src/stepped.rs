@@ -56,7 +56,10 @@ impl Stepped<'_> {
             Command::RapidOverride(ratio) => Order::RapidOverride(ratio),
             Command::Abort => Order::Abort,
             Command::Reset => Order::Reset,
-            Command::Ping | Command::StopAtEndOfBlock | Command::SingleStep(_) => return false,
+            Command::StopAtEndOfBlock => Order::StopAtEndOfBlock,
+            Command::SingleBlock(on) => Order::SingleBlock(on),
+            Command::Step => Order::Step,
+            Command::Ping => return false,
         };
         self.ends.orders.enqueue(order).is_ok()
     }

@@ -121,7 +121,15 @@ impl Supply {
 
     /// Looks at the frames ahead. Returns true once if the planner must be taken for lost: the
     /// motion was held up in the middle of its way for too long.
-    pub(crate) fn watch(&mut self, track: &Track, rate: &Rate, published: &Differences) -> bool {
+    ///
+    /// While the operator `holds` the motion, it is not held up by the planner.
+    pub(crate) fn watch(
+        &mut self,
+        track: &Track,
+        rate: &Rate,
+        published: &Differences,
+        holds: bool,
+    ) -> bool {
         let time = rate.now().time;
         let ahead = track.end().saturating_sub(time.sequence + 1);
         self.fully = ahead >= self.full;
@@ -143,7 +151,8 @@ impl Supply {
         self.out = track.ends_at_rest() && ahead == 0;
         // It is known how to go on from a barrier only when it is known how to stop after it.
         self.barred = is_barred && !track.ends_at_rest();
-        if (self.short || self.barred) && published.is_at_rest() {
+        let waits = self.short || (!holds && (self.barred || (self.out && !track.ends_at_last())));
+        if waits && published.is_at_rest() {
             self.starved_ticks += 1;
         } else {
             self.starved_ticks = 0;

@@ -64,6 +64,8 @@ pub(crate) struct Rig {
     pub(crate) setpoints: Vec<Setpoint>,
     pub(crate) last: Option<Report>,
     tick: u64,
+    /// Frames published.
+    sent: u64,
 }
 
 impl Rig {
@@ -85,12 +87,20 @@ impl Rig {
             setpoints,
             last: None,
             tick: 0,
+            sent: 0,
         }
     }
 
     /// The default machine at 4 ms.
     pub(crate) fn mill() -> Self {
         Self::new(Config::new(mill(), 4_000_000))
+    }
+
+    /// The default machine, with frames still to be published.
+    pub(crate) fn playing(frames: &[SetpointFrame]) -> Self {
+        let mut rig = Self::mill();
+        rig.feed.extend(frames);
+        rig
     }
 
     pub(crate) fn order(&mut self, order: Order) {
@@ -107,7 +117,25 @@ impl Rig {
                 return;
             };
             self.ends.frames.enqueue(frame).unwrap();
+            self.sent += 1;
         }
+    }
+
+    /// Publishes as a planner does: half a second ahead of what was executed.
+    pub(crate) fn publish_horizon(&mut self) {
+        let executed = self.interpolator.rate.now().time.sequence;
+        while self.sent < executed + self.config.horizon_frames && !self.feed.is_empty() {
+            self.publish(1);
+        }
+    }
+
+    /// Ticks from one frame to another, both of which were published as they are.
+    pub(crate) fn ticks_from(&self, one: u64, other: u64) -> usize {
+        let at = |sequence| {
+            let is_it = |s: &Setpoint| s.sequence == sequence;
+            self.setpoints.iter().position(is_it).unwrap()
+        };
+        at(other) - at(one)
     }
 
     /// One period, without new frames.

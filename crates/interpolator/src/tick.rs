@@ -13,6 +13,7 @@
 //! No step allocates, locks, waits or calls the system. Work is bounded: so many orders and frames a
 //! tick, and a budget for the choice of a ramp.
 
+use crate::block_end::BlockEnd;
 use crate::config::Config;
 use crate::differences::{Allowed, Differences};
 use crate::message::{Fault, Happening, Inputs, Order, Report};
@@ -45,6 +46,10 @@ pub(crate) struct Interpolator<'a> {
     pub(crate) rate: Rate,
     pub(crate) will: Will,
     pub(crate) supply: Supply,
+    block_end: BlockEnd,
+    /// The rate at which motion sets out from a rest of the plan: less than the goal where the block
+    /// would be too short to come to rest at its end.
+    sets_out_at: f64,
     pub(crate) published: Differences,
     allowed: Allowed,
     /// The open or last epoch, 0 before the first.
@@ -75,6 +80,8 @@ impl<'a> Interpolator<'a> {
             rate: Rate::new(ProgramTime::at(0), 0.0),
             will: Will::default(),
             supply: Supply::new(config),
+            block_end: BlockEnd::Unwanted,
+            sets_out_at: 1.0,
             published: Differences::at_rest(config.start_position),
             allowed: Allowed::new(&config.limits, period_t),
             epoch: 0,
@@ -94,6 +101,7 @@ impl<'a> Interpolator<'a> {
         self.take_frames(inputs);
         self.watch_supply();
         let setpoint = if self.is_open() {
+            self.look_for_block_end();
             self.steer();
             self.advance(tick);
             self.evaluate(tick)
@@ -132,9 +140,14 @@ impl<'a> Interpolator<'a> {
             if order == Order::PlannerLives {
                 self.supply.planner_lives();
             }
-            let is_open = self.is_open();
-            if self.will.obey(order, is_open) {
+            let passed = self.will.obey(order, self.is_open());
+            if passed.program_stop {
                 self.track.pass_stop();
+            }
+            if passed.block_end {
+                self.block_end.skip();
+                self.track.stand_at(None);
+                self.sets_out_at = 1.0;
             }
         }
     }
@@ -180,13 +193,57 @@ impl<'a> Interpolator<'a> {
         self.epoch = frame.epoch;
         self.end_of_epoch = EndOfEpoch::Open;
         self.announced = None;
+        self.block_end = BlockEnd::Unwanted;
+        self.sets_out_at = 1.0;
         self.supply.begin();
         self.will.turn_over();
     }
 
     fn watch_supply(&mut self) {
-        if self.is_open() && self.supply.watch(&self.track, &self.rate, &self.published) {
+        let holds = self.will.holds(self.is_rapid());
+        let (track, rate) = (&self.track, &self.rate);
+        if self.is_open() && self.supply.watch(track, rate, &self.published, holds) {
             self.fail(FaultCause::PlannerLost);
+        }
+    }
+
+    /// Keeps in mind where the present block ends, if the motion is to rest there.
+    fn look_for_block_end(&mut self) {
+        if self.will.is_at_block_end() {
+            return;
+        }
+        if self.will.wants_block_end() {
+            if self.rate.take_missed() {
+                self.try_slower_or_later();
+            }
+            self.block_end.look(self.rate.now().time, &self.track);
+        } else {
+            self.block_end = BlockEnd::Unwanted;
+            self.rate.forget_arrival();
+        }
+        self.track
+            .stand_at(self.block_end.at_rest().or(self.waits_for_arrival()));
+    }
+
+    /// The frame at which the motion waits, at a rest of the plan, until it is known how to come to
+    /// rest at the end of the block.
+    fn waits_for_arrival(&self) -> Option<u64> {
+        let frame = self.block_end.in_motion().filter(|_| self.plan_rests())?;
+        (!self.rate.is_to_arrive_at(frame)).then(|| self.rate.now().time.sequence)
+    }
+
+    /// The end of the block is too near to come to rest there: where the motion sets out from a rest
+    /// of the plan, not if it does so more slowly.
+    fn try_slower_or_later(&mut self) {
+        const SLOWER: f64 = 0.4;
+        const SLOWEST: f64 = 0.02;
+        if self.plan_rests() && !self.published.is_at_rest() {
+            // Only then any rate will do.
+        } else if self.plan_rests() && self.sets_out_at > SLOWEST {
+            self.sets_out_at *= SLOWER;
+        } else {
+            self.block_end.skip();
+            self.sets_out_at = 1.0;
         }
     }
 
@@ -194,9 +251,12 @@ impl<'a> Interpolator<'a> {
     /// rate is at rest, but it takes a new reserve to go on from there.
     #[allow(clippy::float_cmp, reason = "a steady rate is a copy of the goal")]
     fn steer(&mut self) {
-        let goal = self.goal();
+        let mut goal = self.goal();
         let now = self.rate.now();
         let rests = self.plan_rests() && self.published.is_at_rest();
+        if rests {
+            goal = goal.min(self.sets_out_at);
+        }
         if rests && now.rate != goal {
             self.track.bar(now.time.sequence);
             self.rate.rest_at(now.time, goal);
@@ -207,12 +267,20 @@ impl<'a> Interpolator<'a> {
             allowed: &self.allowed,
             reach: self.supply.reach(),
             is_fully_supplied: self.supply.is_fully_supplied(),
+            block_end: self.block_end.in_motion().filter(|end| {
+                let stop = self.track.program_stop();
+                stop.is_none_or(|stop| *end < stop)
+            }),
         };
         if !rests {
             self.rate.steer(goal, &scene);
         }
+        let arrives_at = scene.block_end;
         if self.rate.secure(goal, &scene) {
             self.track.unbar();
+        }
+        if arrives_at.is_some_and(|frame| self.rate.is_to_arrive_at(frame)) {
+            self.track.stand_at(None);
         }
     }
 
@@ -232,17 +300,24 @@ impl<'a> Interpolator<'a> {
         if self.supply.is_short() {
             return 0.0;
         }
-        let frame = self
-            .track
-            .frame(self.rate.now().time.sequence)
-            .unwrap_or(&self.passed);
-        let is_rapid = frame.has(FrameFlags::RAPID);
-        let rate = self.will.rate(is_rapid, frame.planned_override);
+        let planned_override = self.present().planned_override;
+        let rate = self.will.rate(self.is_rapid(), planned_override);
         if rate < 1.0 {
             rate.min(BESIDE_FULL)
         } else {
             rate
         }
+    }
+
+    /// The frame at or before the present program time.
+    fn present(&self) -> &SetpointFrame {
+        self.track
+            .frame(self.rate.now().time.sequence)
+            .unwrap_or(&self.passed)
+    }
+
+    fn is_rapid(&self) -> bool {
+        self.present().has(FrameFlags::RAPID)
     }
 
     /// Advances program time, not past a frame that holds the motion.
@@ -251,6 +326,7 @@ impl<'a> Interpolator<'a> {
         let time = self.rate.advance().time;
         if self.rate.excess() > before {
             let part = self.rate.excess();
+            self.counters.relaxed_stops += 1;
             self.happenings.write(Happening::Relaxed { tick, part });
         }
         let held = self.track.clamped(time);
@@ -278,11 +354,7 @@ impl<'a> Interpolator<'a> {
             return;
         }
         let now = self.rate.now().time;
-        let frame = self
-            .track
-            .frame(now.sequence)
-            .copied()
-            .unwrap_or(self.passed);
+        let frame = *self.present();
         self.passed = frame;
         if self.will.is_stopping() && self.is_standing() {
             self.close(if self.will.fault().is_some() {
@@ -292,10 +364,14 @@ impl<'a> Interpolator<'a> {
             });
         } else if frame.has(FrameFlags::LAST) && self.is_standing() {
             self.close(EndOfEpoch::Completed);
-        } else if frame.has(FrameFlags::PROGRAM_STOP)
-            && self.track.program_stop() == Some(now.sequence)
-        {
-            self.will.wait_for_operator();
+        } else {
+            if self.track.program_stop() == Some(now.sequence) {
+                self.will.wait_for_operator();
+            }
+            let is_there = Some(now) == self.block_end.frame().map(ProgramTime::at);
+            if is_there && (self.rate.now().rate <= 0.0 || is_at_rest(&frame)) {
+                self.will.stand_at_block_end();
+            }
         }
     }
 
@@ -315,9 +391,9 @@ impl<'a> Interpolator<'a> {
     }
 
     fn change_state(&mut self, tick: u64) {
-        let to = self
-            .will
-            .state(self.is_open(), self.is_standing(), &self.supply);
+        let (is_open, stands) = (self.is_open(), self.is_standing());
+        let is_rapid = self.is_rapid();
+        let to = self.will.state(is_open, stands, is_rapid, &self.supply);
         if to != self.state {
             let (from, line) = (self.state, self.passed.line);
             self.happenings.write(Happening::State {
@@ -331,7 +407,5 @@ impl<'a> Interpolator<'a> {
     }
 }
 
-#[cfg(test)]
-mod planned;
 #[cfg(test)]
 mod tests;

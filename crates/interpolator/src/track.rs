@@ -8,9 +8,9 @@
 //! released │ oldest … now … newest │ free          a ring over sequence numbers
 //! ```
 //!
-//! Two kinds of frames hold the motion: the next program stop, until the operator lets it pass, and
-//! the *barrier*, the latest frame at rest, until it is known how to stop after it. Program time
-//! stands there: everything later is evaluated as that frame.
+//! Three kinds of frames hold the motion: the next program stop, and the end of a block where the plan
+//! rests, until the operator lets it pass, and the *barrier*, the latest frame at rest, until it is
+//! known how to stop after it. Program time stands there: everything later is evaluated as that frame.
 
 use crate::program_time::ProgramTime;
 use glidepath_geometry::{AXES, AxisVector};
@@ -108,6 +108,8 @@ pub(crate) struct Track {
     program_stop: Option<u64>,
     /// A frame at rest that motion may not pass.
     barrier: Option<u64>,
+    /// The end of a block, at rest, at which the operator wants to stand.
+    block_end: Option<u64>,
     period_t: f64,
     limits: Limits,
 }
@@ -125,6 +127,7 @@ impl Track {
             len: 0,
             program_stop: None,
             barrier: None,
+            block_end: None,
             period_t,
             limits,
         }
@@ -140,6 +143,7 @@ impl Track {
         self.len = 0;
         self.program_stop = None;
         self.barrier = None;
+        self.block_end = None;
     }
 
     pub(crate) const fn is_full(&self) -> bool {
@@ -227,10 +231,15 @@ impl Track {
 
     /// The frame at which program time stands by itself.
     pub(crate) fn stop(&self) -> Option<u64> {
-        match (self.program_stop, self.barrier) {
-            (Some(stop), Some(barrier)) => Some(stop.min(barrier)),
-            (stop, barrier) => stop.or(barrier),
-        }
+        [self.program_stop, self.barrier, self.block_end]
+            .into_iter()
+            .flatten()
+            .min()
+    }
+
+    /// Motion stands at a frame at rest because a block ends there, or nowhere for that.
+    pub(crate) const fn stand_at(&mut self, block_end: Option<u64>) {
+        self.block_end = block_end;
     }
 
     /// True if the motion comes to rest by itself on the frames at hand.

@@ -7,10 +7,14 @@
 //! |---|---|---|---|
 //! | fault | Stopping | Faulted (the epoch has ended) | reset |
 //! | abort | Stopping | Idle (the epoch has ended) | – |
-//! | program stop | – | ProgramStop | resume |
-//! | feed hold, or override 0 | Holding | Held | resume, or another override |
+//! | program stop, end of a block | – | ProgramStop | resume, step |
+//! | feed hold, or override 0 | Holding | Held | resume, step, or another override |
 //! | too few frames | Starving | Starved | frames |
+//! | the plan rests and has no more | – | Waiting | frames |
 //! | none | Running | Running | |
+//!
+//! That the operator wants to rest at the end of a block is no reason to stop before the motion is
+//! there; how it gets there is for the rate of program time.
 
 use crate::message::{Fault, Order};
 use crate::supply::Supply;
@@ -23,8 +27,21 @@ pub(crate) struct Will {
     abort: bool,
     hold: bool,
     program_stop: bool,
+    /// The motion stands at the end of a block.
+    block_end: bool,
+    /// It is to do so once.
+    stop_at_block_end: bool,
+    /// It is to do so at every block.
+    single_block: bool,
     feed_override: f64,
     rapid_override: f64,
+}
+
+/// What the operator lets the motion pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Passed {
+    pub(crate) program_stop: bool,
+    pub(crate) block_end: bool,
 }
 
 impl Default for Will {
@@ -34,6 +51,9 @@ impl Default for Will {
             abort: false,
             hold: false,
             program_stop: false,
+            block_end: false,
+            stop_at_block_end: false,
+            single_block: false,
             feed_override: 1.0,
             rapid_override: 1.0,
         }
@@ -41,14 +61,17 @@ impl Default for Will {
 }
 
 impl Will {
-    /// Takes an order. Returns whether the motion is to pass the program stop it stands at.
-    pub(crate) const fn obey(&mut self, order: Order, is_open: bool) -> bool {
+    /// Takes an order. Returns what the motion is to pass of that which it stands at.
+    pub(crate) const fn obey(&mut self, order: Order, is_open: bool) -> Passed {
         match order {
             Order::Hold => self.hold = is_open,
-            Order::Resume => {
-                self.hold = false;
-                return core::mem::replace(&mut self.program_stop, false);
+            Order::Resume => return self.go_on(),
+            Order::Step => {
+                self.stop_at_block_end = is_open;
+                return self.go_on();
             }
+            Order::StopAtEndOfBlock => self.stop_at_block_end = is_open,
+            Order::SingleBlock(on) => self.single_block = on,
             Order::FeedOverride(ratio) => self.feed_override = ratio,
             Order::RapidOverride(ratio) => self.rapid_override = ratio,
             Order::Abort => self.abort = is_open,
@@ -57,7 +80,18 @@ impl Will {
             Order::Fault(fault) => self.fail(fault),
             Order::PlannerLives => {} // For the supply.
         }
-        false
+        Passed {
+            program_stop: false,
+            block_end: false,
+        }
+    }
+
+    const fn go_on(&mut self) -> Passed {
+        self.hold = false;
+        Passed {
+            program_stop: core::mem::replace(&mut self.program_stop, false),
+            block_end: core::mem::replace(&mut self.block_end, false),
+        }
     }
 
     /// Latches a fault. The first one stays: the others follow from it.
@@ -81,11 +115,34 @@ impl Will {
         self.program_stop = true;
     }
 
-    /// An epoch begins or ends: only a latched fault and the overrides outlive it.
+    /// The motion stands at the end of a block.
+    pub(crate) const fn stand_at_block_end(&mut self) {
+        self.block_end = true;
+        self.stop_at_block_end = false;
+    }
+
+    /// Whether the motion is to rest at the end of the present block.
+    pub(crate) const fn wants_block_end(&self) -> bool {
+        self.single_block || self.stop_at_block_end
+    }
+
+    /// Whether it rests there.
+    pub(crate) const fn is_at_block_end(&self) -> bool {
+        self.block_end
+    }
+
+    pub(crate) const fn is_single_block(&self) -> bool {
+        self.single_block
+    }
+
+    /// An epoch begins or ends: only a latched fault, the overrides and the single-block mode outlive
+    /// it.
     pub(crate) const fn turn_over(&mut self) {
         self.abort = false;
         self.hold = false;
         self.program_stop = false;
+        self.block_end = false;
+        self.stop_at_block_end = false;
     }
 
     pub(crate) const fn overrides(&self) -> (f64, f64) {
@@ -94,30 +151,46 @@ impl Will {
 
     /// Rate of program time that is wanted, where supply does not matter.
     pub(crate) fn rate(&self, is_rapid: bool, planned_override: f64) -> f64 {
-        if self.is_stopping() || self.hold {
+        if self.is_stopping() || self.hold || self.block_end {
             return 0.0;
         }
-        let commanded = if is_rapid {
+        (self.commanded(is_rapid) / planned_override).min(1.0)
+    }
+
+    const fn commanded(&self, is_rapid: bool) -> f64 {
+        if is_rapid {
             self.rapid_override
         } else {
             self.feed_override
-        };
-        (commanded / planned_override).min(1.0)
+        }
     }
 
-    pub(crate) fn state(&self, is_open: bool, standing: bool, supply: &Supply) -> MachineState {
+    /// Whether the operator keeps the motion from going on.
+    pub(crate) fn holds(&self, is_rapid: bool) -> bool {
+        self.hold || self.block_end || self.program_stop || self.commanded(is_rapid) <= 0.0
+    }
+
+    pub(crate) fn state(
+        &self,
+        is_open: bool,
+        standing: bool,
+        is_rapid: bool,
+        supply: &Supply,
+    ) -> MachineState {
         use MachineState::{
             Faulted, Held, Holding, Idle, ProgramStop, Running, Starved, Starving, Stopping,
+            Waiting,
         };
         let choose = |at_rest, moving| if standing { at_rest } else { moving };
         match (is_open, self.fault.is_some()) {
             (false, true) => Faulted,
             (false, false) => Idle,
             (true, _) if self.is_stopping() => Stopping,
-            (true, _) if self.program_stop => ProgramStop,
-            (true, _) if self.hold || self.feed_override <= 0.0 => choose(Held, Holding),
+            (true, _) if self.program_stop || self.block_end => ProgramStop,
+            (true, _) if self.holds(is_rapid) => choose(Held, Holding),
             (true, _) if supply.is_short() => choose(Starved, Starving),
-            (true, _) if standing && (supply.is_out() || supply.is_barred()) => Starved,
+            (true, _) if standing && supply.is_out() => Waiting,
+            (true, _) if standing && supply.is_barred() => Starved,
             (true, _) => Running,
         }
     }

@@ -176,10 +176,7 @@ fn hold_resume_override_and_abort_by_command() {
         let mut feed = frames.clone();
         peer.until(&mut Vec::new(), "idle", is(MachineState::Idle));
         assert_eq!(peer.command(Command::Hold), Err(CommandRefusal::WrongState));
-        assert_eq!(
-            peer.command(Command::SingleStep(true)),
-            Err(CommandRefusal::Unsupported)
-        );
+        assert_eq!(peer.command(Command::Step), Err(CommandRefusal::WrongState));
         assert_eq!(peer.command(Command::Ping), Ok(()));
         peer.until(&mut feed, "motion", |s| s.frames_executed > 100);
         assert_eq!(peer.command(Command::Hold), Ok(()));

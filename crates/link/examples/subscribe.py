@@ -3,7 +3,7 @@
     pip install iceoryx2==0.10.0        # the very version that glidepath uses
     python subscribe.py default         # the name of the instance
 
-The field order is that of the record `glidepath.Setpoint.v1` in crates/link/src/record/setpoint.rs.
+The field order is that of the record `glidepath.Setpoint.v2` in crates/link/src/record/setpoint.rs.
 Ends after five seconds without a setpoint.
 """
 
@@ -26,7 +26,7 @@ class Setpoint(ctypes.Structure):
         )
     ] + [("fraction", ctypes.c_double)] + [
         (name, ctypes.c_uint32)
-        for name in ("line", "flags", "marks", "state", "event_kind", "reserved")
+        for name in ("line", "flags", "marks", "state", "event_kind", "block")
     ] + [
         (name, ctypes.c_double)
         for name in ("event_value", "path_s", "feed_v", "effective_override")
@@ -40,7 +40,7 @@ class Setpoint(ctypes.Structure):
 
     @staticmethod
     def type_name():
-        return "glidepath.Setpoint.v1"
+        return "glidepath.Setpoint.v2"
 
 
 def link_config(instance):

@@ -81,3 +81,23 @@ pub enum LinkError {
         detail: BoxedError,
     },
 }
+
+impl LinkError {
+    /// Why a port could not be made: no place is left at the service, or something else.
+    pub(crate) fn no_port(
+        service: &'static str,
+        role: &'static str,
+        is_full: bool,
+        detail: impl Into<BoxedError>,
+    ) -> Self {
+        if is_full {
+            Self::Taken { service, role }
+        } else {
+            Self::Transport {
+                service,
+                action: "making a port",
+                detail: detail.into(),
+            }
+        }
+    }
+}

@@ -22,32 +22,32 @@ macro_rules! layout {
     };
 }
 
-layout!(setpoint_frame, SetpointFrame, "glidepath.SetpointFrame.v1", 288, {
-    epoch: 0, sequence: 8, period_ns: 16, line: 24, flags: 28, event_kind: 32, reserved: 36,
-    event_value: 40, path_v: 48, path_s: 56, planned_override: 64, position: 72, velocity: 144,
-    acceleration: 216,
+layout!(setpoint_frame, SetpointFrame, "glidepath.SetpointFrame.v2", 296, {
+    epoch: 0, sequence: 8, period_ns: 16, line: 24, flags: 28, event_kind: 32, block: 36,
+    event_value: 40, path_v: 48, path_s: 56, planned_override: 64, program: 72, position: 80,
+    velocity: 152, acceleration: 224,
 });
-layout!(setpoint, Setpoint, "glidepath.Setpoint.v1", 568, {
+layout!(setpoint, Setpoint, "glidepath.Setpoint.v2", 568, {
     boot_id: 0, number: 8, tick: 16, scheduled_ns: 24, apply_ns: 32, lateness_ns: 40,
     missed_ticks: 48, epoch: 56, sequence: 64, fraction: 72, line: 80, flags: 84, marks: 88,
-    state: 92, event_kind: 96, reserved: 100, event_value: 104, path_s: 112, feed_v: 120,
+    state: 92, event_kind: 96, block: 100, event_value: 104, path_s: 112, feed_v: 120,
     effective_override: 128, position: 136, velocity: 208, acceleration: 280, joint_position: 352,
     joint_velocity: 424, joint_acceleration: 496,
 });
-layout!(status, Status, "glidepath.Status.v1", 576, {
+layout!(status, Status, "glidepath.Status.v2", 672, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_sequence: 88, fault_value: 96,
-    fault_limit: 104, line: 112, grants: 116, position: 120, path_s: 192, feed_v: 200,
-    feed_override: 208, rapid_override: 216, effective_override: 224, ticks: 232,
-    missed_ticks: 240, late_ticks: 248, setpoints_published: 256, setpoints_lost: 264,
-    commands_served: 272, commands_refused: 280, frames_refused: 288, lateness: 384, work: 416,
-    last_error: 448,
+    fault_limit: 104, line: 112, grants: 116, block: 120, single_block: 124, program: 128,
+    program_start: 136, position: 208, path_s: 280, feed_v: 288, feed_override: 296,
+    rapid_override: 304, effective_override: 312, ticks: 320, missed_ticks: 328, late_ticks: 336,
+    setpoints_published: 344, setpoints_lost: 352, relaxed_stops: 360, commands_served: 368,
+    commands_refused: 376, frames_refused: 384, lateness: 480, work: 512, last_error: 544,
 });
-layout!(command_request, CommandRequest, "glidepath.CommandRequest.v1", 32, {
+layout!(command_request, CommandRequest, "glidepath.CommandRequest.v2", 32, {
     client: 0, number: 8, value: 16, kind: 24, reserved: 28,
 });
-layout!(command_reply, CommandReply, "glidepath.CommandReply.v1", 152, {
+layout!(command_reply, CommandReply, "glidepath.CommandReply.v2", 152, {
     boot_id: 0, number: 8, refusal: 16, state: 20, message: 24,
 });
 layout!(segment_request, SegmentRequest, "glidepath.SegmentRequest.v1", 240, {

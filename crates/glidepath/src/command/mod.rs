@@ -13,7 +13,7 @@ mod run;
 mod servo;
 mod session;
 
-use crate::cli::{Cli, Command};
+use crate::cli::{Cli, Command, Switch};
 use crate::config;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -40,12 +40,18 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Status(args) => operator::status(args, &config),
         Command::Hold(args) => operator::command(args, &config, "hold", link::Command::Hold),
         Command::Resume(args) => operator::command(args, &config, "resume", link::Command::Resume),
-        Command::Abort(args) => operator::command(args, &config, "abort", link::Command::Abort),
-        Command::Override(args) => {
-            let command = link::Command::FeedOverride(args.percent / 100.0);
-            operator::command(&args.operator, &config, "override", command)
+        Command::Step(args) => operator::command(args, &config, "step", link::Command::Step),
+        Command::StopAtBlockEnd(args) => {
+            let command = link::Command::StopAtEndOfBlock;
+            operator::command(args, &config, "stop-at-block-end", command)
         }
         Command::Preview(args) => preview::preview(args, &config),
+        Command::SingleBlock(args) => {
+            let command = link::Command::SingleBlock(args.switch == Switch::On);
+            operator::command(&args.operator, &config, "single-block", command)
+        }
+        Command::Abort(args) => operator::command(args, &config, "abort", link::Command::Abort),
+        Command::Override(args) => operator::overrides(args, &config),
         Command::Doctor(args) => Ok(doctor::doctor(args, &config)),
         Command::Jitter(args) => jitter::jitter(args, &config),
     }

@@ -1,7 +1,8 @@
-//! `glidepath hold`, `resume`, `override`, `abort` and `status`: talking to a running interpolator.
+//! What an operator does: `glidepath hold`, `resume`, `step`, `stop-at-block-end`, `single-block`,
+//! `override`, `abort` and `status`, talking to a running interpolator.
 
 use super::session;
-use crate::cli::OperatorArgs;
+use crate::cli::{OperatorArgs, OverrideArgs};
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -28,17 +29,41 @@ pub(super) fn command(
     name: &'static str,
     command: Command,
 ) -> Result<Exit, Failure> {
+    commands(args, config, name, &[command])
+}
+
+/// Sets the overrides that are given.
+///
+/// # Errors
+/// As [`command`].
+pub(super) fn overrides(args: &OverrideArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let feed = args.percent.map(|p| Command::FeedOverride(p / 100.0));
+    let rapid = args.rapid.map(|p| Command::RapidOverride(p / 100.0));
+    let given: Vec<Command> = feed.into_iter().chain(rapid).collect();
+    commands(&args.operator, config, "override", &given)
+}
+
+/// Sends commands one after the other, up to the first that is refused, and reports the last answer.
+fn commands(
+    args: &OperatorArgs,
+    config: &MachineConfig,
+    name: &'static str,
+    commands: &[Command],
+) -> Result<Exit, Failure> {
     let instance = session::instance(&args.instance, config);
     let transport = session::join(&args.instance, config)?;
-    let reply = send(&transport, &instance, command)?;
-    let state = state_name(reply.state().map_err(LinkError::from)?);
-    if let Err(refusal) = reply.outcome().map_err(LinkError::from)? {
-        let reason = refusal_text(refusal, reply.message.as_str());
-        return Err(Failure::CommandRefused {
-            command: name,
-            state,
-            reason,
-        });
+    let mut state = "";
+    for command in commands {
+        let reply = send(&transport, &instance, *command)?;
+        state = state_name(reply.state().map_err(LinkError::from)?);
+        if let Err(refusal) = reply.outcome().map_err(LinkError::from)? {
+            let reason = refusal_text(refusal, reply.message.as_str());
+            return Err(Failure::CommandRefused {
+                command: name,
+                state,
+                reason,
+            });
+        }
     }
     if args.basic.json {
         output::object(&json!({

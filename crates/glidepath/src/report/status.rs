@@ -19,6 +19,7 @@ pub const fn state_name(state: MachineState) -> &'static str {
         MachineState::ProgramStop => "program-stop",
         MachineState::Stopping => "stopping",
         MachineState::Faulted => "faulted",
+        MachineState::Waiting => "waiting",
     }
 }
 
@@ -101,6 +102,7 @@ pub fn fault_text(status: &Status) -> Option<String> {
         FaultCause::MissedTicks => "too many ticks were missed".to_owned(),
         FaultCause::Output => "a computed setpoint broke a limit".to_owned(),
         FaultCause::Ports => "the thread that serves the ports died or hangs".to_owned(),
+        FaultCause::RealTime => "the real-time thread died".to_owned(),
     };
     if let Some(axis) = status.fault_axis() {
         let _ = write!(text, ", axis {axis}");
@@ -144,6 +146,8 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
         "epoch": status.epoch,
         "end_of_epoch": end_name(status),
         "line": status.line,
+        "block": status.block,
+        "single_block": status.single_block == 1,
         "frames_received": status.frames_received,
         "frames_executed": status.frames_executed,
         "queue_depth": status.queue_depth,
@@ -160,6 +164,7 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
         "late_ticks": status.late_ticks,
         "setpoints_published": status.setpoints_published,
         "setpoints_lost": status.setpoints_lost,
+        "relaxed_stops": status.relaxed_stops,
         "frames_refused": status.frames_refused.iter().sum::<u64>(),
         "lateness_us": quantiles_object(&status.lateness),
         "work_us": quantiles_object(&status.work),
@@ -187,11 +192,21 @@ pub fn status_text(instance: &str, status: &Status) -> String {
     let _ = writeln!(text, "  position      {}", position.join("  "));
     let _ = writeln!(
         text,
-        "  motion        line {}, {:.3} mm of path, {:.2} mm/s, override {:.0} % (executed {:.0} %)",
+        "  motion        line {}, {:.3} mm of path, {:.2} mm/s{}",
         status.line,
         status.path_s,
         status.feed_v,
+        if status.single_block == 1 {
+            ", single block"
+        } else {
+            ""
+        }
+    );
+    let _ = writeln!(
+        text,
+        "  override      feed {:.0} %, rapid {:.0} % (executed {:.0} %)",
         status.feed_override * 100.0,
+        status.rapid_override * 100.0,
         status.effective_override * 100.0
     );
     let _ = writeln!(

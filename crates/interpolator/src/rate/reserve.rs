@@ -20,7 +20,8 @@
 //! ever; then limits are relaxed for the reserve, as little as possible. It is not likely to be
 //! taken, and the excess is reported if it is.
 
-use super::{Cue, FASTEST, Played, Rate, Scene, play};
+use super::play::{Cue, Played, play};
+use super::{FASTEST, Rate, Scene};
 use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
 use crate::ramp::{Bounds, Ramp};
@@ -28,7 +29,7 @@ use crate::ramp::{Bounds, Ramp};
 /// Samples a tick may spend on finding a reserve.
 const BUDGET: u32 = 120;
 /// What it costs to set up a candidate, in samples.
-const SET_UP: u32 = 6;
+pub(super) const SET_UP: u32 = 6;
 /// Places between the latest possible and the earliest useful at which a stop of a shape may begin.
 const PLACES: usize = 48;
 /// A reserve is replaced only by one that begins this much later, ticks.
@@ -95,19 +96,21 @@ const SECOND: [(f64, f64); 8] = [
 
 /// A ramp that begins some ticks from now.
 #[derive(Debug, Clone, Copy)]
-struct Later {
-    in_ticks: u32,
-    ramp: Ramp,
+pub(super) struct Later {
+    pub(super) in_ticks: u32,
+    pub(super) ramp: Ramp,
 }
 
 /// A stop that was played through.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reserve {
-    first: Later,
+    pub(super) first: Later,
     /// Takes what the first leaves; counted from the end of the first.
-    second: Option<Later>,
+    pub(super) second: Option<Later>,
     /// Part by which it may break limits.
-    excess: f64,
+    pub(super) excess: f64,
+    /// The frame at which it rests, if that is why it is wanted: the end of a block.
+    pub(super) arrives_at: Option<u64>,
 }
 
 /// A steady rate that begins at a place.
@@ -119,7 +122,7 @@ pub(super) struct Steady {
 
 impl Steady {
     /// A tick of it, the third or later, with the positions published before it.
-    fn cue(self, tick: f64, scene: &Scene<'_>) -> Option<Cue> {
+    pub(super) fn cue(self, tick: f64, scene: &Scene<'_>) -> Option<Cue> {
         let time = |back: f64| self.time.after(self.rate * (tick - back));
         let at = |back: f64| scene.track.position(time(back));
         let first = Differences::at_rest(at(3.0)?);
@@ -209,6 +212,7 @@ fn stop_at(
         first,
         second,
         excess: 0.0,
+        arrives_at: None,
     })
 }
 
@@ -252,7 +256,7 @@ fn latest(from: Steady, shape: Shape, scene: &Scene<'_>) -> Option<(f64, Ramp)> 
     clippy::cast_sign_loss,
     reason = "not negative, and less than the frames at hand over the rate"
 )]
-const fn whole(ticks: f64) -> u32 {
+pub(super) const fn whole(ticks: f64) -> u32 {
     ticks as u32
 }
 
@@ -275,6 +279,18 @@ impl Rate {
         if self.ramp.is_some() || self.rate <= 0.0 {
             return false;
         }
+        let mut budget = BUDGET;
+        let has_time = |reserve: &Reserve| reserve.first.in_ticks > URGENT;
+        if let Some(frame) = scene.block_end
+            && goal > 0.0
+            && (self.is_to_arrive_at(frame) || self.reserve.as_ref().is_none_or(has_time))
+        {
+            let passes_barrier = self.secure_arrival(frame, scene, &mut budget);
+            // Motion does not set out without a way to rest at the end of the block.
+            if self.is_to_arrive_at(frame) || self.is_barred(scene) {
+                return passes_barrier;
+            }
+        }
         if scene.track.ends_at_rest() {
             self.reserve = None;
             return false;
@@ -290,7 +306,7 @@ impl Rate {
             return false;
         }
         let at_least = if is_exact { left + GAIN } else { 0 };
-        let mut found = self.find_exact(at_least, scene);
+        let mut found = self.find_exact(at_least, scene, &mut budget);
         if found.is_some() {
             (self.all_tried, self.insisted) = (false, 0);
         } else if self.all_tried && left <= URGENT && scene.is_fully_supplied {
@@ -302,8 +318,13 @@ impl Rate {
         found.is_some()
     }
 
-    fn find_exact(&mut self, at_least: u32, scene: &Scene<'_>) -> Option<Reserve> {
-        let (from, mut budget) = (self.steady(), BUDGET);
+    fn find_exact(
+        &mut self,
+        at_least: u32,
+        scene: &Scene<'_>,
+        budget: &mut u32,
+    ) -> Option<Reserve> {
+        let from = self.steady();
         if self.search_at >= CANDIDATES {
             self.search_at = 0;
             self.all_tried = true;
@@ -314,7 +335,7 @@ impl Rate {
             scene,
             scene.allowed,
             &mut self.search_at,
-            &mut budget,
+            budget,
         )
     }
 
@@ -341,7 +362,7 @@ impl Rate {
         Some(Reserve { excess, ..found })
     }
 
-    const fn steady(&self) -> Steady {
+    pub(super) const fn steady(&self) -> Steady {
         Steady {
             time: self.now,
             rate: self.rate,
@@ -372,13 +393,20 @@ impl Rate {
             first,
             second,
             excess,
+            arrives_at,
         } = *reserve;
         let rest = second.map(|second| Reserve {
             first: second,
             second: None,
             excess,
+            arrives_at,
         });
         self.commit(first.ramp, 0.0, rest);
-        self.taken = Some(excess);
+        self.arrives_at = arrives_at;
+        self.taken = if arrives_at.is_none() {
+            Some(excess)
+        } else {
+            None
+        };
     }
 }

@@ -61,6 +61,7 @@ impl Player {
             allowed: &self.allowed,
             reach: 19,
             is_fully_supplied: true,
+            block_end: None,
         };
         let now = self.rate.now().time;
         let rests = now.fraction <= 0.0 && self.track.frame(now.sequence).is_some_and(is_at_rest);

@@ -35,16 +35,9 @@ impl<Q: Record, A: Record> Asking<Q, A> {
             .set_request_degradation_handler(|_, _| DegradationAction::Ignore)
             .set_response_degradation_handler(|_, _| DegradationAction::Ignore)
             .create()
-            .map_err(|error| match error {
-                ClientCreateError::ExceedsMaxSupportedClients => LinkError::Taken {
-                    service,
-                    role: "client",
-                },
-                error => LinkError::Transport {
-                    service,
-                    action: "becoming a client",
-                    detail: error.into(),
-                },
+            .map_err(|error| {
+                let is_full = matches!(error, ClientCreateError::ExceedsMaxSupportedClients);
+                LinkError::no_port(service, "client", is_full, error)
             })?;
         let pending = VecDeque::with_capacity(MAX_UNANSWERED);
         Ok(Self {
@@ -137,16 +130,9 @@ impl<Q: Record, A: Record> Answering<Q, A> {
             .set_request_degradation_handler(|_, _| DegradationAction::Ignore)
             .set_response_degradation_handler(|_, _| DegradationAction::Ignore)
             .create()
-            .map_err(|error| match error {
-                ServerCreateError::ExceedsMaxSupportedServers => LinkError::Taken {
-                    service,
-                    role: "server",
-                },
-                error => LinkError::Transport {
-                    service,
-                    action: "becoming the server",
-                    detail: error.into(),
-                },
+            .map_err(|error| {
+                let is_full = matches!(error, ServerCreateError::ExceedsMaxSupportedServers);
+                LinkError::no_port(service, "server", is_full, error)
             })?;
         Ok(Self {
             service,

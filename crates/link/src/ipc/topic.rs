@@ -21,16 +21,9 @@ fn make_publisher<R: Record>(
         .set_backpressure_handler(|_| BackpressureAction::DiscardDataAndFail)
         .set_degradation_handler(|_, _| DegradationAction::Ignore)
         .create()
-        .map_err(|error| match error {
-            PublisherCreateError::ExceedsMaxSupportedPublishers => LinkError::Taken {
-                service,
-                role: "publisher",
-            },
-            error => LinkError::Transport {
-                service,
-                action: "becoming a publisher",
-                detail: error.into(),
-            },
+        .map_err(|error| {
+            let is_full = matches!(error, PublisherCreateError::ExceedsMaxSupportedPublishers);
+            LinkError::no_port(service, "publisher", is_full, error)
         })
 }
 
@@ -140,16 +133,10 @@ impl<R: Record> Source<R> {
         let port = builder
             .set_degradation_handler(|_, _| DegradationAction::Ignore)
             .create()
-            .map_err(|error| match error {
-                SubscriberCreateError::ExceedsMaxSupportedSubscribers => LinkError::Taken {
-                    service,
-                    role: "subscriber",
-                },
-                error => LinkError::Transport {
-                    service,
-                    action: "becoming a subscriber",
-                    detail: error.into(),
-                },
+            .map_err(|error| {
+                let is_full =
+                    matches!(error, SubscriberCreateError::ExceedsMaxSupportedSubscribers);
+                LinkError::no_port(service, "subscriber", is_full, error)
             })?;
         Ok(Self {
             service,

@@ -22,10 +22,12 @@ coded! {
         Abort = 6,
         /// See [`Command::StopAtEndOfBlock`].
         StopAtEndOfBlock = 7,
-        /// See [`Command::SingleStep`].
-        SingleStep = 8,
+        /// See [`Command::SingleBlock`].
+        SingleBlock = 8,
         /// See [`Command::Reset`].
         Reset = 9,
+        /// See [`Command::Step`].
+        Step = 10,
     }
 }
 
@@ -39,7 +41,7 @@ pub enum Command {
     Ping,
     /// Feed hold: come to rest on the path.
     Hold,
-    /// Go on after a hold, a program stop or a single step.
+    /// Go on after a hold, a program stop or the end of a block.
     Resume,
     /// Set the feed override, a ratio from 0 to [`super::OVERRIDE_MAX`].
     FeedOverride(f64),
@@ -47,12 +49,15 @@ pub enum Command {
     RapidOverride(f64),
     /// Come to rest on the path and end the epoch.
     Abort,
-    /// Come to rest at the end of the present block.
+    /// Come to rest at the end of the present block, or of the first after it at which that is
+    /// possible.
     StopAtEndOfBlock,
-    /// Rest after every block, or do so no longer.
-    SingleStep(bool),
+    /// Rest at the end of every block, or do so no longer.
+    SingleBlock(bool),
     /// Clear a latched fault.
     Reset,
+    /// At rest on the path, go on to the end of the block, and rest there.
+    Step,
 }
 
 impl Command {
@@ -67,8 +72,9 @@ impl Command {
             Self::RapidOverride(_) => CommandKind::RapidOverride,
             Self::Abort => CommandKind::Abort,
             Self::StopAtEndOfBlock => CommandKind::StopAtEndOfBlock,
-            Self::SingleStep(_) => CommandKind::SingleStep,
+            Self::SingleBlock(_) => CommandKind::SingleBlock,
             Self::Reset => CommandKind::Reset,
+            Self::Step => CommandKind::Step,
         }
     }
 }
@@ -76,7 +82,7 @@ impl Command {
 /// A command on its way.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.CommandRequest.v1")]
+#[type_name("glidepath.CommandRequest.v2")]
 pub struct CommandRequest {
     /// Who asks: any number the client keeps, for the log.
     pub client: u64,
@@ -96,13 +102,14 @@ impl CommandRequest {
     pub fn new(client: u64, number: u64, command: Command) -> Self {
         let value = match command {
             Command::FeedOverride(ratio) | Command::RapidOverride(ratio) => ratio,
-            Command::SingleStep(on) => f64::from(u8::from(on)),
+            Command::SingleBlock(on) => f64::from(u8::from(on)),
             Command::Ping
             | Command::Hold
             | Command::Resume
             | Command::Abort
             | Command::StopAtEndOfBlock
-            | Command::Reset => 0.0,
+            | Command::Reset
+            | Command::Step => 0.0,
         };
         Self {
             client,
@@ -136,17 +143,18 @@ impl CommandRequest {
             }
             CommandKind::Abort => Command::Abort,
             CommandKind::StopAtEndOfBlock => Command::StopAtEndOfBlock,
-            CommandKind::SingleStep => {
+            CommandKind::SingleBlock => {
                 fields.range("value", self.value, 0.0, 1.0)?;
-                Command::SingleStep(fields.whole("value", self.value)? == 1)
+                Command::SingleBlock(fields.whole("value", self.value)? == 1)
             }
             CommandKind::Reset => Command::Reset,
+            CommandKind::Step => Command::Step,
         })
     }
 }
 
 impl Record for CommandRequest {
-    const NAME: &'static str = "glidepath.CommandRequest.v1";
+    const NAME: &'static str = "glidepath.CommandRequest.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         self.command().map(|_| ())
@@ -175,7 +183,7 @@ pub type CommandOutcome = Result<(), CommandRefusal>;
 /// The answer on its way back.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.CommandReply.v1")]
+#[type_name("glidepath.CommandReply.v2")]
 pub struct CommandReply {
     /// The life of the interpolator that answers.
     pub boot_id: u64,
@@ -231,7 +239,7 @@ impl CommandReply {
 }
 
 impl Record for CommandReply {
-    const NAME: &'static str = "glidepath.CommandReply.v1";
+    const NAME: &'static str = "glidepath.CommandReply.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         self.outcome()?.ok();

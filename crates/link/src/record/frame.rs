@@ -22,7 +22,7 @@ pub(crate) const FRAME_FLAGS: u32 = FrameFlags::FIRST
 /// the quintic Hermite polynomial through both.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.SetpointFrame.v1")]
+#[type_name("glidepath.SetpointFrame.v2")]
 pub struct SetpointFrame {
     /// Which trajectory this belongs to: a new one for every start from rest, > 0, rising.
     pub epoch: u64,
@@ -36,8 +36,9 @@ pub struct SetpointFrame {
     pub flags: u32,
     /// Code of the event at this instant, 0 for none.
     pub event_kind: u32,
-    /// Must be zero.
-    pub reserved: u32,
+    /// Which block of the program this belongs to: the number of its item, from 1, counted through
+    /// loops and subprograms; 0 before the first.
+    pub block: u32,
     /// The event's number (speed, tool, M code), 0 without an event.
     pub event_value: f64,
     /// Rate of path position, mm/s.
@@ -46,6 +47,8 @@ pub struct SetpointFrame {
     pub path_s: f64,
     /// The override this was planned with, > 0, up to [`OVERRIDE_MAX`].
     pub planned_override: f64,
+    /// Identifies the text of the program, 0 if it has none that could be read again.
+    pub program: u64,
     /// Position, mm or degrees.
     pub position: [f64; AXES],
     /// Velocity, mm/s or °/s.
@@ -55,7 +58,7 @@ pub struct SetpointFrame {
 }
 
 impl SetpointFrame {
-    /// The record of a planned frame, bit for bit.
+    /// The record of a planned frame, bit for bit, of an unknown block of an unknown program.
     #[must_use]
     pub fn from_frame(frame: &Frame, epoch: u64, period_ns: u64) -> Self {
         let (event_kind, event_value) = event::encode(frame.event);
@@ -66,11 +69,12 @@ impl SetpointFrame {
             line: frame.line,
             flags: frame.flags.0,
             event_kind,
-            reserved: 0,
+            block: 0,
             event_value,
             path_v: frame.path_v,
             path_s: frame.path_s,
             planned_override: frame.planned_override,
+            program: 0,
             position: frame.position.into(),
             velocity: frame.velocity.into(),
             acceleration: frame.acceleration.into(),
@@ -115,7 +119,7 @@ impl SetpointFrame {
 }
 
 impl Record for SetpointFrame {
-    const NAME: &'static str = "glidepath.SetpointFrame.v1";
+    const NAME: &'static str = "glidepath.SetpointFrame.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -141,7 +145,6 @@ impl Record for SetpointFrame {
             PERIOD_NS_MAX as f64,
         )?;
         fields.flags("flags", self.flags, FRAME_FLAGS)?;
-        fields.zero("reserved", self.reserved)?;
         if self.epoch == 0 {
             let (record, field) = (Self::NAME, "epoch");
             let (low, high) = (1.0, f64::INFINITY);

@@ -20,7 +20,7 @@ impl SetpointMarks {
 /// What the drives are to do at `apply_ns`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Setpoint.v1")]
+#[type_name("glidepath.Setpoint.v2")]
 pub struct Setpoint {
     /// Identifies one life of the interpolator: all counts start again with a new one.
     pub boot_id: u64,
@@ -53,8 +53,8 @@ pub struct Setpoint {
     pub state: u32,
     /// Code of the event that happens now, 0 for none.
     pub event_kind: u32,
-    /// Must be zero.
-    pub reserved: u32,
+    /// Block of the program being executed, 0 before the first: see [`super::SetpointFrame::block`].
+    pub block: u32,
     /// The event's number (speed, tool, M code), 0 without an event.
     pub event_value: f64,
     /// Path position since the start of the program, mm.
@@ -109,7 +109,7 @@ impl Setpoint {
 }
 
 impl Record for Setpoint {
-    const NAME: &'static str = "glidepath.Setpoint.v1";
+    const NAME: &'static str = "glidepath.Setpoint.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -131,7 +131,6 @@ impl Record for Setpoint {
         fields.flags("flags", self.flags, FRAME_FLAGS)?;
         let marks = SetpointMarks::LATE.0 | SetpointMarks::AFTER_MISSED.0;
         fields.flags("marks", self.marks, marks)?;
-        fields.zero("reserved", self.reserved)?;
         self.state()?;
         self.event().map(|_| ())
     }

@@ -17,12 +17,14 @@ coded! {
         Starving = 5,
         /// At rest on the path, waiting for frames.
         Starved = 6,
-        /// At rest on the path until the operator resumes (M0, M1, M60, single step).
+        /// At rest on the path until the operator goes on (M0, M1, M60, end of a block).
         ProgramStop = 7,
         /// On the path, slowing to end the epoch: abort or fault.
         Stopping = 8,
         /// At rest with a latched cause; needs a reset.
         Faulted = 9,
+        /// At rest where the motion known so far ends, until there is more.
+        Waiting = 10,
     }
 }
 
@@ -107,6 +109,8 @@ pub enum FaultCause {
     Output,
     /// The thread that serves the ports died or hangs.
     Ports,
+    /// The real-time thread died: nothing commands the drives any more.
+    RealTime,
 }
 
 impl FaultCause {
@@ -121,6 +125,7 @@ impl FaultCause {
             Self::MissedTicks => 2,
             Self::Output => 3,
             Self::Ports => 4,
+            Self::RealTime => 5,
             Self::Frame(refusal) => Self::FRAME + refusal.code(),
         }
     }
@@ -133,6 +138,7 @@ impl FaultCause {
             2 => Some(Self::MissedTicks),
             3 => Some(Self::Output),
             4 => Some(Self::Ports),
+            5 => Some(Self::RealTime),
             Self::FRAME.. => match FrameRefusal::from_code(code - Self::FRAME) {
                 Some(refusal) => Some(Self::Frame(refusal)),
                 None => None,

@@ -57,7 +57,7 @@ pub struct Quantiles {
 /// What the interpolator does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v1")]
+#[type_name("glidepath.Status.v2")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -99,6 +99,15 @@ pub struct Status {
     pub line: u32,
     /// Bits of [`Grants`].
     pub grants: u32,
+    /// Block of the program being executed, 0 before the first: see [`super::SetpointFrame::block`].
+    pub block: u32,
+    /// 1 if the machine rests at the end of every block, 0 if not.
+    pub single_block: u32,
+    /// The program of the present or last epoch: see [`super::SetpointFrame::program`].
+    pub program: u64,
+    /// Where the machine stood when that program began, mm or degrees. A planner that goes on with
+    /// the program in a new epoch changes neither.
+    pub program_start: [f64; AXES],
     /// Axis positions as last commanded, mm or degrees.
     pub position: [f64; AXES],
     /// Path position, mm.
@@ -121,6 +130,8 @@ pub struct Status {
     pub setpoints_published: u64,
     /// Setpoints lost inside the interpolator.
     pub setpoints_lost: u64,
+    /// Stops for want of frames for which limits had to be relaxed.
+    pub relaxed_stops: u64,
     /// Commands served.
     pub commands_served: u64,
     /// Commands refused, among those served.
@@ -181,11 +192,12 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v1";
+    const NAME: &'static str = "glidepath.Status.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
         fields.all_finite("position", &self.position)?;
+        fields.all_finite("program_start", &self.program_start)?;
         fields.finite("path_s", self.path_s)?;
         fields.finite("feed_v", self.feed_v)?;
         fields.finite("fault_value", self.fault_value)?;
@@ -199,6 +211,7 @@ impl Record for Status {
             OVERRIDE_MAX,
         )?;
         fields.flags("grants", self.grants, Grants::KNOWN)?;
+        fields.flags("single_block", self.single_block, 1)?;
         if self.fault_axis != 0 && self.fault_axis().is_none() {
             let (record, field) = (Self::NAME, "fault_axis");
             return Err(RecordError::UnknownCode {

@@ -10,7 +10,7 @@ use std::os::unix::fs::PermissionsExt;
 /// A setpoint of a version to come.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, ZeroCopySend)]
-#[type_name("glidepath.Setpoint.v2")]
+#[type_name("glidepath.Setpoint.v3")]
 #[allow(
     unsafe_code,
     reason = "the derive expands to an unsafe impl, and checks the fields"
@@ -92,7 +92,7 @@ fn another_version_of_a_record_is_a_clear_error() {
         "{error}"
     );
     let text = error.to_string();
-    assert!(text.contains("glidepath.Setpoint.v1"), "{text}");
+    assert!(text.contains("glidepath.Setpoint.v2"), "{text}");
     assert!(text.contains("IncompatibleTypes"), "{text}");
     drop((service, node));
     link.setpoint_source().unwrap();

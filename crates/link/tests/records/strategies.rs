@@ -115,9 +115,10 @@ pub(crate) fn command() -> impl Strategy<Value = Command> {
             Command::Abort,
             Command::StopAtEndOfBlock,
             Command::Reset,
+            Command::Step,
         ]),
         (0.0..=OVERRIDE_MAX).prop_map(Command::FeedOverride),
         (0.0..=OVERRIDE_MAX).prop_map(Command::RapidOverride),
-        any::<bool>().prop_map(Command::SingleStep),
+        any::<bool>().prop_map(Command::SingleBlock),
     ]
 }

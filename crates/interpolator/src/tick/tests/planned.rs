@@ -1,28 +1,14 @@
 //! The same with motion as the planner makes it: polylines with rounded corners, arcs' worth of
 //! short chords, exact stops, dwells.
 
-#![allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
-    clippy::cast_possible_wrap,
-    clippy::float_cmp,
-    clippy::unwrap_used,
-    unreachable_pub,
-    reason = "a test: numbers are small, bits are compared on purpose, failures are panics"
-)]
-
 use super::*;
-use crate::message::Order;
-use crate::testing::{Numbers, Rig, mill};
 use glidepath_geometry::Segment;
 use glidepath_motion::{
     Effort, Item, ItemKind, PathMode, Planner, Rate as Speed, Settings, Smoothing,
 };
-use proptest::prelude::*;
 
 /// Frames of a random program of up to three axes.
-fn program(seed: u64, moves: usize, smoothing: Smoothing) -> Vec<SetpointFrame> {
+pub(super) fn program(seed: u64, moves: usize, smoothing: Smoothing) -> Vec<SetpointFrame> {
     let settings = Settings {
         limits: mill(),
         tolerance_mm: 0.02,
@@ -71,7 +57,7 @@ fn program(seed: u64, moves: usize, smoothing: Smoothing) -> Vec<SetpointFrame> 
     }
     planner.finish();
     let frames: Vec<_> = std::iter::from_fn(|| planner.pop_frame().ok().flatten()).collect();
-    crate::testing::records(&frames, 1, 4_000_000)
+    records(&frames, 1, 4_000_000)
 }
 
 fn positions(frames: &[SetpointFrame]) -> Vec<AxisVector> {
@@ -81,34 +67,17 @@ fn positions(frames: &[SetpointFrame]) -> Vec<AxisVector> {
         .collect()
 }
 
-/// Half a second ahead, as the planner publishes.
-fn publish(rig: &mut Rig, sent: &mut usize) {
-    let executed = rig.interpolator.rate.now().time.sequence as usize;
-    while *sent < executed + 125 && !rig.feed.is_empty() {
-        rig.publish(1);
-        *sent += 1;
-    }
-}
-
 #[test]
 fn planned_time_is_run_time() {
     for seed in 0..40 {
         let frames = program(seed, 60, Smoothing::Sextic);
-        let mut rig = Rig::mill();
-        rig.feed.extend(&frames);
-        let mut sent = 0;
+        let mut rig = Rig::playing(&frames);
         for _ in 0..frames.len() + 200 {
-            publish(&mut rig, &mut sent);
+            rig.publish_horizon();
             rig.tick();
         }
-        let at = |sequence| {
-            rig.setpoints
-                .iter()
-                .position(|s| s.sequence == sequence)
-                .unwrap()
-        };
         let last = frames.len() - 1;
-        assert_eq!(at(last as u64) - at(1), last - 1, "seed {seed}");
+        assert_eq!(rig.ticks_from(1, last as u64), last - 1, "seed {seed}");
     }
 }
 
@@ -118,7 +87,7 @@ proptest! {
     fn commands_and_death_keep_the_limits_of_planned_motion(
         seed in 0_u64..1_000_000,
         dies_at in 0.2_f64..2.0,
-        commands in prop::collection::vec((0_u8..5, 1_usize..120), 0..12),
+        commands in prop::collection::vec((0_u8..10, 1_usize..120), 0..12),
     ) {
         let frames = program(seed, 40, Smoothing::Sextic);
         let planned = crate::testing::audit(&positions(&frames), &mill(), 0.004);
@@ -126,27 +95,36 @@ proptest! {
         let mut rig = Rig::mill();
         let kept = ((frames.len() as f64 * dies_at) as usize).clamp(10, frames.len());
         rig.feed.extend(&frames[..kept]);
-        let (mut sent, mut numbers) = (0, Numbers::new(seed));
+        let mut numbers = Numbers::new(seed);
         for (command, ticks) in commands {
             match command {
                 0 | 1 => rig.order(Order::Hold),
                 2 => rig.order(Order::Resume),
                 3 => rig.order(Order::FeedOverride(numbers.unit())),
+                4 => rig.order(Order::RapidOverride(numbers.unit())),
+                5 => rig.order(Order::StopAtEndOfBlock),
+                6 => rig.order(Order::SingleBlock(true)),
+                7 => rig.order(Order::SingleBlock(false)),
+                8 => rig.order(Order::Step),
                 _ => rig.order(Order::FeedOverride(1.0)),
             }
             for _ in 0..ticks {
-                publish(&mut rig, &mut sent);
+                rig.publish_horizon();
                 rig.tick();
             }
         }
+        rig.order(Order::SingleBlock(false));
         rig.order(Order::Resume);
         rig.order(Order::FeedOverride(1.0));
+        rig.order(Order::RapidOverride(1.0));
         for _ in 0..frames.len() * 2 + 1_500 {
-            publish(&mut rig, &mut sent);
-            rig.tick();
+            rig.publish_horizon();
+            if rig.tick().state() == Ok(MachineState::ProgramStop) {
+                rig.order(Order::Resume);
+            }
         }
         prop_assert!(matches!(
-            rig.state(), MachineState::Idle | MachineState::Faulted | MachineState::Starved
+            rig.state(), MachineState::Idle | MachineState::Faulted
         ), "{:?}", rig.state());
         let ratio = rig.worst_ratio();
         let relaxed = rig.has_relaxed();

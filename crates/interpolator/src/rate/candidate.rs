@@ -1,0 +1,88 @@
+//! The ramps that are tried, and how one is made to end on the grid of the frames.
+
+use super::Rate;
+use crate::ramp::{Bounds, Ramp};
+
+/// Stretching of the candidates, fast to slow.
+pub(super) const PACES: [f64; 6] = [1.0, 0.8, 0.63, 0.5, 0.36, 0.22];
+
+/// A ramp to try: how much of the way to the goal, and how fast.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Candidate {
+    pub(super) part: f64,
+    pub(super) pace: f64,
+}
+
+/// Everything that is tried, best first.
+pub(super) const CANDIDATES: [Candidate; 18] = {
+    let mut all = [Candidate {
+        part: 1.0,
+        pace: PACES[0],
+    }; 18];
+    let mut i = 0;
+    while i < PACES.len() {
+        all[i].pace = PACES[i];
+        i += 1;
+    }
+    let parts = [0.6, 0.3, 0.12, 0.04];
+    while i < all.len() {
+        all[i].part = parts[(i - PACES.len()) / 3];
+        all[i].pace = PACES[(i - PACES.len()) % 3 * 2];
+        i += 1;
+    }
+    all
+};
+
+/// What it costs to set up a candidate, and to stretch one from a slope, in samples.
+const SET_UP: u32 = 4;
+const SEARCH: u32 = 20;
+/// Halvings of the range of paces, from the slowest to 1, in the search for the grid.
+const SEARCH_STEPS: u32 = 40;
+const SLOWEST: f64 = 0.02;
+/// How near to the grid a ramp must end, periods.
+const ON_GRID: f64 = 1e-10;
+
+impl Rate {
+    /// A ramp from the present, if there is one of less than so many ticks; one to rate 1 ends on the
+    /// grid of the frames.
+    pub(super) fn ramp_to(
+        &self,
+        target: f64,
+        bounds: Bounds,
+        within: f64,
+        budget: &mut u32,
+    ) -> Option<Ramp> {
+        let plan = |pace| Ramp::plan(self.rate, self.slope, target, bounds.paced(pace));
+        *budget = budget.saturating_sub(SET_UP);
+        let ramp = plan(1.0).filter(|ramp| ramp.duration() < within)?;
+        if target < 1.0 {
+            return Some(ramp);
+        }
+        // The frame reached at rate 1 is behind the grid by what was lost, so lose a whole number.
+        let over = (self.now.fraction - ramp.loss()).rem_euclid(1.0);
+        let wanted = ramp.loss() + if over > 1.0 - ON_GRID { 0.0 } else { over };
+        let on_grid = if self.slope == 0.0 {
+            // The same curve, stretched: so is the loss.
+            plan(if wanted > 0.0 {
+                ramp.loss() / wanted
+            } else {
+                1.0
+            })?
+        } else {
+            *budget = budget.saturating_sub(SEARCH);
+            let (mut slow, mut fast) = (SLOWEST, 1.0);
+            for _ in 0..SEARCH_STEPS {
+                let pace = 0.5 * (slow + fast);
+                if plan(pace)?.loss() > wanted {
+                    slow = pace;
+                } else {
+                    fast = pace;
+                }
+            }
+            plan(fast)?
+        };
+        // If there is too little time left to lose, another tick will be nearer to the grid.
+        let is_on_grid = (on_grid.loss() - wanted).abs() < ON_GRID;
+        (is_on_grid && on_grid.duration() < within).then_some(on_grid)
+    }
+}

@@ -1,0 +1,57 @@
+//! Playing a ramp through: what it would publish, tick by tick.
+
+use crate::differences::{Allowed, Differences};
+use crate::program_time::ProgramTime;
+use crate::ramp::Ramp;
+use crate::track::Track;
+
+/// What playing a ramp through has shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Played {
+    Passed,
+    Barred,
+    OutOfBudget,
+}
+
+/// Where a ramp is played from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cue {
+    pub(super) time: ProgramTime,
+    /// The positions published before it.
+    pub(super) published: Differences,
+    /// Whether motion stands at what holds it now. A reserve is for after that.
+    pub(super) is_held: bool,
+}
+
+/// Plays a ramp through to three ticks past its end.
+pub(super) fn play(
+    ramp: &Ramp,
+    cue: Cue,
+    track: &Track,
+    allowed: &Allowed,
+    budget: &mut u32,
+) -> Played {
+    let mut published = cue.published;
+    let end = ramp.duration() + 3.0;
+    let mut t = 0.0;
+    while t < end {
+        if *budget == 0 {
+            return Played::OutOfBudget;
+        }
+        *budget -= 1;
+        t += 1.0;
+        let time = cue.time.after(ramp.at(t).elapsed);
+        let time = if cue.is_held {
+            track.clamped(time)
+        } else {
+            time
+        };
+        let Some(position) = track.position(time) else {
+            return Played::Barred;
+        };
+        if !published.take(&position, allowed) {
+            return Played::Barred;
+        }
+    }
+    Played::Passed
+}

@@ -1,0 +1,176 @@
+//! Single block, stop at the end of the block, steps.
+
+use super::planned::program;
+use super::*;
+use glidepath_motion::Smoothing;
+
+/// Plays a program in single-block mode, going on by `order` wherever it stands; returns where.
+fn stands(rig: &mut Rig, order: Order) -> Vec<u64> {
+    let mut stands = vec![];
+    for _ in 0..60_000 {
+        rig.publish_horizon();
+        let setpoint = rig.tick();
+        match setpoint.state() {
+            Ok(MachineState::ProgramStop) => {
+                let place = setpoint.sequence;
+                if stands.last() != Some(&place) {
+                    stands.push(place);
+                    rig.order(order);
+                }
+            }
+            Ok(MachineState::Idle) if setpoint.epoch > 0 => return stands,
+            _ => {}
+        }
+    }
+    panic!("{:?} after {stands:?}", rig.state());
+}
+
+/// The last frames of all blocks but the last.
+fn ends(frames: &[SetpointFrame]) -> Vec<u64> {
+    let pairs = frames.windows(2);
+    let last = pairs.filter(|pair| pair[0].line > 0 && pair[0].line != pair[1].line);
+    last.map(|pair| pair[0].sequence).collect()
+}
+
+/// Wherever the motion stood it was on a frame, and at rate 1 every setpoint is a frame.
+fn assert_bits(rig: &Rig, frames: &[SetpointFrame], stands: &[u64]) {
+    let bits = |p: [f64; 9]| p.map(f64::to_bits);
+    for setpoint in rig.setpoints.iter().filter(|s| s.epoch == 1) {
+        let frame = &frames[setpoint.sequence as usize];
+        let is_on_grid = setpoint.fraction == 0.0;
+        if is_on_grid && (setpoint.effective_override >= 1.0 || stands.contains(&frame.sequence)) {
+            assert_eq!(bits(setpoint.position), bits(frame.position));
+        }
+    }
+}
+
+/// Plays on to the end.
+fn play_on(rig: &mut Rig) {
+    for _ in 0..20_000 {
+        rig.publish_horizon();
+        if is_idle(&rig.tick()) {
+            return;
+        }
+    }
+    panic!("{:?}", rig.state());
+}
+
+/// Plays until a state.
+fn play_until(rig: &mut Rig, state: MachineState) {
+    for _ in 0..3_000 {
+        rig.publish_horizon();
+        if rig.tick().state() == Ok(state) {
+            return;
+        }
+    }
+    panic!("{:?}, not {state:?}", rig.state());
+}
+
+/// Plays some ticks.
+fn play(rig: &mut Rig, ticks: u64) {
+    for _ in 0..ticks {
+        rig.publish_horizon();
+        rig.tick();
+    }
+}
+
+#[test]
+fn single_block_rests_at_the_end_of_every_block() {
+    for seed in 0..20 {
+        let frames = program(seed, 30, Smoothing::Sextic);
+        for order in [Order::Resume, Order::Step] {
+            let mut rig = Rig::playing(&frames);
+            rig.order(Order::SingleBlock(true));
+            let stands = stands(&mut rig, order);
+            assert_eq!(stands, ends(&frames), "seed {seed}");
+            assert_bits(&rig, &frames, &stands);
+            let ratio = rig.worst_ratio();
+            assert!(ratio <= INSIDE, "seed {seed}: {ratio}");
+            assert!(!rig.has_relaxed());
+            assert_eq!(rig.last.unwrap().end_of_epoch, EndOfEpoch::Completed);
+        }
+    }
+}
+
+#[test]
+fn a_stop_at_the_end_of_the_block_is_made_once_and_anywhere() {
+    for seed in 0..60 {
+        let frames = program(seed, 30, Smoothing::Sextic);
+        let ends = ends(&frames);
+        let mut rig = Rig::playing(&frames);
+        play(
+            &mut rig,
+            Numbers::new(seed).whole(20, frames.len() as u64 / 2),
+        );
+        let ordered_at = rig.setpoints.last().unwrap().sequence;
+        rig.order(Order::StopAtEndOfBlock);
+        play_until(&mut rig, MachineState::ProgramStop);
+        let place = rig.setpoints.last().unwrap().sequence;
+        assert!(
+            place >= ordered_at && ends.contains(&place),
+            "seed {seed}: {place}"
+        );
+        play(&mut rig, 700);
+        let waiting = *rig.setpoints.last().unwrap();
+        assert_eq!((waiting.sequence, waiting.fraction), (place, 0.0));
+        assert_eq!(
+            waiting.state(),
+            Ok(MachineState::ProgramStop),
+            "no fault while it waits"
+        );
+        rig.order(Order::Resume);
+        play_on(&mut rig);
+        assert_bits(&rig, &frames, &[place]);
+        assert!(
+            rig.worst_ratio() <= INSIDE,
+            "seed {seed}: {}",
+            rig.worst_ratio()
+        );
+    }
+}
+
+#[test]
+fn a_step_from_a_hold_goes_to_the_end_of_the_block_and_single_block_can_be_left() {
+    for seed in 0..20 {
+        let frames = program(seed, 30, Smoothing::Sextic);
+        let mut rig = Rig::playing(&frames);
+        play(&mut rig, 60);
+        rig.order(Order::Hold);
+        play_until(&mut rig, MachineState::Held);
+        let held_at = rig.setpoints.last().unwrap().sequence;
+        let end = ends(&frames)
+            .into_iter()
+            .find(|end| *end > held_at)
+            .unwrap();
+        rig.order(Order::Step);
+        play_until(&mut rig, MachineState::ProgramStop);
+        assert_eq!(rig.setpoints.last().unwrap().sequence, end, "seed {seed}");
+        rig.order(Order::SingleBlock(true));
+        rig.order(Order::Resume);
+        play(&mut rig, 3);
+        // Also where it is on its way to rest already.
+        rig.order(Order::SingleBlock(false));
+        play_on(&mut rig);
+        assert_bits(&rig, &frames, &[end]);
+        assert!(
+            rig.worst_ratio() <= INSIDE,
+            "seed {seed}: {}",
+            rig.worst_ratio()
+        );
+    }
+}
+
+#[test]
+fn a_hold_comes_before_the_end_of_the_block() {
+    let frames = records(&lines(8, 3, 600, &mill(), 0.004), 1, 4_000_000);
+    let mut rig = Rig::playing(&frames);
+    play(&mut rig, 100);
+    rig.order(Order::StopAtEndOfBlock);
+    play(&mut rig, 1);
+    rig.order(Order::Hold);
+    play_until(&mut rig, MachineState::Held);
+    rig.order(Order::Abort);
+    play_on(&mut rig);
+    assert_eq!(rig.last.unwrap().end_of_epoch, EndOfEpoch::Aborted);
+    assert!(rig.worst_ratio() <= INSIDE);
+}
