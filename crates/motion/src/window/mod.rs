@@ -19,15 +19,34 @@
 //! periods were taken before a change of speed, on nothing else: a plan is made when a definite
 //! amount of path is known, and of no more than that.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "vectors and blocks of a few axes are clearest by index"
+)]
+
+mod attempt;
+mod cuts;
 mod follow;
+mod guess;
+mod judge;
+mod opening;
+mod optimiser;
+mod samples;
+mod scene;
+mod solver;
+mod spline;
 mod stop_leg;
 #[cfg(test)]
 mod tests;
 mod track;
+mod tube;
 
 use crate::Limits;
+use attempt::{Optimisers, Setting, View};
 use follow::{Follower, Place};
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AXES, AxisVector};
+use judge::History;
+use spline::Grid;
 use stop_leg::StopLeg;
 use track::Track;
 
@@ -82,19 +101,44 @@ impl Period {
     }
 }
 
+/// Most legs from vertex to vertex before windows are tried again.
+const MOST_LEGS: usize = 32;
+
+/// What moves the machine.
+#[derive(Debug)]
+enum Force {
+    /// At rest.
+    Nothing,
+    /// Legs to the next vertices, so many of them; time since the start of the one under way.
+    Legs {
+        leg: Option<Box<StopLeg>>,
+        leg_t: f64,
+        left: usize,
+    },
+    /// A window that ends at rest, and periods of it that have been handed out.
+    Window {
+        points: Vec<AxisVector>,
+        is_end: bool,
+        done: usize,
+        commit: usize,
+    },
+}
+
 /// Plans one stretch of motion between two rests.
 #[derive(Debug)]
 pub(crate) struct WindowPlanner {
     limits: Limits,
     period_t: f64,
     track: Track,
-    /// The state last handed out, and where on the path that is.
-    position: AxisVector,
+    /// Positions handed out last, and where on the path the last one is.
+    history: History,
     follower: Follower,
     progress: (usize, f64),
-    /// The leg under way, and the time since its start.
-    leg: Option<StopLeg>,
-    leg_t: f64,
+    force: Force,
+    grid: Option<Grid>,
+    optimisers: Optimisers,
+    /// Legs to run when the next window is refused: the more, the more have been.
+    legs: usize,
     is_over: bool,
 }
 
@@ -105,11 +149,13 @@ impl WindowPlanner {
             limits: *limits,
             period_t,
             track: Track::new(start),
-            position: start,
+            history: History::new(start),
             follower: Follower::new(Place::start_of(0)),
             progress: (0, 0.0),
-            leg: None,
-            leg_t: 0.0,
+            force: Force::Nothing,
+            grid: None,
+            optimisers: Optimisers::default(),
+            legs: 1,
             is_over: false,
         }
     }
@@ -128,28 +174,6 @@ impl WindowPlanner {
         self.track.finish();
     }
 
-    /// The state one period further, if what is known of the path settles it.
-    ///
-    /// `None`: more of the path is needed, or the motion is at rest at its end ([`Self::is_over`]).
-    pub(crate) fn next_period(&mut self) -> Option<Period> {
-        if self.is_over {
-            return None;
-        }
-        let mut period = self.next_of_legs()?;
-        self.position = period.position;
-        let place = &self.follower.place;
-        self.progress = place.nearest(&self.track, &self.position, self.progress);
-        if let Some(piece) = self.track.get(self.progress.0) {
-            period.path_s = piece.start_s + piece.length_s * self.progress.1;
-            period.tag = piece.tag;
-        }
-        self.track
-            .forget_before(self.follower.place.first.min(self.progress.0));
-        self.is_over = self.leg.is_none() && self.follower.place.is_at_end(&self.track);
-        period.rest_at_end = self.is_over;
-        Some(period)
-    }
-
     /// True when the end of the path has been reached and handed out, or there is no path.
     pub(crate) fn is_over(&self) -> bool {
         self.is_over || self.track.is_empty_and_finished()
@@ -158,21 +182,170 @@ impl WindowPlanner {
     /// Other speeds for the path from here on, by tag; the motion is planned again from the state
     /// handed out last.
     pub(crate) fn set_rates(&mut self, rate_of: impl FnMut(u64) -> f64) {
+        let before_v = self.track.top_v();
         self.track.set_rates(rate_of);
+        self.history.overspeed_v = self.history.overspeed_v.max(before_v * (1.0 + 8e-4));
+        if let (
+            Force::Window {
+                is_end,
+                done,
+                commit,
+                points,
+            },
+            Some(grid),
+        ) = (&mut self.force, &self.grid)
+        {
+            *is_end = false;
+            *commit = (*commit).min(done.div_ceil(grid.periods) * grid.periods);
+            let _ = points;
+        }
     }
 
-    /// One period of straight legs from vertex to vertex.
-    fn next_of_legs(&mut self) -> Option<Period> {
-        let mut leg = match &self.leg {
-            Some(leg) => leg.clone(),
-            None => self.leg_from(self.position, self.follower.place.last())?,
+    /// The state one period further, if what is known of the path settles it.
+    ///
+    /// `None`: more of the path is needed, or the motion is at rest at its end ([`Self::is_over`]).
+    pub(crate) fn next_period(&mut self) -> Option<Period> {
+        if self.is_over {
+            return None;
+        }
+        let mut period = loop {
+            match &self.force {
+                Force::Window { done, commit, .. } if done < commit => {
+                    break self.next_of_window()?;
+                }
+                Force::Legs { .. } => match self.next_of_legs()? {
+                    Some(period) => break period,
+                    None => self.force = Force::Nothing,
+                },
+                _ => self.plan()?,
+            }
+        };
+        let place = &self.follower.place;
+        self.progress = place.nearest(&self.track, &period.position, self.progress);
+        if let Some(piece) = self.track.get(self.progress.0) {
+            period.path_s = piece.start_s + piece.length_s * self.progress.1;
+            period.tag = piece.tag;
+            period.path_v = piece.path_v(&period.velocity);
+        }
+        self.track
+            .forget_before(self.follower.place.first.min(self.progress.0));
+        period.rest_at_end = self.is_over;
+        Some(period)
+    }
+
+    /// One period of a window.
+    fn next_of_window(&mut self) -> Option<Period> {
+        let Force::Window {
+            points,
+            is_end,
+            done,
+            ..
+        } = &mut self.force
+        else {
+            return None;
+        };
+        let grid = self.grid.as_ref()?;
+        *done += 1;
+        let position = grid.position(points, *done);
+        let [velocity, acceleration] = grid.derivatives(points, *done);
+        self.is_over = *is_end && *done == grid.periods_in(points.len() - 3);
+        let way = (&self.track, &mut self.follower);
+        self.history
+            .follow(&self.limits, self.period_t, way, &position);
+        Some(Period {
+            velocity,
+            acceleration,
+            ..Period::rest(position)
+        })
+    }
+
+    /// Plans the next window, or legs where none is found. `None` if more of the path is needed.
+    fn plan(&mut self) -> Option<()> {
+        let grid = *self
+            .grid
+            .get_or_insert_with(|| wanted_grid(&self.limits, self.period_t, self.track.get(0)));
+        let first = self.follower.place.first;
+        let view = View::new(&self.limits, &self.track, &grid, first, self.progress)?;
+        let tail = self.tail(&grid);
+        let commit = grid.periods_in(grid.whole_periods(view.intervals / 3).max(grid.knots));
+        let setting = Setting {
+            limits: &self.limits,
+            period_t: self.period_t,
+            grid: &grid,
+            track: &self.track,
+            history: &self.history,
+            follower: &self.follower,
+            progress: self.progress,
+            commit,
+        };
+        let motion = self.optimisers.attempt(&setting, &view, &tail);
+        let is_at_rest = tail.iter().all(|point| *point == tail[0]);
+        self.force = match motion {
+            Some(motion) => {
+                self.legs = 1;
+                let all = grid.periods_in(motion.points.len() - 3);
+                Force::Window {
+                    commit: if motion.is_end { all } else { commit },
+                    points: motion.points,
+                    is_end: motion.is_end,
+                    done: 0,
+                }
+            }
+            None if is_at_rest => {
+                let left = self.legs;
+                self.legs = (2 * self.legs).min(MOST_LEGS);
+                Force::Legs {
+                    leg: None,
+                    leg_t: 0.0,
+                    left,
+                }
+            }
+            None => Force::Window {
+                commit,
+                points: tail,
+                is_end: false,
+                done: 0,
+            },
+        };
+        Some(())
+    }
+
+    /// The motion from the present knot to rest that is known to work.
+    fn tail(&self, grid: &Grid) -> Vec<AxisVector> {
+        match &self.force {
+            Force::Window { points, done, .. } => {
+                let passed = done * grid.knots / grid.periods;
+                let last = points.len() - 1;
+                (passed..passed.max(last - 2) + 3)
+                    .map(|k| points[k.min(last)])
+                    .collect()
+            }
+            _ => vec![self.history.last(); 4],
+        }
+    }
+
+    /// One period of straight legs from vertex to vertex; `Some(None)` if they are over.
+    #[expect(clippy::option_option, reason = "not known yet, and over")]
+    fn next_of_legs(&mut self) -> Option<Option<Period>> {
+        let Force::Legs { leg, leg_t, left } = &self.force else {
+            return Some(None);
+        };
+        if *left == 0 {
+            return Some(None);
+        }
+        let position = self.history.last();
+        let mut left = *left;
+        let mut leg = match leg {
+            Some(leg) => StopLeg::clone(leg),
+            None => self.leg_from(position, self.follower.place.last())?,
         };
         let first = leg.clone();
-        let mut t = self.leg_t + self.period_t;
+        let mut t = leg_t + self.period_t;
         let mut is_resting = false;
         while t >= leg.duration_t() {
             t -= leg.duration_t();
-            if self.track.is_last(leg.piece) {
+            left -= 1;
+            if left == 0 || self.track.is_last(leg.piece) {
                 is_resting = true;
                 break;
             }
@@ -183,19 +356,25 @@ impl WindowPlanner {
         } else {
             leg.at(t)
         };
+        let way = (&self.track, &mut self.follower);
         if !self
-            .follower
-            .step(&self.track, &self.position, &period.position)
+            .history
+            .follow(&self.limits, self.period_t, way, &period.position)
         {
             // The chord between two periods cuts off a vertex: rest there until the next period.
             period = Period::rest(first.to);
             is_resting = true;
-            self.follower
-                .step(&self.track, &self.position, &period.position);
+            let way = (&self.track, &mut self.follower);
+            self.history
+                .follow(&self.limits, self.period_t, way, &period.position);
         }
-        self.leg = Some(leg).filter(|_| !is_resting);
-        self.leg_t = if is_resting { 0.0 } else { t };
-        Some(period)
+        self.is_over = is_resting && self.follower.place.is_at_end(&self.track);
+        self.force = Force::Legs {
+            leg: Some(Box::new(leg)).filter(|_| !is_resting),
+            leg_t: if is_resting { 0.0 } else { t },
+            left,
+        };
+        Some(Some(period))
     }
 
     /// The leg to the end of the first piece from `index` on that does not end here.
@@ -204,4 +383,16 @@ impl WindowPlanner {
             .take_while(|&index| self.track.is_settled(index))
             .find_map(|index| StopLeg::new(&self.limits, from, index, self.track.get(index)?))
     }
+}
+
+/// Half the time in which jerk strays by a tolerance: the grid on which corners are still resolved.
+fn wanted_grid(limits: &Limits, period_t: f64, piece: Option<&track::Piece>) -> Grid {
+    let wanted_t = piece.map_or(period_t, |piece| {
+        let moved = piece.end - piece.start;
+        (0..AXES)
+            .filter(|&i| moved[i] != 0.0)
+            .map(|i| 0.5 * (piece.tolerance_mm / limits.jerk[i]).cbrt())
+            .fold(f64::INFINITY, f64::min)
+    });
+    Grid::new(period_t, wanted_t)
 }

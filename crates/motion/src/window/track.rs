@@ -11,6 +11,7 @@
 //! ```
 
 use super::Reference;
+use super::scene::feed_group;
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW, feed_length};
 use std::collections::VecDeque;
 
@@ -50,6 +51,17 @@ impl Piece {
             .map(|i| displacement[i].abs())
             .fold(0.0, f64::max);
         linear.max(rotary / self.tolerance_deg)
+    }
+}
+
+impl Piece {
+    /// Speed along the path in the sense of the feed.
+    pub(super) fn path_v(&self, velocity: &AxisVector) -> f64 {
+        let counted = feed_group(&(self.end - self.start));
+        counted
+            .map(|i| velocity[i] * velocity[i])
+            .sum::<f64>()
+            .sqrt()
     }
 }
 
@@ -150,6 +162,13 @@ impl Track {
     /// True if the path is known to end where it starts.
     pub(super) fn is_empty_and_finished(&self) -> bool {
         self.is_finished && self.end() == 0
+    }
+
+    /// The largest speed of the ring.
+    pub(super) fn top_v(&self) -> f64 {
+        self.pieces
+            .iter()
+            .fold(0.0, |most, piece| most.max(piece.top_v))
     }
 
     /// Drops the pieces before `index`.

@@ -1,0 +1,215 @@
+//! One window: how much of the path it sees, which axes move, and what becomes of it.
+
+use super::follow::Follower;
+use super::judge::History;
+use super::opening::Opening;
+use super::optimiser::{Optimiser, Question};
+use super::scene::{Scene, moving_axes};
+use super::spline::Grid;
+use super::stop_leg::directional;
+use super::track::Track;
+use crate::Limits;
+use glidepath_geometry::AxisVector;
+
+/// Most pieces a window looks at.
+const MOST_PIECES: usize = 4096;
+/// Intervals of a window, at least and at most.
+const INTERVALS: [usize; 2] = [60, 160];
+/// Length of a window in times to stop from the top speed.
+const STOPS: f64 = 2.4;
+
+/// The pieces a window sees, and its length in knot intervals.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct View {
+    pub(super) pieces: core::ops::Range<usize>,
+    pub(super) intervals: usize,
+}
+
+impl View {
+    /// What a window needs that starts on piece `index` at parameter `u`, with everything from piece
+    /// `first` on in sight; `None` if that is not known yet.
+    pub(super) fn new(
+        limits: &Limits,
+        track: &Track,
+        grid: &Grid,
+        first: usize,
+        (index, u): (usize, f64),
+    ) -> Option<Self> {
+        let mut needed = INTERVALS[0];
+        let mut known_t = 0.0;
+        let mut end = index;
+        while track.is_settled(end) {
+            let piece = track.get(end)?;
+            let along = (piece.end - piece.start) / piece.length_s;
+            let bounds = directional(limits, &along);
+            let top_v = piece.top_v.min(bounds.speed_v);
+            let stop_t = top_v / bounds.path.accel_a + bounds.path.accel_a / bounds.path.jerk_j;
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "clamped"
+            )]
+            let wanted = (STOPS * stop_t / grid.knot_t)
+                .ceil()
+                .min(INTERVALS[1] as f64) as usize;
+            needed = needed.max(wanted);
+            let share = if end == index { 1.0 - u } else { 1.0 };
+            known_t += share * piece.length_s / top_v;
+            end += 1;
+            let is_enough = known_t >= needed as f64 * grid.knot_t || end - first >= MOST_PIECES;
+            if is_enough || track.is_last(end - 1) {
+                return Some(Self {
+                    pieces: first..end,
+                    intervals: grid.whole_periods(needed + grid.knots - 1),
+                });
+            }
+        }
+        None
+    }
+}
+
+/// A motion as control points from the present knot on.
+#[derive(Debug, Clone)]
+pub(super) struct Motion {
+    pub(super) points: Vec<AxisVector>,
+    /// Rests at the end of the path.
+    pub(super) is_end: bool,
+}
+
+/// Everything a window starts from.
+#[derive(Debug)]
+pub(super) struct Setting<'a> {
+    pub(super) limits: &'a Limits,
+    pub(super) period_t: f64,
+    pub(super) grid: &'a Grid,
+    pub(super) track: &'a Track,
+    pub(super) history: &'a History,
+    pub(super) follower: &'a Follower,
+    pub(super) progress: (usize, f64),
+    /// Periods after which the next window will start.
+    pub(super) commit: usize,
+}
+
+/// Optimisers by number of axes, made when first needed.
+#[derive(Debug, Default)]
+pub(super) struct Optimisers {
+    two: Option<Box<Optimiser<2>>>,
+    three: Option<Box<Optimiser<3>>>,
+    six: Option<Box<Optimiser<6>>>,
+    nine: Option<Box<Optimiser<9>>>,
+}
+
+impl Optimisers {
+    /// A better motion than `tail`, which starts at the present state and ends at rest.
+    pub(super) fn attempt(
+        &mut self,
+        setting: &Setting<'_>,
+        view: &View,
+        tail: &[AxisVector],
+    ) -> Option<Motion> {
+        let origin = setting.history.last();
+        let corners = view
+            .pieces
+            .clone()
+            .filter_map(|index| setting.track.get(index))
+            .flat_map(|piece| [&piece.start, &piece.end]);
+        let moves = moving_axes(&origin, corners.chain(tail));
+        match moves.iter().filter(|&&is_moving| is_moving).count() {
+            0..=2 => attempt(self.two.get_or_insert_with(new), setting, view, tail, moves),
+            3 => attempt(
+                self.three.get_or_insert_with(new),
+                setting,
+                view,
+                tail,
+                moves,
+            ),
+            4..=6 => attempt(self.six.get_or_insert_with(new), setting, view, tail, moves),
+            _ => attempt(
+                self.nine.get_or_insert_with(new),
+                setting,
+                view,
+                tail,
+                moves,
+            ),
+        }
+    }
+}
+
+fn new<const D: usize>() -> Box<Optimiser<D>> {
+    Box::new(Optimiser::new())
+}
+
+fn attempt<const D: usize>(
+    optimiser: &mut Optimiser<D>,
+    setting: &Setting<'_>,
+    view: &View,
+    tail: &[AxisVector],
+    moves: [bool; glidepath_geometry::AXES],
+) -> Option<Motion> {
+    let origin = setting.history.last();
+    let scene: Scene<D> = Scene::new(
+        setting.limits,
+        setting.track,
+        view.pieces.clone(),
+        origin,
+        moves,
+    );
+    let tail: Vec<_> = (0..view.intervals.max(tail.len() - 3) + 3)
+        .filter_map(|k| tail.get(k).or(tail.last()))
+        .map(|point| scene.inside(point))
+        .collect();
+    let piece = setting.progress.0 - scene.first;
+    let chord = scene.chords.get(piece)?;
+    let opening = Opening {
+        tail: &tail,
+        piece,
+        progress: chord.s + chord.length * setting.progress.1,
+        passed: setting.follower.place.last() - scene.first,
+        grid: *setting.grid,
+        period_t: setting.period_t,
+        commit: setting.commit,
+    };
+    let solution = optimiser.optimise(&scene, &opening, &mut |points, question| {
+        let points: Vec<_> = points.iter().map(|point| scene.outside(point)).collect();
+        passes(setting, &points, question)
+    })?;
+    let mut points: Vec<_> = solution
+        .points
+        .iter()
+        .map(|point| scene.outside(point))
+        .collect();
+    if solution.is_end {
+        end_exactly(setting, &mut points);
+    }
+    Some(Motion {
+        points,
+        is_end: solution.is_end,
+    })
+}
+
+/// The last control points are the end of the path, to the bit.
+fn end_exactly(setting: &Setting<'_>, points: &mut [AxisVector]) {
+    if let Some(last) = setting.track.get(setting.track.end().saturating_sub(1)) {
+        let count = points.len();
+        points[count - 3..].fill(last.end);
+    }
+}
+
+/// Follows a motion to its rest.
+fn passes(setting: &Setting<'_>, points: &[AxisVector], question: Question) -> bool {
+    let mut points = points.to_vec();
+    if question == Question::IsEnd {
+        end_exactly(setting, &mut points);
+    }
+    let mut history = setting.history.clone();
+    let mut follower = Follower::new(setting.follower.place.clone());
+    let periods = setting.grid.periods_in(points.len() - 3);
+    for period in 1..=periods + 3 {
+        let next = setting.grid.position(&points, period);
+        let way = (setting.track, &mut follower);
+        if !history.follow(setting.limits, setting.period_t, way, &next) {
+            return false;
+        }
+    }
+    question == Question::IsValid || follower.place.is_at_end(setting.track)
+}

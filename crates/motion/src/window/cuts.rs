@@ -1,0 +1,159 @@
+//! Balls as planes: what the tube and the corners are cut by, learnt from one solution to the next.
+//!
+//! The tube of a piece is round, and so is the room round a corner. Each is bounded by planes that
+//! touch it where earlier solutions were: outer approximations that close in on the ball. The planes
+//! of the last few rounds are all kept, or else a motion that is pushed back at one side comes out at
+//! another.
+
+use super::samples::{Samples, sample};
+use super::scene::Scene;
+use super::solver::{combine, dot};
+use super::spline::Grid;
+
+/// Planes kept for each ball.
+const KEPT: usize = 5;
+/// From this part of the radius on a motion is worth a plane.
+const WORTH_R: f64 = 0.5;
+
+/// A plane with its outward normal; what it cuts off lies beyond `radius` from `center`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plane<const D: usize> {
+    pub(super) normal: [f64; D],
+    pub(super) center: [f64; D],
+}
+
+/// The latest planes of one ball.
+#[derive(Debug, Clone)]
+struct Few<const D: usize> {
+    /// Whose ball it is.
+    owner: usize,
+    planes: [Option<Plane<D>>; KEPT],
+    next: usize,
+}
+
+impl<const D: usize> Few<D> {
+    const EMPTY: Self = Self {
+        owner: usize::MAX,
+        planes: [None; KEPT],
+        next: 0,
+    };
+
+    fn add(&mut self, owner: usize, plane: Plane<D>) {
+        if self.owner != owner {
+            *self = Self {
+                owner,
+                ..Self::EMPTY
+            };
+        }
+        self.planes[self.next] = Some(plane);
+        self.next = (self.next + 1) % KEPT;
+    }
+}
+
+/// All planes of a window.
+#[derive(Debug, Clone)]
+pub(super) struct Cuts<const D: usize> {
+    samples: Vec<Few<D>>,
+    corners: Vec<Few<D>>,
+}
+
+impl<const D: usize> Cuts<D> {
+    pub(super) const fn new() -> Self {
+        Self {
+            samples: Vec::new(),
+            corners: Vec::new(),
+        }
+    }
+
+    pub(super) fn clear(&mut self, samples: usize, corners: usize) {
+        self.samples.clear();
+        self.samples.resize(samples + 1, Few::EMPTY);
+        self.corners.clear();
+        self.corners.resize(corners, Few::EMPTY);
+    }
+
+    /// Planes of sample `k` as long as it is on a piece.
+    pub(super) fn of_sample(&self, k: usize, piece: usize) -> impl Iterator<Item = &Plane<D>> {
+        let few = self.samples.get(k).filter(|few| few.owner == piece);
+        few.into_iter().flat_map(|few| few.planes.iter().flatten())
+    }
+
+    /// Planes of the corner at the end of piece `i`.
+    pub(super) fn of_corner(&self, i: usize) -> impl Iterator<Item = &Plane<D>> {
+        self.corners
+            .get(i)
+            .into_iter()
+            .flat_map(|few| few.planes.iter().flatten())
+    }
+
+    /// Takes note of where a motion is, with the samples as they were given out for it.
+    pub(super) fn learn(
+        &mut self,
+        scene: &Scene<D>,
+        samples: &Samples,
+        points: &[[f64; D]],
+        grid: &Grid,
+    ) {
+        for k in 1..=samples.count() {
+            let piece = samples.piece[k];
+            self.learn_sample(scene, (k, piece), &sample(points, grid, k));
+            for i in samples.piece[k - 1]..piece {
+                let (_, off) = nearest_to_corner(scene, points, (i, k), grid);
+                let radius = scene.chords[i].radius.min(scene.chords[i + 1].radius);
+                let distance = dot(&off, &off).sqrt();
+                if distance > WORTH_R * radius {
+                    let plane = Plane {
+                        normal: off.map(|o| o / distance),
+                        center: scene.chords[i + 1].start,
+                    };
+                    self.corners[i].add(i, plane);
+                }
+            }
+        }
+    }
+
+    fn learn_sample(&mut self, scene: &Scene<D>, (k, piece): (usize, usize), y: &[f64; D]) {
+        let chord = &scene.chords[piece];
+        let offset: [f64; D] = core::array::from_fn(|a| y[a] - chord.start[a]);
+        let along = dot(&offset, &chord.tangent);
+        let x = along.clamp(0.0, chord.length);
+        let is_beyond = (along - x).abs() > 0.0;
+        // In a plane the sides of the tube are planes; far beyond an end its rows are what counts.
+        if (D == 2 && !is_beyond) || (along - x).abs() > chord.radius {
+            return;
+        }
+        let foot: [f64; D] = core::array::from_fn(|a| chord.start[a] + x * chord.tangent[a]);
+        let across: [f64; D] = core::array::from_fn(|a| y[a] - foot[a]);
+        let distance = dot(&across, &across).sqrt();
+        if distance > WORTH_R * chord.radius {
+            let plane = Plane {
+                normal: across.map(|c| c / distance),
+                center: foot,
+            };
+            self.samples[k].add(piece, plane);
+        }
+    }
+}
+
+/// Where the line from the sample before `k` to sample `k` is nearest to the corner at the end of
+/// piece `i`: its parameter, and how far off in what direction.
+pub(super) fn nearest_to_corner<const D: usize>(
+    scene: &Scene<D>,
+    points: &[[f64; D]],
+    (i, k): (usize, usize),
+    grid: &Grid,
+) -> (f64, [f64; D]) {
+    let vertex = &scene.chords[i + 1].start;
+    let (from, to) = (sample(points, grid, k - 1), sample(points, grid, k));
+    let along: [f64; D] = core::array::from_fn(|a| to[a] - from[a]);
+    let offset: [f64; D] = core::array::from_fn(|a| vertex[a] - from[a]);
+    let lambda = dot(&along, &offset) / dot(&along, &along);
+    let lambda = if lambda.is_finite() {
+        lambda.clamp(0.0, 1.0)
+    } else {
+        0.5
+    };
+    let (first, weights) = grid.chord_site(k - 1, lambda);
+    let nearest = combine(points, first, &weights);
+    (lambda, core::array::from_fn(|a| nearest[a] - vertex[a]))
+}

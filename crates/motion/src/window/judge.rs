@@ -1,0 +1,81 @@
+//! The last word on a motion before it is handed out.
+//!
+//! Only positions at the periods count: differences of first, second and third order against the
+//! limits of every axis, the feed, and the way along the path ([`super::follow`]).
+
+use super::follow::Follower;
+use super::track::Track;
+use crate::Limits;
+use glidepath_geometry::{AXES, AxisVector, feed_length};
+
+/// A limit counts as kept up to this factor.
+const SLACK: f64 = 1.0 + 5e-7;
+/// The feed counts as kept up to this factor.
+const FEED_SLACK: f64 = 1.0 + 8e-4;
+
+/// The last positions handed out.
+#[derive(Debug, Clone)]
+pub(super) struct History {
+    /// Newest first.
+    recent: [AxisVector; 3],
+    /// Speed that is allowed although the feed is less: what it was before a change of rates. Zero
+    /// once the motion has slowed down.
+    pub(super) overspeed_v: f64,
+}
+
+impl History {
+    /// At rest.
+    pub(super) fn new(position: AxisVector) -> Self {
+        Self {
+            recent: [position; 3],
+            overspeed_v: 0.0,
+        }
+    }
+
+    pub(super) fn last(&self) -> AxisVector {
+        self.recent[0]
+    }
+
+    pub(super) fn push(&mut self, position: AxisVector) {
+        self.recent = [position, self.recent[0], self.recent[1]];
+    }
+
+    /// True if every axis keeps its limits on the way to the next position.
+    pub(super) fn allows(&self, limits: &Limits, period_t: f64, next: &AxisVector) -> bool {
+        let t = period_t;
+        let [p1, p2, p3] = &self.recent;
+        (0..AXES).all(|i| {
+            let magnitude = next[i].abs().max(p3[i].abs());
+            let rounding = 0.5 * f64::EPSILON * magnitude;
+            let d1 = next[i] - p1[i];
+            let d2 = d1 - (p1[i] - p2[i]);
+            let d3 = d2 - (p1[i] - 2.0 * p2[i] + p3[i]);
+            d1.abs() <= limits.velocity[i] * t * SLACK + 2.0 * rounding
+                && d2.abs() <= limits.acceleration[i] * t * t * SLACK + 4.0 * rounding
+                && d3.abs() <= limits.jerk[i] * t * t * t * SLACK + 8.0 * rounding
+        })
+    }
+
+    /// Follows a period along the path: limits, tolerance, feed. False leaves all as it was.
+    pub(super) fn follow(
+        &mut self,
+        limits: &Limits,
+        period_t: f64,
+        (track, follower): (&Track, &mut Follower),
+        next: &AxisVector,
+    ) -> bool {
+        let from = follower.place.first;
+        if !self.allows(limits, period_t, next) || !follower.step(track, &self.recent[0], next) {
+            return false;
+        }
+        let speed_v = feed_length(&(next - self.recent[0])) / period_t;
+        let feed_v = (from..=follower.place.last())
+            .filter_map(|index| track.get(index))
+            .fold(0.0_f64, |most, piece| most.max(piece.top_v));
+        self.push(*next);
+        if speed_v <= feed_v {
+            self.overspeed_v = 0.0;
+        }
+        speed_v <= (feed_v * FEED_SLACK).max(self.overspeed_v)
+    }
+}

@@ -1,0 +1,337 @@
+//! A primal-dual interior point method (Mehrotra 1992) for the sub-problem.
+//!
+//! Every row has two sides, v − high ≤ 0 and low − v ≤ 0. A side g ≤ 0 gets a slack s > 0, a
+//! multiplier l > 0 and, if it is elastic, an excess e > 0 at a price p:
+//!
+//! ```text
+//!     g + s − e = 0      s·l = μ      e·(p − l) = μ      μ → 0
+//! ```
+//!
+//! Elimination of s, l and e leaves the normal equations for the control points, in which a side
+//! weighs w = 1 / (s/l + e/(p − l)). A hard side is an elastic one of infinite price with e = 0, so
+//! that all sides go through the same loops without a branch.
+//!
+//! Each iteration factors once and solves twice: a predictor aims at μ = 0, and how far it gets sets
+//! the μ that the corrector aims at.
+
+use super::band::{Band, Block};
+use super::problem::{DIFFERENCES, HARD, PRICE, Problem, SPAN, combine, dot};
+use super::sides::Sides;
+
+/// Share of the way to the boundary that a step may go.
+const BACK_OFF: f64 = 0.99;
+/// Largest residual of the rows of a solution.
+const RESIDUAL: f64 = 1e-7;
+
+/// When to stop.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::window) struct Goal {
+    /// Mean complementarity of a solution.
+    pub(in crate::window) mu: f64,
+    pub(in crate::window) iterations: usize,
+    /// Added to the diagonal of the normal equations, per axis unit squared.
+    pub(in crate::window) damping: f64,
+}
+
+/// The method, with its memory.
+#[derive(Debug)]
+pub(in crate::window) struct Interior<const D: usize> {
+    sides: Sides,
+    band: Band<D>,
+    step: Vec<[f64; D]>,
+    d_rows: Vec<f64>,
+    /// Coefficients of the differences, by order and first control point, folded at the end.
+    stencils: [Vec<[f64; 4]>; 3],
+    orders: [bool; 3],
+    /// Iterations so far, over all problems: the measure of work.
+    pub(in crate::window) iterations: usize,
+}
+
+impl<const D: usize> Interior<D> {
+    pub(in crate::window) fn new() -> Self {
+        Self {
+            sides: Sides::default(),
+            band: Band::new(),
+            step: Vec::new(),
+            d_rows: Vec::new(),
+            stencils: [Vec::new(), Vec::new(), Vec::new()],
+            orders: [true; 3],
+            iterations: 0,
+        }
+    }
+
+    /// Improves `x`, M + 3 control points of which the first three (and the last, if fixed) stay.
+    /// True if it is a solution.
+    pub(in crate::window) fn solve(
+        &mut self,
+        problem: &Problem<D>,
+        x: &mut [[f64; D]],
+        goal: Goal,
+    ) -> bool {
+        let pairs = self.prepare(problem);
+        self.evaluate(problem, x);
+        self.sides.start();
+        for _ in 0..goal.iterations {
+            let (mu, residual) = self.sides.state(pairs);
+            if mu < goal.mu && residual < RESIDUAL {
+                return true;
+            }
+            if !(mu.is_finite() && residual.is_finite()) {
+                return false;
+            }
+            self.iterations += 1;
+            self.sides.aim_at_zero();
+            self.sides.weigh();
+            self.assemble(problem, goal.damping);
+            self.band.factor(problem.free());
+            self.direction(problem, x);
+            self.sides.aim_at(mu, pairs);
+            self.sides.weigh();
+            self.direction(problem, x);
+            let step = (BACK_OFF * self.sides.room()).min(1.0);
+            self.sides.advance(step);
+            for k in problem.free() {
+                for a in 0..D {
+                    x[k][a] += step * self.step[k][a];
+                }
+            }
+            tie_end(problem, x);
+            self.evaluate(problem, x);
+        }
+        let (mu, residual) = self.sides.state(pairs);
+        mu < goal.mu && residual < RESIDUAL
+    }
+
+    /// How much the elastic rows of the last solution are violated at most.
+    pub(in crate::window) fn violation(&self) -> f64 {
+        let sides = self.sides.g.iter().zip(&self.sides.price);
+        sides
+            .filter(|(_, price)| **price < HARD)
+            .fold(0.0, |most, (g, _)| g.max(most))
+    }
+
+    /// Sizes everything; the number of complementary pairs.
+    fn prepare(&mut self, problem: &Problem<D>) -> f64 {
+        let last = problem.intervals;
+        let mut axis_rows = 0;
+        for order in 0..3 {
+            self.orders[order] = problem.bounds[order].iter().any(|bound| bound.is_finite());
+            self.stencils[order].clear();
+            if self.orders[order] {
+                for first in first_difference(order)..last {
+                    let folded = fold(first, DIFFERENCES[order], problem);
+                    self.stencils[order].push(folded);
+                }
+                axis_rows += D * self.stencils[order].len();
+            }
+        }
+        let rows = axis_rows + problem.rows.len();
+        self.sides.resize(2 * rows);
+        self.d_rows.clear();
+        self.d_rows.resize(rows, 0.0);
+        self.sides.price[..2 * axis_rows].fill(HARD);
+        self.sides.price[2 * axis_rows..].fill(PRICE);
+        #[expect(clippy::cast_precision_loss, reason = "thousands")]
+        let pairs = (2 * axis_rows + 4 * problem.rows.len()) as f64;
+        pairs
+    }
+
+    /// Values of all rows, of the control points or of a step of them, handed to `take`.
+    fn rows_of(
+        &self,
+        problem: &Problem<D>,
+        x: &[[f64; D]],
+        mut take: impl FnMut(usize, f64, [f64; 2]),
+    ) {
+        let mut index = 0;
+        for order in 0..3 {
+            let start = first_difference(order);
+            for k in 0..self.stencils[order].len() {
+                let y = combine(x, start + k, &DIFFERENCES[order]);
+                for a in 0..D {
+                    take(index, y[a] / problem.bounds[order][a], [-1.0, 1.0]);
+                    index += 1;
+                }
+            }
+        }
+        for site in &problem.sites {
+            let y = combine(x, site.first, &site.weights);
+            for row in &problem.rows[site.rows.clone()] {
+                take(index, dot(&row.normal, &y), [row.low, row.high]);
+                index += 1;
+            }
+        }
+    }
+
+    fn evaluate(&mut self, problem: &Problem<D>, x: &[[f64; D]]) {
+        let mut g = core::mem::take(&mut self.sides.g);
+        self.rows_of(problem, x, |row, value, [low, high]| {
+            g[2 * row] = value - high;
+            g[2 * row + 1] = low - value;
+        });
+        self.sides.g = g;
+    }
+
+    /// The matrix of the normal equations.
+    fn assemble(&mut self, problem: &Problem<D>, damping: f64) {
+        self.band.clear(problem.intervals + 3);
+        let mut index = 0;
+        for order in 0..3 {
+            let start = first_difference(order);
+            for (k, stencil) in self.stencils[order].iter().enumerate() {
+                for a in 0..D {
+                    let weight = self.sides.weight[2 * index] + self.sides.weight[2 * index + 1];
+                    let bound = problem.bounds[order][a];
+                    let weight = weight / (bound * bound);
+                    for i in 0..4 {
+                        for j in 0..=i {
+                            self.band.add_axis(
+                                start + k + i,
+                                i - j,
+                                a,
+                                weight * stencil[i] * stencil[j],
+                            );
+                        }
+                    }
+                    index += 1;
+                }
+            }
+        }
+        for site in &problem.sites {
+            let mut block: Block<D> = [[0.0; D]; D];
+            for row in &problem.rows[site.rows.clone()] {
+                let weight = self.sides.weight[2 * index] + self.sides.weight[2 * index + 1];
+                for a in 0..D {
+                    let scaled = weight * row.normal[a];
+                    for b in 0..D {
+                        block[a][b] += scaled * row.normal[b];
+                    }
+                }
+                index += 1;
+            }
+            for a in 0..D {
+                block[a][a] += site.ridge;
+                for b in 0..D {
+                    block[a][b] -= site.ridge * site.tangent[a] * site.tangent[b];
+                }
+            }
+            let weights = fold(site.first, site.weights, problem);
+            for i in 0..SPAN {
+                for j in 0..=i {
+                    let factor = weights[i] * weights[j];
+                    if factor != 0.0 {
+                        self.band.add_block(site.first + i, i - j, &block, factor);
+                    }
+                }
+            }
+        }
+        for k in problem.free() {
+            for a in 0..D {
+                self.band.add_axis(k, 0, a, damping);
+            }
+        }
+    }
+
+    /// Solves for the step of the control points, and from it that of the sides.
+    fn direction(&mut self, problem: &Problem<D>, x: &[[f64; D]]) {
+        let last = problem.intervals;
+        self.step.clear();
+        self.step.resize(last + 3, [0.0; D]);
+        let step = &mut self.step;
+        for (k, aim) in problem.aims.iter().enumerate() {
+            let k = k.min(last);
+            for a in 0..D {
+                step[k][a] += aim[a];
+            }
+        }
+        let force = |index: usize| self.sides.force[2 * index] - self.sides.force[2 * index + 1];
+        let mut index = 0;
+        for order in 0..3 {
+            let start = first_difference(order);
+            for (k, stencil) in self.stencils[order].iter().enumerate() {
+                for a in 0..D {
+                    let pull = force(index) / problem.bounds[order][a];
+                    for i in 0..4 {
+                        step[start + k + i][a] -= stencil[i] * pull;
+                    }
+                    index += 1;
+                }
+            }
+        }
+        for site in &problem.sites {
+            let mut pull = [0.0; D];
+            for row in &problem.rows[site.rows.clone()] {
+                let force = force(index);
+                for a in 0..D {
+                    pull[a] += force * row.normal[a];
+                }
+                index += 1;
+            }
+            if site.ridge > 0.0 {
+                let y = combine(x, site.first, &site.weights);
+                let mut offset = [0.0; D];
+                for a in 0..D {
+                    offset[a] = y[a] - site.center[a];
+                }
+                let along = dot(&offset, &site.tangent);
+                for a in 0..D {
+                    pull[a] += site.ridge * (offset[a] - along * site.tangent[a]);
+                }
+            }
+            let weights = fold(site.first, site.weights, problem);
+            for i in 0..SPAN {
+                if weights[i] == 0.0 {
+                    continue;
+                }
+                for a in 0..D {
+                    step[site.first + i][a] -= weights[i] * pull[a];
+                }
+            }
+        }
+        self.band.solve(problem.free(), &mut self.step);
+        for k in 0..3 {
+            self.step[k] = [0.0; D];
+        }
+        let end = if problem.is_end_fixed {
+            [0.0; D]
+        } else {
+            self.step[last]
+        };
+        for k in last..last + 3 {
+            self.step[k] = end;
+        }
+        let mut d_rows = core::mem::take(&mut self.d_rows);
+        self.rows_of(problem, &self.step, |row, value, _| d_rows[row] = value);
+        self.sides.follow(&d_rows);
+        self.d_rows = d_rows;
+    }
+}
+
+/// The first control point of the first difference that is not given by the start alone.
+const fn first_difference(order: usize) -> usize {
+    2 - order
+}
+
+/// The last control points are one unknown: its coefficients add up.
+fn fold<const D: usize, const N: usize>(
+    first: usize,
+    mut weights: [f64; N],
+    problem: &Problem<D>,
+) -> [f64; N] {
+    let last = problem.intervals;
+    for i in 0..N {
+        if first + i > last && first <= last {
+            weights[last - first] += weights[i];
+            weights[i] = 0.0;
+        }
+    }
+    weights
+}
+
+fn tie_end<const D: usize>(problem: &Problem<D>, x: &mut [[f64; D]]) {
+    if !problem.is_end_fixed {
+        let last = problem.intervals;
+        x[last + 1] = x[last];
+        x[last + 2] = x[last];
+    }
+}

@@ -1,0 +1,11 @@
+//! Solver of the convex sub-problem: [`problem`] states it, [`interior`] solves it, [`band`] does the
+//! linear algebra. Everything is linear in the number of knot intervals, and allocates nothing once it
+//! has been used at full size.
+
+mod band;
+mod interior;
+mod problem;
+mod sides;
+
+pub(super) use interior::{Goal, Interior};
+pub(super) use problem::{FAR, Problem, SPAN, combine, dot};

@@ -1,0 +1,146 @@
+//! Uniform cubic B-splines in time, and the grid of knots against the grid of periods.
+
+use super::solver::SPAN;
+use glidepath_geometry::AxisVector;
+
+/// Weights of four control points at a place 0…1 of their interval.
+pub(super) fn basis(u: f64) -> [f64; 4] {
+    let v = 1.0 - u;
+    [
+        v * v * v / 6.0,
+        (3.0 * u * u * u - 6.0 * u * u + 4.0) / 6.0,
+        (-3.0 * u * u * u + 3.0 * u * u + 3.0 * u + 1.0) / 6.0,
+        u * u * u / 6.0,
+    ]
+}
+
+/// Weights of velocity, per interval.
+fn basis_1(u: f64) -> [f64; 4] {
+    let v = 1.0 - u;
+    [
+        -0.5 * v * v,
+        1.5 * u * u - 2.0 * u,
+        -1.5 * u * u + u + 0.5,
+        0.5 * u * u,
+    ]
+}
+
+/// Weights of acceleration, per interval squared.
+fn basis_2(u: f64) -> [f64; 4] {
+    [1.0 - u, 3.0 * u - 2.0, 1.0 - 3.0 * u, u]
+}
+
+/// Weights of four control points, the first `offset` after the first of the site.
+fn widen(weights: [f64; 4], offset: usize) -> [f64; SPAN] {
+    let mut wide = [0.0; SPAN];
+    for (place, weight) in wide.iter_mut().skip(offset).zip(weights) {
+        *place = weight;
+    }
+    wide
+}
+
+/// How knots lie on the grid of periods: several knots a period, or several periods a knot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Grid {
+    /// Knot step, s.
+    pub(super) knot_t: f64,
+    /// Knots in a period, or 1.
+    pub(super) knots: usize,
+    /// Periods between knots, or 1.
+    pub(super) periods: usize,
+}
+
+impl Grid {
+    /// The grid whose knot step is nearest to `wanted_t`.
+    pub(super) fn new(period_t: f64, wanted_t: f64) -> Self {
+        let ratio = period_t / wanted_t;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "clamped"
+        )]
+        let whole = |value: f64| value.round().clamp(1.0, 8.0) as usize;
+        // A step a third longer does as well, and is cheaper.
+        let (knots, periods) = if ratio >= 1.0 {
+            (whole(0.75 * ratio).min(2), 1)
+        } else {
+            (1, whole(1.0 / ratio))
+        };
+        #[expect(clippy::cast_precision_loss, reason = "at most eight")]
+        let knot_t = period_t * periods as f64 / knots as f64;
+        Self {
+            knot_t,
+            knots,
+            periods,
+        }
+    }
+
+    /// Interval and place in it of the end of a period, counted from a knot.
+    fn place(&self, period: usize) -> (usize, f64) {
+        let steps = period * self.knots;
+        #[expect(clippy::cast_precision_loss, reason = "at most eight")]
+        let u = (steps % self.periods) as f64 / self.periods as f64;
+        (steps / self.periods, u)
+    }
+
+    /// First control point and weights of the end of a period.
+    pub(super) fn site(&self, period: usize) -> (usize, [f64; SPAN]) {
+        let (first, u) = self.place(period);
+        (first, widen(basis(u), 0))
+    }
+
+    /// First control point and weights of a point of the straight line from the end of one period to
+    /// that of the next, at parameter `lambda`.
+    pub(super) fn chord_site(&self, period: usize, lambda: f64) -> (usize, [f64; SPAN]) {
+        let (first, u) = self.place(period);
+        let (second, v) = self.place(period + 1);
+        let (offset, v) = if self.periods > 1 && second > first {
+            (0, 1.0)
+        } else {
+            (second - first, v)
+        };
+        let (from, to) = (widen(basis(u), 0), widen(basis(v), offset));
+        let weights = core::array::from_fn(|i| (1.0 - lambda) * from[i] + lambda * to[i]);
+        (first, weights)
+    }
+
+    /// Periods in a number of knot intervals; intervals may be cut off.
+    pub(super) const fn periods_in(&self, intervals: usize) -> usize {
+        intervals * self.periods / self.knots
+    }
+
+    /// A number of intervals rounded down to whole periods.
+    pub(super) const fn whole_periods(&self, intervals: usize) -> usize {
+        intervals / self.knots * self.knots
+    }
+
+    fn weigh(points: &[AxisVector], first: usize, weights: [f64; SPAN]) -> AxisVector {
+        let mut sum = AxisVector::zeros();
+        for (weight, offset) in weights.into_iter().zip(0..) {
+            if let Some(point) = points.get(first + offset).or(points.last()) {
+                sum += point * weight;
+            }
+        }
+        sum
+    }
+
+    /// Position at the end of a period, counted from the first knot of the control points.
+    pub(super) fn position(&self, points: &[AxisVector], period: usize) -> AxisVector {
+        let (first, u) = self.place(period);
+        let is_at_rest = points.len() >= 3 && first + 3 >= points.len();
+        match points.last() {
+            Some(last) if is_at_rest => *last,
+            _ => Self::weigh(points, first, widen(basis(u), 0)),
+        }
+    }
+
+    /// Velocity and acceleration there.
+    pub(super) fn derivatives(&self, points: &[AxisVector], period: usize) -> [AxisVector; 2] {
+        let (first, u) = self.place(period);
+        let t = self.knot_t;
+        [
+            Self::weigh(points, first, widen(basis_1(u), 0)) / t,
+            Self::weigh(points, first, widen(basis_2(u), 0)) / (t * t),
+        ]
+    }
+}

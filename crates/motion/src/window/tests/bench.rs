@@ -1,0 +1,203 @@
+//! Cycle times against the optimum, and what planning costs: a long check, by hand.
+//!
+//! ```text
+//! GLIDEPATH_BENCH=tests/data/bench cargo test --release -p glidepath-motion --lib window::tests::bench -- --nocapture
+//! ```
+
+use super::*;
+use std::time::Instant;
+
+/// Programs, and the time to be held against: the optimum inside the tolerance ("tube"), or along the
+/// exact curve for the chorded ones, s.
+const PROGRAMS: [(&str, bool, f64); 14] = [
+    ("seed5_mill", false, 0.1805),
+    ("square20_mill", false, 1.0745),
+    ("star_mill", false, 2.1818),
+    ("zigzag_mill", false, 2.8906),
+    ("circle_g1_0.1_mill", false, 0.7325),
+    ("circle_g1_0.01_mill", false, 0.7325),
+    ("butterfly_g1_mill", false, 3.7625),
+    ("seed5_seed", true, 0.0565),
+    ("square20_seed", true, 0.9896),
+    ("star_seed", true, 2.3211),
+    ("zigzag_seed", true, 1.2125),
+    ("circle_g1_0.1_seed", true, 0.7726),
+    ("circle_g1_0.01_seed", true, 0.7726),
+    ("butterfly_g1_seed", true, 4.2886),
+];
+
+fn read(path: &std::path::Path) -> Vec<AxisVector> {
+    let text = std::fs::read_to_string(path).expect("a bench program");
+    let mut points = vec![AxisVector::zeros()];
+    for line in text.lines().filter(|line| line.starts_with("G1")) {
+        let mut point = points[points.len() - 1];
+        for word in line.split_whitespace() {
+            let Some(axis) = "XYZ".find(&word[..1]) else {
+                continue;
+            };
+            point[axis] = word[1..].parse().expect("a number");
+        }
+        points.push(point);
+    }
+    points
+}
+
+/// Greedy chords: every vertex left out within `allowed_mm` of its chord, in order.
+fn merge(points: &[AxisVector], allowed_mm: f64) -> Vec<AxisVector> {
+    let mut merged = vec![points[0]];
+    let mut a = 0;
+    while a + 1 < points.len() {
+        let mut b = a + 1;
+        while b + 1 < points.len() && b - a < 400 {
+            let chord = points[b + 1] - points[a];
+            let mut last = 0.0;
+            let fits = points[a + 1..=b].iter().all(|point| {
+                let offset = point - points[a];
+                let x = offset.dot(&chord) / chord.norm();
+                let distance = (offset - chord * (x / chord.norm())).norm();
+                let is_in_order = x >= last && x <= chord.norm();
+                last = x;
+                distance <= allowed_mm && is_in_order
+            });
+            if !fits {
+                break;
+            }
+            b += 1;
+        }
+        merged.push(points[b]);
+        a = b;
+    }
+    merged
+}
+
+#[test]
+fn bench() {
+    let Some(folder) = std::env::var_os("GLIDEPATH_BENCH") else {
+        println!("skipped: GLIDEPATH_BENCH is not set");
+        return;
+    };
+    let only = std::env::var("GLIDEPATH_BENCH_ONLY").unwrap_or_default();
+    let folder = std::path::Path::new(&folder);
+    println!("program                 T      of optimum  dev/tol   jerk    CPU %  worst ms  clean");
+    for (name, is_light, optimum_t) in PROGRAMS {
+        if !name.contains(&only) {
+            continue;
+        }
+        let points = read(&folder.join(format!("{name}.ngc")));
+        let mut case = Case::mill(points);
+        if is_light {
+            case.limits = Limits::uniform(100.0, 10_000.0, 1e6);
+            case.tolerance_mm = 0.03;
+            case.feed_v = 5000.0 / 60.0;
+        }
+        let mut planned = Case {
+            points: merge(&case.points, 0.1 * case.tolerance_mm),
+            ..case.clone()
+        };
+        if planned.points.len() < case.points.len() {
+            planned.tolerance_mm *= 0.9;
+        }
+        let mut planner = planned.planner();
+        for reference in planned.references() {
+            planner.push(reference);
+        }
+        planner.finish();
+        let start = Instant::now();
+        let mut worst = 0.0_f64;
+        let mut periods = Vec::new();
+        loop {
+            let now = Instant::now();
+            let Some(period) = planner.next_period() else {
+                break;
+            };
+            worst = worst.max(now.elapsed().as_secs_f64());
+            periods.push(period);
+        }
+        let spent = start.elapsed().as_secs_f64();
+        let report = case.audit(&periods);
+        let time = periods.len() as f64 * case.period_t;
+        println!(
+            "{name:20} {time:7.3} {:9.3} {:12.3} {:10.6} {:6.1} {:8.1}   {}",
+            time / optimum_t,
+            report.max_deviation_mm / case.tolerance_mm,
+            report.max_jerk_ratio.ratio,
+            100.0 * spent / time,
+            1e3 * worst,
+            report.is_clean() && report.is_complete,
+        );
+        if !report.is_clean() {
+            println!(
+                "  {:?}",
+                &report.violations[..report.violations.len().min(3)]
+            );
+        }
+    }
+}
+
+/// The time of stopping at every vertex, s.
+pub(super) fn exact_stop_t(case: &Case) -> f64 {
+    let mut track = Track::new(case.points[0]);
+    for reference in case.references() {
+        track.push(reference);
+    }
+    track.finish();
+    (0..track.end())
+        .filter_map(|index| {
+            let piece = track.get(index)?;
+            StopLeg::new(&case.limits, piece.start, index, piece)
+        })
+        .map(|leg| leg.duration_t())
+        .sum()
+}
+
+/// Many random paths, by hand: `GLIDEPATH_RANDOM_PATHS=1000`.
+#[test]
+fn random_paths() {
+    let count: u64 = match std::env::var("GLIDEPATH_RANDOM_PATHS").map(|text| text.parse()) {
+        Ok(Ok(count)) => count,
+        _ => return println!("skipped: GLIDEPATH_RANDOM_PATHS is not set"),
+    };
+    for is_light in [false, true] {
+        let (mut spent, mut moved, mut worst_ratio, mut worst_t) = (0.0, 0.0, 0.0_f64, 0.0_f64);
+        let mut ratios = Vec::new();
+        for seed in 0..count {
+            let case = random_case(seed, is_light);
+            let mut planner = case.planner();
+            for reference in case.references() {
+                planner.push(reference);
+            }
+            planner.finish();
+            let mut periods = Vec::new();
+            loop {
+                let start = Instant::now();
+                let Some(period) = planner.next_period() else {
+                    break;
+                };
+                let window_t = start.elapsed().as_secs_f64();
+                spent += window_t;
+                worst_t = worst_t.max(window_t);
+                periods.push(period);
+            }
+            let report = case.audit(&periods);
+            let time = periods.len() as f64 * case.period_t;
+            let stop_t = exact_stop_t(&case);
+            let ratio = (time - case.period_t).max(0.0) / stop_t;
+            moved += time;
+            ratios.push(time / stop_t);
+            worst_ratio = worst_ratio.max(ratio);
+            if !report.is_clean() || !report.is_complete || ratio > 1.0 {
+                println!(
+                    "seed {seed} light {is_light}: {time:.3} s, stops {stop_t:.3} s, {:?}",
+                    &report.violations[..report.violations.len().min(2)]
+                );
+            }
+        }
+        ratios.sort_by(f64::total_cmp);
+        println!(
+            "light {is_light}: median {:.3}, worst {worst_ratio:.3} of exact stop; CPU {:.1} %, worst window {:.1} ms",
+            ratios[ratios.len() / 2],
+            100.0 * spent / moved,
+            1e3 * worst_t,
+        );
+    }
+}

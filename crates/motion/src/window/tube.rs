@@ -1,0 +1,281 @@
+//! The rows of a window: stay in the tube of the piece, come near the corners, keep the feed.
+//!
+//! ```text
+//!          ┊ over                     A sample of a piece stays within the radius of its line, and
+//!   ───────●┈┈┈┈┈                     on the line between `back` before its start and `over` beyond
+//!          │ ╲ ball                   its end: as far as the line stays near the path. Beyond a
+//!          │   round the corner       sharp corner that is less than the radius; along gentle chords
+//!                                     it is far, so that samples need not change pieces at once.
+//! ```
+//!
+//! Only samples are bound to the tube: a straight line between two samples of one piece is then in
+//! it too, and where the motion goes over to another piece, the straight line between the two samples
+//! must come near every corner on the way: a point of that line, which is linear in the control
+//! points, must be inside the ball round the corner. Together that is just what the judge asks.
+//!
+//! The round parts are bounded by planes ([`super::cuts`]).
+
+use super::cuts::{Cuts, nearest_to_corner};
+use super::samples::Samples;
+use super::scene::Scene;
+use super::solver::{FAR, Problem, dot};
+use super::spline::Grid;
+
+/// Rows leave this much of the radius to rounding and to what lies between samples.
+const KEEP_R: f64 = 0.995;
+/// Turn from which the motion may run back for a moment, as a corner of less than the tolerance does.
+const SHARP: f64 = 0.3;
+/// Part of the radius from which a gentle corner gets rows.
+const CLOSE_R: f64 = 0.85;
+/// Most corners between two samples that get rows.
+const MOST_CORNERS: usize = 4;
+/// Share of the feed that is planned with.
+const FEED_R: f64 = 0.9995;
+/// Pull towards the middle of the tube.
+const RIDGE: f64 = 1e-5;
+
+/// How the rows are to be made.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Style {
+    pub(super) grid: Grid,
+    pub(super) period_t: f64,
+    /// Radii by which lines may leave the path beyond their ends: large while searching.
+    pub(super) stray_r: f64,
+    /// Corners at the ends of pieces before this one may have been passed already.
+    pub(super) passed: usize,
+    /// The points of the last motion are one, and not only a place to start from.
+    pub(super) has_motion: bool,
+}
+
+/// Extent of each piece's line beyond its ends, found when first asked for.
+#[derive(Debug, Default)]
+pub(super) struct Extents {
+    spans: Vec<Option<[f64; 2]>>,
+}
+
+impl Extents {
+    pub(super) fn clear(&mut self, pieces: usize) {
+        self.spans.clear();
+        self.spans.resize(pieces, None);
+    }
+
+    /// How far the line of a piece goes on before its start and beyond its end.
+    fn of<const D: usize>(&mut self, scene: &Scene<D>, i: usize, style: &Style) -> [f64; 2] {
+        if let Some(span) = self.spans[i] {
+            return span;
+        }
+        let chord = &scene.chords[i];
+        let stray = 0.5 * style.stray_r * chord.radius;
+        let cap = 4.0 * chord.top * style.grid.knot_t;
+        let last = scene.chords.len() - 1;
+        let over = if i < last {
+            let ahead = (i + 1..=last).map(|j| scene.vertex(j));
+            extent(&scene.vertex(i), &chord.tangent, ahead, stray, cap)
+        } else {
+            0.0
+        };
+        let back = if i > 0 {
+            let behind = (0..i).rev().map(|j| scene.chords[j].start);
+            extent(&chord.start, &chord.tangent.map(|t| -t), behind, stray, cap)
+        } else {
+            0.3 * chord.radius
+        };
+        self.spans[i] = Some([back, over]);
+        [back, over]
+    }
+}
+
+/// How far the ray from a vertex goes before the path through `vertices` has left it by `stray`.
+fn extent<const D: usize>(
+    from: &[f64; D],
+    direction: &[f64; D],
+    vertices: impl Iterator<Item = [f64; D]>,
+    stray: f64,
+    cap: f64,
+) -> f64 {
+    let mut best = 0.0_f64;
+    let mut last = (0.0, 0.0);
+    for vertex in vertices {
+        let offset: [f64; D] = core::array::from_fn(|k| vertex[k] - from[k]);
+        let x = dot(&offset, direction);
+        let across: [f64; D] = core::array::from_fn(|k| offset[k] - x * direction[k]);
+        let distance = dot(&across, &across).sqrt();
+        if x < best || distance > stray {
+            if distance > last.1 && distance > stray {
+                let share = ((stray - last.1) / (distance - last.1)).clamp(0.0, 1.0);
+                best = best.max((last.0 + (x - last.0) * share).min(best + cap));
+            }
+            break;
+        }
+        best = x;
+        last = (x, distance);
+        if best > cap {
+            break;
+        }
+    }
+    best.max(stray).min(cap)
+}
+
+/// What rows are made from.
+#[derive(Debug)]
+pub(super) struct Layout<'a, const D: usize> {
+    pub(super) scene: &'a Scene<D>,
+    /// Given out.
+    pub(super) samples: &'a Samples,
+    pub(super) cuts: &'a Cuts<D>,
+    /// The motion so far.
+    pub(super) points: &'a [[f64; D]],
+    pub(super) style: &'a Style,
+}
+
+/// Makes all rows and the objective.
+pub(super) fn build<const D: usize>(
+    problem: &mut Problem<D>,
+    layout: &Layout<'_, D>,
+    extents: &mut Extents,
+) {
+    let Layout {
+        scene,
+        samples,
+        style,
+        ..
+    } = layout;
+    #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+    let share = 1.0 / samples.count() as f64;
+    for k in 1..=samples.count() {
+        let i = samples.piece[k];
+        let chord = &scene.chords[i];
+        let (first, weights) = style.grid.site(k);
+        problem.add_site(first, weights);
+        let span = extents.of(scene, i, style);
+        add_tube(problem, layout, k, span);
+        let aim = share / (chord.top * style.period_t);
+        for (offset, weight) in weights.into_iter().enumerate().take(4) {
+            if let Some(aims) = problem.aims.get_mut(first + offset) {
+                for a in 0..D {
+                    aims[a] += aim * weight * chord.tangent[a];
+                }
+            }
+        }
+        if samples.piece[k - 1] < i {
+            add_corners(problem, layout, k);
+        }
+    }
+    add_feeds(problem, layout);
+}
+
+/// Rows of the last site, which is sample `k`.
+fn add_tube<const D: usize>(
+    problem: &mut Problem<D>,
+    layout: &Layout<'_, D>,
+    k: usize,
+    [back, over]: [f64; 2],
+) {
+    let piece = layout.samples.piece[k];
+    let chord = &layout.scene.chords[piece];
+    let radius = chord.radius * KEEP_R * layout.samples.shrink[k];
+    if let Some(site) = problem.sites.last_mut() {
+        site.ridge = RIDGE / (radius * radius);
+        site.center = chord.start;
+        site.tangent = chord.tangent;
+    }
+    for normal in &chord.normals[..D - 1] {
+        problem.add_row(normal.map(|n| n / radius), &chord.start, [-1.0, 1.0]);
+    }
+    let scale = 4.0 * radius;
+    let ends = [-back / scale, (chord.length + over) / scale];
+    problem.add_row(chord.tangent.map(|t| t / scale), &chord.start, ends);
+    for plane in layout.cuts.of_sample(k, piece) {
+        let normal = plane.normal.map(|n| n / radius);
+        problem.add_row(normal, &plane.center, [-FAR, 1.0]);
+    }
+}
+
+/// The line from the sample before `k` to sample `k` comes near the corners between.
+fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: usize) {
+    let Layout {
+        scene,
+        samples,
+        points,
+        style,
+        ..
+    } = layout;
+    let (from, to) = (samples.piece[k - 1].max(style.passed), samples.piece[k]);
+    let mut corners: Vec<(f64, usize, f64)> = (from..to)
+        .filter_map(|i| {
+            let turn = scene.turn(i, i + 1);
+            if !style.has_motion {
+                return (turn > SHARP).then_some((turn, i, 0.5));
+            }
+            let radius = scene.chords[i].radius.min(scene.chords[i + 1].radius);
+            let (lambda, off) = nearest_to_corner(scene, points, (i, k), &style.grid);
+            let distance_r = dot(&off, &off).sqrt() / radius;
+            (turn > SHARP || distance_r > CLOSE_R).then_some((distance_r, i, lambda))
+        })
+        .collect();
+    corners.sort_by(|a, b| b.0.total_cmp(&a.0));
+    for &(_, i, lambda) in corners.iter().take(MOST_CORNERS) {
+        let (before, after) = (&scene.chords[i], &scene.chords[i + 1]);
+        let radius = before.radius.min(after.radius) * KEEP_R;
+        let (first, weights) = style.grid.chord_site(k - 1, lambda);
+        problem.add_site(first, weights);
+        let turn = scene.turn(i, i + 1);
+        if turn > 1e-6 {
+            let inwards =
+                core::array::from_fn(|a| (after.tangent[a] - before.tangent[a]) / (turn * radius));
+            problem.add_row(inwards, &after.start, [-FAR, 1.0]);
+        }
+        for plane in layout.cuts.of_corner(i) {
+            let normal = plane.normal.map(|n| n / radius);
+            problem.add_row(normal, &plane.center, [-FAR, 1.0]);
+        }
+    }
+}
+
+/// Feed, and no running back, for every first difference that is not given.
+fn add_feeds<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
+    let Layout {
+        scene,
+        samples,
+        points,
+        style,
+        ..
+    } = layout;
+    let h = style.grid.knot_t;
+    // The piece at a number of half intervals.
+    let piece_at = |halves: usize| {
+        let period = halves * style.grid.periods / (2 * style.grid.knots);
+        samples.piece[period.min(samples.count())]
+    };
+    for k in 2..problem.intervals {
+        let middle = piece_at(2 * k - 1);
+        let (first, last) = (piece_at(2 * k - 4), piece_at(2 * k + 2 + style.grid.knots));
+        let bends_here = (piece_at(2 * k - 3)..piece_at(2 * k + 1 + style.grid.knots))
+            .any(|i| scene.turn(i, i + 1) > SHARP);
+        // The slowest piece that this difference has a part in.
+        let scale = scene.chords[middle].feed_axes;
+        let mut slowest = scale;
+        let mut factor = 1.0_f64;
+        for chord in &scene.chords[first..=last] {
+            for a in 0..D {
+                slowest[a] = slowest[a].max(chord.feed_axes[a]);
+                if scale[a] > 0.0 {
+                    factor = factor.max(chord.feed_axes[a] / scale[a]);
+                }
+            }
+        }
+        problem.add_site(k, [-1.0, 1.0, 0.0, 0.0, 0.0]);
+        let normal = scene.chords[middle].feed.map(|f| f * factor / h);
+        let low = if bends_here { -FAR } else { 0.0 };
+        problem.add_row(normal, &[0.0; D], [low, FEED_R]);
+        let mut weighted: [f64; D] =
+            core::array::from_fn(|a| (points[k + 1][a] - points[k][a]) * slowest[a]);
+        let size = dot(&weighted, &weighted).sqrt();
+        if size > 0.2 * h {
+            for a in 0..D {
+                weighted[a] *= slowest[a] / (size * h);
+            }
+            problem.add_row(weighted, &[0.0; D], [-FAR, FEED_R]);
+        }
+    }
+}
