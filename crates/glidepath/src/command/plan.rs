@@ -13,6 +13,7 @@ use crate::recording::Recording;
 use crate::report::{MotionReport, Planning, peak_rss_bytes};
 use crate::sample::Sample;
 use glidepath_motion::audit::{Audit, AuditSettings};
+use glidepath_motion::diagnosis::Diagnosis;
 use glidepath_planner::{Output, Pipeline, ProgramSource};
 use std::fs::File;
 use std::io::BufReader;
@@ -66,6 +67,7 @@ pub(super) fn title(path: &Path) -> String {
 struct Pass {
     pipeline: Pipeline<ProgramSource<BufReader<File>>>,
     audit: Audit,
+    diagnosis: Diagnosis,
     period_t: f64,
 }
 
@@ -76,13 +78,15 @@ impl Pass {
         let reader = BufReader::with_capacity(1 << 16, file);
         let source = ProgramSource::new(reader, config.program_options(home));
         let settings = config.settings();
+        let judged = AuditSettings {
+            limits: settings.limits,
+            period_t: settings.period_t,
+            tolerance_mm: settings.tolerance_mm,
+        };
         Ok(Self {
             pipeline: Pipeline::new(source, settings, home).with_clock(clock::elapsed),
-            audit: Audit::new(&AuditSettings {
-                limits: settings.limits,
-                period_t: settings.period_t,
-                tolerance_mm: settings.tolerance_mm,
-            }),
+            audit: Audit::new(&judged),
+            diagnosis: Diagnosis::new(&judged),
             period_t: settings.period_t,
         })
     }
@@ -91,10 +95,14 @@ impl Pass {
     fn turn(&mut self, recording: &mut Recording) -> Result<bool, Failure> {
         for _ in 0..STEPS_PER_TURN {
             match self.pipeline.advance()? {
-                Output::Item(item) => self.audit.program(&item),
+                Output::Item(item) => {
+                    self.audit.program(&item);
+                    self.diagnosis.program(&item);
+                }
                 Output::Frame(frame) => {
                     self.audit.sample(&(&frame).into());
-                    recording.push(&Sample::planned(&frame, self.period_t))?;
+                    let binding = self.diagnosis.frame(&frame);
+                    recording.push(&Sample::planned(&frame, self.period_t).bound_by(binding))?;
                 }
                 // A file is never without its next item.
                 Output::Pending => {}
@@ -112,6 +120,8 @@ impl Pass {
             plan_wall_s: statistics.planning.as_secs_f64(),
             peak_rss_bytes: peak_rss_bytes(),
         };
-        MotionReport::new(&planning, &self.audit.finish(), config)
+        let mut report = MotionReport::new(&planning, &self.audit.finish(), config);
+        report.diagnosis = Some((&self.diagnosis.finish()).into());
+        report
     }
 }
