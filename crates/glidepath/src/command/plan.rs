@@ -18,6 +18,7 @@ use glidepath_planner::{Output, Pipeline, ProgramSource};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
+use std::time::Duration;
 
 /// Steps of the planner between two looks at progress and Ctrl-C.
 const STEPS_PER_TURN: usize = 512;
@@ -33,7 +34,7 @@ pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Fail
     let mut recording = Recording::create(config, csv, plot)?;
     let progress = Progress::lines(checked.totals.lines.into());
     progress.doing("planning");
-    let mut pass = Pass::start(&args.file, config)?;
+    let mut pass = Pass::start(&args.file, config, clock::elapsed)?;
     while pass.turn(&mut recording)? {
         progress.at(pass.pipeline.statistics().lines);
         if interrupt.is_set() {
@@ -64,7 +65,7 @@ pub(super) fn title(path: &Path) -> String {
 }
 
 /// One pass of the planner over a program.
-struct Pass {
+pub(super) struct Pass {
     pipeline: Pipeline<ProgramSource<BufReader<File>>>,
     audit: Audit,
     diagnosis: Diagnosis,
@@ -72,7 +73,12 @@ struct Pass {
 }
 
 impl Pass {
-    fn start(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
+    /// A pass whose planning is timed by a clock: time since any fixed instant.
+    pub(super) fn start(
+        path: &Path,
+        config: &MachineConfig,
+        clock: fn() -> Duration,
+    ) -> Result<Self, Failure> {
         let file = File::open(path).map_err(Failure::open(path))?;
         let home = config.home();
         let reader = BufReader::with_capacity(1 << 16, file);
@@ -84,7 +90,7 @@ impl Pass {
             tolerance_mm: settings.tolerance_mm,
         };
         Ok(Self {
-            pipeline: Pipeline::new(source, settings, home).with_clock(clock::elapsed),
+            pipeline: Pipeline::new(source, settings, home).with_clock(clock),
             audit: Audit::new(&judged),
             diagnosis: Diagnosis::new(&judged),
             period_t: settings.period_t,
@@ -92,7 +98,7 @@ impl Pass {
     }
 
     /// Takes some steps; false at the end.
-    fn turn(&mut self, recording: &mut Recording) -> Result<bool, Failure> {
+    pub(super) fn turn(&mut self, recording: &mut Recording) -> Result<bool, Failure> {
         for _ in 0..STEPS_PER_TURN {
             match self.pipeline.advance()? {
                 Output::Item(item) => {
@@ -112,7 +118,7 @@ impl Pass {
         Ok(true)
     }
 
-    fn report(self, config: &MachineConfig) -> MotionReport {
+    pub(super) fn report(self, config: &MachineConfig) -> MotionReport {
         let statistics = self.pipeline.statistics();
         let planning = Planning {
             lines: statistics.lines,
