@@ -26,7 +26,7 @@ use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
 use crate::ramp::{Bounds, Ramp};
 
-/// Samples a tick may spend on finding a reserve.
+/// Samples a tick may spend on finding a reserve, unless stops are longer.
 const BUDGET: u32 = 120;
 /// What it costs to set up a candidate, in samples.
 pub(super) const SET_UP: u32 = 6;
@@ -261,6 +261,13 @@ pub(super) const fn whole(ticks: f64) -> u32 {
 }
 
 impl Scene<'_> {
+    /// Samples a tick may spend: so many, or what it takes to play a stop from full speed through
+    /// twice. With less, at a short period, no stop would ever pass.
+    pub(super) fn budget(&self, least: u32) -> u32 {
+        let stop = u32::try_from(2 * self.reach).unwrap_or(u32::MAX / 4);
+        least.max(2 * (stop + 3 + SET_UP))
+    }
+
     /// Bounds of the fastest ramp worth trying at a place: no axis needs more than its limits for it
     /// at the highest speed ahead.
     pub(super) fn fastest_from(&self, sequence: u64) -> Bounds {
@@ -279,7 +286,7 @@ impl Rate {
         if self.ramp.is_some() || self.rate <= 0.0 {
             return false;
         }
-        let mut budget = BUDGET;
+        let mut budget = scene.budget(BUDGET);
         let has_time = |reserve: &Reserve| reserve.first.in_ticks > URGENT;
         if let Some(frame) = scene.block_end
             && goal > 0.0
@@ -344,7 +351,7 @@ impl Rate {
         let step = (self.insisted / 2).min(RELAXED.len() - 1);
         self.insisted += 1;
         let excess = RELAXED.get(step).copied()?;
-        let (allowed, mut budget) = (scene.allowed.relaxed(excess), BUDGET);
+        let (allowed, mut budget) = (scene.allowed.relaxed(excess), scene.budget(BUDGET));
         // One tick for the simple shapes, one for the others.
         let mut start = if self.insisted.is_multiple_of(2) {
             CANDIDATES / 2
