@@ -359,10 +359,10 @@ pub struct JitterArgs {
     /// Do the interpolator's work in every period, on a synthetic motion
     #[arg(long)]
     pub full_tick: bool,
-    /// Run cyclictest in the same window on the same CPU, and compare
+    /// Run cyclictest in the same time on the same CPU, half a period apart, and compare
     #[arg(long)]
     pub against_cyclictest: bool,
-    /// Write a plot of the lateness (SVG)
+    /// Write a plot of the latency (SVG)
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
 }

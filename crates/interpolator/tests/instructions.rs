@@ -11,6 +11,7 @@
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     clippy::cast_possible_wrap,
+    clippy::panic,
     clippy::print_stdout,
     clippy::unwrap_used,
     unreachable_pub,

@@ -20,7 +20,7 @@
 //! ever; then limits are relaxed for the reserve, as little as possible. It is not likely to be
 //! taken, and the excess is reported if it is.
 
-use super::play::{Cue, Played, play};
+use super::play::{Cue, Played, SET_UP, play};
 use super::{FASTEST, Rate, Scene};
 use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
@@ -28,8 +28,6 @@ use crate::ramp::{Bounds, Ramp};
 
 /// Samples a tick may spend on finding a reserve, unless stops are longer.
 const BUDGET: u32 = 120;
-/// What it costs to set up a candidate, in samples.
-pub(super) const SET_UP: u32 = 6;
 /// Places between the latest possible and the earliest useful at which a stop of a shape may begin.
 const PLACES: usize = 48;
 /// A reserve is replaced only by one that begins this much later, ticks.
@@ -261,13 +259,6 @@ pub(super) const fn whole(ticks: f64) -> u32 {
 }
 
 impl Scene<'_> {
-    /// Samples a tick may spend: so many, or what it takes to play a stop from full speed through
-    /// twice. With less, at a short period, no stop would ever pass.
-    pub(super) fn budget(&self, least: u32) -> u32 {
-        let stop = u32::try_from(2 * self.reach).unwrap_or(u32::MAX / 4);
-        least.max(2 * (stop + 3 + SET_UP))
-    }
-
     /// Bounds of the fastest ramp worth trying at a place: no axis needs more than its limits for it
     /// at the highest speed ahead.
     pub(super) fn fastest_from(&self, sequence: u64) -> Bounds {

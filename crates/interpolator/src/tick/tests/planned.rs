@@ -103,8 +103,7 @@ fn a_short_period_gets_under_way() {
     planner.finish();
     let frames: Vec<_> = std::iter::from_fn(|| planner.pop_frame().unwrap()).collect();
     let mut rig = Rig::new(Config::new(mill(), 900_000));
-    rig.feed
-        .extend(crate::testing::records(&frames, 1, 900_000));
+    rig.feed.extend(records(&frames, 1, 900_000));
     let last = frames.len() as u64 - 1;
     let ended = rig.run_until(2 * frames.len(), |s| s.epoch == 1 && s.sequence == last);
     assert!(ended, "{:?}", rig.state());
