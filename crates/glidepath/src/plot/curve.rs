@@ -38,7 +38,6 @@ impl CurvePlot {
             at: xyz(position),
             feed_v,
             rapid: false,
-            bound: None,
         });
     }
 

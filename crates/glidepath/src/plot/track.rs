@@ -4,8 +4,6 @@
 //! ones nearest to the straight line between their neighbours, with a difference in feed counted as
 //! a distance. Two neighbours are never dropped together, so that no bend is lost in one go.
 
-use super::bound::Bound;
-
 /// Points kept at most.
 const CAPACITY: usize = 12_000;
 
@@ -18,8 +16,6 @@ pub(super) struct TrackPoint {
     pub(super) feed_v: f64,
     /// True if the way to here was a rapid move.
     pub(super) rapid: bool,
-    /// The kind of limit that binds on the way to here, if it is known.
-    pub(super) bound: Option<Bound>,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -63,11 +59,6 @@ impl Track {
         self.max_feed_v
     }
 
-    /// True if it is known what binds.
-    pub(super) fn has_bounds(&self) -> bool {
-        self.points.iter().any(|point| point.bound.is_some())
-    }
-
     /// Smallest and largest X, Y, Z.
     pub(super) const fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         (self.low, self.high)
@@ -83,7 +74,7 @@ impl Track {
         let worth: Vec<f64> = self
             .points
             .windows(3)
-            .map(|three| worth(three, mm_per_feed).max(worth_of_bound(three, extent)))
+            .map(|three| worth(three, mm_per_feed))
             .collect();
         let mut sorted = worth.clone();
         sorted.sort_unstable_by(f64::total_cmp);
@@ -102,12 +93,6 @@ impl Track {
             !drop
         });
     }
-}
-
-/// A change of what binds shows as much as a bend of half a percent of the picture.
-fn worth_of_bound(three: &[TrackPoint], extent: f64) -> f64 {
-    let changes = three.windows(2).any(|pair| pair[0].bound != pair[1].bound);
-    if changes { 0.005 * extent } else { 0.0 }
 }
 
 /// What the middle one of three points shows, in mm.
@@ -142,7 +127,6 @@ mod tests {
             at: [x, y, 0.0],
             feed_v: 10.0,
             rapid: false,
-            bound: None,
         }
     }
 

@@ -86,6 +86,8 @@ pub(super) struct Setting<'a> {
     pub(super) history: &'a History,
     pub(super) follower: &'a Follower,
     pub(super) progress: (usize, f64),
+    /// Pieces from here on are out of view.
+    pub(super) end: usize,
     /// Periods after which the next window will start.
     pub(super) commit: usize,
 }
@@ -202,7 +204,7 @@ fn passes(setting: &Setting<'_>, points: &[AxisVector], question: Question) -> b
         end_exactly(setting, &mut points);
     }
     let mut history = setting.history.clone();
-    let mut follower = Follower::new(setting.follower.place.clone());
+    let mut follower = Follower::new(setting.follower.place.clone(), setting.end);
     let periods = setting.grid.periods_in(points.len() - 3);
     for period in 1..=periods + 3 {
         let next = setting.grid.position(&points, period);

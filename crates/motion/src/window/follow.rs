@@ -140,13 +140,16 @@ impl Place {
 #[derive(Debug)]
 pub(super) struct Follower {
     pub(super) place: Place,
+    /// Pieces from this one on are not looked at, though they may be known: what comes out must not
+    /// depend on when they became known.
+    pub(super) end: usize,
     next: Place,
 }
 
 impl Follower {
-    pub(super) fn new(place: Place) -> Self {
+    pub(super) fn new(place: Place, end: usize) -> Self {
         let next = place.clone();
-        Self { place, next }
+        Self { place, end, next }
     }
 
     /// Goes straight from one position to the next. False if that leaves the path; then the place is
@@ -157,7 +160,7 @@ impl Follower {
         let end = self.place.first + self.place.spans.len();
         let mut bottom = Span::EMPTY;
         let mut index = self.place.first;
-        while index < end || !bottom.is_empty() {
+        while index < end || (index < self.end && !bottom.is_empty()) {
             let Some(piece) = track.get(index) else { break };
             let left = match self.place.spans.get(index - self.place.first) {
                 Some(span) => *span,

@@ -29,8 +29,10 @@ mod cuts;
 mod follow;
 mod guess;
 mod judge;
+mod legs;
 mod opening;
 mod optimiser;
+mod rounds;
 mod samples;
 mod scene;
 mod solver;
@@ -150,7 +152,7 @@ impl WindowPlanner {
             period_t,
             track: Track::new(start),
             history: History::new(start),
-            follower: Follower::new(Place::start_of(0)),
+            follower: Follower::new(Place::start_of(0), 0),
             progress: (0, 0.0),
             force: Force::Nothing,
             grid: None,
@@ -276,10 +278,24 @@ impl WindowPlanner {
             history: &self.history,
             follower: &self.follower,
             progress: self.progress,
+            end: view.pieces.end,
             commit,
         };
-        let motion = self.optimisers.attempt(&setting, &view, &tail);
         let is_at_rest = tail.iter().all(|point| *point == tail[0]);
+        let legs_t = self.legs_t(&view).filter(|_| is_at_rest);
+        let is_one_line = legs_t.is_some() && view.pieces.end - self.progress.0 == 1;
+        let motion = match is_one_line {
+            true => None,
+            false => self.optimisers.attempt(&setting, &view, &tail),
+        };
+        let motion = motion.filter(|motion| {
+            let periods = grid.periods_in(motion.points.len() - 3);
+            #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+            let before_last_t = (periods.max(1) - 1) as f64 * self.period_t;
+            // Never slower than stopping at every vertex.
+            !motion.is_end || legs_t.is_none_or(|legs_t| before_last_t < legs_t)
+        });
+        self.follower.end = view.pieces.end;
         self.force = match motion {
             Some(motion) => {
                 self.legs = 1;
@@ -322,66 +338,6 @@ impl WindowPlanner {
             }
             _ => vec![self.history.last(); 4],
         }
-    }
-
-    /// One period of straight legs from vertex to vertex; `Some(None)` if they are over.
-    #[expect(clippy::option_option, reason = "not known yet, and over")]
-    fn next_of_legs(&mut self) -> Option<Option<Period>> {
-        let Force::Legs { leg, leg_t, left } = &self.force else {
-            return Some(None);
-        };
-        if *left == 0 {
-            return Some(None);
-        }
-        let position = self.history.last();
-        let mut left = *left;
-        let mut leg = match leg {
-            Some(leg) => StopLeg::clone(leg),
-            None => self.leg_from(position, self.follower.place.last())?,
-        };
-        let first = leg.clone();
-        let mut t = leg_t + self.period_t;
-        let mut is_resting = false;
-        while t >= leg.duration_t() {
-            t -= leg.duration_t();
-            left -= 1;
-            if left == 0 || self.track.is_last(leg.piece) {
-                is_resting = true;
-                break;
-            }
-            leg = self.leg_from(leg.to, leg.piece + 1)?;
-        }
-        let mut period = if is_resting {
-            Period::rest(leg.to)
-        } else {
-            leg.at(t)
-        };
-        let way = (&self.track, &mut self.follower);
-        if !self
-            .history
-            .follow(&self.limits, self.period_t, way, &period.position)
-        {
-            // The chord between two periods cuts off a vertex: rest there until the next period.
-            period = Period::rest(first.to);
-            is_resting = true;
-            let way = (&self.track, &mut self.follower);
-            self.history
-                .follow(&self.limits, self.period_t, way, &period.position);
-        }
-        self.is_over = is_resting && self.follower.place.is_at_end(&self.track);
-        self.force = Force::Legs {
-            leg: Some(Box::new(leg)).filter(|_| !is_resting),
-            leg_t: if is_resting { 0.0 } else { t },
-            left,
-        };
-        Some(Some(period))
-    }
-
-    /// The leg to the end of the first piece from `index` on that does not end here.
-    fn leg_from(&self, from: AxisVector, index: usize) -> Option<StopLeg> {
-        (index..self.track.end())
-            .take_while(|&index| self.track.is_settled(index))
-            .find_map(|index| StopLeg::new(&self.limits, from, index, self.track.get(index)?))
     }
 }
 

@@ -30,6 +30,8 @@ impl<const D: usize> Opening<'_, D> {
             period_t: self.period_t,
             passed: self.passed,
             stray_r: 1.0,
+            is_feed_firm: true,
+            is_centred: false,
             has_motion,
         }
     }

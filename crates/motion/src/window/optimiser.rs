@@ -12,6 +12,7 @@
 use super::cuts::Cuts;
 use super::guess::Guess;
 use super::opening::Opening;
+use super::rounds::{Found, Walk};
 use super::samples::Samples;
 use super::scene::Scene;
 use super::solver::{Goal, Interior, Problem};
@@ -37,6 +38,8 @@ const PHASES: [Phase; 3] = [
         polish: 4,
     },
 ];
+/// Paces of the attempts, relative to what is expected; after them comes one that stops at every vertex.
+const PACES: [f64; 3] = [1.0, 0.9, 0.75];
 /// Lengths of the last window that are tried, and rounds for each.
 const FINISHES: usize = 6;
 const FINISH_ROUNDS: usize = 5;
@@ -44,12 +47,10 @@ const FINISH_ROUNDS: usize = 5;
 const ENOUGH_VIOLATION: f64 = 0.02;
 /// Interior point iterations in one problem.
 const SOLVER_ITERATIONS: usize = 40;
-/// Gain of progress, relative to that of the window, below which nothing more is tried.
-const LITTLE_GAIN: f64 = 1e-4;
 /// Lines may leave the path by this many radii while searching.
 const SEARCH_STRAY_R: f64 = 12.0;
 /// Interior point iterations after which a window is given up.
-const MOST_WORK: usize = 600;
+const MOST_WORK: usize = 450;
 
 /// A motion that has passed.
 #[derive(Debug, Clone)]
@@ -66,22 +67,6 @@ pub(super) enum Question {
     IsValid,
     /// And does it rest at the end of the path?
     IsEnd,
-}
-
-/// The best motion so far.
-#[derive(Debug)]
-struct Found<const D: usize> {
-    best: Option<(f64, Vec<[f64; D]>, Samples)>,
-    /// Iterations of the solver up to which there is something left to spend.
-    most_iterations: usize,
-}
-
-impl<const D: usize> Found<D> {
-    fn add(&mut self, mean: f64, points: &[[f64; D]], samples: &Samples) {
-        if self.best.as_ref().is_none_or(|(most, ..)| mean > *most) {
-            self.best = Some((mean, points.to_vec(), samples.clone()));
-        }
-    }
 }
 
 /// The optimisation, with its memory.
@@ -138,15 +123,17 @@ impl<const D: usize> Optimiser<D> {
             best: None,
             most_iterations: self.interior.iterations + MOST_WORK,
         };
-        for attempt in 0..3 {
+        for attempt in 0..=PACES.len() {
             self.samples.progress.clone_from(&tail_progress);
             self.samples.forget();
             self.cuts.clear(self.samples.count(), scene.chords.len());
             let progress = &mut self.samples.progress;
-            let pace = self.pace * if attempt == 0 { 1.0 } else { 0.8 };
-            match attempt {
-                0 | 1 => opening.play_guess(scene, &self.guess, progress, (stop_at, pace)),
-                _ => opening.play_stops(scene, progress, rest_at),
+            match PACES.get(attempt) {
+                Some(share) => {
+                    let from = (stop_at, share * self.pace);
+                    opening.play_guess(scene, &self.guess, progress, from);
+                }
+                None => opening.play_stops(scene, progress, rest_at),
             }
             self.iterate(scene, opening, attempt > 0, judge, &mut found);
             if found.best.is_some() || self.interior.iterations > found.most_iterations {
@@ -182,58 +169,76 @@ impl<const D: usize> Optimiser<D> {
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
         found: &mut Found<D>,
     ) {
-        let mut points = opening.tail.to_vec();
-        let mut has_motion = false;
-        let mut last_mean = f64::NEG_INFINITY;
-        let rounds = PHASES
-            .iter()
-            .flat_map(|phase| (0..phase.search + phase.polish).map(move |round| (phase, round)));
-        let mut is_polished = false;
-        for (phase, round) in rounds {
-            if self.interior.iterations > found.most_iterations {
-                return;
-            }
-            let is_polish = round >= phase.search;
-            if is_polish && is_polished {
-                continue;
-            }
-            let is_wide = !is_polish && !is_careful;
-            let style = Style {
-                stray_r: if is_wide { SEARCH_STRAY_R } else { 1.0 },
-                ..opening.style(has_motion)
-            };
-            if round <= phase.search {
-                self.samples.give_out(scene, opening.piece);
-            }
-            let mut next = points.clone();
-            let is_solved = self.solve(scene, &style, &mut next, false, is_polish);
-            if is_solved {
-                self.cuts.learn(scene, &self.samples, &next, &opening.grid);
-            }
-            let given = self.samples.progress.clone();
-            let grid = (&opening.grid, opening.period_t);
-            let may_lead = round + 1 < phase.search;
-            self.samples
-                .project(scene, &next, opening.piece, grid, may_lead);
-            let mean = self.samples.mean();
-            let passes = is_solved && judge(&next, Question::IsValid);
-            if passes {
-                found.add(mean, &next, &self.samples);
-            }
-            if is_solved || self.samples.worst_r < 3.0 {
-                points = next;
-                has_motion = true;
-            }
-            let gain = (mean - last_mean) / (mean - opening.progress).max(f64::MIN_POSITIVE);
-            if passes && gain.abs() < LITTLE_GAIN {
-                return;
-            }
-            last_mean = mean;
-            is_polished = is_polish && passes;
-            if !is_polish && self.samples.worst_r > 1.02 && round >= 2 {
-                self.samples.go_half_way(&given);
+        let mut walk = Walk {
+            points: opening.tail.to_vec(),
+            has_motion: false,
+            is_exceeding: false,
+            mean: f64::NEG_INFINITY,
+        };
+        for (number, phase) in PHASES.iter().enumerate() {
+            for round in 0..phase.search + phase.polish {
+                if self.interior.iterations > found.most_iterations {
+                    return;
+                }
+                if round <= phase.search {
+                    self.samples.give_out(scene, opening.piece);
+                }
+                let is_polish = round >= phase.search;
+                let is_wide = !is_polish && !is_careful;
+                let style = Style {
+                    stray_r: if is_wide { SEARCH_STRAY_R } else { 1.0 },
+                    is_feed_firm: is_polish || walk.is_exceeding,
+                    ..opening.style(walk.has_motion)
+                };
+                let given = self.samples.progress.clone();
+                let may_lead = round + 1 < phase.search;
+                let is_solved = self.take_round(scene, opening, &style, may_lead, &mut walk);
+                let passes = is_solved && judge(&walk.points, Question::IsValid);
+                if passes {
+                    found.add(self.samples.mean(), &walk.points, &self.samples);
+                }
+                if passes && walk.has_settled(self.samples.mean(), opening.progress) {
+                    return;
+                }
+                walk.mean = self.samples.mean();
+                if is_polish && walk.is_exceeding && number > 0 && found.best.is_none() {
+                    // Samples are on pieces that the motion cannot reach in time.
+                    return;
+                }
+                if is_polish && (passes || walk.is_exceeding) {
+                    break;
+                }
+                if !is_polish && self.samples.worst_r > 1.02 && round >= 2 {
+                    self.samples.go_half_way(&given);
+                }
             }
         }
+    }
+
+    /// Solves and projects. True if there is a solution.
+    fn take_round(
+        &mut self,
+        scene: &Scene<D>,
+        opening: &Opening<'_, D>,
+        style: &Style,
+        may_lead: bool,
+        walk: &mut Walk<D>,
+    ) -> bool {
+        let mut next = walk.points.clone();
+        let is_exact = style.stray_r <= 1.0;
+        let is_solved = self.solve(scene, style, &mut next, false, is_exact);
+        if is_solved {
+            self.cuts.learn(scene, &self.samples, &next, &opening.grid);
+        }
+        walk.is_exceeding = self.interior.violation() > ENOUGH_VIOLATION;
+        let grid = (&opening.grid, opening.period_t);
+        self.samples
+            .project(scene, &next, opening.piece, grid, may_lead);
+        if is_solved || self.samples.worst_r < 3.0 {
+            walk.points = next;
+            walk.has_motion = true;
+        }
+        is_solved
     }
 
     fn solve(
@@ -292,28 +297,87 @@ impl<const D: usize> Optimiser<D> {
         let multiple = opening.grid.knots;
         let arrival = arrival * opening.grid.knots / opening.grid.periods;
         let first = arrival.max(6).div_ceil(multiple) * multiple;
-        let style = opening.style(true);
-        for count in (first..=intervals).step_by(multiple).take(FINISHES) {
-            let mut next = points[..count + 3].to_vec();
-            next[count..].fill(end);
-            self.samples.progress.clear();
-            self.samples.progress.extend_from_slice(progress);
+        let style = Style {
+            is_centred: true,
+            ..opening.style(true)
+        };
+        let mut shortest: Option<Vec<[f64; D]>> = None;
+        let mut progress = progress.to_vec();
+        let mut count = first;
+        for _ in 0..FINISHES {
+            if count < 6 || count > intervals {
+                break;
+            }
+            self.samples.progress.clone_from(&progress);
             self.samples.cut(opening.grid.periods_in(count));
             self.samples.give_out(scene, opening.piece);
-            for _ in 0..FINISH_ROUNDS {
-                let is_solved = self.solve(scene, &style, &mut next, true, true);
-                if !is_solved || self.interior.violation() > ENOUGH_VIOLATION {
-                    break;
-                }
-                if judge(&next, Question::IsEnd) {
-                    return Some(Solution {
-                        points: next,
-                        is_end: true,
-                    });
-                }
-                self.cuts.learn(scene, &self.samples, &next, &opening.grid);
+            let mut next = match &shortest {
+                Some(longer) => hurried(longer, multiple, |a: &[f64; D], b, share| {
+                    core::array::from_fn(|k| a[k] + share * (b[k] - a[k]))
+                }),
+                None => points[..count + 3].to_vec(),
+            };
+            next[..3].copy_from_slice(&points[..3]);
+            next[count..].fill(end);
+            let passes = self.finish_in(scene, opening, &style, &mut next, judge);
+            if passes {
+                // Then all of it a little faster.
+                let grid = (&opening.grid, opening.period_t);
+                self.samples
+                    .project(scene, &next, opening.piece, grid, false);
+                let fewer = opening.grid.periods_in(multiple);
+                progress = hurried(&self.samples.progress, fewer, |a, b, share| {
+                    a + share * (b - a)
+                });
+                shortest = Some(next);
+                count -= multiple;
+            } else if shortest.is_some() {
+                break;
+            } else {
+                count += multiple;
             }
         }
-        None
+        shortest.map(|points| Solution {
+            points,
+            is_end: true,
+        })
     }
+
+    /// Makes a motion pass that rests at the end of the path after so many control points.
+    fn finish_in(
+        &mut self,
+        scene: &Scene<D>,
+        opening: &Opening<'_, D>,
+        style: &Style,
+        points: &mut [[f64; D]],
+        judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
+    ) -> bool {
+        for _ in 0..FINISH_ROUNDS {
+            let is_solved = self.solve(scene, style, points, true, true);
+            if !is_solved || self.interior.violation() > ENOUGH_VIOLATION {
+                return false;
+            }
+            if judge(points, Question::IsEnd) {
+                return true;
+            }
+            self.cuts.learn(scene, &self.samples, points, &opening.grid);
+        }
+        false
+    }
+}
+
+/// The same way in fewer steps.
+fn hurried<T>(values: &[T], fewer: usize, between: impl Fn(&T, &T, f64) -> T) -> Vec<T> {
+    let count = values.len() - 1;
+    let less = count.saturating_sub(fewer).max(1);
+    (0..=less)
+        .map(|k| {
+            let at = k * count;
+            let (before, rest) = (at / less, at % less);
+            let after = (before + 1).min(count);
+            #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+            let share = rest as f64 / less as f64;
+            between(&values[before], &values[after], share)
+        })
+        .collect()
 }

@@ -31,8 +31,10 @@ const CLOSE_R: f64 = 0.85;
 const MOST_CORNERS: usize = 4;
 /// Share of the feed that is planned with.
 const FEED_R: f64 = 0.9995;
-/// Pull towards the middle of the tube.
+/// Pull towards the middle of the tube, so that a motion at rest has a place there.
 const RIDGE: f64 = 1e-5;
+/// The same where the middle is all that is aimed at.
+const CENTRED_RIDGE: f64 = 1e-2;
 
 /// How the rows are to be made.
 #[derive(Debug, Clone, Copy)]
@@ -43,6 +45,10 @@ pub(super) struct Style {
     pub(super) stray_r: f64,
     /// Corners at the ends of pieces before this one may have been passed already.
     pub(super) passed: usize,
+    /// The feed is not exceeded to be in time on a piece.
+    pub(super) is_feed_firm: bool,
+    /// Not as far as possible, but as much in the middle as possible.
+    pub(super) is_centred: bool,
     /// The points of the last motion are one, and not only a place to start from.
     pub(super) has_motion: bool,
 }
@@ -149,7 +155,11 @@ pub(super) fn build<const D: usize>(
         problem.add_site(first, weights);
         let span = extents.of(scene, i, style);
         add_tube(problem, layout, k, span);
-        let aim = share / (chord.top * style.period_t);
+        let aim = if style.is_centred {
+            0.0
+        } else {
+            share / (chord.top * style.period_t)
+        };
         for (offset, weight) in weights.into_iter().enumerate().take(4) {
             if let Some(aims) = problem.aims.get_mut(first + offset) {
                 for a in 0..D {
@@ -175,7 +185,12 @@ fn add_tube<const D: usize>(
     let chord = &layout.scene.chords[piece];
     let radius = chord.radius * KEEP_R * layout.samples.shrink[k];
     if let Some(site) = problem.sites.last_mut() {
-        site.ridge = RIDGE / (radius * radius);
+        let ridge = if layout.style.is_centred {
+            CENTRED_RIDGE
+        } else {
+            RIDGE
+        };
+        site.ridge = ridge / (radius * radius);
         site.center = chord.start;
         site.tangent = chord.tangent;
     }
@@ -219,6 +234,10 @@ fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>,
         let radius = before.radius.min(after.radius) * KEEP_R;
         let (first, weights) = style.grid.chord_site(k - 1, lambda);
         problem.add_site(first, weights);
+        if let Some(site) = problem.sites.last_mut().filter(|_| style.is_centred) {
+            site.ridge = CENTRED_RIDGE / (radius * radius);
+            site.center = after.start;
+        }
         let turn = scene.turn(i, i + 1);
         if turn > 1e-6 {
             let inwards =
@@ -267,7 +286,7 @@ fn add_feeds<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
         problem.add_site(k, [-1.0, 1.0, 0.0, 0.0, 0.0]);
         let normal = scene.chords[middle].feed.map(|f| f * factor / h);
         let low = if bends_here { -FAR } else { 0.0 };
-        problem.add_row(normal, &[0.0; D], [low, FEED_R]);
+        problem.add_feed_row(normal, [low, FEED_R], style.is_feed_firm);
         let mut weighted: [f64; D] =
             core::array::from_fn(|a| (points[k + 1][a] - points[k][a]) * slowest[a]);
         let size = dot(&weighted, &weighted).sqrt();
@@ -275,7 +294,7 @@ fn add_feeds<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
             for a in 0..D {
                 weighted[a] *= slowest[a] / (size * h);
             }
-            problem.add_row(weighted, &[0.0; D], [-FAR, FEED_R]);
+            problem.add_feed_row(weighted, [-FAR, FEED_R], style.is_feed_firm);
         }
     }
 }

@@ -15,7 +15,7 @@
 //! the μ that the corrector aims at.
 
 use super::band::{Band, Block};
-use super::problem::{DIFFERENCES, HARD, PRICE, Problem, SPAN, combine, dot};
+use super::problem::{DIFFERENCES, HARD, Problem, SPAN, combine, dot};
 use super::sides::Sides;
 
 /// Share of the way to the boundary that a step may go.
@@ -130,7 +130,10 @@ impl<const D: usize> Interior<D> {
         self.d_rows.clear();
         self.d_rows.resize(rows, 0.0);
         self.sides.price[..2 * axis_rows].fill(HARD);
-        self.sides.price[2 * axis_rows..].fill(PRICE);
+        let prices = self.sides.price[2 * axis_rows..].chunks_exact_mut(2);
+        for (price, row) in prices.zip(&problem.rows) {
+            price.fill(row.price);
+        }
         #[expect(clippy::cast_precision_loss, reason = "thousands")]
         let pairs = (2 * axis_rows + 4 * problem.rows.len()) as f64;
         pairs

@@ -19,6 +19,8 @@ pub(in crate::window) const HARD: f64 = 1e300;
 /// Price of violating an elastic row by one. Progress gains at most about one by it, so a row that
 /// can be kept is kept.
 pub(in crate::window) const PRICE: f64 = 30.0;
+/// The same where a violation must not buy a smaller one elsewhere.
+pub(in crate::window) const FIRM_PRICE: f64 = 1000.0;
 /// A bound that does not bind.
 pub(in crate::window) const FAR: f64 = 1e3;
 
@@ -45,6 +47,8 @@ pub(in crate::window) struct Row<const D: usize> {
     pub(in crate::window) normal: [f64; D],
     pub(in crate::window) low: f64,
     pub(in crate::window) high: f64,
+    /// Price of violating it by one.
+    pub(in crate::window) price: f64,
 }
 
 /// What is to be solved.
@@ -109,9 +113,23 @@ impl<const D: usize> Problem<D> {
             normal,
             low: low + shift,
             high: high + shift,
+            price: PRICE,
         });
         if let Some(site) = self.sites.last_mut() {
             site.rows.end = self.rows.len();
+        }
+    }
+
+    /// A row of the last site on a difference; a firm one has a price that nothing else is worth.
+    pub(in crate::window) fn add_feed_row(
+        &mut self,
+        normal: [f64; D],
+        sides: [f64; 2],
+        is_firm: bool,
+    ) {
+        self.add_row(normal, &[0.0; D], sides);
+        if let Some(row) = self.rows.last_mut().filter(|_| is_firm) {
+            row.price = FIRM_PRICE;
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! What they are is told in [`super::interior`]. All loops here run over plain arrays without a branch.
 
-use super::problem::{HARD, PRICE};
+use super::problem::HARD;
 
 /// μ to start from.
 const START_MU: f64 = 0.05;
@@ -55,8 +55,8 @@ impl Sides {
             self.slack[i] = (-g).max(START_SLACK);
             self.multiplier[i] = START_MU / self.slack[i];
             if self.price[i] < HARD {
-                self.excess[i] = (g + self.slack[i]).max(START_MU / (0.9 * PRICE));
-                self.multiplier[i] = self.multiplier[i].min(0.5 * PRICE);
+                self.excess[i] = (g + self.slack[i]).max(START_MU / (0.9 * self.price[i]));
+                self.multiplier[i] = self.multiplier[i].min(0.5 * self.price[i]);
             }
         }
     }
