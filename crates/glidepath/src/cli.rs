@@ -73,6 +73,9 @@ pub enum Command {
                             --period-us 1000 --chord-error 0.001 --json"
     )]
     Preview(PreviewArgs),
+    /// Plan the benchmark programs, and compare with what is known of them
+    #[command(after_help = "Example: glidepath bench tests/data/bench --config-dir config --json")]
+    Bench(BenchArgs),
     /// Is this host fit for real time? With the fix for each no
     #[command(after_help = "Example: glidepath doctor --config mill.toml")]
     Doctor(DoctorArgs),
@@ -311,6 +314,21 @@ pub struct PreviewArgs {
     pub plot: Option<PathBuf>,
 }
 
+/// Arguments of `bench`.
+#[derive(Debug, Args)]
+pub struct BenchArgs {
+    /// Folder with the programs and bench.json, the catalogue of them
+    #[arg(default_value = "tests/data/bench")]
+    pub folder: PathBuf,
+    /// Folder with the configuration of each machine that the catalogue names, such as mill.toml;
+    /// without it the built-in ones
+    #[arg(long, value_name = "FOLDER", conflicts_with = "config")]
+    pub config_dir: Option<PathBuf>,
+    /// Configuration and form of the report. A configuration given holds for all programs.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+}
+
 /// Arguments of `doctor`.
 #[derive(Debug, Args)]
 pub struct DoctorArgs {
@@ -341,10 +359,10 @@ pub struct JitterArgs {
     /// Do the interpolator's work in every period, on a synthetic motion
     #[arg(long)]
     pub full_tick: bool,
-    /// Run cyclictest in the same window on the same CPU, and compare
+    /// Run cyclictest in the same time on the same CPU, half a period apart, and compare
     #[arg(long)]
     pub against_cyclictest: bool,
-    /// Write a plot of the lateness (SVG)
+    /// Write a plot of the latency (SVG)
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
 }
@@ -390,6 +408,7 @@ impl Command {
             Self::SingleBlock(args) => &args.operator.basic,
             Self::Override(args) => &args.operator.basic,
             Self::Preview(args) => &args.basic,
+            Self::Bench(args) => &args.basic,
             Self::Doctor(args) => &args.basic,
             Self::Jitter(args) => &args.basic,
         }

@@ -1,5 +1,6 @@
 //! Why a command did not do what was asked.
 
+use crate::bench::CatalogueError;
 use crate::config::ConfigError;
 use crate::curve_file::CurveError;
 use crate::exit::Exit;
@@ -17,6 +18,9 @@ pub enum Failure {
     /// The configuration was refused.
     #[error(transparent)]
     Configuration(#[from] ConfigError),
+    /// The benchmark programs cannot be found.
+    #[error(transparent)]
+    Catalogue(#[from] CatalogueError),
     /// A file of the command line cannot be opened.
     #[error("cannot open {path}: {source}", path = path.display())]
     Open {
@@ -154,9 +158,10 @@ impl Failure {
     pub const fn exit(&self) -> Exit {
         match self {
             Self::Configuration(_) => Exit::Configuration,
-            Self::Open { .. } | Self::NoFeed | Self::Cyclictest(CyclictestError::Absent) => {
-                Exit::Usage
-            }
+            Self::Open { .. }
+            | Self::Catalogue(_)
+            | Self::NoFeed
+            | Self::Cyclictest(CyclictestError::Absent) => Exit::Usage,
             Self::Rejected { .. }
             | Self::Curve(_)
             | Self::Refused(_)

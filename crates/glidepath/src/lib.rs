@@ -1,6 +1,7 @@
 //! The `glidepath` program as a library, so that tests and tools can use its parts: configuration,
 //! reports and plots. Everything that computes motion lives in the crates below this one.
 
+pub mod bench;
 pub mod cli;
 pub mod clock;
 pub mod command;

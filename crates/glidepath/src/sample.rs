@@ -3,6 +3,7 @@
 use crate::report::state_name;
 use glidepath_geometry::AxisVector;
 use glidepath_link::Setpoint;
+use glidepath_motion::diagnosis::Binding;
 use glidepath_motion::{Frame, FrameFlags};
 
 /// The machine at one tick.
@@ -18,6 +19,8 @@ pub struct Sample {
     pub state: &'static str,
     /// True in a rapid move.
     pub rapid: bool,
+    /// The limit that binds, where that is known.
+    pub binding: Option<Binding>,
     /// Rate of path position, mm/s.
     pub feed_v: f64,
     /// Path position since the start of the program, mm.
@@ -44,11 +47,21 @@ impl Sample {
             line: frame.line,
             state: "running",
             rapid: frame.flags.contains(FrameFlags::RAPID),
+            binding: None,
             feed_v: frame.path_v,
             path_s: frame.path_s,
             position: frame.position,
             velocity: frame.velocity,
             acceleration: frame.acceleration,
+        }
+    }
+
+    /// The same sample, with the limit that binds in the period it ends.
+    #[must_use]
+    pub const fn bound_by(self, binding: Binding) -> Self {
+        Self {
+            binding: Some(binding),
+            ..self
         }
     }
 
@@ -65,6 +78,7 @@ impl Sample {
             line: setpoint.line,
             state: setpoint.state().map_or("unknown", state_name),
             rapid: setpoint.has(FrameFlags::RAPID),
+            binding: None,
             feed_v: setpoint.feed_v,
             path_s: setpoint.path_s,
             position: setpoint.position.into(),

@@ -81,6 +81,7 @@ mod tests {
             line: 3,
             state: "running",
             rapid: false,
+            binding: None,
             feed_v: 25.0,
             path_s: 0.1 + 0.2,
             position: AxisVector::repeat(value),

@@ -21,6 +21,7 @@ fn wander(tick: u32) -> Sample {
         line: 1,
         state: "running",
         rapid: (tick / 500) % 4 == 3,
+        binding: None,
         feed_v: 60.0 + 50.0 * (2.1 * t).sin(),
         path_s: 0.0,
         position,

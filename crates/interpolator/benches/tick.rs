@@ -21,7 +21,7 @@ use glidepath_link::{Command, SetpointFrame};
 use glidepath_motion::{
     Effort, Frame, Item, ItemKind, PathMode, Planner, Rate, Settings, Smoothing,
 };
-use glidepath_realtime::Histogram;
+use glidepath_realtime::{Clock as _, Histogram, Monotonic};
 use rustix::time::{ClockId, clock_gettime};
 use std::hint::black_box;
 use synthetic::{lines, mill, plan, records};
@@ -58,6 +58,48 @@ fn cpu_ns() -> u64 {
     now.tv_sec.unsigned_abs() * 1_000_000_000 + now.tv_nsec.unsigned_abs()
 }
 
+/// More than the processor's own caches hold: walking through it leaves nothing else in them, as 4 ms
+/// of other work do.
+struct Evictor(Vec<u64>);
+
+impl Evictor {
+    fn new() -> Self {
+        Self(vec![1; 4 << 20])
+    }
+
+    fn evict(&mut self) {
+        for line in self.0.iter_mut().step_by(8) {
+            *line = black_box(line.wrapping_add(1));
+        }
+    }
+}
+
+/// Times ticks that find cold caches. By the clock on the wall: processor time is read by the kernel,
+/// which would be cold as well.
+fn measure_cold(name: &str, frames: &[Frame]) {
+    let mut histogram = Histogram::new();
+    let (clock, mut feed, mut evictor) = (Monotonic, Feed::new(frames), Evictor::new());
+    stepped(&Config::new(mill(), 4_000_000), |stepped| {
+        let mut executed = 0;
+        for _ in 0..frames.len() {
+            feed.publish(stepped, executed);
+            evictor.evict();
+            let started = clock.now_ns();
+            executed = black_box(stepped.tick()).sequence;
+            histogram.record(clock.now_ns() - started);
+        }
+    });
+    print(&format!("{name}, cold caches"), &histogram);
+}
+
+fn print(name: &str, histogram: &Histogram) {
+    let q = histogram.quantiles();
+    println!(
+        "{name}, {} ticks: p50 {} ns, p99 {} ns, p99.9 {} ns, max {} ns",
+        q.count, q.p50_ns, q.p99_ns, q.p999_ns, q.max_ns
+    );
+}
+
 /// Times every tick; `command` may give a command before a tick.
 fn measure(name: &str, frames: &[Frame], mut command: impl FnMut(usize) -> Option<Command>) {
     let mut histogram = Histogram::new();
@@ -74,11 +116,7 @@ fn measure(name: &str, frames: &[Frame], mut command: impl FnMut(usize) -> Optio
             histogram.record(cpu_ns() - started);
         }
     });
-    let q = histogram.quantiles();
-    println!(
-        "{name}, {} ticks: p50 {} ns, p99 {} ns, p99.9 {} ns, max {} ns",
-        q.count, q.p50_ns, q.p99_ns, q.p999_ns, q.max_ns
-    );
+    print(name, &histogram);
 }
 
 /// A rounded zigzag as the planner makes it.
@@ -158,6 +196,7 @@ fn main() {
             operator,
         );
     }
+    measure_cold("9 axes along lines", &lines(1, 9, 3_000, &mill(), 0.004));
     let planned = planned();
     measure("planned zigzag", &planned, |_| None);
     measure("planned zigzag, operator", &planned, operator);

@@ -47,6 +47,6 @@ mod will;
 static ALLOCATOR: glidepath_realtime::CountingAllocator = glidepath_realtime::CountingAllocator;
 
 pub use config::{Config, RealTime, SoftLimits};
-pub use loops::RunError;
+pub use loops::{RunError, lead_ns};
 pub use run::run;
 pub use stepped::{Stepped, stepped};

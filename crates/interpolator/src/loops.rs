@@ -56,9 +56,10 @@ pub enum RunError {
     Thread(&'static str),
 }
 
-/// By how much the real-time thread rises before a tick: more than a quiet host is late, and a
+/// By how much the real-time thread rises before a tick, ns: more than a quiet host is late, and a
 /// small part of the period.
-pub(crate) fn lead_ns(period_ns: u64) -> u64 {
+#[must_use]
+pub fn lead_ns(period_ns: u64) -> u64 {
     LEAD_NS.min(period_ns / 10)
 }
 

@@ -113,6 +113,7 @@ impl<'a> Ports<'a> {
 
     /// One turn. A port that fails stops the motion, and is tried again at the next turn.
     pub(crate) fn turn(&mut self, now_ns: u64) {
+        self.write_log();
         let done = [
             self.publish_setpoints(),
             self.serve_commands(),
@@ -120,7 +121,6 @@ impl<'a> Ports<'a> {
             self.publish_status(now_ns),
             self.clean_up(now_ns),
         ];
-        self.write_log();
         let error = done.into_iter().find_map(Result::err);
         if let Some(error) = &error
             && !self.failing
@@ -279,7 +279,9 @@ impl<'a> Ports<'a> {
 
     fn write_log(&mut self) {
         while let Some(happening) = self.happenings.read() {
-            (self.log)(&happening.to_string());
+            let text = happening.to_string();
+            (self.log)(&text);
+            self.book.last_event(&text);
         }
         let dropped = self.happenings.newly_dropped();
         if dropped > 0 {

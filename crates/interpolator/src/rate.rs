@@ -56,7 +56,7 @@ use candidate::{CANDIDATES, Candidate, PACES};
 use play::{Cue, Played, play};
 use reserve::{Reserve, Steady};
 
-/// Samples a tick may spend on playing candidates through.
+/// Samples a tick may spend on playing candidates through, unless stops are longer.
 const BUDGET: u32 = 200;
 /// Largest bounds of a ramp: a change from 0 to 1 takes at least four ticks.
 const FASTEST: Bounds = Bounds {
@@ -264,7 +264,7 @@ impl Rate {
             return;
         }
         let fastest = scene.fastest_from(self.now.sequence);
-        let mut budget = BUDGET;
+        let mut budget = scene.budget(BUDGET);
         let first = core::mem::take(&mut self.resume_at);
         let mut search_at = core::mem::take(&mut self.trial_search);
         for k in 0..CANDIDATES.len() {

@@ -14,6 +14,8 @@ pub(crate) struct StatusBook {
     pub(crate) status: Status,
     lateness: Histogram,
     work: Histogram,
+    latency: Histogram,
+    response: Histogram,
 }
 
 impl StatusBook {
@@ -32,6 +34,8 @@ impl StatusBook {
             status,
             lateness: Histogram::new(),
             work: Histogram::new(),
+            latency: Histogram::new(),
+            response: Histogram::new(),
         }
     }
 
@@ -40,6 +44,8 @@ impl StatusBook {
         self.lateness.record(report.setpoint.lateness_ns);
         if report.setpoint.number > 0 {
             self.work.record(report.timing.work_ns);
+            self.latency.record(report.timing.latency_ns);
+            self.response.record(report.timing.response_ns);
         }
     }
 
@@ -65,6 +71,10 @@ impl StatusBook {
         self.status.last_error = Text::new(text);
     }
 
+    pub(crate) fn last_event(&mut self, text: &str) {
+        self.status.last_event = Text::new(text);
+    }
+
     /// Brings the status up to date. `waiting` frames are between the threads.
     pub(crate) fn write(
         &mut self,
@@ -74,7 +84,6 @@ impl StatusBook {
         now_ns: u64,
     ) {
         let setpoint = &report.setpoint;
-        let (lateness, work) = (quantiles(&self.lateness), quantiles(&self.work));
         let is_newer = admission.epoch() > setpoint.epoch;
         let status = &mut self.status;
         status.updated_ns = now_ns;
@@ -104,7 +113,10 @@ impl StatusBook {
         status.relaxed_stops = report.relaxed_stops;
         status.block = setpoint.block;
         status.single_block = report.single_block.into();
-        (status.lateness, status.work) = (lateness, work);
+        status.lateness = quantiles(&self.lateness);
+        status.work = quantiles(&self.work);
+        status.latency = quantiles(&self.latency);
+        status.response = quantiles(&self.response);
         self.write_fault(report);
     }
 

@@ -34,7 +34,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v2", 568, {
     effective_override: 128, position: 136, velocity: 208, acceleration: 280, joint_position: 352,
     joint_velocity: 424, joint_acceleration: 496,
 });
-layout!(status, Status, "glidepath.Status.v2", 672, {
+layout!(status, Status, "glidepath.Status.v2", 864, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_sequence: 88, fault_value: 96,
@@ -42,7 +42,8 @@ layout!(status, Status, "glidepath.Status.v2", 672, {
     program_start: 136, position: 208, path_s: 280, feed_v: 288, feed_override: 296,
     rapid_override: 304, effective_override: 312, ticks: 320, missed_ticks: 328, late_ticks: 336,
     setpoints_published: 344, setpoints_lost: 352, relaxed_stops: 360, commands_served: 368,
-    commands_refused: 376, frames_refused: 384, lateness: 480, work: 512, last_error: 544,
+    commands_refused: 376, frames_refused: 384, lateness: 480, work: 512, latency: 544,
+    response: 576, last_error: 608, last_event: 736,
 });
 layout!(command_request, CommandRequest, "glidepath.CommandRequest.v2", 32, {
     client: 0, number: 8, value: 16, kind: 24, reserved: 28,

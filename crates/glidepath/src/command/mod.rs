@@ -1,5 +1,6 @@
 //! The subcommands, one file each.
 
+mod bench;
 pub mod check;
 mod doctor;
 mod feed;
@@ -52,6 +53,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         }
         Command::Abort(args) => operator::command(args, &config, "abort", link::Command::Abort),
         Command::Override(args) => operator::overrides(args, &config),
+        Command::Bench(args) => bench::bench(args, &config),
         Command::Doctor(args) => Ok(doctor::doctor(args, &config)),
         Command::Jitter(args) => jitter::jitter(args, &config),
     }

@@ -13,10 +13,12 @@ use crate::recording::Recording;
 use crate::report::{MotionReport, Planning, peak_rss_bytes};
 use crate::sample::Sample;
 use glidepath_motion::audit::{Audit, AuditSettings};
+use glidepath_motion::diagnosis::Diagnosis;
 use glidepath_planner::{Output, Pipeline, ProgramSource};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
+use std::time::Duration;
 
 /// Steps of the planner between two looks at progress and Ctrl-C.
 const STEPS_PER_TURN: usize = 512;
@@ -32,7 +34,7 @@ pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Fail
     let mut recording = Recording::create(config, csv, plot)?;
     let progress = Progress::lines(checked.totals.lines.into());
     progress.doing("planning");
-    let mut pass = Pass::start(&args.file, config)?;
+    let mut pass = Pass::start(&args.file, config, clock::elapsed)?;
     while pass.turn(&mut recording)? {
         progress.at(pass.pipeline.statistics().lines);
         if interrupt.is_set() {
@@ -63,38 +65,50 @@ pub(super) fn title(path: &Path) -> String {
 }
 
 /// One pass of the planner over a program.
-struct Pass {
+pub(super) struct Pass {
     pipeline: Pipeline<ProgramSource<BufReader<File>>>,
     audit: Audit,
+    diagnosis: Diagnosis,
     period_t: f64,
 }
 
 impl Pass {
-    fn start(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
+    /// A pass whose planning is timed by a clock: time since any fixed instant.
+    pub(super) fn start(
+        path: &Path,
+        config: &MachineConfig,
+        clock: fn() -> Duration,
+    ) -> Result<Self, Failure> {
         let file = File::open(path).map_err(Failure::open(path))?;
         let home = config.home();
         let reader = BufReader::with_capacity(1 << 16, file);
         let source = ProgramSource::new(reader, config.program_options(home));
         let settings = config.settings();
+        let judged = AuditSettings {
+            limits: settings.limits,
+            period_t: settings.period_t,
+            tolerance_mm: settings.tolerance_mm,
+        };
         Ok(Self {
-            pipeline: Pipeline::new(source, settings, home).with_clock(clock::elapsed),
-            audit: Audit::new(&AuditSettings {
-                limits: settings.limits,
-                period_t: settings.period_t,
-                tolerance_mm: settings.tolerance_mm,
-            }),
+            pipeline: Pipeline::new(source, settings, home).with_clock(clock),
+            audit: Audit::new(&judged),
+            diagnosis: Diagnosis::new(&judged),
             period_t: settings.period_t,
         })
     }
 
     /// Takes some steps; false at the end.
-    fn turn(&mut self, recording: &mut Recording) -> Result<bool, Failure> {
+    pub(super) fn turn(&mut self, recording: &mut Recording) -> Result<bool, Failure> {
         for _ in 0..STEPS_PER_TURN {
             match self.pipeline.advance()? {
-                Output::Item(item) => self.audit.program(&item),
+                Output::Item(item) => {
+                    self.audit.program(&item);
+                    self.diagnosis.program(&item);
+                }
                 Output::Frame(frame) => {
                     self.audit.sample(&(&frame).into());
-                    recording.push(&Sample::planned(&frame, self.period_t))?;
+                    let binding = self.diagnosis.frame(&frame);
+                    recording.push(&Sample::planned(&frame, self.period_t).bound_by(binding))?;
                 }
                 // A file is never without its next item.
                 Output::Pending => {}
@@ -104,7 +118,7 @@ impl Pass {
         Ok(true)
     }
 
-    fn report(self, config: &MachineConfig) -> MotionReport {
+    pub(super) fn report(self, config: &MachineConfig) -> MotionReport {
         let statistics = self.pipeline.statistics();
         let planning = Planning {
             lines: statistics.lines,
@@ -112,6 +126,8 @@ impl Pass {
             plan_wall_s: statistics.planning.as_secs_f64(),
             peak_rss_bytes: peak_rss_bytes(),
         };
-        MotionReport::new(&planning, &self.audit.finish(), config)
+        let mut report = MotionReport::new(&planning, &self.audit.finish(), config);
+        report.diagnosis = Some((&self.diagnosis.finish()).into());
+        report
     }
 }

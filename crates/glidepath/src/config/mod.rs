@@ -21,6 +21,9 @@ use std::path::Path;
 /// The machine that is used without `--config`.
 pub const EMBEDDED: &str = include_str!("../../../../config/mill.toml");
 
+/// A second built-in machine, for benchmarks: the one of published results on corner smoothing.
+pub const EMBEDDED_SEED: &str = include_str!("../../../../config/seed.toml");
+
 /// Reads a configuration file, or the embedded machine if `path` is `None`.
 ///
 /// # Errors

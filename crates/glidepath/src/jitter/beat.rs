@@ -6,11 +6,13 @@ use glidepath_realtime::{Clock, DeadlineTimer, EventWriter};
 /// One period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Beat {
-    /// From the deadline the thread waited for to its waking.
+    /// From the time the thread was to wake at, a lead before the deadline, to its waking.
+    pub latency_ns: u64,
+    /// From the deadline to the tick.
     pub lateness_ns: u64,
     /// Deadlines that passed meanwhile.
     pub missed: u64,
-    /// From waking to the end of the work.
+    /// How long the work took.
     pub work_ns: u64,
     /// Whether the work moved the machine.
     pub is_moving: bool,
@@ -24,10 +26,12 @@ pub(super) fn beat<C: Clock>(
     work: &mut dyn FnMut() -> bool,
 ) {
     while !stop.load(Ordering::Relaxed) {
-        let wake = timer.wait();
+        let rise = timer.rise();
         let is_moving = work();
-        let work_ns = timer.clock().now_ns().saturating_sub(wake.woke_ns);
+        let work_ns = timer.clock().now_ns().saturating_sub(rise.woke_ns);
+        let wake = timer.wait();
         beats.write(Beat {
+            latency_ns: rise.latency_ns(),
             lateness_ns: wake.lateness_ns() + wake.missed * timer.period_ns(),
             missed: wake.missed,
             work_ns,
@@ -55,15 +59,20 @@ mod tests {
         fn sleep_until(&mut self, deadline_ns: u64) {
             self.now_ns = self.now_ns.max(deadline_ns) + self.delays_ns.next().unwrap_or(0);
         }
+
+        fn spin_until(&mut self, deadline_ns: u64) -> u64 {
+            self.now_ns = self.now_ns.max(deadline_ns);
+            self.now_ns
+        }
     }
 
     #[test]
-    fn lateness_counts_from_the_deadline_that_was_waited_for() {
+    fn times_count_from_the_deadline_that_was_waited_for() {
         let clock = Script {
             now_ns: 0,
             delays_ns: vec![30, 250, 0].into_iter(),
         };
-        let mut timer = DeadlineTimer::new(clock, 1_000, 100);
+        let mut timer = DeadlineTimer::new(clock, 1_000, 100).with_lead(20);
         let mut events = Events::<Beat, 8>::default();
         let (mut writer, mut reader) = event_ring(&mut events);
         let stop = AtomicBool::new(false);
@@ -74,8 +83,11 @@ mod tests {
             true
         });
         let beats: Vec<_> = std::iter::from_fn(|| reader.read()).collect();
-        let seen: Vec<_> = beats.iter().map(|b| (b.lateness_ns, b.missed)).collect();
-        assert_eq!(seen, [(30, 0), (250, 2), (0, 0)]);
+        let seen: Vec<_> = beats
+            .iter()
+            .map(|b| (b.latency_ns, b.lateness_ns, b.missed))
+            .collect();
+        assert_eq!(seen, [(30, 10, 0), (250, 230, 2), (0, 0, 0)]);
         assert!(beats.iter().all(|b| b.is_moving && b.work_ns == 0));
     }
 }

@@ -1,12 +1,12 @@
 //! cyclictest of the rt-tests, the usual measure of a host's latency, run beside the loop.
 //!
-//! Both threads have the same priority on the same processor and the same period. cyclictest is told
-//! to wake on whole seconds and their divisions, and the loop wakes half a period later, so that
-//! neither finds the processor woken by the other. (With a period that does not divide a second the
-//! distance is another, but fixed.)
+//! Both threads have the same priority on the same processor and the same period, and run in the same
+//! time, but never wake together: see `phase`.
 
 use super::Setup;
+use super::phase::Part;
 use glidepath_realtime::{Grants, Item};
+use std::collections::BTreeMap;
 use std::io;
 use std::process::{Child, Command, Stdio};
 
@@ -43,10 +43,15 @@ pub enum CyclictestError {
 pub(super) struct Cyclictest(Option<Child>);
 
 impl Cyclictest {
-    /// Starts it with what the loop was granted.
-    pub(super) fn start(setup: &Setup, grants: &Grants) -> Result<Self, CyclictestError> {
+    /// Starts it with what the loop was granted. It begins at the next whole second, unless that is
+    /// less than 0.1 s away.
+    pub(super) fn start(
+        setup: &Setup,
+        part: &Part,
+        grants: &Grants,
+    ) -> Result<Self, CyclictestError> {
         Command::new("cyclictest")
-            .args(arguments(setup, grants))
+            .args(arguments(setup, part, grants))
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -83,12 +88,12 @@ impl Drop for Cyclictest {
     }
 }
 
-fn arguments(setup: &Setup, grants: &Grants) -> Vec<String> {
+fn arguments(setup: &Setup, part: &Part, grants: &Grants) -> Vec<String> {
     let mut arguments = vec![
         "--quiet".to_owned(),
-        "--secaligned".to_owned(),
+        format!("--secaligned={}", part.cyclictest_offset_ns / 1_000),
         format!("--interval={}", setup.period_ns / 1_000),
-        format!("--duration={}", setup.seconds),
+        format!("--duration={}", part.seconds),
         format!("--histogram={LONGEST_US}"),
     ];
     if let Some(priority) = setup
@@ -153,6 +158,17 @@ impl Latencies {
         })
     }
 
+    /// Counts everything that other latencies hold.
+    pub fn merge(&mut self, other: &Self) {
+        let mut counts: BTreeMap<u64, u64> = self.counts.iter().copied().collect();
+        for (us, count) in &other.counts {
+            *counts.entry(*us).or_default() += count;
+        }
+        self.counts = counts.into_iter().collect();
+        self.overflows += other.overflows;
+        self.max_us = self.max_us.max(other.max_us);
+    }
+
     /// Number of periods.
     #[must_use]
     pub fn total(&self) -> u64 {
@@ -201,6 +217,16 @@ mod tests {
     }
 
     #[test]
+    fn merging_is_counting_both() {
+        let mut both = Latencies::parse(OUTPUT).unwrap();
+        let other =
+            Latencies::parse("000017 000002\n000019 000001\n# Max Latencies: 00019\n").unwrap();
+        both.merge(&other);
+        assert_eq!(both.counts, [(16, 90), (17, 10), (19, 1), (300, 1)]);
+        assert_eq!((both.total(), both.max_us), (103, 1729));
+    }
+
+    #[test]
     fn something_else_is_no_histogram() {
         for text in [
             "",
@@ -225,10 +251,15 @@ mod tests {
             motion: None,
             against_cyclictest: true,
         };
-        let arguments = arguments(&setup, &Grants::NONE).join(" ");
+        let part = Part {
+            seconds: 10,
+            offset_ns: 3_000_000,
+            cyclictest_offset_ns: 1_000_000,
+        };
+        let arguments = arguments(&setup, &part, &Grants::NONE).join(" ");
         assert_eq!(
             arguments,
-            "--quiet --secaligned --interval=4000 --duration=20 --histogram=100000"
+            "--quiet --secaligned=1000 --interval=4000 --duration=10 --histogram=100000"
         );
     }
 }

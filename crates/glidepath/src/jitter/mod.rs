@@ -1,15 +1,17 @@
 //! How late does the real-time loop wake on this host?
 //!
 //! ```text
-//! real-time thread   sleep · (tick) · sleep · (tick) ·   SCHED_FIFO, pinned, memory locked
+//! real-time thread   sleep, tick, spin · sleep, tick, …   SCHED_FIFO, pinned, memory locked
 //!                          │ one beat per period, through a ring
 //! calling thread     ──────▼───────────┬──────────────┬───
 //!                         window 1 s   │   window 1 s │    steal of /proc/stat at each end
 //! ```
 //!
-//! The loop is that of the interpolator: the same timer, the same set-up, and, if asked for, the same
-//! work. Lateness is counted from the deadline the thread waited for, as cyclictest counts it, so a
-//! wake-up that misses periods counts with all of its delay.
+//! The loop is that of the interpolator: the same timer with the same lead, the same set-up, and, if
+//! asked for, the same work. The latency of waking is what cyclictest measures: from the time the thread
+//! was to wake at, a lead before the deadline, to its waking. The lateness of a tick is what is left of
+//! it at the deadline. Both count from the deadline the thread waited for, so a wake-up that misses
+//! periods counts with all of its delay.
 //!
 //! On a virtual machine the hypervisor takes the processor away now and then, which no program can
 //! do anything about. Seconds in which the kernel counted such *steal* are left out of a second set
@@ -20,6 +22,7 @@ mod beat;
 mod bins;
 mod cyclictest;
 mod motion;
+mod phase;
 mod report;
 mod windows;
 
@@ -35,11 +38,12 @@ use crate::progress::Progress;
 use beat::beat;
 use core::sync::atomic::{AtomicBool, Ordering};
 use cyclictest::Cyclictest;
-use glidepath_interpolator::stepped;
+use glidepath_interpolator::{lead_ns, stepped};
 use glidepath_realtime::{
     Clock as _, DeadlineTimer, EventReader, EventWriter, Events, Grants, Host, Item, Mode,
     Monotonic, ProcessorTime, Request, enter, event_ring,
 };
+use phase::Part;
 use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -47,7 +51,7 @@ use std::time::{Duration, Instant};
 /// Beats under way, one less: 0.8 s at the shortest period.
 const BEATS: usize = 16_384;
 /// From the end of the preparations to the first deadline.
-const LEAD_NS: u64 = 5_000_000;
+const PREPARED_NS: u64 = 5_000_000;
 /// How often the calling thread empties the ring.
 const POLL: Duration = Duration::from_millis(20);
 
@@ -89,28 +93,126 @@ pub fn measure(
     progress: &Progress,
     interrupt: &AtomicBool,
 ) -> Result<Measurement, Failure> {
-    let mut events = Box::<Events<Beat, BEATS>>::default();
-    let (writer, mut reader) = event_ring(&mut events);
-    let stop = AtomicBool::new(false);
-    thread::scope(|scope| {
-        let (tell, told) = mpsc::channel();
-        let stop = &stop;
-        thread::Builder::new()
-            .name("glidepath-rt".to_owned())
-            .spawn_scoped(scope, move || real_time(setup, writer, &tell, stop))
-            .map_err(Failure::Process)?;
-        let measured = told
-            .recv()
-            .map_err(|_| Failure::Thread("the real-time thread"))
-            .and_then(|grants| observe(setup, grants, &mut reader, progress, interrupt));
-        stop.store(true, Ordering::Relaxed);
-        measured
-    })
+    let mut measured = Measurement {
+        windows: Windows::new(Some(0)),
+        grants: Grants::NONE,
+        lost_beats: 0,
+        cyclictest: None,
+    };
+    for part in phase::parts(setup.seconds, setup.period_ns, setup.against_cyclictest) {
+        if !interrupt.load(Ordering::Relaxed) {
+            let stretch = Stretch {
+                setup,
+                part,
+                progress,
+                interrupt,
+            };
+            stretch.measure(&mut measured)?;
+        }
+    }
+    if interrupt.load(Ordering::Relaxed) {
+        measured.cyclictest = None;
+    }
+    Ok(measured)
+}
+
+/// One part of the measurement.
+struct Stretch<'a> {
+    setup: &'a Setup,
+    part: Part,
+    progress: &'a Progress,
+    interrupt: &'a AtomicBool,
+}
+
+impl Stretch<'_> {
+    fn measure(&self, measured: &mut Measurement) -> Result<(), Failure> {
+        let mut events = Box::<Events<Beat, BEATS>>::default();
+        let (writer, mut reader) = event_ring(&mut events);
+        let stop = AtomicBool::new(false);
+        thread::scope(|scope| {
+            let (tell, told) = mpsc::channel();
+            let stop = &stop;
+            thread::Builder::new()
+                .name("glidepath-rt".to_owned())
+                .spawn_scoped(scope, move || {
+                    real_time(self.setup, &self.part, writer, &tell, stop);
+                })
+                .map_err(Failure::Process)?;
+            let observed = told
+                .recv()
+                .map_err(|_| Failure::Thread("the real-time thread"))
+                .and_then(|grants| {
+                    measured.grants = grants;
+                    self.observe(measured, &mut reader)
+                });
+            stop.store(true, Ordering::Relaxed);
+            observed
+        })
+    }
+
+    /// The calling thread: collects the beats, second by second. With cyclictest, which begins at a
+    /// whole second, it begins at the same.
+    fn observe(
+        &self,
+        measured: &mut Measurement,
+        reader: &mut EventReader<'_, Beat>,
+    ) -> Result<(), Failure> {
+        let (setup, grants) = (self.setup, measured.grants);
+        let host = Host::here();
+        let cpu = setup
+            .request
+            .cpu
+            .filter(|_| grants.is_granted(Item::Affinity));
+        let steal = || ProcessorTime::read(&host, cpu).map(|time| time.steal);
+        let mut cyclictest = None;
+        if setup.against_cyclictest && grants.is_granted(Item::Scheduling) {
+            sleep_until(Part::whole_second_after(Monotonic.now_ns()));
+            cyclictest = Some(Cyclictest::start(setup, &self.part, &grants)?);
+            sleep_until(Part::whole_second_after(Monotonic.now_ns()));
+        }
+        while reader.read().is_some() {}
+        reader.newly_dropped();
+        let began = Instant::now();
+        measured.windows.resume(steal());
+        for second in 1..=self.part.seconds {
+            let end = began + Duration::from_secs(second.into());
+            while Instant::now() < end && !self.is_interrupted() {
+                thread::sleep(POLL.min(end.saturating_duration_since(Instant::now())));
+                while let Some(beat) = reader.read() {
+                    measured.windows.record(&beat);
+                }
+            }
+            measured.windows.close(steal());
+            self.progress.at(measured.windows.count);
+            if self.is_interrupted() {
+                return Ok(());
+            }
+        }
+        measured.lost_beats += reader.newly_dropped();
+        if let Some(latencies) = cyclictest.map(Cyclictest::finish).transpose()? {
+            match &mut measured.cyclictest {
+                Some(all) => all.merge(&latencies),
+                none => *none = Some(latencies),
+            }
+        }
+        Ok(())
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.interrupt.load(Ordering::Relaxed)
+    }
+}
+
+fn sleep_until(time_ns: u64) {
+    thread::sleep(Duration::from_nanos(
+        time_ns.saturating_sub(Monotonic.now_ns()),
+    ));
 }
 
 /// The real-time thread: tells what it was granted, then beats until `stop`.
 fn real_time(
     setup: &Setup,
+    part: &Part,
     mut writer: EventWriter<'_, Beat>,
     tell: &mpsc::Sender<Grants>,
     stop: &AtomicBool,
@@ -120,8 +222,9 @@ fn real_time(
         return;
     };
     let mut run = |work: &mut dyn FnMut() -> bool| {
-        let origin_ns = between_seconds(Monotonic.now_ns() + LEAD_NS, setup.period_ns);
-        let mut timer = DeadlineTimer::new(Monotonic, origin_ns, setup.period_ns);
+        let (period_ns, lead_ns) = (setup.period_ns, lead_ns(setup.period_ns));
+        let origin_ns = part.origin_ns(Monotonic.now_ns() + PREPARED_NS, period_ns, lead_ns);
+        let mut timer = DeadlineTimer::new(Monotonic, origin_ns, period_ns).with_lead(lead_ns);
         if tell.send(entered.grants).is_ok() {
             beat(&mut timer, &mut writer, stop, work);
         }
@@ -132,75 +235,5 @@ fn real_time(
             let mut player = motion.player();
             run(&mut || player.tick(interpolator));
         }),
-    }
-}
-
-/// The first time at or after `earliest_ns` that is half a period off the grid of whole seconds, on which
-/// cyclictest wakes.
-///
-/// A thread that wakes shortly after another may find the processor awake still, and look better than
-/// the one before it: at an arbitrary distance the medians of two idle loops differed by up to 18 µs on
-/// a virtual machine. Half a period apart neither is favoured.
-const fn between_seconds(earliest_ns: u64, period_ns: u64) -> u64 {
-    let half_ns = period_ns / 2;
-    (earliest_ns + half_ns).div_ceil(period_ns) * period_ns - half_ns
-}
-
-/// The calling thread: collects the beats, second by second.
-fn observe(
-    setup: &Setup,
-    grants: Grants,
-    reader: &mut EventReader<'_, Beat>,
-    progress: &Progress,
-    interrupt: &AtomicBool,
-) -> Result<Measurement, Failure> {
-    let host = Host::here();
-    let cpu = setup
-        .request
-        .cpu
-        .filter(|_| grants.is_granted(Item::Affinity));
-    let steal = || ProcessorTime::read(&host, cpu).map(|time| time.steal);
-    let cyclictest = (setup.against_cyclictest && grants.is_granted(Item::Scheduling))
-        .then(|| Cyclictest::start(setup, &grants))
-        .transpose()?;
-    let mut windows = Windows::new(steal());
-    let began = Instant::now();
-    for second in 1..=setup.seconds {
-        let end = began + Duration::from_secs(second.into());
-        while Instant::now() < end && !interrupt.load(Ordering::Relaxed) {
-            thread::sleep(POLL.min(end.saturating_duration_since(Instant::now())));
-            while let Some(beat) = reader.read() {
-                windows.record(&beat);
-            }
-        }
-        windows.close(steal());
-        progress.at(second.into());
-        if interrupt.load(Ordering::Relaxed) {
-            break;
-        }
-    }
-    let cyclictest = cyclictest
-        .filter(|_| !interrupt.load(Ordering::Relaxed))
-        .map(Cyclictest::finish)
-        .transpose()?;
-    Ok(Measurement {
-        windows,
-        grants,
-        lost_beats: reader.newly_dropped(),
-        cyclictest,
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_loop_beats_between_the_beats_of_cyclictest() {
-        for earliest_ns in [10_000, 10_001, 11_999, 12_000, 12_001, 13_999] {
-            let origin_ns = between_seconds(earliest_ns, 4_000);
-            assert_eq!(origin_ns % 4_000, 2_000);
-            assert!((earliest_ns..earliest_ns + 4_000).contains(&origin_ns));
-        }
     }
 }

@@ -101,8 +101,8 @@ impl<'a> JitterReport<'a> {
     pub fn object(&self) -> Value {
         let windows = &self.measured.windows;
         let all = windows.all.quantiles();
-        let mut lateness = Row::of(&all).object();
-        lateness["min"] = us(windows.all.min_ns()).into();
+        let mut latency = Row::of(&all).object();
+        latency["min"] = us(windows.all.min_ns()).into();
         let mut clean = Row::of(&windows.clean.quantiles()).object();
         clean["ticks"] = windows.clean.quantiles().count.into();
         clean["missed_ticks"] = windows.clean_missed.into();
@@ -122,8 +122,9 @@ impl<'a> JitterReport<'a> {
             "missed_ticks": windows.missed,
             "moving_ticks": windows.moving,
             "lost_samples": self.measured.lost_beats,
-            "lateness_us": lateness,
-            "lateness_without_steal_us": clean,
+            "latency_us": latency,
+            "latency_without_steal_us": clean,
+            "lateness_us": Row::of(&windows.lateness.quantiles()).object(),
             "work_us": Row::of(&windows.work.quantiles()).object(),
             "windows": windows.count,
             "windows_with_steal": windows.with_steal,
@@ -196,7 +197,7 @@ impl<'a> JitterReport<'a> {
             let _ = writeln!(text, "  {name:24}{}", row.text());
         };
         let all = Row::of(&windows.all.quantiles());
-        row("lateness", all);
+        row("latency of waking", all);
         if windows.with_steal > 0 && windows.with_steal < windows.count {
             row(
                 "  windows without steal",
@@ -207,17 +208,18 @@ impl<'a> JitterReport<'a> {
             row("cyclictest", Row::of_cyclictest(latencies));
         }
         if let Some(difference) = self.difference() {
-            row("  lateness − cyclictest", difference);
+            row("  latency − cyclictest", difference);
         }
+        row("lateness of ticks", Row::of(&windows.lateness.quantiles()));
         if self.setup.motion.is_some() {
             row("work of a tick", Row::of(&windows.work.quantiles()));
         }
         let least = us(windows.all.min_ns());
-        let _ = writeln!(text, "  least lateness {least:.1} µs");
+        let _ = writeln!(text, "  least latency {least:.1} µs");
         text
     }
 
-    /// A plot of the lateness as SVG.
+    /// A plot of the latency as SVG.
     #[must_use]
     pub fn plot(&self) -> String {
         let windows = &self.measured.windows;
@@ -245,7 +247,7 @@ impl<'a> JitterReport<'a> {
             us(q.max_ns),
             self.steal()
         );
-        lateness("Lateness of the real-time loop", &caption, &series)
+        lateness("Latency of waking of the real-time loop", &caption, &series)
     }
 }
 
@@ -271,7 +273,7 @@ fn drawn(bins: &[Bin]) -> String {
         }
     };
     let longest = bins.iter().map(|bin| length(bin.count)).fold(1.0, f64::max);
-    let mut text = String::from("  lateness, µs (bars: logarithm of the number)\n");
+    let mut text = String::from("  latency of waking, µs (bars: logarithm of the number)\n");
     for bin in bins {
         let bar = "█".repeat((BAR * length(bin.count) / longest).round() as usize);
         let (low, high, count) = (bin.low_us, bin.high_us, grouped(bin.count));

@@ -6,10 +6,12 @@ use glidepath_realtime::Histogram;
 /// What the windows held.
 #[derive(Debug)]
 pub struct Windows {
-    /// Lateness in all windows.
+    /// Latency of waking in all windows.
     pub all: Histogram,
-    /// Lateness in windows without steal.
+    /// Latency of waking in windows without steal.
     pub clean: Histogram,
+    /// Lateness of the ticks in all windows.
+    pub lateness: Histogram,
     /// Work of the periods in all windows.
     pub work: Histogram,
     /// Missed ticks in all windows.
@@ -37,6 +39,7 @@ impl Windows {
         Self {
             all: Histogram::new(),
             clean: Histogram::new(),
+            lateness: Histogram::new(),
             work: Histogram::new(),
             missed: 0,
             clean_missed: 0,
@@ -52,10 +55,16 @@ impl Windows {
 
     /// Counts a beat in the open window.
     pub fn record(&mut self, beat: &Beat) {
-        self.open.record(beat.lateness_ns);
+        self.open.record(beat.latency_ns);
+        self.lateness.record(beat.lateness_ns);
         self.open_missed += beat.missed;
         self.work.record(beat.work_ns);
         self.moving += u64::from(beat.is_moving);
+    }
+
+    /// Begins after a pause; `steal` is the count now.
+    pub const fn resume(&mut self, steal: Option<u64>) {
+        self.before = steal;
     }
 
     /// Closes the open window; `steal` is the count now. Where the host does not tell, every window
@@ -88,9 +97,10 @@ impl Windows {
 mod tests {
     use super::*;
 
-    fn beat(lateness_ns: u64, missed: u64) -> Beat {
+    fn beat(latency_ns: u64, missed: u64) -> Beat {
         Beat {
-            lateness_ns,
+            latency_ns,
+            lateness_ns: latency_ns / 2,
             missed,
             work_ns: 1_000,
             is_moving: missed == 0,
@@ -113,6 +123,16 @@ mod tests {
         assert_eq!(windows.clean.quantiles().max_ns, 5_000_000);
         assert_eq!(windows.all.quantiles().count, 3);
         assert_eq!(windows.work.quantiles().count, 3);
+        assert_eq!(windows.lateness.quantiles().max_ns, 4_500_000);
+    }
+
+    #[test]
+    fn what_is_stolen_in_a_pause_counts_nowhere() {
+        let mut windows = Windows::new(Some(40));
+        windows.resume(Some(45));
+        windows.record(&beat(20_000, 0));
+        windows.close(Some(45));
+        assert_eq!((windows.with_steal, windows.steal), (0, Some(0)));
     }
 
     #[test]

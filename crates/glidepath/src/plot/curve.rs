@@ -38,6 +38,7 @@ impl CurvePlot {
             at: xyz(position),
             feed_v,
             rapid: false,
+            bound: None,
         });
     }
 

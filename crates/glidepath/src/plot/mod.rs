@@ -1,10 +1,12 @@
-//! A picture of a motion: the tool path coloured by feed, and feed, velocity, acceleration and jerk
+//! A picture of a motion: the tool path coloured by the limit that binds, or by feed where that is not
+//! known; and feed, velocity, acceleration and jerk
 //! of each axis against time with their limits, as one SVG file.
 //!
 //! Samples are taken one by one and kept in bounded memory, so that a motion of any length gives a
 //! file of at most about 2 MB. Velocity, acceleration and jerk are finite differences of the
 //! positions: what a drive makes of them, not what the planner says about them.
 
+mod bound;
 mod colour;
 pub mod curve;
 mod envelope;
@@ -16,6 +18,7 @@ mod track;
 mod view;
 
 use crate::sample::Sample;
+use bound::Bound;
 use colour::{CURVES, INK, QUIET};
 use envelope::Envelope;
 use glidepath_geometry::{Axis, AxisVector};
@@ -73,6 +76,7 @@ impl Plot {
             at,
             feed_v: sample.feed_v,
             rapid: sample.rapid,
+            bound: sample.binding.map(Bound::of),
         });
         let first = *self.recent.first.get_or_insert(sample.tick);
         let tick = sample.tick.saturating_sub(first);
@@ -172,7 +176,11 @@ impl Plot {
             width: 420.0,
             height: 10.0,
         };
-        view::legend(svg, self.track.max_feed_v(), &legend);
+        if self.track.has_bounds() {
+            bound::legend(svg, &self.track, &legend);
+        } else {
+            view::legend(svg, self.track.max_feed_v(), &legend);
+        }
     }
 
     fn strips(&self) -> Vec<Strip<'_>> {

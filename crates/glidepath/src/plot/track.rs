@@ -4,6 +4,8 @@
 //! ones nearest to the straight line between their neighbours, with a difference in feed counted as
 //! a distance. Two neighbours are never dropped together, so that no bend is lost in one go.
 
+use super::bound::Bound;
+
 /// Points kept at most.
 const CAPACITY: usize = 12_000;
 
@@ -16,6 +18,8 @@ pub(super) struct TrackPoint {
     pub(super) feed_v: f64,
     /// True if the way to here was a rapid move.
     pub(super) rapid: bool,
+    /// The kind of limit that binds on the way to here, if it is known.
+    pub(super) bound: Option<Bound>,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -59,6 +63,11 @@ impl Track {
         self.max_feed_v
     }
 
+    /// True if it is known what binds.
+    pub(super) fn has_bounds(&self) -> bool {
+        self.points.iter().any(|point| point.bound.is_some())
+    }
+
     /// Smallest and largest X, Y, Z.
     pub(super) const fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         (self.low, self.high)
@@ -74,7 +83,7 @@ impl Track {
         let worth: Vec<f64> = self
             .points
             .windows(3)
-            .map(|three| worth(three, mm_per_feed))
+            .map(|three| worth(three, mm_per_feed).max(worth_of_bound(three, extent)))
             .collect();
         let mut sorted = worth.clone();
         sorted.sort_unstable_by(f64::total_cmp);
@@ -93,6 +102,12 @@ impl Track {
             !drop
         });
     }
+}
+
+/// A change of what binds shows as much as a bend of half a percent of the picture.
+fn worth_of_bound(three: &[TrackPoint], extent: f64) -> f64 {
+    let changes = three.windows(2).any(|pair| pair[0].bound != pair[1].bound);
+    if changes { 0.005 * extent } else { 0.0 }
 }
 
 /// What the middle one of three points shows, in mm.
@@ -127,6 +142,7 @@ mod tests {
             at: [x, y, 0.0],
             feed_v: 10.0,
             rapid: false,
+            bound: None,
         }
     }
 

@@ -1,5 +1,6 @@
-//! The tool path seen from one side, coloured by feed.
+//! The tool path seen from one side, coloured by what binds or by feed.
 
+use super::bound::Bound;
 use super::colour::{self, FRAME, GRID, INK, QUIET, RAPID};
 use super::svg::{Anchor, Area, Path, Svg};
 use super::ticks::{label, ticks};
@@ -111,13 +112,14 @@ pub(super) fn draw(svg: &mut Svg, view: View, track: &Track, area: &Area) {
     };
     let mut rapids = Path::default();
     let mut shades: Vec<Path> = vec![Path::default(); colour::SHADES];
+    let mut bounds: Vec<Path> = vec![Path::default(); Bound::ALL.len()];
     for pair in track.points().windows(2) {
         let [from, to] = pair else { continue };
         let share = from.feed_v.midpoint(to.feed_v) / track.max_feed_v().max(f64::MIN_POSITIVE);
-        let path = if to.rapid {
-            Some(&mut rapids)
-        } else {
-            shades.get_mut(colour::shade(share))
+        let path = match to.bound {
+            _ if to.rapid => Some(&mut rapids),
+            Some(bound) => bounds.get_mut(bound.index()),
+            None => shades.get_mut(colour::shade(share)),
         };
         let Some(path) = path else { continue };
         let (start, end) = (at(from), at(to));
@@ -131,8 +133,15 @@ pub(super) fn draw(svg: &mut Svg, view: View, track: &Track, area: &Area) {
         &rapids,
         &format!("fill=\"none\" stroke=\"{RAPID}\" stroke-width=\"1\" stroke-dasharray=\"4 3\""),
     );
-    for (shade, path) in shades.iter().enumerate() {
-        let colour = colour::hex(shade);
+    let shades = shades
+        .iter()
+        .enumerate()
+        .map(|(shade, path)| (colour::hex(shade), path));
+    let bounds = Bound::ALL
+        .iter()
+        .zip(&bounds)
+        .map(|(bound, path)| (bound.colour().to_owned(), path));
+    for (colour, path) in shades.chain(bounds) {
         svg.path(
             path,
             &format!("{stroke} stroke=\"{colour}\" stroke-width=\"1.5\""),
@@ -214,18 +223,22 @@ pub(super) fn legend(svg: &mut Svg, max_feed_v: f64, area: &Area) {
         &text,
         "feed mm/s",
     );
-    let dash = area.right() + 24.0;
+    rapid_legend(svg, area.right() + 24.0, area);
+}
+
+/// Draws what a rapid looks like, from `x` on.
+pub(super) fn rapid_legend(svg: &mut Svg, x: f64, area: &Area) {
     let middle = area.y + area.height / 2.0;
     svg.line(
-        (dash, middle),
-        (dash + 26.0, middle),
+        (x, middle),
+        (x + 26.0, middle),
         &format!("stroke=\"{RAPID}\" stroke-dasharray=\"4 3\""),
     );
     svg.text(
-        dash + 32.0,
+        x + 32.0,
         area.bottom() - 1.0,
         Anchor::Start,
-        &text,
+        &format!("fill=\"{QUIET}\" font-size=\"10\""),
         "rapid",
     );
 }

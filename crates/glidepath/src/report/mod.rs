@@ -1,5 +1,6 @@
 //! What commands report, as text and as JSON.
 
+mod diagnosis;
 mod finding;
 mod memory;
 mod motion;
@@ -7,6 +8,7 @@ mod quantity;
 mod run;
 mod status;
 
+pub use diagnosis::{DiagnosisReport, PlaceReport};
 pub use finding::{ProgramFinding, finding_object};
 pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};

@@ -1,5 +1,6 @@
 //! The report of `plan`, and the part of `run` that is the same.
 
+use super::diagnosis::DiagnosisReport;
 use super::quantity::{grouped, seconds};
 use crate::config::{AxisConfig, MachineConfig};
 use crate::exit::Exit;
@@ -66,6 +67,9 @@ pub struct MotionReport {
     pub peak_rss_bytes: Option<u64>,
     /// Where the motion ended, mm or degrees, by axis letter.
     pub final_position: BTreeMap<String, f64>,
+    /// Which limits bind, and where time is lost; of a plan.
+    #[serde(flatten)]
+    pub diagnosis: Option<DiagnosisReport>,
     /// The CSV that was written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub setpoints: Option<PathBuf>,
@@ -177,6 +181,9 @@ impl MotionReport {
             .map(|(axis, value)| format!("{axis} {value:.4}"))
             .collect();
         writeln!(text, "  end position  {}", end.join("  "))?;
+        if let Some(diagnosis) = &self.diagnosis {
+            text.push_str(&diagnosis.text());
+        }
         if self.violation_count > 0 {
             writeln!(
                 text,

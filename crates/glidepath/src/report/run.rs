@@ -27,8 +27,12 @@ pub struct RunReport {
     pub lost_setpoints: u64,
     /// How late ticks began: p50, p99, p999, max.
     pub lateness_us: Value,
-    /// How long the work of a tick took: p50, p99, p999, max.
+    /// How long the work of a tick took, before and at its deadline: p50, p99, p999, max.
     pub work_us: Value,
+    /// How long the host took to wake the thread before a tick: p50, p99, p999, max.
+    pub latency_us: Value,
+    /// From the deadline of a tick to its setpoint handed over: p50, p99, p999, max.
+    pub response_us: Value,
     /// What real time was granted.
     pub realtime: Value,
     #[serde(skip)]
@@ -64,6 +68,8 @@ impl RunReport {
             lost_setpoints: servo.lost,
             lateness_us: quantiles_object(&status.lateness),
             work_us: quantiles_object(&status.work),
+            latency_us: quantiles_object(&status.latency),
+            response_us: quantiles_object(&status.response),
             realtime: realtime_object(status.grants()),
             status: *status,
         }

@@ -168,8 +168,11 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
         "frames_refused": status.frames_refused.iter().sum::<u64>(),
         "lateness_us": quantiles_object(&status.lateness),
         "work_us": quantiles_object(&status.work),
+        "latency_us": quantiles_object(&status.latency),
+        "response_us": quantiles_object(&status.response),
         "realtime": realtime_object(status.grants()),
         "last_error": status.last_error.as_str(),
+        "last_event": status.last_event.as_str(),
     })
 }
 
@@ -217,6 +220,7 @@ pub fn status_text(instance: &str, status: &Status) -> String {
         grouped(status.frames_executed),
         status.queue_depth
     );
+    let _ = writeln!(text, "  last event    {}", status.last_event.as_str());
     text + &timing_text(status)
 }
 
@@ -224,11 +228,13 @@ pub fn status_text(instance: &str, status: &Status) -> String {
 #[must_use]
 pub fn timing_text(status: &Status) -> String {
     format!(
-        "  ticks         {}, {} missed, {} late\n  lateness      {}\n  work          {}\n  real time     {}\n",
+        "  ticks         {}, {} missed, {} late\n  waking        {}\n  lateness      {}\n  handed over   {}\n  work          {}\n  real time     {}\n",
         grouped(status.ticks),
         grouped(status.missed_ticks),
         grouped(status.late_ticks),
+        quantiles_text(&status.latency),
         quantiles_text(&status.lateness),
+        quantiles_text(&status.response),
         quantiles_text(&status.work),
         realtime_text(status.grants())
     )

@@ -14,8 +14,9 @@
 //! Where a plan at its limits lets no single ramp pass, two may: a little slower first (see the module
 //! above), then to rest. What cannot be reached is left to the next block: see [`Rate::secure`].
 
+use super::play::SET_UP;
 use super::play::{Played, play};
-use super::reserve::{Later, Reserve, SET_UP, Steady, whole};
+use super::reserve::{Later, Reserve, Steady, whole};
 use super::{FASTEST, Rate, Scene};
 use crate::program_time::ProgramTime;
 use crate::ramp::{Bounds, Ramp};

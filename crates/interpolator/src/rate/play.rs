@@ -1,9 +1,13 @@
 //! Playing a ramp through: what it would publish, tick by tick.
 
+use super::Scene;
 use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
 use crate::ramp::Ramp;
 use crate::track::Track;
+
+/// What it costs to set up a stop, in samples.
+pub(super) const SET_UP: u32 = 6;
 
 /// What playing a ramp through has shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,4 +58,13 @@ pub(super) fn play(
         }
     }
     Played::Passed
+}
+
+impl Scene<'_> {
+    /// Samples a tick may spend: so many, or what it takes to play a stop from full speed through
+    /// twice. With less, at a short period, no stop would ever pass.
+    pub(super) fn budget(&self, least: u32) -> u32 {
+        let stop = u32::try_from(2 * self.reach).unwrap_or(u32::MAX / 4);
+        least.max(2 * (stop + 3 + SET_UP))
+    }
 }

@@ -20,16 +20,14 @@
 //! ever; then limits are relaxed for the reserve, as little as possible. It is not likely to be
 //! taken, and the excess is reported if it is.
 
-use super::play::{Cue, Played, play};
+use super::play::{Cue, Played, SET_UP, play};
 use super::{FASTEST, Rate, Scene};
 use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
 use crate::ramp::{Bounds, Ramp};
 
-/// Samples a tick may spend on finding a reserve.
+/// Samples a tick may spend on finding a reserve, unless stops are longer.
 const BUDGET: u32 = 120;
-/// What it costs to set up a candidate, in samples.
-pub(super) const SET_UP: u32 = 6;
 /// Places between the latest possible and the earliest useful at which a stop of a shape may begin.
 const PLACES: usize = 48;
 /// A reserve is replaced only by one that begins this much later, ticks.
@@ -279,7 +277,7 @@ impl Rate {
         if self.ramp.is_some() || self.rate <= 0.0 {
             return false;
         }
-        let mut budget = BUDGET;
+        let mut budget = scene.budget(BUDGET);
         let has_time = |reserve: &Reserve| reserve.first.in_ticks > URGENT;
         if let Some(frame) = scene.block_end
             && goal > 0.0
@@ -344,7 +342,7 @@ impl Rate {
         let step = (self.insisted / 2).min(RELAXED.len() - 1);
         self.insisted += 1;
         let excess = RELAXED.get(step).copied()?;
-        let (allowed, mut budget) = (scene.allowed.relaxed(excess), BUDGET);
+        let (allowed, mut budget) = (scene.allowed.relaxed(excess), scene.budget(BUDGET));
         // One tick for the simple shapes, one for the others.
         let mut start = if self.insisted.is_multiple_of(2) {
             CANDIDATES / 2

@@ -140,10 +140,16 @@ pub struct Status {
     pub frames_refused: [u64; FRAME_REFUSALS],
     /// How late ticks began.
     pub lateness: Quantiles,
-    /// How long the work of a tick took.
+    /// How long the work of a tick took, before and at its deadline.
     pub work: Quantiles,
+    /// How long the host took to wake the thread before a tick.
+    pub latency: Quantiles,
+    /// From the deadline of a tick to its setpoint handed to the thread that publishes it.
+    pub response: Quantiles,
     /// The last error, for people.
     pub last_error: Text,
+    /// The last thing that happened (a change of state, missed ticks, …), for people.
+    pub last_event: Text,
 }
 
 impl Status {
@@ -223,6 +229,7 @@ impl Record for Status {
         self.state()?;
         self.end_of_epoch()?;
         self.fault()?;
+        self.last_event.check(Self::NAME, "last_event")?;
         self.last_error.check(Self::NAME, "last_error")
     }
 }

@@ -22,9 +22,10 @@ fn setup() -> Setup {
 /// 998 beats 20 µs late, one 1 ms late without steal, one 9 ms late with steal.
 fn measured() -> Measurement {
     let mut windows = Windows::new(Some(7));
-    let mut beat = |lateness_ns: u64, missed: u64| {
+    let mut beat = |latency_ns: u64, missed: u64| {
         windows.record(&Beat {
-            lateness_ns,
+            latency_ns,
+            lateness_ns: latency_ns.saturating_sub(20_000),
             missed,
             work_ns: 500,
             is_moving: false,
@@ -34,7 +35,8 @@ fn measured() -> Measurement {
     beat(1_000_000, 0);
     windows.close(Some(7));
     windows.record(&Beat {
-        lateness_ns: 9_000_000,
+        latency_ns: 9_000_000,
+        lateness_ns: 980_000,
         missed: 2,
         work_ns: 500,
         is_moving: false,
@@ -55,9 +57,11 @@ fn the_object_has_both_sets_and_the_difference() {
     let object = JitterReport::new(&setup, &measured).object();
     assert_eq!(object["ticks"], 1_000);
     assert_eq!(object["missed_ticks"], 2);
-    assert_eq!(object["lateness_us"]["max"], 9_000.0);
-    assert_eq!(object["lateness_without_steal_us"]["max"], 1_000.0);
-    assert_eq!(object["lateness_without_steal_us"]["missed_ticks"], 0);
+    assert_eq!(object["latency_us"]["max"], 9_000.0);
+    assert_eq!(object["latency_without_steal_us"]["max"], 1_000.0);
+    assert_eq!(object["latency_without_steal_us"]["missed_ticks"], 0);
+    assert_eq!(object["lateness_us"]["p50"], 0.0);
+    assert_eq!(object["lateness_us"]["max"], 980.0);
     assert_eq!(object["windows_with_steal"], 1);
     assert_eq!(object["steal_ms"], 20);
     assert_eq!(object["realtime"]["fifo"], false);
@@ -85,7 +89,7 @@ fn the_text_shows_outliers_and_steal() {
     );
     assert!(text.contains("20 ms in 1 of 2 windows"), "{text}");
     assert!(text.contains("windows without steal"), "{text}");
-    assert!(text.contains("lateness − cyclictest"), "{text}");
+    assert!(text.contains("latency − cyclictest"), "{text}");
     let last = text.lines().last().unwrap();
     assert!(
         last.contains("5000 to 10000") && last.ends_with("█ 1"),

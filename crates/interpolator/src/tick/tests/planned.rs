@@ -81,6 +81,35 @@ fn planned_time_is_run_time() {
     }
 }
 
+/// A stop from full speed takes 170 ticks here: a tick must be able to play one through.
+#[test]
+fn a_short_period_gets_under_way() {
+    let settings = Settings {
+        limits: mill(),
+        tolerance_mm: 0.02,
+        smoothing: Smoothing::Sextic,
+        period_t: 0.000_9,
+        effort: Effort::Fast,
+    };
+    let mut to = AxisVector::zeros();
+    (to[0], to[1]) = (200.0, 200.0);
+    let kind = ItemKind::Move {
+        segment: Segment::line(AxisVector::zeros(), to),
+        rate: Speed::Rapid,
+        mode: PathMode::ExactStop,
+    };
+    let mut planner = Planner::new(settings, AxisVector::zeros());
+    planner.push(&Item { line: 1, kind }).unwrap();
+    planner.finish();
+    let frames: Vec<_> = std::iter::from_fn(|| planner.pop_frame().unwrap()).collect();
+    let mut rig = Rig::new(Config::new(mill(), 900_000));
+    rig.feed.extend(records(&frames, 1, 900_000));
+    let last = frames.len() as u64 - 1;
+    let ended = rig.run_until(2 * frames.len(), |s| s.epoch == 1 && s.sequence == last);
+    assert!(ended, "{:?}", rig.state());
+    assert!(rig.worst_ratio() <= 1.0 + 1e-6);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 100, ..ProptestConfig::default() })]
     #[test]

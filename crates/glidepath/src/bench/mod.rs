@@ -1,0 +1,8 @@
+//! Benchmark programs beside what is known of them: cycle times against bounds and against another
+//! control.
+
+mod anchors;
+mod report;
+
+pub use anchors::{Anchors, Catalogue, CatalogueError, Entry, OtherControl};
+pub use report::{BenchReport, Row};

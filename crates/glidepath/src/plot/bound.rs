@@ -1,0 +1,100 @@
+//! Colours for the limits that bind.
+
+use super::colour::QUIET;
+use super::svg::{Anchor, Area, Svg};
+use super::track::Track;
+use super::view::rapid_legend;
+use glidepath_motion::diagnosis::Binding;
+
+/// The kind of a limit; the axis does not show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Bound {
+    Feed,
+    Velocity,
+    Acceleration,
+    Jerk,
+    Tolerance,
+    ChordError,
+    None,
+}
+
+impl Bound {
+    pub(super) const ALL: [Self; 7] = [
+        Self::Feed,
+        Self::Velocity,
+        Self::Acceleration,
+        Self::Jerk,
+        Self::Tolerance,
+        Self::ChordError,
+        Self::None,
+    ];
+
+    pub(super) const fn of(binding: Binding) -> Self {
+        match binding {
+            Binding::Feed => Self::Feed,
+            Binding::Velocity(_) => Self::Velocity,
+            Binding::Acceleration(_) => Self::Acceleration,
+            Binding::Jerk(_) => Self::Jerk,
+            Binding::Tolerance => Self::Tolerance,
+            Binding::ChordError => Self::ChordError,
+            // A rest is a point of the track: nothing is drawn of it.
+            Binding::Rest | Binding::None => Self::None,
+        }
+    }
+
+    pub(super) const fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Distinct also for those who do not tell red from green; the feed, which is what one wants to
+    /// be bound by, is the quiet one.
+    pub(super) const fn colour(self) -> &'static str {
+        match self {
+            Self::Feed => "#4d9de0",
+            Self::Velocity => "#1b4f72",
+            Self::Acceleration => "#e69f00",
+            Self::Jerk => "#c2255c",
+            Self::Tolerance => "#0b8a5f",
+            Self::ChordError => "#7048e8",
+            Self::None => "#8d99a6",
+        }
+    }
+
+    const fn label(self) -> &'static str {
+        match self {
+            Self::Feed => "feed",
+            Self::Velocity => "velocity",
+            Self::Acceleration => "acceleration",
+            Self::Jerk => "jerk",
+            Self::Tolerance => "tolerance",
+            Self::ChordError => "chord error",
+            Self::None => "none",
+        }
+    }
+}
+
+/// Names the colours that a track has.
+pub(super) fn legend(svg: &mut Svg, track: &Track, area: &Area) {
+    let text = format!("fill=\"{QUIET}\" font-size=\"10\"");
+    let below = area.bottom() - 1.0;
+    svg.text(area.x - 8.0, below, Anchor::End, &text, "bound by");
+    let mut x = area.x;
+    for bound in Bound::ALL {
+        let is_there =
+            |point: &super::track::TrackPoint| !point.rapid && point.bound == Some(bound);
+        if !track.points().iter().any(is_there) {
+            continue;
+        }
+        let swatch = Area {
+            x,
+            width: 18.0,
+            ..*area
+        };
+        svg.rect(&swatch, &format!("fill=\"{}\"", bound.colour()));
+        svg.text(x + 23.0, below, Anchor::Start, &text, bound.label());
+        x += 100.0;
+    }
+    if track.points().iter().any(|point| point.rapid) {
+        rapid_legend(svg, x, area);
+    }
+}
