@@ -7,6 +7,8 @@
 
 mod faults;
 mod libraries;
+mod operator;
 mod programs;
+mod resume;
 mod run;
 mod services;

@@ -25,7 +25,7 @@ mod watchdog;
 
 pub use binary::glidepath;
 pub use instance::Instance;
-pub use machine::{Machine, Recording, Watch, plan, program, program_from, settings};
+pub use machine::{Machine, Recording, Watch, audit, plan, program, program_from, settings};
 pub use process::{Output, Process};
 pub use services::{Services, planned};
 pub use setpoint_file::SetpointFile;

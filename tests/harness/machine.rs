@@ -89,25 +89,31 @@ impl Recording {
     /// What the auditor says about an epoch. Missed ticks are no gaps: the path goes on where it was.
     #[must_use]
     pub fn audit(&self, epoch: u64, items: &[Item]) -> Report {
-        let settings = settings();
-        let mut audit = Audit::new(&AuditSettings {
-            limits: settings.limits,
-            period_t: settings.period_t,
-            tolerance_mm: settings.tolerance_mm,
-        });
-        for item in items {
-            audit.program(item);
-        }
-        for setpoint in self.epoch(epoch) {
-            audit.sample(&Sample {
-                tick: setpoint.number,
-                line: setpoint.line,
-                position: AxisVector::from(setpoint.position),
-                reported: None,
-            });
-        }
-        audit.finish()
+        let place = |setpoint: &Setpoint| AxisVector::from(setpoint.position);
+        audit(items, self.epoch(epoch).map(place))
     }
+}
+
+/// What the auditor says about a motion.
+pub fn audit(items: &[Item], positions: impl Iterator<Item = AxisVector>) -> Report {
+    let settings = settings();
+    let mut audit = Audit::new(&AuditSettings {
+        limits: settings.limits,
+        period_t: settings.period_t,
+        tolerance_mm: settings.tolerance_mm,
+    });
+    for item in items {
+        audit.program(item);
+    }
+    for (tick, position) in (0..).zip(positions) {
+        audit.sample(&Sample {
+            tick,
+            line: 0,
+            position,
+            reported: None,
+        });
+    }
+    audit.finish()
 }
 
 /// An interpolator and a recorder at work.

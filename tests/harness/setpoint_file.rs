@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use glidepath_geometry::AxisVector;
+
 /// The rows of a file, without what tells when: two executions of the same plan have the same, if
 /// rows at rest are counted once.
 #[derive(Debug, PartialEq, Eq)]
@@ -34,6 +36,21 @@ impl SetpointFile {
         let mut rows: Vec<_> = self.rows.iter().map(String::as_str).collect();
         rows.dedup();
         rows
+    }
+
+    /// The positions of X, Y and Z in every row.
+    #[must_use]
+    pub fn positions(&self) -> Vec<AxisVector> {
+        let position = |row: &String| {
+            let numbers: Vec<f64> = row.split(',').map(|text| text.parse().unwrap()).collect();
+            let mut position = AxisVector::zeros();
+            for axis in 0..3 {
+                // Position, velocity and acceleration of one axis after the other.
+                position[axis] = numbers[3 * axis];
+            }
+            position
+        };
+        self.rows.iter().map(position).collect()
     }
 
     /// Whether nothing ever moved.

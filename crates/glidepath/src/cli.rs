@@ -34,7 +34,7 @@ pub enum Command {
     /// The planner process: a program, standard input, or segments of other processes to frames
     #[command(
         after_help = "Examples: glidepath planner part.ngc · glidepath planner - < part.ngc · \
-                            glidepath planner --listen"
+                            glidepath planner --listen · glidepath planner part.ngc --resume"
     )]
     Planner(PlannerArgs),
     /// A mock servo: receives setpoints and reports what it saw
@@ -189,6 +189,12 @@ pub struct PlannerArgs {
     /// Take segments from other processes instead of a program
     #[arg(long)]
     pub listen: bool,
+    /// Go on with the program from where the machine stands on its path
+    ///
+    /// For a program whose planner died, or that was aborted. Motion starts at once. Refused if the
+    /// machine does not stand on the path, or the text is not that of the program that was under way.
+    #[arg(long, conflicts_with = "listen")]
+    pub resume: bool,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,

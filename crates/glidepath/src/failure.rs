@@ -91,6 +91,9 @@ pub enum Failure {
     /// A program was not streamed to its end.
     #[error(transparent)]
     Feed(#[from] FeedError),
+    /// Standard input was to be resumed.
+    #[error("standard input cannot be read from its beginning again: resume from a file")]
+    ResumePipe,
     /// The shared memory cannot be used.
     #[error(transparent)]
     Link(#[from] LinkError),
@@ -158,14 +161,15 @@ impl Failure {
     pub const fn exit(&self) -> Exit {
         match self {
             Self::Configuration(_) => Exit::Configuration,
-            Self::Open { .. }
+            Self::ResumePipe
+            | Self::Open { .. }
             | Self::Catalogue(_)
             | Self::NoFeed
             | Self::Cyclictest(CyclictestError::Absent) => Exit::Usage,
             Self::Rejected { .. }
             | Self::Curve(_)
             | Self::Refused(_)
-            | Self::Planner(planner::RunError::Refused(_))
+            | Self::Planner(planner::RunError::Refused(_) | planner::RunError::Resume(_))
             | Self::Feed(FeedError::Refused(_) | FeedError::RefusedByPlanner { .. }) => {
                 Exit::Rejected
             }

@@ -41,6 +41,10 @@ impl StatusBook {
 
     /// Counts a tick.
     pub(crate) fn count(&mut self, report: &Report) {
+        if report.setpoint.block != self.status.block {
+            self.status.block = report.setpoint.block;
+            self.status.block_path_s = report.setpoint.path_s;
+        }
         self.lateness.record(report.setpoint.lateness_ns);
         if report.setpoint.number > 0 {
             self.work.record(report.timing.work_ns);
@@ -111,7 +115,6 @@ impl StatusBook {
         status.late_ticks = report.late_ticks;
         status.setpoints_lost = report.reports_lost;
         status.relaxed_stops = report.relaxed_stops;
-        status.block = setpoint.block;
         status.single_block = report.single_block.into();
         status.lateness = quantiles(&self.lateness);
         status.work = quantiles(&self.work);

@@ -376,6 +376,10 @@ impl<'a> Interpolator<'a> {
     }
 
     fn close(&mut self, end: EndOfEpoch) {
+        // Where the machine stands is not at a frame in general.
+        if let Some(path) = self.track.path(self.rate.now().time) {
+            self.passed.path_s = path.path_s;
+        }
         self.track.clear();
         self.rate.rest_at(self.rate.now().time, 0.0);
         self.published = Differences::at_rest(*self.published.position());

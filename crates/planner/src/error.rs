@@ -4,7 +4,7 @@ use glidepath_geometry::Axis;
 use glidepath_link::{CommandKind, CommandRefusal, FaultCause, FrameRefusal, LinkError, Status};
 use thiserror::Error;
 
-use crate::Refusal;
+use crate::{Refusal, ResumeError};
 
 /// Why a run ended before its end. In every case the machine comes to rest on the path.
 #[derive(Debug, Error)]
@@ -51,6 +51,9 @@ pub enum RunError {
         /// Which.
         command: CommandKind,
     },
+    /// The program cannot be taken up again.
+    #[error(transparent)]
+    Resume(#[from] ResumeError),
     /// A port failed.
     #[error(transparent)]
     Link(#[from] LinkError),

@@ -10,16 +10,19 @@
 //! Frames depend on the items and the settings alone. No clock is read here; a caller lends a way to
 //! wait ([`Control::pause`]).
 
+mod blocks;
 mod control;
 mod epoch;
 mod error;
 mod feed;
+mod fingerprint;
 mod listen;
 mod machine;
 mod pipeline;
 mod program;
 mod publish;
 mod refusal;
+mod resume;
 mod source;
 mod stream;
 
@@ -32,6 +35,7 @@ pub use pipeline::{Output, Pipeline, Statistics};
 pub use program::{PipeSource, ProgramSource};
 pub use publish::Publisher;
 pub use refusal::Refusal;
+pub use resume::{Rest, ResumeError, ResumePoint};
 pub use source::{ItemSource, Supply};
 use stream::Stream;
 pub use stream::{STREAM_QUEUE, SoftLimits};

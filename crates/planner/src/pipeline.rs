@@ -17,7 +17,8 @@ use std::time::Duration;
 use glidepath_geometry::AxisVector;
 use glidepath_motion::{Frame, Item, ItemKind, Override, Planner, Settings};
 
-use crate::{ItemSource, Refusal, Supply};
+use crate::blocks::Blocks;
+use crate::{ItemSource, Refusal, Rest, Supply};
 
 /// One step of a pipeline.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,6 +67,22 @@ pub struct Pipeline<S> {
     statistics: Statistics,
     clock: Option<fn() -> Duration>,
     wanted: Override,
+    blocks: Blocks,
+    /// Path position at the start, mm.
+    start_s: f64,
+}
+
+impl<S: ItemSource> Pipeline<Rest<S>> {
+    /// A pipeline for the rest of a program, from where the machine stands.
+    #[must_use]
+    pub fn resuming(rest: Rest<S>, settings: Settings) -> Self {
+        let (point, first) = (*rest.point(), rest.first_block());
+        Self {
+            blocks: Blocks::from(first),
+            start_s: point.path_s,
+            ..Self::new(rest, settings, point.position)
+        }
+    }
 }
 
 impl<S: ItemSource> Pipeline<S> {
@@ -79,6 +96,8 @@ impl<S: ItemSource> Pipeline<S> {
             statistics: Statistics::default(),
             clock: None,
             wanted: Override::NONE,
+            blocks: Blocks::whole(),
+            start_s: 0.0,
         }
     }
 
@@ -113,14 +132,16 @@ impl<S: ItemSource> Pipeline<S> {
             return Ok(Output::End);
         }
         match self.planner.pop_frame() {
-            Ok(Some(frame)) => {
+            Ok(Some(mut frame)) => {
                 self.statistics.frames += 1;
+                self.blocks.leave(&mut frame);
+                frame.path_s += self.start_s;
                 return Ok(Output::Frame(frame));
             }
             Ok(None) => {}
             Err(error) => {
                 self.program = Program::Broken;
-                return Err(error.into());
+                return Err(self.blocks.name(error).into());
             }
         }
         match &mut self.program {
@@ -165,6 +186,18 @@ impl<S: ItemSource> Pipeline<S> {
         &mut self.source
     }
 
+    /// Block of the program that the last frame belongs to, 0 before the first; counted as in
+    /// [`glidepath_link::SetpointFrame::block`].
+    #[must_use]
+    pub const fn block(&self) -> u32 {
+        self.blocks.present()
+    }
+
+    /// Which program it is: see [`ItemSource::fingerprint`].
+    pub(crate) fn fingerprint(&self) -> u64 {
+        self.source.fingerprint()
+    }
+
     /// Counts so far.
     #[must_use]
     pub fn statistics(&self) -> Statistics {
@@ -184,7 +217,12 @@ impl<S: ItemSource> Pipeline<S> {
     }
 
     fn plan(&mut self, item: Item) -> Output {
-        if let Err(error) = self.planner.push(&item) {
+        let numbered = Item {
+            line: self.blocks.enter(item.line),
+            ..item
+        };
+        if let Err(error) = self.planner.push(&numbered) {
+            let error = self.blocks.name(error);
             self.source.unplannable(&error);
             return self.end(Some(error.into()));
         }

@@ -10,6 +10,7 @@ use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 
 use glidepath_gcode::{Options, Program, check};
 
+use crate::fingerprint::Fingerprinting;
 use crate::{ItemSource, Refusal, Supply};
 
 /// Bytes read from a file or pipe at a time.
@@ -22,6 +23,7 @@ const READ_AHEAD: usize = 1024;
 #[derive(Debug)]
 pub struct ProgramSource<R> {
     program: Program<R>,
+    fingerprint: u64,
 }
 
 impl<R: BufRead> ProgramSource<R> {
@@ -30,6 +32,7 @@ impl<R: BufRead> ProgramSource<R> {
     pub fn new(reader: R, options: Options) -> Self {
         Self {
             program: Program::new(reader, options),
+            fingerprint: 0,
         }
     }
 }
@@ -42,7 +45,12 @@ impl ProgramSource<BufReader<File>> {
     /// All findings, if there is any; or why the file cannot be read.
     pub fn open(path: &Path, options: Options) -> Result<Self, Refusal> {
         let mut file = File::open(path)?;
-        let report = check(BufReader::with_capacity(BUFFER, &mut file), options.clone());
+        let mut reader = Fingerprinting::new(&mut file);
+        let report = check(
+            BufReader::with_capacity(BUFFER, &mut reader),
+            options.clone(),
+        );
+        let fingerprint = reader.fingerprint();
         if !report.diagnostics.is_empty() {
             return Err(Refusal::Program {
                 findings: report.diagnostics,
@@ -50,7 +58,10 @@ impl ProgramSource<BufReader<File>> {
             });
         }
         file.rewind()?;
-        Ok(Self::new(BufReader::with_capacity(BUFFER, file), options))
+        Ok(Self {
+            fingerprint,
+            ..Self::new(BufReader::with_capacity(BUFFER, file), options)
+        })
     }
 }
 
@@ -68,6 +79,10 @@ impl<R: BufRead> ItemSource for ProgramSource<R> {
 
     fn lines_read(&self) -> u64 {
         u64::from(self.program.totals().lines)
+    }
+
+    fn fingerprint(&self) -> u64 {
+        self.fingerprint
     }
 }
 

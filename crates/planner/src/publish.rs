@@ -33,7 +33,9 @@ use glidepath_link::{
 
 use crate::epoch::Epoch;
 use crate::machine::{HUNGRY_POLL, Machine, POLL, SILENCE, Standing};
-use crate::{Control, ItemSource, Notice, Output, Pace, Pipeline, RunError, Statistics};
+use crate::{
+    Control, ItemSource, Notice, Output, Pace, Pipeline, ResumePoint, RunError, Statistics,
+};
 
 /// Steps of the pipeline between two looks at status and stop flag.
 const STEPS_PER_TURN: u32 = 512;
@@ -164,6 +166,15 @@ impl<'t> Publisher<'t> {
         Ok(self.machine.ready_position())
     }
 
+    /// Where the program that was under way can be taken up again, of a machine that is ready.
+    ///
+    /// # Errors
+    /// [`RunError::Resume`]: there is no such program.
+    pub fn resume_point(&self) -> Result<ResumePoint, RunError> {
+        let status = self.machine.status().ok_or(RunError::InterpolatorLost)?;
+        ResumePoint::of(status)
+    }
+
     /// Publishes all frames of a pipeline that starts where [`Publisher::wait_until_ready`] said, and
     /// waits until they are executed.
     ///
@@ -246,11 +257,11 @@ impl<'t> Publisher<'t> {
             }
             match pipeline.advance() {
                 Ok(Output::Frame(frame)) => {
-                    epoch.in_hand = Some(SetpointFrame::from_frame(
-                        &frame,
-                        epoch.number,
-                        self.pace.period_ns,
-                    ));
+                    epoch.in_hand = Some(SetpointFrame {
+                        block: pipeline.block(),
+                        program: pipeline.fingerprint(),
+                        ..SetpointFrame::from_frame(&frame, epoch.number, self.pace.period_ns)
+                    });
                 }
                 Ok(Output::Item(_)) => {}
                 Ok(Output::Pending) => return Ok(Turn::Hungry),

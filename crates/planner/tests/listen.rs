@@ -22,7 +22,7 @@ use glidepath_planner::{
 };
 use support::attended;
 use support::interpolator::Interpolator;
-use support::items::{Listed, PERIOD_NS, frames_of, point, settings, staircase};
+use support::items::{Listed, PERIOD_NS, point, records, settings, staircase};
 
 fn listening() -> Listening {
     Listening {
@@ -36,14 +36,6 @@ fn listening() -> Listening {
             high: AxisVector::repeat(100.0),
         }),
     }
-}
-
-fn records(items: &[Item], epoch: u64) -> Vec<SetpointFrame> {
-    let frames = frames_of(items, AxisVector::zeros());
-    frames
-        .iter()
-        .map(|f| SetpointFrame::from_frame(f, epoch, PERIOD_NS))
-        .collect()
 }
 
 /// A client that sends its requests one after the other, then is silent for ever.
@@ -185,7 +177,7 @@ fn the_next_stream_starts_where_the_last_one_ended() {
         Scripted::new(&transport, 1, &script(&there, true)),
         Scripted::new(&transport, 2, &[]),
     ];
-    let executed = frames_of(&there, AxisVector::zeros()).len();
+    let executed = records(&there, 1).len();
     let interpolator = RefCell::new(Interpolator::new(&transport, 128));
     let stop = AtomicBool::new(false);
     let (_, notices) = attended(

@@ -6,14 +6,11 @@ use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use glidepath_geometry::AxisVector;
-use glidepath_link::{
-    Capacity, EndOfEpoch, FaultCause, InProcess, MachineState, SetpointFrame, Transport,
-};
+use glidepath_link::{Capacity, EndOfEpoch, FaultCause, InProcess, MachineState, Transport};
 use glidepath_planner::{Control, Pace, Pipeline, Publisher, Refusal, RunError, Statistics};
 use support::attended;
 use support::interpolator::Interpolator;
-use support::items::{Listed, PERIOD_NS, frames_of, point, polyline, settings, staircase};
+use support::items::{Listed, PERIOD_NS, point, polyline, records, settings, staircase};
 
 const HORIZON: u64 = 50;
 
@@ -34,14 +31,6 @@ fn run(
     let mut publisher = Publisher::connect(transport, pace)?;
     let start = publisher.wait_until_ready(control)?;
     publisher.publish(&mut Pipeline::new(source, settings(), start), control)
-}
-
-fn records(items: &[glidepath_motion::Item], epoch: u64) -> Vec<SetpointFrame> {
-    let frames = frames_of(items, AxisVector::zeros());
-    frames
-        .iter()
-        .map(|f| SetpointFrame::from_frame(f, epoch, PERIOD_NS))
-        .collect()
 }
 
 #[test]

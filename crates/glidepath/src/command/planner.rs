@@ -13,7 +13,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_link::{Ipc, Transport};
 use glidepath_planner::{
     Control, ItemSource, Listening, Notice, PipeSource, Pipeline, ProgramSource, Publisher,
-    Refusal, RunError, SoftLimits, Statistics, listen,
+    Refusal, Rest, RunError, SoftLimits, Statistics, listen,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -38,15 +38,21 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
     };
     let name = file.display().to_string();
     let statistics = if file == Path::new("-") {
+        if args.resume {
+            return Err(Failure::ResumePipe);
+        }
         run(&transport, config, &mut control, &name, true, |start| {
             PipeSource::spawn(std::io::stdin(), config.program_options(start))
         })
     } else {
         // A file that does not exist is told at once, not when the machine is ready.
         std::fs::File::open(file).map_err(Failure::open(file))?;
-        run(&transport, config, &mut control, &name, false, |start| {
-            ProgramSource::open(file, config.program_options(start))
-        })
+        let open = |start| ProgramSource::open(file, config.program_options(start));
+        if args.resume {
+            resume(&transport, config, &mut control, &name, open)
+        } else {
+            run(&transport, config, &mut control, &name, false, open)
+        }
     }?;
     if args.basic.json {
         output::object(&object(&name, &statistics));
@@ -75,6 +81,25 @@ fn run<S: ItemSource>(
             RunError::Refused(refusal) => Failure::refused(name, refusal, is_pipe),
             error => error.into(),
         })
+}
+
+/// The rest of a program, from where the machine stands on its path.
+fn resume<S: ItemSource>(
+    transport: &Ipc,
+    config: &MachineConfig,
+    control: &mut Control<'_>,
+    name: &str,
+    open: impl FnOnce(AxisVector) -> Result<S, Refusal>,
+) -> Result<Statistics, Failure> {
+    let mut publisher = Publisher::connect(transport, session::pace(config))?;
+    let _position = publisher.wait_until_ready(control)?;
+    let point = publisher.resume_point()?;
+    let source =
+        open(point.program_start).map_err(|refusal| Failure::refused(name, refusal, false))?;
+    let settings = config.settings();
+    let rest = Rest::find(source, point, settings.tolerance_mm)?;
+    let mut pipeline = Pipeline::resuming(rest, settings).with_clock(clock::elapsed);
+    Ok(publisher.publish(&mut pipeline, control)?)
 }
 
 /// Streams, until asked to end.

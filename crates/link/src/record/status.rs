@@ -112,6 +112,8 @@ pub struct Status {
     pub position: [f64; AXES],
     /// Path position, mm.
     pub path_s: f64,
+    /// Path position of the first setpoint of the block, mm.
+    pub block_path_s: f64,
     /// Rate of path position, mm/s.
     pub feed_v: f64,
     /// Feed override as commanded.
@@ -205,6 +207,7 @@ impl Record for Status {
         fields.all_finite("position", &self.position)?;
         fields.all_finite("program_start", &self.program_start)?;
         fields.finite("path_s", self.path_s)?;
+        fields.finite("block_path_s", self.block_path_s)?;
         fields.finite("feed_v", self.feed_v)?;
         fields.finite("fault_value", self.fault_value)?;
         fields.finite("fault_limit", self.fault_limit)?;

@@ -154,7 +154,7 @@ fn refuses_not_finite<R: Record>(good: &R, numbers: &[(usize, usize)]) {
 fn numbers_that_are_not_finite_are_refused() {
     refuses_not_finite(&good_frame(), &[(40, 72), (80, 296)]);
     refuses_not_finite(&good_setpoint(), &[(72, 80), (104, 568)]);
-    refuses_not_finite(&good_status(), &[(96, 112), (136, 320)]);
+    refuses_not_finite(&good_status(), &[(96, 112), (136, 328)]);
     refuses_not_finite(&good_segment(), &[(40, 240)]);
     refuses_not_finite(&CommandRequest::new(1, 1, Command::Ping), &[(16, 24)]);
     refuses_not_finite(&SegmentReply::zeroed(), &[(32, 104)]);

@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use glidepath_geometry::{AxisVector, Segment};
+use glidepath_link::SetpointFrame;
 use glidepath_motion::{Frame, Item, ItemKind, Limits, PathMode, Rate, Settings};
 use glidepath_planner::{ItemSource, Pipeline, Refusal, Supply};
 
@@ -101,4 +102,17 @@ impl ItemSource for Listed {
 pub(crate) fn frames_of(items: &[Item], start: AxisVector) -> Vec<Frame> {
     let mut pipeline = Pipeline::new(Listed::new(items), settings(), start);
     std::iter::from_fn(|| pipeline.next_frame().unwrap()).collect()
+}
+
+/// The records of all frames of a list of items, for a machine at rest at the origin.
+pub(crate) fn records(items: &[Item], epoch: u64) -> Vec<SetpointFrame> {
+    let mut pipeline = Pipeline::new(Listed::new(items), settings(), AxisVector::zeros());
+    let next = || {
+        let frame = pipeline.next_frame().unwrap()?;
+        Some(SetpointFrame {
+            block: pipeline.block(),
+            ..SetpointFrame::from_frame(&frame, epoch, PERIOD_NS)
+        })
+    };
+    std::iter::from_fn(next).collect()
 }

@@ -1,0 +1,267 @@
+//! Going on with a program in the middle: after its planner died, or after an abort.
+//!
+//! The interpolator knows where it stands: the block, how far it has come on it, and the position. The
+//! program is read from its beginning again, without motion, up to that block; the path that it
+//! programs from there on is searched for the point where the machine stands; and what follows that
+//! point is handed on.
+//!
+//! ```text
+//!            block 7                 8           9
+//!   ─────────┬───────────────●───────┬───────────┬──────
+//!            │◄── travelled ►│ machine
+//!            read, not run   └─ what is run: the rest of 7, 8, 9, …
+//! ```
+//!
+//! The machine need not stand on the programmed path: on a curve that replaces a corner, or on a chord
+//! that replaces several, it is off by up to the tolerance. From there it goes straight to the end of
+//! the block, and comes to rest there, so that no second curve adds to that distance.
+//!
+//! A path may pass a point more than once (a full circle begins where it ends). Of the points near
+//! enough, the one is taken that is as far from the beginning of the block as the machine has
+//! travelled on it, or next to that.
+
+mod search;
+
+use std::collections::VecDeque;
+use std::f64::consts::TAU;
+use std::time::Duration;
+
+use glidepath_geometry::{Arc, AxisVector, Segment};
+use glidepath_link::{EndOfEpoch, LinkError, Status};
+use glidepath_motion::{Item, ItemKind, PathMode, PlanError};
+use thiserror::Error;
+
+use crate::{ItemSource, RunError, Supply};
+use search::{Search, distance};
+
+/// How far from the program a machine that stands on it may be on top of the tolerance: rounding.
+const ROUNDING_MM: f64 = 1e-6;
+
+/// Why a program cannot be taken up again. Nothing has moved.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum ResumeError {
+    /// The interpolator has not executed any program since it was started.
+    #[error("no program was under way: run it from its beginning, without --resume")]
+    NothingToResume,
+    /// The last one was executed to its end.
+    #[error("the last program came to its end: there is nothing to resume")]
+    Completed,
+    /// The program is not the one that was under way, or was edited since.
+    #[error(
+        "this is not the program that was under way, or it was edited since; only the same text can \
+         be resumed"
+    )]
+    OtherProgram,
+    /// The machine does not stand where the program says.
+    #[error(
+        "the machine does not stand on this program's path at block {block} (line {line}): the \
+         nearest point there is {distance_mm:.4} mm away; it was moved, or another configuration was \
+         used"
+    )]
+    OffPath {
+        /// The block.
+        block: u32,
+        /// Its line, 0 if the program ends before.
+        line: u32,
+        /// Distance to the nearest point that comes into question, mm or degrees; infinite if there
+        /// is none.
+        distance_mm: f64,
+    },
+}
+
+/// Where a program was left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ResumePoint {
+    /// Where the machine stands.
+    pub position: AxisVector,
+    /// Where it stood when the program began: what the program is read with.
+    pub program_start: AxisVector,
+    /// Which program: see [`ItemSource::fingerprint`].
+    pub program: u64,
+    /// The block being executed: see [`glidepath_link::SetpointFrame::block`].
+    pub block: u32,
+    /// Path position, mm.
+    pub path_s: f64,
+    /// The same at the beginning of the block.
+    pub block_path_s: f64,
+}
+
+impl ResumePoint {
+    pub(crate) fn of(status: &Status) -> Result<Self, RunError> {
+        match status.end_of_epoch().map_err(LinkError::from)? {
+            EndOfEpoch::None => Err(ResumeError::NothingToResume)?,
+            EndOfEpoch::Completed => Err(ResumeError::Completed)?,
+            EndOfEpoch::Open | EndOfEpoch::Aborted | EndOfEpoch::Faulted => {}
+        }
+        Ok(Self {
+            position: AxisVector::from(status.position),
+            program_start: AxisVector::from(status.program_start),
+            program: status.program,
+            block: status.block,
+            path_s: status.path_s,
+            block_path_s: status.block_path_s,
+        })
+    }
+}
+
+/// The rest of a program: what follows the point at which it was left.
+#[derive(Debug)]
+pub struct Rest<S> {
+    source: S,
+    point: ResumePoint,
+    first_block: u32,
+    /// Items read in the search, the first one cut off.
+    ahead: VecDeque<Item>,
+    /// What ended the search.
+    last: Option<Supply>,
+}
+
+impl<S: ItemSource> Rest<S> {
+    /// Reads a program, opened for a machine at [`ResumePoint::program_start`], up to the point at
+    /// which it was left. `tolerance_mm` is the configured one. For sources that are never pending.
+    ///
+    /// # Errors
+    /// [`RunError::Resume`], or [`RunError::Refused`] if the program is refused before that point.
+    pub fn find(mut source: S, point: ResumePoint, tolerance_mm: f64) -> Result<Self, RunError> {
+        if source.fingerprint() != point.program || point.program == 0 {
+            return Err(ResumeError::OtherProgram.into());
+        }
+        for _ in 1..point.block {
+            match source.next_item() {
+                Supply::Item(_) => {}
+                Supply::Refused(refusal) => return Err(refusal.into()),
+                Supply::Pending | Supply::End => return Err(off_path(&point, 0, f64::INFINITY)),
+            }
+        }
+        let mut search = Search::new(point, tolerance_mm);
+        let mut rest = Self {
+            source,
+            point,
+            first_block: point.block.max(1),
+            ahead: VecDeque::new(),
+            last: None,
+        };
+        if point.block == 0 {
+            return Ok(rest);
+        }
+        while search.goes_on() {
+            match rest.source.next_item() {
+                Supply::Item(item) => {
+                    search.look_at(&item);
+                    rest.ahead.push_back(item);
+                }
+                Supply::Refused(refusal) => {
+                    rest.last = Some(Supply::Refused(refusal));
+                    break;
+                }
+                Supply::Pending | Supply::End => {
+                    rest.last = Some(Supply::End);
+                    break;
+                }
+            }
+        }
+        rest.cut(search)?;
+        Ok(rest)
+    }
+
+    /// Drops what lies before the point.
+    fn cut(&mut self, search: Search) -> Result<(), RunError> {
+        let line = self.ahead.front().map_or(0, |item| item.line);
+        match self.ahead.front().map(|item| item.kind) {
+            // A dwell begins again; an event has happened.
+            Some(ItemKind::Dwell(_)) => return Ok(()),
+            Some(ItemKind::Event(_)) => {
+                self.ahead.pop_front();
+                self.first_block += 1;
+                return Ok(());
+            }
+            Some(ItemKind::Move { .. }) | None => {}
+        }
+        let Some(found) = search.best else {
+            return Err(off_path(&self.point, line, search.nearest_mm));
+        };
+        self.ahead.drain(..found.item);
+        self.first_block += u32::try_from(found.item).unwrap_or(u32::MAX);
+        let is_done = match self.ahead.front_mut().map(|item| &mut item.kind) {
+            Some(ItemKind::Move { segment, mode, .. }) => {
+                *segment = rest_of(segment, &self.point.position, found.part);
+                if found.distance_mm > ROUNDING_MM {
+                    *mode = PathMode::ExactStop;
+                }
+                distance(&(segment.end() - segment.start())) <= 0.0 && found.part > 0.5
+            }
+            _ => false,
+        };
+        if is_done {
+            self.ahead.pop_front();
+            self.first_block += 1;
+        }
+        Ok(())
+    }
+
+    /// Where the program was left.
+    pub(crate) const fn point(&self) -> &ResumePoint {
+        &self.point
+    }
+
+    /// Number of the first block of the rest.
+    pub(crate) const fn first_block(&self) -> u32 {
+        self.first_block
+    }
+}
+
+const fn off_path(point: &ResumePoint, line: u32, distance_mm: f64) -> RunError {
+    RunError::Resume(ResumeError::OffPath {
+        block: point.block,
+        line,
+        distance_mm,
+    })
+}
+
+impl<S: ItemSource> ItemSource for Rest<S> {
+    fn next_item(&mut self) -> Supply {
+        if let Some(item) = self.ahead.pop_front() {
+            return Supply::Item(item);
+        }
+        self.last.take().unwrap_or_else(|| self.source.next_item())
+    }
+
+    fn attend(&mut self, waited: Duration) {
+        self.source.attend(waited);
+    }
+
+    fn unplannable(&mut self, error: &PlanError) {
+        self.source.unplannable(error);
+    }
+
+    fn lines_read(&self) -> u64 {
+        self.source.lines_read()
+    }
+
+    fn fingerprint(&self) -> u64 {
+        self.source.fingerprint()
+    }
+}
+
+/// What is left of a segment after a part of it, from where the machine stands.
+fn rest_of(segment: &Segment, position: &AxisVector, part: f64) -> Segment {
+    match segment {
+        Segment::Line(line) => Segment::line(*position, line.end),
+        Segment::Arc(arc) if part >= 1.0 => Segment::line(*position, arc.end),
+        Segment::Arc(arc) => {
+            let mut rest = Arc {
+                start: *position,
+                ..*arc
+            };
+            // What the angles of both ends say, on the turn that the part says.
+            let (first, second) = arc.plane.axes();
+            let angle = |p: &AxisVector| {
+                (p[second.index()] - arc.center[1]).atan2(p[first.index()] - arc.center[0])
+            };
+            let turned = angle(&arc.end) - angle(position);
+            let about = arc.sweep_rad * (1.0 - part);
+            rest.sweep_rad = turned + TAU * ((about - turned) / TAU).round();
+            Segment::Arc(rest)
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! A program goes on after its planner was killed.
+
+use std::time::Duration;
+
+use glidepath_geometry::AxisVector;
+use glidepath_link::{EndOfEpoch, MachineState};
+use glidepath_tests::{Instance, Process, Services, Watchdog, audit, plan};
+use rustix::process::Signal;
+
+use crate::programs::PROGRAM;
+
+const PATIENCE: Duration = Duration::from_secs(240);
+
+/// Several times over the same lines: full circles, corners, dense chords.
+fn laps() -> String {
+    let mut text =
+        "G21 G90 G64 P0.02 F6000\nG1 X20 Y5\no1 repeat [3]\nG2 X20 Y5 I10 J0\n".to_owned();
+    text.push_str("G1 X35 Y5\n");
+    for k in 1..=40 {
+        let angle = f64::from(k) * 0.04;
+        let (x, y) = (35.0 + 8.0 * angle.sin(), 13.0 - 8.0 * angle.cos());
+        text.push_str(&format!("G1 X{x:.4} Y{y:.4}\n"));
+    }
+    text.push_str("G1 X30 Y25\nX20 Y5\no1 endrepeat\nG0 X0 Y0\nM2\n");
+    text
+}
+
+#[test]
+fn a_killed_planner_is_replaced_in_the_middle_of_the_program() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let text = laps();
+    let program = instance.file("laps.ngc", &text);
+    let other = instance.file("other.ngc", PROGRAM);
+    let services = Services::start(&instance);
+    let resume = |file: &str| Process::join(&instance, &["planner", file, "--resume"]).wait();
+    let refused = resume(&program).expect(1);
+    assert!(
+        refused.stderr.contains("no program was under way"),
+        "{refused:#?}"
+    );
+
+    let mut planner = Process::join(&instance, &["planner", &program]);
+    // In the first lap, and in the rest of it again.
+    for (epoch, executed) in [(1, 230), (2, 330)] {
+        let _moving =
+            services.wait(|status| status.epoch == epoch && status.frames_executed > executed);
+        planner.signal(Signal::KILL);
+        let _killed = planner.wait();
+        let left = services.wait_for(MachineState::Faulted);
+        assert_eq!(left.end_of_epoch(), Ok(EndOfEpoch::Faulted));
+        let refused = resume(&other).expect(1);
+        assert!(refused.stderr.contains("not the program"), "{refused:#?}");
+        planner = Process::join(&instance, &["planner", &program, "--resume"]);
+    }
+    let _output = planner.wait().expect(0);
+    let status = services.wait_for(MachineState::Idle);
+    assert_eq!(
+        (status.end_of_epoch(), status.epoch),
+        (Ok(EndOfEpoch::Completed), 3)
+    );
+    assert_eq!(status.position.map(f64::abs).map(f64::to_bits), [0; 9]);
+    let refused = resume(&program).expect(1);
+    assert!(refused.stderr.contains("came to its end"), "{refused:#?}");
+
+    let (received, report) = services.end();
+    assert_eq!(report["lost_setpoints"], 0, "{report:#}");
+    let (_, items) = plan(&text, AxisVector::zeros());
+    let report = audit(&items, received.positions().into_iter());
+    assert!(report.violations.is_empty(), "{:#?}", report.violations);
+    assert!(
+        report.max_deviation_mm <= 0.02,
+        "{}",
+        report.max_deviation_mm
+    );
+}
