@@ -51,6 +51,17 @@ pub enum RunError {
         /// What it may be.
         allowed: &'static str,
     },
+    /// What the planner publishes ahead is too little to stop on: the machine would never move.
+    #[error(
+        "the horizon is {horizon_frames} frames, and this machine needs at least {least_frames}: \
+         three stops from full speed of the slowest axis; give a longer horizon"
+    )]
+    Horizon {
+        /// As configured.
+        horizon_frames: u64,
+        /// The least that would do.
+        least_frames: u64,
+    },
     /// A thread could not be started, or panicked.
     #[error("the {0} thread failed")]
     Thread(&'static str),

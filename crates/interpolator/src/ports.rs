@@ -257,6 +257,21 @@ impl<'a> Ports<'a> {
         self.links.status.publish(&self.book.status)
     }
 
+    /// The real-time thread is no more: latches that as the cause, and says so.
+    pub(crate) fn real_time_died(&mut self, now_ns: u64) {
+        if let Some(report) = &mut self.report {
+            let Setpoint { line, sequence, .. } = report.setpoint;
+            let fault = Fault::new(FaultCause::RealTime, line, sequence);
+            report.fault = Some(fault);
+            report.state = MachineState::Faulted;
+            if report.end_of_epoch == EndOfEpoch::Open {
+                report.end_of_epoch = EndOfEpoch::Faulted;
+            }
+            self.tell(&fault.to_string());
+        }
+        self.farewell(now_ns);
+    }
+
     /// Publishes a status at once: the last of this life.
     pub(crate) fn farewell(&mut self, now_ns: u64) {
         self.status_due_ns = 0;

@@ -4,6 +4,7 @@ use crate::config::Config;
 use crate::loops::{RunError, enter_ports, enter_real_time, guard, lead_ns, phase_ns, real_time};
 use crate::message::{HAPPENINGS, Happening, Inputs, Report, Rings};
 use crate::ports::Ports;
+use crate::supply::least_horizon;
 use crate::tick::Interpolator;
 use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_link::{LinkError, MachineState, PERIOD_NS_MAX, Status, Transport};
@@ -58,7 +59,8 @@ pub fn run(
             })
             .map_err(|_| RunError::Thread("real-time"))?;
         if let Ok((origin_ns, grants)) = told.recv() {
-            serve(config, &mut ports, origin_ns, &grants, stop);
+            let lives = || !thread.is_finished();
+            serve(config, &mut ports, origin_ns, &grants, stop, &lives);
             ended.store(true, Ordering::Relaxed);
         }
         thread.join().map_err(|_| RunError::Thread("real-time"))??;
@@ -98,20 +100,27 @@ fn sleep_on(timer: &mut DeadlineTimer<Monotonic>) -> ! {
     }
 }
 
-/// Serves the ports on the grid until `stop` is set and the motion has come to rest.
+/// Serves the ports on the grid until `stop` is set and the motion has come to rest, or until the
+/// real-time thread lives no more: then nothing commands the drives, and that is said at once.
 fn serve(
     config: &Config,
     ports: &mut Ports<'_>,
     origin_ns: u64,
     grants: &Grants,
     stop: &AtomicBool,
+    lives: &dyn Fn() -> bool,
 ) {
     enter_ports(config);
     ports.granted(grants, config.real_time.mode);
     let origin_ns = origin_ns + phase_ns(config.period_ns);
     let mut timer = DeadlineTimer::new(Monotonic, origin_ns, config.period_ns);
     while !stop.load(Ordering::Relaxed) {
-        ports.turn(timer.wait().woke_ns);
+        let now_ns = timer.wait().woke_ns;
+        ports.turn(now_ns);
+        if !lives() {
+            ports.real_time_died(now_ns);
+            return;
+        }
     }
     ports.abort();
     let until_ns = timer.clock().now_ns() + FAREWELL_NS;
@@ -132,16 +141,22 @@ fn serve(
 
 fn validate(config: &Config) -> Result<(), RunError> {
     let what = "period_ns";
-    if (1..=PERIOD_NS_MAX).contains(&config.period_ns) {
-        Ok(())
-    } else {
+    if !(1..=PERIOD_NS_MAX).contains(&config.period_ns) {
         let value = config.period_ns;
-        Err(RunError::Config {
+        return Err(RunError::Config {
             what,
             value,
             allowed: "1 to 1000000000 ns are allowed",
-        })
+        });
     }
+    let least_frames = least_horizon(config);
+    if config.horizon_frames < least_frames {
+        return Err(RunError::Horizon {
+            horizon_frames: config.horizon_frames,
+            least_frames,
+        });
+    }
+    Ok(())
 }
 
 /// A number that no other life of an interpolator has.
@@ -151,4 +166,57 @@ fn boot_id() -> u64 {
         .unwrap_or_default();
     let ns = u64::try_from(since.as_nanos()).unwrap_or(u64::MAX);
     (ns ^ u64::from(std::process::id()).rotate_right(16)).max(1)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test")]
+
+    use super::*;
+    use crate::testing::{Rig, mill};
+    use glidepath_link::{Capacity, EndOfEpoch, FaultCause, InProcess};
+    use glidepath_realtime::{Mode, Request, enter};
+
+    #[test]
+    fn a_real_time_thread_that_died_is_told_and_ends_the_service() {
+        let Rig {
+            ends,
+            mut interpolator,
+            mut inputs,
+            mut reports,
+            config,
+            ..
+        } = Rig::mill();
+        let transport = InProcess::new(Capacity::default());
+        let mut seen = transport.status_source().unwrap();
+        let events = Box::leak(Box::<Events<Happening, HAPPENINGS>>::default());
+        let (_writer, reader) = event_ring(events);
+        let mut lines = Vec::new();
+        let mut log = |line: &str| lines.push(line.to_owned());
+        let mut ports =
+            Ports::new(&config, 1, Box::new(transport), ends, reader, &mut log).unwrap();
+        reports
+            .enqueue(interpolator.prepare(1, &mut inputs))
+            .unwrap();
+        let grants = enter(&Request::default(), Mode::BestEffort).unwrap().grants;
+        let (stop, now_ns) = (AtomicBool::new(false), Monotonic.now_ns());
+        serve(&config, &mut ports, now_ns, &grants, &stop, &|| false);
+        let status = seen.take().unwrap().unwrap();
+        assert_eq!(status.fault(), Ok(Some(FaultCause::RealTime)));
+        assert_eq!(status.state(), Ok(MachineState::Faulted));
+        assert_eq!(status.end_of_epoch(), Ok(EndOfEpoch::None));
+        assert!(status.last_error.as_str().contains("real-time thread died"));
+    }
+
+    #[test]
+    fn a_horizon_too_short_to_stop_on_is_refused() {
+        // Three stops of 0.15 s each.
+        let config = |horizon_frames| Config {
+            horizon_frames,
+            ..Config::new(mill(), 4_000_000)
+        };
+        assert!(validate(&config(113)).is_ok());
+        let error = validate(&config(112)).unwrap_err();
+        assert!(error.to_string().contains("at least 113"), "{error}");
+    }
 }

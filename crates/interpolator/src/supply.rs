@@ -10,6 +10,7 @@ use crate::config::Config;
 use crate::differences::Differences;
 use crate::rate::Rate;
 use crate::track::Track;
+use glidepath_motion::Limits;
 
 /// Frames ahead to go on with, in stops.
 const STOPS_AHEAD: f64 = 3.0;
@@ -18,6 +19,31 @@ const SPARE: u64 = 10;
 
 /// Ticks without a new frame after which no more are expected soon.
 const QUIET_TICKS: u64 = 5;
+
+/// The longest time an axis takes to stop from full speed, s.
+fn stop_t(limits: &Limits) -> f64 {
+    let by_axis = limits.velocity.component_div(&limits.acceleration)
+        + limits.acceleration.component_div(&limits.jerk);
+    // An axis without limits stops in no time; it would only hide the others.
+    by_axis
+        .iter()
+        .zip(limits.velocity.iter())
+        .filter(|(_, v)| **v < Limits::UNLIMITED)
+        .map(|(stop, _)| *stop)
+        .fold(0.0, f64::max)
+}
+
+/// The fewest frames ahead that a machine can do with: one stop to stop on, one for what comes in
+/// meanwhile, one to go on with.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "not negative; the cast saturates"
+)]
+pub(crate) fn least_horizon(config: &Config) -> u64 {
+    const ROUNDING: f64 = 1e-9;
+    (STOPS_AHEAD * stop_t(&config.limits) / config.period_t() - ROUNDING).ceil() as u64
+}
 
 /// Watch over the frames ahead.
 #[derive(Debug, Clone, Copy)]
@@ -43,16 +69,7 @@ impl Supply {
         reason = "a number of ticks; the cast saturates"
     )]
     pub(crate) fn new(config: &Config) -> Self {
-        let limits = &config.limits;
-        let by_axis = limits.velocity.component_div(&limits.acceleration)
-            + limits.acceleration.component_div(&limits.jerk);
-        // An axis without limits stops in no time; it would only hide the others.
-        let stop_t = by_axis
-            .iter()
-            .zip(limits.velocity.iter())
-            .filter(|(_, v)| **v < glidepath_motion::Limits::UNLIMITED)
-            .map(|(stop, _)| *stop)
-            .fold(0.0, f64::max);
+        let stop_t = stop_t(&config.limits);
         let reach = (0.5 * stop_t / config.period_t()).ceil().min(1e6);
         let enough = (STOPS_AHEAD * reach) as u64 + SPARE;
         let patience_ticks = config.planner_lost_after.map_or(u64::MAX, |patience| {

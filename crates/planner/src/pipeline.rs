@@ -168,7 +168,7 @@ impl<S: ItemSource> Pipeline<S> {
     }
 
     /// Plans what no frame was given out of with this override, if it is another than before.
-    pub(crate) fn follow_override(&mut self, wanted: Override) {
+    pub fn follow_override(&mut self, wanted: Override) {
         // A refusal cannot be: status records with overrides out of range are not accepted.
         if wanted != self.wanted && self.planner.set_override(wanted).is_ok() {
             self.wanted = wanted;

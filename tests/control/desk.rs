@@ -1,0 +1,210 @@
+//! Planner and interpolator on a desk.
+
+use std::path::Path;
+
+use glidepath_gcode::Options;
+use glidepath_geometry::AxisVector;
+use glidepath_interpolator::{Config, Stepped, stepped};
+use glidepath_link::{Command, MachineState, Setpoint, SetpointFrame};
+use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
+use glidepath_motion::{Item, Limits, Override, Settings};
+use glidepath_planner::{Output, Pipeline, ProgramSource};
+use glidepath_tests::settings;
+
+const PERIOD_NS: u64 = 4_000_000;
+/// Frames published ahead.
+pub(crate) const HORIZON: u64 = 125;
+/// Ticks until the planner knows of an override.
+const NEWS: usize = 5;
+
+/// The benchmark programs.
+pub(crate) const BENCH: [&str; 14] = [
+    "seed5_seed",
+    "seed5_mill",
+    "square20_seed",
+    "square20_mill",
+    "star_seed",
+    "star_mill",
+    "zigzag_seed",
+    "zigzag_mill",
+    "circle_g1_0.1_seed",
+    "circle_g1_0.1_mill",
+    "circle_g1_0.01_seed",
+    "circle_g1_0.01_mill",
+    "butterfly_g1_seed",
+    "butterfly_g1_mill",
+];
+
+/// A program and the machine it is for.
+#[derive(Debug, Clone)]
+pub(crate) struct Job {
+    text: String,
+    pub(crate) settings: Settings,
+}
+
+impl Job {
+    pub(crate) fn bench(name: &'static str) -> Self {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/bench");
+        let file = Path::new(folder).join(format!("{name}.ngc"));
+        let mut settings = settings();
+        if name.ends_with("_seed") {
+            settings.limits = Limits::uniform(100.0, 10_000.0, 1e6);
+            settings.tolerance_mm = 0.05;
+        }
+        Self {
+            text: std::fs::read_to_string(file).unwrap(),
+            settings,
+        }
+    }
+
+    fn pipeline(&self) -> Pipeline<ProgramSource<&[u8]>> {
+        let start = AxisVector::zeros();
+        let options = Options {
+            start,
+            ..Options::default()
+        };
+        let source = ProgramSource::new(self.text.as_bytes(), options);
+        Pipeline::new(source, self.settings, start)
+    }
+
+    /// Periods of a plan at an override.
+    pub(crate) fn planned_periods(&self, wanted: Override) -> u64 {
+        let mut pipeline = self.pipeline();
+        pipeline.follow_override(wanted);
+        let mut last = 0;
+        while let Some(frame) = pipeline.next_frame().unwrap() {
+            last = frame.sequence;
+        }
+        last
+    }
+
+    /// Works at a desk with the program.
+    pub(crate) fn at_desk<R>(&self, work: impl FnOnce(&mut Desk<'_, '_, '_>) -> R) -> R {
+        let config = Config::new(self.settings.limits, PERIOD_NS);
+        stepped(&config, |stepped| {
+            work(&mut Desk {
+                stepped,
+                pipeline: self.pipeline(),
+                frames: Vec::new(),
+                sent: 0,
+                items: Vec::new(),
+                setpoints: Vec::new(),
+                wanted: Override::NONE,
+                news: None,
+                ended: false,
+            })
+        })
+    }
+}
+
+/// A program under way.
+pub(crate) struct Desk<'s, 'i, 'p> {
+    stepped: &'s mut Stepped<'i>,
+    pipeline: Pipeline<ProgramSource<&'p [u8]>>,
+    /// Every frame given out.
+    pub(crate) frames: Vec<SetpointFrame>,
+    sent: usize,
+    items: Vec<Item>,
+    pub(crate) setpoints: Vec<Setpoint>,
+    wanted: Override,
+    news: Option<usize>,
+    ended: bool,
+}
+
+impl Desk<'_, '_, '_> {
+    pub(crate) fn command(&mut self, command: Command) {
+        assert!(self.stepped.command(command));
+        match command {
+            Command::FeedOverride(ratio) if ratio > 0.0 => self.wanted.feed_r = ratio,
+            Command::RapidOverride(ratio) if ratio > 0.0 => self.wanted.rapid_r = ratio,
+            _ => return,
+        }
+        self.news = Some(NEWS);
+    }
+
+    pub(crate) fn tick(&mut self) -> Setpoint {
+        match &mut self.news {
+            Some(0) => {
+                self.pipeline.follow_override(self.wanted);
+                self.news = None;
+            }
+            Some(ticks) => *ticks -= 1,
+            None => {}
+        }
+        let executed = self
+            .setpoints
+            .last()
+            .map_or(0, |setpoint| setpoint.sequence);
+        self.publish(executed + HORIZON);
+        let setpoint = self.stepped.tick();
+        self.setpoints.push(setpoint);
+        setpoint
+    }
+
+    /// Publishes frames up to a sequence.
+    fn publish(&mut self, limit: u64) {
+        loop {
+            if let Some(frame) = self.frames.get(self.sent) {
+                if frame.sequence >= limit || !self.stepped.offer(frame) {
+                    return;
+                }
+                self.sent += 1;
+            } else if self.ended {
+                return;
+            } else {
+                match self.pipeline.advance().unwrap() {
+                    Output::Frame(frame) => self.frames.push(SetpointFrame {
+                        block: self.pipeline.block(),
+                        ..SetpointFrame::from_frame(&frame, 1, PERIOD_NS)
+                    }),
+                    Output::Item(item) => self.items.push(item),
+                    Output::Pending => {}
+                    Output::End => self.ended = true,
+                }
+            }
+        }
+    }
+
+    pub(crate) fn is(&self, state: MachineState) -> bool {
+        self.setpoints
+            .last()
+            .is_some_and(|s| s.state() == Ok(state))
+    }
+
+    /// Whether the program was executed.
+    pub(crate) fn is_over(&self) -> bool {
+        self.is(MachineState::Idle) && self.setpoints.last().is_some_and(|s| s.epoch > 0)
+    }
+
+    /// Plays to the end, or for so many ticks.
+    pub(crate) fn play(&mut self, ticks: usize) {
+        for _ in 0..ticks {
+            if self.is_over() {
+                return;
+            }
+            self.tick();
+        }
+    }
+
+    /// The auditor's report of everything since the beginning.
+    pub(crate) fn audit(&self, settings: &Settings, largest_override: f64) -> Report {
+        let mut audit = Audit::new(&AuditSettings {
+            limits: settings.limits,
+            period_t: settings.period_t,
+            tolerance_mm: settings.tolerance_mm,
+        })
+        .with_override(largest_override);
+        for item in &self.items {
+            audit.program(item);
+        }
+        for setpoint in &self.setpoints {
+            audit.sample(&Sample {
+                tick: setpoint.number,
+                line: setpoint.line,
+                position: AxisVector::from(setpoint.position),
+                reported: None,
+            });
+        }
+        audit.finish()
+    }
+}

@@ -1,0 +1,129 @@
+//! Anything an operator may do, in any order, at any time.
+
+use glidepath_link::{Command, MachineState};
+use proptest::prelude::*;
+
+use crate::desk::{BENCH, Desk, Job};
+use crate::effort;
+
+fn command() -> impl Strategy<Value = Command> {
+    let stops = prop_oneof![
+        3 => Just(Command::Hold),
+        2 => Just(Command::StopAtEndOfBlock),
+        2 => Just(Command::SingleBlock(true)),
+        2 => Just(Command::SingleBlock(false)),
+    ];
+    let goes_on = prop_oneof![2 => Just(Command::Resume), 3 => Just(Command::Step)];
+    let overrides = prop_oneof![
+        Just(Command::FeedOverride(1.0)),
+        (0.0..=2.0).prop_map(Command::FeedOverride),
+        prop_oneof![Just(0.25), Just(0.5), Just(1.0)].prop_map(Command::RapidOverride),
+        Just(Command::FeedOverride(0.999)),
+    ];
+    prop_oneof![4 => stops, 3 => goes_on, 2 => overrides]
+}
+
+fn short_programs() -> impl Strategy<Value = &'static str> {
+    // Dense programs take long to plan in a debug build: in the long form only.
+    let most = if effort() > 1 { BENCH.len() } else { 10 };
+    proptest::sample::select(BENCH[..most].to_vec())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: u32::try_from(24 * effort()).unwrap(),
+        max_shrink_iters: 200,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+    #[test]
+    fn whatever_is_commanded_the_program_is_executed_within_its_limits(
+        name in short_programs(),
+        commands in prop::collection::vec((command(), 1_usize..150), 1..25),
+    ) {
+        let job = Job::bench(name);
+        job.at_desk(|desk| {
+            let mut largest_override = 1.0_f64;
+            for (command, ticks) in commands {
+                if let Command::FeedOverride(ratio) = command {
+                    largest_override = largest_override.max(ratio);
+                }
+                desk.command(command);
+                desk.play(ticks);
+            }
+            finish(desk)?;
+            let report = desk.audit(&job.settings, largest_override);
+            prop_assert!(report.violations.is_empty(), "{:#?}", report.violations);
+            for worst in [
+                report.max_velocity_ratio,
+                report.max_acceleration_ratio,
+                report.max_jerk_ratio,
+            ] {
+                prop_assert!(worst.ratio <= 1.0 + 1e-6, "{worst:?}");
+            }
+            prop_assert!(report.max_deviation_mm <= job.settings.tolerance_mm * (1.0 + 1e-6));
+            let end = desk.frames.last().unwrap().position;
+            prop_assert_eq!(desk.setpoints.last().unwrap().position, end);
+            assert_bits(desk)?;
+            Ok(())
+        })?;
+    }
+}
+
+/// Goes on wherever the machine stands, to the end.
+fn finish(desk: &mut Desk<'_, '_, '_>) -> Result<(), TestCaseError> {
+    for command in [
+        Command::SingleBlock(false),
+        Command::FeedOverride(1.0),
+        Command::RapidOverride(1.0),
+    ] {
+        desk.command(command);
+        desk.play(1);
+    }
+    for _ in 0..50 {
+        desk.command(Command::Resume);
+        desk.play(1_000);
+        if desk.is_over() {
+            return Ok(());
+        }
+    }
+    let last = desk
+        .setpoints
+        .last()
+        .map(|s| (s.state(), s.sequence, s.fraction));
+    Err(TestCaseError::fail(format!("not over: {last:?}")))
+}
+
+/// Where the motion follows the plan it is the plan, bit for bit; where it stands at the end of a
+/// block, it stands at a frame.
+fn assert_bits(desk: &Desk<'_, '_, '_>) -> Result<(), TestCaseError> {
+    let mut followed = 0;
+    for pair in desk.setpoints.windows(2) {
+        let (before, now) = (&pair[0], &pair[1]);
+        let frame = desk
+            .frames
+            .iter()
+            .find(|frame| frame.sequence == now.sequence);
+        let Some(frame) = frame.filter(|_| now.epoch > 0 && now.fraction <= 0.0) else {
+            continue;
+        };
+        let follows = before.fraction <= 0.0 && now.sequence == before.sequence + 1;
+        let stands =
+            now.state() == Ok(MachineState::ProgramStop) && now.position == before.position;
+        if follows || stands {
+            prop_assert_eq!(
+                now.position.map(f64::to_bits),
+                frame.position.map(f64::to_bits)
+            );
+        }
+        if follows {
+            followed += 1;
+            prop_assert_eq!(
+                now.velocity.map(f64::to_bits),
+                frame.velocity.map(f64::to_bits)
+            );
+        }
+    }
+    prop_assert!(followed > 0 || desk.frames.len() < 50, "never at rate 1");
+    Ok(())
+}

@@ -1,0 +1,111 @@
+//! How soon a hold begins, and how soon the machine rests.
+
+use std::collections::BTreeMap;
+
+use glidepath_link::{Command, MachineState, SetpointFrame};
+use proptest::test_runner::{Config, TestRunner};
+
+use crate::desk::{BENCH, Desk, Job};
+use crate::effort;
+
+/// The most ticks until a hold begins where the plan cruises.
+const FROM_CRUISE: usize = 2;
+
+/// Numbers of ticks, and how often.
+#[derive(Debug, Default)]
+struct Ticks(BTreeMap<usize, usize>);
+
+impl Ticks {
+    fn add(&mut self, ticks: usize) {
+        *self.0.entry(ticks).or_default() += 1;
+    }
+
+    fn quantile(&self, part: f64) -> usize {
+        let all: Vec<_> = self.0.iter().flat_map(|(t, n)| vec![*t; *n]).collect();
+        #[allow(
+            clippy::cast_precision_loss,
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "small numbers, not negative"
+        )]
+        let place = (part * (all.len().saturating_sub(1)) as f64) as usize;
+        all.get(place).copied().unwrap_or(0)
+    }
+}
+
+impl std::fmt::Display for Ticks {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [p50, p90, p99, most] = [0.5, 0.9, 0.99, 1.0].map(|part| self.quantile(part));
+        write!(f, "{p50:5}{p90:5}{p99:5}{most:5}")
+    }
+}
+
+#[test]
+fn a_hold_begins_at_once_in_a_cruise_and_soon_everywhere() {
+    let mut runner = TestRunner::new_with_rng(
+        Config::default(),
+        proptest::test_runner::TestRng::deterministic_rng(Config::default().rng_algorithm),
+    );
+    let mut chance = move |low: usize, high: usize| {
+        use proptest::strategy::{Strategy, ValueTree};
+        (low..=high).new_tree(&mut runner).unwrap().current()
+    };
+    eprintln!("ticks to the first setpoint beside the plan, and to rest: median, 90 %, 99 %, most");
+    let mut all = Ticks::default();
+    for name in BENCH {
+        let job = Job::bench(name);
+        let (mut waits, mut rests, mut cruises) = <(Ticks, Ticks, Ticks)>::default();
+        for _ in 0..effort() {
+            job.at_desk(|desk| {
+                while !desk.is_over() {
+                    desk.play(chance(1, 300));
+                    hold(desk, &mut waits, &mut rests, &mut cruises);
+                }
+                let report = desk.audit(&job.settings, 1.0);
+                assert!(
+                    report.violations.is_empty(),
+                    "{name}: {:#?}",
+                    report.violations
+                );
+            });
+        }
+        eprintln!("{name:20} {waits}  {rests}  cruise {cruises}");
+        assert!(cruises.quantile(1.0) <= FROM_CRUISE, "{name}");
+        for (ticks, count) in waits.0 {
+            *all.0.entry(ticks).or_default() += count;
+        }
+    }
+    eprintln!("{:20} {all}  {:?}", "all", all.0);
+}
+
+/// Holds where the motion follows the plan, counts, and resumes.
+fn hold(desk: &mut Desk<'_, '_, '_>, waits: &mut Ticks, rests: &mut Ticks, cruises: &mut Ticks) {
+    let Some(last) = desk.setpoints.last().copied() else {
+        return;
+    };
+    if !desk.is(MachineState::Running) || last.effective_override < 1.0 || last.feed_v <= 0.0 {
+        return;
+    }
+    let place = usize::try_from(last.sequence).unwrap();
+    let cruise = |frame: &SetpointFrame| frame.acceleration.iter().all(|a| a.abs() < 1e-6);
+    let cruises_here = desk.frames[place..].iter().take(4).all(cruise);
+    desk.command(Command::Hold);
+    let (mut wait, mut ticks) = (None, 0);
+    while !desk.is(MachineState::Held) && !desk.is_over() {
+        ticks += 1;
+        let setpoint = desk.tick();
+        if setpoint.effective_override < 1.0 {
+            wait.get_or_insert(ticks);
+        }
+    }
+    if desk.is_over() {
+        return; // It ended before it could stop earlier.
+    }
+    let wait = wait.unwrap_or(ticks);
+    waits.add(wait);
+    rests.add(ticks);
+    if cruises_here {
+        cruises.add(wait);
+    }
+    desk.command(Command::Resume);
+}
