@@ -40,12 +40,13 @@ pub(crate) enum BlockEnd {
 impl BlockEnd {
     /// Begins to look, or looks on; not for an end that the motion has passed.
     pub(crate) fn look(&mut self, now: ProgramTime, track: &Track) {
+        // Past a frame, but for rounding, the motion is on its way to the next.
+        let now = now.snapped();
+        let ahead = now.sequence + u64::from(now.fraction > 0.0);
         let mut from = match *self {
-            Self::Found { frame, .. } if now.sequence < frame || now == ProgramTime::at(frame) => {
-                return;
-            }
-            Self::Sought { from } => from.max(now.sequence),
-            Self::Found { .. } | Self::Unwanted => now.sequence,
+            Self::Found { frame, .. } if ahead <= frame => return,
+            Self::Sought { from } => from.max(ahead),
+            Self::Found { .. } | Self::Unwanted => ahead,
         };
         for _ in 0..FRAMES_PER_TICK {
             let (Some(frame), Some(next)) = (track.frame(from), track.frame(from + 1)) else {
@@ -146,6 +147,21 @@ mod tests {
         end.skip();
         assert_eq!(look(&mut end, 4, &track), None, "not known yet");
         assert_eq!(end, BlockEnd::Sought { from: 5 });
+    }
+
+    #[test]
+    fn an_end_is_passed_as_soon_as_the_motion_is_beyond_it() {
+        let track = track(&[(1, 5), (2, 5), (2, 5), (3, 5)]);
+        let mut end = BlockEnd::default();
+        assert_eq!(look(&mut end, 0, &track), Some(0));
+        end.look(
+            ProgramTime {
+                sequence: 0,
+                fraction: 0.1,
+            },
+            &track,
+        );
+        assert_eq!(end.frame(), Some(2));
     }
 
     #[test]

@@ -263,6 +263,9 @@ impl Rate {
         if self.arrives_at.is_some() && goal > 0.0 {
             return;
         }
+        if self.rate > 0.0 || !scene.published.is_at_rest() {
+            self.barred = 0;
+        }
         let fastest = scene.fastest_from(self.now.sequence);
         let mut budget = scene.budget(BUDGET);
         let first = core::mem::take(&mut self.resume_at);
@@ -272,16 +275,15 @@ impl Rate {
             let Some(&Candidate { part, pace }) = CANDIDATES.get(place) else {
                 continue;
             };
+            if self.rate <= 0.0 && self.barred >= CANDIDATES.len() {
+                // Nothing gets away from here that rests at the end of the block.
+                (self.has_missed, self.barred) = (true, 0);
+            }
             self.barred += 1;
             if !self.is_better(part, pace, goal, heading) {
                 continue;
             }
-            let target = if part < 1.0 {
-                let most = PARTIAL_MOST.max(self.rate.min(BESIDE_FULL));
-                (self.rate + part * (goal - self.rate)).min(most)
-            } else {
-                goal
-            };
+            let target = self.target(part, goal);
             if part < 1.0 && (target - self.rate).abs() < LEAST_CHANGE {
                 continue;
             }
@@ -308,8 +310,15 @@ impl Rate {
                 }
             }
         }
-        // Nothing gets away from here that rests at the end of the block.
-        self.has_missed |= self.rate <= 0.0 && self.barred >= CANDIDATES.len();
+    }
+
+    /// Where a ramp part of the way to a goal ends.
+    fn target(&self, part: f64, goal: f64) -> f64 {
+        if part >= 1.0 {
+            return goal;
+        }
+        let most = PARTIAL_MOST.max(self.rate.min(BESIDE_FULL));
+        (self.rate + part * (goal - self.rate)).min(most)
     }
 
     /// Whether a candidate, if it passes, is better than what is committed.
