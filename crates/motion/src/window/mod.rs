@@ -46,7 +46,7 @@ mod tube;
 use crate::Limits;
 use attempt::{Optimisers, Setting, View};
 use follow::{Follower, Place};
-use glidepath_geometry::{AXES, AxisVector};
+use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC};
 use judge::History;
 use spline::Grid;
 use stop_leg::StopLeg;
@@ -263,9 +263,11 @@ impl WindowPlanner {
 
     /// Plans the next window, or legs where none is found. `None` if more of the path is needed.
     fn plan(&mut self) -> Option<()> {
-        let grid = *self
-            .grid
-            .get_or_insert_with(|| wanted_grid(&self.limits, self.period_t, self.track.get(0)));
+        let grid = match self.grid {
+            Some(grid) => grid,
+            None => wanted_grid(&self.limits, self.period_t, self.track.get(0)?),
+        };
+        self.grid = Some(grid);
         let first = self.follower.place.first;
         let view = View::new(&self.limits, &self.track, &grid, first, self.progress)?;
         let tail = self.tail(&grid);
@@ -342,13 +344,19 @@ impl WindowPlanner {
 }
 
 /// Half the time in which jerk strays by a tolerance: the grid on which corners are still resolved.
-fn wanted_grid(limits: &Limits, period_t: f64, piece: Option<&track::Piece>) -> Grid {
-    let wanted_t = piece.map_or(period_t, |piece| {
-        let moved = piece.end - piece.start;
-        (0..AXES)
-            .filter(|&i| moved[i] != 0.0)
-            .map(|i| 0.5 * (piece.tolerance_mm / limits.jerk[i]).cbrt())
-            .fold(f64::INFINITY, f64::min)
-    });
+fn wanted_grid(limits: &Limits, period_t: f64, piece: &track::Piece) -> Grid {
+    let moved = piece.end - piece.start;
+    let wanted_t = (0..AXES)
+        .filter(|&i| moved[i] != 0.0)
+        .map(|i| {
+            let is_rotary = ROTARY_ABC.contains(&i);
+            let tolerance = if is_rotary {
+                piece.tolerance_deg
+            } else {
+                piece.tolerance_mm
+            };
+            0.5 * (tolerance / limits.jerk[i]).cbrt()
+        })
+        .fold(f64::INFINITY, f64::min);
     Grid::new(period_t, wanted_t)
 }

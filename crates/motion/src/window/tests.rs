@@ -7,6 +7,8 @@
 )]
 
 mod bench;
+mod calls;
+mod extremes;
 
 use super::*;
 use crate::audit::{Audit, AuditSettings, Report, Sample};

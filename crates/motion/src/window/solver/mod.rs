@@ -6,6 +6,8 @@ mod band;
 mod interior;
 mod problem;
 mod sides;
+#[cfg(test)]
+mod tests;
 
 pub(super) use interior::{Goal, Interior};
 pub(super) use problem::{FAR, Problem, SPAN, combine, dot};

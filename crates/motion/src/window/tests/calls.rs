@@ -1,0 +1,101 @@
+//! What the motion depends on, and what it does not; changes of rates.
+
+use super::*;
+
+/// Pushes as late as possible.
+fn plan_lazily(case: &Case) -> Vec<Period> {
+    let mut planner = case.planner();
+    let mut periods = Vec::new();
+    for reference in case.references() {
+        while let Some(period) = planner.next_period() {
+            periods.push(period);
+        }
+        planner.push(reference);
+    }
+    while let Some(period) = planner.next_period() {
+        periods.push(period);
+    }
+    planner.finish();
+    periods.extend(core::iter::from_fn(|| planner.next_period()));
+    periods
+}
+
+proptest! {
+    #![proptest_config(cases(3))]
+    #[test]
+    fn it_does_not_matter_how_pushes_and_periods_are_interleaved(seed: u64, is_light: bool) {
+        let case = random_case(seed, is_light);
+        assert_eq!(case.plan(), plan_lazily(&case));
+    }
+}
+
+/// Plans with another feed after some periods.
+fn plan_with_change(case: &Case, after: usize, factor: f64) -> Vec<Period> {
+    let mut planner = case.planner();
+    for reference in case.references() {
+        planner.push(reference);
+    }
+    planner.finish();
+    let mut periods: Vec<_> = (0..after).map_while(|_| planner.next_period()).collect();
+    planner.set_rates(|_| factor * case.feed_v);
+    periods.extend(core::iter::from_fn(|| planner.next_period()));
+    assert!(planner.is_over());
+    periods
+}
+
+#[test]
+fn a_change_of_rates_is_followed_within_the_limits() {
+    let mut case = Case::mill(square());
+    case.feed_v = 40.0;
+    let plain = case.plan().len();
+    for (after, factor) in [(0, 0.5), (40, 0.5), (41, 2.0), (200, 0.1), (300, 1.5)] {
+        let periods = plan_with_change(&case, after, factor);
+        let allowed = Case {
+            feed_v: case.feed_v * factor.max(1.0),
+            ..case.clone()
+        };
+        assert_clean(&allowed, &periods);
+        assert_eq!(
+            periods.len() > plain,
+            factor < 1.0,
+            "after {after}: {factor}"
+        );
+        // From some time after the change on, the new feed holds.
+        let slow = periods.iter().skip(after + 60);
+        assert!(
+            slow.into_iter()
+                .all(|p| p.path_v <= 1.001 * factor * case.feed_v)
+        );
+    }
+}
+
+#[test]
+fn progress_never_falls_and_tags_never_go_back() {
+    let case = random_case(11, false);
+    let periods = case.plan();
+    for pair in periods.windows(2) {
+        assert!(pair[1].path_s >= pair[0].path_s && pair[1].tag >= pair[0].tag);
+    }
+    assert!(periods.iter().rev().skip(1).all(|p| !p.rest_at_end));
+}
+
+#[test]
+fn feeds_may_differ_from_piece_to_piece() {
+    let case = Case::mill(square());
+    let mut planner = case.planner();
+    let feeds = [100.0, 5.0, 50.0, 20.0];
+    for (mut reference, feed_v) in case.references().into_iter().zip(feeds) {
+        reference.top_v = feed_v;
+        planner.push(reference);
+    }
+    planner.finish();
+    let mut last = AxisVector::zeros();
+    while let Some(period) = planner.next_period() {
+        let speed_v = (period.position - last).norm() / case.period_t;
+        let near = |tag: u64| feeds[tag.min(3) as usize];
+        let allowed = near(period.tag).max(near(period.tag.saturating_sub(1)));
+        assert!(speed_v <= 1.001 * allowed, "{speed_v} on {}", period.tag);
+        last = period.position;
+    }
+    assert!(planner.is_over());
+}
