@@ -41,7 +41,6 @@ mod settings;
 mod speed_limit;
 mod stop_or_pass;
 mod tolerance_split;
-#[allow(dead_code, reason = "the planner does not use it yet")]
 mod window;
 
 pub use error::PlanError;

@@ -74,12 +74,6 @@ impl Place {
         }
     }
 
-    /// Takes over another place, without giving up the memory.
-    pub(super) fn copy_from(&mut self, other: &Self) {
-        self.first = other.first;
-        self.spans.clone_from(&other.spans);
-    }
-
     /// The furthest piece it has a part of.
     pub(super) fn last(&self) -> usize {
         self.first + self.spans.len().saturating_sub(1)
