@@ -13,6 +13,7 @@
 mod arc;
 mod axis;
 mod bernstein;
+mod cubic;
 pub mod number;
 mod nurbs;
 mod quadrature;
@@ -22,6 +23,7 @@ mod turn;
 
 pub use arc::{Arc, Plane};
 pub use axis::{AXES, Axis, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+pub use cubic::Cubic;
 pub use nurbs::{MAX_DEGREE, Nurbs, NurbsError, NurbsJet, NurbsPath, Span, SpanCurvature};
 pub use segment::{Jet, Line, Segment, feed_length};
 pub use transition::{

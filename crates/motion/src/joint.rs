@@ -3,7 +3,7 @@
 //! A transition takes a length d from both segments. The longer it is, the faster it can be driven
 //! and the further it leaves the program, so d is the largest that keeps within
 //!
-//! * half of each segment (the other half belongs to the joint at its other end),
+//! * half of each segment (the other half belongs to the joint at its other end, if there is one),
 //! * the tolerance: deviation of the curve plus the chord error of driving it at its top speed,
 //!
 //! and no longer than needed for the programmed rate. Deviation is measured between points of equal
@@ -28,6 +28,8 @@ pub(crate) struct Leg<'a> {
     pub segment: &'a Segment,
     pub mode: PathMode,
     pub length_s: f64,
+    /// The most of it that the joint may take.
+    pub share_s: f64,
     /// Wanted rate, overrides included.
     pub rate_v: f64,
     /// How far the segment is from the program already, mm.
@@ -136,7 +138,7 @@ pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, settings: &Settings) -> Joint {
 
 /// How far from a corner the chord of one period can pass if the machine rests there between two
 /// setpoints: half a period before or after the rest it is at most J·(T/2)³/6 away.
-fn cut_by_chord_mm(t1: &AxisVector, t2: &AxisVector, settings: &Settings) -> f64 {
+pub(crate) fn cut_by_chord_mm(t1: &AxisVector, t2: &AxisVector, settings: &Settings) -> f64 {
     [t1, t2]
         .map(|tangent| {
             let limit = speed_limit::straight(tangent, f64::INFINITY, &settings.limits);
@@ -193,7 +195,7 @@ struct Candidate {
 
 impl Corner<'_> {
     fn best(&self) -> Option<Candidate> {
-        let share_s = 0.5 * self.from.length_s.min(self.to.length_s);
+        let share_s = self.from.share_s.min(self.to.share_s);
         let longest_s = share_s
             .min(arc_share(self.from.segment))
             .min(arc_share(self.to.segment));

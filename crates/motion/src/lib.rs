@@ -16,6 +16,7 @@
 //! | `_k` | curvature, 1/mm |
 
 pub mod audit;
+mod compress;
 pub mod diagnosis;
 mod error;
 mod fast;
@@ -28,6 +29,7 @@ mod limits;
 mod merge;
 mod optimal;
 mod override_;
+mod parts;
 mod path;
 mod pending;
 mod piece;

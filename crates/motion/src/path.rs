@@ -1,12 +1,13 @@
 //! The path front: items in, pieces of smooth path and rests out.
 //!
-//! A segment is held back until what follows tells how it is left: the last one may still be merged
-//! with the next, and the one before it waits for the joint between the two. What comes out depends
-//! on the order of the items alone.
+//! Lines at a feedrate in continuous mode go through the compressor, which makes smooth curves of
+//! dense ones and gives back the lines that stay. These, and every other segment, wait for the next
+//! one, since the joint between the two tells where each ends. What comes out depends on the order of
+//! the items alone.
 
 use crate::joint::{Joint, join};
-use crate::merge::Dropped;
 use crate::override_::{Override, ProgrammedRate};
+use crate::parts::DenseRun;
 use crate::pending::{Pending, axes_speed};
 use crate::piece::{Element, Piece, Rest, RestKind, Shape};
 use crate::speed_limit::{self, SpeedRule};
@@ -20,18 +21,22 @@ pub(crate) const SHORTEST_MOVE_MM: f64 = 1e-6;
 /// Turns items into pieces and rests.
 #[derive(Debug)]
 pub(crate) struct PathFront {
-    settings: Settings,
-    wanted: Override,
-    /// The segment that may still be merged with what follows.
-    open: Option<Pending>,
-    /// The segment before it, whose end is not decided.
-    pending: Option<Pending>,
+    pub(crate) settings: Settings,
+    pub(crate) wanted: Override,
+    /// The run of blocks under compression.
+    pub(crate) run: Option<DenseRun>,
+    /// The rate of its block that was last put out.
+    pub(crate) run_rate: ProgrammedRate,
+    /// No other axis than X, Y, Z has moved in such a run.
+    pub(crate) is_linear: bool,
+    /// The segment whose end is not decided.
+    pub(crate) pending: Option<Pending>,
     /// Where the pieces made so far, and the pending segment, end.
     position: AxisVector,
     /// Where the program is; differs from `position` by moves too short to be made.
     program_position: AxisVector,
-    events: Vec<Event>,
-    line: u32,
+    pub(crate) events: Vec<Event>,
+    pub(crate) line: u32,
     last_rate: Rate,
 }
 
@@ -40,7 +45,12 @@ impl PathFront {
         Self {
             settings,
             wanted: Override::NONE,
-            open: None,
+            run: None,
+            run_rate: ProgrammedRate {
+                rate: Rate::Rapid,
+                axes_v: f64::INFINITY,
+            },
+            is_linear: true,
             pending: None,
             position: start,
             program_position: start,
@@ -54,7 +64,7 @@ impl PathFront {
     pub(crate) fn set_override(&mut self, wanted: Override) {
         self.wanted = wanted;
         let settings = self.settings;
-        for held in self.open.iter_mut().chain(&mut self.pending) {
+        if let Some(held) = &mut self.pending {
             let chord_v = chord_speed(&held.segment, held.mode, &settings);
             held.rate_v = held.rate.under(wanted).min(chord_v);
         }
@@ -112,9 +122,14 @@ impl PathFront {
         {
             return Ok(());
         }
+        self.position = segment.end();
+        if self.compress((&segment, line), rate, mode, out) {
+            return Ok(());
+        }
+        self.end_run(out);
         let axes_v = axes_speed(&segment, &self.settings);
         let rate = ProgrammedRate { rate, axes_v };
-        let next = Pending {
+        let mut next = Pending {
             segment,
             length_s,
             rate,
@@ -122,40 +137,24 @@ impl PathFront {
                 .under(self.wanted)
                 .min(chord_speed(&segment, mode, &self.settings)),
             line,
+            lines: Vec::new(),
             mode,
             trimmed_s: 0.0,
             events: core::mem::take(&mut self.events),
-            dropped: Dropped::default(),
+            error_mm: 0.0,
+            continues: [false; 2],
         };
-        self.position = segment.end();
-        let settings = &self.settings;
-        if self
-            .open
-            .as_mut()
-            .is_some_and(|open| open.merge(&next, settings))
-        {
-            return Ok(());
+        if let Some(before) = self.pending.take() {
+            self.join(before, &mut next, out);
         }
-        self.close(out);
-        self.open = Some(next);
+        self.pending = Some(next);
         Ok(())
     }
 
-    /// Nothing more is merged with the open segment: joins it to the one before.
-    fn close(&mut self, out: &mut Vec<Element>) {
-        let Some(mut open) = self.open.take() else {
-            return;
-        };
-        if let Some(before) = self.pending.take() {
-            self.join(before, &mut open, out);
-        }
-        self.pending = Some(open);
-    }
-
     /// Decides the joint between two segments and puts out all of the first.
-    fn join(&self, before: Pending, next: &mut Pending, out: &mut Vec<Element>) {
-        let joint = join(before.leg(), next.leg(), &self.settings);
-        let (line, rates) = (before.line, [before.rate, next.rate]);
+    pub(crate) fn join(&self, before: Pending, next: &mut Pending, out: &mut Vec<Element>) {
+        let joint = join(before.ending(), next.starting(), &self.settings);
+        let (line, rates) = (before.last_line(), [before.rate, next.rate]);
         match joint {
             Joint::Straight => self.put_segment(before, 0.0, out),
             Joint::Stop { exact } => {
@@ -175,7 +174,7 @@ impl PathFront {
                 self.put_segment(before, trim_s, out);
                 let length_s = transition.length();
                 let shape = Shape::Transition(Box::new(transition));
-                let rule = SpeedRule::Transition {
+                let rule = SpeedRule::Curve {
                     curve: Box::new(curve),
                     rates,
                 };
@@ -184,6 +183,13 @@ impl PathFront {
                 out.push(Element::Piece(piece));
                 next.trimmed_s = trim_s;
             }
+        }
+    }
+
+    /// Puts out the segment that waits: it is left without a joint.
+    pub(crate) fn put_pending(&mut self, out: &mut Vec<Element>) {
+        if let Some(pending) = self.pending.take() {
+            self.put_segment(pending, 0.0, out);
         }
     }
 
@@ -207,12 +213,12 @@ impl PathFront {
         };
         let shape = Shape::Segment(pending.segment);
         let mut piece = self.piece(shape, (pending.trimmed_s, length_s), rule, pending.line);
-        piece.events = pending.events;
+        (piece.events, piece.lines) = (pending.events, pending.lines);
         out.push(Element::Piece(piece));
     }
 
     /// A piece of a shape: where in the shape it starts, and how long it is.
-    fn piece(
+    pub(crate) fn piece(
         &self,
         shape: Shape,
         (from_s, length_s): (f64, f64),
@@ -228,16 +234,15 @@ impl PathFront {
             rule,
             planned: self.wanted,
             line,
+            lines: Vec::new(),
             events: Vec::new(),
         }
     }
 
     /// Ends the path at rest.
     fn rest(&mut self, kind: RestKind, line: u32, out: &mut Vec<Element>) {
-        self.close(out);
-        if let Some(pending) = self.pending.take() {
-            self.put_segment(pending, 0.0, out);
-        }
+        self.end_run(out);
+        self.put_pending(out);
         self.put_remainder(out);
         for event in core::mem::take(&mut self.events) {
             out.push(Element::Rest(Rest {

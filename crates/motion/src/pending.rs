@@ -1,10 +1,9 @@
 //! A segment that waits for what follows it.
 
 use crate::joint::Leg;
-use crate::merge::{Dropped, MERGE_SHARE_R};
 use crate::override_::ProgrammedRate;
 use crate::speed_limit;
-use crate::{Event, PathMode, Rate, Settings, Smoothing};
+use crate::{Event, PathMode, Settings};
 use glidepath_geometry::Segment;
 
 /// A segment whose end is not decided yet.
@@ -16,48 +15,44 @@ pub(crate) struct Pending {
     /// The rate under the override at hand, where the segment can be driven at it.
     pub rate_v: f64,
     pub line: u32,
+    /// The lines of further blocks on it, and where on it they start.
+    pub lines: Vec<(f64, u32)>,
     pub mode: PathMode,
     /// Length at the start that the joint before has replaced.
     pub trimmed_s: f64,
     pub events: Vec<Event>,
-    pub dropped: Dropped,
+    /// How far it is from the program, mm.
+    pub error_mm: f64,
+    /// Whether it continues a curve at its start, and is continued by one at its end: then the joint
+    /// at the other end may take all of it.
+    pub continues: [bool; 2],
 }
 
 impl Pending {
-    pub(crate) fn leg(&self) -> Leg<'_> {
+    /// The segment as one that a joint ends.
+    pub(crate) const fn ending(&self) -> Leg<'_> {
+        self.leg(self.continues[0])
+    }
+
+    /// The segment as one that a joint starts.
+    pub(crate) const fn starting(&self) -> Leg<'_> {
+        self.leg(self.continues[1])
+    }
+
+    const fn leg(&self, is_whole: bool) -> Leg<'_> {
         Leg {
             segment: &self.segment,
             mode: self.mode,
             length_s: self.length_s,
+            share_s: if is_whole { self.length_s } else { 0.5 * self.length_s },
             rate_v: self.rate_v,
-            error_mm: self.dropped.error_mm,
+            error_mm: self.error_mm,
         }
     }
 
-    /// Draws the next segment together with this one, if both are lines driven alike and the
-    /// tolerance allows it.
-    pub(crate) fn merge(&mut self, next: &Self, settings: &Settings) -> bool {
-        let (Segment::Line(line), Segment::Line(following)) = (self.segment, next.segment) else {
-            return false;
-        };
-        let alike = self.rate.rate == next.rate.rate
-            && matches!(self.rate.rate, Rate::Feed(_))
-            && self.mode == next.mode
-            && matches!(self.mode, PathMode::Continuous { .. })
-            && next.events.is_empty()
-            && settings.smoothing != Smoothing::ExactStop;
-        let allowed_mm = MERGE_SHARE_R * self.mode.tolerance_mm(settings);
-        if !alike
-            || !self
-                .dropped
-                .extend(&line.start, &line.end, &following.end, allowed_mm)
-        {
-            return false;
-        }
-        self.segment = Segment::line(line.start, following.end);
-        self.length_s = self.segment.length();
-        self.rate.axes_v = axes_speed(&self.segment, settings);
-        true
+    /// The line of the last block on it.
+    pub(crate) fn last_line(&self) -> u32 {
+        self.lines.last().map_or(self.line, |(_, line)| *line)
     }
 }
 

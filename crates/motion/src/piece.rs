@@ -3,7 +3,7 @@
 use crate::override_::Override;
 use crate::speed_limit::{SpeedLimit, SpeedRule};
 use crate::{Event, Limits};
-use glidepath_geometry::{Jet, Segment, Transition};
+use glidepath_geometry::{Cubic, Jet, Segment, Transition};
 
 /// A smooth piece of path with one speed limit.
 #[derive(Debug, Clone)]
@@ -16,7 +16,10 @@ pub(crate) struct Piece {
     pub limit: SpeedLimit,
     /// The override that `limit` was computed with.
     pub planned: Override,
+    /// Source line at its start.
     pub line: u32,
+    /// The lines of further blocks on it, and where in the shape they start.
+    pub lines: Vec<(f64, u32)>,
     pub rapid: bool,
     /// Events that happen when the piece is entered, without stopping.
     pub events: Vec<Event>,
@@ -27,6 +30,7 @@ pub(crate) struct Piece {
 pub(crate) enum Shape {
     Segment(Segment),
     Transition(Box<Transition>),
+    Spline(Box<Cubic>),
 }
 
 impl Piece {
@@ -76,6 +80,16 @@ impl Piece {
         match &self.shape {
             Shape::Segment(segment) => segment.jet(self.from_s + s),
             Shape::Transition(transition) => transition.jet(self.from_s + s),
+            Shape::Spline(span) => span.jet(self.from_s + s),
+        }
+    }
+
+    /// The source line `s` after the start of the piece.
+    pub(crate) fn line_at(&self, s: f64) -> u32 {
+        let passed = self.lines.partition_point(|(from_s, _)| *from_s <= self.from_s + s);
+        match passed.checked_sub(1).and_then(|last| self.lines.get(last)) {
+            Some((_, line)) => *line,
+            None => self.line,
         }
     }
 }

@@ -184,6 +184,7 @@ impl Sampler {
         let piece = stretch.pieces.get(stretch.piece)?;
         let jet = piece.jet(s - stretch.piece_s);
         let (v, a) = (state.speed_v, state.accel_a);
+        self.grid.pass(piece.line_at(s - stretch.piece_s));
         Some(self.grid.motion_frame(&Moving {
             path_v: v,
             path_s: self.path_s + (s - stretch.piece_s),

@@ -42,14 +42,14 @@ pub(crate) enum SpeedRule {
         rate: ProgrammedRate,
         chord_v: f64,
     },
-    /// A transition between two segments.
-    Transition {
+    /// A transition between two segments, or a span of a spline.
+    Curve {
         curve: Box<CurveRule>,
         rates: [ProgrammedRate; 2],
     },
 }
 
-/// The speed limit of a transition.
+/// The speed limit of a transition, or of a span of a spline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CurveRule {
     pub bounds: DerivativeBounds,
@@ -70,7 +70,7 @@ impl SpeedRule {
                 rate,
                 chord_v,
             } => arc(curve, rate.under(wanted).min(*chord_v), limits),
-            Self::Transition { curve, rates } => {
+            Self::Curve { curve, rates } => {
                 curve.limit(rates[0].under(wanted).min(rates[1].under(wanted)), limits)
             }
         }
@@ -83,7 +83,7 @@ impl SpeedRule {
         let is_rapid = |rate: &ProgrammedRate| rate.rate == Rate::Rapid;
         match self {
             Self::Straight { rate, .. } | Self::Arc { rate, .. } => is_rapid(rate),
-            Self::Transition { rates, .. } => rates.iter().all(is_rapid),
+            Self::Curve { rates, .. } => rates.iter().all(is_rapid),
         }
     }
 }

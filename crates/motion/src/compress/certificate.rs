@@ -1,0 +1,127 @@
+//! Proof that a spline stays in the tube, both ways and in order.
+//!
+//! Between two break points (feet of samples, and knots) the curve is one cubic, with four Bézier
+//! points. If every one of them is within r of a point of the chord that the part belongs to, and
+//! these points follow each other along the chord, then so is the curve: C(u) = Σ B_i(u)·b_i is
+//! within r of Σ B_i(u)·y_i, which is on the chord and moves along it. At the end of a chord the
+//! match moves on to the vertex while the curve waits at the foot of it. So the larger of these
+//! distances bounds the width of a matching of the curve with the polyline that never goes back: no
+//! point of either is farther from the other, and both are passed in the same order.
+
+use super::fit::{Sample, Spline};
+use super::knots::{bezier, hermite_points, steps};
+use super::vector::{add_scaled, dot, minus, tolerance_square};
+use core::ops::Range;
+
+/// How near a cusp a span may come, as [`glidepath_geometry::Cubic`] has it, with a margin.
+const SLOWEST_R: f64 = 0.12;
+
+/// What a certificate says.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Verdict {
+    /// Largest distance, mm; infinite where the curve comes near a cusp.
+    pub(super) worst_mm: f64,
+    /// The sample at the end of the chord where that is.
+    pub(super) worst_sample: usize,
+    /// The sample at the start of the chord that the match is on at the end of the last span.
+    pub(super) chord: usize,
+    /// How far along that chord the match is at the end of the last span, 0…1.
+    pub(super) passed_u: f64,
+}
+
+impl<const D: usize> Spline<D> {
+    /// Certifies the first spans. The match starts a share `passed_u` along the first chord; the
+    /// distance on each span goes to `errors_mm`.
+    pub(super) fn certify(
+        &self,
+        samples: &[Sample<D>],
+        spans: usize,
+        passed_u: f64,
+        feed_axes: &Range<usize>,
+        errors_mm: &mut Vec<f64>,
+    ) -> Verdict {
+        errors_mm.clear();
+        errors_mm.resize(spans, 0.0);
+        let end_t = self.knots[spans + 3];
+        let mut verdict = Verdict {
+            worst_mm: 0.0,
+            worst_sample: 1,
+            chord: 0,
+            passed_u,
+        };
+        let mut from_t = self.knots[3];
+        let mut span = 0;
+        let mut start = self.at(0, from_t);
+        let mut is_regular = self.is_regular(0, feed_axes);
+        for (j, pair) in samples.windows(2).enumerate() {
+            let (a, b) = (&pair[0].point, &pair[1].point);
+            let foot_t = pair[1].foot_t;
+            let chord = minus(b, a);
+            let per_square = 1.0 / dot(&chord, &chord);
+            while from_t < foot_t && from_t < end_t {
+                if span + 1 < spans && from_t >= self.knots[span + 4] {
+                    span += 1;
+                    start = self.at(span, from_t);
+                    is_regular = self.is_regular(span, feed_axes);
+                    continue;
+                }
+                let to_t = foot_t.min(self.knots[span + 4]);
+                let end = self.at(span, to_t);
+                let mut square_mm2 = 0.0_f64;
+                for point in &hermite_points(&start, &end, to_t - from_t) {
+                    let offset = minus(point, a);
+                    let u = (dot(&offset, &chord) * per_square)
+                        .min(1.0)
+                        .max(verdict.passed_u);
+                    let off = add_scaled(&offset, -u, &chord);
+                    square_mm2 = square_mm2.max(tolerance_square(&off));
+                    verdict.passed_u = u;
+                }
+                let error_mm = if is_regular {
+                    square_mm2.sqrt()
+                } else {
+                    f64::INFINITY
+                };
+                note(&mut verdict, &mut errors_mm[span], error_mm, j + 1);
+                (from_t, start) = (to_t, end);
+            }
+            if from_t < foot_t {
+                break;
+            }
+            let missed_mm = tolerance_square(&minus(&start.0, b)).sqrt();
+            note(&mut verdict, &mut errors_mm[span], missed_mm, j + 1);
+            (verdict.chord, verdict.passed_u) = (j + 1, 0.0);
+            if from_t >= end_t {
+                break;
+            }
+        }
+        verdict
+    }
+
+    /// True if a span moves forward everywhere in the axes that measure the feed.
+    fn is_regular(&self, span: usize, feed_axes: &Range<usize>) -> bool {
+        let Some(points) = bezier(&self.knots, &self.control, span) else {
+            return false;
+        };
+        let product = |a: &[f64; D], b: &[f64; D]| -> f64 {
+            let axes = feed_axes.clone().filter(|&i| i < D);
+            axes.map(|i| a[i] * b[i]).sum()
+        };
+        let mean = minus(&points[3], &points[0]).map(|x| x / 3.0);
+        let least = SLOWEST_R * product(&mean, &mean);
+        least > 0.0
+            && steps(&points)
+                .iter()
+                .all(|step| product(step, &mean) >= least)
+    }
+}
+
+/// Takes a distance into account; one that is not a number counts as infinite.
+fn note(verdict: &mut Verdict, of_span: &mut f64, error_mm: f64, sample: usize) {
+    let error_mm = if error_mm.is_nan() { f64::INFINITY } else { error_mm };
+    *of_span = of_span.max(error_mm);
+    if error_mm > verdict.worst_mm {
+        verdict.worst_mm = error_mm;
+        verdict.worst_sample = sample;
+    }
+}

@@ -1,0 +1,222 @@
+//! From merged chords to samples: which vertices are corners, which chords are lines, and where the
+//! spline has its samples.
+//!
+//! ```text
+//!   corner           smooth            smooth              corner
+//!     ●━━━━━━━╌·╌·╌·╌·╌·╌○╌·╌·╌━━━━━━━━━╌·╌·╌○╌·╌·╌·╌━━━━━━━━━●
+//!       line   spline          line in the middle       line
+//!                              of a long chord
+//! ```
+//!
+//! Every curve starts and ends on a line, with zero curvature. So a corner is always one of two
+//! lines, and what replaces corners need not know of curves.
+//!
+//! Samples are dense near a vertex that turns much and spread by doubling: long spans next to short
+//! ones are where a fit fails.
+
+use super::Tube;
+use super::marks::Change;
+use super::output::Output;
+use super::thinning::Chord;
+use super::vector::{add_scaled, between, dot, minus};
+use super::window::{End, Window};
+
+/// A vertex that turns more is a corner, rad: 100°.
+const ALWAYS_CORNER_RAD: f64 = 1.745_329_251_994_33;
+/// One that turns less is not, rad: 30°. Between them it depends on whether a smooth curve fits.
+const NEVER_CORNER_RAD: f64 = 0.523_598_775_598_299;
+/// Lengths in tolerances: of a chord whose middle is a line if it bends, and if it does not; of the
+/// curves beside such a line; of a line beside a corner; the least spacing of samples.
+const LONG_BENT_R: f64 = 400.0;
+const LONG_R: f64 = 4000.0;
+const BESIDE_LINE_R: f64 = 150.0;
+const BESIDE_CORNER_R: f64 = 20.0;
+const LEAST_SPACING_R: f64 = 1.5;
+/// Most samples graded from one end of a chord.
+const MOST_GRADED: usize = 24;
+
+/// Makes lines and samples of chords, each as soon as the next is known.
+#[derive(Debug)]
+pub(super) struct Chords<const D: usize> {
+    tube: Tube,
+    window: Window<D>,
+    waiting: Option<(Chord<D>, Option<Change>)>,
+    /// A curve leads to the start of the chord that waits.
+    is_curved: bool,
+    /// How much the path turns there, rad.
+    turn_rad: f64,
+    /// Spacing of the samples before it.
+    spacing_t: f64,
+    /// Length of the chords before it.
+    along_t: f64,
+}
+
+impl<const D: usize> Chords<D> {
+    pub(super) fn new(tube: Tube) -> Self {
+        Self {
+            window: Window::new(tube.clone()),
+            tube,
+            waiting: None,
+            is_curved: false,
+            turn_rad: 0.0,
+            spacing_t: 0.0,
+            along_t: 0.0,
+        }
+    }
+
+    /// The next chord, and what its first block changes.
+    pub(super) fn push(&mut self, next: Chord<D>, change: Option<Change>, out: &mut Output) {
+        if let Some((chord, mark)) = self.waiting.take() {
+            let turn_rad = turn(&chord, &next);
+            let sagitta_mm = 0.5 * chord.length_t.min(next.length_t) * (0.25 * turn_rad).tan();
+            let is_corner = turn_rad > ALWAYS_CORNER_RAD
+                || (turn_rad > NEVER_CORNER_RAD && sagitta_mm > self.tube.tolerance_mm);
+            let spacing_t = (!is_corner).then(|| self.spacing(turn_rad, next.length_t));
+            self.drive(&chord, mark, spacing_t, turn_rad, out);
+        }
+        self.waiting = Some((next, change));
+    }
+
+    /// No more chords: the path ends with a corner.
+    pub(super) fn finish(&mut self, out: &mut Output) {
+        if let Some((chord, mark)) = self.waiting.take() {
+            self.drive(&chord, mark, None, 0.0, out);
+        }
+    }
+
+    /// The spacing of samples beside a vertex, at most 2.5 times that of the samples on its other
+    /// side.
+    fn spacing(&self, turn_rad: f64, other_t: f64) -> f64 {
+        let sine = (0.5 * turn_rad).sin().max(1e-9);
+        let wanted_t = 0.8 * self.tube.tolerance_mm / sine;
+        wanted_t
+            .min(2.5 * other_t)
+            .max(LEAST_SPACING_R * self.tube.tolerance_mm)
+    }
+
+    /// Lays out a chord; at its end is a corner, or a curve goes on with samples so far apart.
+    fn drive(
+        &mut self,
+        chord: &Chord<D>,
+        mut change: Option<Change>,
+        end_spacing_t: Option<f64>,
+        end_turn_rad: f64,
+        out: &mut Output,
+    ) {
+        let length_t = chord.length_t;
+        for &(from_u, line) in &chord.blocks {
+            out.marks
+                .push(self.along_t + from_u * length_t, line, change.take());
+        }
+        let start_spacing_t = self.is_curved.then(|| self.spacing(self.turn_rad, self.spacing_t));
+        let bend_rad = self.turn_rad.max(end_turn_rad);
+        let tolerance_mm = self.tube.tolerance_mm;
+        let is_bent = length_t * bend_rad > 8.0 * tolerance_mm;
+        let is_long = length_t > LONG_R * tolerance_mm
+            || (is_bent && length_t > LONG_BENT_R * tolerance_mm);
+        let beside_t = if is_long {
+            (0.3 * length_t).min(BESIDE_LINE_R * tolerance_mm)
+        } else {
+            length_t - (0.5 * length_t).min(BESIDE_CORNER_R * tolerance_mm)
+        };
+        let is_all_curve = start_spacing_t.is_some() && end_spacing_t.is_some() && !is_long;
+        let curve_end_t = match start_spacing_t {
+            _ if is_all_curve => length_t,
+            Some(_) => beside_t,
+            None => 0.0,
+        };
+        let curve_start_t = match end_spacing_t {
+            Some(_) if !is_all_curve => length_t - beside_t,
+            _ => length_t,
+        };
+        if is_all_curve {
+            let spacings_t = (start_spacing_t.unwrap_or(0.0), end_spacing_t.unwrap_or(0.0));
+            self.grade(chord, (0.0, length_t), spacings_t, out);
+        } else {
+            if let Some(spacing_t) = start_spacing_t {
+                let third_t = curve_end_t / 3.0;
+                self.grade(chord, (0.0, curve_end_t), (spacing_t.min(third_t), third_t), out);
+                self.window.finish(End::Line, out);
+            }
+            self.line(chord, (curve_end_t, curve_start_t), out);
+            if let Some(spacing_t) = end_spacing_t {
+                let third_t = (length_t - curve_start_t) / 3.0;
+                let start = between(&chord.start, &chord.end, curve_start_t / length_t);
+                self.window.start(start, self.along_t + curve_start_t, End::Line);
+                let spacings_t = (third_t, spacing_t.min(third_t));
+                self.grade(chord, (curve_start_t, length_t), spacings_t, out);
+            }
+        }
+        self.is_curved = end_spacing_t.is_some();
+        self.turn_rad = end_turn_rad;
+        self.along_t += length_t;
+    }
+
+    /// The part of a chord that is a line.
+    fn line(&self, chord: &Chord<D>, (from_t, to_t): (f64, f64), out: &mut Output) {
+        let at = |t: f64| between(&chord.start, &chord.end, t / chord.length_t);
+        let continues = [from_t > 0.0, to_t < chord.length_t];
+        let start = if continues[0] { at(from_t) } else { chord.start };
+        let end = if continues[1] { at(to_t) } else { chord.end };
+        let along_t = (self.along_t + from_t, self.along_t + to_t);
+        out.line((&start, &end), along_t, chord.error_mm, continues);
+    }
+
+    /// Samples on a part of a chord, not at its start but at its end, their spacing growing by two
+    /// from those wanted at its ends.
+    fn grade(
+        &mut self,
+        chord: &Chord<D>,
+        (from_t, to_t): (f64, f64),
+        (mut low_t, mut high_t): (f64, f64),
+        out: &mut Output,
+    ) {
+        let (mut from_start, mut from_end) = ([0.0; MOST_GRADED], [0.0; MOST_GRADED]);
+        let (mut starts, mut ends) = (0, 0);
+        let (mut x_t, mut y_t) = (from_t, to_t);
+        loop {
+            let room_t = y_t - x_t;
+            if low_t <= high_t && 1.5 * low_t < room_t && starts < MOST_GRADED {
+                x_t += low_t;
+                from_start[starts] = x_t;
+                starts += 1;
+                low_t *= 2.0;
+            } else if low_t > high_t && 1.5 * high_t < room_t && ends < MOST_GRADED {
+                y_t -= high_t;
+                from_end[ends] = y_t;
+                ends += 1;
+                high_t *= 2.0;
+            } else {
+                break;
+            }
+        }
+        let places = from_start[..starts]
+            .iter()
+            .chain(from_end[..ends].iter().rev())
+            .chain([&to_t]);
+        let mut before_t = from_t;
+        for &t in places {
+            let is_end = t >= chord.length_t;
+            let point = if is_end {
+                chord.end
+            } else {
+                between(&chord.start, &chord.end, t / chord.length_t)
+            };
+            self.spacing_t = t - before_t;
+            self.window
+                .add(point, (self.along_t + t, self.spacing_t), out);
+            before_t = t;
+        }
+    }
+}
+
+/// How much the path turns between two chords, rad.
+fn turn<const D: usize>(from: &Chord<D>, to: &Chord<D>) -> f64 {
+    let first = minus(&from.end, &from.start).map(|x| x / from.length_t);
+    let second = minus(&to.end, &to.start).map(|x| x / to.length_t);
+    let sum = add_scaled(&first, 1.0, &second);
+    let difference = minus(&second, &first);
+    2.0 * dot(&difference, &difference)
+        .sqrt()
+        .atan2(dot(&sum, &sum).sqrt())
+}

@@ -1,0 +1,172 @@
+//! One solve of the tube spline: the curve of least jerk for given weights, and where the samples
+//! have their feet on it.
+//!
+//! ```text
+//! minimise  ∫ |C‴|² dt  +  Σ w_j h_j |C(t_j) − Q_j|²
+//! ```
+//!
+//! over the control points that are free. The system is solved for the increment of the control
+//! points, which keeps three digits more than solving for the points themselves.
+
+use super::banded::Banded;
+use super::knots::{Basis, DEGREE, third_derivative};
+use super::vector::{add_scaled, dot, minus};
+
+/// A point that the curve has to come near.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sample<const D: usize> {
+    pub(super) point: [f64; D],
+    /// Where it is along the merged chords.
+    pub(super) along_t: f64,
+    /// Distance from the sample before.
+    pub(super) spacing_t: f64,
+    /// Parameter of the curve's point that it is matched with.
+    pub(super) foot_t: f64,
+    pub(super) weight: f64,
+    /// Its distance from that point, mm.
+    pub(super) error_mm: f64,
+}
+
+/// The share of the distance to its neighbours' feet that a foot may move in a window. Feet that run
+/// free let the curve fold.
+const FOOT_SHARE_R: f64 = 0.35;
+
+/// The spline of a window, and what is needed to fit it.
+#[derive(Debug)]
+pub(super) struct Spline<const D: usize> {
+    /// Knots, those at the end repeated.
+    pub(super) knots: Vec<f64>,
+    pub(super) control: Vec<[f64; D]>,
+    /// Matrix of the penalty.
+    stiffness: Vec<[f64; 4]>,
+    system: Banded<D>,
+    /// Feet at the start of the fit, between which they may move.
+    nominal_t: Vec<f64>,
+}
+
+impl<const D: usize> Spline<D> {
+    pub(super) const fn new() -> Self {
+        Self {
+            knots: Vec::new(),
+            control: Vec::new(),
+            stiffness: Vec::new(),
+            system: Banded::new(),
+            nominal_t: Vec::new(),
+        }
+    }
+
+    /// Number of spans.
+    pub(super) fn spans(&self) -> usize {
+        self.knots.len().saturating_sub(2 * DEGREE + 1)
+    }
+
+    /// Sets up the penalty, and the feet as they are now as the nominal ones.
+    pub(super) fn prepare(&mut self, samples: &[Sample<D>]) {
+        self.nominal_t.clear();
+        self.nominal_t.extend(samples.iter().map(|s| s.foot_t));
+        self.stiffness.clear();
+        self.stiffness.resize(self.control.len(), [0.0; 4]);
+        for span in 0..self.spans() {
+            let length_t = self.knots[span + 4] - self.knots[span + 3];
+            let third = third_derivative(&self.knots, span);
+            for i in 0..4 {
+                for j in i..4 {
+                    self.stiffness[span + i][j - i] += length_t * third[i] * third[j];
+                }
+            }
+        }
+    }
+
+    /// Solves once, with so many control points fixed at each end, and moves the feet.
+    pub(super) fn solve(&mut self, samples: &mut [Sample<D>], fixed: (usize, usize)) {
+        self.assemble(samples);
+        let count = self.control.len();
+        for i in (0..fixed.0.min(count)).chain(count.saturating_sub(fixed.1)..count) {
+            self.system.fix(i);
+        }
+        self.system.solve();
+        for (point, step) in self.control.iter_mut().zip(&self.system.right) {
+            *point = add_scaled(point, 1.0, step);
+        }
+        self.move_feet(samples);
+    }
+
+    fn assemble(&mut self, samples: &[Sample<D>]) {
+        let control = &self.control;
+        let system = &mut self.system;
+        system.rows.clear();
+        system.rows.extend_from_slice(&self.stiffness);
+        system.right.clear();
+        system.right.resize(control.len(), [0.0; D]);
+        for (i, row) in self.stiffness.iter().enumerate() {
+            let mut sum = add_scaled(&system.right[i], -row[0], &control[i]);
+            for j in 1..4.min(control.len() - i) {
+                sum = add_scaled(&sum, -row[j], &control[i + j]);
+                system.right[i + j] = add_scaled(&system.right[i + j], -row[j], &control[i]);
+            }
+            system.right[i] = sum;
+        }
+        let mut span = 0;
+        for (j, sample) in samples.iter().enumerate().skip(1) {
+            span = span_of(&self.knots, sample.foot_t, span);
+            let next_t = samples.get(j + 1).map_or(sample.spacing_t, |s| s.spacing_t);
+            let weight = sample.weight * 0.5 * (sample.spacing_t + next_t);
+            let basis = Basis::at(&self.knots, span, sample.foot_t).value;
+            let mut residual = sample.point;
+            for i in 0..4 {
+                residual = add_scaled(&residual, -basis[i], &control[span + i]);
+            }
+            for i in 0..4 {
+                let weighted = weight * basis[i];
+                for k in i..4 {
+                    system.rows[span + i][k - i] += weighted * basis[k];
+                }
+                let right = &mut system.right[span + i];
+                *right = add_scaled(right, weighted, &residual);
+            }
+        }
+    }
+
+    fn move_feet(&self, samples: &mut [Sample<D>]) {
+        let last = samples.len().saturating_sub(1);
+        let least_t = self.knots[DEGREE];
+        let mut span = 0;
+        for (j, sample) in samples.iter_mut().enumerate().skip(1) {
+            span = span_of(&self.knots, sample.foot_t, span);
+            let basis = Basis::at(&self.knots, span, sample.foot_t);
+            let (point, slope) = basis.apply(&self.control[span..]);
+            let residual = minus(&sample.point, &point);
+            let square = dot(&slope, &slope).max(1e-12);
+            let along = dot(&residual, &slope);
+            let mut error_mm2 = (dot(&residual, &residual) - along * along / square).max(0.0);
+            if j < last {
+                let nominal_t = self.nominal_t[j];
+                let wanted_t = sample.foot_t + along / square;
+                let low_t = nominal_t - FOOT_SHARE_R * (nominal_t - self.nominal_t[j - 1]);
+                let high_t = nominal_t + FOOT_SHARE_R * (self.nominal_t[j + 1] - nominal_t);
+                let foot_t = wanted_t.max(low_t).min(high_t).max(least_t);
+                let missed_t = wanted_t - foot_t;
+                error_mm2 += missed_t * missed_t * square;
+                sample.foot_t = foot_t;
+            }
+            sample.error_mm = error_mm2.sqrt();
+        }
+    }
+
+    /// Point and slope at a parameter of a span.
+    #[inline]
+    pub(super) fn at(&self, span: usize, t: f64) -> ([f64; D], [f64; D]) {
+        Basis::at(&self.knots, span, t).apply(&self.control[span..])
+    }
+}
+
+/// The span of a parameter, not before another.
+#[inline]
+fn span_of(knots: &[f64], t: f64, not_before: usize) -> usize {
+    let last = knots.len().saturating_sub(2 * DEGREE + 2);
+    let mut span = not_before;
+    while span < last && t > knots[span + 4] {
+        span += 1;
+    }
+    span
+}

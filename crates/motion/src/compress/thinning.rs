@@ -1,0 +1,134 @@
+//! Merging of nearly collinear chords, before anything is fitted.
+//!
+//! ```text
+//!        q1   q2   q3
+//!      ·····•····•····•·····
+//!   A •─────────────────────• P      each dropped vertex q within ε of A–P, in order
+//! ```
+//!
+//! Every dropped vertex is matched with the nearest point of A–P, and these points follow each
+//! other. Between two vertices both polylines are straight, so what holds at the vertices holds
+//! everywhere, both ways and in order. It makes very dense chords cheap, and takes the noise of
+//! rounded digits out before any angle is formed.
+
+use super::vector::{add_scaled, dot, minus, norm, tolerance_square};
+use core::mem;
+use core::ops::Range;
+
+/// Most vertices held back, the last one included.
+const MOST_HELD: usize = 32;
+
+/// A vertex, and the line of the block that ends in it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Vertex<const D: usize> {
+    pub(super) point: [f64; D],
+    pub(super) line: u32,
+}
+
+/// A merged chord.
+#[derive(Debug, Clone)]
+pub(super) struct Chord<const D: usize> {
+    pub(super) start: [f64; D],
+    pub(super) end: [f64; D],
+    pub(super) length_t: f64,
+    /// Largest distance of a dropped vertex from it, mm.
+    pub(super) error_mm: f64,
+    /// The blocks on it: where on it each starts, 0…1, and its source line.
+    pub(super) blocks: Vec<(f64, u32)>,
+}
+
+/// Merges chords as they come.
+#[derive(Debug)]
+pub(super) struct Thinning<const D: usize> {
+    /// Largest distance of a dropped vertex, mm.
+    allowed_mm: f64,
+    feed_axes: Range<usize>,
+    anchor: [f64; D],
+    held: Vec<Vertex<D>>,
+}
+
+impl<const D: usize> Thinning<D> {
+    pub(super) fn new(allowed_mm: f64, feed_axes: Range<usize>, start: [f64; D]) -> Self {
+        Self {
+            allowed_mm,
+            feed_axes,
+            anchor: start,
+            held: Vec::with_capacity(MOST_HELD),
+        }
+    }
+
+    /// Takes the next vertex; gives a chord if the vertex is not on the same. With `apart` the chord
+    /// before ends here whatever comes.
+    pub(super) fn push(&mut self, next: Vertex<D>, apart: bool) -> Option<Chord<D>> {
+        let done = if apart || !self.reaches(&next.point) {
+            self.flush()
+        } else {
+            None
+        };
+        self.held.push(next);
+        done
+    }
+
+    /// The chord held back, if any.
+    pub(super) fn flush(&mut self) -> Option<Chord<D>> {
+        let end = self.held.last()?.point;
+        let chord = minus(&end, &self.anchor);
+        let length_t = norm(&chord);
+        let per_square = 1.0 / (length_t * length_t);
+        let (mut from_u, mut error_mm2) = (0.0, 0.0_f64);
+        let mut blocks = Vec::with_capacity(self.held.len());
+        for vertex in self.held.drain(..) {
+            blocks.push((from_u, vertex.line));
+            let offset = minus(&vertex.point, &self.anchor);
+            from_u = dot(&offset, &chord) * per_square;
+            error_mm2 = error_mm2.max(tolerance_square(&add_scaled(&offset, -from_u, &chord)));
+        }
+        let start = mem::replace(&mut self.anchor, end);
+        Some(Chord {
+            start,
+            end,
+            length_t,
+            error_mm: if blocks.len() > 1 {
+                error_mm2.sqrt()
+            } else {
+                0.0
+            },
+            blocks,
+        })
+    }
+
+    /// True if the chord from the anchor to a point passes all vertices held, in order.
+    fn reaches(&self, point: &[f64; D]) -> bool {
+        if self.held.len() >= MOST_HELD {
+            return false;
+        }
+        let chord = minus(point, &self.anchor);
+        let per_square = 1.0 / dot(&chord, &chord);
+        let allowed_mm2 = self.allowed_mm * self.allowed_mm;
+        let mut passed_u = 0.0;
+        let mut fed = 0.0;
+        for vertex in &self.held {
+            let offset = minus(&vertex.point, &self.anchor);
+            let u = dot(&offset, &chord) * per_square;
+            let off = add_scaled(&offset, -u, &chord);
+            if !(u > passed_u && u < 1.0) || tolerance_square(&off) > allowed_mm2 {
+                return false;
+            }
+            passed_u = u;
+            if D == 9 {
+                // The axes that measure the feed go forward by themselves.
+                let fed_now = self.fed(&offset, &chord);
+                if fed_now <= fed {
+                    return false;
+                }
+                fed = fed_now;
+            }
+        }
+        D < 9 || self.fed(&chord, &chord) > fed
+    }
+
+    fn fed(&self, offset: &[f64; D], chord: &[f64; D]) -> f64 {
+        let axes = self.feed_axes.clone().filter(|&i| i < D);
+        axes.map(|i| offset[i] * chord[i]).sum()
+    }
+}

@@ -1,0 +1,444 @@
+//! The window of the tube spline: samples in, certified spans out.
+//!
+//! ```text
+//!   committed │ frozen │            free                 │ to come
+//!   ──────────┼────────┼─────────────────────────────────┼─ ─ ─
+//!             t₀       t₃                                t_m
+//! ```
+//!
+//! When the window is full of samples, the spline over it is fitted, certified, and its first half
+//! put out. The three control points that the last committed span shares with what follows stay as
+//! they are, so the whole curve has a continuous second derivative. Weights are kept; the knots
+//! beyond t₃ are set to the feet of the samples, or the parameter would drift away from length.
+//!
+//! The weight of a sample rises where the curve leaves the tube and falls where it is well inside,
+//! a few times before the certificate is asked for. Where that fails the weights near the worst
+//! place are raised more; then a sample and a knot are put into the middle of the worst chord; and
+//! at last straight lines are drawn through the samples, with a stop at each of their two ends, and
+//! the fit starts anew behind them. Those lines are in the tube whatever happens.
+
+use super::fit::{Sample, Spline};
+use super::knots::{DEGREE, bezier, greville};
+use super::output::Output;
+use super::vector::{add_scaled, between, minus, norm};
+use super::Tube;
+use core::f64::consts::{PI, TAU};
+
+/// How a curve starts or ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum End {
+    /// On a line, with zero curvature.
+    Line,
+    /// At a stop.
+    Stop,
+}
+
+/// Samples in a window, before any are put between.
+const WINDOW: usize = 64;
+/// Most samples in a window.
+const MOST_SAMPLES: usize = 2 * WINDOW;
+/// Solves before the certificate is asked for, and in a window that was refined.
+const SOLVES: u32 = 6;
+const SOLVES_REFINED: u32 = 4;
+/// Solves more that a certificate that fails may cost, and refinements.
+const MORE_SOLVES: u32 = 6;
+const REFINEMENTS: u32 = 5;
+/// Blocks that may wait in a window.
+pub(super) const MOST_BLOCKS: usize = 1536;
+/// First weight: so stiff that the first curve keeps near the samples.
+const FIRST_STIFFNESS: f64 = 2.0;
+/// Weights stay between these, times the sixth power of 1/spacing.
+const LEAST_WEIGHT: f64 = 0.1;
+const MOST_WEIGHT: f64 = 60.0;
+/// How much a weight may change at once.
+const LEAST_FACTOR: f64 = 0.03;
+const MOST_FACTOR: f64 = 100.0;
+
+/// The window.
+#[derive(Debug)]
+pub(super) struct Window<const D: usize> {
+    tube: Tube,
+    samples: Vec<Sample<D>>,
+    /// Knots t₋₃ … t_m, each once.
+    knots: Vec<f64>,
+    spline: Spline<D>,
+    /// Control points kept from the window before.
+    kept: usize,
+    start: End,
+    /// The first control points belong to spans already put out.
+    is_frozen: bool,
+    /// How far along the first chord the match is, 0…1.
+    passed_u: f64,
+    /// The sample at the start of the chord that the spans put out end on.
+    chord: usize,
+    errors_mm: Vec<f64>,
+}
+
+impl<const D: usize> Window<D> {
+    pub(super) fn new(tube: Tube) -> Self {
+        Self {
+            tube,
+            samples: Vec::with_capacity(MOST_SAMPLES + 2),
+            knots: Vec::with_capacity(MOST_SAMPLES + 2 * DEGREE),
+            spline: Spline::new(),
+            kept: 0,
+            start: End::Line,
+            is_frozen: false,
+            passed_u: 0.0,
+            chord: 0,
+            errors_mm: Vec::new(),
+        }
+    }
+
+    /// Starts a curve at a point, `along_t` along the merged chords.
+    pub(super) fn start(&mut self, point: [f64; D], along_t: f64, start: End) {
+        self.samples.clear();
+        self.samples.push(Sample {
+            point,
+            along_t,
+            spacing_t: 0.0,
+            foot_t: 0.0,
+            weight: 0.0,
+            error_mm: 0.0,
+        });
+        self.restart(start);
+    }
+
+    /// Forgets the curve, not the samples: another starts at the first of them.
+    fn restart(&mut self, start: End) {
+        self.knots.clear();
+        self.knots.resize(DEGREE + 1, 0.0);
+        self.kept = 0;
+        self.passed_u = 0.0;
+        self.start = start;
+        self.is_frozen = false;
+        let mut t = 0.0;
+        if let Some(first) = self.samples.first_mut() {
+            first.foot_t = 0.0;
+        }
+        for sample in self.samples.iter_mut().skip(1) {
+            t += sample.spacing_t;
+            sample.foot_t = t;
+            sample.weight = first_weight(sample.spacing_t);
+            self.knots.push(t);
+        }
+    }
+
+    /// The next sample, `spacing_t` after the last.
+    pub(super) fn add(
+        &mut self,
+        point: [f64; D],
+        (along_t, spacing_t): (f64, f64),
+        out: &mut Output,
+    ) {
+        let foot_t = self.knots.last().copied().unwrap_or(0.0) + spacing_t;
+        self.knots.push(foot_t);
+        self.samples.push(Sample {
+            point,
+            along_t,
+            spacing_t,
+            foot_t,
+            weight: first_weight(spacing_t),
+            error_mm: 0.0,
+        });
+        if self.samples.len() > WINDOW || out.blocks_waiting() >= MOST_BLOCKS {
+            self.drive(None, out);
+        }
+    }
+
+    /// The curve ends at the last sample.
+    pub(super) fn finish(&mut self, end: End, out: &mut Output) {
+        self.drive(Some(end), out);
+        self.samples.clear();
+    }
+
+    /// Fits what is there and puts out the first half, or all of it if it ends here.
+    fn drive(&mut self, end: Option<End>, out: &mut Output) {
+        let mut refinements = 0;
+        while self.samples.len() > 1 {
+            let spans = self.prepare(end);
+            let worst = self.fit(end, spans, refinements > 0);
+            let Some(worst) = worst else {
+                self.put_out(spans, out);
+                if end.is_none() {
+                    self.shift(spans);
+                }
+                return;
+            };
+            let may_refine = refinements < REFINEMENTS && self.samples.len() < MOST_SAMPLES;
+            refinements += 1;
+            if may_refine && self.refine(worst) {
+                continue;
+            }
+            refinements = 0;
+            if !self.fall_back(worst, end, out) {
+                return;
+            }
+        }
+    }
+
+    /// Knots and a first guess of the control points; the number of spans to put out.
+    fn prepare(&mut self, end: Option<End>) -> usize {
+        let last = self.samples.len() - 1;
+        let end_t = self.knots.last().copied().unwrap_or(0.0);
+        self.samples[last].foot_t = end_t;
+        for j in 1..=last {
+            let (before_t, spacing_t) = (self.samples[j - 1].foot_t, self.samples[j].spacing_t);
+            let foot_t = &mut self.samples[j].foot_t;
+            if *foot_t <= before_t {
+                *foot_t = before_t + 1e-3 * spacing_t;
+            }
+        }
+        let spline = &mut self.spline;
+        spline.knots.clear();
+        spline.knots.extend_from_slice(&self.knots);
+        spline.knots.extend([end_t; DEGREE]);
+        let count = spline.spans() + DEGREE;
+        spline.control.truncate(self.kept);
+        let mut j = 0;
+        for i in spline.control.len()..count {
+            let t = greville(&spline.knots, i);
+            while j + 2 < self.samples.len() && t > self.samples[j + 1].foot_t {
+                j += 1;
+            }
+            let (a, b) = (&self.samples[j], &self.samples[j + 1]);
+            let share = ((t - a.foot_t) / (b.foot_t - a.foot_t)).clamp(0.0, 1.0);
+            spline.control.push(between(&a.point, &b.point, share));
+        }
+        self.lay_ends(end);
+        self.spline.prepare(&self.samples);
+        let spans = self.spline.spans();
+        // Three spans stay at least: the next window keeps their knots.
+        let half = (spans / 2).min(spans.saturating_sub(DEGREE)).max(1);
+        if end.is_some() { spans } else { half }
+    }
+
+    /// Puts the control points at the ends where they have to be.
+    fn lay_ends(&mut self, end: Option<End>) {
+        let Self { samples, spline, .. } = self;
+        let count = spline.control.len();
+        let end_t = spline.knots[spline.knots.len() - 1];
+        if let (Some(end), [.., before, last]) = (end, samples.as_slice()) {
+            let direction = unit(&before.point, &last.point);
+            for i in count.saturating_sub(fixed_points(end))..count {
+                let back_t = greville(&spline.knots, i) - end_t;
+                spline.control[i] = add_scaled(&last.point, back_t, &direction);
+            }
+        }
+        if let (false, [first, after, ..]) = (self.is_frozen, samples.as_slice()) {
+            let direction = unit(&first.point, &after.point);
+            for i in 0..fixed_points(self.start).min(count) {
+                let ahead_t = greville(&spline.knots, i) - spline.knots[DEGREE];
+                spline.control[i] = add_scaled(&first.point, ahead_t, &direction);
+            }
+        }
+    }
+
+    /// Fits and certifies the first spans: `None` if they are in the tube, else the sample at the
+    /// end of the worst chord.
+    fn fit(&mut self, end: Option<End>, spans: usize, is_refined: bool) -> Option<usize> {
+        let fixed = (
+            if self.is_frozen { DEGREE } else { fixed_points(self.start) },
+            end.map_or(0, fixed_points),
+        );
+        let solves = if is_refined { SOLVES_REFINED } else { SOLVES };
+        for solve in 1.. {
+            self.spline.solve(&mut self.samples, fixed);
+            let mut worst = None;
+            if solve >= solves {
+                let verdict = self.spline.certify(
+                    &self.samples,
+                    spans,
+                    self.passed_u,
+                    &self.tube.feed_axes,
+                    &mut self.errors_mm,
+                );
+                if verdict.worst_mm <= self.tube.allowed_mm {
+                    (self.chord, self.passed_u) = (verdict.chord, verdict.passed_u);
+                    return None;
+                }
+                if solve >= solves + MORE_SOLVES {
+                    return Some(verdict.worst_sample);
+                }
+                worst = Some(verdict.worst_sample);
+            }
+            self.weigh(worst);
+        }
+        None
+    }
+
+    /// Raises the weights where the curve is too far away, lowers them where it is near; once the
+    /// certificate has failed only raises, most of all beside the worst chord.
+    fn weigh(&mut self, worst: Option<usize>) {
+        let boost = if worst.is_some() { 3.0 } else { 1.0 };
+        let longest = (TAU / self.tube.longest_mm).powi(6);
+        for sample in self.samples.iter_mut().skip(1) {
+            let ratio = sample.error_mm / self.tube.target_mm;
+            let wanted = ratio * ratio.sqrt();
+            let factor = if ratio > 1.0 {
+                (boost * wanted).min(MOST_FACTOR)
+            } else if worst.is_some() {
+                1.0
+            } else {
+                wanted.max(LEAST_FACTOR)
+            };
+            let per_length6 = sample.spacing_t.powi(-6);
+            let least = longest.max(LEAST_WEIGHT.powi(6) * per_length6);
+            let most = MOST_WEIGHT.powi(6) * per_length6;
+            sample.weight = (sample.weight * factor).max(least).min(most);
+        }
+        if let Some(worst) = worst {
+            let last = (worst + 1).min(self.samples.len() - 1);
+            for sample in &mut self.samples[worst.max(2) - 1..=last] {
+                sample.weight *= 4.0;
+            }
+        }
+    }
+
+    /// Puts samples and knots into the middle of the worst chord and of its neighbours; false if no
+    /// place is left there.
+    fn refine(&mut self, worst: usize) -> bool {
+        let mut is_refined = false;
+        for j in [worst + 1, worst, worst.saturating_sub(1)] {
+            if (1..self.samples.len()).contains(&j) {
+                is_refined |= self.split(j);
+            }
+        }
+        is_refined
+    }
+
+    fn split(&mut self, j: usize) -> bool {
+        let (before, after) = (self.samples[j - 1], self.samples[j]);
+        let start_t = self.knots[DEGREE];
+        let from_t = before.foot_t.max(start_t);
+        let foot_t = 0.5 * (from_t + after.foot_t);
+        let frozen_t = if self.is_frozen {
+            self.knots[(2 * DEGREE).min(self.knots.len() - 1)]
+        } else {
+            start_t
+        };
+        if after.foot_t - from_t <= 5e-3 * self.tube.tolerance_mm || foot_t <= frozen_t {
+            return false;
+        }
+        let passed_u = if j == 1 { self.passed_u } else { 0.0 };
+        let share = 0.5 * (1.0 + passed_u);
+        let spacing_t = share * after.spacing_t;
+        let middle = Sample {
+            point: between(&before.point, &after.point, share),
+            along_t: before.along_t + share * (after.along_t - before.along_t),
+            spacing_t,
+            foot_t,
+            weight: after.weight.max(first_weight(spacing_t)),
+            error_mm: 0.0,
+        };
+        self.samples[j].spacing_t -= spacing_t;
+        self.samples.insert(j, middle);
+        if j == 1 {
+            self.passed_u /= share;
+        }
+        let i = self.knots.partition_point(|&t| t < foot_t);
+        let least_t = 0.1 * spacing_t;
+        let is_apart = (i == 0 || foot_t - self.knots[i - 1] > least_t)
+            && self.knots.get(i).is_none_or(|t| t - foot_t > least_t);
+        if is_apart {
+            self.knots.insert(i, foot_t);
+        }
+        self.kept = if self.is_frozen { DEGREE } else { 0 };
+        true
+    }
+
+    /// Draws lines through the samples up to the worst chord. True if there is more to fit behind
+    /// them.
+    fn fall_back(&mut self, worst: usize, end: Option<End>, out: &mut Output) -> bool {
+        let last = self.samples.len() - 1;
+        let up_to = if last - worst.min(last) >= 3 {
+            worst
+        } else if end.is_some() {
+            last
+        } else {
+            last - 2
+        };
+        let mut from = self.samples[0].point;
+        let mut from_t = self.samples[0].along_t;
+        if self.is_frozen {
+            from = self.spline.at(0, self.knots[DEGREE]).0;
+            from_t += self.passed_u * (self.samples[1].along_t - from_t);
+            out.stop();
+        }
+        for sample in &self.samples[1..=up_to] {
+            let along_t = (from_t, sample.along_t);
+            out.line((&from, &sample.point), along_t, self.tube.merge_mm + self.tube.allowed_mm, [false; 2]);
+            (from, from_t) = (sample.point, sample.along_t);
+        }
+        if up_to == last {
+            return false;
+        }
+        out.stop();
+        self.samples.drain(..up_to);
+        self.restart(End::Stop);
+        // With more to come, the window is filled up first.
+        end.is_some()
+    }
+
+    /// Puts out the first spans.
+    fn put_out(&self, spans: usize, out: &mut Output) {
+        let mut j = 1;
+        for span in 0..spans {
+            let Some(control) = bezier(&self.spline.knots, &self.spline.control, span) else {
+                return;
+            };
+            let (from_t, to_t) = (self.spline.knots[span + 3], self.spline.knots[span + 4]);
+            let samples = &self.samples;
+            let foot = |along_t: f64| {
+                while j + 1 < samples.len() && samples[j].along_t < along_t {
+                    j += 1;
+                }
+                let (a, b) = (&samples[j - 1], &samples[j]);
+                let share = (along_t - a.along_t) / (b.along_t - a.along_t);
+                let foot_t = a.foot_t + share * (b.foot_t - a.foot_t);
+                (foot_t - from_t) / (to_t - from_t)
+            };
+            out.span(&control, self.errors_mm[span], foot);
+        }
+    }
+
+    /// Leaves the first spans behind.
+    fn shift(&mut self, spans: usize) {
+        self.samples.drain(..self.chord);
+        self.spline.control.drain(..spans);
+        self.knots.drain(..spans);
+        self.is_frozen = true;
+        self.kept = DEGREE;
+        self.knots.truncate(2 * DEGREE + 1);
+        let mut t = self.knots.last().copied().unwrap_or(0.0);
+        for sample in &self.samples[1..] {
+            if sample.foot_t > t + 0.4 * sample.spacing_t {
+                t = sample.foot_t;
+                self.knots.push(t);
+            }
+        }
+        if let (Some(end_t), Some(last)) = (self.knots.last_mut(), self.samples.last())
+            && last.foot_t > *end_t
+        {
+            *end_t = last.foot_t;
+        }
+    }
+}
+
+/// Control points that an end fixes.
+const fn fixed_points(end: End) -> usize {
+    match end {
+        End::Line => 3,
+        End::Stop => 1,
+    }
+}
+
+fn first_weight(spacing_t: f64) -> f64 {
+    (PI / (FIRST_STIFFNESS * spacing_t)).powi(6)
+}
+
+fn unit<const D: usize>(from: &[f64; D], to: &[f64; D]) -> [f64; D] {
+    let step = minus(to, from);
+    let length = norm(&step);
+    step.map(|x| x / length)
+}

@@ -1,0 +1,231 @@
+//! From the parts of a compressed run to pieces of path.
+//!
+//! Lines wait for what follows them, like any segment: two in a row meet at a corner. Spans of a
+//! spline continue what comes before them and are put out at once.
+
+use crate::compress::{Change, Compressor, Cut, Part, PartShape, feed_axes};
+use crate::joint::{chord_error_mm, cut_by_chord_mm};
+use crate::override_::ProgrammedRate;
+use crate::path::PathFront;
+use crate::pending::{Pending, axes_speed};
+use crate::piece::{Element, Rest, RestKind, Shape};
+use crate::speed_limit::{CurveRule, SpeedRule};
+use crate::{Event, PathMode, Rate, Smoothing};
+use core::ops::Range;
+use glidepath_geometry::{AxisVector, Cubic, Segment};
+
+/// A run of blocks under compression.
+#[derive(Debug)]
+pub(crate) struct DenseRun {
+    compressor: Compressor,
+    manner: Manner,
+    /// The rate of the last block taken.
+    rate: Rate,
+}
+
+/// What all blocks of a run have in common.
+#[derive(Debug, Clone, PartialEq)]
+struct Manner {
+    mode: PathMode,
+    /// The axes that measure the feed.
+    feed_axes: Range<usize>,
+}
+
+impl PathFront {
+    /// Takes a block into the run at hand, or starts another; false if it is none for compression.
+    pub(crate) fn compress(
+        &mut self,
+        (segment, line): (&Segment, u32),
+        rate: Rate,
+        mode: PathMode,
+        out: &mut Vec<Element>,
+    ) -> bool {
+        let (Segment::Line(block), Rate::Feed(_)) = (segment, rate) else {
+            return false;
+        };
+        let PathMode::Continuous { .. } = mode else {
+            return false;
+        };
+        if self.settings.smoothing == Smoothing::ExactStop {
+            return false;
+        }
+        let displacement = block.displacement();
+        let manner = Manner {
+            mode,
+            feed_axes: feed_axes(&displacement),
+        };
+        let run = match self.run.take() {
+            Some(run) if run.manner == manner && run.compressor.takes(&displacement) => {
+                Some(run)
+            }
+            other => {
+                self.run = other;
+                self.end_run(out);
+                None
+            }
+        };
+        self.is_linear &= displacement.iter().skip(3).all(|x| *x == 0.0);
+        let mut is_new = false;
+        let mut run = run.unwrap_or_else(|| {
+            is_new = true;
+            let tolerance_mm = mode.tolerance_mm(&self.settings);
+            let (start, settings) = (block.start, &self.settings);
+            DenseRun {
+                compressor: Compressor::new(
+                    start,
+                    manner.feed_axes.clone(),
+                    self.is_linear,
+                    tolerance_mm,
+                    settings,
+                ),
+                manner,
+                rate,
+            }
+        });
+        let is_change = is_new || run.rate != rate || !self.events.is_empty();
+        let change = is_change.then(|| Change {
+            rate: ProgrammedRate {
+                rate,
+                axes_v: f64::INFINITY,
+            },
+            events: core::mem::take(&mut self.events),
+        });
+        run.rate = rate;
+        run.compressor.push(&block.end, line, change);
+        self.put_parts(&mut run, out);
+        self.run = Some(run);
+        true
+    }
+
+    /// Ends the run at hand, if any: all of it is put out, but for the last line.
+    pub(crate) fn end_run(&mut self, out: &mut Vec<Element>) {
+        if let Some(mut run) = self.run.take() {
+            run.compressor.finish();
+            self.put_parts(&mut run, out);
+        }
+    }
+
+    fn put_parts(&mut self, run: &mut DenseRun, out: &mut Vec<Element>) {
+        for part in run.compressor.parts() {
+            self.put_part(part, &run.manner, out);
+        }
+    }
+
+    fn put_part(&mut self, part: Part, manner: &Manner, out: &mut Vec<Element>) {
+        let Part { shape, cuts } = part;
+        let mode = manner.mode;
+        match shape {
+            PartShape::Line {
+                start,
+                end,
+                error_mm,
+                continues,
+            } => {
+                let segment = Segment::line(start, end);
+                let mut next = self.pending_line(segment, cuts, mode);
+                (next.error_mm, next.continues) = (error_mm, continues);
+                if let Some(before) = self.pending.take() {
+                    self.join(before, &mut next, out);
+                }
+                self.pending = Some(next);
+            }
+            PartShape::Span { control, error_mm } => {
+                self.put_pending(out);
+                self.put_span((control, error_mm), cuts, manner, out);
+            }
+            PartShape::Stop => {
+                self.put_pending(out);
+                // The chord of one period must not cut off more than the fit left over.
+                let tangents = [AxisVector::from_element(1.0); 2];
+                let cut_mm = cut_by_chord_mm(&tangents[0], &tangents[1], &self.settings);
+                let is_exact = cut_mm > 0.05 * mode.tolerance_mm(&self.settings);
+                let kind = if is_exact {
+                    RestKind::ExactStop
+                } else {
+                    RestKind::Corner
+                };
+                let line = self.line;
+                out.push(Element::Rest(Rest { kind, line }));
+            }
+        }
+    }
+
+    /// Takes in what a cut changes; what happens there.
+    fn enter(&mut self, cut: &mut Cut) -> Vec<Event> {
+        let Some(Change { rate, events }) = cut.change.take() else {
+            return Vec::new();
+        };
+        self.run_rate = rate;
+        events
+    }
+
+    fn pending_line(&mut self, segment: Segment, mut cuts: Vec<Cut>, mode: PathMode) -> Pending {
+        let length_s = segment.length();
+        let mut events = Vec::new();
+        for cut in &mut cuts {
+            events.extend(self.enter(cut));
+        }
+        let line = cuts.first().map_or(self.line, |cut| cut.line);
+        let lines = cuts.iter().skip(1);
+        let rate = ProgrammedRate {
+            axes_v: axes_speed(&segment, &self.settings),
+            ..self.run_rate
+        };
+        Pending {
+            segment,
+            length_s,
+            rate,
+            rate_v: rate.under(self.wanted),
+            line,
+            lines: lines.map(|cut| (cut.from_u * length_s, cut.line)).collect(),
+            mode,
+            trimmed_s: 0.0,
+            events,
+            error_mm: 0.0,
+            continues: [false; 2],
+        }
+    }
+
+    /// Puts out a span, cut where the rate changes or something happens.
+    fn put_span(
+        &mut self,
+        (control, error_mm): ([AxisVector; 4], f64),
+        cuts: Vec<Cut>,
+        manner: &Manner,
+        out: &mut Vec<Element>,
+    ) {
+        let Some(span) = Cubic::new(control, manner.feed_axes.clone()) else {
+            return;
+        };
+        let bounds = span.bounds();
+        let left_mm = (manner.mode.tolerance_mm(&self.settings) - error_mm).max(0.0);
+        let at_unit_mm = chord_error_mm(&bounds, 1.0, self.settings.period_t);
+        let curve = CurveRule {
+            bounds,
+            gentle: true,
+            stretch_r: 1.0,
+            chord_v: (left_mm / at_unit_mm).sqrt(),
+        };
+        let end_s = span.length();
+        let mut cuts = cuts.into_iter().peekable();
+        while let Some(mut cut) = cuts.next() {
+            let events = self.enter(&mut cut);
+            let from_s = span.position_at(cut.from_u);
+            let mut lines = Vec::new();
+            while let Some(next) = cuts.next_if(|next| next.change.is_none()) {
+                lines.push((span.position_at(next.from_u), next.line));
+            }
+            let to_s = cuts
+                .peek()
+                .map_or(end_s, |next| span.position_at(next.from_u));
+            let rule = SpeedRule::Curve {
+                curve: Box::new(curve),
+                rates: [self.run_rate; 2],
+            };
+            let shape = Shape::Spline(Box::new(span.clone()));
+            let mut piece = self.piece(shape, (from_s, to_s - from_s), rule, cut.line);
+            (piece.events, piece.lines) = (events, lines);
+            out.push(Element::Piece(piece));
+        }
+    }
+}
