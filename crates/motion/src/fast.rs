@@ -32,7 +32,7 @@ impl FastEngine {
     pub(crate) fn new(settings: Settings, start: AxisVector) -> Self {
         Self {
             front: PathFront::new(settings, start),
-            scheduler: Scheduler::new(),
+            scheduler: Scheduler::new(settings.limits),
             sampler: Sampler::new(settings.period_t, start),
             elements: Vec::new(),
             settled: VecDeque::new(),
@@ -99,7 +99,7 @@ impl FastEngine {
         let Some(entry_v) = self.sampler.steady_v() else {
             return false;
         };
-        let mut scheduler = Scheduler::entered_at(entry_v);
+        let mut scheduler = Scheduler::entered_at(entry_v, self.limits);
         let mut settled = VecDeque::new();
         let limits = self.limits;
         let rest_of_stretch = self.sampler.rest_of_stretch().map(Element::Piece);

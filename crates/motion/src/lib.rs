@@ -23,6 +23,7 @@ mod fast;
 mod frame;
 mod grid;
 mod guard;
+mod haste;
 mod item;
 mod joint;
 mod limits;
@@ -43,6 +44,7 @@ mod settings;
 mod speed_limit;
 mod stop_or_pass;
 mod tolerance_split;
+mod valley;
 mod window;
 
 pub use error::PlanError;

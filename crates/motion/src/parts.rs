@@ -55,9 +55,7 @@ impl PathFront {
             feed_axes: feed_axes(&displacement),
         };
         let run = match self.run.take() {
-            Some(run) if run.manner == manner && run.compressor.takes(&displacement) => {
-                Some(run)
-            }
+            Some(run) if run.manner == manner && run.compressor.takes(&displacement) => Some(run),
             other => {
                 self.run = other;
                 self.end_run(out);

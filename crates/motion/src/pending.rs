@@ -44,7 +44,11 @@ impl Pending {
             segment: &self.segment,
             mode: self.mode,
             length_s: self.length_s,
-            share_s: if is_whole { self.length_s } else { 0.5 * self.length_s },
+            share_s: if is_whole {
+                self.length_s
+            } else {
+                0.5 * self.length_s
+            },
             rate_v: self.rate_v,
             error_mm: self.error_mm,
         }

@@ -86,7 +86,9 @@ impl Piece {
 
     /// The source line `s` after the start of the piece.
     pub(crate) fn line_at(&self, s: f64) -> u32 {
-        let passed = self.lines.partition_point(|(from_s, _)| *from_s <= self.from_s + s);
+        let passed = self
+            .lines
+            .partition_point(|(from_s, _)| *from_s <= self.from_s + s);
         match passed.checked_sub(1).and_then(|last| self.lines.get(last)) {
             Some((_, line)) => *line,
             None => self.line,

@@ -3,27 +3,12 @@
 //! Junctions between runs are passed with zero acceleration along the path. Where the path allows a
 //! useful change of speed within one piece, the piece is a run by itself and nothing is lost. Where
 //! pieces are so short that it does not, many form one run, and the speed inside is found valley
-//! first:
-//!
-//! 1. Drive the whole run with one S-curve as if nothing but the ends bounded it.
-//! 2. Of the pieces on which it is too fast, take the slowest one, with top speed V.
-//! 3. Drive the run again, nowhere faster than V. It then cruises at V around that piece, or near it.
-//!    What lies before the piece, as far as the cruise, is a run of its own from the old start to V;
-//!    what lies after it likewise from V to the old end. Go on with each from step 1.
-//!
-//! ```text
-//!   cap  ‾‾‾‾‾‾|__        ____|‾‾‾‾‾‾‾
-//!                 |__    |
-//!                    |___|  ← slowest violated piece: junctions at its two ends, speed V
-//! ```
-//!
-//! The end speeds never exceed a cap inside that is still to be violated: caps are taken in rising
-//! order, and lowering the peak of an S-curve lowers it everywhere. So every step is feasible, and
-//! there is nothing to go back on.
+//! first ([`crate::valley`]).
 
 use crate::piece::Piece;
 use crate::scurve::{PathLimits, Profile, ramp_fits, reachable_speed, slowing_horizon};
 use crate::speed_limit::SpeedLimit;
+use crate::valley::{Course, Leg, Limiting, SPEED_ROUNDING_R, ValleyFirst};
 
 /// A stretch of path with zero acceleration along it at both ends.
 #[derive(Debug, Clone)]
@@ -41,21 +26,12 @@ pub(crate) struct Run {
     curved_v: f64,
 }
 
-/// One S-curve of a run, and where in the run it starts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Leg {
-    pub from_s: f64,
-    pub profile: Profile,
-}
-
 /// Most pieces of one run.
 const MOST_PIECES: usize = 512;
 /// A run is short if it does not allow this share of the speed around it to be gained.
 const USEFUL_CHANGE_R: f64 = 0.1;
 /// Curved pieces belong to one run while their top speeds differ by at most this factor.
 const SIMILAR_SPEED_R: f64 = 2.5;
-/// A speed above a cap by less than this is rounding.
-const SPEED_ROUNDING_R: f64 = 1e-9;
 
 impl Run {
     pub(crate) fn new(piece: Piece) -> Self {
@@ -63,6 +39,7 @@ impl Run {
             top_v,
             change,
             constant_above_v,
+            ..
         } = piece.limit;
         Self {
             length_s: piece.length_s,
@@ -169,188 +146,20 @@ impl Run {
             }));
             return legs;
         }
-        let mut starts_s = Vec::with_capacity(self.pieces.len() + 1);
-        let mut s = 0.0;
-        for piece in &self.pieces {
-            starts_s.push(s);
-            s += piece.length_s;
-        }
-        starts_s.push(s);
+        let course = Course::new(&self.pieces);
+        let caps_v: Vec<f64> = self.pieces.iter().map(|piece| piece.limit.top_v).collect();
         let valley = ValleyFirst {
-            pieces: &self.pieces,
-            starts_s: &starts_s,
+            course: &course,
+            caps_v: &caps_v,
+            limiting: Limiting::Weakest(self.change),
         };
-        let span = Span {
-            from_s: 0.0,
-            to_s: s,
-            entry_v,
-            exit_v,
-        };
-        valley.drive(span, self.change, &mut legs);
-        legs
+        valley.drive(entry_v, exit_v).unwrap_or_default()
     }
 }
 
-fn weaker(a: PathLimits, b: PathLimits) -> PathLimits {
+pub(crate) fn weaker(a: PathLimits, b: PathLimits) -> PathLimits {
     PathLimits {
         accel_a: a.accel_a.min(b.accel_a),
         jerk_j: a.jerk_j.min(b.jerk_j),
-    }
-}
-
-struct ValleyFirst<'a> {
-    pieces: &'a [Piece],
-    /// Where each piece starts, and where the last one ends.
-    starts_s: &'a [f64],
-}
-
-/// A part of the run, to be driven from one speed to another.
-#[derive(Clone, Copy)]
-struct Span {
-    from_s: f64,
-    to_s: f64,
-    entry_v: f64,
-    exit_v: f64,
-}
-
-impl ValleyFirst<'_> {
-    /// The pieces a span touches.
-    fn touched(&self, span: Span) -> core::ops::Range<usize> {
-        let starts_s = &self.starts_s[..self.pieces.len()];
-        let first = starts_s
-            .partition_point(|&s| s <= span.from_s)
-            .saturating_sub(1);
-        let last = starts_s.partition_point(|&s| s < span.to_s).max(first + 1);
-        first..last
-    }
-
-    fn drive(&self, span: Span, outer: PathLimits, legs: &mut Vec<Leg>) {
-        let touched = self.touched(span);
-        let own = self.pieces[touched]
-            .iter()
-            .map(|piece| piece.limit.change)
-            .reduce(weaker)
-            .unwrap_or(outer);
-        let Some((used, profile, violated)) = self.unbounded(span, own, outer) else {
-            return;
-        };
-        let Some(slowest) = violated else {
-            legs.push(Leg {
-                from_s: span.from_s,
-                profile,
-            });
-            return;
-        };
-        let cap_v = self.pieces[slowest]
-            .limit
-            .top_v
-            .max(span.entry_v)
-            .max(span.exit_v);
-        let Some(capped) = Self::profile(span, cap_v, used) else {
-            return;
-        };
-        let (cruise_from_s, cruise_to_s) = capped.cruise_s();
-        let (cruise_from_s, cruise_to_s) = (span.from_s + cruise_from_s, span.from_s + cruise_to_s);
-        let before_s = self.starts_s[slowest].min(cruise_to_s);
-        let after_s = self.starts_s[slowest + 1].max(cruise_from_s);
-
-        let mut middle = span;
-        if before_s >= cruise_from_s && before_s > span.from_s {
-            self.drive(
-                Span {
-                    to_s: before_s,
-                    exit_v: cap_v,
-                    ..span
-                },
-                used,
-                legs,
-            );
-            middle = Span {
-                from_s: before_s,
-                entry_v: cap_v,
-                ..middle
-            };
-        }
-        let goes_on = after_s <= cruise_to_s && after_s < span.to_s;
-        if goes_on {
-            middle = Span {
-                to_s: after_s,
-                exit_v: cap_v,
-                ..middle
-            };
-        }
-        if let Some(profile) = Self::profile(middle, cap_v, used) {
-            legs.push(Leg {
-                from_s: middle.from_s,
-                profile,
-            });
-        }
-        if goes_on {
-            self.drive(
-                Span {
-                    from_s: after_s,
-                    entry_v: cap_v,
-                    ..span
-                },
-                used,
-                legs,
-            );
-        }
-    }
-
-    /// The S-curve with only the ends given, by the span's own limits, or by those of the span it
-    /// was cut from where its own make it too fast on a piece slower than its ends.
-    fn unbounded(
-        &self,
-        span: Span,
-        own: PathLimits,
-        outer: PathLimits,
-    ) -> Option<(PathLimits, Profile, Option<usize>)> {
-        let ends_v = span.entry_v.max(span.exit_v);
-        let highest_v = self.pieces[self.touched(span)]
-            .iter()
-            .map(|piece| piece.limit.top_v)
-            .fold(ends_v, f64::max);
-        let mut found = None;
-        for limits in [own, outer] {
-            let profile = Self::profile(span, highest_v, limits)?;
-            let violated = self.slowest_violated(span, &profile);
-            found = Some((limits, profile, violated));
-            let sound = violated
-                .is_none_or(|m| self.pieces[m].limit.top_v >= ends_v * (1.0 - SPEED_ROUNDING_R));
-            if sound {
-                break;
-            }
-        }
-        found
-    }
-
-    fn profile(span: Span, top_v: f64, limits: PathLimits) -> Option<Profile> {
-        Profile::new(
-            span.entry_v,
-            span.exit_v,
-            span.to_s - span.from_s,
-            top_v,
-            limits,
-        )
-    }
-
-    fn slowest_violated(&self, span: Span, profile: &Profile) -> Option<usize> {
-        let mut slowest: Option<usize> = None;
-        for m in self.touched(span) {
-            let top_v = self.pieces[m].limit.top_v;
-            if profile.peak_v() <= top_v * (1.0 + SPEED_ROUNDING_R)
-                || slowest.is_some_and(|s| self.pieces[s].limit.top_v <= top_v)
-            {
-                continue;
-            }
-            let from_s = self.starts_s[m].max(span.from_s) - span.from_s;
-            let to_s = self.starts_s[m + 1].min(span.to_s) - span.from_s;
-            let greatest_v = profile.greatest_speed_between(from_s, to_s);
-            if greatest_v > top_v * (1.0 + SPEED_ROUNDING_R) {
-                slowest = Some(m);
-            }
-        }
-        slowest
     }
 }

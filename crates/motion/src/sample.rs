@@ -7,8 +7,8 @@
 use crate::Frame;
 use crate::grid::{FrameGrid, Moving, Passing};
 use crate::piece::Piece;
-use crate::run::Leg;
 use crate::schedule::Settled;
+use crate::valley::Leg;
 use glidepath_geometry::AxisVector;
 use std::collections::VecDeque;
 
@@ -282,6 +282,7 @@ mod tests {
             rule,
             planned: Override::NONE,
             line: 17,
+            lines: Vec::new(),
             rapid: false,
             events: Vec::new(),
         };

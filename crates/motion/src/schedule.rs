@@ -12,9 +12,12 @@
 //! from which one could stop, one may be unable to slow down just a little. Then the motion follows
 //! the plan that was made when its speed was settled, which ends at rest, until it meets the new one.
 
+use crate::Limits;
+use crate::haste::{drive_together, duration_t, hasten};
 use crate::piece::{Element, Piece, Rest};
-use crate::run::{Leg, Run};
+use crate::run::Run;
 use crate::scurve::{PathLimits, slowing_horizon};
+use crate::valley::Leg;
 use std::collections::VecDeque;
 
 /// A part of the motion that nothing later changes.
@@ -61,6 +64,56 @@ pub(crate) struct Scheduler {
     planned_v: Vec<f64>,
     /// The speed at the start leaves no way to slow down in time.
     infeasible: bool,
+    limits: Limits,
+}
+
+/// Runs that are driven together, and how.
+struct Group {
+    pieces: Vec<Piece>,
+    legs: Vec<Leg>,
+    entry_v: f64,
+    exit_v: f64,
+}
+
+/// Most pieces that are driven together.
+const MOST_TOGETHER: usize = 512;
+
+impl Group {
+    fn new(run: Run, (entry_v, exit_v): (f64, f64), limits: &Limits) -> Self {
+        let mut legs = run.drive(entry_v, exit_v);
+        hasten(&mut legs, &run.pieces, limits);
+        Self {
+            pieces: run.pieces,
+            legs,
+            entry_v,
+            exit_v,
+        }
+    }
+
+    /// Takes in the next group if both are driven faster together; gives it back if not.
+    fn join(&mut self, mut next: Self, limits: &Limits) -> Option<Self> {
+        let count = self.pieces.len();
+        if count + next.pieces.len() > MOST_TOGETHER {
+            return Some(next);
+        }
+        self.pieces.append(&mut next.pieces);
+        let apart_t = duration_t(&self.legs) + duration_t(&next.legs);
+        let speeds_v = (self.entry_v, next.exit_v);
+        if let Some(mut legs) = drive_together(&self.pieces, speeds_v, apart_t, limits) {
+            hasten(&mut legs, &self.pieces, limits);
+            (self.legs, self.exit_v) = (legs, next.exit_v);
+            return None;
+        }
+        next.pieces = self.pieces.split_off(count);
+        Some(next)
+    }
+
+    fn settled(self) -> Settled {
+        Settled::Motion {
+            pieces: self.pieces,
+            legs: self.legs,
+        }
+    }
 }
 
 const NO_LIMITS: PathLimits = PathLimits {
@@ -69,8 +122,9 @@ const NO_LIMITS: PathLimits = PathLimits {
 };
 
 impl Scheduler {
-    pub(crate) const fn new() -> Self {
+    pub(crate) const fn new(limits: Limits) -> Self {
         Self {
+            limits,
             open: None,
             waiting: VecDeque::new(),
             waiting_s: 0.0,
@@ -84,10 +138,10 @@ impl Scheduler {
     }
 
     /// A scheduler for path that is entered at a speed, with zero acceleration along it.
-    pub(crate) fn entered_at(entry_v: f64) -> Self {
+    pub(crate) fn entered_at(entry_v: f64, limits: Limits) -> Self {
         Self {
             entry_v,
-            ..Self::new()
+            ..Self::new(limits)
         }
     }
 
@@ -181,19 +235,24 @@ impl Scheduler {
             return;
         }
         let planned_v = self.forward_pass(&self.backward_pass());
+        let mut group: Option<Group> = None;
         for &exit_v in planned_v.iter().take(count) {
             let Some(run) = self.waiting.pop_front() else {
-                return;
+                break;
             };
-            let legs = run.drive(self.entry_v, exit_v);
-            self.entry_v = exit_v;
             self.waiting_s -= run.slowing_room_s();
             self.waiting_pieces -= run.pieces.len();
-            out.push_back(Settled::Motion {
-                pieces: run.pieces,
-                legs,
-            });
+            let next = Group::new(run, (self.entry_v, exit_v), &self.limits);
+            self.entry_v = exit_v;
+            let done = match &mut group {
+                Some(group) => group
+                    .join(next, &self.limits)
+                    .map(|next| core::mem::replace(group, next)),
+                None => group.replace(next),
+            };
+            out.extend(done.map(Group::settled));
         }
+        out.extend(group.map(Group::settled));
         self.planned_v.clear();
         self.planned_v.extend(planned_v.into_iter().skip(count));
         if self.waiting.is_empty() {

@@ -12,9 +12,9 @@
 //! which may be used at once anywhere on it.
 
 use crate::override_::{Override, ProgrammedRate};
-use crate::scurve::PathLimits;
+use crate::scurve::{Extremes, PathLimits};
 use crate::{Limits, Rate};
-use glidepath_geometry::{Arc, AxisVector, DerivativeBounds, limit_along};
+use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds, limit_along};
 
 /// What a piece of path allows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +25,10 @@ pub(crate) struct SpeedLimit {
     pub change: PathLimits,
     /// Above this speed the speed has to be constant; infinite where it never has to.
     pub constant_above_v: f64,
+    /// Top speed, acceleration and jerk each where the other two are small: what to try, and then
+    /// to check ([`SpeedRule::permits`]).
+    pub peak_v: f64,
+    pub alone: PathLimits,
 }
 
 /// What the speed limit of a piece is computed from, so that it can be computed again when the
@@ -78,6 +82,33 @@ impl SpeedRule {
 }
 
 impl SpeedRule {
+    /// True if a piece with these limits may be driven with so much speed, acceleration and jerk
+    /// along the path, all at once.
+    pub(crate) fn permits(&self, own: &SpeedLimit, most: &Extremes, limits: &Limits) -> bool {
+        let Extremes {
+            speed_v: v,
+            accel_a,
+            jerk_j,
+        } = *most;
+        let below = |x: f64, limit: f64| x <= limit * (1.0 + ROUNDING_R);
+        if !below(v, own.peak_v) {
+            return false;
+        }
+        match self {
+            Self::Straight { .. } | Self::Arc { .. } => {
+                below(accel_a, own.alone.accel_a) && below(jerk_j, own.alone.jerk_j)
+            }
+            Self::Curve { curve, .. } => {
+                let DerivativeBounds { d1, d2, d3 } = &curve.bounds;
+                let (v2, v3, cross) = (v * v, v * v * v, 3.0 * v * accel_a);
+                (0..AXES).all(|i| {
+                    below(d2[i] * v2 + d1[i] * accel_a, limits.acceleration[i])
+                        && below(d3[i] * v3 + d2[i] * cross + d1[i] * jerk_j, limits.jerk[i])
+                })
+            }
+        }
+    }
+
     /// True if only rapids touch the piece.
     pub(crate) fn is_rapid(&self) -> bool {
         let is_rapid = |rate: &ProgrammedRate| rate.rate == Rate::Rapid;
@@ -99,21 +130,34 @@ impl CurveRule {
     }
 }
 
+/// More than a limit by less than this is rounding.
+const ROUNDING_R: f64 = 1e-9;
 /// Share of an axis' acceleration and jerk spent on following a curve at its top speed.
 const FOLLOW_ACCEL_R: f64 = 0.6;
 const FOLLOW_JERK_R: f64 = 0.4;
+/// Share of acceleration and jerk that following may take where the speed hardly changes.
+const PEAK_R: f64 = 0.9;
 /// Share of the jerk spent on the product of acceleration along the path and curvature.
 const CROSS_JERK_R: f64 = 0.3;
 
 /// A straight piece in the direction `d1`, at most at `rate_v`.
 pub(crate) fn straight(d1: &AxisVector, rate_v: f64, limits: &Limits) -> SpeedLimit {
+    let top_v = rate_v.min(limit_along(d1, &limits.velocity));
+    let change = changing_alone(d1, limits);
     SpeedLimit {
-        top_v: rate_v.min(limit_along(d1, &limits.velocity)),
-        change: PathLimits {
-            accel_a: limit_along(d1, &limits.acceleration),
-            jerk_j: limit_along(d1, &limits.jerk),
-        },
+        top_v,
+        change,
         constant_above_v: f64::INFINITY,
+        peak_v: top_v,
+        alone: change,
+    }
+}
+
+/// What the direction alone allows.
+fn changing_alone(d1: &AxisVector, limits: &Limits) -> PathLimits {
+    PathLimits {
+        accel_a: limit_along(d1, &limits.acceleration),
+        jerk_j: limit_along(d1, &limits.jerk),
     }
 }
 
@@ -125,20 +169,27 @@ pub(crate) fn constant(bounds: &DerivativeBounds, rate_v: f64, limits: &Limits) 
         .min(limit_along(&bounds.d2, &limits.acceleration).sqrt())
         .min(limit_along(&bounds.d3, &limits.jerk).cbrt());
     let constant_above_v = 0.5 * top_v;
-    let change = curved(bounds, constant_above_v, limits).change;
+    let SpeedLimit { change, alone, .. } = curved(bounds, constant_above_v, limits);
     SpeedLimit {
         top_v,
         change,
         constant_above_v,
+        peak_v: top_v,
+        alone,
     }
 }
 
 /// A curve on which the speed may change.
 pub(crate) fn curved(bounds: &DerivativeBounds, rate_v: f64, limits: &Limits) -> SpeedLimit {
-    let top_v = rate_v
-        .min(limit_along(&bounds.d1, &limits.velocity))
-        .min((FOLLOW_ACCEL_R * limit_along(&bounds.d2, &limits.acceleration)).sqrt())
-        .min((FOLLOW_JERK_R * limit_along(&bounds.d3, &limits.jerk)).cbrt());
+    let normal_a = limit_along(&bounds.d2, &limits.acceleration);
+    let normal_j = limit_along(&bounds.d3, &limits.jerk);
+    let straight_v = rate_v.min(limit_along(&bounds.d1, &limits.velocity));
+    let following_v = |accel_r: f64, jerk_r: f64| {
+        straight_v
+            .min((accel_r * normal_a).sqrt())
+            .min((jerk_r * normal_j).cbrt())
+    };
+    let top_v = following_v(FOLLOW_ACCEL_R, FOLLOW_JERK_R);
     let left_a = limits.acceleration - bounds.d2 * (top_v * top_v);
     let cross = bounds.d2 * (3.0 * top_v);
     let accel_a =
@@ -149,6 +200,8 @@ pub(crate) fn curved(bounds: &DerivativeBounds, rate_v: f64, limits: &Limits) ->
         top_v,
         change: PathLimits { accel_a, jerk_j },
         constant_above_v: f64::INFINITY,
+        peak_v: following_v(PEAK_R, PEAK_R),
+        alone: changing_alone(&bounds.d1, limits),
     }
 }
 
@@ -185,12 +238,15 @@ pub(crate) fn arc(arc: &Arc, rate_v: f64, limits: &Limits) -> SpeedLimit {
         ((plane_a * plane_a - normal_a * normal_a).sqrt() / d1).min(cross_j / (3.0 * d2 * top_v));
     let used_j = 3.0 * d2 * top_v * accel_a;
     let jerk_j = ((plane_j * plane_j - used_j * used_j).sqrt() - d3 * top_v.powi(3)) / d1;
+    let change = PathLimits {
+        accel_a: accel_a.min(along.change.accel_a),
+        jerk_j: jerk_j.min(along.change.jerk_j),
+    };
     SpeedLimit {
         top_v,
-        change: PathLimits {
-            accel_a: accel_a.min(along.change.accel_a),
-            jerk_j: jerk_j.min(along.change.jerk_j),
-        },
+        change,
         constant_above_v: f64::INFINITY,
+        peak_v: top_v,
+        alone: change,
     }
 }

@@ -118,7 +118,11 @@ impl<const D: usize> Spline<D> {
 
 /// Takes a distance into account; one that is not a number counts as infinite.
 fn note(verdict: &mut Verdict, of_span: &mut f64, error_mm: f64, sample: usize) {
-    let error_mm = if error_mm.is_nan() { f64::INFINITY } else { error_mm };
+    let error_mm = if error_mm.is_nan() {
+        f64::INFINITY
+    } else {
+        error_mm
+    };
     *of_span = of_span.max(error_mm);
     if error_mm > verdict.worst_mm {
         verdict.worst_mm = error_mm;

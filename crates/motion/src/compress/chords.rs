@@ -23,8 +23,8 @@ use super::window::{End, Window};
 
 /// A vertex that turns more is a corner, rad: 100°.
 const ALWAYS_CORNER_RAD: f64 = 1.745_329_251_994_33;
-/// One that turns less is not, rad: 30°. Between them it depends on whether a smooth curve fits.
-const NEVER_CORNER_RAD: f64 = 0.523_598_775_598_299;
+/// One that turns less is not, rad: 15°. Between them it depends on whether a smooth curve fits.
+const NEVER_CORNER_RAD: f64 = 0.261_799_387_799_149;
 /// Lengths in tolerances: of a chord whose middle is a line if it bends, and if it does not; of the
 /// curves beside such a line; of a line beside a corner; the least spacing of samples.
 const LONG_BENT_R: f64 = 400.0;
@@ -108,12 +108,14 @@ impl<const D: usize> Chords<D> {
             out.marks
                 .push(self.along_t + from_u * length_t, line, change.take());
         }
-        let start_spacing_t = self.is_curved.then(|| self.spacing(self.turn_rad, self.spacing_t));
+        let start_spacing_t = self
+            .is_curved
+            .then(|| self.spacing(self.turn_rad, self.spacing_t));
         let bend_rad = self.turn_rad.max(end_turn_rad);
         let tolerance_mm = self.tube.tolerance_mm;
         let is_bent = length_t * bend_rad > 8.0 * tolerance_mm;
-        let is_long = length_t > LONG_R * tolerance_mm
-            || (is_bent && length_t > LONG_BENT_R * tolerance_mm);
+        let is_long =
+            length_t > LONG_R * tolerance_mm || (is_bent && length_t > LONG_BENT_R * tolerance_mm);
         let beside_t = if is_long {
             (0.3 * length_t).min(BESIDE_LINE_R * tolerance_mm)
         } else {
@@ -135,14 +137,20 @@ impl<const D: usize> Chords<D> {
         } else {
             if let Some(spacing_t) = start_spacing_t {
                 let third_t = curve_end_t / 3.0;
-                self.grade(chord, (0.0, curve_end_t), (spacing_t.min(third_t), third_t), out);
+                self.grade(
+                    chord,
+                    (0.0, curve_end_t),
+                    (spacing_t.min(third_t), third_t),
+                    out,
+                );
                 self.window.finish(End::Line, out);
             }
             self.line(chord, (curve_end_t, curve_start_t), out);
             if let Some(spacing_t) = end_spacing_t {
                 let third_t = (length_t - curve_start_t) / 3.0;
                 let start = between(&chord.start, &chord.end, curve_start_t / length_t);
-                self.window.start(start, self.along_t + curve_start_t, End::Line);
+                self.window
+                    .start(start, self.along_t + curve_start_t, End::Line);
                 let spacings_t = (third_t, spacing_t.min(third_t));
                 self.grade(chord, (curve_start_t, length_t), spacings_t, out);
             }
@@ -156,7 +164,11 @@ impl<const D: usize> Chords<D> {
     fn line(&self, chord: &Chord<D>, (from_t, to_t): (f64, f64), out: &mut Output) {
         let at = |t: f64| between(&chord.start, &chord.end, t / chord.length_t);
         let continues = [from_t > 0.0, to_t < chord.length_t];
-        let start = if continues[0] { at(from_t) } else { chord.start };
+        let start = if continues[0] {
+            at(from_t)
+        } else {
+            chord.start
+        };
         let end = if continues[1] { at(to_t) } else { chord.end };
         let along_t = (self.along_t + from_t, self.along_t + to_t);
         out.line((&start, &end), along_t, chord.error_mm, continues);

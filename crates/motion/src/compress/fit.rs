@@ -118,8 +118,8 @@ impl<const D: usize> Spline<D> {
             }
             for i in 0..4 {
                 let weighted = weight * basis[i];
-                for k in i..4 {
-                    system.rows[span + i][k - i] += weighted * basis[k];
+                for (slot, value) in system.rows[span + i].iter_mut().zip(&basis[i..]) {
+                    *slot += weighted * value;
                 }
                 let right = &mut system.right[span + i];
                 *right = add_scaled(right, weighted, &residual);

@@ -26,11 +26,11 @@ mod fit;
 mod knots;
 mod marks;
 mod output;
+#[cfg(test)]
+mod tests;
 mod thinning;
 mod vector;
 mod window;
-#[cfg(test)]
-mod tests;
 
 pub(crate) use marks::{Change, Cut};
 pub(crate) use output::{Part, PartShape};

@@ -79,9 +79,10 @@ fn sampled(parts: &[Part]) -> Vec<AxisVector> {
             PartShape::Line { start, end, .. } => {
                 let count = (50.0_f64).min((end - start).norm() / 0.001).ceil();
                 let line = Segment::line(*start, *end);
-                points.extend((0..=count as u32).map(|i| {
-                    line.jet(line.length() * f64::from(i) / count).position
-                }));
+                points.extend(
+                    (0..=count as u32)
+                        .map(|i| line.jet(line.length() * f64::from(i) / count).position),
+                );
             }
             PartShape::Span { .. } => {
                 let (cubic, _) = cubic(part).expect("a span");
@@ -144,7 +145,10 @@ fn judged(points: &[AxisVector], parts: &[Part]) -> (usize, usize, usize) {
     let back = farthest(points, &motion);
     // The sampled motion has chords of its own.
     let worst = there.max(back);
-    assert!(worst <= certified_mm + 2e-4, "{there} {back} against {certified_mm}");
+    assert!(
+        worst <= certified_mm + 2e-4,
+        "{there} {back} against {certified_mm}"
+    );
     assert!((motion[0] - points[0]).amax() < 1e-12, "start");
     let (last, end) = (motion[motion.len() - 1], points[points.len() - 1]);
     assert!((last - end).amax() < 1e-12, "end");
@@ -217,7 +221,11 @@ fn a_circle_becomes_a_smooth_circle() {
             if s > 10.0 && s < 50.0 {
                 let bounds = cubic.bounds();
                 let middle = cubic.jet(0.5 * cubic.length());
-                assert!((middle.d2.norm() - 0.1).abs() < 0.005, "{} at {s}", middle.d2.norm());
+                assert!(
+                    (middle.d2.norm() - 0.1).abs() < 0.005,
+                    "{} at {s}",
+                    middle.d2.norm()
+                );
                 assert!(bounds.d3.norm() < 0.0125, "{} at {s}", bounds.d3);
             }
         }
@@ -258,7 +266,11 @@ fn corners_are_kept_to_the_bit() {
             _ => None,
         })
         .collect();
-    assert!(lines.windows(2).any(|p| p[0].1 == at(10.0, 0.0) && p[1].0 == at(10.0, 0.0)));
+    assert!(
+        lines
+            .windows(2)
+            .any(|p| p[0].1 == at(10.0, 0.0) && p[1].0 == at(10.0, 0.0))
+    );
 }
 
 #[test]
@@ -289,7 +301,9 @@ fn every_block_is_told_once_and_in_order() {
     let points = circle(0.1, Some(3));
     let mut lines = Vec::new();
     for part in compress(&points, true) {
-        assert!(part.cuts[0].from_u == 0.0 && part.cuts.windows(2).all(|c| c[0].from_u < c[1].from_u));
+        assert!(
+            part.cuts[0].from_u == 0.0 && part.cuts.windows(2).all(|c| c[0].from_u < c[1].from_u)
+        );
         lines.extend(part.cuts.iter().map(|cut| cut.line));
     }
     lines.dedup();

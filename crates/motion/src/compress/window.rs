@@ -17,11 +17,11 @@
 //! at last straight lines are drawn through the samples, with a stop at each of their two ends, and
 //! the fit starts anew behind them. Those lines are in the tube whatever happens.
 
+use super::Tube;
 use super::fit::{Sample, Spline};
 use super::knots::{DEGREE, bezier, greville};
 use super::output::Output;
 use super::vector::{add_scaled, between, minus, norm};
-use super::Tube;
 use core::f64::consts::{PI, TAU};
 
 /// How a curve starts or ends.
@@ -215,7 +215,9 @@ impl<const D: usize> Window<D> {
 
     /// Puts the control points at the ends where they have to be.
     fn lay_ends(&mut self, end: Option<End>) {
-        let Self { samples, spline, .. } = self;
+        let Self {
+            samples, spline, ..
+        } = self;
         let count = spline.control.len();
         let end_t = spline.knots[spline.knots.len() - 1];
         if let (Some(end), [.., before, last]) = (end, samples.as_slice()) {
@@ -238,7 +240,11 @@ impl<const D: usize> Window<D> {
     /// end of the worst chord.
     fn fit(&mut self, end: Option<End>, spans: usize, is_refined: bool) -> Option<usize> {
         let fixed = (
-            if self.is_frozen { DEGREE } else { fixed_points(self.start) },
+            if self.is_frozen {
+                DEGREE
+            } else {
+                fixed_points(self.start)
+            },
             end.map_or(0, fixed_points),
         );
         let solves = if is_refined { SOLVES_REFINED } else { SOLVES };
@@ -367,7 +373,12 @@ impl<const D: usize> Window<D> {
         }
         for sample in &self.samples[1..=up_to] {
             let along_t = (from_t, sample.along_t);
-            out.line((&from, &sample.point), along_t, self.tube.merge_mm + self.tube.allowed_mm, [false; 2]);
+            out.line(
+                (&from, &sample.point),
+                along_t,
+                self.tube.merge_mm + self.tube.allowed_mm,
+                [false; 2],
+            );
             (from, from_t) = (sample.point, sample.along_t);
         }
         if up_to == last {

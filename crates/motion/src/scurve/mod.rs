@@ -24,6 +24,7 @@ mod ramp;
 mod speed_change;
 
 pub use phase::PathState;
+pub(crate) use profile::Extremes;
 pub use profile::Profile;
 pub use ramp::{PathLimits, ramp_fits, ramp_length, reachable_speed, slowing_horizon};
 pub use speed_change::SpeedChange;

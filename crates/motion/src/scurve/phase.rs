@@ -31,4 +31,33 @@ impl Phase {
             accel_a: self.accel_a + t * self.jerk_j,
         }
     }
+
+    /// When the position is `s`, within the phase: cubic in time, solved by Newton steps in a
+    /// bracket.
+    pub(super) fn time_at(&self, s: f64) -> f64 {
+        let (mut low_t, mut high_t) = (0.0, self.duration_t);
+        let mut t = ((s - self.position_s) / self.speed_v)
+            .max(0.0)
+            .min(0.5 * high_t);
+        for _ in 0..60 {
+            let state = self.at(t);
+            let error_s = state.position_s - s;
+            if error_s > 0.0 {
+                high_t = t;
+            } else {
+                low_t = t;
+            }
+            let newton_t = t - error_s / state.speed_v;
+            let next_t = if newton_t >= low_t && newton_t <= high_t {
+                newton_t
+            } else {
+                0.5 * (low_t + high_t)
+            };
+            if (next_t - t).abs() <= 1e-12 * self.duration_t {
+                return next_t;
+            }
+            t = next_t;
+        }
+        t
+    }
 }

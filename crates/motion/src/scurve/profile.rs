@@ -109,6 +109,18 @@ impl Profile {
         self.phases.map(|phase| phase.duration_t)
     }
 
+    /// The speed at the start, mm/s.
+    #[must_use]
+    pub const fn entry_v(&self) -> f64 {
+        self.phases[0].speed_v
+    }
+
+    /// The path it covers, mm.
+    #[must_use]
+    pub const fn length_s(&self) -> f64 {
+        self.end.position_s
+    }
+
     /// The speed at the end, mm/s.
     #[must_use]
     pub const fn exit_v(&self) -> f64 {
@@ -159,36 +171,69 @@ impl Profile {
         }
     }
 
-    /// Speed where the position is `s`, among monotone phases: cubic in time, solved by bisection
-    /// with Newton steps.
+    /// Speed where the position is `s`, among monotone phases.
     fn speed_at(&self, s: f64, phases: core::ops::Range<usize>) -> f64 {
         let candidates = &self.phases[phases];
-        let Some(phase) = candidates.iter().rev().find(|p| p.position_s <= s) else {
-            return candidates.first().map_or(0.0, |p| p.speed_v);
-        };
-        let (mut low_t, mut high_t) = (0.0, phase.duration_t);
-        let mut t = 0.5 * high_t;
-        for _ in 0..60 {
-            let state = phase.at(t);
-            let error_s = state.position_s - s;
-            if error_s > 0.0 {
-                high_t = t;
-            } else {
-                low_t = t;
-            }
-            let newton_t = t - error_s / state.speed_v;
-            let next_t = if newton_t > low_t && newton_t < high_t {
-                newton_t
-            } else {
-                0.5 * (low_t + high_t)
-            };
-            if (next_t - t).abs() <= 1e-12 * phase.duration_t {
-                return phase.at(next_t).speed_v;
-            }
-            t = next_t;
+        match candidates.iter().rev().find(|p| p.position_s <= s) {
+            Some(phase) => phase.at(phase.time_at(s)).speed_v,
+            None => candidates.first().map_or(0.0, |p| p.speed_v),
         }
-        phase.at(t).speed_v
     }
+
+    /// A bound of speed, acceleration and jerk, as magnitudes, on the path interval from `from` to
+    /// `to_s`, and the place where it ends.
+    pub(crate) fn extremes(&self, from: &Place, to_s: f64) -> (Extremes, Place) {
+        let mut phase = from.phase;
+        while phase < 6 && self.phases[phase + 1].position_s <= to_s {
+            phase += 1;
+        }
+        let at = &self.phases[phase];
+        let state = at.at(at.time_at(to_s));
+        let mut most = Extremes {
+            speed_v: from.state.speed_v.max(state.speed_v),
+            accel_a: from.state.accel_a.abs().max(state.accel_a.abs()),
+            jerk_j: 0.0,
+        };
+        for (i, passed) in self
+            .phases
+            .iter()
+            .enumerate()
+            .take(phase + 1)
+            .skip(from.phase)
+        {
+            if passed.duration_t > 0.0 {
+                most.jerk_j = most.jerk_j.max(passed.jerk_j.abs());
+            }
+            if i > from.phase {
+                most.speed_v = most.speed_v.max(passed.speed_v);
+                most.accel_a = most.accel_a.max(passed.accel_a.abs());
+            }
+        }
+        (most, Place { phase, state })
+    }
+
+    /// The place where the profile starts.
+    pub(crate) fn start(&self) -> Place {
+        Place {
+            phase: 0,
+            state: self.phases[0].at(0.0),
+        }
+    }
+}
+
+/// A place on a profile.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    phase: usize,
+    state: PathState,
+}
+
+/// The largest magnitudes on a part of a profile.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Extremes {
+    pub(crate) speed_v: f64,
+    pub(crate) accel_a: f64,
+    pub(crate) jerk_j: f64,
 }
 
 /// How far the peak speed lies above the greater end speed, at most `headroom_v`.
