@@ -11,38 +11,72 @@
 //! * for neighbouring runs together ([`drive_together`]), so that the junction between them need not
 //!   be passed without acceleration.
 
-use crate::piece::Piece;
+use crate::piece::{Piece, Shape};
 use crate::scurve::{PathLimits, Profile};
-use crate::valley::{Course, Leg, Limiting, ValleyFirst};
+use crate::valley::{Course, Leg, Limiting, Span, ValleyFirst};
 use crate::{Limits, run::weaker};
 
 /// Shares of the way from what the pieces allow without a check to what they allow at most,
 /// strongest first.
-const SHARES: [f64; 12] = [
-    1.0, 0.85, 0.7, 0.6, 0.5, 0.42, 0.34, 0.26, 0.19, 0.12, 0.06, 0.0,
-];
-/// Where both cannot be had, acceleration or jerk: powers of the share that acceleration and jerk
-/// get.
-const WAYS: [(f64, f64); 3] = [(1.0, 1.0), (0.6, 2.0), (2.0, 0.6)];
+const SHARES: [f64; 10] = [1.0, 0.8, 0.65, 0.5, 0.4, 0.3, 0.2, 0.12, 0.06, 0.0];
+/// Where both cannot be had: equal shares, more acceleration, more jerk.
+const WAYS: [Way; 3] = [Way::Both, Way::Acceleration, Way::Jerk];
+
+#[derive(Debug, Clone, Copy)]
+enum Way {
+    Both,
+    Acceleration,
+    Jerk,
+}
+
+/// What comes out of a trial.
+enum Verdict<T> {
+    /// The motion breaks a limit: weaker ones may not.
+    Breaks,
+    /// It is not faster: stronger limits may be.
+    IsSlow,
+    Good(T),
+}
 
 /// Limits to try.
 #[derive(Debug, Clone, Copy)]
 struct Trial {
     share_r: f64,
-    way: (f64, f64),
+    way: Way,
 }
 
 impl Trial {
-    /// The trials of one way, strongest first.
-    fn along(way: (f64, f64)) -> impl Iterator<Item = Self> {
-        SHARES.into_iter().map(move |share_r| Self { share_r, way })
+    /// The strongest trial of one way that is good, by bisection.
+    fn strongest<T>(way: Way, mut judge: impl FnMut(Self) -> Verdict<T>) -> Option<T> {
+        let mut found = None;
+        let mut left = 0..SHARES.len();
+        while !left.is_empty() {
+            let middle = left.start.midpoint(left.end);
+            let share_r = SHARES[middle];
+            match judge(Self { share_r, way }) {
+                Verdict::Breaks => left.start = middle + 1,
+                Verdict::IsSlow => left.end = middle,
+                Verdict::Good(motion) => {
+                    left.end = middle;
+                    found = Some(motion);
+                }
+            }
+        }
+        found
     }
 
     fn limits(self, safe: PathLimits, alone: PathLimits) -> PathLimits {
-        let between = |a: f64, b: f64, power: f64| a + self.share_r.powf(power) * (b - a).max(0.0);
+        let share_r = self.share_r;
+        let (more_r, less_r) = (share_r.sqrt(), share_r * share_r);
+        let (accel_r, jerk_r) = match self.way {
+            Way::Both => (share_r, share_r),
+            Way::Acceleration => (more_r, less_r),
+            Way::Jerk => (less_r, more_r),
+        };
+        let between = |a: f64, b: f64, share_r: f64| a + share_r * (b - a).max(0.0);
         PathLimits {
-            accel_a: between(safe.accel_a, alone.accel_a, self.way.0),
-            jerk_j: between(safe.jerk_j, alone.jerk_j, self.way.1),
+            accel_a: between(safe.accel_a, alone.accel_a, accel_r),
+            jerk_j: between(safe.jerk_j, alone.jerk_j, jerk_r),
         }
     }
 
@@ -52,6 +86,9 @@ impl Trial {
     }
 }
 
+/// A time counts as less if it is by this factor.
+const LESS_R: f64 = 1.0 - 1e-4;
+
 /// The weakest limits of some pieces, safe and alone.
 fn weakest(pieces: &[Piece]) -> Option<(PathLimits, PathLimits)> {
     let both = pieces.iter().map(|p| (p.limit.change, p.limit.alone));
@@ -59,68 +96,89 @@ fn weakest(pieces: &[Piece]) -> Option<(PathLimits, PathLimits)> {
 }
 
 /// How long a motion takes, s.
-pub(crate) fn duration_t(legs: &[Leg]) -> f64 {
+fn duration_t(legs: &[Leg]) -> f64 {
     legs.iter().map(|leg| leg.profile.duration_t()).sum()
 }
 
 /// Replaces S-curves by faster ones over the same path between the same speeds.
-pub(crate) fn hasten(legs: &mut [Leg], pieces: &[Piece], limits: &Limits) {
-    let course = Course::new(pieces);
+pub(crate) fn hasten(legs: &mut [Leg], course: &Course<'_>, limits: &Limits) {
+    let pieces = course.pieces;
     for leg in legs {
         let to_s = leg.from_s + leg.profile.length_s();
         let touched = course.touched(leg.from_s, to_s);
         let Some((safe, alone)) = weakest(&pieces[touched.clone()]) else {
             continue;
         };
+        let is_bent = |piece: &Piece| matches!(piece.shape, Shape::Spline(_));
+        if !pieces[touched.clone()].iter().any(is_bent) {
+            continue;
+        }
+        let (from_s, length_s) = (leg.from_s, leg.profile.length_s());
+        let (entry_v, exit_v) = (leg.profile.entry_v(), leg.profile.exit_v());
         for way in WAYS {
-            let found = Trial::along(way).find_map(|trial| {
-                let (entry_v, exit_v) = (leg.profile.entry_v(), leg.profile.exit_v());
-                let top_v = pieces[touched.clone()]
-                    .iter()
-                    .map(|piece| trial.cap_v(piece))
-                    .fold(entry_v.max(exit_v), f64::max);
+            let below_t = leg.profile.duration_t() * LESS_R;
+            let faster = Trial::strongest(way, |trial| {
+                let caps_v = pieces[touched.clone()].iter().map(|p| trial.cap_v(p));
+                let top_v = caps_v.fold(entry_v.max(exit_v), f64::max);
                 let tried = trial.limits(safe, alone);
-                let profile = Profile::new(entry_v, exit_v, to_s - leg.from_s, top_v, tried)?;
-                let faster = Leg {
-                    from_s: leg.from_s,
-                    profile,
+                let Some(profile) = Profile::new(entry_v, exit_v, length_s, top_v, tried) else {
+                    return Verdict::Breaks;
                 };
-                let is_faster = profile.duration_t() < leg.profile.duration_t();
-                (is_faster && holds(&faster, &course, limits)).then_some(faster)
+                let faster = Leg { from_s, profile };
+                if profile.duration_t() >= below_t {
+                    Verdict::IsSlow
+                } else if holds(&faster, course, limits) {
+                    Verdict::Good(faster)
+                } else {
+                    Verdict::Breaks
+                }
             });
-            if let Some(faster) = found {
-                *leg = faster;
-            }
+            *leg = faster.unwrap_or(*leg);
         }
     }
 }
 
-/// S-curves over pieces of several runs as one, from one speed to another, in less than a given
-/// time; `None` if no trial gives any.
+/// S-curves over two that follow each other as one; `None` if that is not faster.
 pub(crate) fn drive_together(
-    pieces: &[Piece],
-    (entry_v, exit_v): (f64, f64),
-    below_t: f64,
+    (before, after): (&Leg, &Leg),
+    course: &Course<'_>,
     limits: &Limits,
 ) -> Option<Vec<Leg>> {
-    let course = Course::new(pieces);
+    let span = Span {
+        from_s: before.from_s,
+        to_s: after.from_s + after.profile.length_s(),
+        entry_v: before.profile.entry_v(),
+        exit_v: after.profile.exit_v(),
+    };
+    let touched = course.touched(span.from_s, span.to_s);
+    let pieces = &course.pieces[touched.clone()];
     let (safe, alone) = weakest(pieces)?;
+    let apart_t = before.profile.duration_t() + after.profile.duration_t();
     let mut best: Option<Vec<Leg>> = None;
+    let mut caps_v = vec![0.0; course.pieces.len()];
     for way in WAYS {
-        let below_t = best.as_deref().map_or(below_t, duration_t);
-        let found = Trial::along(way).find_map(|trial| {
-            let caps_v: Vec<f64> = pieces.iter().map(|piece| trial.cap_v(piece)).collect();
+        let below_t = best.as_deref().map_or(apart_t, duration_t);
+        let faster = Trial::strongest(way, |trial| {
+            for (cap_v, piece) in caps_v[touched.clone()].iter_mut().zip(pieces) {
+                *cap_v = trial.cap_v(piece);
+            }
             let valley = ValleyFirst {
-                course: &course,
+                course,
                 caps_v: &caps_v,
                 limiting: Limiting::Fixed(trial.limits(safe, alone)),
             };
-            let legs = valley.drive(entry_v, exit_v)?;
-            let is_good =
-                duration_t(&legs) < below_t && legs.iter().all(|leg| holds(leg, &course, limits));
-            is_good.then_some(legs)
+            let Some(legs) = valley.drive(span) else {
+                return Verdict::Breaks;
+            };
+            if duration_t(&legs) >= below_t * LESS_R {
+                Verdict::IsSlow
+            } else if legs.iter().all(|leg| holds(leg, course, limits)) {
+                Verdict::Good(legs)
+            } else {
+                Verdict::Breaks
+            }
         });
-        best = found.or(best);
+        best = faster.or(best);
     }
     best
 }

@@ -8,7 +8,7 @@
 use crate::piece::Piece;
 use crate::scurve::{PathLimits, Profile, ramp_fits, reachable_speed, slowing_horizon};
 use crate::speed_limit::SpeedLimit;
-use crate::valley::{Course, Leg, Limiting, SPEED_ROUNDING_R, ValleyFirst};
+use crate::valley::{Course, Leg, Limiting, SPEED_ROUNDING_R, Span, ValleyFirst};
 
 /// A stretch of path with zero acceleration along it at both ends.
 #[derive(Debug, Clone)]
@@ -133,9 +133,9 @@ impl Run {
         ramp_fits(entry_v, highest_v, self.length_s, self.change).then_some(highest_v)
     }
 
-    /// The S-curves through the run, from `entry_v` to `exit_v`, both at most [`Run::low_v`] and
+    /// The S-curves through the run (`course` is that of its pieces), from `entry_v` to `exit_v`, both at most [`Run::low_v`] and
     /// feasible over its length.
-    pub(crate) fn drive(&self, entry_v: f64, exit_v: f64) -> Vec<Leg> {
+    pub(crate) fn drive(&self, course: &Course<'_>, entry_v: f64, exit_v: f64) -> Vec<Leg> {
         let mut legs = Vec::new();
         if self.constant_above_v < self.low_v {
             let top_v = self.constant_above_v.max(entry_v);
@@ -146,14 +146,19 @@ impl Run {
             }));
             return legs;
         }
-        let course = Course::new(&self.pieces);
+        let span = Span {
+            from_s: 0.0,
+            to_s: course.length_s(),
+            entry_v,
+            exit_v,
+        };
         let caps_v: Vec<f64> = self.pieces.iter().map(|piece| piece.limit.top_v).collect();
         let valley = ValleyFirst {
-            course: &course,
+            course,
             caps_v: &caps_v,
             limiting: Limiting::Weakest(self.change),
         };
-        valley.drive(entry_v, exit_v).unwrap_or_default()
+        valley.drive(span).unwrap_or_default()
     }
 }
 

@@ -13,11 +13,11 @@
 //! the plan that was made when its speed was settled, which ends at rest, until it meets the new one.
 
 use crate::Limits;
-use crate::haste::{drive_together, duration_t, hasten};
-use crate::piece::{Element, Piece, Rest};
+use crate::haste::{drive_together, hasten};
+use crate::piece::{Element, Piece, Rest, Shape};
 use crate::run::Run;
 use crate::scurve::{PathLimits, slowing_horizon};
-use crate::valley::Leg;
+use crate::valley::{Course, Leg};
 use std::collections::VecDeque;
 
 /// A part of the motion that nothing later changes.
@@ -71,8 +71,6 @@ pub(crate) struct Scheduler {
 struct Group {
     pieces: Vec<Piece>,
     legs: Vec<Leg>,
-    entry_v: f64,
-    exit_v: f64,
 }
 
 /// Most pieces that are driven together.
@@ -80,28 +78,41 @@ const MOST_TOGETHER: usize = 512;
 
 impl Group {
     fn new(run: Run, (entry_v, exit_v): (f64, f64), limits: &Limits) -> Self {
-        let mut legs = run.drive(entry_v, exit_v);
-        hasten(&mut legs, &run.pieces, limits);
+        let course = Course::new(&run.pieces);
+        let mut legs = run.drive(&course, entry_v, exit_v);
+        hasten(&mut legs, &course, limits);
         Self {
             pieces: run.pieces,
             legs,
-            entry_v,
-            exit_v,
         }
     }
 
-    /// Takes in the next group if both are driven faster together; gives it back if not.
+    /// Takes in the next group if the last leg of this and the first of that are driven faster
+    /// together; gives it back if not.
     fn join(&mut self, mut next: Self, limits: &Limits) -> Option<Self> {
         let count = self.pieces.len();
-        if count + next.pieces.len() > MOST_TOGETHER {
+        let is_bent = |piece: &Piece| matches!(piece.shape, Shape::Spline(_));
+        let has_curve =
+            self.pieces.last().is_some_and(is_bent) || next.pieces.first().is_some_and(is_bent);
+        if count + next.pieces.len() > MOST_TOGETHER || !has_curve {
             return Some(next);
         }
         self.pieces.append(&mut next.pieces);
-        let apart_t = duration_t(&self.legs) + duration_t(&next.legs);
-        let speeds_v = (self.entry_v, next.exit_v);
-        if let Some(mut legs) = drive_together(&self.pieces, speeds_v, apart_t, limits) {
-            hasten(&mut legs, &self.pieces, limits);
-            (self.legs, self.exit_v) = (legs, next.exit_v);
+        let course = Course::new(&self.pieces);
+        let offset_s = course.starts_s[count];
+        let mut others = next.legs.iter().map(|leg| Leg {
+            from_s: leg.from_s + offset_s,
+            ..*leg
+        });
+        let together = match (self.legs.last(), others.next()) {
+            (Some(before), Some(after)) => drive_together((before, &after), &course, limits),
+            _ => None,
+        };
+        if let Some(mut legs) = together {
+            hasten(&mut legs, &course, limits);
+            self.legs.pop();
+            self.legs.extend(legs);
+            self.legs.extend(others);
             return None;
         }
         next.pieces = self.pieces.split_off(count);

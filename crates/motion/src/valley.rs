@@ -80,24 +80,18 @@ pub(crate) struct ValleyFirst<'a> {
     pub limiting: Limiting,
 }
 
-/// A part of the run, to be driven from one speed to another.
+/// A part of the course, to be driven from one speed to another.
 #[derive(Clone, Copy)]
-struct Span {
-    from_s: f64,
-    to_s: f64,
-    entry_v: f64,
-    exit_v: f64,
+pub(crate) struct Span {
+    pub from_s: f64,
+    pub to_s: f64,
+    pub entry_v: f64,
+    pub exit_v: f64,
 }
 
 impl ValleyFirst<'_> {
-    /// S-curves from one speed to another; `None` if the course is too short for that.
-    pub(crate) fn drive(&self, entry_v: f64, exit_v: f64) -> Option<Vec<Leg>> {
-        let span = Span {
-            from_s: 0.0,
-            to_s: self.course.length_s(),
-            entry_v,
-            exit_v,
-        };
+    /// S-curves along a span; `None` if it is too short for the change of speed.
+    pub(crate) fn drive(&self, span: Span) -> Option<Vec<Leg>> {
         let (Limiting::Weakest(outer) | Limiting::Fixed(outer)) = self.limiting;
         let mut legs = Vec::new();
         self.drive_span(span, outer, &mut legs)?;

@@ -21,10 +21,11 @@ use super::thinning::Chord;
 use super::vector::{add_scaled, between, dot, minus};
 use super::window::{End, Window};
 
-/// A vertex that turns more is a corner, rad: 100°.
-const ALWAYS_CORNER_RAD: f64 = 1.745_329_251_994_33;
-/// One that turns less is not, rad: 15°. Between them it depends on whether a smooth curve fits.
-const NEVER_CORNER_RAD: f64 = 0.261_799_387_799_149;
+/// Turns, in rad, above which a vertex is a corner: in any case, if the path is straight on one side
+/// of it, and if it is on both sides. 100°, 30°, 15°.
+const REVERSAL_RAD: f64 = 1.745_329_251_994_33;
+const SHARP_RAD: f64 = 0.523_598_775_598_299;
+const GENTLE_RAD: f64 = 0.261_799_387_799_149;
 /// Lengths in tolerances: of a chord whose middle is a line if it bends, and if it does not; of the
 /// curves beside such a line; of a line beside a corner; the least spacing of samples.
 const LONG_BENT_R: f64 = 400.0;
@@ -68,9 +69,7 @@ impl<const D: usize> Chords<D> {
     pub(super) fn push(&mut self, next: Chord<D>, change: Option<Change>, out: &mut Output) {
         if let Some((chord, mark)) = self.waiting.take() {
             let turn_rad = turn(&chord, &next);
-            let sagitta_mm = 0.5 * chord.length_t.min(next.length_t) * (0.25 * turn_rad).tan();
-            let is_corner = turn_rad > ALWAYS_CORNER_RAD
-                || (turn_rad > NEVER_CORNER_RAD && sagitta_mm > self.tube.tolerance_mm);
+            let is_corner = self.is_corner(turn_rad, chord.length_t, next.length_t);
             let spacing_t = (!is_corner).then(|| self.spacing(turn_rad, next.length_t));
             self.drive(&chord, mark, spacing_t, turn_rad, out);
         }
@@ -82,6 +81,21 @@ impl<const D: usize> Chords<D> {
         if let Some((chord, mark)) = self.waiting.take() {
             self.drive(&chord, mark, None, 0.0, out);
         }
+    }
+
+    /// Whether a vertex between chords of these lengths is kept as a corner: it turns back, or a curve
+    /// that bends evenly along the shorter chord leaves the tube; or it turns much, and one that
+    /// bends along the longer chord does.
+    fn is_corner(&self, turn_rad: f64, before_t: f64, after_t: f64) -> bool {
+        let sagitta_mm = |length_t: f64| 0.5 * length_t * (0.25 * turn_rad).tan();
+        let least_rad = if sagitta_mm(before_t.min(after_t)) > self.tube.tolerance_mm {
+            GENTLE_RAD
+        } else if sagitta_mm(before_t.max(after_t)) > self.tube.tolerance_mm {
+            SHARP_RAD
+        } else {
+            REVERSAL_RAD
+        };
+        turn_rad > least_rad
     }
 
     /// The spacing of samples beside a vertex, at most 2.5 times that of the samples on its other
