@@ -23,6 +23,7 @@ pub(crate) struct FastEngine {
     settled: VecDeque<Settled>,
     finished: bool,
     limits: Limits,
+    period_t: f64,
     /// An override that is not in the plan yet.
     wanted: Option<Override>,
 }
@@ -32,12 +33,13 @@ impl FastEngine {
     pub(crate) fn new(settings: Settings, start: AxisVector) -> Self {
         Self {
             front: PathFront::new(settings, start),
-            scheduler: Scheduler::new(settings.limits),
+            scheduler: Scheduler::new(settings.limits, settings.period_t),
             sampler: Sampler::new(settings.period_t, start),
             elements: Vec::new(),
             settled: VecDeque::new(),
             finished: false,
             limits: settings.limits,
+            period_t: settings.period_t,
             wanted: None,
         }
     }
@@ -99,7 +101,7 @@ impl FastEngine {
         let Some(entry_v) = self.sampler.steady_v() else {
             return false;
         };
-        let mut scheduler = Scheduler::entered_at(entry_v, self.limits);
+        let mut scheduler = Scheduler::entered_at(entry_v, self.limits, self.period_t);
         let mut settled = VecDeque::new();
         let limits = self.limits;
         let rest_of_stretch = self.sampler.rest_of_stretch().map(Element::Piece);
@@ -111,6 +113,7 @@ impl FastEngine {
         for element in elements {
             let piece = match element {
                 Element::Piece(piece) => piece,
+                Element::Stops { .. } => continue,
                 rest @ Element::Rest(_) => {
                     slowing.over = true;
                     scheduler.push(rest, &mut settled);

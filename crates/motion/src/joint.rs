@@ -138,7 +138,7 @@ pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, settings: &Settings) -> Joint {
 
 /// How far from a corner the chord of one period can pass if the machine rests there between two
 /// setpoints: half a period before or after the rest it is at most J·(T/2)³/6 away.
-pub(crate) fn cut_by_chord_mm(t1: &AxisVector, t2: &AxisVector, settings: &Settings) -> f64 {
+fn cut_by_chord_mm(t1: &AxisVector, t2: &AxisVector, settings: &Settings) -> f64 {
     [t1, t2]
         .map(|tangent| {
             let limit = speed_limit::straight(tangent, f64::INFINITY, &settings.limits);

@@ -43,6 +43,7 @@ pub mod scurve;
 mod settings;
 mod speed_limit;
 mod stop_or_pass;
+mod stops;
 mod tolerance_split;
 mod valley;
 mod window;

@@ -4,7 +4,7 @@
 //! spline continue what comes before them and are put out at once.
 
 use crate::compress::{Change, Compressor, Cut, Part, PartShape, feed_axes};
-use crate::joint::{chord_error_mm, cut_by_chord_mm};
+use crate::joint::chord_error_mm;
 use crate::override_::ProgrammedRate;
 use crate::path::PathFront;
 use crate::pending::{Pending, axes_speed};
@@ -133,10 +133,9 @@ impl PathFront {
             }
             PartShape::Stop => {
                 self.put_pending(out);
+                self.blocks.lose();
                 // The chord of one period must not cut off more than the fit left over.
-                let tangents = [AxisVector::from_element(1.0); 2];
-                let cut_mm = cut_by_chord_mm(&tangents[0], &tangents[1], &self.settings);
-                let is_exact = cut_mm > 0.05 * mode.tolerance_mm(&self.settings);
+                let is_exact = self.stop_cut_mm() > 0.05 * mode.tolerance_mm(&self.settings);
                 let kind = if is_exact {
                     RestKind::ExactStop
                 } else {

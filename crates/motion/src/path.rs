@@ -11,7 +11,8 @@ use crate::parts::DenseRun;
 use crate::pending::{Pending, axes_speed};
 use crate::piece::{Element, Piece, Rest, RestKind, Shape};
 use crate::speed_limit::{self, SpeedRule};
-use crate::{Event, Item, ItemKind, PathMode, PlanError, Rate, Settings};
+use crate::stops::Blocks;
+use crate::{Event, Item, ItemKind, Limits, PathMode, PlanError, Rate, Settings};
 use glidepath_geometry::{AxisVector, Segment};
 
 /// Moves shorter than this are carried into the next one: below the resolution of programs, where
@@ -35,6 +36,8 @@ pub(crate) struct PathFront {
     position: AxisVector,
     /// Where the program is; differs from `position` by moves too short to be made.
     program_position: AxisVector,
+    /// The blocks since the last rest.
+    pub(crate) blocks: Blocks,
     pub(crate) events: Vec<Event>,
     pub(crate) line: u32,
     last_rate: Rate,
@@ -54,6 +57,7 @@ impl PathFront {
             pending: None,
             position: start,
             program_position: start,
+            blocks: Blocks::new(),
             events: Vec::new(),
             line: 0,
             last_rate: Rate::Rapid,
@@ -63,6 +67,7 @@ impl PathFront {
     /// Plans what follows with another override.
     pub(crate) fn set_override(&mut self, wanted: Override) {
         self.wanted = wanted;
+        self.blocks.lose();
         let settings = self.settings;
         if let Some(held) = &mut self.pending {
             let chord_v = chord_speed(&held.segment, held.mode, &settings);
@@ -123,12 +128,20 @@ impl PathFront {
             return Ok(());
         }
         self.position = segment.end();
+        let axes_v = axes_speed(&segment, &self.settings);
+        let programmed = ProgrammedRate { rate, axes_v };
+        if self.blocks.keeps() {
+            let rule = self.rule(&segment, programmed, mode);
+            let shape = Shape::Segment(segment);
+            let mut piece = self.piece(shape, (0.0, length_s), rule, line);
+            piece.events.clone_from(&self.events);
+            self.blocks.push(piece);
+        }
         if self.compress((&segment, line), rate, mode, out) {
             return Ok(());
         }
         self.end_run(out);
-        let axes_v = axes_speed(&segment, &self.settings);
-        let rate = ProgrammedRate { rate, axes_v };
+        let rate = programmed;
         let mut next = Pending {
             segment,
             length_s,
@@ -152,7 +165,7 @@ impl PathFront {
     }
 
     /// Decides the joint between two segments and puts out all of the first.
-    pub(crate) fn join(&self, before: Pending, next: &mut Pending, out: &mut Vec<Element>) {
+    pub(crate) fn join(&mut self, before: Pending, next: &mut Pending, out: &mut Vec<Element>) {
         let joint = join(before.ending(), next.starting(), &self.settings);
         let (line, rates) = (before.last_line(), [before.rate, next.rate]);
         match joint {
@@ -164,6 +177,7 @@ impl PathFront {
                 } else {
                     RestKind::Corner
                 };
+                self.put_stops(&next.segment.start(), out);
                 out.push(Element::Rest(Rest { kind, line }));
             }
             Joint::Blend {
@@ -200,21 +214,42 @@ impl PathFront {
         if length_s <= 1e-12 * pending.length_s {
             return;
         }
-        let rule = match &pending.segment {
-            Segment::Line(_) => SpeedRule::Straight {
-                d1: pending.segment.jet(0.0).d1,
-                rate: pending.rate,
-            },
-            Segment::Arc(arc) => SpeedRule::Arc {
-                arc: *arc,
-                rate: pending.rate,
-                chord_v: chord_speed(&pending.segment, pending.mode, &self.settings),
-            },
-        };
+        let rule = self.rule(&pending.segment, pending.rate, pending.mode);
         let shape = Shape::Segment(pending.segment);
         let mut piece = self.piece(shape, (pending.trimmed_s, length_s), rule, pending.line);
         (piece.events, piece.lines) = (pending.events, pending.lines);
         out.push(Element::Piece(piece));
+    }
+
+    /// What limits the speed on a segment.
+    fn rule(&self, segment: &Segment, rate: ProgrammedRate, mode: PathMode) -> SpeedRule {
+        match segment {
+            Segment::Line(_) => SpeedRule::Straight {
+                d1: segment.jet(0.0).d1,
+                rate,
+            },
+            Segment::Arc(arc) => SpeedRule::Arc {
+                arc: *arc,
+                rate,
+                chord_v: chord_speed(segment, mode, &self.settings),
+            },
+        }
+    }
+
+    /// Tells of the other way to drive up to a rest where a block ends.
+    fn put_stops(&mut self, rest: &AxisVector, out: &mut Vec<Element>) {
+        if let Some(pieces) = self.blocks.take(rest) {
+            let exact = self.stop_cut_mm() > 0.05 * self.settings.tolerance_mm;
+            out.push(Element::Stops { pieces, exact });
+        }
+    }
+
+    /// How much the chord of one period can cut off at a stop between two setpoints, at most, mm.
+    pub(crate) fn stop_cut_mm(&self) -> f64 {
+        let jerk_j = self.settings.limits.jerk;
+        let limited = jerk_j.iter().filter(|j| **j < Limits::UNLIMITED);
+        let greatest_j = limited.fold(0.0_f64, |a, b| a.max(*b));
+        greatest_j * self.settings.period_t.powi(3) / 48.0
     }
 
     /// A piece of a shape: where in the shape it starts, and how long it is.
@@ -243,6 +278,8 @@ impl PathFront {
     fn rest(&mut self, kind: RestKind, line: u32, out: &mut Vec<Element>) {
         self.end_run(out);
         self.put_pending(out);
+        let position = self.position;
+        self.put_stops(&position, out);
         self.put_remainder(out);
         for event in core::mem::take(&mut self.events) {
             out.push(Element::Rest(Rest {
@@ -251,6 +288,7 @@ impl PathFront {
             }));
         }
         out.push(Element::Rest(Rest { kind, line }));
+        self.blocks.restart();
     }
 
     /// Makes up for moves that were too short to be made by themselves.

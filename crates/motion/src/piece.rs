@@ -123,5 +123,11 @@ pub(crate) struct Rest {
 #[allow(clippy::large_enum_variant, reason = "nearly every element is a piece")]
 pub(crate) enum Element {
     Piece(Piece),
+    /// The stretch that the next rest ends can also be driven like this, at rest after each piece.
+    Stops {
+        pieces: Vec<Piece>,
+        /// Whether each rest needs a setpoint exactly there.
+        exact: bool,
+    },
     Rest(Rest),
 }

@@ -14,9 +14,10 @@
 
 use crate::Limits;
 use crate::haste::{drive_together, hasten};
-use crate::piece::{Element, Piece, Rest, Shape};
+use crate::piece::{Element, Piece, Rest, RestKind, Shape};
 use crate::run::Run;
 use crate::scurve::{PathLimits, slowing_horizon};
+use crate::stops::drive_each;
 use crate::valley::{Course, Leg};
 use std::collections::VecDeque;
 
@@ -30,6 +31,14 @@ pub(crate) enum Settled {
 }
 
 impl Settled {
+    /// How long the motion takes, s.
+    fn duration_t(&self) -> f64 {
+        match self {
+            Self::Motion { legs, .. } => legs.iter().map(|leg| leg.profile.duration_t()).sum(),
+            Self::Rest(_) => 0.0,
+        }
+    }
+
     /// What it was made of.
     pub(crate) fn elements(&self) -> Vec<Element> {
         match self {
@@ -65,6 +74,11 @@ pub(crate) struct Scheduler {
     /// The speed at the start leaves no way to slow down in time.
     infeasible: bool,
     limits: Limits,
+    period_t: f64,
+    /// The other way to drive the stretch at hand, and whether its stops need a setpoint.
+    stops: Option<(Vec<Piece>, bool)>,
+    /// Nothing of the stretch at hand is settled.
+    is_whole: bool,
 }
 
 /// Runs that are driven together, and how.
@@ -133,9 +147,12 @@ const NO_LIMITS: PathLimits = PathLimits {
 };
 
 impl Scheduler {
-    pub(crate) const fn new(limits: Limits) -> Self {
+    pub(crate) const fn new(limits: Limits, period_t: f64) -> Self {
         Self {
             limits,
+            period_t,
+            stops: None,
+            is_whole: true,
             open: None,
             waiting: VecDeque::new(),
             waiting_s: 0.0,
@@ -149,10 +166,11 @@ impl Scheduler {
     }
 
     /// A scheduler for path that is entered at a speed, with zero acceleration along it.
-    pub(crate) fn entered_at(entry_v: f64, limits: Limits) -> Self {
+    pub(crate) fn entered_at(entry_v: f64, limits: Limits, period_t: f64) -> Self {
         Self {
             entry_v,
-            ..Self::new(limits)
+            is_whole: false,
+            ..Self::new(limits, period_t)
         }
     }
 
@@ -199,9 +217,14 @@ impl Scheduler {
                     self.settle_front(out);
                 }
             }
+            Element::Stops { pieces, exact } => self.stops = Some((pieces, exact)),
             Element::Rest(rest) => {
                 self.close_run();
-                self.settle(self.waiting.len(), out);
+                match self.stops.take().filter(|_| self.is_whole) {
+                    Some((pieces, exact)) => self.settle_stretch(pieces, exact, out),
+                    None => self.settle(self.waiting.len(), out),
+                }
+                self.is_whole = true;
                 self.fastest_v = 0.0;
                 self.weakest = NO_LIMITS;
                 self.entry_v = 0.0;
@@ -241,10 +264,46 @@ impl Scheduler {
         }
     }
 
+    /// Settles a whole stretch between two rests: as planned, or at rest after each piece, whichever
+    /// is faster.
+    fn settle_stretch(&mut self, pieces: Vec<Piece>, exact: bool, out: &mut VecDeque<Settled>) {
+        let mut planned = VecDeque::new();
+        self.settle(self.waiting.len(), &mut planned);
+        let passing_t: f64 = planned.iter().map(Settled::duration_t).sum();
+        let stopping = drive_each(&pieces).filter(|legs| {
+            let waits_t = if exact {
+                self.period_t * legs.len() as f64
+            } else {
+                0.0
+            };
+            let driving_t: f64 = legs.iter().map(|leg| leg.profile.duration_t()).sum();
+            driving_t + waits_t < passing_t
+        });
+        let Some(legs) = stopping else {
+            out.append(&mut planned);
+            return;
+        };
+        let kind = if exact {
+            RestKind::ExactStop
+        } else {
+            RestKind::Corner
+        };
+        let last = legs.len() - 1;
+        for (i, (piece, leg)) in pieces.into_iter().zip(legs).enumerate() {
+            let line = piece.line;
+            let (pieces, legs) = (vec![piece], vec![leg]);
+            out.push_back(Settled::Motion { pieces, legs });
+            if i < last {
+                out.push_back(Settled::Rest(Rest { kind, line }));
+            }
+        }
+    }
+
     fn settle(&mut self, count: usize, out: &mut VecDeque<Settled>) {
         if count == 0 {
             return;
         }
+        self.is_whole = false;
         let planned_v = self.forward_pass(&self.backward_pass());
         let mut group: Option<Group> = None;
         for &exit_v in planned_v.iter().take(count) {

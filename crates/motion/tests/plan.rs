@@ -417,7 +417,7 @@ proptest! {
     #![proptest_config(cases(300))]
 
     #[test]
-    fn no_plan_is_much_slower_than_stopping_at_every_corner(
+    fn no_plan_is_slower_than_stopping_at_every_corner(
         steps in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64, -1.5..1.3_f64), 2..40),
         jerk_log in 4.3..6.0_f64,
     ) {
@@ -435,9 +435,8 @@ proptest! {
         let stopping = Settings { smoothing: Smoothing::ExactStop, ..settings };
         let (smooth_t, stop_t) =
             (time_t(&plan(&items, settings, 1)), time_t(&plan(&items, stopping, 1)));
-        // Whether to stop is decided corner by corner, from the two segments beside it; over a whole
-        // path that can cost a few percent where a chain of stops would have been best.
-        prop_assert!(smooth_t <= 1.1 * stop_t + 1.0, "{smooth_t} ticks against {stop_t}");
+        // Stretches of so few blocks are planned both ways. A rest falls between two ticks.
+        prop_assert!(smooth_t <= stop_t + 1.0, "{smooth_t} ticks against {stop_t}");
     }
 }
 

@@ -24,8 +24,8 @@ use super::window::{End, Window};
 /// Turns, in rad, above which a vertex is a corner: in any case, if the path is straight on one side
 /// of it, and if it is on both sides. 100°, 30°, 15°.
 const REVERSAL_RAD: f64 = 1.745_329_251_994_33;
-const SHARP_RAD: f64 = 0.523_598_775_598_299;
-const GENTLE_RAD: f64 = 0.261_799_387_799_149;
+const SHARP_RAD: f64 = core::f64::consts::FRAC_PI_6;
+const GENTLE_RAD: f64 = core::f64::consts::FRAC_PI_6 / 2.0;
 /// Lengths in tolerances: of a chord whose middle is a line if it bends, and if it does not; of the
 /// curves beside such a line; of a line beside a corner; the least spacing of samples.
 const LONG_BENT_R: f64 = 400.0;

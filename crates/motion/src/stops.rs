@@ -1,0 +1,87 @@
+//! The other way to drive a stretch between two rests: exactly along the program, with a stop at the
+//! end of every block.
+//!
+//! Curves and transitions nearly always win, and by far. But on a path that turns sharply at nearly
+//! every short block, stopping can be faster: the limits of jerk let a machine turn around in no
+//! length at all. Whether it is cannot be told corner by corner. So for stretches of few blocks both
+//! ways are planned, and the faster is taken; of longer ones, the blocks are not kept.
+
+use crate::piece::{Piece, Shape};
+use crate::scurve::Profile;
+use crate::valley::Leg;
+use glidepath_geometry::{AxisVector, Segment};
+use std::collections::VecDeque;
+
+/// Most blocks of a stretch that is planned both ways.
+const MOST_BLOCKS: usize = 64;
+
+/// The blocks since the last rest, as pieces.
+#[derive(Debug, Default)]
+pub(crate) struct Blocks {
+    pieces: VecDeque<Piece>,
+    /// Some were not kept.
+    is_lost: bool,
+}
+
+impl Blocks {
+    pub(crate) const fn new() -> Self {
+        Self {
+            pieces: VecDeque::new(),
+            is_lost: false,
+        }
+    }
+
+    /// True if the next block would be kept.
+    pub(crate) fn keeps(&mut self) -> bool {
+        if self.pieces.len() >= MOST_BLOCKS {
+            self.lose();
+        }
+        !self.is_lost
+    }
+
+    pub(crate) fn push(&mut self, piece: Piece) {
+        self.pieces.push_back(piece);
+    }
+
+    /// Forgets what was kept, and keeps nothing up to the next rest behind which nothing waits.
+    pub(crate) fn lose(&mut self) {
+        self.pieces.clear();
+        self.is_lost = true;
+    }
+
+    /// The machine rests, and no block is kept elsewhere.
+    pub(crate) fn restart(&mut self) {
+        self.pieces.clear();
+        self.is_lost = false;
+    }
+
+    /// The blocks up to a rest where one of them ends, if there are several.
+    pub(crate) fn take(&mut self, rest: &AxisVector) -> Option<Vec<Piece>> {
+        let last = self.pieces.iter().position(|piece| ends_at(piece, rest));
+        let Some(last) = last else {
+            self.lose();
+            return None;
+        };
+        let taken: Vec<Piece> = self.pieces.drain(..=last).collect();
+        (taken.len() > 1).then_some(taken)
+    }
+}
+
+fn ends_at(piece: &Piece, point: &AxisVector) -> bool {
+    match &piece.shape {
+        Shape::Segment(Segment::Line(line)) => line.end == *point,
+        Shape::Segment(Segment::Arc(arc)) => arc.end == *point,
+        Shape::Transition(_) | Shape::Spline(_) => false,
+    }
+}
+
+/// S-curves from rest to rest along each of some pieces; `None` if there is none for one of them.
+pub(crate) fn drive_each(pieces: &[Piece]) -> Option<Vec<Leg>> {
+    let leg = |piece: &Piece| {
+        let limit = &piece.limit;
+        let profile = Profile::new(0.0, 0.0, piece.length_s, limit.top_v, limit.change)?;
+        let from_s = 0.0;
+        Some(Leg { from_s, profile })
+    };
+    pieces.iter().map(leg).collect()
+}
