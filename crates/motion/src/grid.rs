@@ -178,11 +178,6 @@ impl FrameGrid {
         Some(self.frame(&at_rest, flags, event))
     }
 
-    /// The motion is on another line of the same part.
-    pub(crate) const fn pass(&mut self, line: u32) {
-        self.passing.line = line;
-    }
-
     /// The next frame of a motion.
     pub(crate) fn motion_frame(&mut self, moving: &Moving) -> Frame {
         let flags = if self.passing.rapid {

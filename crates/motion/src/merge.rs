@@ -1,9 +1,8 @@
 //! Merging of dense chords: programs made by CAM follow a curve with many more lines than its
 //! tolerance asks for.
 //!
-//! Corner by corner, a curve of chords of length h is driven at a speed that falls with the cube
-//! root of h, because each transition can be no longer than its chords. So lines that follow each
-//! other are drawn together into one as long as it stays within a share of the tolerance:
+//! Lines that follow each other are drawn together into one as long as it stays within a share of
+//! the tolerance:
 //!
 //! ```text
 //!        q1   q2   q3
@@ -20,9 +19,6 @@ use crate::joint::tolerance_norm;
 use core::ops::Range;
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 
-/// Share of the tolerance that merging may use. On a circle the best is 0.62; less leaves more to
-/// the corners that end a merged stretch.
-pub(crate) const MERGE_SHARE_R: f64 = 0.5;
 /// Most vertices dropped from one line.
 const MOST_DROPPED: usize = 64;
 

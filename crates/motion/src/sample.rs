@@ -184,7 +184,11 @@ impl Sampler {
         let piece = stretch.pieces.get(stretch.piece)?;
         let jet = piece.jet(s - stretch.piece_s);
         let (v, a) = (state.speed_v, state.accel_a);
-        self.grid.pass(piece.line_at(s - stretch.piece_s));
+        self.grid.pass(Passing {
+            line: piece.line_at(s - stretch.piece_s),
+            rapid: piece.rapid,
+            planned_override: piece.planned_override(),
+        });
         Some(self.grid.motion_frame(&Moving {
             path_v: v,
             path_s: self.path_s + (s - stretch.piece_s),
