@@ -1,5 +1,9 @@
 //! The command line.
 
+mod operator;
+
+pub use operator::{OperatorArgs, OverrideArgs, SingleBlockArgs, Switch};
+
 use crate::config::{INSTANCE_RULE, is_instance_name};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -239,51 +243,6 @@ pub struct FeedArgs {
     pub instance: InstanceArgs,
 }
 
-/// Arguments of the commands that talk to a running interpolator.
-#[derive(Debug, Args)]
-pub struct OperatorArgs {
-    /// Configuration and form of the report.
-    #[command(flatten)]
-    pub basic: BasicArgs,
-    /// Which shared memory.
-    #[command(flatten)]
-    pub instance: InstanceArgs,
-}
-
-/// Arguments of `override`.
-#[derive(Debug, Args)]
-#[group(id = "factor", required = true, multiple = true)]
-pub struct OverrideArgs {
-    /// Percent of the programmed feedrate, 0 to 200
-    #[arg(value_parser = percent, group = "factor")]
-    pub percent: Option<f64>,
-    /// Percent of the speed of rapids, 0 to 100
-    #[arg(long, value_name = "PERCENT", value_parser = rapid_percent, group = "factor")]
-    pub rapid: Option<f64>,
-    /// Which interpolator.
-    #[command(flatten)]
-    pub operator: OperatorArgs,
-}
-
-/// On or off.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Switch {
-    /// On.
-    On,
-    /// Off.
-    Off,
-}
-
-/// Arguments of `single-block`.
-#[derive(Debug, Args)]
-pub struct SingleBlockArgs {
-    /// Whether to rest at the end of every block
-    pub switch: Switch,
-    /// Which interpolator.
-    #[command(flatten)]
-    pub operator: OperatorArgs,
-}
-
 /// How `preview` reads a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum PreviewMethod {
@@ -378,19 +337,6 @@ fn positive(text: &str) -> Result<f64, &'static str> {
         .ok()
         .filter(|number: &f64| *number > 0.0 && number.is_finite())
         .ok_or("give a number greater than zero")
-}
-
-fn percent(text: &str) -> Result<f64, &'static str> {
-    percent_to(200.0, text).ok_or("give a number from 0 to 200")
-}
-
-fn rapid_percent(text: &str) -> Result<f64, &'static str> {
-    percent_to(100.0, text).ok_or("give a number from 0 to 100")
-}
-
-fn percent_to(most: f64, text: &str) -> Option<f64> {
-    let percent = text.parse().ok()?;
-    (0.0..=most).contains(&percent).then_some(percent)
 }
 
 impl Command {

@@ -106,10 +106,21 @@ pub(super) enum Situation {
     Hold,
     /// The operator has just changed the feed override.
     Override,
+    /// The operator has just asked for a stop at the end of the block.
+    BlockEnd,
+    /// The operator has just switched to single block.
+    SingleBlock,
 }
 
 impl Situation {
-    pub(super) const ALL: [Self; 4] = [Self::FullSpeed, Self::Corner, Self::Hold, Self::Override];
+    pub(super) const ALL: [Self; 6] = [
+        Self::FullSpeed,
+        Self::Corner,
+        Self::Hold,
+        Self::Override,
+        Self::BlockEnd,
+        Self::SingleBlock,
+    ];
 }
 
 /// One case, with everything about it that chance decides.

@@ -165,6 +165,8 @@ fn approach(
     match case.situation {
         Situation::FullSpeed | Situation::Corner => return Ok(largest),
         Situation::Hold => bench.command(Command::Hold)?,
+        Situation::BlockEnd => bench.command(Command::StopAtEndOfBlock)?,
+        Situation::SingleBlock => bench.command(Command::SingleBlock(true))?,
         Situation::Override => {
             let ratio = [0.3, 0.5, 0.8, 1.2, 1.5][case.chance.below(5)];
             largest = f64::max(ratio, 1.0);
@@ -209,17 +211,17 @@ fn inject(bench: &mut Bench<'_>, player: &mut Player, case: &mut Case) -> Checke
 
 /// Follows the machine until the program is over or has failed, resuming where an operator would.
 fn follow(bench: &mut Bench<'_>, player: &mut Player, case: &mut Case) -> Checked<MachineState> {
-    use MachineState::{Faulted, Held, Idle, ProgramStop, Starved};
+    use MachineState::{Faulted, Held, Idle, ProgramStop, Starved, Waiting};
     loop {
         bench.expect_news();
-        let wanted = [Faulted, Held, Idle, ProgramStop, Starved];
+        let wanted = [Faulted, Held, Idle, ProgramStop, Starved, Waiting];
         player.until(bench, "rest", |heard| heard.is_any_of(&wanted))?;
         let is = |state| bench.look(|heard| heard.is(state));
         if is(Faulted) {
             return Ok(Faulted);
         } else if is(Idle) {
             return Ok(Idle);
-        } else if is(Starved) {
+        } else if is(Starved) || is(Waiting) {
             if let Player::Pipe(planner, rest) = player {
                 // Longer than a machine waits for a planner that is silent, or not.
                 let pause = [300, 2600][case.chance.below(2)];
@@ -231,7 +233,8 @@ fn follow(bench: &mut Bench<'_>, player: &mut Player, case: &mut Case) -> Checke
                 planner.close();
                 *rest = "";
             }
-            player.until(bench, "the end of the wait", |heard| !heard.is(Starved))?;
+            let waits = |heard: &Heard| heard.is_any_of(&[Starved, Waiting]);
+            player.until(bench, "the end of the wait", |heard| !waits(heard))?;
         } else {
             player.go_on(bench, case.chance.millis(0, 100))?;
             resume(bench)?;
@@ -311,6 +314,7 @@ fn recover(bench: &mut Bench<'_>, programs: &Programs) -> Checked<Verdict> {
         bench.until_state(MachineState::Idle)?;
     }
     bench.command(Command::FeedOverride(1.0))?;
+    bench.command(Command::SingleBlock(false))?;
     let output = bench.planner(&[&programs.home]).wait();
     if output.status.code() != Some(0) {
         return Err(format!("no recovery: {}", output.stderr));
