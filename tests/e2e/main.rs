@@ -12,3 +12,4 @@ mod programs;
 mod resume;
 mod run;
 mod services;
+mod subscribers;

@@ -17,4 +17,5 @@ pub mod progress;
 pub mod recording;
 pub mod report;
 pub mod sample;
+pub mod service_manager;
 pub mod setpoints;

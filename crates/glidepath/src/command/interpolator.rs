@@ -8,6 +8,8 @@ use crate::failure::Failure;
 use crate::interrupt::{Interrupt, end_with};
 use crate::output;
 use crate::report::{status_object, status_text};
+use crate::service_manager::ServiceManager;
+use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_interpolator::{Config, RealTime, SoftLimits};
 use glidepath_link::{Ipc, Transport};
 use glidepath_realtime::{Mode, Request};
@@ -33,13 +35,41 @@ pub(super) fn interpolator(
         }
     };
     let settings = settings(config, args.best_effort);
-    let status = glidepath_interpolator::run(&settings, transport, interrupt.flag(), &mut log)?;
+    let over = AtomicBool::new(false);
+    let status = std::thread::scope(|scope| {
+        // Also if this thread panics: the scope waits for the other.
+        let _end = SetOnDrop(&over);
+        if let Some(manager) = service_manager() {
+            let (link, over) = (&link, &over);
+            scope.spawn(move || {
+                if let Err(error) = manager.watch(link, over) {
+                    output::note(&format!("the service manager is not told: {error}"));
+                }
+            });
+        }
+        glidepath_interpolator::run(&settings, transport, interrupt.flag(), &mut log)
+    })?;
     if args.basic.json {
         output::object(&status_object(&instance, &status));
     } else {
         output::result(&status_text(&instance, &status));
     }
     Ok(interrupt.exit())
+}
+
+fn service_manager() -> Option<ServiceManager> {
+    ServiceManager::from_environment().unwrap_or_else(|error| {
+        output::note(&format!("cannot reach the service manager: {error}"));
+        None
+    })
+}
+
+struct SetOnDrop<'a>(&'a AtomicBool);
+
+impl Drop for SetOnDrop<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
 }
 
 /// What the process is started with.

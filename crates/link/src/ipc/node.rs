@@ -14,6 +14,8 @@ use iceoryx2::service::builder::publish_subscribe::PublishSubscribeOpenOrCreateE
 use iceoryx2::service::builder::request_response::RequestResponseOpenOrCreateError as ExchangeError;
 use iceoryx2::service::port_factory::{publish_subscribe, request_response};
 use std::fs::File;
+use std::fs::Permissions;
+use std::os::unix::fs::PermissionsExt as _;
 use std::time::Instant;
 
 pub(super) type TopicService<R> = publish_subscribe::PortFactory<ipc::Service, R, ()>;
@@ -73,6 +75,7 @@ impl Session {
             action: "joining it",
             detail: error.into(),
         })?;
+        keep_private(&config.prefix());
         Ok(Self {
             node,
             searched: Cell::new(None),
@@ -177,6 +180,23 @@ pub(super) struct TopicSettings {
     pub(super) history: usize,
     /// Most subscribers.
     pub(super) subscribers: usize,
+}
+
+/// Of all it makes, iceoryx2 lets everybody write one file: the bookkeeping that the processes of an
+/// instance share. Only their owner is to have a say in it.
+fn keep_private(prefix: &str) {
+    let files = std::fs::read_dir("/dev/shm")
+        .into_iter()
+        .flatten()
+        .flatten();
+    for file in files {
+        let name = file.file_name();
+        let name = name.to_string_lossy();
+        if name.starts_with(prefix) && name.ends_with(".global_mgmt") {
+            // Gone, or private already because somebody else of this instance did it.
+            let _ = std::fs::set_permissions(file.path(), Permissions::from_mode(0o600));
+        }
+    }
 }
 
 fn service_name(service: &'static str) -> Result<ServiceName, LinkError> {
