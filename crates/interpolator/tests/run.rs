@@ -312,11 +312,33 @@ fn the_real_time_thread_makes_no_system_call() {
         peer.until(&mut feed, "motion", |s| s.frames_executed > 100);
         peer.command(Command::Hold).unwrap();
         peer.until(&mut feed, "held", is(MachineState::Held));
+        peer.command(Command::FeedOverride(0.6)).unwrap();
         peer.command(Command::Resume).unwrap();
+        peer.until(&mut feed, "slow motion", |s| {
+            (s.effective_override - 0.6).abs() < 1e-9
+        });
+        peer.command(Command::FeedOverride(1.0)).unwrap();
         peer.until(&mut feed, "starved", is(MachineState::Starved));
         peer.until(&mut rest, "motion again", |s| s.frames_executed > 1_500);
+        peer.command(Command::StopAtEndOfBlock).unwrap();
+        peer.until(&mut rest, "block end", is(MachineState::ProgramStop));
+        peer.command(Command::SingleBlock(true)).unwrap();
+        peer.command(Command::Step).unwrap();
+        peer.until(&mut rest, "step", is(MachineState::Running));
+        peer.until(&mut rest, "next end", is(MachineState::ProgramStop));
+        peer.command(Command::SingleBlock(false)).unwrap();
+        peer.command(Command::Resume).unwrap();
         rest[0].position[0] += 1.0;
         peer.until(&mut rest, "faulted", is(MachineState::Faulted));
+        peer.command(Command::Reset).unwrap();
+        peer.until(&mut Vec::new(), "idle", is(MachineState::Idle));
+        let here = AxisVector::from(peer.last.unwrap().position);
+        let mut again = trajectory(7, 900, 2, here);
+        peer.until(&mut again, "second epoch", |s| {
+            s.epoch == 2 && s.frames_executed > 100
+        });
+        peer.command(Command::Abort).unwrap();
+        peer.until(&mut again, "aborted", has_ended(2, EndOfEpoch::Aborted));
         assert!(peer.last.unwrap().ticks > 1_000);
         // The guarded thread sleeps on, so `run` would not return.
         std::process::exit(42);

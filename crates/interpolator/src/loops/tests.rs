@@ -1,31 +1,101 @@
-//! The real loop of the real-time thread does not allocate.
-#![allow(clippy::unwrap_used, reason = "a test")]
+//! The real loop of the real-time thread does not allocate, whatever it is told.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
 
 use super::*;
-use crate::message::Order;
+use crate::message::{Fault, Order, PortsEnds};
 use crate::testing::{Rig, lines, mill, records};
-use glidepath_link::MachineState;
+use glidepath_link::{MachineState, SetpointFrame};
 use glidepath_realtime::{CountingAllocator, Monotonic};
+use std::collections::VecDeque;
 
-const TICKS: u64 = 12_000;
+/// Ticks a state may take to be reached: several times the longest move.
+const PATIENCE: u64 = 20_000;
 
-#[test]
-fn the_loop_never_allocates() {
+#[derive(Debug, Clone, Copy)]
+enum Step {
+    Order(Order),
+    /// Waits for a state.
+    Until(MachineState),
+    /// Waits some ticks.
+    Ticks(u64),
+    /// Frames come, or stay away.
+    Frames(bool),
+}
+
+/// What the ports thread does in the test.
+struct Script {
+    ends: PortsEnds<'static>,
+    feed: VecDeque<SetpointFrame>,
+    flows: bool,
+    number: u64,
+    state: MachineState,
+}
+
+impl Script {
+    fn play(&mut self, steps: &[Step]) {
+        for step in steps {
+            let began = self.number;
+            match *step {
+                Step::Order(order) => self.ends.orders.enqueue(order).unwrap(),
+                Step::Frames(flows) => self.flows = flows,
+                Step::Ticks(ticks) => {
+                    while self.number < began + ticks {
+                        self.turn();
+                    }
+                }
+                Step::Until(state) => {
+                    while self.state != state {
+                        self.turn();
+                        let waited = self.number - began;
+                        assert!(waited < PATIENCE, "{:?}, not {step:?}", self.state);
+                    }
+                }
+            }
+        }
+    }
+
+    fn turn(&mut self) {
+        while let Some(report) = self.ends.reports.dequeue() {
+            (self.number, self.state) = (report.setpoint.number, report.state);
+        }
+        while self.flows && self.ends.frames.ready() {
+            let Some(frame) = self.feed.pop_front() else {
+                break;
+            };
+            self.ends.frames.enqueue(frame).unwrap();
+        }
+        std::thread::yield_now();
+    }
+}
+
+/// Runs the loop while a script is played; returns the calls of the allocator.
+fn allocations(steps: &[Step]) -> u64 {
     let Rig {
         mut interpolator,
         mut inputs,
         mut reports,
-        mut ends,
-        mut feed,
+        ends,
         ..
-    } = Rig::mill();
-    feed.extend(records(&lines(3, 3, 4_000, &mill(), 0.004), 1, 4_000_000));
+    } = Rig::new(Config {
+        // A busy host may not run this thread for longer.
+        planner_lost_after: None,
+        ..Config::new(mill(), 4_000_000)
+    });
+    let feed = records(&lines(3, 3, 12_000, &mill(), 0.004), 1, 4_000_000);
+    let mut script = Script {
+        ends,
+        feed: feed.into(),
+        flows: true,
+        number: 0,
+        state: MachineState::Idle,
+    };
     let stop = AtomicBool::new(false);
-    let calls = std::thread::scope(|scope| {
+    std::thread::scope(|scope| {
         let stop = &stop;
         let thread = scope.spawn(move || {
             // Program time does not care how fast the clock runs.
-            let mut timer = DeadlineTimer::new(Monotonic, Monotonic.now_ns(), 50_000);
+            let mut timer =
+                DeadlineTimer::new(Monotonic, Monotonic.now_ns(), 50_000).with_lead(5_000);
             let before = CountingAllocator::calls_of_this_thread();
             real_time(
                 &mut interpolator,
@@ -36,46 +106,62 @@ fn the_loop_never_allocates() {
             );
             CountingAllocator::calls_of_this_thread() - before
         });
-        // Start, motion, hold, resume, override, starvation, motion again, abort.
-        let orders = [
-            (2_000, Order::Hold),
-            (2_400, Order::Resume),
-            (3_000, Order::FeedOverride(0.3)),
-            (3_500, Order::FeedOverride(1.0)),
-            (10_000, Order::Abort),
-        ];
-        let mut orders = orders.into_iter().peekable();
-        let mut states = Vec::new();
-        let mut number = 0;
-        while number < TICKS {
-            while let Some(report) = ends.reports.dequeue() {
-                number = report.setpoint.number;
-                if states.last() != Some(&report.state) {
-                    states.push(report.state);
-                }
-            }
-            if let Some((_, order)) = orders.next_if(|(due, _)| number >= *due) {
-                ends.orders.enqueue(order).unwrap();
-            }
-            let starves = (5_000..6_000).contains(&number);
-            while !starves && ends.frames.ready() {
-                let Some(frame) = feed.pop_front() else { break };
-                ends.frames.enqueue(frame).unwrap();
-            }
-            std::thread::yield_now();
-        }
+        // Also if the script panics: the scope waits for the thread.
+        let played = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| script.play(steps)));
         stop.store(true, Ordering::Relaxed);
-        for state in [
-            MachineState::Running,
-            MachineState::Held,
-            MachineState::Starved,
-        ] {
-            assert!(
-                states.contains(&state),
-                "{state:?} was not reached: {states:?}"
-            );
+        let calls = thread.join().unwrap();
+        if let Err(panic) = played {
+            std::panic::resume_unwind(panic);
         }
-        thread.join().unwrap()
-    });
-    assert_eq!(calls, 0);
+        calls
+    })
+}
+
+#[test]
+fn hold_resume_override_starvation_and_abort_do_not_allocate() {
+    use MachineState::{Held, Idle, Running, Starved};
+    let steps = [
+        Step::Until(Running),
+        Step::Order(Order::Hold),
+        Step::Until(Held),
+        Step::Order(Order::Resume),
+        Step::Until(Running),
+        Step::Order(Order::FeedOverride(0.3)),
+        Step::Ticks(300),
+        Step::Order(Order::RapidOverride(0.5)),
+        Step::Order(Order::FeedOverride(1.0)),
+        Step::Ticks(300),
+        Step::Frames(false),
+        Step::Until(Starved),
+        Step::Frames(true),
+        Step::Until(Running),
+        Step::Order(Order::Abort),
+        Step::Until(Idle),
+    ];
+    assert_eq!(allocations(&steps), 0);
+}
+
+#[test]
+fn steps_faults_and_reset_do_not_allocate() {
+    use MachineState::{Faulted, Idle, ProgramStop, Running};
+    let steps = [
+        Step::Until(Running),
+        Step::Order(Order::SingleBlock(true)),
+        Step::Until(ProgramStop),
+        Step::Order(Order::Step),
+        Step::Until(Running),
+        Step::Until(ProgramStop),
+        Step::Order(Order::SingleBlock(false)),
+        Step::Order(Order::Resume),
+        Step::Until(Running),
+        Step::Order(Order::StopAtEndOfBlock),
+        Step::Until(ProgramStop),
+        Step::Order(Order::Resume),
+        Step::Until(Running),
+        Step::Order(Order::Fault(Fault::new(FaultCause::Ports, 0, 0))),
+        Step::Until(Faulted),
+        Step::Order(Order::Reset),
+        Step::Until(Idle),
+    ];
+    assert_eq!(allocations(&steps), 0);
 }
