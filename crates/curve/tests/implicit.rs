@@ -270,7 +270,7 @@ fn proven_errors_hold() {
         let start = Vector3::new(15.0, 0.0, 20.0);
         let start = glidepath_curve::implicit::onto_curve(&curve, &start, 30.0).unwrap();
         let mut chords =
-            ImplicitChords::new(&curve, &start, &Vector3::y(), End::Closed, rule).unwrap();
+            ImplicitChords::new(curve.clone(), &start, &Vector3::y(), End::Closed, rule).unwrap();
         let (mut from, mut sharp, mut count) = (start, 0.0, 0);
         while let Some(chord) = chords.next_chord().unwrap() {
             assert!(chord.is_proven && chord.error_mm <= rule.error_mm);
@@ -295,7 +295,8 @@ fn ends() {
         error_mm: 1e-2,
     };
     let walk = |end| {
-        let mut chords = ImplicitChords::new(&circle, &start, &Vector3::y(), end, rule).unwrap();
+        let mut chords =
+            ImplicitChords::new(circle.clone(), &start, &Vector3::y(), end, rule).unwrap();
         let mut points = Vec::new();
         while let Some(chord) = chords.next_chord().unwrap() {
             points.push(chord.point);
@@ -311,11 +312,18 @@ fn ends() {
     let angle = length.last().unwrap().y.atan2(length.last().unwrap().x);
     assert!((20.0 * angle - 10.0).abs() < 1e-6, "{}", 20.0 * angle);
     assert!(matches!(
-        ImplicitChords::new(&circle, &(start * 1.1), &Vector3::y(), End::Closed, rule).map(|_| ()),
+        ImplicitChords::new(
+            circle.clone(),
+            &(start * 1.1),
+            &Vector3::y(),
+            End::Closed,
+            rule
+        )
+        .map(|_| ()),
         Err(CurveError::Lost { .. })
     ));
     assert!(matches!(
-        ImplicitChords::new(&circle, &start, &Vector3::x(), End::Closed, rule).map(|_| ()),
+        ImplicitChords::new(circle.clone(), &start, &Vector3::x(), End::Closed, rule).map(|_| ()),
         Err(CurveError::Sideways)
     ));
 }
@@ -329,7 +337,7 @@ fn a_closed_curve_with_a_node_is_followed_and_its_node_named() {
     };
     let start = Vector3::new(20.0, 20.0, 28.284);
     let mut chords =
-        ImplicitChords::new(&curve, &start, &-Vector3::x(), End::Closed, rule).unwrap();
+        ImplicitChords::new(curve.clone(), &start, &-Vector3::x(), End::Closed, rule).unwrap();
     let (mut count, mut unproven, mut length) = (0, 0, 0.0);
     while let Some(chord) = chords.next_chord().unwrap() {
         count += 1;

@@ -92,7 +92,7 @@ fn a_cusp_is_the_end_of_a_chord() {
         error_mm: 1e-3,
     };
     let curve = formulas(["t^2", "t^3", "0"]);
-    let mut chords = ParametricChords::new(&curve, (-0.3, 0.3), rule).unwrap();
+    let mut chords = ParametricChords::new(curve.clone(), (-0.3, 0.3), rule).unwrap();
     let mut at_tip = 0;
     while let Some(chord) = chords.next_chord().unwrap() {
         assert!(chord.error_mm <= 1e-3);
@@ -183,7 +183,7 @@ fn what_cannot_be_followed_is_refused() {
         longest_mm: 0.4,
         error_mm: 1e-3,
     };
-    let refused = |xyz, domain| ParametricChords::new(&formulas(xyz), domain, rule).map(|_| ());
+    let refused = |xyz, domain| ParametricChords::new(formulas(xyz), domain, rule).map(|_| ());
     assert!(matches!(
         refused(["sqrt(t)", "t", "0"], (-1.0, 1.0)),
         Err(CurveError::Unbounded { .. })
@@ -243,7 +243,7 @@ proptest! {
     #[test]
     fn proven_errors_hold(curve in cubic(), error_mm in 1e-4..1e-2_f64) {
         let rule = ChordRule { longest_mm: 5.0, error_mm };
-        let mut chords = ParametricChords::new(&curve, (0.0, 1.0), rule).unwrap();
+        let mut chords = ParametricChords::new(curve.clone(), (0.0, 1.0), rule).unwrap();
         let (mut from, mut t) = (curve.point(0.0), 0.0);
         while let Some(chord) = chords.next_chord().unwrap() {
             prop_assert!(chord.error_mm <= error_mm && chord.is_proven);

@@ -1,6 +1,6 @@
 //! An implicit curve as a sequence of chords whose error is proven.
 
-use super::step::{ImplicitStep, ImplicitStepper, onto_curve};
+use super::step::{ImplicitStep, ImplicitStepper, Place, onto_curve};
 use super::tube::chord_error_mm;
 use super::{ImplicitCurve, curvature_k};
 use crate::{Chord, ChordRule, CurveError, arc_over_chord, chord_mm, sagitta_mm};
@@ -30,53 +30,54 @@ pub enum End {
 
 /// Chords from a start to an end.
 #[derive(Debug, Clone)]
-pub struct ImplicitChords<'a> {
-    stepper: ImplicitStepper<'a>,
+pub struct ImplicitChords {
+    curve: ImplicitCurve,
+    place: Place,
     rule: ChordRule,
     /// Where it ends, if at a point.
     target: Option<Vector3<f64>>,
     /// Length along the curve at which it ends, mm.
     until_mm: f64,
-    start: Vector3<f64>,
     travelled_mm: f64,
     last_mm: f64,
     is_over: bool,
 }
 
-impl<'a> ImplicitChords<'a> {
+impl ImplicitChords {
     /// Chords from the point of the curve next to `start`, in the direction of `ahead`.
     ///
     /// # Errors
     /// Start or end are not on the curve, or the surfaces touch at the start.
     pub fn new(
-        curve: &'a ImplicitCurve,
+        curve: ImplicitCurve,
         start: &Vector3<f64>,
         ahead: &Vector3<f64>,
         end: End,
         rule: ChordRule,
     ) -> Result<Self, CurveError> {
-        let start = onto_curve(curve, start, GIVEN_MM)?;
+        let start = onto_curve(&curve, start, GIVEN_MM)?;
         let (target, until_mm) = match end {
             End::Closed => (Some(start), ENDLESS_MM),
-            End::At(point) => (Some(onto_curve(curve, &point, GIVEN_MM)?), ENDLESS_MM),
+            End::At(point) => (Some(onto_curve(&curve, &point, GIVEN_MM)?), ENDLESS_MM),
             End::Length(length_mm) => (None, length_mm),
         };
+        let place = ImplicitStepper::new(&curve, start, ahead)?.place();
         Ok(Self {
-            stepper: ImplicitStepper::new(curve, start, ahead)?,
+            curve,
+            place,
             rule,
             target,
             until_mm,
-            start,
             travelled_mm: 0.0,
             last_mm: f64::INFINITY,
             is_over: false,
         })
     }
 
-    /// The point of the curve at which it starts.
+    /// Where the next chord starts.
     #[must_use]
-    pub const fn start(&self) -> &Vector3<f64> {
-        &self.start
+    pub const fn point(&self) -> &Vector3<f64> {
+        &self.place.point
     }
 
     /// The next chord; `None` after the last.
@@ -92,7 +93,7 @@ impl<'a> ImplicitChords<'a> {
                 length_mm: ENDLESS_MM,
             });
         }
-        let here = curvature_k(self.stepper.curve(), self.stepper.point());
+        let here = curvature_k(&self.curve, self.point());
         let mut wanted = self.rule.longest_mm.min(1.5 * self.last_mm);
         if here.is_finite() {
             wanted = wanted.min(chord_mm(here, self.rule.error_mm));
@@ -111,7 +112,7 @@ impl<'a> ImplicitChords<'a> {
             let is_least = wanted <= self.rule.shortest_mm();
             if is_least {
                 return Err(CurveError::Singular {
-                    point: *self.stepper.point(),
+                    point: *self.point(),
                 });
             }
             wanted *= 0.6;
@@ -120,14 +121,14 @@ impl<'a> ImplicitChords<'a> {
 
     /// A chord of a length, if it is within the error.
     fn attempt(&self, wanted: f64) -> Option<(ImplicitStep, Chord)> {
-        let curve = self.stepper.curve();
-        let step = self.stepper.look(wanted).ok()?;
+        let step = ImplicitStepper::resume(&self.curve, self.place)
+            .look(wanted)
+            .ok()?;
         if step.corrections > HARD {
             return None;
         }
-        let from = self.stepper.point();
         let expected = self.expected_mm(&step, wanted);
-        let proven = chord_error_mm(curve, from, &step.point, expected);
+        let proven = chord_error_mm(&self.curve, self.point(), &step.point, expected);
         // Near a node nothing can be proven, but a short chord is harmless.
         let is_proven = proven.is_some();
         let passes_node = wanted <= NODE_MM && step.sine <= NODE_SINE;
@@ -145,11 +146,10 @@ impl<'a> ImplicitChords<'a> {
 
     /// The sagitta by the curvature at both ends, as far as it is known, and by the last turn.
     fn expected_mm(&self, step: &ImplicitStep, chord: f64) -> f64 {
-        let curve = self.stepper.curve();
-        let ends = [*self.stepper.point(), step.point];
+        let ends = [*self.point(), step.point];
         let sharpest = ends
             .iter()
-            .map(|p| curvature_k(curve, p))
+            .map(|p| curvature_k(&self.curve, p))
             .filter(|k| k.is_finite())
             .fold(1e-6, f64::max);
         sagitta_mm(sharpest, chord).min(chord)
@@ -157,18 +157,20 @@ impl<'a> ImplicitChords<'a> {
 
     fn take(&mut self, step: &ImplicitStep, chord: Chord, wanted: f64) -> Chord {
         self.last_mm = wanted;
-        let from = *self.stepper.point();
+        let from = *self.point();
         if let Some(target) = self.passed(&from, &step.point) {
             self.is_over = true;
-            self.stepper.jump(target);
+            self.place.point = target;
             return Chord {
                 point: target,
                 chord_mm: (target - from).norm(),
                 ..chord
             };
         }
-        self.stepper.advance(step);
-        let curvature = curvature_k(self.stepper.curve(), &step.point);
+        let mut stepper = ImplicitStepper::resume(&self.curve, self.place);
+        stepper.advance(step);
+        self.place = stepper.place();
+        let curvature = curvature_k(&self.curve, &step.point);
         let arc = if curvature.is_finite() && curvature * wanted < 1.0 {
             wanted * arc_over_chord(curvature, wanted)
         } else {

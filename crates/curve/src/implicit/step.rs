@@ -42,7 +42,13 @@ pub struct ImplicitStep {
 #[derive(Debug, Clone)]
 pub struct ImplicitStepper<'a> {
     curve: &'a ImplicitCurve,
-    point: Vector3<f64>,
+    place: Place,
+}
+
+/// Where a stepper stands, and how it came there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub(super) point: Vector3<f64>,
     contact: Contact,
     /// The last two chords, the newer first; before the first chord, the direction to take.
     chords: [Option<Vector3<f64>>; 2],
@@ -142,43 +148,47 @@ impl<'a> ImplicitStepper<'a> {
         if along.dot(ahead) <= 1e-6 * ahead.norm() {
             return Err(CurveError::Sideways);
         }
-        Ok(Self {
-            curve,
+        let place = Place {
             point,
             contact,
             chords: [None; 2],
             ahead: along,
-        })
+        };
+        Ok(Self { curve, place })
+    }
+
+    /// Goes on where another one stood.
+    pub(super) const fn resume(curve: &'a ImplicitCurve, place: Place) -> Self {
+        Self { curve, place }
+    }
+
+    /// Where it stands, to go on from later.
+    pub(super) const fn place(&self) -> Place {
+        self.place
     }
 
     /// Where it stands.
     #[must_use]
     pub const fn point(&self) -> &Vector3<f64> {
-        &self.point
-    }
-
-    /// The curve it follows.
-    #[must_use]
-    pub const fn curve(&self) -> &'a ImplicitCurve {
-        self.curve
+        &self.place.point
     }
 
     /// Unit vector the way it goes: along the tangent, or along the last chord near a node.
     #[must_use]
     pub fn ahead(&self) -> Vector3<f64> {
-        if self.contact.is_clean() {
-            self.contact.tangent(&self.ahead)
+        if self.place.contact.is_clean() {
+            self.place.contact.tangent(&self.place.ahead)
         } else {
-            self.ahead
+            self.place.ahead
         }
     }
 
     fn predict(&self, chord_mm: f64) -> Vector3<f64> {
-        let tangent = self.contact.tangent(&self.ahead);
-        let Some(last) = self.chords[0].map(|d| d.normalize()) else {
+        let tangent = self.place.contact.tangent(&self.place.ahead);
+        let Some(last) = self.place.chords[0].map(|d| d.normalize()) else {
             return tangent * chord_mm;
         };
-        if self.contact.is_clean() && tangent.dot(&last) >= TURN {
+        if self.place.contact.is_clean() && tangent.dot(&last) >= TURN {
             // The curve turned from the last chord to the tangent, and goes on turning: as much for
             // a chord of the same length (the mirror), in proportion for another.
             let across = tangent * tangent.dot(&last) - last;
@@ -186,11 +196,11 @@ impl<'a> ImplicitStepper<'a> {
             if sine < 1e-12 {
                 return tangent * chord_mm;
             }
-            let ratio = chord_mm / self.chords[0].map_or(chord_mm, |d| d.norm());
+            let ratio = chord_mm / self.place.chords[0].map_or(chord_mm, |d| d.norm());
             let (sin, cos) = (sine.asin() * ratio).sin_cos();
             return (tangent * cos + across * (sin / sine)) * chord_mm;
         }
-        let before = self.chords[1].map_or(last, |d| d.normalize());
+        let before = self.place.chords[1].map_or(last, |d| d.normalize());
         (last * 2.0 - before).normalize() * chord_mm
     }
 
@@ -199,13 +209,15 @@ impl<'a> ImplicitStepper<'a> {
     /// # Errors
     /// The corrector does not find a point of the curve at that distance, ahead.
     pub fn look(&self, chord_mm: f64) -> Result<ImplicitStep, CurveError> {
-        let lost = CurveError::Lost { point: self.point };
+        let lost = CurveError::Lost {
+            point: self.place.point,
+        };
         let predicted = self.predict(chord_mm);
-        let mut point = self.point + predicted;
+        let mut point = self.place.point + predicted;
         let mut last_size = f64::INFINITY;
         for corrections in 0..CORRECTIONS {
             let contact = self.curve.contact(&point);
-            let out = point - self.point;
+            let out = point - self.place.point;
             let distance = out.norm();
             let square = distance * distance - chord_mm * chord_mm;
             let rows = contact.rows(Some((out / chord_mm, 0.5 * square / chord_mm)));
@@ -222,7 +234,7 @@ impl<'a> ImplicitStepper<'a> {
                     point,
                     corrections,
                     evaluations: corrections + 1,
-                    sine: sine.min(self.contact.sine()),
+                    sine: sine.min(self.place.contact.sine()),
                     contact,
                 });
             }
@@ -240,22 +252,11 @@ impl<'a> ImplicitStepper<'a> {
 
     /// Moves to the end of a chord.
     pub fn advance(&mut self, step: &ImplicitStep) {
-        let chord = step.point - self.point;
-        self.chords = [Some(chord), self.chords[0]];
-        self.ahead = chord.normalize();
-        self.point = step.point;
-        self.contact = step.contact;
-    }
-
-    /// Moves to a point known to be on the curve, the end of a short last chord.
-    pub(super) fn jump(&mut self, point: Vector3<f64>) {
-        let chord = point - self.point;
-        if chord.norm() > 1e-6 {
-            self.chords = [Some(chord), self.chords[0]];
-            self.ahead = chord.normalize();
-        }
-        self.point = point;
-        self.contact = self.curve.contact(&point);
+        let chord = step.point - self.place.point;
+        self.place.chords = [Some(chord), self.place.chords[0]];
+        self.place.ahead = chord.normalize();
+        self.place.point = step.point;
+        self.place.contact = step.contact;
     }
 }
 

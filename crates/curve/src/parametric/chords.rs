@@ -1,40 +1,49 @@
 //! A parametric curve as a sequence of chords whose error is proven.
 
-use super::step::{Method, ParametricStepper, Step};
-use super::{ParametricCurve, breaks};
+use super::step::{ParametricStepper, Step};
+use super::{Local, ParametricCurve, breaks};
 use crate::{Chord, ChordRule, CurveError, chord_mm};
+use nalgebra::Vector3;
 
 /// Chords from one end of a domain to the other.
 #[derive(Debug, Clone)]
-pub struct ParametricChords<'a> {
-    stepper: ParametricStepper<'a>,
-    curve: &'a ParametricCurve,
+pub struct ParametricChords {
+    curve: ParametricCurve,
     rule: ChordRule,
+    t: f64,
+    local: Local,
     /// Cusps and the end, the last first.
     limits: Vec<f64>,
     last_mm: f64,
 }
 
-impl<'a> ParametricChords<'a> {
+impl ParametricChords {
     /// Chords over `from` < `to`. Cusps become ends of chords.
     ///
     /// # Errors
     /// The curve is not defined or not bounded somewhere, or stands still.
     pub fn new(
-        curve: &'a ParametricCurve,
+        curve: ParametricCurve,
         (from, to): (f64, f64),
         rule: ChordRule,
     ) -> Result<Self, CurveError> {
-        let mut limits = breaks(curve, from, to)?;
+        let mut limits = breaks(&curve, from, to)?;
         limits.push(to);
         limits.reverse();
         Ok(Self {
-            stepper: ParametricStepper::new(curve, from, Method::Newton),
+            local: curve.local(from),
             curve,
             rule,
+            t: from,
             limits,
             last_mm: f64::INFINITY,
         })
+    }
+
+    /// Where the next chord starts.
+    #[must_use]
+    pub const fn point(&self) -> &Vector3<f64> {
+        &self.local.point
     }
 
     /// The next chord; `None` after the last.
@@ -45,7 +54,8 @@ impl<'a> ParametricChords<'a> {
         let Some(&limit) = self.limits.last() else {
             return Ok(None);
         };
-        let curvature = self.stepper.local().curvature_k();
+        let stepper = ParametricStepper::resume(&self.curve, self.t, self.local);
+        let curvature = self.local.curvature_k();
         let round = if curvature.is_finite() {
             chord_mm(curvature, self.rule.error_mm)
         } else {
@@ -53,16 +63,14 @@ impl<'a> ParametricChords<'a> {
         };
         let mut wanted = self.rule.longest_mm.min(round).min(1.5 * self.last_mm);
         loop {
-            let step = self.stepper.look(wanted, limit)?;
-            let error_mm = self.curve.chord_error_mm(self.stepper.t(), step.t);
+            let step = stepper.look(wanted, limit)?;
+            let error_mm = self.curve.chord_error_mm(self.t, step.t);
             if let Some(error_mm) = error_mm.filter(|error| *error <= self.rule.error_mm) {
                 return Ok(Some(self.take(&step, wanted, error_mm)));
             }
             wanted *= 0.7;
             if wanted < self.rule.shortest_mm() {
-                return Err(CurveError::Unbounded {
-                    t: self.stepper.t(),
-                });
+                return Err(CurveError::Unbounded { t: self.t });
             }
         }
     }
@@ -70,7 +78,7 @@ impl<'a> ParametricChords<'a> {
     fn take(&mut self, step: &Step, wanted: f64, error_mm: f64) -> Chord {
         // The way back from a cusp begins as slowly as the way to it ended.
         self.last_mm = wanted;
-        self.stepper.advance(step);
+        (self.t, self.local) = (step.t, step.local);
         if step.is_end {
             self.limits.pop();
         }

@@ -66,6 +66,16 @@ impl<'a> ParametricStepper<'a> {
         }
     }
 
+    /// Goes on where another one stood.
+    pub(super) const fn resume(curve: &'a ParametricCurve, t: f64, local: Local) -> Self {
+        Self {
+            curve,
+            method: Method::Newton,
+            t,
+            local,
+        }
+    }
+
     /// Where it stands.
     #[must_use]
     pub const fn local(&self) -> &Local {
