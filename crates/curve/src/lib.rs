@@ -23,13 +23,17 @@
 //! implicit points on the curve, and an error bound that holds over the whole arc.
 
 mod expression;
+mod file;
 pub mod implicit;
+mod laps;
 pub mod parametric;
 mod rule;
 mod sagitta;
 
 pub use expression::{Expression, ExpressionError};
+pub use file::{CurveFile, FileFinding, Shape, ShapeKey};
 pub use implicit::ImplicitCurve;
+pub use laps::Chords;
 pub use parametric::ParametricCurve;
 pub use rule::{Chord, ChordRule, CurveError};
 pub use sagitta::{arc_over_chord, chord_mm, sagitta_mm};

@@ -44,6 +44,37 @@ pub struct Diagnostic {
     pub excerpt: Excerpt,
 }
 
+impl Diagnostic {
+    /// A finding at some bytes of a text that is not G-code: a curve file.
+    #[must_use]
+    pub fn in_text(
+        text: &str,
+        at: core::ops::Range<usize>,
+        code: Code,
+        message: String,
+        help: String,
+    ) -> Self {
+        let before = text.get(..at.start).unwrap_or(text);
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let rest = text.get(line_start..).unwrap_or_default();
+        let line_text = rest.lines().next().unwrap_or_default();
+        let number = before.matches('\n').count() + 1;
+        let start = before.len() - line_start;
+        let end = at.end.saturating_sub(line_start).min(line_text.len());
+        let fault = Fault {
+            span: Span::new(start, end.max(start)),
+            code,
+            message,
+            reason: String::new(),
+            help,
+        };
+        fault.at(
+            u32::try_from(number).unwrap_or(u32::MAX),
+            line_text.as_bytes(),
+        )
+    }
+}
+
 /// A stretch of a line, in bytes from its start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Span {

@@ -8,6 +8,10 @@ use core::fmt;
 pub enum Code {
     /// The input could not be read.
     ReadFailed,
+    /// A curve file says what it may not.
+    CurveFile,
+    /// A curve that cannot be followed.
+    Curve,
     /// The input is not ASCII or UTF-8 text.
     WrongEncoding,
     /// A line is longer than the largest length accepted.
@@ -126,6 +130,8 @@ impl Code {
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::ReadFailed => "read-failed",
+            Self::CurveFile => "curve-file",
+            Self::Curve => "curve",
             Self::WrongEncoding => "wrong-encoding",
             Self::LineTooLong => "line-too-long",
             Self::NulByte => "nul-byte",

@@ -40,7 +40,8 @@ pub struct Totals {
 }
 
 impl Totals {
-    pub(crate) fn add(&mut self, item: &Item) {
+    /// Adds an item.
+    pub fn add(&mut self, item: &Item) {
         match &item.kind {
             ItemKind::Move { segment, rate, .. } => self.add_move(segment, *rate),
             ItemKind::Dwell(seconds) => {

@@ -12,9 +12,11 @@
 
 mod blocks;
 mod control;
+mod curve;
 mod epoch;
 mod error;
 mod feed;
+mod file;
 mod fingerprint;
 mod listen;
 mod machine;
@@ -27,9 +29,11 @@ mod source;
 mod stream;
 
 pub use control::{Control, Notice, Progress};
+pub use curve::CurveSource;
 pub use epoch::Pace;
 pub use error::{Fault, RunError};
 pub use feed::{Fed, FeedError, feed};
+pub use file::{FileSource, check_file};
 pub use listen::{CLIENT_SILENCE, Listening, listen};
 pub use pipeline::{Output, Pipeline, Statistics};
 pub use program::{PipeSource, ProgramSource};

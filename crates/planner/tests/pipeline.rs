@@ -15,7 +15,7 @@ use glidepath_gcode::{Code, Options};
 use glidepath_geometry::AxisVector;
 use glidepath_motion::{Frame, FrameFlags, Item, PlanError};
 use glidepath_planner::{
-    ItemSource, Output, PipeSource, Pipeline, ProgramSource, Refusal, Statistics,
+    FileSource, ItemSource, Output, PipeSource, Pipeline, ProgramSource, Refusal, Statistics,
 };
 use proptest::prelude::*;
 use support::items::{Listed, frames_of, point, polyline, settings, staircase};
@@ -63,7 +63,7 @@ fn file(text: &str) -> tempfile::NamedTempFile {
 #[test]
 fn a_file_and_a_pipe_give_the_same_frames() {
     let file = file(PROGRAM);
-    let source = ProgramSource::open(file.path(), Options::default()).unwrap();
+    let source = FileSource::open(file.path(), Options::default(), &settings()).unwrap();
     let (from_file, statistics, refusal) = drain(source);
     assert!(refusal.is_none(), "{refusal:?}");
     assert_eq!(
@@ -106,7 +106,7 @@ fn frames_begin_and_end_at_rest() {
 #[test]
 fn a_file_with_errors_is_refused_with_all_of_them() {
     let file = file("G1 X1 F100\nG1 X1 X2\nG1 Y2\nG777\nM2\n");
-    match ProgramSource::open(file.path(), Options::default()) {
+    match FileSource::open(file.path(), Options::default(), &settings()) {
         Err(Refusal::Program {
             findings,
             unlisted: 0,
@@ -121,7 +121,7 @@ fn a_file_with_errors_is_refused_with_all_of_them() {
 #[test]
 fn a_missing_file_is_refused() {
     let missing = std::path::Path::new("/nonexistent/program.ngc");
-    let refused = ProgramSource::open(missing, Options::default());
+    let refused = FileSource::open(missing, Options::default(), &settings());
     assert!(matches!(refused, Err(Refusal::Read(_))), "{refused:?}");
 }
 

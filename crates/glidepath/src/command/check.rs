@@ -7,9 +7,8 @@ use crate::failure::Failure;
 use crate::output;
 use crate::report::{ProgramFinding, finding_object, grouped};
 use glidepath_gcode::{Diagnostic, Report};
+use glidepath_planner::check_file;
 use serde_json::{Value, json};
-use std::fs::File;
-use std::io::BufReader;
 use std::path::Path;
 
 /// Reads every program to its end.
@@ -37,12 +36,8 @@ pub fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Failure> 
 /// # Errors
 /// The file cannot be opened.
 pub fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
-    let file = File::open(path).map_err(Failure::open(path))?;
     let options = config.program_options(config.home());
-    Ok(glidepath_gcode::check(
-        BufReader::with_capacity(1 << 16, file),
-        options,
-    ))
+    check_file(path, options, &config.settings()).map_err(Failure::open(path))
 }
 
 /// Checks a program that is to be run.

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::report::grouped;
-use glidepath_planner::{Control, FeedError, Notice, ProgramSource, feed as stream};
+use glidepath_planner::{Control, FeedError, FileSource, Notice, feed as stream};
 use serde_json::json;
 
 /// Streams a program, and waits until it is executed.
@@ -26,7 +26,13 @@ pub(super) fn feed(args: &FeedArgs, config: &MachineConfig) -> Result<Exit, Fail
         notify: &mut notify,
     };
     let name = args.file.display().to_string();
-    let open = |start| ProgramSource::open(&args.file, config.program_options(start));
+    let open = |start| {
+        FileSource::open(
+            &args.file,
+            config.program_options(start),
+            &config.settings(),
+        )
+    };
     let fed = stream(&transport, open, &mut control).map_err(|error| match error {
         FeedError::Refused(refusal) => Failure::refused(&name, refusal, false),
         error => error.into(),

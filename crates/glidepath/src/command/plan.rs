@@ -14,9 +14,7 @@ use crate::report::{MotionReport, Planning, peak_rss_bytes};
 use crate::sample::Sample;
 use glidepath_motion::audit::{Audit, AuditSettings};
 use glidepath_motion::diagnosis::Diagnosis;
-use glidepath_planner::{Output, Pipeline, ProgramSource};
-use std::fs::File;
-use std::io::BufReader;
+use glidepath_planner::{FileSource, Output, Pipeline, Refusal};
 use std::path::Path;
 use std::time::Duration;
 
@@ -66,7 +64,7 @@ pub(super) fn title(path: &Path) -> String {
 
 /// One pass of the planner over a program.
 pub(super) struct Pass {
-    pipeline: Pipeline<ProgramSource<BufReader<File>>>,
+    pipeline: Pipeline<FileSource>,
     audit: Audit,
     diagnosis: Diagnosis,
     period_t: f64,
@@ -79,11 +77,14 @@ impl Pass {
         config: &MachineConfig,
         clock: fn() -> Duration,
     ) -> Result<Self, Failure> {
-        let file = File::open(path).map_err(Failure::open(path))?;
         let home = config.home();
-        let reader = BufReader::with_capacity(1 << 16, file);
-        let source = ProgramSource::new(reader, config.program_options(home));
         let settings = config.settings();
+        let source = FileSource::unchecked(path, config.program_options(home), &settings).map_err(
+            |refusal| match refusal {
+                Refusal::Read(error) => Failure::open(path)(error),
+                refusal => refusal.into(),
+            },
+        )?;
         let judged = AuditSettings {
             limits: settings.limits,
             period_t: settings.period_t,

@@ -12,8 +12,8 @@ use crate::report::{grouped, peak_rss_bytes, seconds, state_name};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Ipc, Transport};
 use glidepath_planner::{
-    Control, ItemSource, Listening, Notice, PipeSource, Pipeline, ProgramSource, Publisher,
-    Refusal, Rest, RunError, SoftLimits, Statistics, listen,
+    Control, FileSource, ItemSource, Listening, Notice, PipeSource, Pipeline, Publisher, Refusal,
+    Rest, RunError, SoftLimits, Statistics, listen,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -47,7 +47,8 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
     } else {
         // A file that does not exist is told at once, not when the machine is ready.
         std::fs::File::open(file).map_err(Failure::open(file))?;
-        let open = |start| ProgramSource::open(file, config.program_options(start));
+        let open =
+            |start| FileSource::open(file, config.program_options(start), &config.settings());
         if args.resume {
             resume(&transport, config, &mut control, &name, open)
         } else {

@@ -4,13 +4,12 @@ use crate::config::MachineConfig;
 use crate::failure::Failure;
 use crate::recording::Recording;
 use crate::sample::Sample;
-use glidepath_gcode::{Diagnostic, Program};
 use glidepath_geometry::AxisVector;
 use glidepath_link::servo::{Servo, ServoCounts, ServoSettings};
 use glidepath_link::{Replay, Setpoint};
 use glidepath_motion::ItemKind;
 use glidepath_motion::audit::{self, Audit, AuditSettings};
-use std::fs::File;
+use glidepath_planner::{FileSource, ItemSource, Supply};
 use std::io::{BufReader, Read};
 use std::path::Path;
 use std::sync::Arc;
@@ -109,24 +108,23 @@ fn receive(
 #[derive(Debug)]
 struct Judge {
     audit: Audit,
-    program: Program<BufReader<File>>,
+    program: FileSource,
     /// Path of the program told so far, mm.
     told_s: f64,
 }
 
 impl Judge {
     fn new(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
-        let file = File::open(path).map_err(Failure::open(path))?;
-        let reader = BufReader::with_capacity(1 << 16, file);
+        let options = config.program_options(config.home());
+        let program = FileSource::unchecked(path, options, &config.settings())?;
         let audit = Audit::new(&AuditSettings {
             limits: config.limits(),
             period_t: config.period_t(),
             tolerance_mm: config.path.tolerance_mm,
         });
-        let options = config.program_options(config.home());
         Ok(Self {
             audit,
-            program: Program::new(reader, options),
+            program,
             told_s: 0.0,
         })
     }
@@ -149,7 +147,7 @@ impl Judge {
     /// checked, so that only a file that was changed meanwhile has one, and the auditor then finds
     /// that the motion went elsewhere.
     fn tell(&mut self) -> bool {
-        let Some(Ok::<_, Diagnostic>(item)) = self.program.next() else {
+        let Supply::Item(item) = self.program.next_item() else {
             return false;
         };
         if let ItemKind::Move { segment, .. } = &item.kind {

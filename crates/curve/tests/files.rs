@@ -1,0 +1,121 @@
+//! Curve files: what they give, and what is wrong with wrong ones.
+
+#![allow(clippy::unwrap_used, reason = "a test")]
+
+use glidepath_curve::{ChordRule, CurveFile};
+use nalgebra::Vector3;
+
+const PARAMETRIC: &str = "\
+kind = \"parametric\"
+x = \"20*(1 + cos(t))\"
+y = \"20*sin(t)\"
+z = \"40*sin(t/2)\"
+from = 0
+to = \"4*pi\"
+feed = 3000.0
+laps = 10
+";
+
+const IMPLICIT: &str = "\
+kind = \"implicit\"
+f = \"x^2 + y^2 + z^2 - 1600\"
+g = \"(x - 20)^2 + y^2 - 400\"
+start = [20.0, 20.0, 28.2843]
+direction = [-1.0, 0.0, 0.0]
+end = \"closed\"
+tolerance = 0.05
+chord = 0.4
+laps = 10
+";
+
+fn finding(text: &str) -> (String, String, String) {
+    let findings = CurveFile::parse(text).unwrap_err();
+    let first = &findings[0];
+    let at = text.get(first.at.clone()).unwrap_or("?");
+    (first.message.clone(), at.to_owned(), first.help.clone())
+}
+
+#[test]
+fn both_kinds_give_the_same_laps() {
+    let rule = ChordRule {
+        longest_mm: 0.4,
+        error_mm: 1e-3,
+    };
+    let mut laps = Vec::new();
+    for text in [PARAMETRIC, IMPLICIT] {
+        let file = CurveFile::parse(text).unwrap();
+        let mut chords = file.chords(rule).unwrap();
+        let start = *chords.point();
+        let (mut length, mut back, mut last) = (0.0, 0, start);
+        while let Some(chord) = chords.next_chord().unwrap() {
+            assert!((chord.point - last).norm() <= 0.4 + 1e-9);
+            length += chord.chord_mm;
+            last = chord.point;
+            back += u32::from((last - start).norm() < 1e-9);
+        }
+        // Once a lap; the parametric curve starts on its node and meets it in the middle of a lap too.
+        assert!(back >= 10, "{back}");
+        assert!((last - start).norm() < 1e-9);
+        laps.push(length);
+    }
+    assert!(
+        (laps[0] - laps[1]).abs() < 0.1 && (laps[0] - 3056.1).abs() < 0.2,
+        "{laps:?}"
+    );
+}
+
+#[test]
+fn findings_have_a_place_and_a_remedy() {
+    let (message, at, _) = finding(&PARAMETRIC.replace("sin(t/2)", "sin(u/2)"));
+    assert_eq!((message.as_str(), at.as_str()), ("`u` is not known", "u"));
+    let (message, at, _) = finding(&PARAMETRIC.replace("feed = 3000.0", "feed = -1.0"));
+    assert_eq!(at, "-1.0");
+    assert!(message.contains("feed"));
+    let (message, _, _) = finding(&PARAMETRIC.replace("to = \"4*pi\"\n", ""));
+    assert_eq!(message, "the key `to` is missing");
+    let (_, at, _) = finding(&PARAMETRIC.replace("4*pi", "pi"));
+    assert_eq!(at, "10");
+    let (_, at, _) = finding(&PARAMETRIC.replace("4*pi", "4*py"));
+    assert_eq!(at, "py");
+    let (message, _, _) = finding(&PARAMETRIC.replace("feed", "fead"));
+    assert!(message.contains("fead"), "{message}");
+    let (message, at, _) = finding(&PARAMETRIC.replace("\"parametric\"", "\"spiral\""));
+    assert!(message.contains("spiral") && at == "\"spiral\"");
+    let (message, _, _) =
+        finding(&IMPLICIT.replace("kind = \"implicit\"", "kind = \"parametric\""));
+    assert!(message.contains('f'), "{message}");
+    let (message, at, help) = finding(&IMPLICIT.replace("\"closed\"", "\"close\""));
+    assert!(message.contains("end") && at == "\"close\"" && help.contains("closed"));
+    let (_, at, _) = finding(&IMPLICIT.replace("\"closed\"", "100.0"));
+    assert_eq!(at, "10");
+    assert_eq!(
+        CurveFile::parse(&PARAMETRIC.replace("20*", "20 "))
+            .unwrap_err()
+            .len(),
+        2
+    );
+}
+
+#[test]
+fn ends_may_be_points_or_lengths() {
+    let rule = ChordRule {
+        longest_mm: 0.4,
+        error_mm: 1e-3,
+    };
+    let text = IMPLICIT.replace("laps = 10\n", "");
+    for (end, want) in [
+        ("[0.0, 0.0, 40.0]", Some(Vector3::new(0.0, 0.0, 40.0))),
+        ("25.0", None),
+    ] {
+        let file = CurveFile::parse(&text.replace("\"closed\"", end)).unwrap();
+        let mut chords = file.chords(rule).unwrap();
+        let mut length = 0.0;
+        while let Some(chord) = chords.next_chord().unwrap() {
+            length += chord.chord_mm;
+        }
+        match want {
+            Some(point) => assert!((chords.point() - point).norm() < 1e-6),
+            None => assert!((length - 25.0).abs() < 1e-3),
+        }
+    }
+}
