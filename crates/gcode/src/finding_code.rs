@@ -12,6 +12,8 @@ pub enum Code {
     CurveFile,
     /// A curve that cannot be followed.
     Curve,
+    /// A motion the machine's joints cannot do.
+    Joint,
     /// The input is not ASCII or UTF-8 text.
     WrongEncoding,
     /// A line is longer than the largest length accepted.
@@ -132,6 +134,7 @@ impl Code {
             Self::ReadFailed => "read-failed",
             Self::CurveFile => "curve-file",
             Self::Curve => "curve",
+            Self::Joint => "joint",
             Self::WrongEncoding => "wrong-encoding",
             Self::LineTooLong => "line-too-long",
             Self::NulByte => "nul-byte",

@@ -11,6 +11,7 @@ pub mod exit;
 pub mod failure;
 pub mod interrupt;
 pub mod jitter;
+mod joints;
 pub mod output;
 pub mod plot;
 pub mod progress;

@@ -32,8 +32,12 @@ impl Recording {
         let csv = csv
             .map(|path| {
                 let file = File::create(path).map_err(Failure::open(path))?;
-                let writer = CsvWriter::new(BufWriter::with_capacity(1 << 16, file), &axes)
-                    .map_err(Failure::file("write", path))?;
+                let writer = CsvWriter::new(
+                    BufWriter::with_capacity(1 << 16, file),
+                    &axes,
+                    config.joints(),
+                )
+                .map_err(Failure::file("write", path))?;
                 Ok::<_, Failure>((path.to_owned(), writer))
             })
             .transpose()?;

@@ -2,6 +2,7 @@
 
 use crate::report::state_name;
 use glidepath_geometry::AxisVector;
+use glidepath_kinematics::JointVector;
 use glidepath_link::Setpoint;
 use glidepath_motion::diagnosis::Binding;
 use glidepath_motion::{Frame, FrameFlags};
@@ -31,12 +32,14 @@ pub struct Sample {
     pub velocity: AxisVector,
     /// mm/s² or °/s².
     pub acceleration: AxisVector,
+    /// Positions of the joints, mm or degrees.
+    pub joints: JointVector,
 }
 
 impl Sample {
-    /// The sample of a planned frame.
+    /// The sample of a planned frame, whose joints are `joints`.
     #[must_use]
-    pub fn planned(frame: &Frame, period_t: f64) -> Self {
+    pub fn planned(frame: &Frame, period_t: f64, joints: JointVector) -> Self {
         Self {
             tick: frame.sequence,
             #[allow(
@@ -53,6 +56,7 @@ impl Sample {
             position: frame.position,
             velocity: frame.velocity,
             acceleration: frame.acceleration,
+            joints,
         }
     }
 
@@ -84,6 +88,7 @@ impl Sample {
             position: setpoint.position.into(),
             velocity: setpoint.velocity.into(),
             acceleration: setpoint.acceleration.into(),
+            joints: setpoint.joint_position.into(),
         }
     }
 }

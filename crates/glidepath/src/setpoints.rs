@@ -1,5 +1,6 @@
 //! Setpoints as CSV: `tick,time_s,line,state,feed_mm_s,path_mm`, then position, velocity and
-//! acceleration of every axis of the machine, one row for each tick.
+//! acceleration of every axis of the machine, then the position of every joint (`joint_0`, …) where
+//! joints are not axes; one row for each tick.
 //!
 //! Numbers are decimal fractions without exponent, with as many significant digits (at most 17) as
 //! it takes to read back exactly the same double.
@@ -13,22 +14,27 @@ use std::io::{self, Write};
 pub struct CsvWriter<W> {
     out: W,
     axes: Vec<Axis>,
+    joints: usize,
 }
 
 impl<W: Write> CsvWriter<W> {
-    /// Writes the header.
+    /// Writes the header, with so many joints.
     ///
     /// # Errors
     /// `out` does not take it.
-    pub fn new(mut out: W, axes: &[Axis]) -> io::Result<Self> {
+    pub fn new(mut out: W, axes: &[Axis], joints: usize) -> io::Result<Self> {
         out.write_all(b"tick,time_s,line,state,feed_mm_s,path_mm")?;
         for axis in axes {
             write!(out, ",pos_{axis},vel_{axis},acc_{axis}")?;
+        }
+        for joint in 0..joints {
+            write!(out, ",joint_{joint}")?;
         }
         out.write_all(b"\n")?;
         Ok(Self {
             out,
             axes: axes.to_vec(),
+            joints,
         })
     }
 
@@ -56,6 +62,9 @@ impl<W: Write> CsvWriter<W> {
             );
             write!(self.out, ",{p},{v},{a}")?;
         }
+        for joint in sample.joints.iter().take(self.joints) {
+            write!(self.out, ",{joint}")?;
+        }
         self.out.write_all(b"\n")
     }
 
@@ -72,6 +81,7 @@ impl<W: Write> CsvWriter<W> {
 mod tests {
     use super::*;
     use glidepath_geometry::AxisVector;
+    use glidepath_kinematics::JointVector;
     use proptest::prelude::*;
 
     fn sample(value: f64) -> Sample {
@@ -87,12 +97,13 @@ mod tests {
             position: AxisVector::repeat(value),
             velocity: AxisVector::repeat(-value),
             acceleration: AxisVector::zeros(),
+            joints: JointVector::repeat(2.0 * value),
         }
     }
 
-    fn text(axes: &[Axis], sample: &Sample) -> String {
+    fn text(axes: &[Axis], joints: usize, sample: &Sample) -> String {
         let mut bytes = Vec::new();
-        let mut csv = CsvWriter::new(&mut bytes, axes).unwrap();
+        let mut csv = CsvWriter::new(&mut bytes, axes, joints).unwrap();
         csv.row(sample).unwrap();
         csv.finish().unwrap();
         String::from_utf8(bytes).unwrap()
@@ -101,9 +112,14 @@ mod tests {
     #[test]
     fn header_and_row_are_the_contract() {
         assert_eq!(
-            text(&[Axis::X, Axis::C], &sample(1.5)),
+            text(&[Axis::X, Axis::C], 0, &sample(1.5)),
             "tick,time_s,line,state,feed_mm_s,path_mm,pos_X,vel_X,acc_X,pos_C,vel_C,acc_C\n\
              7,0.028,3,running,25,0.30000000000000004,1.5,-1.5,0,1.5,-1.5,0\n"
+        );
+        assert_eq!(
+            text(&[Axis::X], 2, &sample(1.5)),
+            "tick,time_s,line,state,feed_mm_s,path_mm,pos_X,vel_X,acc_X,joint_0,joint_1\n\
+             7,0.028,3,running,25,0.30000000000000004,1.5,-1.5,0,3,3\n"
         );
     }
 
@@ -112,7 +128,7 @@ mod tests {
         fn every_double_reads_back_bit_for_bit(bits: u64) {
             let value = f64::from_bits(bits);
             prop_assume!(value.is_finite());
-            let text = text(&[Axis::X], &sample(value));
+            let text = text(&[Axis::X], 0, &sample(value));
             let row = text.lines().nth(1).unwrap();
             let position: f64 = row.split(',').nth(6).unwrap().parse().unwrap();
             prop_assert_eq!(position.to_bits(), bits);

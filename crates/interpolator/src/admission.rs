@@ -11,6 +11,7 @@ use crate::message::Fault;
 use crate::tick::SAME_PLACE;
 use crate::track::is_at_rest;
 use glidepath_geometry::{AXES, Axis, AxisVector};
+use glidepath_kinematics::{JointFault, JointViolation, JointWatch, Quantity};
 use glidepath_link::{FaultCause, FrameRefusal, MachineState, Record, RecordError, SetpointFrame};
 use glidepath_motion::{FrameFlags, Limits};
 
@@ -59,6 +60,7 @@ pub(crate) struct Admission {
     period_t: f64,
     limits: Limits,
     soft_limits: SoftLimits,
+    joints: Option<JointWatch>,
     /// The epoch that frames passed of, 0 before the first.
     epoch: u64,
     last: Option<Last>,
@@ -73,6 +75,7 @@ impl Admission {
             period_t: config.period_t(),
             limits: config.limits,
             soft_limits: config.soft_limits,
+            joints: config.joint_watch(),
             epoch: 0,
             last: None,
             broken: false,
@@ -113,7 +116,8 @@ impl Admission {
         if frame.sequence <= last.frame.sequence {
             return Verdict::Known;
         }
-        match self.follows(frame, &last) {
+        let next = self.follows(frame, &last);
+        match next.and_then(|next| self.joints_follow(frame).map(|()| next)) {
             Ok(next) => {
                 self.last = Some(next);
                 Verdict::Pass
@@ -162,6 +166,14 @@ impl Admission {
         }
         if self.outside(frame).is_some() {
             return Verdict::Refused(FrameRefusal::SoftLimit);
+        }
+        if let Some(joints) = &mut self.joints {
+            joints.rest();
+        }
+        if let Err(fault) = self.joints_follow(frame)
+            && let FaultCause::Frame(refusal) = fault.cause
+        {
+            return Verdict::Refused(refusal);
         }
         self.epoch = frame.epoch;
         self.broken = false;
@@ -225,6 +237,35 @@ impl Admission {
             first,
             second,
         })
+    }
+
+    /// Whether the joints can do a frame.
+    fn joints_follow(&mut self, frame: &SetpointFrame) -> Result<(), Fault> {
+        let Some(joints) = &mut self.joints else {
+            return Ok(());
+        };
+        joints
+            .take(&AxisVector::from(frame.position))
+            .map_err(|fault| {
+                let refusal = match fault {
+                    JointFault::Position(_) => FrameRefusal::SoftLimit,
+                    JointFault::Limit(violation) => match violation.quantity {
+                        Quantity::Lowest | Quantity::Highest => FrameRefusal::SoftLimit,
+                        Quantity::Velocity => FrameRefusal::Velocity,
+                        Quantity::Acceleration => FrameRefusal::Acceleration,
+                        Quantity::Jerk => FrameRefusal::Jerk,
+                    },
+                };
+                let found = Fault::new(FaultCause::Frame(refusal), frame.line, frame.sequence);
+                match fault {
+                    JointFault::Limit(JointViolation { value, limit, .. }) => Fault {
+                        value,
+                        limit,
+                        ..found
+                    },
+                    JointFault::Position(_) => found,
+                }
+            })
     }
 
     /// The first axis outside its soft limits.

@@ -1,7 +1,8 @@
 //! What an interpolator is started with.
 
 use core::time::Duration;
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{Axis, AxisVector};
+use glidepath_kinematics::{AxisList, JointLimits, JointWatch, Mechanism, Trivial};
 use glidepath_motion::Limits;
 use glidepath_realtime::{Mode, Request};
 
@@ -55,6 +56,11 @@ pub struct Config {
     pub limits: Limits,
     /// Where each axis may be. Frames outside are refused.
     pub soft_limits: SoftLimits,
+    /// What turns axes into joints.
+    pub mechanism: Mechanism,
+    /// What each joint can do; without meaning where every axis has a drive of its own. Frames that
+    /// ask for more are refused.
+    pub joint_limits: JointLimits,
     /// Where the machine stands at the start.
     pub start_position: AxisVector,
     /// Most frames the planner keeps published ahead of the executed one: at rest in the middle of
@@ -82,6 +88,10 @@ impl Config {
             period_ns,
             limits,
             soft_limits: SoftLimits::none(),
+            mechanism: Mechanism::Trivial(Trivial {
+                axes: AxisList::new(&Axis::ALL),
+            }),
+            joint_limits: JointLimits::NONE,
             start_position: AxisVector::zeros(),
             horizon_frames: 500_000_000 / period_ns.max(1),
             real_time: RealTime::none(),
@@ -89,6 +99,13 @@ impl Config {
             planner_lost_after: Some(Duration::from_secs(2)),
             forbid_system_calls: false,
         }
+    }
+
+    /// The judge of the joints' motion, where joints are not axes.
+    #[must_use]
+    pub fn joint_watch(&self) -> Option<JointWatch> {
+        let is_trivial = matches!(self.mechanism, Mechanism::Trivial(_));
+        (!is_trivial).then(|| JointWatch::new(self.mechanism, self.joint_limits, self.period_t()))
     }
 
     /// The period in seconds.

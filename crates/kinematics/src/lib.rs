@@ -32,6 +32,7 @@ mod space;
 mod speed_caps;
 mod translational;
 mod trivial;
+mod watch;
 
 pub use axes::AxisList;
 pub use core_xy::CoreXy;
@@ -50,3 +51,4 @@ pub use scara::{Elbow, Scara};
 pub use speed_caps::{PathRates, SpeedCaps};
 pub use translational::TranslationalHexapod;
 pub use trivial::Trivial;
+pub use watch::{JointFault, JointWatch};

@@ -252,3 +252,75 @@ fn the_first_joint_limit_that_breaks_is_named() {
     limits.0[3].jerk = 4.0;
     assert_eq!(limits.jerk_broken_by(&jerk).unwrap().joint, 3);
 }
+
+#[test]
+fn a_watch_finds_what_the_differences_show() {
+    let mechanism = Mechanism::Translational(translational());
+    let period_t = 0.004;
+    let mut limits = JointLimits::NONE;
+    limits.0[3].velocity = 44.0;
+    // Along x at 100 mm/s strut 3 runs at 44.72 mm/s in the middle, slower before.
+    let mut watch = JointWatch::new(mechanism, limits, period_t);
+    let mut found = None;
+    for tick in 0..1000 {
+        // Smooth from rest: x = 100 (t - sin(5 t)/5) up to 0.6 s, then at constant speed.
+        let t = period_t * f64::from(tick);
+        let x = -100.0 + 100.0 * (t - (5.0 * t).sin() / 5.0) / 2.0;
+        if let Err(fault) = watch.take(&axes(&[x, 0.0, 500.0])) {
+            found = Some((tick, fault));
+            break;
+        }
+    }
+    let (tick, fault) = found.unwrap();
+    assert!(
+        matches!(
+            fault,
+            JointFault::Limit(JointViolation {
+                joint: 3,
+                quantity: Quantity::Velocity,
+                ..
+            })
+        ),
+        "{fault}"
+    );
+    // The formula says when.
+    let speed = |tick: i32| {
+        let t = period_t * f64::from(tick);
+        let x = -100.0 + 100.0 * (t - (5.0 * t).sin() / 5.0) / 2.0;
+        let v = 100.0 * (1.0 - (5.0 * t).cos()) / 2.0;
+        let motion = mechanism.motion(&axes(&[x, 0.0, 500.0]), &axes(&[v]), &AxisVector::zeros());
+        motion.unwrap().velocity[3].abs()
+    };
+    assert!(
+        speed(tick - 3) < 44.1 && speed(tick + 3) > 43.9,
+        "{tick}: {}",
+        speed(tick)
+    );
+
+    // A jump is a jerk.
+    limits = JointLimits::NONE;
+    limits.0[0].jerk = 1e6;
+    let mut watch = JointWatch::new(mechanism, limits, period_t);
+    assert_eq!(watch.take(&axes(&[0.0, 0.0, 500.0])), Ok(()));
+    let jump = watch.take(&axes(&[0.0, 0.0, 500.1]));
+    assert!(matches!(
+        jump,
+        Err(JointFault::Limit(JointViolation {
+            quantity: Quantity::Jerk,
+            ..
+        }))
+    ));
+    watch.rest();
+    assert_eq!(watch.take(&axes(&[0.0, 0.0, 500.1])), Ok(()));
+
+    let mut hexapod = JointWatch::new(
+        Mechanism::Hexapod(Hexapod::paired(400.0, 150.0, 15.0)),
+        JointLimits::NONE,
+        period_t,
+    );
+    let turned = hexapod.take(&axes(&[0.0, 0.0, 500.0, 0.0, 0.0, 90.0]));
+    assert!(matches!(
+        turned,
+        Err(JointFault::Position(KinematicsError::Singular { .. }))
+    ));
+}

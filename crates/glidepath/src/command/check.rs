@@ -4,6 +4,7 @@ use crate::cli::CheckArgs;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::joints;
 use crate::output;
 use crate::report::{ProgramFinding, finding_object, grouped};
 use glidepath_gcode::{Diagnostic, Report};
@@ -37,7 +38,15 @@ pub fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Failure> 
 /// The file cannot be opened.
 pub fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
     let options = config.program_options(config.home());
-    check_file(path, options, &config.settings()).map_err(Failure::open(path))
+    let report = check_file(path, options, &config.settings()).map_err(Failure::open(path))?;
+    if !report.is_accepted() {
+        return Ok(report);
+    }
+    let diagnostics = joints::check_path(path, config)?.into_iter().collect();
+    Ok(Report {
+        diagnostics,
+        ..report
+    })
 }
 
 /// Checks a program that is to be run.

@@ -89,6 +89,8 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
     };
     Config {
         soft_limits: SoftLimits { lowest, highest },
+        mechanism: config.mechanism,
+        joint_limits: config.joint_limits,
         start_position: config.home(),
         horizon_frames: session::pace(config).horizon_frames,
         real_time: RealTime { mode, request },

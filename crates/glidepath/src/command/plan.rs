@@ -7,11 +7,13 @@ use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::joints::PlanWatch;
 use crate::output;
 use crate::progress::Progress;
 use crate::recording::Recording;
 use crate::report::{MotionReport, Planning, peak_rss_bytes};
 use crate::sample::Sample;
+use glidepath_kinematics::{Kinematics as _, Mechanism};
 use glidepath_motion::audit::{Audit, AuditSettings};
 use glidepath_motion::diagnosis::Diagnosis;
 use glidepath_planner::{FileSource, Output, Pipeline, Refusal};
@@ -67,6 +69,8 @@ pub(super) struct Pass {
     pipeline: Pipeline<FileSource>,
     audit: Audit,
     diagnosis: Diagnosis,
+    joints: Option<PlanWatch>,
+    mechanism: Mechanism,
     period_t: f64,
 }
 
@@ -94,6 +98,8 @@ impl Pass {
             pipeline: Pipeline::new(source, settings, home).with_clock(clock),
             audit: Audit::new(&judged),
             diagnosis: Diagnosis::new(&judged),
+            joints: PlanWatch::new(path, config),
+            mechanism: config.mechanism,
             period_t: settings.period_t,
         })
     }
@@ -109,7 +115,13 @@ impl Pass {
                 Output::Frame(frame) => {
                     self.audit.sample(&(&frame).into());
                     let binding = self.diagnosis.frame(&frame);
-                    recording.push(&Sample::planned(&frame, self.period_t).bound_by(binding))?;
+                    if let Some(joints) = &mut self.joints {
+                        joints.take(&frame)?;
+                    }
+                    // Out of reach is told by the watch; machines without one reach everything.
+                    let joints = self.mechanism.inverse(&frame.position).unwrap_or_default();
+                    let sample = Sample::planned(&frame, self.period_t, joints);
+                    recording.push(&sample.bound_by(binding))?;
                 }
                 // A file is never without its next item.
                 Output::Pending => {}

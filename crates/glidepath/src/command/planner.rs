@@ -7,6 +7,7 @@ use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::interrupt::{Interrupt, end_with};
+use crate::joints;
 use crate::output;
 use crate::report::{grouped, peak_rss_bytes, seconds, state_name};
 use glidepath_geometry::AxisVector;
@@ -47,8 +48,10 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
     } else {
         // A file that does not exist is told at once, not when the machine is ready.
         std::fs::File::open(file).map_err(Failure::open(file))?;
-        let open =
-            |start| FileSource::open(file, config.program_options(start), &config.settings());
+        let open = |start| {
+            joints::check_plan(file, config, start)?;
+            FileSource::open(file, config.program_options(start), &config.settings())
+        };
         if args.resume {
             resume(&transport, config, &mut control, &name, open)
         } else {

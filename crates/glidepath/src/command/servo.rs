@@ -106,12 +106,16 @@ fn settings(config: &MachineConfig) -> ServoSettings {
         patience_ns: PATIENCE_PERIODS * config.period_ns(),
         stop: [ServoSettings::default().stop[0]; AXES],
     };
-    // Trivial kinematics: the joints are the axes.
-    for axis in &config.axes {
-        settings.stop[axis.axis.index()] = StopLimits {
-            acceleration: axis.max_acceleration,
-            jerk: axis.max_jerk,
-        };
+    // Where joints are not axes they have limits of their own; else they are the axes in order.
+    let limits = config.joint_limits.0.iter().take(config.joints());
+    let joints = limits.map(|joint| (joint.acceleration, joint.jerk));
+    let axes = config
+        .axes
+        .iter()
+        .take(if config.joints() == 0 { AXES } else { 0 });
+    let axes = axes.map(|axis| (axis.max_acceleration, axis.max_jerk));
+    for (stop, (acceleration, jerk)) in settings.stop.iter_mut().zip(joints.chain(axes)) {
+        *stop = StopLimits { acceleration, jerk };
     }
     settings
 }

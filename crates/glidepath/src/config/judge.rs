@@ -2,7 +2,7 @@
 
 use super::finding::Finding;
 use super::horizon;
-use super::machine::{AxisConfig, InterpolatorConfig, Kinematics, MachineConfig, PathConfig};
+use super::machine::{AxisConfig, InterpolatorConfig, MachineConfig, PathConfig};
 use super::raw::{Optional, RawAxis, RawConfig, RawInterpolator, RawLink, RawPath};
 use glidepath_geometry::Axis;
 use glidepath_motion::{Effort, Smoothing};
@@ -16,11 +16,6 @@ pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<Finding>> {
     let mut judge = Judge {
         findings: Vec::new(),
     };
-    let kinematics = judge.choice(
-        "machine.kinematics",
-        raw.machine.kinematics,
-        &[("trivial", Kinematics::Trivial)],
-    );
     let axes_span = raw.axis.span();
     let axes: Vec<AxisConfig> = Axis::ALL
         .into_iter()
@@ -35,9 +30,13 @@ pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<Finding>> {
             span: Some(axes_span),
         });
     }
+    let names: Vec<Axis> = axes.iter().map(|axis| axis.axis).collect();
+    let mechanism = judge.mechanism(&raw.machine, &names);
+    let joint_limits = judge.joints(&raw.joint, &mechanism);
     let interpolator = judge.interpolator(&raw.interpolator, &axes);
     let config = MachineConfig {
-        kinematics,
+        mechanism,
+        joint_limits,
         axes,
         path: judge.path(raw.path),
         interpolator,
@@ -61,11 +60,11 @@ pub(super) struct Range {
 }
 
 pub(super) struct Judge {
-    findings: Vec<Finding>,
+    pub(super) findings: Vec<Finding>,
 }
 
 impl Judge {
-    fn number(&mut self, key: &str, value: &Spanned<f64>, range: &Range) -> f64 {
+    pub(super) fn number(&mut self, key: &str, value: &Spanned<f64>, range: &Range) -> f64 {
         let number = *value.as_ref();
         // Not a number is in no range.
         if !(range.min..=range.max).contains(&number) {
@@ -122,7 +121,12 @@ impl Judge {
     }
 
     /// One of the named values; the first is the default.
-    fn choice<T: Copy>(&mut self, key: &str, value: Optional<String>, known: &[(&str, T)]) -> T {
+    pub(super) fn choice<T: Copy>(
+        &mut self,
+        key: &str,
+        value: Optional<String>,
+        known: &[(&str, T)],
+    ) -> T {
         let default = known[0].1;
         let Some(value) = value else { return default };
         let found = known

@@ -2,15 +2,9 @@
 
 use glidepath_gcode::{Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
+use glidepath_kinematics::{JointLimits, JointWatch, Kinematics as _, Mechanism};
 use glidepath_motion::preview::AdvanceRetreat;
 use glidepath_motion::{Effort, Limits, Settings, Smoothing};
-
-/// How axes and joints belong together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kinematics {
-    /// Each configured axis is one joint, in the order X Y Z A B C U V W.
-    Trivial,
-}
 
 /// One axis: mm, or degrees for A, B and C.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,7 +53,9 @@ pub struct InterpolatorConfig {
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineConfig {
     /// How axes and joints belong together.
-    pub kinematics: Kinematics,
+    pub mechanism: Mechanism,
+    /// What each joint can do; no limits where every axis has a drive of its own.
+    pub joint_limits: JointLimits,
     /// The axes in the order X Y Z A B C U V W, at least one.
     pub axes: Vec<AxisConfig>,
     /// The tolerance and how it is used.
@@ -75,6 +71,22 @@ pub struct MachineConfig {
 impl MachineConfig {
     /// Name used where neither the file nor the command line gives one.
     pub const DEFAULT_INSTANCE: &'static str = "default";
+
+    /// Joints that are not axes.
+    #[must_use]
+    pub fn joints(&self) -> usize {
+        match &self.mechanism {
+            Mechanism::Trivial(_) => 0,
+            mechanism => mechanism.joints(),
+        }
+    }
+
+    /// The judge of the joints' motion, where joints are not axes.
+    #[must_use]
+    pub fn joint_watch(&self) -> Option<JointWatch> {
+        let is_trivial = matches!(self.mechanism, Mechanism::Trivial(_));
+        (!is_trivial).then(|| JointWatch::new(self.mechanism, self.joint_limits, self.period_t()))
+    }
 
     /// Interpolation period in seconds.
     #[must_use]

@@ -5,6 +5,7 @@
 mod finding;
 mod horizon;
 mod judge;
+mod kinematics;
 mod machine;
 mod parse;
 mod preview;
@@ -13,7 +14,7 @@ mod raw;
 pub use finding::{ConfigError, Finding, FindingReport};
 pub use horizon::MAX_FRAMES_AHEAD;
 pub use judge::{INSTANCE_RULE, is_instance_name};
-pub use machine::{AxisConfig, InterpolatorConfig, Kinematics, MachineConfig, PathConfig};
+pub use machine::{AxisConfig, InterpolatorConfig, MachineConfig, PathConfig};
 pub(crate) use parse::nearest;
 
 use std::path::Path;

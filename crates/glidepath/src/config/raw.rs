@@ -2,7 +2,9 @@
 //!
 //! Every value keeps its place in the text, so that a later stage can point at it.
 
+use super::kinematics::{RawJoint, RawMachine};
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use toml::Spanned;
 
 /// A value that may be left out, with its place.
@@ -15,6 +17,8 @@ pub(super) struct RawConfig {
     pub(super) machine: RawMachine,
     pub(super) axis: Spanned<RawAxes>,
     #[serde(default)]
+    pub(super) joint: BTreeMap<Spanned<String>, Spanned<RawJoint>>,
+    #[serde(default)]
     pub(super) path: RawPath,
     #[serde(default)]
     pub(super) interpolator: RawInterpolator,
@@ -22,12 +26,6 @@ pub(super) struct RawConfig {
     pub(super) link: RawLink,
     #[serde(default)]
     pub(super) preview: RawPreview,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct RawMachine {
-    pub(super) kinematics: Optional<String>,
 }
 
 #[derive(Debug, Default, Deserialize)]

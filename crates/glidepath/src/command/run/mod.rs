@@ -19,6 +19,7 @@ use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::joints;
 use crate::output;
 use crate::progress::Progress;
 use crate::recording::Recording;
@@ -43,6 +44,9 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// The program is rejected, real time is not granted, a process failed, or the user interrupted.
 pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let checked = check::accepted(&args.file, config)?;
+    let program = args.file.display().to_string();
+    joints::check_plan(&args.file, config, config.home())
+        .map_err(|refusal| Failure::refused(&program, refusal, false))?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let plot = plot_path(args);
     let recording = Recording::create(config, args.setpoints.as_deref(), plot.as_deref())?;

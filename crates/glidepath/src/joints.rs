@@ -1,0 +1,167 @@
+//! What a program asks of the joints, where they are not the axes.
+//!
+//! Along the path: reach, singularities and ranges of the joints, at places at most [`STEP`] apart, so
+//! that `check` needs no plan. Over the plan: velocity, acceleration and jerk of every joint, too, by
+//! finite differences at the period. The plan knows limits of axes only, so a program that asks more
+//! of a joint is refused, before anything moves.
+
+use crate::config::MachineConfig;
+use crate::failure::Failure;
+use glidepath_gcode::{Code, Diagnostic};
+use glidepath_geometry::{AxisVector, Segment};
+use glidepath_kinematics::{JointFault, JointWatch, KinematicsError, Quantity};
+use glidepath_motion::{Frame, ItemKind};
+use glidepath_planner::{FileSource, ItemSource, Pipeline, Refusal, Supply};
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+
+/// Largest change of any axis between two places that are looked at, mm or degrees. The joints of
+/// mechanisms of usual size bend by less than a tenth of a micrometre over that.
+const STEP: f64 = 0.25;
+
+/// Judges a program along its path.
+///
+/// # Errors
+/// The file cannot be read.
+pub(crate) fn check_path(
+    path: &Path,
+    config: &MachineConfig,
+) -> Result<Option<Diagnostic>, Failure> {
+    let Some(watch) = config.joint_watch() else {
+        return Ok(None);
+    };
+    let options = config.program_options(config.home());
+    let mut source = FileSource::unchecked(path, options, &config.settings())?;
+    if let Err(fault) = watch.stand(&config.home()) {
+        return Ok(Some(finding(path, 1, &fault)));
+    }
+    // A file that changed since it was checked is found out when it is planned.
+    while let Supply::Item(item) = source.next_item() {
+        let ItemKind::Move { segment, .. } = &item.kind else {
+            continue;
+        };
+        if let Err(fault) = walk(segment, &watch) {
+            return Ok(Some(finding(path, item.line, &fault)));
+        }
+    }
+    Ok(None)
+}
+
+fn walk(segment: &Segment, watch: &JointWatch) -> Result<(), JointFault> {
+    let length = segment.length();
+    // The fastest axis per unit of path position, which rotary axes may be many times over.
+    let fastest = (0..=8)
+        .map(|i| segment.jet(length * f64::from(i) / 8.0).d1.amax())
+        .fold(1.0, f64::max);
+    let steps = (length * fastest / STEP).ceil().max(1.0);
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "positive, and saturating"
+    )]
+    let steps = steps as u32;
+    for step in 1..=steps {
+        let s = length * f64::from(step) / f64::from(steps);
+        watch.stand(&segment.jet(s).position)?;
+    }
+    Ok(())
+}
+
+/// Judges a plan while it is made.
+#[derive(Debug)]
+pub(crate) struct PlanWatch {
+    watch: JointWatch,
+    path: PathBuf,
+}
+
+impl PlanWatch {
+    /// For a machine whose joints are not its axes.
+    pub(crate) fn new(path: &Path, config: &MachineConfig) -> Option<Self> {
+        config.joint_watch().map(|watch| Self {
+            watch,
+            path: path.to_owned(),
+        })
+    }
+
+    /// Takes the next frame.
+    ///
+    /// # Errors
+    /// The joints cannot do it.
+    pub(crate) fn take(&mut self, frame: &Frame) -> Result<(), Failure> {
+        self.watch.take(&frame.position).map_err(|fault| {
+            let finding = finding(&self.path, frame.line, &fault);
+            Failure::refused(&self.path.display().to_string(), refusal(finding), false)
+        })
+    }
+}
+
+/// Plans a file from a position, and judges the plan.
+///
+/// # Errors
+/// All that is wrong with the file, or what its joints cannot do.
+pub(crate) fn check_plan(
+    path: &Path,
+    config: &MachineConfig,
+    start: AxisVector,
+) -> Result<(), Refusal> {
+    let Some(mut watch) = config.joint_watch() else {
+        return Ok(());
+    };
+    let settings = config.settings();
+    let source = FileSource::open(path, config.program_options(start), &settings)?;
+    let mut pipeline = Pipeline::new(source, settings, start);
+    while let Some(frame) = pipeline.next_frame()? {
+        watch
+            .take(&frame.position)
+            .map_err(|fault| refusal(finding(path, frame.line, &fault)))?;
+    }
+    Ok(())
+}
+
+fn refusal(finding: Diagnostic) -> Refusal {
+    Refusal::Program {
+        findings: vec![finding],
+        unlisted: 0,
+    }
+}
+
+fn finding(path: &Path, line: u32, fault: &JointFault) -> Diagnostic {
+    let help = match fault {
+        JointFault::Position(KinematicsError::Unreachable { .. }) => {
+            "keep the program inside the machine's workspace"
+        }
+        JointFault::Position(_) => "place the work elsewhere, or turn the tool less",
+        JointFault::Limit(violation) => match violation.quantity {
+            Quantity::Lowest | Quantity::Highest => {
+                "place the work elsewhere, or mend the joint's range in the configuration"
+            }
+            Quantity::Velocity | Quantity::Acceleration | Quantity::Jerk => {
+                "give a lower feedrate, or lower limits of the axes in the configuration"
+            }
+        },
+    };
+    let text = line_of(path, line);
+    let whole = 0..text.trim_end().len();
+    Diagnostic {
+        line,
+        ..Diagnostic::in_text(
+            &text,
+            whole,
+            Code::Joint,
+            fault.to_string(),
+            help.to_owned(),
+        )
+    }
+}
+
+/// A line of a file for display; empty if it cannot be read.
+fn line_of(path: &Path, line: u32) -> String {
+    let nth = usize::try_from(line.saturating_sub(1)).unwrap_or(usize::MAX);
+    let text = File::open(path).ok().and_then(|file| {
+        let mut lines = BufReader::new(file).split(b'\n');
+        lines.nth(nth)?.ok()
+    });
+    text.map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
+        .unwrap_or_default()
+}

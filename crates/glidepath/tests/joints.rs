@@ -1,0 +1,239 @@
+//! Machines whose joints are not their axes: configuration, columns, and what is refused.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a test that fails may panic"
+)]
+
+use glidepath::config;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const HEXAPOD: &str = include_str!(concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../../config/hexapod.toml"
+));
+const PROGRAM: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/hexapod.ngc"));
+
+fn file(folder: &Path, name: &str, text: &str) -> PathBuf {
+    let path = folder.join(name);
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+/// Runs a command on a program and a configuration.
+fn glidepath(command: &str, program: &str, config: &str, more: &[&str]) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    let program = file(folder.path(), "p.ngc", program);
+    let config = file(folder.path(), "m.toml", config);
+    Command::new(env!("CARGO_BIN_EXE_glidepath"))
+        .arg(command)
+        .arg(program)
+        .arg("--config")
+        .arg(config)
+        .args(more)
+        .output()
+        .unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Strut lengths of the shipped hexapod, from the text-book formula.
+fn struts(axes: &[f64; 6]) -> [f64; 6] {
+    let [x, y, z] = [axes[0], axes[1], axes[2]];
+    let rotation = nalgebra::Rotation3::from_euler_angles(
+        axes[3].to_radians(),
+        axes[4].to_radians(),
+        axes[5].to_radians(),
+    );
+    let on = |radius: f64, degrees: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        nalgebra::Vector3::new(radius * cos, radius * sin, 0.0)
+    };
+    let base = [-15.0, 15.0, 105.0, 135.0, 225.0, 255.0];
+    let platform = [315.0, 45.0, 75.0, 165.0, 195.0, 285.0];
+    core::array::from_fn(|i| {
+        let tip = nalgebra::Vector3::new(x, y, z);
+        (tip + rotation * on(150.0, platform[i]) - on(400.0, base[i])).norm()
+    })
+}
+
+#[test]
+fn setpoints_have_a_column_for_every_joint() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("out.csv");
+    let more = ["--json", "--setpoints", csv.to_str().unwrap()];
+    let output = glidepath("plan", PROGRAM, HEXAPOD, &more);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(report["max_deviation_mm"].as_f64().unwrap() <= 0.02);
+    let text = std::fs::read_to_string(csv).unwrap();
+    let mut lines = text.lines();
+    let header = lines.next().unwrap();
+    assert!(
+        header.ends_with(",acc_C,joint_0,joint_1,joint_2,joint_3,joint_4,joint_5"),
+        "{header}"
+    );
+    let mut moved = 0.0_f64;
+    for line in lines {
+        let numbers: Vec<f64> = line
+            .split(',')
+            .map(|n| n.parse().unwrap_or(f64::NAN))
+            .collect();
+        let axes: [f64; 6] = core::array::from_fn(|i| numbers[6 + 3 * i]);
+        for (got, want) in numbers[24..].iter().zip(struts(&axes)) {
+            assert!((got - want).abs() < 1e-9, "{got} {want}");
+            moved = moved.max((got - 505.0).abs());
+        }
+    }
+    assert!(moved > 50.0, "{moved}");
+}
+
+#[test]
+fn what_joints_cannot_do_is_refused_with_line_and_reason() {
+    // Inside the travel of every axis, beyond that of a strut.
+    let far = "G21 G90\nG0 Z500\nG1 X115 Y115 Z575 F600\nM2\n";
+    for command in ["check", "plan", "run"] {
+        let output = glidepath(command, far, HEXAPOD, &[]);
+        assert_eq!(
+            output.status.code(),
+            Some(1),
+            "{command}: {}",
+            stderr(&output)
+        );
+        let said = stderr(&output);
+        assert!(said.contains("p.ngc:3:1"), "{said}");
+        assert!(
+            said.contains("joint J") && said.contains("highest position"),
+            "{said}"
+        );
+    }
+    // The path is fine, its speed is not.
+    let slow = HEXAPOD.replacen("max_velocity = 120.0", "max_velocity = 5.0", 1);
+    let across = "G21 G90\nG0 Z500\nG1 X80 F3000\nM2\n";
+    assert_eq!(
+        glidepath("check", across, &slow, &[]).status.code(),
+        Some(0)
+    );
+    for command in ["plan", "run"] {
+        let output = glidepath(command, across, &slow, &[]);
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(
+            said.contains("joint J0: velocity 5.000 is exceeded"),
+            "{said}"
+        );
+    }
+    // A singular place: the platform turned until the struts hold it no more.
+    let wide = HEXAPOD
+        .replace(
+            "min_position = -30.0\nmax_position = 30.0",
+            "min_position = -100.0\nmax_position = 100.0",
+        )
+        .replace("min_position = 430.0", "min_position = 1.0")
+        .replace("max_base_angle = 50.0", "max_base_angle = 90.0")
+        .replace("max_platform_angle = 60.0", "max_platform_angle = 90.0")
+        .replace("min_strut_distance = 60.0", "min_strut_distance = 0.001");
+    let turned = "G21 G90\nG0 Z500\nG1 C89.8 F300\nM2\n";
+    let output = glidepath("check", turned, &wide, &[]);
+    assert!(
+        stderr(&output).contains("near a singularity"),
+        "{}",
+        stderr(&output)
+    );
+    assert_eq!(output.status.code(), Some(1));
+}
+
+fn findings(text: &str) -> Vec<String> {
+    let error = config::parse("m.toml", text).expect_err("refused");
+    error.findings().iter().map(|f| f.message.clone()).collect()
+}
+
+#[test]
+fn machines_are_described_completely_or_refused() {
+    let config = config::parse("hexapod.toml", HEXAPOD).unwrap();
+    assert_eq!(config.joints(), 6);
+    assert_eq!(config.home()[2], 420.0);
+    assert_eq!(config::load(None).unwrap().joints(), 0);
+
+    let told = findings(&HEXAPOD.replace("[joint.J3]", "[joint.J7]"));
+    assert_eq!(
+        told,
+        [
+            "the machine has no joint J7 of its own",
+            "the table [joint.J3] is missing"
+        ]
+    );
+    let told = findings(&HEXAPOD.replace("half_angle = 15.0", "half_angle = 30.0"));
+    assert_eq!(told, ["machine.hexapod.half_angle = 30 ° is out of range"]);
+    let told = findings(&HEXAPOD.replace("kinematics = \"hexapod\"", "kinematics = \"corexy\""));
+    assert!(
+        told[0].contains("[machine.hexapod] describes another machine"),
+        "{told:?}"
+    );
+    let start = HEXAPOD.find("[axis.C]").unwrap();
+    let end = HEXAPOD.find("[path]").unwrap();
+    let told = findings(&format!("{}{}", &HEXAPOD[..start], &HEXAPOD[end..]));
+    assert_eq!(told, ["the axis C of this mechanism is missing"]);
+}
+
+#[test]
+fn every_mechanism_can_be_configured() {
+    let axis = |name: &str| {
+        format!(
+            "[axis.{name}]\nmin_position = -100\nmax_position = 100\nmax_velocity = 50\n\
+             max_acceleration = 500\nmax_jerk = 5000\n"
+        )
+    };
+    let joints = |count: usize| -> String {
+        (0..count)
+            .map(|j| {
+                format!(
+                    "[joint.J{j}]\nmax_velocity = 500\nmax_acceleration = 5000\nmax_jerk = 500000\n"
+                )
+            })
+            .collect()
+    };
+    let machines = [
+        ("\"corexy\"", "", "XYZ", 3),
+        (
+            "\"linear-delta\"",
+            "[machine.linear-delta]\nrod = 269\nradius = 130.25\n",
+            "XYZ",
+            3,
+        ),
+        (
+            "\"five-axis\"",
+            "[machine.five-axis]\nlayout = \"table-table\"\ntilt = \"A\"\ntool = 80\n\
+             tilt_point = [0, 0, -50]\nrotary_point = [0, 20, 0]\n",
+            "XYZAC",
+            5,
+        ),
+        (
+            "\"translational-hexapod\"",
+            "[machine.translational-hexapod]\nradius_difference = 250\nbase_z = -500\n",
+            "XYZ",
+            6,
+        ),
+    ];
+    for (kind, table, axes, count) in machines {
+        let axes: String = axes.chars().map(|c| axis(&c.to_string())).collect();
+        let text = format!(
+            "[machine]\nkinematics = {kind}\n{table}{axes}{}",
+            joints(count)
+        );
+        let config = config::parse("m.toml", &text).expect(kind);
+        assert_eq!(config.joints(), count);
+        let output = glidepath(
+            "plan",
+            "G21 G90\nG1 X20 Y10 F600\nG0 X0 Y0\nM2\n",
+            &text,
+            &["--json"],
+        );
+        assert_eq!(output.status.code(), Some(0), "{kind}: {}", stderr(&output));
+    }
+}

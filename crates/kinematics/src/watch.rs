@@ -1,0 +1,105 @@
+//! A motion judged period by period, in the space of the joints.
+
+use crate::{
+    JointLimits, JointMotion, JointVector, JointViolation, Kinematics, KinematicsError, Mechanism,
+};
+use glidepath_geometry::AxisVector;
+use thiserror::Error;
+
+/// What a mechanism cannot do.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum JointFault {
+    /// The mechanism may not go there.
+    #[error(transparent)]
+    Position(#[from] KinematicsError),
+    /// A joint cannot do it.
+    #[error("{0}")]
+    Limit(JointViolation),
+}
+
+/// Judges positions that follow each other by a period: reach, singularities, and the limits of every
+/// joint by finite differences of its positions, which is what its drive makes of them.
+///
+/// Bounded work, no allocation.
+#[derive(Debug, Clone, Copy)]
+pub struct JointWatch {
+    mechanism: Mechanism,
+    limits: JointLimits,
+    period_t: f64,
+    last: Option<Last>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Last {
+    position: JointVector,
+    velocity: JointVector,
+    acceleration: JointVector,
+}
+
+impl JointWatch {
+    /// A judge of motions with a period in s.
+    #[must_use]
+    pub const fn new(mechanism: Mechanism, limits: JointLimits, period_t: f64) -> Self {
+        Self {
+            mechanism,
+            limits,
+            period_t,
+            last: None,
+        }
+    }
+
+    /// Whether the mechanism may stand at a position.
+    ///
+    /// # Errors
+    /// What forbids it.
+    pub fn stand(&self, axes: &AxisVector) -> Result<JointVector, JointFault> {
+        self.mechanism.admit(axes)?;
+        let position = self.mechanism.inverse(axes)?;
+        let motion = JointMotion {
+            position,
+            velocity: JointVector::zeros(),
+            acceleration: JointVector::zeros(),
+        };
+        match self.limits.broken_by(&motion) {
+            Some(violation) => Err(JointFault::Limit(violation)),
+            None => Ok(position),
+        }
+    }
+
+    /// Forgets the motion: the next position is one of rest.
+    pub const fn rest(&mut self) {
+        self.last = None;
+    }
+
+    /// Takes the next position of the motion; before the first one the machine was at rest there.
+    ///
+    /// # Errors
+    /// The first thing that the mechanism cannot do.
+    pub fn take(&mut self, axes: &AxisVector) -> Result<(), JointFault> {
+        let position = self.stand(axes)?;
+        let zero = JointVector::zeros();
+        let last = self.last.unwrap_or(Last {
+            position,
+            velocity: zero,
+            acceleration: zero,
+        });
+        let velocity = (position - last.position) / self.period_t;
+        let acceleration = (velocity - last.velocity) / self.period_t;
+        let jerk = (acceleration - last.acceleration) / self.period_t;
+        let motion = JointMotion {
+            position,
+            velocity,
+            acceleration,
+        };
+        let broken = self.limits.broken_by(&motion);
+        if let Some(violation) = broken.or_else(|| self.limits.jerk_broken_by(&jerk)) {
+            return Err(JointFault::Limit(violation));
+        }
+        self.last = Some(Last {
+            position,
+            velocity,
+            acceleration,
+        });
+        Ok(())
+    }
+}
