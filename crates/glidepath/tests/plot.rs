@@ -27,6 +27,7 @@ fn wander(tick: u32) -> Sample {
         position,
         velocity: AxisVector::zeros(),
         acceleration: AxisVector::zeros(),
+        joints: glidepath_kinematics::JointVector::zeros(),
     }
 }
 
