@@ -59,6 +59,7 @@ fn every_command_explains_itself_with_an_example() {
         "resume",
         "override",
         "abort",
+        "bench",
         "doctor",
         "jitter",
     ] {
@@ -237,6 +238,61 @@ fn plan_reports_every_key_of_the_contract() {
         assert_eq!(cells[0], tick.to_string());
     }
     assert!(std::fs::read_to_string(svg).unwrap().starts_with("<svg"));
+}
+
+#[test]
+fn plan_tells_what_binds_and_where_time_is_lost() {
+    let report = object(&glidepath(&["plan", PART, "--json"]));
+    let shares = report["binding"].as_object().unwrap();
+    let sum: f64 = shares.values().filter_map(Value::as_f64).sum();
+    assert!(
+        (sum - 1.0).abs() < 1e-9 && shares.contains_key("feed"),
+        "{shares:?}"
+    );
+    let slowest = report["slowest"].as_array().unwrap();
+    assert_eq!(slowest.len(), 10);
+    let lost = |place: &Value| place["lost_s"].as_f64().unwrap();
+    assert!(
+        slowest
+            .windows(2)
+            .all(|pair| lost(&pair[0]) >= lost(&pair[1]))
+    );
+    for place in slowest {
+        assert!(
+            place["line"].as_u64() > Some(0) && place["limit"].is_string(),
+            "{place}"
+        );
+        assert!(
+            place["speed_mm_s"].as_f64() < place["feed_mm_s"].as_f64(),
+            "{place}"
+        );
+    }
+}
+
+#[test]
+fn bench_compares_programs_with_their_catalogue() {
+    let folder = tempfile::tempdir().unwrap();
+    file(folder.path(), "one.ngc", "G1 X20 F6000\nY20\nM2\n");
+    let catalogue = r#"{ "bench": [{ "file": "one.ngc", "profile": "mill",
+        "exact_stop_s": { "j=40000": 0.6 }, "linuxcnc": [],
+        "anchors": [{ "tolerance_mm": 0.02, "jerk": 4e4, "tube_s": 0.5 }] }] }"#;
+    let output = glidepath(&["bench", folder.path().to_str().unwrap()]);
+    assert_eq!(
+        (exit(&output), stderr(&output).contains("bench.json")),
+        (2, true)
+    );
+    file(folder.path(), "bench.json", catalogue);
+    let output = glidepath(&["bench", folder.path().to_str().unwrap(), "--json"]);
+    assert_eq!(exit(&output), 0, "{}", stderr(&output));
+    let row = object(&output)["programs"][0].clone();
+    let time = row["cycle_time_s"].as_f64().unwrap();
+    assert!((0.5..0.62).contains(&time), "{row}");
+    let ratio = row["over_tube"].as_f64().unwrap();
+    assert!((ratio - time / 0.5).abs() < 1e-12, "{row}");
+    assert!(
+        row["over_copp"].is_null() && row["violation_count"] == 0,
+        "{row}"
+    );
 }
 
 #[test]

@@ -278,11 +278,11 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(cases(30))]
+    #![proptest_config(cases(12))]
 
     #[test]
     fn random_programs_planned_optimally_keep_the_limits_and_reach_their_end(
-        steps in prop::collection::vec(any_step(), 1..25),
+        steps in prop::collection::vec(any_step(), 1..12),
         limits in any_limits(),
         period_t in prop_oneof![Just(0.004), Just(0.001)],
     ) {

@@ -58,10 +58,12 @@ impl WindowPlanner {
         };
         self.follower.end = leg.piece + 1;
         let way = (&self.track, &mut self.follower);
-        if !self
+        let is_kept = self
             .history
-            .follow(&self.limits, self.period_t, way, &period.position)
-        {
+            .follow(&self.limits, self.period_t, way, &period.position);
+        // A leg begun before the rates were lowered is driven to its end as it was planned: what is
+        // only too fast has been followed all the same.
+        if !is_kept && self.history.last() != period.position {
             // The chord between two periods cuts off a vertex: rest there until the next period.
             period = Period::rest(first.to);
             is_resting = true;

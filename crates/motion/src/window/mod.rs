@@ -309,6 +309,10 @@ impl WindowPlanner {
                     done: 0,
                 }
             }
+            None if is_at_rest && self.is_at_end() => {
+                self.is_over = true;
+                return None;
+            }
             None if is_at_rest => {
                 let left = self.legs;
                 self.legs = (2 * self.legs).min(MOST_LEGS);
@@ -326,6 +330,15 @@ impl WindowPlanner {
             },
         };
         Some(())
+    }
+
+    /// True if the motion handed out so far is exactly at the end of the path.
+    fn is_at_end(&self) -> bool {
+        let end = self
+            .track
+            .get(self.follower.place.last())
+            .map(|piece| piece.end);
+        self.follower.place.is_at_end(&self.track) && end == Some(self.history.last())
     }
 
     /// The motion from the present knot to rest that is known to work.
