@@ -218,7 +218,6 @@ proptest! {
     #![proptest_config(cases(30))]
 
     #[test]
-    #[ignore = "some plans end early, at a leg after a lowered override; the error is PlanError::NoMotion"]
     fn overrides_of_an_optimal_plan_keep_limits_and_path(
         steps in any_steps(),
         changes in any_changes(),
@@ -270,9 +269,8 @@ fn keeps_limits_and_path(
         .iter()
         .for_each(|frame| audit.sample(&Sample::from(frame)));
     let report = audit.finish();
-    // The auditor knows the programmed feed, not the overrides.
-    let is_fast =
-        |kind: &ViolationKind| matches!(kind, ViolationKind::Feed { ratio } if *ratio <= 2.0);
+    // The auditor knows the programmed feed, not the overrides: twice that, and the auditor's own slack.
+    let is_fast = |kind: &ViolationKind| matches!(kind, ViolationKind::Feed { ratio } if *ratio <= 2.0 * (1.0 + 1e-3));
     let found: Vec<_> = report
         .violations
         .iter()

@@ -64,6 +64,9 @@ impl WindowPlanner {
         // A leg begun before the rates were lowered is driven to its end as it was planned: what is
         // only too fast has been followed all the same.
         if !is_kept && self.history.last() != period.position {
+            if leg.piece == first.piece && !is_resting {
+                return None;
+            }
             // The chord between two periods cuts off a vertex: rest there until the next period.
             period = Period::rest(first.to);
             is_resting = true;

@@ -252,9 +252,12 @@ impl WindowPlanner {
         let [velocity, acceleration] = grid.derivatives(points, *done);
         self.is_over = *is_end && *done == grid.periods_in(points.len() - 3);
         let way = (&self.track, &mut self.follower);
-        self.history
+        let is_kept = self
+            .history
             .follow(&self.limits, self.period_t, way, &position);
-        Some(Period {
+        // Too fast for a rate that was lowered meanwhile is all that it may be.
+        let is_followed = is_kept || self.history.last() == position;
+        is_followed.then_some(Period {
             velocity,
             acceleration,
             ..Period::rest(position)
@@ -297,7 +300,8 @@ impl WindowPlanner {
             // Never slower than stopping at every vertex.
             !motion.is_end || legs_t.is_none_or(|legs_t| before_last_t < legs_t)
         });
-        self.follower.end = view.pieces.end;
+        // Never less than before: what is left of the last window may go as far as that one saw.
+        self.follower.end = self.follower.end.max(view.pieces.end);
         self.force = match motion {
             Some(motion) => {
                 self.legs = 1;
