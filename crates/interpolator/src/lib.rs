@@ -19,6 +19,8 @@
 //! at rate 1 the setpoints are the frames, bit for bit; whatever fails, the motion comes to rest on
 //! the path.
 
+#![cfg_attr(glidepath_rtsan, feature(sanitize))]
+
 mod admission;
 mod block_end;
 mod commands;

@@ -96,6 +96,7 @@ impl<'a> Interpolator<'a> {
 
     /// One period: reads the rings, advances program time, and says where the axes are to be. Needs
     /// nothing but the rings, so it is done before the deadline of the tick.
+    #[cfg_attr(glidepath_rtsan, sanitize(realtime = "nonblocking"))]
     pub(crate) fn prepare(&mut self, tick: u64, inputs: &mut Inputs<'_>) -> Report {
         self.obey(inputs);
         self.take_frames(inputs);
@@ -114,6 +115,7 @@ impl<'a> Interpolator<'a> {
     }
 
     /// What is left to do at the deadline: the time it really was.
+    #[cfg_attr(glidepath_rtsan, sanitize(realtime = "nonblocking"))]
     pub(crate) fn stamp(&mut self, report: &mut Report, wake: &Wake) {
         if wake.missed > 0 {
             self.happenings.write(Happening::Missed {
