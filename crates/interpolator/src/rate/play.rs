@@ -60,11 +60,15 @@ pub(super) fn play(
     Played::Passed
 }
 
+/// Most samples of a tick: what it takes where three stops fill the track, which is the shortest period
+/// a configuration may have.
+const MOST: u32 = 360;
+
 impl Scene<'_> {
     /// Samples a tick may spend: so many, or what it takes to play a stop from full speed through
     /// twice. With less, at a short period, no stop would ever pass.
     pub(super) fn budget(&self, least: u32) -> u32 {
         let stop = u32::try_from(2 * self.reach).unwrap_or(u32::MAX / 4);
-        least.max(2 * (stop + 3 + SET_UP))
+        least.max(2 * (stop + 3 + SET_UP)).min(MOST)
     }
 }
