@@ -5,6 +5,7 @@ use glidepath_motion::{Event, Item, ItemKind};
 use crate::block::Block;
 use crate::codes::Coded;
 use crate::diagnostic::{Code, Fault, Outcome};
+use crate::dialect::Dialect;
 use crate::interpreter::Interpreter;
 use crate::modal::Feed;
 use crate::modes::{FeedMode, Once};
@@ -65,14 +66,23 @@ impl Interpreter {
             span,
         }) = codes.once
         {
-            let seconds = block
-                .get(b'P')
-                .ok_or_else(|| missing(span, "G4", "P", "seconds"))?;
+            let seconds =
+                dwell_seconds(block).ok_or_else(|| missing(span, "G4", "P", "how long"))?;
             if seconds < 0.0 {
                 return Err(negative(block, b'P', "the dwell"));
             }
             self.push(out, ItemKind::Dwell(seconds));
         }
         Ok(())
+    }
+}
+
+/// Seconds of a G4: milliseconds in the P word of printers and FANUC, seconds in their S and X.
+fn dwell_seconds(block: &Block) -> Option<f64> {
+    let milliseconds = || block.get(b'P').map(|p| 1e-3 * p);
+    match block.dialect {
+        Dialect::LinuxCnc | Dialect::Siemens => block.get(b'P'),
+        Dialect::Marlin => block.get(b'S').or_else(milliseconds),
+        Dialect::Fanuc => block.get(b'X').or_else(milliseconds),
     }
 }

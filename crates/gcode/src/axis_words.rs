@@ -5,8 +5,9 @@ use glidepath_geometry::{AXES, Axis};
 use crate::block::{AXIS_WORDS, Block, Letters};
 use crate::codes::Coded;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
+use crate::dialect::Dialect;
 use crate::interpreter::Interpreter;
-use crate::modes::{Motion, ToolLength};
+use crate::modes::{Distance, Motion, Once, ToolLength};
 use crate::moves::motion_span;
 use crate::words::missing;
 
@@ -20,6 +21,12 @@ impl Interpreter {
             ToolLength::Add => block.get(b'H').is_none(),
             _ => false,
         });
+        // On a FANUC X may be the time of a dwell, and a motion code beside G28 is only the next mode.
+        let fanuc = block.dialect == Dialect::Fanuc;
+        let code = block.codes.once.map(|once| once.code);
+        if fanuc && matches!(code, Some(Once::Dwell | Once::GoToReference(_))) {
+            return Ok(None);
+        }
         let taken = once.is_some() || length.is_some();
         let has_axes = block.has_axes();
         if let (Some(_), Some(Coded { span, .. })) = (once, length) {
@@ -113,7 +120,36 @@ impl Interpreter {
             values[0] = values[0].map(|x| 0.5 * x);
         }
         self.resolve_polar(block, &mut values)?;
+        if block.dialect == Dialect::Marlin {
+            self.extruder_value(block, &mut values)?;
+        }
         Ok(values)
+    }
+
+    /// Puts the E word of a printer's program into the place of its axis.
+    fn extruder_value(&self, block: &Block, values: &mut [Option<f64>; AXES]) -> Outcome<()> {
+        let Some(word) = block.get(b'E') else {
+            return Ok(());
+        };
+        let Some(axis) = self.options.extruder else {
+            let message = "no axis is the extruder";
+            return Err(
+                Fault::new(Code::AxisNotConfigured, block.span(b'E'), message)
+                    .because("E words move an axis of the machine")
+                    .help("name the axis: `extruder` of [program] in the configuration"),
+            );
+        };
+        let value = word * self.state.modal.units.mm();
+        let program = self.offsets.to_program(self.state.position)[axis.index()];
+        let incremental = self.state.modal.distance == Distance::Incremental;
+        let names = block.codes.once.is_some();
+        values[axis.index()] = Some(match (self.state.extruder_relative, incremental) {
+            _ if names => value,
+            (true, false) => program + value,
+            (false, true) => value - program,
+            _ => value,
+        });
+        Ok(())
     }
 }
 

@@ -9,6 +9,8 @@ use crate::bad_byte::bad_byte;
 use crate::codes::Codes;
 use crate::cursor::Cursor;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
+use crate::dialect::Dialect;
+use crate::dialect::marlin::shows_text;
 use crate::expression::{Parameter, Scope, parameter, value};
 
 /// Letters of the axes in index order, as [`Block`] indices.
@@ -27,6 +29,7 @@ pub(crate) enum LineKind {
 /// The words of a line.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Block {
+    pub(crate) dialect: Dialect,
     pub(crate) kind: LineKind,
     pub(crate) codes: Codes,
     /// One bit per letter that has a value; G, M, N and O are not among them.
@@ -92,6 +95,14 @@ impl Letters {
 pub(crate) const AXIS_WORDS: Letters = Letters::of(&AXIS_LETTERS);
 
 impl Block {
+    /// A block to be filled with lines of a dialect.
+    pub(crate) fn of(dialect: Dialect) -> Self {
+        Self {
+            dialect,
+            ..Self::default()
+        }
+    }
+
     /// Value of a word.
     pub(crate) const fn get(&self, letter: u8) -> Option<f64> {
         if self.present & bit(letter) == 0 {
@@ -115,7 +126,8 @@ impl Block {
 
     /// True if the block has an axis word or a polar one.
     pub(crate) const fn has_axes(&self) -> bool {
-        self.has_any(AXIS_WORDS) || self.polar[0].is_some() || self.polar[1].is_some()
+        let extruder = matches!(self.dialect, Dialect::Marlin) && self.get(b'E').is_some();
+        extruder || self.has_any(AXIS_WORDS) || self.polar[0].is_some() || self.polar[1].is_some()
     }
 
     /// True if the block has any of these words.
@@ -168,13 +180,12 @@ impl Block {
                 b'(' => cursor.skip_comment()?,
                 b';' => break,
                 b'A'..=b'Z' | b'a'..=b'z' => {
-                    self.word(
-                        &mut cursor,
-                        byte.to_ascii_uppercase(),
-                        start_of_block,
-                        scope,
-                    )?;
+                    let letter = byte.to_ascii_uppercase();
+                    self.word(&mut cursor, letter, start_of_block, scope)?;
                     start_of_block = false;
+                    if self.codes.function.is_some_and(|c| shows_text(c.code)) {
+                        break;
+                    }
                 }
                 b'@' | b'^' => {
                     self.polar_word(&mut cursor, usize::from(byte == b'^'), scope)?;
@@ -275,6 +286,7 @@ impl Block {
         self.any = true;
         match letter {
             b'G' => self.codes.add_g(value, span),
+            b'M' if self.dialect == Dialect::Marlin => self.codes.add_printer_m(value, span),
             b'M' => self.codes.add_m(value, span),
             _ if self.present & bit(letter) != 0 => Err(duplicate(char::from(letter), span)),
             _ => {

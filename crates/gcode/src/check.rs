@@ -4,9 +4,10 @@ use std::io::BufRead;
 
 use glidepath_geometry::AxisVector;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::options::Options;
 use crate::program::Program;
+use crate::survey::{Corner, Survey};
 use crate::totals::Totals;
 
 /// Most findings listed in a [`Report`].
@@ -24,6 +25,12 @@ pub struct Report {
     pub complete: bool,
     /// Counts and sums over the blocks without findings.
     pub totals: Totals,
+    /// The sharpest corner between two feed moves; `None` without any.
+    pub corner: Option<Corner>,
+    /// Time of the straight feed moves at their feedrate, as if there were no acceleration, s.
+    pub straight_time_s: f64,
+    /// Time of the arcs at their feedrate, as if there were no acceleration, s.
+    pub arc_time_s: f64,
     /// Machine position at the end, over the blocks without findings.
     pub final_position: AxisVector,
 }
@@ -33,6 +40,13 @@ impl Report {
     #[must_use]
     pub const fn is_accepted(&self) -> bool {
         self.diagnostics.is_empty()
+    }
+
+    /// Moves, among the findings listed, that leave the travel of an axis.
+    #[must_use]
+    pub fn soft_limit_violations(&self) -> usize {
+        let beyond = |finding: &&Diagnostic| finding.code == Code::SoftLimit;
+        self.diagnostics.iter().filter(beyond).count()
     }
 }
 
@@ -45,11 +59,12 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
     let most = options.loops.checked_lines;
     let mut program = Program::new(reader, options);
     let (mut diagnostics, mut more) = (Vec::new(), 0_u32);
+    let mut survey = Survey::default();
     while program.kept_lines() < most
         && let Some(line) = program.next_line()
     {
         match line {
-            Ok(()) => {}
+            Ok(()) => program.items().iter().for_each(|item| survey.add(item)),
             Err(diagnostic) if diagnostics.len() < MAX_FINDINGS => diagnostics.push(diagnostic),
             Err(_) => more = more.saturating_add(1),
         }
@@ -59,6 +74,9 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
         more,
         complete: program.kept_lines() < most,
         totals: *program.totals(),
+        corner: survey.sharpest,
+        straight_time_s: survey.straight_s,
+        arc_time_s: survey.arc_s,
         final_position: *program.position(),
     }
 }

@@ -6,6 +6,7 @@ use glidepath_geometry::Plane;
 use glidepath_motion::PathMode;
 
 use crate::diagnostic::{Code, Fault, Outcome, Span};
+use crate::dialect::marlin::is_function;
 use crate::modes::{
     CutterRadius, Cycle, Distance, FeedMode, Motion, Once, Probe, Retract, Side, SpindleMode, Stop,
     ToolLength, Units,
@@ -49,6 +50,10 @@ pub(crate) struct Codes {
     pub(crate) orient: Option<Coded<u32>>,
     /// M62 to M68.
     pub(crate) input_output: Option<Coded<u32>>,
+    /// M82 and M83 of printers; true: E words are relative.
+    pub(crate) extruder: Option<Coded<bool>>,
+    /// An M code of printers that takes the words of its block.
+    pub(crate) function: Option<Coded<u32>>,
 }
 
 impl Codes {
@@ -119,6 +124,15 @@ impl Codes {
                 Ok(())
             }
             _ => set(&mut self.motion, motion, span),
+        }
+    }
+
+    /// Adds an M word of a printer's program.
+    pub(crate) fn add_printer_m(&mut self, value: f64, span: Span) -> Outcome<()> {
+        match code_number(value) {
+            Some(number @ (82 | 83)) => set(&mut self.extruder, number == 83, span),
+            Some(number) if is_function(number) => set(&mut self.function, number, span),
+            _ => self.add_m(value, span),
         }
     }
 

@@ -13,18 +13,18 @@
 //!                         ▼           bottom: dwell, spindle, retraction
 //! ```
 //!
-//! With G90 R and depth are coordinates; with G91 R counts from where the axis stands, the depth from
-//! R, and the in-plane words from hole to hole. The initial level is where the axis stood before the
-//! first of a series of cycles, but not below R.
+//! With G90 R and depth are coordinates; with G91 R counts from the initial level, the depth from R,
+//! and the in-plane words from hole to hole. The initial level is where the axis stood before the
+//! first of a series of cycles. The way to the next hole begins with a rise where one is needed.
 //!
 //! | cycle | down | at the bottom | out |
 //! |---|---|---|---|
 //! | G73 | Q at a time, 0.254 mm back after each | – | rapid |
-//! | G74, G84 | feed, overrides off | spindle reversed | feed, then reversed again |
+//! | G74, G84 | feed, overrides off | spindle reversed, dwell P | feed, then reversed again |
 //! | G81 | feed | – | rapid |
 //! | G82 | feed | dwell P | rapid |
 //! | G83 | Q at a time, out to R after each | – | rapid |
-//! | G85 | feed | – | feed |
+//! | G85 | feed | – | feed to R, rapid from there |
 //! | G86 | feed | dwell P, spindle stop | rapid, spindle on |
 //! | G89 | feed | dwell P | feed |
 
@@ -33,6 +33,7 @@ use glidepath_motion::{Event, Item, ItemKind, PathMode};
 
 use crate::block::Block;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
+use crate::dialect::Dialect;
 use crate::interpreter::Interpreter;
 use crate::modes::{Cycle, Distance, FeedMode, Retract};
 use crate::moves::{Pace, motion_span};
@@ -41,6 +42,8 @@ use crate::words::{missing, negative, whole};
 
 /// How far the tool backs off from a depth it has reached, mm.
 const BACK_OFF_MM: f64 = 0.254;
+/// Depths as near to the bottom as this are the bottom, mm.
+const BOTTOM_MM: f64 = 1e-6;
 /// Most pecks of one block.
 const MAX_PECKS: f64 = 10_000.0;
 /// Most holes of one block.
@@ -83,7 +86,8 @@ impl Interpreter {
         let normal = self.state.modal.plane.normal();
         self.check_cycle(block, cycle)?;
         let kept = self.keep(block, cycle)?;
-        let holes = match whole(block, b'L', MAX_HOLES)? {
+        let repeats = whole(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?);
+        let holes = match repeats {
             Some(0) => {
                 let message = "a cycle without holes";
                 return Err(Fault::new(Code::CannedCycle, block.span(b'L'), message)
@@ -95,8 +99,9 @@ impl Interpreter {
         let incremental = self.state.modal.distance == Distance::Incremental;
         let program = self.offsets.to_program(self.state.position);
         let start = program[normal.index()];
+        let initial = self.state.cycles.initial.unwrap_or(start);
         let (r, bottom) = if incremental {
-            (start + kept.r, start + kept.r + kept.depth)
+            (initial + kept.r, initial + kept.r + kept.depth)
         } else {
             (kept.r, kept.depth)
         };
@@ -109,13 +114,12 @@ impl Interpreter {
                 ))
                 .help("check both words, and G90 or G91"));
         }
-        let initial = self.state.cycles.initial.unwrap_or(start).max(r);
         self.state.cycles = Cycles {
             initial: Some(initial),
             last: Some(kept),
         };
         let clear = match self.state.modal.retract {
-            Retract::Initial => initial,
+            Retract::Initial => initial.max(r),
             Retract::RPlane => r,
         };
         let hole = Hole {
@@ -230,6 +234,11 @@ impl Interpreter {
             }
             Cycle::Drill | Cycle::Bore => {}
         }
+        if block.dialect == Dialect::Fanuc {
+            // Milliseconds, in every cycle.
+            let word = block.get(b'P').map(|p| 1e-3 * p);
+            kept.dwell_s = word.or(last_dwell).unwrap_or(0.0);
+        }
         if kept.dwell_s < 0.0 {
             return Err(negative(block, b'P', "the dwell"));
         }
@@ -322,10 +331,10 @@ impl Interpreter {
                 self.along(block, normal, hole.bottom, Pace::Feed, out)?;
                 self.push(out, code(turning.reversed().code()));
                 self.push(out, ItemKind::Dwell(dwell_s));
-                self.along(block, normal, hole.r, Pace::Feed, out)?;
+                self.along(block, normal, hole.clear, Pace::Feed, out)?;
                 self.push(out, code(turning.code()));
                 self.push(out, code(48));
-                return self.along(block, normal, hole.clear, Pace::Rapid, out);
+                return Ok(());
             }
             _ => {}
         }
@@ -338,10 +347,15 @@ impl Interpreter {
             }
             _ => {}
         }
-        if matches!(cycle, Cycle::Bore | Cycle::BoreDwell) {
-            self.along(block, normal, hole.r, Pace::Feed, out)?;
-        }
-        self.along(block, normal, hole.clear, Pace::Rapid, out)?;
+        let pace = match cycle {
+            Cycle::Bore => {
+                self.along(block, normal, hole.r, Pace::Feed, out)?;
+                Pace::Rapid
+            }
+            Cycle::BoreDwell => Pace::Feed,
+            _ => Pace::Rapid,
+        };
+        self.along(block, normal, hole.clear, pace, out)?;
         if let (Cycle::BoreStop, Some(turning)) = (cycle, self.state.spindle.turning) {
             self.push(out, code(turning.code()));
         }
@@ -352,7 +366,8 @@ impl Interpreter {
     fn pecks(&mut self, block: &Block, hole: Hole, peck: f64, out: &mut Vec<Item>) -> Outcome<()> {
         let normal = self.state.modal.plane.normal();
         let mut depth = hole.r - peck;
-        while depth > hole.bottom {
+        // A last peck of less is rounding.
+        while depth > hole.bottom + BOTTOM_MM {
             self.along(block, normal, depth, Pace::Feed, out)?;
             if hole.kept.cycle == Cycle::Peck {
                 self.along(block, normal, hole.r, Pace::Rapid, out)?;

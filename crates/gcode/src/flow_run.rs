@@ -10,7 +10,7 @@ use crate::parameters::ProgramScope;
 use crate::program::{Place, Program};
 
 impl<R: BufRead> Program<R> {
-    const fn scope(&self) -> ProgramScope<'_> {
+    pub(crate) const fn scope(&self) -> ProgramScope<'_> {
         ProgramScope {
             parameters: &self.parameters,
             interpreter: &self.interpreter,

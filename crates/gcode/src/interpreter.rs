@@ -18,7 +18,7 @@ use crate::compensation::Compensation;
 use crate::cycle::Cycles;
 use crate::diagnostic::Outcome;
 use crate::modal::Modal;
-use crate::modes::{Motion, Stop};
+use crate::modes::{Distance, Motion, Stop};
 use crate::offsets::Offsets;
 use crate::options::Options;
 use crate::probe::ProbeResult;
@@ -60,6 +60,8 @@ pub(crate) struct State {
     pub(crate) probe: ProbeResult,
     /// Value of the input M66 read last.
     pub(crate) input: f64,
+    /// E words of printers are relative.
+    pub(crate) extruder_relative: bool,
     /// G41 or G42 is in force, be it with a radius of zero.
     pub(crate) on_contour: bool,
     /// Cutter radius compensation was turned off and no move has been made since.
@@ -98,6 +100,7 @@ impl Interpreter {
                 cycles: Cycles::default(),
                 probe: ProbeResult::default(),
                 input: 0.0,
+                extruder_relative: false,
                 on_contour: false,
                 leaving_contour: false,
             },
@@ -138,6 +141,10 @@ impl Interpreter {
     }
 
     fn run(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<Flow> {
+        if let Some(Coded { code, span }) = block.codes.function {
+            self.machine_function(block, code, span, out)?;
+            return Ok(Flow::Continue);
+        }
         let motion = self.motion_of(block)?;
         check_words(block, motion)?;
         self.check_axes(block)?;
@@ -215,6 +222,10 @@ impl Interpreter {
         }
         if let Some(Coded { code, .. }) = codes.distance {
             modal.distance = code;
+            self.state.extruder_relative = code == Distance::Incremental;
+        }
+        if let Some(Coded { code, .. }) = codes.extruder {
+            self.state.extruder_relative = code;
         }
         if let Some(Coded { code, .. }) = codes.arc_distance {
             modal.arc_distance = code;

@@ -12,7 +12,7 @@
 //!
 //! # The language
 //!
-//! RS274/NGC as LinuxCNC reads it. A program starts in G8 G17 G21 G40 G49 G54 G64 G80 G90 G91.1 G94
+//! RS274/NGC as LinuxCNC reads it, and what other controls have in its place ([`Dialect`]). A program starts in G8 G17 G21 G40 G49 G54 G64 G80 G90 G91.1 G94
 //! G97 G98.
 //!
 //! | words | what they do |
@@ -71,6 +71,7 @@ mod compensation;
 mod cursor;
 mod cycle;
 mod diagnostic;
+mod dialect;
 mod expression;
 mod finding_code;
 mod flow;
@@ -92,6 +93,7 @@ mod program;
 mod refused;
 mod source;
 mod spindle;
+mod survey;
 mod tool;
 mod tool_table;
 mod totals;
@@ -100,10 +102,12 @@ mod words;
 pub use check::{MAX_FINDINGS, Report, check};
 pub use cursor::MAX_NUMBER;
 pub use diagnostic::{Code, Diagnostic, Excerpt};
+pub use dialect::Dialect;
 pub use modal::{Feed, Modal};
 pub use modes::{Cycle, Distance, FeedMode, Motion, Probe, Retract, Units};
 pub use options::{Connections, LoopLimits, Machine, Options, Travel};
 pub use program::Program;
 pub use source::MAX_LINE_BYTES;
+pub use survey::Corner;
 pub use tool_table::{MAX_TOOLS, Tool, ToolTable};
 pub use totals::Totals;

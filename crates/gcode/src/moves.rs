@@ -5,6 +5,7 @@ use glidepath_motion::{Item, ItemKind, Rate};
 
 use crate::block::{AXIS_WORDS, Block};
 use crate::diagnostic::{Code, Fault, Outcome, Span};
+use crate::dialect::Dialect;
 use crate::interpreter::Interpreter;
 use crate::modes::{Distance, FeedMode, Motion, Once};
 use crate::offsets::overlay;
@@ -55,7 +56,9 @@ impl Interpreter {
         match motion {
             Motion::Rapid | Motion::Linear => {
                 let target = self.target(block)?;
-                let pace = if motion == Motion::Rapid {
+                // Printers move at the feedrate in G0 too.
+                let printer = block.dialect == Dialect::Marlin && self.state.modal.feed.is_some();
+                let pace = if motion == Motion::Rapid && !printer {
                     Pace::Rapid
                 } else {
                     Pace::Feed
@@ -180,7 +183,8 @@ impl Interpreter {
         let values = self.axis_values(block)?;
         for axis in Axis::ALL {
             let i = axis.index();
-            if values[i].is_some() || (all && self.options.machine.has(axis)) {
+            let goes = self.options.machine.has(axis) && self.options.extruder != Some(axis);
+            if values[i].is_some() || (all && goes) {
                 target[i] = reference[i];
             }
         }

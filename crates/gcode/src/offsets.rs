@@ -85,10 +85,10 @@ impl Offsets {
         self.to_program_in(self.system(), machine)
     }
 
-    /// Program coordinates in the coordinate system of that index.
-    pub(crate) fn in_system(&self, index: usize, machine: AxisVector) -> AxisVector {
+    /// Coordinates in the coordinate system of that index, without the offset of G92.
+    pub(crate) fn in_fixture(&self, index: usize, machine: AxisVector) -> AxisVector {
         let system = self.systems.get(index).unwrap_or_else(|| self.system());
-        self.to_program_in(system, machine)
+        self.to_program_in(system, machine) + self.shift
     }
 
     fn to_program_in(&self, system: &System, machine: AxisVector) -> AxisVector {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glidepath_geometry::{AXES, Axis, AxisVector};
 
+use crate::dialect::Dialect;
 use crate::tool_table::ToolTable;
 
 /// Where an axis may go, in machine coordinates: mm, or degrees for a rotary axis.
@@ -77,6 +78,10 @@ pub struct Options {
     pub start: AxisVector,
     /// Lengths and diameters of the tools. `None`: blocks that need them are errors.
     pub tools: Option<Arc<ToolTable>>,
+    /// The language of the program.
+    pub dialect: Dialect,
+    /// The axis that E words of [`Dialect::Marlin`] move. `None`: they are errors.
+    pub extruder: Option<Axis>,
     /// What inputs, outputs and the probe are.
     pub connections: Connections,
     /// How long loops may go on.
@@ -115,7 +120,7 @@ impl Default for LoopLimits {
 
 impl Default for Options {
     /// All nine axes without soft limits, no default feedrate, block delete off, at machine zero, no
-    /// tool table, nothing connected.
+    /// tool table, LinuxCNC's language, nothing connected.
     fn default() -> Self {
         Self {
             machine: Machine::unlimited(),
@@ -123,6 +128,8 @@ impl Default for Options {
             block_delete: false,
             start: AxisVector::zeros(),
             tools: None,
+            dialect: Dialect::LinuxCnc,
+            extruder: None,
             connections: Connections::None,
             loops: LoopLimits::default(),
         }

@@ -9,6 +9,7 @@ use glidepath_motion::Item;
 use crate::block::{Block, LineKind};
 use crate::cursor::Cursor;
 use crate::diagnostic::{Code as FaultCode, Diagnostic, Fault, Outcome, Span};
+use crate::dialect::{Dialect, Tape, marlin, siemens};
 use crate::flow::{Code, Flow};
 use crate::flow_word::head;
 use crate::interpreter::{Flow as BlockFlow, Interpreter};
@@ -27,6 +28,8 @@ pub(crate) enum Place {
     Kept(Arc<Code>, usize),
     /// A line that is gone: number and text.
     Past(u32, Box<[u8]>),
+    /// A line of the tape: number and text.
+    Tape(u32, Box<[u8]>),
 }
 
 /// A program being read: an iterator of [`Item`]s in constant memory.
@@ -34,10 +37,12 @@ pub(crate) enum Place {
 /// It ends at M2, M30, the second percent line, the end of the input, or after the first finding.
 #[derive(Debug)]
 pub struct Program<R> {
-    source: LineSource<R>,
+    pub(crate) source: LineSource<R>,
     pub(crate) interpreter: Interpreter,
     pub(crate) parameters: Parameters,
     pub(crate) flow: Flow,
+    /// Lines of a program in a dialect whose flow is not that of O words.
+    pub(crate) tape: Tape,
     pub(crate) place: Place,
     block: Block,
     /// Items of the last block; the first `given` of them have been given out.
@@ -58,13 +63,15 @@ pub struct Program<R> {
 impl<R: BufRead> Program<R> {
     /// Starts to read a program. Nothing is read before the first item is asked for.
     pub fn new(reader: R, options: Options) -> Self {
+        let block = Block::of(options.dialect);
         Self {
             source: LineSource::new(reader),
             interpreter: Interpreter::new(options),
             parameters: Parameters::new(),
             flow: Flow::default(),
+            tape: Tape::default(),
             place: Place::Stream,
-            block: Block::default(),
+            block,
             items: Vec::new(),
             given: 0,
             totals: Totals::default(),
@@ -86,6 +93,11 @@ impl<R: BufRead> Program<R> {
     #[must_use]
     pub const fn position(&self) -> &AxisVector {
         &self.interpreter.state.position
+    }
+
+    /// Items of the line read last.
+    pub(crate) fn items(&self) -> &[Item] {
+        &self.items
     }
 
     /// Counts and sums over the blocks read so far.
@@ -116,14 +128,17 @@ impl<R: BufRead> Program<R> {
             Ok(true) => Some(Ok(())),
             Ok(false) => {
                 self.ended = true;
-                None
+                // What cutter radius compensation still held back is given out now.
+                (!self.items.is_empty()).then_some(Ok(()))
             }
             Err(fault) => {
-                let kept = !matches!(self.place, Place::Stream);
+                let kept = matches!(self.place, Place::Kept(..) | Place::Past(..));
                 self.ended |= kept || fault.code.is_fatal();
                 Some(Err(match &self.place {
                     Place::Stream => fault.at(self.source.number(), self.source.text()),
-                    Place::Past(number, text) => fault.at(*number, text),
+                    Place::Past(number, text) | Place::Tape(number, text) => {
+                        fault.at(*number, text)
+                    }
                     Place::Kept(code, index) => match code.lines.get(*index) {
                         Some(line) => fault.at(line.number, &line.text),
                         None => fault.at(0, &[]),
@@ -134,14 +149,44 @@ impl<R: BufRead> Program<R> {
     }
 
     fn read_line(&mut self) -> Outcome<bool> {
+        match self.interpreter.options.dialect {
+            Dialect::LinuxCnc => self.read_linuxcnc(),
+            Dialect::Fanuc => self.read_fanuc(),
+            Dialect::Marlin | Dialect::Siemens => self.read_plain(),
+        }
+    }
+
+    /// A line of a dialect without flow.
+    fn read_plain(&mut self) -> Outcome<bool> {
+        self.place = Place::Stream;
+        if !self.source.advance()? {
+            return self.end_of_input();
+        }
+        if self.is_deleted() {
+            return Ok(true);
+        }
+        let number = self.source.number();
+        let scope = ProgramScope {
+            parameters: &self.parameters,
+            interpreter: &self.interpreter,
+        };
+        if self.interpreter.options.dialect == Dialect::Marlin {
+            let text = marlin::verified(self.source.text())?;
+            let parsed = self.block.parse(text, &scope);
+            return self.execute_parsed(number, parsed);
+        }
+        let line = siemens::rewrite(self.source.text())?;
+        let parsed = self.block.parse(&line.text, &scope);
+        self.execute_parsed(number, parsed).map_err(|mut fault| {
+            fault.span = line.origin(fault.span);
+            fault
+        })
+    }
+
+    fn read_linuxcnc(&mut self) -> Outcome<bool> {
         if let Some((code, index)) = self.flow.next_line() {
             self.place = Place::Kept(Arc::clone(&code), index);
-            self.kept_lines += 1;
-            self.idle_lines += 1;
-            let most = self.interpreter.options.loops.idle_lines;
-            if self.idle_lines > most {
-                return Err(endless(most));
-            }
+            self.count_idle()?;
             let has_head = code
                 .lines
                 .get(index)
@@ -173,8 +218,38 @@ impl<R: BufRead> Program<R> {
         Ok(true)
     }
 
+    /// Counts a line that may be executed again and again.
+    pub(crate) fn count_idle(&mut self) -> Outcome<()> {
+        self.kept_lines += 1;
+        self.idle_lines += 1;
+        let most = self.interpreter.options.loops.idle_lines;
+        if self.idle_lines > most {
+            return Err(endless(most));
+        }
+        Ok(())
+    }
+
+    /// Nothing more is read.
+    pub(crate) const fn end(&mut self) {
+        self.ended = true;
+    }
+
+    pub(crate) fn set_tape_place(&mut self, number: u32, text: &[u8]) {
+        self.place = Place::Tape(number, text.into());
+    }
+
+    /// Executes a text as a block.
+    pub(crate) fn execute_text(&mut self, number: u32, text: &[u8]) -> Outcome<bool> {
+        let scope = ProgramScope {
+            parameters: &self.parameters,
+            interpreter: &self.interpreter,
+        };
+        let parsed = self.block.parse(text, &scope);
+        self.execute_parsed(number, parsed)
+    }
+
     /// The end of the input, or of the tape: false, or a finding if a part is not complete.
-    fn end_of_input(&mut self) -> Outcome<bool> {
+    pub(crate) fn end_of_input(&mut self) -> Outcome<bool> {
         self.ended = true;
         match self.flow.recorder.take() {
             None => {
@@ -217,6 +292,11 @@ impl<R: BufRead> Program<R> {
             interpreter: &self.interpreter,
         };
         let parsed = self.block.parse(text, &scope);
+        self.execute_parsed(number, parsed)
+    }
+
+    /// Executes the block, once it has been read.
+    fn execute_parsed(&mut self, number: u32, parsed: Outcome<()>) -> Outcome<bool> {
         self.begun |= self.block.any || parsed.is_err();
         parsed?;
         match self.block.kind {

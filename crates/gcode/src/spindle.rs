@@ -12,8 +12,9 @@ use glidepath_motion::{Event, Item, ItemKind};
 use crate::block::Block;
 use crate::codes::Coded;
 use crate::diagnostic::{Code, Fault, Outcome};
+use crate::dialect::Dialect;
 use crate::interpreter::Interpreter;
-use crate::modes::SpindleMode;
+use crate::modes::{Once, SpindleMode, Units};
 use crate::words::{missing, negative};
 
 /// Relative change of the speed of G96 that is worth an event.
@@ -87,12 +88,20 @@ impl Interpreter {
         let Some(speed) = block.get(b'S') else {
             return Ok(());
         };
+        let dwell = block
+            .codes
+            .once
+            .is_some_and(|once| once.code == Once::Dwell);
+        if dwell && block.dialect == Dialect::Marlin {
+            // The seconds of the dwell.
+            return Ok(());
+        }
         if speed < 0.0 {
             return Err(negative(block, b'S', "the spindle speed"));
         }
         let unit = match self.state.modal.units {
-            crate::modes::Units::Inch => FOOT_MM,
-            crate::modes::Units::Millimetre => 1000.0,
+            Units::Inch => FOOT_MM,
+            Units::Millimetre => 1000.0,
         };
         if let Some(surface) = &mut self.state.spindle.surface {
             surface.speed = speed * unit;

@@ -105,7 +105,7 @@ impl Interpreter {
         // In which coordinates the present place gets its new name.
         let program = match kind {
             10 => Some(self.offsets.to_program(self.state.position)),
-            11 => Some(self.offsets.in_system(FIXTURE, self.state.position)),
+            11 => Some(self.offsets.in_fixture(FIXTURE, self.state.position)),
             _ => None,
         };
         for (axis, value) in values.into_iter().enumerate() {

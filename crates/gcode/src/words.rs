@@ -4,6 +4,7 @@ use glidepath_motion::PathMode;
 
 use crate::block::{AXIS_WORDS, Block, Letters};
 use crate::diagnostic::{Code, Fault, Outcome, Span};
+use crate::dialect::Dialect;
 use crate::modes::{CutterRadius, Cycle, Motion, Once, SpindleMode, ToolLength};
 
 /// Largest tool number.
@@ -18,6 +19,7 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 9] {
     [
         match motion {
             Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Letters::of(b"IJKRP"),
+            Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQK"),
             Some(Motion::Cycle(cycle)) => match cycle {
                 Cycle::Drill | Cycle::Bore => Letters::of(b"RL"),
                 Cycle::ChipBreak | Cycle::Peck => Letters::of(b"RLQ"),
@@ -37,6 +39,7 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 9] {
             _ => none,
         },
         match once {
+            Some(Once::Dwell) if block.dialect == Dialect::Fanuc => Letters::of(b"PX"),
             Some(Once::Dwell) => Letters::of(b"P"),
             Some(Once::SetData) => match block.get(b'L') {
                 Some(2.0 | 20.0) => Letters::of(b"LPR"),
@@ -64,7 +67,10 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 9] {
             _ => none,
         },
         if motion.is_some() || axes_once {
-            AXIS_WORDS
+            match block.dialect {
+                Dialect::Marlin => AXIS_WORDS.and(Letters::of(b"E")),
+                _ => AXIS_WORDS,
+            }
         } else {
             none
         },
@@ -100,7 +106,7 @@ pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> 
 pub(crate) fn unused(letter: char, span: Span) -> Box<Fault> {
     if letter == 'E' {
         return Fault::new(Code::UnknownWord, span, "nothing in the block uses E")
-            .because("E is a word of M66, M67 and M68 only; there is no extruder")
+            .because("E is a word of M66, M67 and M68 here; printers have it for their extruder")
             .help("remove it; read programs of printers with the dialect `marlin`");
     }
     Fault::new(
@@ -120,7 +126,7 @@ pub(crate) fn missing(span: Span, code: &str, word: &str, meaning: &str) -> Box<
 }
 
 pub(crate) fn require_axes(block: &Block, span: Span, code: &str) -> Outcome<()> {
-    if block.has_any(AXIS_WORDS) {
+    if block.has_axes() {
         return Ok(());
     }
     Err(missing(

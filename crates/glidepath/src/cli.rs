@@ -6,6 +6,7 @@ pub use operator::{OperatorArgs, OverrideArgs, SingleBlockArgs, Switch};
 
 use crate::config::{INSTANCE_RULE, is_instance_name};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use glidepath_gcode::Dialect;
 use std::path::PathBuf;
 
 /// Plans G-code under velocity, acceleration and jerk limits, and plays it in hard real time.
@@ -102,6 +103,29 @@ pub struct BasicArgs {
     pub json: bool,
 }
 
+/// How a program is read.
+#[derive(Debug, Clone, Default, Args)]
+pub struct ProgramArgs {
+    /// Tool table (LinuxCNC's .tbl); overrides `program.tool_table` of the configuration
+    #[arg(long, value_name = "TBL")]
+    pub tool_table: Option<PathBuf>,
+    /// Language of the program: linuxcnc, marlin, fanuc or siemens; else told by its beginning
+    #[arg(long, value_name = "NAME", value_parser = dialect)]
+    pub dialect: Option<Dialect>,
+}
+
+fn dialect(name: &str) -> Result<Dialect, &'static str> {
+    let all = [
+        Dialect::LinuxCnc,
+        Dialect::Marlin,
+        Dialect::Fanuc,
+        Dialect::Siemens,
+    ];
+    all.into_iter()
+        .find(|dialect| dialect.name() == name)
+        .ok_or("give linuxcnc, marlin, fanuc or siemens")
+}
+
 /// Which shared memory.
 #[derive(Debug, Clone, Args)]
 pub struct InstanceArgs {
@@ -123,6 +147,9 @@ fn instance_name(name: &str) -> Result<String, &'static str> {
 pub struct RunArgs {
     /// The G-code program
     pub file: PathBuf,
+    /// How the program is read.
+    #[command(flatten)]
+    pub program: ProgramArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -145,6 +172,9 @@ pub struct RunArgs {
 pub struct PlanArgs {
     /// The G-code program
     pub file: PathBuf,
+    /// How the program is read.
+    #[command(flatten)]
+    pub program: ProgramArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -162,6 +192,9 @@ pub struct CheckArgs {
     /// The G-code programs
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
+    /// How the program is read.
+    #[command(flatten)]
+    pub program: ProgramArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -199,6 +232,9 @@ pub struct PlannerArgs {
     /// machine does not stand on the path, or the text is not that of the program that was under way.
     #[arg(long, conflicts_with = "listen")]
     pub resume: bool,
+    /// How the program is read.
+    #[command(flatten)]
+    pub program: ProgramArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -235,6 +271,9 @@ pub struct ServoArgs {
 pub struct FeedArgs {
     /// The G-code program
     pub file: PathBuf,
+    /// How the program is read.
+    #[command(flatten)]
+    pub program: ProgramArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -340,6 +379,20 @@ fn positive(text: &str) -> Result<f64, &'static str> {
 }
 
 impl Command {
+    /// The program the command reads, if it does, and how.
+    #[must_use]
+    pub const fn program(&self) -> Option<(Option<&PathBuf>, &ProgramArgs)> {
+        match self {
+            Self::Run(args) => Some((Some(&args.file), &args.program)),
+            Self::Plan(args) => Some((Some(&args.file), &args.program)),
+            Self::Feed(args) => Some((Some(&args.file), &args.program)),
+            Self::Planner(args) => Some((args.file.as_ref(), &args.program)),
+            // Each file of a check may be in a dialect of its own.
+            Self::Check(args) => Some((None, &args.program)),
+            _ => None,
+        }
+    }
+
     /// What every command is told.
     #[must_use]
     pub const fn basic(&self) -> &BasicArgs {

@@ -15,6 +15,9 @@ use crate::modes::{CutterRadius, Motion, Once, Side};
 use crate::moves::{MIN_MOVE, Pace, Speed, motion_span, settled};
 use crate::words::{missing, whole};
 
+/// How far back an entry line reaches when its corner is looked for, mm.
+const ENTRY_MM: f64 = 1e4;
+
 impl Compensation {
     /// The first move.
     fn enter(&mut self, first: ContourMove, out: &mut Vec<Item>) -> Outcome<()> {
@@ -41,6 +44,10 @@ impl Compensation {
                 arc: None,
             };
             self.emit(&first, &aside, self.tool, out);
+        } else {
+            // The tool comes from anywhere: a concave corner behind the entry always has its place.
+            let tangent = direction(path.start, path.end);
+            path.start = along(path.end, tangent, -ENTRY_MM);
         }
         self.entered = true;
         self.pending = Some(Pending { of: first, path });

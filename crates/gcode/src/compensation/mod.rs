@@ -44,8 +44,9 @@ use crate::moves::{MIN_MOVE, Speed};
 pub(crate) use element::Element;
 use element::{Point, cross, distance, dot, lines, meet};
 
-/// Offset elements whose ends are as near as this are joined, mm.
-const SMOOTH_MM: f64 = 1e-6;
+/// Offset elements whose ends are as near as this are joined, mm: coordinates of programs are
+/// rounded, so that a tangent is none to the last digit.
+const SMOOTH_MM: f64 = 2e-3;
 /// Extensions of two lines stay this near to the arc about their corner, mm.
 const MITRE_MM: f64 = 1e-3;
 /// Directions that differ from a reversal by less are one, radians.

@@ -1,13 +1,15 @@
 //! `glidepath check`: everything wrong with programs.
 
+use super::reading::dialect;
 use crate::cli::CheckArgs;
-use crate::config::MachineConfig;
+use crate::config::{MachineConfig, ProgramConfig};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::joints;
 use crate::output;
 use crate::report::{ProgramFinding, finding_object, grouped};
 use glidepath_gcode::{Diagnostic, Report};
+use glidepath_geometry::Axis;
 use glidepath_planner::check_file;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -37,6 +39,14 @@ pub fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Failure> 
 /// # Errors
 /// The file cannot be opened.
 pub fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
+    // Each program may be in a dialect of its own.
+    let config = &MachineConfig {
+        program: ProgramConfig {
+            dialect: Some(dialect(path, config)),
+            ..config.program.clone()
+        },
+        ..config.clone()
+    };
     let options = config.program_options(config.home());
     let report = check_file(path, options, &config.settings()).map_err(Failure::open(path))?;
     if !report.is_accepted() {
@@ -101,6 +111,40 @@ fn print(name: &str, report: &Report) {
         totals.feed_length_mm,
         totals.rapid_length_mm
     ));
+    output::result(&survey(report));
+}
+
+/// Where the program goes and how long it takes at its feedrates.
+fn survey(report: &Report) -> String {
+    let totals = &report.totals;
+    let mut text = String::new();
+    if let Some((low, high)) = totals.bounding_box {
+        text.push_str("  box:");
+        for axis in Axis::ALL {
+            let i = axis.index();
+            if low[i] != 0.0 || high[i] != 0.0 {
+                text.push_str(&format!(" {axis} {:.3} … {:.3}", low[i], high[i]));
+            }
+        }
+        text.push('\n');
+    }
+    text.push_str(&format!(
+        "  at the feedrates, without acceleration: {:.1} s straight, {:.1} s in arcs, {:.1} s dwell\n",
+        report.straight_time_s, report.arc_time_s, totals.dwell_s
+    ));
+    if let Some(corner) = report.corner {
+        text.push_str(&format!(
+            "  sharpest corner between feed moves: {:.1}° in front of line {}\n",
+            corner.angle_deg, corner.line
+        ));
+    }
+    let beyond = report.soft_limit_violations();
+    if beyond > 0 {
+        text.push_str(&format!(
+            "  {beyond} of the findings are moves beyond a soft limit\n"
+        ));
+    }
+    text
 }
 
 fn object(reports: &[(String, Report)]) -> Value {
@@ -133,7 +177,31 @@ pub fn program(name: &str, report: &Report) -> Value {
         "dwells": totals.dwells,
         "feed_length_mm": totals.feed_length_mm,
         "rapid_length_mm": totals.rapid_length_mm,
+        "box": bounding_box(report),
+        "straight_time_s": report.straight_time_s,
+        "arc_time_s": report.arc_time_s,
+        "dwell_s": totals.dwell_s,
+        "sharpest_corner": report.corner.map(|corner| json!({
+            "line": corner.line,
+            "angle_deg": corner.angle_deg,
+            "position": corner.at.as_slice(),
+        })),
+        "soft_limit_violations": report.soft_limit_violations(),
         "findings": findings,
         "findings_not_shown": report.more,
     })
+}
+
+/// Lowest and highest machine coordinate of every axis that moves.
+fn bounding_box(report: &Report) -> Value {
+    let mut object = serde_json::Map::new();
+    if let Some((low, high)) = report.totals.bounding_box {
+        for axis in Axis::ALL {
+            let i = axis.index();
+            if low[i] != 0.0 || high[i] != 0.0 {
+                object.insert(axis.to_string(), json!([low[i], high[i]]));
+            }
+        }
+    }
+    Value::Object(object)
 }

@@ -10,6 +10,7 @@ mod operator;
 mod plan;
 mod planner;
 mod preview;
+mod reading;
 mod run;
 mod servo;
 mod session;
@@ -29,7 +30,8 @@ pub fn main(cli: &Cli) -> Exit {
 }
 
 fn dispatch(command: &Command) -> Result<Exit, Failure> {
-    let config = config::load(command.basic().config.as_deref())?;
+    let mut config = config::load(command.basic().config.as_deref())?;
+    reading::settle(command, &mut config)?;
     match command {
         Command::Run(args) => run::run(args, &config),
         Command::Plan(args) => plan::plan(args, &config),

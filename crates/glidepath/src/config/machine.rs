@@ -1,5 +1,6 @@
 //! A configuration that has been judged: what the rest of the program works with.
 
+use super::program::ProgramConfig;
 use glidepath_gcode::{Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{JointLimits, JointWatch, Kinematics as _, Mechanism};
@@ -66,6 +67,8 @@ pub struct MachineConfig {
     pub preview: AdvanceRetreat,
     /// Name of the machine's shared memory; `None` if the file gives none.
     pub instance: Option<String>,
+    /// How programs are read.
+    pub program: ProgramConfig,
 }
 
 impl MachineConfig {
@@ -163,6 +166,10 @@ impl MachineConfig {
             machine,
             default_feed_mm_min,
             start,
+            tools: self.program.tools.clone(),
+            dialect: self.program.dialect.unwrap_or_default(),
+            extruder: self.program.extruder,
+            connections: self.program.connections,
             ..Options::default()
         }
     }

@@ -9,6 +9,7 @@ mod kinematics;
 mod machine;
 mod parse;
 mod preview;
+mod program;
 mod raw;
 
 pub use finding::{ConfigError, Finding, FindingReport};
@@ -16,6 +17,7 @@ pub use horizon::MAX_FRAMES_AHEAD;
 pub use judge::{INSTANCE_RULE, is_instance_name};
 pub use machine::{AxisConfig, InterpolatorConfig, MachineConfig, PathConfig};
 pub(crate) use parse::nearest;
+pub use program::ProgramConfig;
 
 use std::path::Path;
 
@@ -35,7 +37,14 @@ pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
     };
     let name = path.display().to_string();
     match std::fs::read_to_string(path) {
-        Ok(text) => parse(&name, &text),
+        Ok(text) => {
+            let mut config = parse(&name, &text)?;
+            // The tool table is named from where the configuration is.
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let table = config.program.tool_table.take();
+            config.program.tool_table = table.map(|table| folder.join(table));
+            Ok(config)
+        }
         Err(source) => Err(ConfigError::Unreadable { path: name, source }),
     }
 }

@@ -26,6 +26,16 @@ pub(super) struct RawConfig {
     pub(super) link: RawLink,
     #[serde(default)]
     pub(super) preview: RawPreview,
+    pub(super) program: RawProgram,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawProgram {
+    pub(super) dialect: Optional<String>,
+    pub(super) tool_table: Optional<String>,
+    pub(super) inputs_outputs: Optional<String>,
+    pub(super) extruder: Optional<String>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -183,7 +183,10 @@ impl Desk<'_> {
     fn start(&self, name: &'static str, instance: &str) -> Result<Process, Failure> {
         let mut args: Vec<OsString> = vec!["--instance".into(), instance.into()];
         match name {
-            "planner" => args.extend([self.args.file.clone().into(), "--json".into()]),
+            "planner" => {
+                args.extend([self.args.file.clone().into(), "--json".into()]);
+                args.extend(self.program_args());
+            }
             "servo" => args.push("--relay".into()),
             _ => {
                 args.push("--json".into());
@@ -194,6 +197,19 @@ impl Desk<'_> {
             args.extend(["--config".into(), config.into()]);
         }
         Process::start(name, args).map_err(Failure::Process)
+    }
+
+    /// How the planner is to read the program: as it was checked.
+    fn program_args(&self) -> Vec<OsString> {
+        let program = &self.config.program;
+        let mut args = Vec::new();
+        if let Some(dialect) = program.dialect {
+            args.extend(["--dialect".into(), dialect.name().into()]);
+        }
+        if let Some(table) = &program.tool_table {
+            args.extend(["--tool-table".into(), table.into()]);
+        }
+        args
     }
 
     /// Waits until a process that was just started works.

@@ -1,0 +1,75 @@
+//! What a program asks of a machine, beside its totals: where it turns most sharply.
+
+use glidepath_geometry::{AxisVector, Segment, feed_length};
+use glidepath_motion::{Item, ItemKind, Rate};
+
+/// A corner of the path: where two feed moves meet at an angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Corner {
+    /// Line of the move behind it.
+    pub line: u32,
+    /// Machine coordinates.
+    pub at: AxisVector,
+    /// By how much the direction changes, degrees: 180 is a reversal.
+    pub angle_deg: f64,
+}
+
+/// Looks for the sharpest corner.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Survey {
+    /// Direction at the end of the last feed move.
+    last: Option<AxisVector>,
+    pub(crate) sharpest: Option<Corner>,
+    /// Time of straight feed moves and of arcs at their feedrate, s.
+    pub(crate) straight_s: f64,
+    pub(crate) arc_s: f64,
+}
+
+impl Survey {
+    pub(crate) fn add(&mut self, item: &Item) {
+        match &item.kind {
+            ItemKind::Move {
+                segment,
+                rate: Rate::Feed(feed_v),
+                ..
+            } => {
+                let seconds = segment.length() / feed_v;
+                match segment {
+                    Segment::Arc(_) => self.arc_s += seconds,
+                    _ => self.straight_s += seconds,
+                }
+                self.corner(item.line, segment);
+            }
+            ItemKind::Event(event) if !event.is_at_rest() => {}
+            // After a rapid move or a rest the next corner is none.
+            _ => self.last = None,
+        }
+    }
+
+    fn corner(&mut self, line: u32, segment: &Segment) {
+        let direction = |s: f64| {
+            let mut d = segment.jet(s).d1;
+            // Of the linear axes alone: a corner of the tool's path.
+            for axis in 3..6 {
+                d[axis] = 0.0;
+            }
+            let length = feed_length(&d);
+            (length > 0.0).then(|| d / length)
+        };
+        let start = direction(0.0);
+        if let (Some(last), Some(start)) = (self.last, start) {
+            let angle_deg = last.dot(&start).clamp(-1.0, 1.0).acos().to_degrees();
+            if self
+                .sharpest
+                .is_none_or(|corner| angle_deg > corner.angle_deg)
+            {
+                self.sharpest = Some(Corner {
+                    line,
+                    at: segment.start(),
+                    angle_deg,
+                });
+            }
+        }
+        self.last = direction(segment.length());
+    }
+}

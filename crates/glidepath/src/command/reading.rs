@@ -1,0 +1,72 @@
+//! How programs are to be read: the tool table and the dialect.
+
+use crate::cli::Command;
+use crate::config::MachineConfig;
+use crate::failure::Failure;
+use crate::output;
+use glidepath_gcode::{Dialect, ToolTable};
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+use std::sync::Arc;
+
+/// How much of a program tells its dialect, bytes.
+const BEGINNING: u64 = 64 * 1024;
+/// Largest tool table, bytes.
+const LARGEST_TABLE: u64 = 4 * 1024 * 1024;
+
+/// Takes up what the command line says about programs, and reads the tool table.
+///
+/// # Errors
+/// The tool table cannot be read, or has findings.
+pub fn settle(command: &Command, config: &mut MachineConfig) -> Result<(), Failure> {
+    let Some((file, args)) = command.program() else {
+        return Ok(());
+    };
+    if let Some(table) = &args.tool_table {
+        config.program.tool_table = Some(table.clone());
+    }
+    config.program.dialect = args.dialect.or(config.program.dialect);
+    if let Some(path) = &config.program.tool_table {
+        config.program.tools = Some(Arc::new(tool_table(path)?));
+    }
+    if let Some(file) = file {
+        config.program.dialect = Some(dialect(file, config));
+    }
+    Ok(())
+}
+
+fn tool_table(path: &Path) -> Result<ToolTable, Failure> {
+    let file = File::open(path).map_err(Failure::open(path))?;
+    let mut text = Vec::new();
+    file.take(LARGEST_TABLE)
+        .read_to_end(&mut text)
+        .map_err(Failure::file("read", path))?;
+    ToolTable::parse(&text).map_err(|findings| Failure::Rejected {
+        program: path.display().to_string(),
+        findings,
+        more: 0,
+        moved: false,
+    })
+}
+
+/// The dialect of a program: the one asked for, or the one its beginning is in, which is said.
+pub fn dialect(path: &Path, config: &MachineConfig) -> Dialect {
+    if let Some(dialect) = config.program.dialect {
+        return dialect;
+    }
+    let mut beginning = Vec::new();
+    // A file that cannot be read is reported where it is opened to be executed.
+    if let Ok(file) = File::open(path) {
+        file.take(BEGINNING).read_to_end(&mut beginning).ok();
+    }
+    let (dialect, line) = Dialect::detect(&beginning);
+    if let Some(line) = line {
+        output::note(&format!(
+            "{}: read as a program of the dialect {dialect}, because of line {line}; --dialect says \
+             otherwise",
+            path.display()
+        ));
+    }
+    dialect
+}

@@ -1,0 +1,21 @@
+//! How programs are read.
+
+use glidepath_gcode::{Connections, Dialect, ToolTable};
+use glidepath_geometry::Axis;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The table `[program]`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ProgramConfig {
+    /// The language of programs; `None`: told by their beginning.
+    pub dialect: Option<Dialect>,
+    /// The tool table's file.
+    pub tool_table: Option<PathBuf>,
+    /// The tool table, once it has been read.
+    pub tools: Option<Arc<ToolTable>>,
+    /// What inputs, outputs and the probe are.
+    pub connections: Connections,
+    /// The axis E words move.
+    pub extruder: Option<Axis>,
+}
