@@ -10,8 +10,7 @@ use crate::codes::Codes;
 use crate::cursor::Cursor;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::dialect::Dialect;
-use crate::dialect::marlin::shows_text;
-use crate::expression::{Parameter, Scope, parameter, value};
+use crate::expression::{Parameter, Scope, open_expression, parameter, value};
 
 /// Letters of the axes in index order, as [`Block`] indices.
 pub(crate) const AXIS_LETTERS: [u8; AXES] = *b"XYZABCUVW";
@@ -183,7 +182,8 @@ impl Block {
                     let letter = byte.to_ascii_uppercase();
                     self.word(&mut cursor, letter, start_of_block, scope)?;
                     start_of_block = false;
-                    if self.codes.function.is_some_and(|c| shows_text(c.code)) {
+                    if self.codes.function.is_some() {
+                        // The rest of the line belongs to the function.
                         break;
                     }
                 }
@@ -231,7 +231,10 @@ impl Block {
             );
         }
         cursor.advance();
-        let value = value(cursor, start, scope)?;
+        let value = match self.dialect {
+            Dialect::Fanuc => open_expression(cursor, scope)?,
+            _ => value(cursor, start, scope)?,
+        };
         self.any = true;
         self.assignments.push(Assignment {
             parameter,

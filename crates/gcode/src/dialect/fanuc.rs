@@ -48,7 +48,7 @@ impl<R: BufRead> Program<R> {
             return self.end_of_input();
         };
         self.set_tape_place(number, &text);
-        self.count_idle()?;
+        self.count_idle().inspect_err(|_| self.end())?;
         if self.interpreter.options.block_delete && text.trim_ascii_start().starts_with(b"/") {
             return Ok(true);
         }

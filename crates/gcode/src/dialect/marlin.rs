@@ -53,7 +53,7 @@ pub(crate) fn verified(text: &[u8]) -> Outcome<&[u8]> {
         .help("write the program again, or remove the checksum"))
 }
 
-/// M codes of printers that take the words of their block for themselves.
+/// M codes of printers; the rest of the line belongs to them.
 const FUNCTIONS: [u32; 37] = [
     17, 18, 20, 21, 73, 84, 92, 104, 105, 106, 107, 108, 109, 110, 111, 115, 117, 118, 140, 141,
     149, 150, 155, 190, 191, 201, 203, 204, 205, 206, 220, 221, 280, 300, 400, 500, 900,
@@ -65,7 +65,7 @@ pub(crate) fn is_function(number: u32) -> bool {
 }
 
 /// True for an M code whose line goes on with text to show.
-pub(crate) const fn shows_text(number: u32) -> bool {
+const fn shows_text(number: u32) -> bool {
     matches!(number, 117 | 118)
 }
 

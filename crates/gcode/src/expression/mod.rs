@@ -54,6 +54,23 @@ pub(crate) fn value(cursor: &mut Cursor<'_>, word: usize, scope: &dyn Scope) -> 
         depth: 0,
     }
     .primary(word)?;
+    in_range(value, start, cursor)
+}
+
+/// Reads an expression without brackets around it.
+pub(crate) fn open_expression(cursor: &mut Cursor<'_>, scope: &dyn Scope) -> Outcome<f64> {
+    cursor.next_visible();
+    let start = cursor.at();
+    let value = Reader {
+        cursor,
+        scope,
+        depth: 0,
+    }
+    .level(1)?;
+    in_range(value, start, cursor)
+}
+
+fn in_range(value: f64, start: usize, cursor: &Cursor<'_>) -> Outcome<f64> {
     if value.abs() > crate::MAX_NUMBER {
         let span = Span::new(start, cursor.end_of_word());
         let message = format!("the value is {value}, which is too large");

@@ -117,7 +117,7 @@ impl Reader<'_, '_, '_> {
     }
 
     /// Operators of at least the given strength.
-    fn level(&mut self, strength: u8) -> Outcome<f64> {
+    pub(super) fn level(&mut self, strength: u8) -> Outcome<f64> {
         let bracket = self.cursor.at().saturating_sub(1);
         let mut left = self.primary(bracket)?;
         loop {

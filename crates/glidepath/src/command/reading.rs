@@ -19,7 +19,7 @@ const LARGEST_TABLE: u64 = 4 * 1024 * 1024;
 ///
 /// # Errors
 /// The tool table cannot be read, or has findings.
-pub fn settle(command: &Command, config: &mut MachineConfig) -> Result<(), Failure> {
+pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<(), Failure> {
     let Some((file, args)) = command.program() else {
         return Ok(());
     };
@@ -51,7 +51,7 @@ fn tool_table(path: &Path) -> Result<ToolTable, Failure> {
 }
 
 /// The dialect of a program: the one asked for, or the one its beginning is in, which is said.
-pub fn dialect(path: &Path, config: &MachineConfig) -> Dialect {
+pub(super) fn dialect(path: &Path, config: &MachineConfig) -> Dialect {
     if let Some(dialect) = config.program.dialect {
         return dialect;
     }

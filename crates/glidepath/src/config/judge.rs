@@ -4,8 +4,7 @@ use super::finding::Finding;
 use super::horizon;
 use super::machine::{AxisConfig, InterpolatorConfig, MachineConfig, PathConfig};
 use super::program::ProgramConfig;
-use super::raw::{Optional, RawAxis, RawConfig, RawInterpolator, RawLink, RawPath, RawProgram};
-use glidepath_gcode::{Connections, Dialect};
+use super::raw::{Optional, RawAxis, RawConfig, RawInterpolator, RawLink, RawPath};
 use glidepath_geometry::Axis;
 use glidepath_motion::{Effort, Smoothing};
 use toml::Spanned;
@@ -44,7 +43,7 @@ pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<Finding>> {
         interpolator,
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
-        program: judge.program(raw.program),
+        program: ProgramConfig::judge(&mut judge, raw.program),
     };
     if judge.findings.is_empty() {
         Ok(config)
@@ -148,33 +147,6 @@ impl Judge {
             });
         }
         found.map_or(default, |(_, value)| *value)
-    }
-
-    fn program(&mut self, raw: RawProgram) -> ProgramConfig {
-        let dialects = [
-            ("auto", None),
-            ("linuxcnc", Some(Dialect::LinuxCnc)),
-            ("marlin", Some(Dialect::Marlin)),
-            ("fanuc", Some(Dialect::Fanuc)),
-            ("siemens", Some(Dialect::Siemens)),
-        ];
-        let connections = [
-            ("none", Connections::None),
-            ("simulated", Connections::Simulated),
-        ];
-        let extruders = [
-            ("none", None),
-            ("U", Some(Axis::U)),
-            ("V", Some(Axis::V)),
-            ("W", Some(Axis::W)),
-        ];
-        ProgramConfig {
-            dialect: self.choice("program.dialect", raw.dialect, &dialects),
-            tool_table: raw.tool_table.map(|path| path.into_inner().into()),
-            tools: None,
-            connections: self.choice("program.inputs_outputs", raw.inputs_outputs, &connections),
-            extruder: self.choice("program.extruder", raw.extruder, &extruders),
-        }
     }
 
     fn axis(&mut self, axis: Axis, raw: &Spanned<RawAxis>) -> AxisConfig {

@@ -69,6 +69,9 @@ pub(super) fn marks(bare: &[u8]) -> bool {
         || bare.starts_with(b";$PATH")
         || starts(b"CYCLE832(")
         || starts(b"MSG(")
+        || starts(b"PROC")
+        || starts(b"DEFREAL")
+        || starts(b"DEFINT")
         || starts(b"G641")
         || starts(b"G642")
         || parameter
@@ -288,6 +291,12 @@ impl Writer<'_> {
                 b'0'..=b'9' | b'.' => {
                     operand = true;
                     self.copy();
+                }
+                b'"' => {
+                    let span = Span::new(self.at, self.text.len());
+                    return Err(Fault::new(Code::NotSupported, span, "a name in quotes")
+                        .because("tools have numbers here, and there are no other names")
+                        .help("write the number"));
                 }
                 _ if operand && depth == outer => break,
                 b'A'..=b'Z' | b'_' | b'$' => operand = self.name_in_expression()?,
