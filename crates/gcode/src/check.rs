@@ -7,7 +7,7 @@ use glidepath_geometry::AxisVector;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::options::Options;
 use crate::program::Program;
-use crate::survey::{Corner, Survey};
+use crate::survey::Survey;
 use crate::totals::Totals;
 
 /// Most findings listed in a [`Report`].
@@ -25,12 +25,8 @@ pub struct Report {
     pub complete: bool,
     /// Counts and sums over the blocks without findings.
     pub totals: Totals,
-    /// The sharpest corner between two feed moves; `None` without any.
-    pub corner: Option<Corner>,
-    /// Time of the straight feed moves at their feedrate, as if there were no acceleration, s.
-    pub straight_time_s: f64,
-    /// Time of the arcs at their feedrate, as if there were no acceleration, s.
-    pub arc_time_s: f64,
+    /// What was seen along the path.
+    pub survey: Survey,
     /// Machine position at the end, over the blocks without findings.
     pub final_position: AxisVector,
 }
@@ -74,9 +70,7 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
         more,
         complete: program.kept_lines() < most,
         totals: *program.totals(),
-        corner: survey.sharpest,
-        straight_time_s: survey.straight_s,
-        arc_time_s: survey.arc_s,
+        survey,
         final_position: *program.position(),
     }
 }

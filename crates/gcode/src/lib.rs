@@ -108,6 +108,6 @@ pub use modes::{Cycle, Distance, FeedMode, Motion, Probe, Retract, Units};
 pub use options::{Connections, LoopLimits, Machine, Options, Travel};
 pub use program::Program;
 pub use source::MAX_LINE_BYTES;
-pub use survey::Corner;
+pub use survey::{Corner, Survey};
 pub use tool_table::{MAX_TOOLS, Tool, ToolTable};
 pub use totals::Totals;

@@ -14,19 +14,22 @@ pub struct Corner {
     pub angle_deg: f64,
 }
 
-/// Looks for the sharpest corner.
+/// What was seen along the path of a program.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Survey {
+pub struct Survey {
+    /// The sharpest corner between two feed moves; `None` without any.
+    pub corner: Option<Corner>,
+    /// Time of the straight feed moves at their feedrate, as if there were no acceleration, s.
+    pub straight_time_s: f64,
+    /// Time of the arcs at their feedrate, as if there were no acceleration, s.
+    pub arc_time_s: f64,
     /// Direction at the end of the last feed move.
     last: Option<AxisVector>,
-    pub(crate) sharpest: Option<Corner>,
-    /// Time of straight feed moves and of arcs at their feedrate, s.
-    pub(crate) straight_s: f64,
-    pub(crate) arc_s: f64,
 }
 
 impl Survey {
-    pub(crate) fn add(&mut self, item: &Item) {
+    /// Takes the next item of the program into account.
+    pub fn add(&mut self, item: &Item) {
         match &item.kind {
             ItemKind::Move {
                 segment,
@@ -35,8 +38,8 @@ impl Survey {
             } => {
                 let seconds = segment.length() / feed_v;
                 match segment {
-                    Segment::Arc(_) => self.arc_s += seconds,
-                    _ => self.straight_s += seconds,
+                    Segment::Arc(_) => self.arc_time_s += seconds,
+                    _ => self.straight_time_s += seconds,
                 }
                 self.corner(item.line, segment);
             }
@@ -60,10 +63,10 @@ impl Survey {
         if let (Some(last), Some(start)) = (self.last, start) {
             let angle_deg = last.dot(&start).clamp(-1.0, 1.0).acos().to_degrees();
             if self
-                .sharpest
+                .corner
                 .is_none_or(|corner| angle_deg > corner.angle_deg)
             {
-                self.sharpest = Some(Corner {
+                self.corner = Some(Corner {
                     line,
                     at: segment.start(),
                     angle_deg,

@@ -12,7 +12,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use glidepath_curve::{ChordRule, Chords, CurveError, CurveFile, ShapeKey};
-use glidepath_gcode::{Code, Diagnostic, Options, Report, Totals};
+use glidepath_gcode::{Code, Diagnostic, Options, Report, Survey, Totals};
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_motion::{Item, ItemKind, PathMode, Rate, Settings};
 
@@ -128,9 +128,10 @@ impl CurveSource {
     #[must_use]
     pub fn check(mut self) -> Report {
         let mut diagnostics = Vec::new();
+        let mut survey = Survey::default();
         loop {
             match self.next() {
-                Ok(Some(_)) => {}
+                Ok(Some(item)) => survey.add(&item),
                 Ok(None) => break,
                 Err(finding) => {
                     diagnostics.push(finding);
@@ -143,6 +144,7 @@ impl CurveSource {
             more: 0,
             complete: true,
             totals: self.totals,
+            survey,
             final_position: self.position,
         }
     }

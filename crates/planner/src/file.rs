@@ -72,6 +72,7 @@ pub fn check_file(path: &Path, options: Options, settings: &Settings) -> io::Res
             more: 0,
             complete: true,
             totals: glidepath_gcode::Totals::default(),
+            survey: glidepath_gcode::Survey::default(),
             final_position,
         }),
         Err(other) => Err(io::Error::other(other)),

@@ -130,9 +130,9 @@ fn survey(report: &Report) -> String {
     }
     text.push_str(&format!(
         "  at the feedrates, without acceleration: {:.1} s straight, {:.1} s in arcs, {:.1} s dwell\n",
-        report.straight_time_s, report.arc_time_s, totals.dwell_s
+        report.survey.straight_time_s, report.survey.arc_time_s, totals.dwell_s
     ));
-    if let Some(corner) = report.corner {
+    if let Some(corner) = report.survey.corner {
         text.push_str(&format!(
             "  sharpest corner between feed moves: {:.1}° in front of line {}\n",
             corner.angle_deg, corner.line
@@ -178,10 +178,10 @@ pub fn program(name: &str, report: &Report) -> Value {
         "feed_length_mm": totals.feed_length_mm,
         "rapid_length_mm": totals.rapid_length_mm,
         "box": bounding_box(report),
-        "straight_time_s": report.straight_time_s,
-        "arc_time_s": report.arc_time_s,
+        "straight_time_s": report.survey.straight_time_s,
+        "arc_time_s": report.survey.arc_time_s,
         "dwell_s": totals.dwell_s,
-        "sharpest_corner": report.corner.map(|corner| json!({
+        "sharpest_corner": report.survey.corner.map(|corner| json!({
             "line": corner.line,
             "angle_deg": corner.angle_deg,
             "position": corner.at.as_slice(),
