@@ -15,7 +15,7 @@ use glidepath_gcode::{Code, Options};
 use glidepath_geometry::AxisVector;
 use glidepath_motion::{Frame, FrameFlags, Item, PlanError};
 use glidepath_planner::{
-    FileSource, ItemSource, Output, PipeSource, Pipeline, ProgramSource, Refusal, Statistics,
+    FileSource, ItemSource, Output, PipeSource, Pipeline, Refusal, Statistics,
 };
 use proptest::prelude::*;
 use support::items::{Listed, frames_of, point, polyline, settings, staircase};
