@@ -133,7 +133,9 @@ fn ten_laps_of_an_implicit_curve_through_its_node() {
     let curve = ParametricCurve::parse(["20*(1+cos(t))", "20*sin(t)", "40*sin(t/2)"]).unwrap();
     let start_t = 0.5 * std::f64::consts::PI;
     let start = curve.point(start_t);
-    let frames = planned(VIVIANI, start.into());
+    // The file's start is rounded; here the laps must end where the formula says.
+    let exact = VIVIANI.replace("28.2843", "28.284271247461902");
+    let frames = planned(&exact, start.into());
     laps_keep_to(&frames, &curve, start_t, 2.0 * std::f64::consts::TAU);
 }
 
