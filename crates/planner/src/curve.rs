@@ -134,7 +134,7 @@ impl CurveSource {
                 Ok(Some(item)) => survey.add(&item),
                 Ok(None) => break,
                 Err(finding) => {
-                    diagnostics.push(finding);
+                    diagnostics.push(*finding);
                     break;
                 }
             }
@@ -149,7 +149,7 @@ impl CurveSource {
         }
     }
 
-    fn next(&mut self) -> Result<Option<Item>, Diagnostic> {
+    fn next(&mut self) -> Result<Option<Item>, Box<Diagnostic>> {
         if !self.has_approached {
             self.has_approached = true;
             let to = self.at((*self.chords.point()).into());
@@ -160,7 +160,7 @@ impl CurveSource {
         let chord = self
             .chords
             .next_chord()
-            .map_err(|error| cannot_follow(&self.text, &self.file, &error))?;
+            .map_err(|error| Box::new(cannot_follow(&self.text, &self.file, &error)))?;
         let Some(chord) = chord else { return Ok(None) };
         let to = self.at(chord.point.into());
         self.go(to, self.rate, self.mode).map(Some)
@@ -175,12 +175,12 @@ impl CurveSource {
         to
     }
 
-    fn go(&mut self, to: AxisVector, rate: Rate, mode: PathMode) -> Result<Item, Diagnostic> {
+    fn go(&mut self, to: AxisVector, rate: Rate, mode: PathMode) -> Result<Item, Box<Diagnostic>> {
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             let value = to[axis.index()];
             let travel = self.options.machine.travel(axis);
             if let Some(travel) = travel.filter(|t| !(t.min..=t.max).contains(&value)) {
-                return Err(Diagnostic::in_text(
+                return Err(Box::new(Diagnostic::in_text(
                     &self.text,
                     self.file.place(ShapeKey::Formula),
                     Code::SoftLimit,
@@ -189,7 +189,7 @@ impl CurveSource {
                         "keep the curve between {axis}{} and {axis}{}",
                         travel.min, travel.max
                     ),
-                ));
+                )));
             }
         }
         let segment = Segment::line(self.position, to);
@@ -239,7 +239,7 @@ impl ItemSource for CurveSource {
             Ok(Some(item)) => Supply::Item(item),
             Ok(None) => Supply::End,
             Err(finding) => Supply::Refused(Refusal::Program {
-                findings: vec![finding],
+                findings: vec![*finding],
                 unlisted: 0,
             }),
         }
