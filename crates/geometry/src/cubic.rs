@@ -25,6 +25,8 @@ pub struct Cubic {
     control: [AxisVector; 4],
     /// The axes that measure the feed.
     feed_axes: Range<usize>,
+    /// w by powers of u.
+    square: [f64; 5],
     length: f64,
 }
 
@@ -48,6 +50,7 @@ impl Cubic {
             origin,
             control,
             feed_axes,
+            square: [0.0; 5],
             length: 0.0,
         };
         let mean = span.control[3] / 3.0;
@@ -57,6 +60,16 @@ impl Cubic {
         if !is_regular {
             return None;
         }
+        let c1 = steps[0] * 3.0;
+        let c2 = (steps[1] - steps[0]) * 6.0;
+        let c3 = (steps[2] - steps[1] * 2.0 + steps[0]) * 3.0;
+        span.square = [
+            span.dot(&c1, &c1),
+            2.0 * span.dot(&c1, &c2),
+            span.dot(&c2, &c2) + 2.0 * span.dot(&c1, &c3),
+            2.0 * span.dot(&c2, &c3),
+            span.dot(&c3, &c3),
+        ];
         span.length = span.position_at(1.0);
         span.length.is_finite().then_some(span)
     }
@@ -201,15 +214,10 @@ impl Cubic {
 
     /// Speed by the parameter, √w.
     fn speed(&self, u: f64) -> f64 {
-        let v = 1.0 - u;
-        let [f0, f1, f2] = [v * v, 2.0 * u * v, u * u];
-        let mut w = 0.0;
-        for axis in self.feed_axes.clone() {
-            let [b0, b1, b2, b3] = self.control.map(|point| point[axis]);
-            let c1 = (b1 - b0) * f0 + (b2 - b1) * f1 + (b3 - b2) * f2;
-            w += c1 * c1;
-        }
-        3.0 * w.sqrt()
+        let [w0, w1, w2, w3, w4] = self.square;
+        (w0 + u * (w1 + u * (w2 + u * (w3 + u * w4))))
+            .max(0.0)
+            .sqrt()
     }
 
     fn dot(&self, a: &AxisVector, b: &AxisVector) -> f64 {

@@ -332,7 +332,12 @@ fn a_machine_in_micrometres_takes_the_same_time() {
         let frames = plan(&numbered(moves(&points, 80.0, FREE)), settings, 1);
         let large = numbered(moves(&large, 80_000.0, FREE));
         let scaled = plan(&large, in_um(settings), 1);
-        assert_eq!(frames.len(), scaled.len(), "same number of periods");
+        assert_eq!(
+            frames.len(),
+            scaled.len(),
+            "same number of periods, {:?}",
+            settings.effort
+        );
         for (a, b) in frames.iter().zip(&scaled) {
             assert!(
                 (a.position * 1000.0 - b.position).amax() < 1e-3,
