@@ -43,10 +43,8 @@ impl PathFront {
         let (Segment::Line(block), Rate::Feed(_)) = (segment, rate) else {
             return false;
         };
-        let PathMode::Continuous { .. } = mode else {
-            return false;
-        };
-        if self.settings.smoothing == Smoothing::ExactStop {
+        let is_continuous = matches!(mode, PathMode::Continuous { .. });
+        if !is_continuous || self.settings.smoothing == Smoothing::ExactStop {
             return false;
         }
         let displacement = block.displacement();

@@ -57,7 +57,6 @@ impl<const D: usize> Spline<D> {
             let (a, b) = (&pair[0].point, &pair[1].point);
             let foot_t = pair[1].foot_t;
             let chord = minus(b, a);
-            let per_square = 1.0 / dot(&chord, &chord);
             while from_t < foot_t && from_t < end_t {
                 if span + 1 < spans && from_t >= self.knots[span + 4] {
                     span += 1;
@@ -67,16 +66,8 @@ impl<const D: usize> Spline<D> {
                 }
                 let to_t = foot_t.min(self.knots[span + 4]);
                 let end = self.at(span, to_t);
-                let mut square_mm2 = 0.0_f64;
-                for point in &hermite_points(&start, &end, to_t - from_t) {
-                    let offset = minus(point, a);
-                    let u = (dot(&offset, &chord) * per_square)
-                        .min(1.0)
-                        .max(verdict.passed_u);
-                    let off = add_scaled(&offset, -u, &chord);
-                    square_mm2 = square_mm2.max(tolerance_square(&off));
-                    verdict.passed_u = u;
-                }
+                let points = hermite_points(&start, &end, to_t - from_t);
+                let square_mm2 = square_off_chord(&points, (a, &chord), &mut verdict.passed_u);
                 let error_mm = if is_regular {
                     square_mm2.sqrt()
                 } else {
@@ -114,6 +105,24 @@ impl<const D: usize> Spline<D> {
                 .iter()
                 .all(|step| product(step, &mean) >= least)
     }
+}
+
+/// The largest squared distance of Bézier points from points of a chord that follow each other, the
+/// first of them not before a share `passed_u` of it.
+fn square_off_chord<const D: usize>(
+    points: &[[f64; D]; 4],
+    (start, chord): (&[f64; D], &[f64; D]),
+    passed_u: &mut f64,
+) -> f64 {
+    let per_square = 1.0 / dot(chord, chord);
+    let mut square_mm2 = 0.0_f64;
+    for point in points {
+        let offset = minus(point, start);
+        let u = (dot(&offset, chord) * per_square).min(1.0).max(*passed_u);
+        square_mm2 = square_mm2.max(tolerance_square(&add_scaled(&offset, -u, chord)));
+        *passed_u = u;
+    }
+    square_mm2
 }
 
 /// Takes a distance into account; one that is not a number counts as infinite.

@@ -112,16 +112,13 @@ impl<const D: usize> Chords<D> {
     fn drive(
         &mut self,
         chord: &Chord<D>,
-        mut change: Option<Change>,
+        change: Option<Change>,
         end_spacing_t: Option<f64>,
         end_turn_rad: f64,
         out: &mut Output,
     ) {
         let length_t = chord.length_t;
-        for &(from_u, line) in &chord.blocks {
-            out.marks
-                .push(self.along_t + from_u * length_t, line, change.take());
-        }
+        self.mark(chord, change, out);
         let start_spacing_t = self
             .is_curved
             .then(|| self.spacing(self.turn_rad, self.spacing_t));
@@ -172,6 +169,14 @@ impl<const D: usize> Chords<D> {
         self.is_curved = end_spacing_t.is_some();
         self.turn_rad = end_turn_rad;
         self.along_t += length_t;
+    }
+
+    /// Tells where the blocks of a chord start.
+    fn mark(&self, chord: &Chord<D>, mut change: Option<Change>, out: &mut Output) {
+        for &(from_u, line) in &chord.blocks {
+            let from_t = self.along_t + from_u * chord.length_t;
+            out.marks.push(from_t, line, change.take());
+        }
     }
 
     /// The part of a chord that is a line.

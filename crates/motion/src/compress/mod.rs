@@ -26,6 +26,7 @@ mod fit;
 mod knots;
 mod marks;
 mod output;
+mod resort;
 #[cfg(test)]
 mod tests;
 mod thinning;
