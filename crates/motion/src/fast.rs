@@ -108,13 +108,13 @@ impl FastEngine {
         let elements = rest_of_stretch
             .into_iter()
             .chain(self.settled.iter().flat_map(Settled::elements))
-            .chain(self.scheduler.pieces().map(Element::Piece));
+            .chain(self.scheduler.elements());
         let mut slowing = Slowing::new(entry_v, wanted);
         for element in elements {
             let piece = match element {
                 Element::Piece(piece) => piece,
                 Element::Stops { .. } => continue,
-                rest @ Element::Rest(_) => {
+                rest @ (Element::Rest(_) | Element::InnerRest(_)) => {
                     slowing.over = true;
                     scheduler.push(rest, &mut settled);
                     continue;

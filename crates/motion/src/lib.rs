@@ -22,6 +22,7 @@ mod error;
 mod fast;
 mod frame;
 mod grid;
+mod group;
 mod guard;
 mod haste;
 mod item;

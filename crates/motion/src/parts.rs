@@ -131,7 +131,6 @@ impl PathFront {
             }
             PartShape::Stop => {
                 self.put_pending(out);
-                self.blocks.lose();
                 // The chord of one period must not cut off more than the fit left over.
                 let is_exact = self.stop_cut_mm() > 0.05 * mode.tolerance_mm(&self.settings);
                 let kind = if is_exact {
@@ -140,7 +139,7 @@ impl PathFront {
                     RestKind::Corner
                 };
                 let line = self.line;
-                out.push(Element::Rest(Rest { kind, line }));
+                out.push(Element::InnerRest(Rest { kind, line }));
             }
         }
     }

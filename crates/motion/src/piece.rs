@@ -123,6 +123,8 @@ pub(crate) struct Rest {
 #[allow(clippy::large_enum_variant, reason = "nearly every element is a piece")]
 pub(crate) enum Element {
     Piece(Piece),
+    /// A rest of which the program knows nothing, inside a stretch.
+    InnerRest(Rest),
     /// The stretch that the next rest ends can also be driven like this, at rest after each piece.
     Stops {
         pieces: Vec<Piece>,

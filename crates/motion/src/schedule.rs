@@ -13,12 +13,12 @@
 //! the plan that was made when its speed was settled, which ends at rest, until it meets the new one.
 
 use crate::Limits;
-use crate::haste::{drive_together, hasten};
-use crate::piece::{Element, Piece, Rest, RestKind, Shape};
+use crate::group::Group;
+use crate::piece::{Element, Piece, Rest, RestKind};
 use crate::run::Run;
 use crate::scurve::{PathLimits, slowing_horizon};
 use crate::stops::drive_each;
-use crate::valley::{Course, Leg};
+use crate::valley::Leg;
 use std::collections::VecDeque;
 
 /// A part of the motion that nothing later changes.
@@ -51,6 +51,11 @@ impl Settled {
 /// Pieces waiting in a chain before some are settled whatever their length.
 const MOST_WAITING: usize = 4096;
 
+/// The start of a stretch is not settled before it has so many pieces, or takes so long, s: short
+/// stretches are planned both ways.
+const MOST_WHOLE: usize = 512;
+const WHOLE_T: f64 = 1.0;
+
 /// A speed above another by less than this factor is rounding.
 const ROUNDING_R: f64 = 1.0 + 1e-9;
 
@@ -77,68 +82,10 @@ pub(crate) struct Scheduler {
     period_t: f64,
     /// The other way to drive the stretch at hand, and whether its stops need a setpoint.
     stops: Option<(Vec<Piece>, bool)>,
-    /// Nothing of the stretch at hand is settled.
+    /// Nothing of the stretch at hand was put out.
     is_whole: bool,
-}
-
-/// Runs that are driven together, and how.
-struct Group {
-    pieces: Vec<Piece>,
-    legs: Vec<Leg>,
-}
-
-/// Most pieces that are driven together.
-const MOST_TOGETHER: usize = 512;
-
-impl Group {
-    fn new(run: Run, (entry_v, exit_v): (f64, f64), limits: &Limits) -> Self {
-        let course = Course::new(&run.pieces);
-        let mut legs = run.drive(&course, entry_v, exit_v);
-        hasten(&mut legs, &course, limits);
-        Self {
-            pieces: run.pieces,
-            legs,
-        }
-    }
-
-    /// Takes in the next group if the last leg of this and the first of that are driven faster
-    /// together; gives it back if not.
-    fn join(&mut self, mut next: Self, limits: &Limits) -> Option<Self> {
-        let count = self.pieces.len();
-        let is_bent = |piece: &Piece| matches!(piece.shape, Shape::Spline(_));
-        let has_curve =
-            self.pieces.last().is_some_and(is_bent) || next.pieces.first().is_some_and(is_bent);
-        if count + next.pieces.len() > MOST_TOGETHER || !has_curve {
-            return Some(next);
-        }
-        self.pieces.append(&mut next.pieces);
-        let course = Course::new(&self.pieces);
-        let offset_s = course.starts_s[count];
-        let mut others = next.legs.iter().map(|leg| Leg {
-            from_s: leg.from_s + offset_s,
-            ..*leg
-        });
-        let together = match (self.legs.last(), others.next()) {
-            (Some(before), Some(after)) => drive_together((before, &after), &course, limits),
-            _ => None,
-        };
-        if let Some(mut legs) = together {
-            hasten(&mut legs, &course, limits);
-            self.legs.pop();
-            self.legs.extend(legs);
-            self.legs.extend(others);
-            return None;
-        }
-        next.pieces = self.pieces.split_off(count);
-        Some(next)
-    }
-
-    fn settled(self) -> Settled {
-        Settled::Motion {
-            pieces: self.pieces,
-            legs: self.legs,
-        }
-    }
+    /// What of it is settled: all of it up to a rest that is none of the program's.
+    held: VecDeque<Settled>,
 }
 
 const NO_LIMITS: PathLimits = PathLimits {
@@ -153,6 +100,7 @@ impl Scheduler {
             period_t,
             stops: None,
             is_whole: true,
+            held: VecDeque::new(),
             open: None,
             waiting: VecDeque::new(),
             waiting_s: 0.0,
@@ -174,12 +122,12 @@ impl Scheduler {
         }
     }
 
-    /// All pieces that are not settled, in order.
-    pub(crate) fn pieces(&self) -> impl Iterator<Item = Piece> {
-        self.waiting
-            .iter()
-            .chain(&self.open)
-            .flat_map(|run| run.pieces.iter().cloned())
+    /// All that was not put out, in order.
+    pub(crate) fn elements(&self) -> impl Iterator<Item = Element> {
+        let waiting = self.waiting.iter().chain(&self.open);
+        let waiting = waiting.flat_map(|run| run.pieces.iter().cloned());
+        let held = self.held.iter().flat_map(Settled::elements);
+        held.chain(waiting.map(Element::Piece))
     }
 
     /// Ends the open run, so that a junction comes next.
@@ -222,15 +170,40 @@ impl Scheduler {
                 self.close_run();
                 match self.stops.take().filter(|_| self.is_whole) {
                     Some((pieces, exact)) => self.settle_stretch(pieces, exact, out),
-                    None => self.settle(self.waiting.len(), out),
+                    None => {
+                        out.append(&mut self.held);
+                        self.settle(self.waiting.len(), out);
+                    }
                 }
                 self.is_whole = true;
-                self.fastest_v = 0.0;
-                self.weakest = NO_LIMITS;
-                self.entry_v = 0.0;
-                self.planned_v.clear();
+                self.start_from_rest();
                 out.push_back(Settled::Rest(rest));
             }
+            Element::InnerRest(rest) => {
+                self.close_run();
+                let mut held = core::mem::take(&mut self.held);
+                let to = if self.is_whole { &mut held } else { &mut *out };
+                self.settle(self.waiting.len(), to);
+                to.push_back(Settled::Rest(rest));
+                self.held = held;
+                self.start_from_rest();
+            }
+        }
+    }
+
+    fn start_from_rest(&mut self) {
+        self.fastest_v = 0.0;
+        self.weakest = NO_LIMITS;
+        self.entry_v = 0.0;
+        self.planned_v.clear();
+    }
+
+    /// Settles some runs while the stretch goes on.
+    fn settle_some(&mut self, count: usize, out: &mut VecDeque<Settled>) {
+        if count > 0 {
+            self.is_whole = false;
+            out.append(&mut self.held);
+            self.settle(count, out);
         }
     }
 
@@ -248,8 +221,12 @@ impl Scheduler {
     /// Settles what has enough path beyond it.
     fn settle_front(&mut self, out: &mut VecDeque<Settled>) {
         let horizon_s = slowing_horizon(self.fastest_v, self.weakest);
+        let whole_s = 2.0 * horizon_s + self.fastest_v * WHOLE_T;
+        if self.is_whole && self.waiting_pieces < MOST_WHOLE && self.waiting_s < whole_s {
+            return;
+        }
         if self.waiting_pieces >= MOST_WAITING {
-            self.settle(self.waiting.len().div_ceil(2), out);
+            self.settle_some(self.waiting.len().div_ceil(2), out);
         } else if self.waiting_s >= 2.0 * horizon_s {
             let mut beyond_s = self.waiting_s;
             let count = self
@@ -260,14 +237,14 @@ impl Scheduler {
                     beyond_s >= horizon_s
                 })
                 .count();
-            self.settle(count, out);
+            self.settle_some(count, out);
         }
     }
 
     /// Settles a whole stretch between two rests: as planned, or at rest after each piece, whichever
     /// is faster.
     fn settle_stretch(&mut self, pieces: Vec<Piece>, exact: bool, out: &mut VecDeque<Settled>) {
-        let mut planned = VecDeque::new();
+        let mut planned = core::mem::take(&mut self.held);
         self.settle(self.waiting.len(), &mut planned);
         let passing_t: f64 = planned.iter().map(Settled::duration_t).sum();
         let stopping = drive_each(&pieces).filter(|legs| {
@@ -303,7 +280,6 @@ impl Scheduler {
         if count == 0 {
             return;
         }
-        self.is_whole = false;
         let planned_v = self.forward_pass(&self.backward_pass());
         let mut group: Option<Group> = None;
         for &exit_v in planned_v.iter().take(count) {
