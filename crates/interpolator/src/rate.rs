@@ -65,9 +65,6 @@ const FASTEST: Bounds = Bounds {
 };
 /// The least change of the rate worth a ramp part of the way.
 const LEAST_CHANGE: f64 = 1e-3;
-/// The highest rate that a ramp part of the way to the full rate ends at: nearer to it there is too
-/// little time left to lose to get back to the grid.
-const PARTIAL_MOST: f64 = 0.9;
 /// A better ramp ends at least this much earlier, ticks.
 const GAIN: f64 = 0.5;
 
@@ -254,8 +251,8 @@ impl Rate {
     /// what is committed.
     #[allow(clippy::float_cmp, reason = "targets are copies of goals")]
     pub(crate) fn steer(&mut self, goal: f64, scene: &Scene<'_>) {
-        let heading = self.ramp.map_or(self.rate, |ramp| ramp.target());
-        let arrives = heading == goal;
+        let heading = self.heading(goal, scene);
+        let arrives = heading == Some(goal);
         if arrives && (self.ramp.is_none() || self.pace >= PACES[0]) {
             return;
         }
@@ -310,25 +307,6 @@ impl Rate {
                 }
             }
         }
-    }
-
-    /// Where a ramp part of the way to a goal ends.
-    fn target(&self, part: f64, goal: f64) -> f64 {
-        if part >= 1.0 {
-            return goal;
-        }
-        let most = PARTIAL_MOST.max(self.rate.min(BESIDE_FULL));
-        (self.rate + part * (goal - self.rate)).min(most)
-    }
-
-    /// Whether a candidate, if it passes, is better than what is committed.
-    #[allow(clippy::float_cmp, reason = "targets are copies of goals")]
-    fn is_better(&self, part: f64, pace: f64, goal: f64, heading: f64) -> bool {
-        if heading == goal {
-            return part >= 1.0 && pace > self.pace;
-        }
-        let already = (heading - self.rate) / (goal - self.rate);
-        !already.is_finite() || part > already
     }
 
     /// Ticks to the end of the committed ramp.

@@ -1,6 +1,6 @@
 //! The ramps that are tried, and how one is made to end on the grid of the frames.
 
-use super::Rate;
+use super::{BESIDE_FULL, Rate, Scene};
 use crate::ramp::{Bounds, Ramp};
 
 /// Stretching of the candidates, fast to slow.
@@ -39,10 +39,46 @@ const SEARCH: u32 = 20;
 /// Halvings of the range of paces, from the slowest to 1, in the search for the grid.
 const SEARCH_STEPS: u32 = 40;
 const SLOWEST: f64 = 0.02;
+/// The highest rate that a ramp part of the way to the full rate ends at: nearer to it there is too
+/// little time left to lose to get back to the grid.
+const PARTIAL_MOST: f64 = 0.9;
 /// How near to the grid a ramp must end, periods.
 const ON_GRID: f64 = 1e-10;
 
 impl Rate {
+    /// The rate that is committed; none if a ramp is followed that leads past the end of the block.
+    pub(super) fn heading(&self, goal: f64, scene: &Scene<'_>) -> Option<f64> {
+        let Some(ramp) = self.ramp else {
+            return Some(self.rate);
+        };
+        let arrives = scene
+            .block_end
+            .is_none_or(|frame| self.is_to_arrive_at(frame));
+        (arrives || goal <= 0.0).then(|| ramp.target())
+    }
+
+    /// Where a ramp part of the way to a goal ends.
+    pub(super) fn target(&self, part: f64, goal: f64) -> f64 {
+        if part >= 1.0 {
+            return goal;
+        }
+        let most = PARTIAL_MOST.max(self.rate.min(BESIDE_FULL));
+        (self.rate + part * (goal - self.rate)).min(most)
+    }
+
+    /// Whether a candidate, if it passes, is better than what is committed.
+    #[allow(clippy::float_cmp, reason = "targets are copies of goals")]
+    pub(super) fn is_better(&self, part: f64, pace: f64, goal: f64, heading: Option<f64>) -> bool {
+        let Some(heading) = heading else {
+            return true;
+        };
+        if heading == goal {
+            return part >= 1.0 && pace > self.pace;
+        }
+        let already = (heading - self.rate) / (goal - self.rate);
+        !already.is_finite() || part > already
+    }
+
     /// A ramp from the present, if there is one of less than so many ticks; one to rate 1 ends on the
     /// grid of the frames.
     pub(super) fn ramp_to(

@@ -23,11 +23,15 @@ impl Interpolator<'_> {
             .stand_at(self.block_end.at_rest().or(self.waits_for_arrival()));
     }
 
-    /// The frame at which the motion waits, at a rest of the plan, until it is known how to come to
-    /// rest at the end of the block.
+    /// The frame at which the motion waits, at a rest of the plan, until it is known where the block
+    /// ends, as far as the frames at hand tell, and how to come to rest there.
     fn waits_for_arrival(&self) -> Option<u64> {
-        let frame = self.block_end.in_motion().filter(|_| self.plan_rests())?;
-        (!self.rate.is_to_arrive_at(frame)).then(|| self.rate.now().time.sequence)
+        let is_open = match (self.block_end, self.block_end.in_motion()) {
+            (BlockEnd::Sought { from }, _) => from + 1 < self.track.end(),
+            (_, Some(frame)) => !self.rate.is_to_arrive_at(frame),
+            _ => false,
+        };
+        (is_open && self.plan_rests()).then(|| self.rate.now().time.sequence)
     }
 
     /// The end of the block is too near to come to rest there: where the motion sets out from a rest

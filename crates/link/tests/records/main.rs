@@ -206,12 +206,12 @@ fn frames_out_of_range_are_refused() {
         Err(RecordError::UnknownFlags { bits: 64, .. })
     ));
     let bad = SetpointFrame {
-        event_kind: 6,
+        event_kind: 8,
         ..good
     };
     assert!(matches!(
         bad.to_frame(),
-        Err(RecordError::UnknownCode { code: 6, .. })
+        Err(RecordError::UnknownCode { code: 8, .. })
     ));
 }
 
@@ -227,14 +227,14 @@ fn refused<R: Record>(good: R, spoil: impl FnOnce(&mut R)) -> RecordError {
 fn unknown_codes_and_bits_are_refused() {
     for error in [
         refused(good_setpoint(), |s| s.state = 0),
-        refused(good_setpoint(), |s| s.state = 10),
+        refused(good_setpoint(), |s| s.state = 11),
         refused(good_status(), |s| s.state = 0),
-        refused(good_status(), |s| s.fault = 5),
+        refused(good_status(), |s| s.fault = 6),
         refused(good_status(), |s| s.fault_axis = 10),
         refused(good_status(), |s| s.fault_axis = u32::MAX),
         refused(good_status(), |s| s.end_of_epoch = 5),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 0),
-        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 10),
+        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 11),
         refused(SegmentReply::zeroed(), |r| r.refusal = 11),
         refused(good_segment(), |s| s.kind = 0),
         refused(good_segment(), |s| s.mode = 5),
@@ -298,7 +298,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 10);
     in_sequence(CommandRefusal::ALL.iter().map(|code| code.code()), 1, 5);
     in_sequence(SegmentRefusal::ALL.iter().map(|code| code.code()), 1, 10);
-    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 5);
+    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 7);
     assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
     assert!(
         FrameRefusal::ALL
