@@ -262,7 +262,7 @@ impl Judge {
             effort: self.choice(
                 "path.effort",
                 raw.effort,
-                &[("optimal", Effort::Optimal), ("fast", Effort::Fast)],
+                &[("fast", Effort::Fast), ("optimal", Effort::Optimal)],
             ),
             default_feed: raw
                 .default_feed
