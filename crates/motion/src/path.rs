@@ -177,7 +177,8 @@ impl PathFront {
                 } else {
                     RestKind::Corner
                 };
-                self.put_stops(&next.segment.start(), out);
+                let stops = self.blocks.take(&next.segment.start());
+                self.put_stops(stops, out);
                 out.push(Element::Rest(Rest { kind, line }));
             }
             Joint::Blend {
@@ -236,9 +237,9 @@ impl PathFront {
         }
     }
 
-    /// Tells of the other way to drive up to a rest where a block ends.
-    fn put_stops(&mut self, rest: &AxisVector, out: &mut Vec<Element>) {
-        if let Some(pieces) = self.blocks.take(rest) {
+    /// Tells of the other way to drive up to the rest that comes next.
+    fn put_stops(&self, stops: Option<Vec<Piece>>, out: &mut Vec<Element>) {
+        if let Some(pieces) = stops {
             let exact = self.stop_cut_mm() > 0.05 * self.settings.tolerance_mm;
             out.push(Element::Stops { pieces, exact });
         }
@@ -278,8 +279,8 @@ impl PathFront {
     fn rest(&mut self, kind: RestKind, line: u32, out: &mut Vec<Element>) {
         self.end_run(out);
         self.put_pending(out);
-        let position = self.position;
-        self.put_stops(&position, out);
+        let stops = self.blocks.take_all(&self.position);
+        self.put_stops(stops, out);
         self.put_remainder(out);
         for event in core::mem::take(&mut self.events) {
             out.push(Element::Rest(Rest {

@@ -55,15 +55,24 @@ impl Blocks {
         self.is_lost = false;
     }
 
-    /// The blocks up to a rest where one of them ends, if there are several.
+    /// The blocks up to a rest where one of them ends, if there are several. A path may pass the same
+    /// point twice; then it is not known which of the blocks that end there is meant, and none is
+    /// given.
     pub(crate) fn take(&mut self, rest: &AxisVector) -> Option<Vec<Piece>> {
-        let last = self.pieces.iter().position(|piece| ends_at(piece, rest));
-        let Some(last) = last else {
+        let mut ending = (0..self.pieces.len()).filter(|&i| ends_at(&self.pieces[i], rest));
+        let (Some(last), None) = (ending.next(), ending.next()) else {
             self.lose();
             return None;
         };
         let taken: Vec<Piece> = self.pieces.drain(..=last).collect();
         (taken.len() > 1).then_some(taken)
+    }
+
+    /// All blocks, if there are several and the last of them ends at this rest.
+    pub(crate) fn take_all(&mut self, rest: &AxisVector) -> Option<Vec<Piece>> {
+        let is_end = self.pieces.back().is_some_and(|last| ends_at(last, rest));
+        let taken: Vec<Piece> = self.pieces.drain(..).collect();
+        (is_end && taken.len() > 1).then_some(taken)
     }
 }
 

@@ -138,3 +138,22 @@ proptest! {
         prop_assert!(report.is_clean() && report.is_complete, "{:#?}", report);
     }
 }
+
+proptest! {
+    #![proptest_config(cases(100))]
+
+    #[test]
+    fn paths_that_pass_a_point_twice_keep_to_the_program(
+        steps in prop::collection::vec((-1..=1_i32, -1..=1_i32), 3..60),
+        size_mm in (-2.0..1.0_f64).prop_map(|x| 10_f64.powf(x)),
+    ) {
+        let mut points = vec![at(0.0, 0.0)];
+        let (mut x, mut y) = (0, 0);
+        for (dx, dy) in steps {
+            (x, y) = (x + dx, y + dy);
+            points.push(at(size_mm * f64::from(x), size_mm * f64::from(y)));
+        }
+        let report = audited(&items(&points, |_| 60.0), mill());
+        prop_assert!(report.is_clean(), "{:#?}", report);
+    }
+}
