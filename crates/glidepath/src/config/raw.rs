@@ -26,6 +26,7 @@ pub(super) struct RawConfig {
     pub(super) link: RawLink,
     #[serde(default)]
     pub(super) preview: RawPreview,
+    #[serde(default)]
     pub(super) program: RawProgram,
 }
 
