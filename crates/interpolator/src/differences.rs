@@ -26,11 +26,6 @@ impl Allowed {
         ];
         Self(raw.map(|limit| limit * (1.0 + ALLOWANCE) + AxisVector::repeat(ROUNDING)))
     }
-
-    /// Larger by a part of the limits.
-    pub(crate) fn relaxed(&self, part: f64) -> Self {
-        Self(self.0.map(|limit| limit * (1.0 + part)))
-    }
 }
 
 /// The last published position and its differences.

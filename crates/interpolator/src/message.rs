@@ -171,7 +171,7 @@ pub(crate) struct Report {
     pub(crate) feed_override: f64,
     pub(crate) rapid_override: f64,
     pub(crate) single_block: bool,
-    pub(crate) relaxed_stops: u64,
+    pub(crate) reserve_stops: u64,
 }
 
 /// Something for the log.
@@ -192,10 +192,9 @@ pub(crate) enum Happening {
         tick: u64,
         part: f64,
     },
-    /// A stop could not wait for room: limits were relaxed by this part.
-    Relaxed {
+    /// The stop in reserve was begun.
+    ReserveStop {
         tick: u64,
-        part: f64,
     },
 }
 
@@ -214,12 +213,8 @@ impl fmt::Display for Happening {
             Self::Excess { tick, part } => {
                 write!(f, "tick {tick}: a limit exceeded by {:.4} %", part * 100.0)
             }
-            Self::Relaxed { tick, part } => {
-                write!(
-                    f,
-                    "tick {tick}: limits relaxed by {:.2} % to stop",
-                    part * 100.0
-                )
+            Self::ReserveStop { tick } => {
+                write!(f, "tick {tick}: no later stop is known, so it begins")
             }
         }
     }

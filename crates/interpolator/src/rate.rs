@@ -104,13 +104,12 @@ pub(crate) struct Rate {
     /// The candidate at which the last tick ran out of budget.
     resume_at: usize,
     reserve: Option<Reserve>,
-    /// Where the search for a reserve goes on, and whether it came to its end without one.
+    /// Where the search for a reserve goes on, and whether it came to its end without one where the
+    /// motion stands.
     search_at: usize,
-    all_tried: bool,
-    /// Ticks in which limits were relaxed in the search.
-    insisted: usize,
-    /// The ramp being followed is the reserve, which may break limits by this part.
-    taken: Option<f64>,
+    finds_no_stop: bool,
+    /// The ramp being followed is the reserve.
+    has_taken: bool,
     /// The ramp being followed, or the next, comes to rest at this frame, the end of a block.
     arrives_at: Option<u64>,
     /// Where the search for such a ramp goes on: after the steady rate, and after the candidate at
@@ -158,9 +157,8 @@ impl Rate {
             resume_at: 0,
             reserve: None,
             search_at: 0,
-            all_tried: false,
-            insisted: 0,
-            taken: None,
+            finds_no_stop: false,
+            has_taken: false,
             arrives_at: None,
             arrival_search: 0,
             trial_search: 0,
@@ -177,14 +175,9 @@ impl Rate {
         }
     }
 
-    /// True if the frames ran so low that the stop in reserve was begun.
+    /// True if the stop in reserve was begun: the frames ran low, or no later stop was found.
     pub(crate) const fn has_taken_reserve(&self) -> bool {
-        self.taken.is_some()
-    }
-
-    /// The part by which limits may be broken now, usually 0.
-    pub(crate) fn excess(&self) -> f64 {
-        self.taken.unwrap_or(0.0)
+        self.has_taken
     }
 
     /// Advances program time by one tick.
@@ -239,8 +232,7 @@ impl Rate {
     pub(crate) fn rest_at(&mut self, time: ProgramTime, rate: f64) {
         *self = Self {
             search_at: self.search_at,
-            all_tried: self.all_tried,
-            insisted: self.insisted,
+            finds_no_stop: self.finds_no_stop,
             arrival_search: self.arrival_search,
             has_missed: self.has_missed,
             ..Self::new(time, rate)
@@ -349,7 +341,7 @@ impl Rate {
         if scene.track.stop().is_some() {
             return Trial::Passed(None);
         }
-        match Reserve::find(steady, 0, scene, scene.allowed, &mut from_first, budget) {
+        match Reserve::find(steady, 0, scene, &mut from_first, budget) {
             Some(reserve) => Trial::Passed(Some(reserve)),
             None => Trial::Barred,
         }
@@ -362,7 +354,7 @@ impl Rate {
         self.held_at = None;
         self.pace = pace;
         self.reserve = reserve;
-        self.taken = None;
+        self.has_taken = false;
         self.resume_at = 0;
         self.arrives_at = None;
         self.arrival_search = 0;

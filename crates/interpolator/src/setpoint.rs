@@ -14,7 +14,7 @@ pub(crate) struct Counters {
     pub(crate) missed_ticks: u64,
     pub(crate) late_ticks: u64,
     pub(crate) reports_lost: u64,
-    pub(crate) relaxed_stops: u64,
+    pub(crate) reserve_stops: u64,
     /// Of the tick before.
     pub(crate) timing: Timing,
     period_ns: u64,
@@ -32,7 +32,7 @@ impl Counters {
             missed_ticks: 0,
             late_ticks: 0,
             reports_lost: 0,
-            relaxed_stops: 0,
+            reserve_stops: 0,
             timing: Timing::default(),
             period_ns: config.period_ns,
             // A wake-up is never quite on time: late is what eats a quarter of the period.
@@ -197,7 +197,7 @@ impl Interpolator<'_> {
             feed_override,
             rapid_override,
             single_block: self.will.is_single_block(),
-            relaxed_stops: self.counters.relaxed_stops,
+            reserve_stops: self.counters.reserve_stops,
         }
     }
 }

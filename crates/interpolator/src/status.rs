@@ -114,7 +114,7 @@ impl StatusBook {
         status.missed_ticks = setpoint.missed_ticks;
         status.late_ticks = report.late_ticks;
         status.setpoints_lost = report.reports_lost;
-        status.relaxed_stops = report.relaxed_stops;
+        status.reserve_stops = report.reserve_stops;
         status.single_block = report.single_block.into();
         status.lateness = quantiles(&self.lateness);
         status.work = quantiles(&self.work);

@@ -4,7 +4,7 @@
 //! `rate`). Once it was taken, or the motion stands for want of frames, it is not worth while to go
 //! on for each frame that drips in: it goes on when as many are ahead as two stops from full speed
 //! take (program time runs at half rate on average while r falls to 0 in V/A + A/J), or when the
-//! frames end at rest.
+//! frames end at rest. The same holds where it stands because the operator wanted it to.
 
 use crate::config::Config;
 use crate::differences::Differences;
@@ -157,12 +157,13 @@ impl Supply {
             0
         };
         self.end = track.end();
+        let stands = published.is_at_rest() && rate.now().rate <= 0.0;
         // Frames that end at rest while more are coming in are no reason to go: motion would only
         // stand again where they end.
         let is_all = track.ends_at_last() || self.quiet_ticks >= QUIET_TICKS;
         if ahead >= self.enough || (track.ends_at_rest() && is_all) {
             self.short = false;
-        } else if rate.has_taken_reserve() || is_barred {
+        } else if rate.has_taken_reserve() || is_barred || (stands && !holds) {
             self.short = true;
         }
         self.out = track.ends_at_rest() && ahead == 0;

@@ -47,7 +47,7 @@ use crate::message::{HAPPENINGS, Happening, Inputs, Order, PortsEnds, Report, Ri
 use crate::tick::Interpolator;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{MachineState, Setpoint};
-use glidepath_realtime::{EventReader, Events, Wake, event_ring};
+use glidepath_realtime::{Events, Wake, event_ring};
 use heapless::spsc::Producer;
 use std::collections::VecDeque;
 
@@ -57,7 +57,6 @@ pub(crate) struct Rig {
     pub(crate) inputs: Inputs<'static>,
     pub(crate) ends: PortsEnds<'static>,
     pub(crate) reports: Producer<'static, Report>,
-    pub(crate) happenings: EventReader<'static, Happening>,
     pub(crate) config: Config,
     /// Frames that have not yet been published.
     pub(crate) feed: VecDeque<SetpointFrame>,
@@ -73,7 +72,7 @@ impl Rig {
         let rings = Box::leak(Box::<Rings>::default());
         let events = Box::leak(Box::<Events<Happening, HAPPENINGS>>::default());
         let ((inputs, reports), ends) = rings.split();
-        let (writer, happenings) = event_ring(events);
+        let (writer, _log) = event_ring(events);
         let interpolator = Interpolator::new(&config, 77, writer);
         let (feed, setpoints) = (VecDeque::new(), Vec::new());
         Self {
@@ -81,7 +80,6 @@ impl Rig {
             inputs,
             ends,
             reports,
-            happenings,
             config,
             feed,
             setpoints,
@@ -190,15 +188,6 @@ impl Rig {
         let first = self.config.start_position;
         let published = self.setpoints.iter().map(|s| AxisVector::from(s.position));
         std::iter::repeat_n(first, 3).chain(published).collect()
-    }
-
-    /// Whether limits were relaxed for a stop.
-    pub(crate) fn has_relaxed(&mut self) -> bool {
-        let mut relaxed = false;
-        while let Some(happening) = self.happenings.read() {
-            relaxed |= matches!(happening, Happening::Relaxed { .. });
-        }
-        relaxed
     }
 
     /// The largest ratio to any limit, by finite differences of everything published.

@@ -217,6 +217,9 @@ impl<'a> Interpolator<'a> {
         let now = self.rate.now();
         let rests = self.plan_rests() && self.published.is_at_rest();
         if rests {
+            if self.rate.take_finds_no_stop() {
+                self.set_out_slower();
+            }
             goal = goal.min(self.sets_out_at);
         }
         if rests && now.rate != goal {
@@ -284,12 +287,11 @@ impl<'a> Interpolator<'a> {
 
     /// Advances program time, not past a frame that holds the motion.
     fn advance(&mut self, tick: u64) {
-        let before = self.rate.excess();
+        let before = self.rate.has_taken_reserve();
         let time = self.rate.advance().time;
-        if self.rate.excess() > before {
-            let part = self.rate.excess();
-            self.counters.relaxed_stops += 1;
-            self.happenings.write(Happening::Relaxed { tick, part });
+        if self.rate.has_taken_reserve() && !before {
+            self.counters.reserve_stops += 1;
+            self.happenings.write(Happening::ReserveStop { tick });
         }
         let held = self.track.clamped(time);
         if held != time {
@@ -302,8 +304,7 @@ impl<'a> Interpolator<'a> {
         if !self.published.allow(position, &self.allowed) {
             let part = self.published.ratio(position, &self.allowed) - 1.0;
             self.happenings.write(Happening::Excess { tick, part });
-            let tolerated = EXCESS_FAULT + self.rate.excess();
-            if part.is_nan() || part > tolerated {
+            if part.is_nan() || part > EXCESS_FAULT {
                 self.fail(FaultCause::Output);
             }
         }

@@ -164,7 +164,7 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
         "late_ticks": status.late_ticks,
         "setpoints_published": status.setpoints_published,
         "setpoints_lost": status.setpoints_lost,
-        "relaxed_stops": status.relaxed_stops,
+        "reserve_stops": status.reserve_stops,
         "frames_refused": status.frames_refused.iter().sum::<u64>(),
         "lateness_us": quantiles_object(&status.lateness),
         "work_us": quantiles_object(&status.work),

@@ -214,7 +214,6 @@ impl Aim<'_> {
         Some(Reserve {
             first: first.unwrap_or(last),
             second: first.map(|_| last),
-            excess: 0.0,
             arrives_at: Some(self.frame),
         })
     }

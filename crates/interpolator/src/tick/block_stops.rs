@@ -37,15 +37,22 @@ impl Interpolator<'_> {
     /// The end of the block is too near to come to rest there: where the motion sets out from a rest
     /// of the plan, not if it does so more slowly.
     fn try_slower_or_later(&mut self) {
-        const SLOWER: f64 = 0.4;
-        const SLOWEST: f64 = 0.02;
         if self.plan_rests() && !self.published.is_at_rest() {
             // Only then any rate will do.
-        } else if self.plan_rests() && self.sets_out_at > SLOWEST {
-            self.sets_out_at *= SLOWER;
-        } else {
+        } else if !self.plan_rests() || !self.set_out_slower() {
             self.block_end.skip();
             self.sets_out_at = 1.0;
         }
+    }
+
+    /// Lets the motion set out at a lower rate; false if it is as low as can be.
+    pub(super) fn set_out_slower(&mut self) -> bool {
+        const SLOWER: f64 = 0.4;
+        const SLOWEST: f64 = 0.02;
+        let can_be = self.sets_out_at > SLOWEST;
+        if can_be {
+            self.sets_out_at *= SLOWER;
+        }
+        can_be
     }
 }

@@ -24,6 +24,13 @@ use proptest::prelude::*;
 
 const INSIDE: f64 = 1.0 + 1e-6;
 
+/// How many random cases a test runs, unless the environment says otherwise.
+fn cases(usual: u32) -> ProptestConfig {
+    let wanted = std::env::var("PROPTEST_CASES").ok();
+    let cases = wanted.map_or(usual, |text| text.parse().unwrap());
+    ProptestConfig::with_cases(cases)
+}
+
 fn frames(seed: u64, axes: usize, ticks: usize) -> Vec<SetpointFrame> {
     records(
         &plan(seed, axes, ticks, &mill(), 0.004, AxisVector::zeros()),

@@ -57,7 +57,7 @@ pub struct Quantiles {
 /// What the interpolator does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v2")]
+#[type_name("glidepath.Status.v3")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -132,8 +132,8 @@ pub struct Status {
     pub setpoints_published: u64,
     /// Setpoints lost inside the interpolator.
     pub setpoints_lost: u64,
-    /// Stops for want of frames for which limits had to be relaxed.
-    pub relaxed_stops: u64,
+    /// Stops in reserve that were begun: for want of frames, or because no later stop was found.
+    pub reserve_stops: u64,
     /// Commands served.
     pub commands_served: u64,
     /// Commands refused, among those served.
@@ -200,7 +200,7 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v2";
+    const NAME: &'static str = "glidepath.Status.v3";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
