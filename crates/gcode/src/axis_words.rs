@@ -59,7 +59,7 @@ impl Interpreter {
                     let meaning = "where to go";
                     return Err(missing(span, "a cycle or probing move", "an axis", meaning));
                 }
-                Ok((has_axes || motion.is_arc()).then_some(motion))
+                Ok((has_axes || motion.may_lack_axes()).then_some(motion))
             }
             (_, true) => Ok(None),
             (_, false) => self.modal_motion(block, has_axes),
@@ -77,7 +77,7 @@ impl Interpreter {
             });
         }
         let center = block.has_any(Letters::of(b"IJK"));
-        Ok(modal.filter(|motion| center && motion.is_arc()))
+        Ok(modal.filter(|motion| center && motion.may_lack_axes()))
     }
 
     pub(crate) fn check_axes(&self, block: &Block) -> Outcome<()> {

@@ -159,6 +159,14 @@ impl Block {
             .min_by_key(|(_, span)| span.start)
     }
 
+    /// Where the first word with a value stands.
+    pub(crate) fn first_span(&self) -> Span {
+        let code = self.codes.motion.map(|motion| motion.span);
+        let word = self.unused(Letters::of(b"")).map(|(_, span)| span);
+        let first = code.into_iter().chain(word).min_by_key(|span| span.start);
+        first.unwrap_or_default()
+    }
+
     /// Fills the block from the text of a line.
     pub(crate) fn parse(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
         self.assignments.clear();

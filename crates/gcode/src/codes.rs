@@ -8,8 +8,8 @@ use glidepath_motion::PathMode;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::dialect::marlin::is_function;
 use crate::modes::{
-    CutterRadius, Cycle, Distance, FeedMode, Motion, Once, Probe, Retract, Side, SpindleMode, Stop,
-    ToolLength, Units,
+    CutterRadius, Cycle, Distance, FeedMode, Motion, Once, Probe, Retract, Side, SpindleMode,
+    Spline, Stop, ToolLength, Units,
 };
 use crate::refused::{refused_g, refused_m, unknown_g, unknown_m};
 
@@ -65,6 +65,7 @@ impl Codes {
             10 => self.set_motion(Some(Motion::Linear), span),
             20 => self.set_motion(Some(Motion::ArcClockwise), span),
             30 => self.set_motion(Some(Motion::ArcCounterclockwise), span),
+            50..=53 | 62 => self.set_motion(Some(Motion::Spline(spline(tenths))), span),
             800 => self.set_motion(None, span),
             40 | 100 | 280 | 281 | 300 | 301 | 520 | 530 | 920..=923 => {
                 set(&mut self.once, once(tenths), span)
@@ -112,6 +113,31 @@ impl Codes {
             990 => set(&mut self.retract, Retract::RPlane, span),
             _ => Err(refused_g(tenths, value, span)),
         }
+    }
+
+    /// True if the block has any code.
+    pub(crate) const fn any(&self) -> bool {
+        self.once.is_some()
+            || self.motion.is_some()
+            || self.plane.is_some()
+            || self.distance.is_some()
+            || self.arc_distance.is_some()
+            || self.feed_mode.is_some()
+            || self.units.is_some()
+            || self.cutter_radius.is_some()
+            || self.tool_length.is_some()
+            || self.retract.is_some()
+            || self.spindle_mode.is_some()
+            || self.diameter.is_some()
+            || self.system.is_some()
+            || self.path_mode.is_some()
+            || self.tool_change.is_some()
+            || self.spindle.is_some()
+            || self.coolant.is_some()
+            || self.overrides.is_some()
+            || self.stop.is_some()
+            || self.orient.is_some()
+            || self.input_output.is_some()
     }
 
     /// G80 may stand beside another motion code, as in the first line of many programs; that
@@ -167,6 +193,16 @@ const fn cycle(tenths: u32) -> Cycle {
         860 => Cycle::BoreStop,
         890 => Cycle::BoreDwell,
         _ => Cycle::Drill,
+    }
+}
+
+const fn spline(tenths: u32) -> Spline {
+    match tenths {
+        50 => Spline::Cubic,
+        51 => Spline::Quadratic,
+        52 => Spline::Weighted,
+        53 => Spline::EndWeighted,
+        _ => Spline::Knotted,
     }
 }
 

@@ -124,6 +124,8 @@ pub enum Code {
     Spindle,
     /// The checksum of a line is wrong.
     Checksum,
+    /// A spline that cannot be made, or is not complete.
+    Spline,
 }
 
 impl Code {
@@ -190,6 +192,7 @@ impl Code {
             Self::Polar => "polar",
             Self::Spindle => "spindle",
             Self::Checksum => "checksum",
+            Self::Spline => "spline",
         }
     }
 

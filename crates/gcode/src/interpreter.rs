@@ -18,11 +18,12 @@ use crate::compensation::Compensation;
 use crate::cycle::Cycles;
 use crate::diagnostic::Outcome;
 use crate::modal::Modal;
-use crate::modes::{Distance, Motion, Stop};
+use crate::modes::{Distance, Motion, Spline, Stop};
 use crate::offsets::Offsets;
 use crate::options::Options;
 use crate::probe::ProbeResult;
 use crate::spindle::Spindle;
+use crate::spline::{self, OpenSpline};
 use crate::tool_table::ToolTable;
 use crate::words::{check_words, path_mode};
 
@@ -66,6 +67,8 @@ pub(crate) struct State {
     pub(crate) on_contour: bool,
     /// Cutter radius compensation was turned off and no move has been made since.
     pub(crate) leaving_contour: bool,
+    /// From its end to the control point that continues the last move smoothly, if that was a G5, mm.
+    pub(crate) cubic_tail: Option<[f64; 2]>,
 }
 
 /// Turns blocks into items.
@@ -75,6 +78,8 @@ pub(crate) struct Interpreter {
     pub(crate) state: State,
     pub(crate) offsets: Offsets,
     pub(crate) compensation: Option<Compensation>,
+    /// The NURBS whose control points are being read.
+    pub(crate) open_spline: Option<OpenSpline>,
     /// The tool table, with what G10 has made of it.
     pub(crate) tools: Option<Arc<ToolTable>>,
     /// Of the block executed last.
@@ -103,7 +108,9 @@ impl Interpreter {
                 extruder_relative: false,
                 on_contour: false,
                 leaving_contour: false,
+                cubic_tail: None,
             },
+            open_spline: None,
             offsets: Offsets::new(),
             compensation: None,
             tools,
@@ -127,11 +134,13 @@ impl Interpreter {
             codes.once.is_some() || codes.system.is_some() || codes.tool_length.is_some();
         let offsets = changes_offsets.then(|| (self.offsets.clone(), self.tools.clone()));
         let compensation = self.compensation.clone();
+        let mark = OpenSpline::mark(self.open_spline.as_ref());
         let result = self.run(block, out);
         if result.is_err() {
             out.clear();
             self.state = state;
             self.compensation = compensation;
+            OpenSpline::rewind(&mut self.open_spline, mark);
             if let Some((offsets, tools)) = offsets {
                 self.offsets = offsets;
                 self.tools = tools;
@@ -146,6 +155,13 @@ impl Interpreter {
             return Ok(Flow::Continue);
         }
         let motion = self.motion_of(block)?;
+        if let Some(open) = &self.open_spline
+            && !spline::goes_on(block, open, motion)
+        {
+            let fault = spline::interrupted(open, block.first_span());
+            self.open_spline = None;
+            return Err(fault);
+        }
         check_words(block, motion)?;
         self.check_axes(block)?;
         self.check_compensated(block)?;
@@ -160,6 +176,9 @@ impl Interpreter {
             if !matches!(code, Some(Motion::Cycle(_))) {
                 self.state.cycles = Cycles::default();
             }
+        }
+        if !matches!(motion, None | Some(Motion::Spline(Spline::Cubic))) {
+            self.state.cubic_tail = None;
         }
         if let Some(motion) = motion {
             self.motion(block, motion, out)?;

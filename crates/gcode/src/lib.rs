@@ -19,6 +19,7 @@
 //! |---|---|
 //! | G0 G1 G2 G3 G80 | moves; arcs with I J K or R, P turns, helices, in every plane |
 //! | G4 P | dwell, seconds |
+//! | G5, G5.1, G5.2 … G5.3, G6.2 | splines: cubic, quadratic, NURBS with weights, with weights and knots |
 //! | G7 G8 | X words are diameters, radii |
 //! | G10 L2, L20 (P, R); G54 … G59.3; G52; G92 … G92.3; G53 | coordinate systems |
 //! | G10 L1, L10, L11 (P, R, Q) | tool table, until the program ends |
@@ -41,7 +42,7 @@
 //! | `#1`, `#<name>`, `[ ]`, functions | parameters and expressions |
 //! | O words | `sub` `call` `return`, `if`, `while`, `do`, `repeat`, `break`, `continue` |
 //!
-//! Not supported, and refused by name: splines, threading (G33, G76), G70 to G72, G87, G88, M50 to
+//! Not supported, and refused by name: threading (G33, G76), G70 to G72, G87, G88, M50 to
 //! M53, M70 to M73, subroutines in other files.
 //!
 //! [`Program`] gives the items of a program for motion, and ends at the first finding. [`check`]
@@ -93,6 +94,7 @@ mod program;
 mod refused;
 mod source;
 mod spindle;
+mod spline;
 mod survey;
 mod tool;
 mod tool_table;
@@ -104,7 +106,7 @@ pub use cursor::MAX_NUMBER;
 pub use diagnostic::{Code, Diagnostic, Excerpt};
 pub use dialect::Dialect;
 pub use modal::{Feed, Modal};
-pub use modes::{Cycle, Distance, FeedMode, Motion, Probe, Retract, Units};
+pub use modes::{Cycle, Distance, FeedMode, Motion, Probe, Retract, Spline, Units};
 pub use options::{Connections, LoopLimits, Machine, Options, Travel};
 pub use program::Program;
 pub use source::MAX_LINE_BYTES;

@@ -15,14 +15,37 @@ pub enum Motion {
     Cycle(Cycle),
     /// G38.2 to G38.5.
     Probe(Probe),
+    /// G5, G5.1, G5.2, G5.3, G6.2.
+    Spline(Spline),
 }
 
 impl Motion {
+    /// True if a block of this mode may do without axis words: arcs and splines.
+    #[must_use]
+    pub const fn may_lack_axes(self) -> bool {
+        self.is_arc() || matches!(self, Self::Spline(_))
+    }
+
     /// True for G2 and G3.
     #[must_use]
     pub const fn is_arc(self) -> bool {
         matches!(self, Self::ArcClockwise | Self::ArcCounterclockwise)
     }
+}
+
+/// Splines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spline {
+    /// G5.
+    Cubic,
+    /// G5.1.
+    Quadratic,
+    /// G5.2: a control point with its weight.
+    Weighted,
+    /// G5.3: the control points of G5.2 are complete.
+    EndWeighted,
+    /// G6.2: a control point with its weight and a knot, or a knot alone.
+    Knotted,
 }
 
 /// Canned cycles.

@@ -68,6 +68,7 @@ impl Interpreter {
             Motion::ArcClockwise | Motion::ArcCounterclockwise => self.arc(block, motion, out)?,
             Motion::Cycle(cycle) => self.cycle(block, cycle, out)?,
             Motion::Probe(_) => self.probe(block, out)?,
+            Motion::Spline(spline) => self.spline(block, spline, out)?,
         }
         self.follow_surface(out);
         Ok(())

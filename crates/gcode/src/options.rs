@@ -84,6 +84,9 @@ pub struct Options {
     pub extruder: Option<Axis>,
     /// What inputs, outputs and the probe are.
     pub connections: Connections,
+    /// How far the straight moves a spline is made of may leave it, mm, > 0. G64 P overrides it with a
+    /// share of P.
+    pub spline_tolerance_mm: f64,
     /// How long loops may go on.
     pub loops: LoopLimits,
 }
@@ -120,7 +123,7 @@ impl Default for LoopLimits {
 
 impl Default for Options {
     /// All nine axes without soft limits, no default feedrate, block delete off, at machine zero, no
-    /// tool table, LinuxCNC's language, nothing connected.
+    /// tool table, LinuxCNC's language, nothing connected, splines to a micrometre.
     fn default() -> Self {
         Self {
             machine: Machine::unlimited(),
@@ -131,6 +134,7 @@ impl Default for Options {
             dialect: Dialect::LinuxCnc,
             extruder: None,
             connections: Connections::None,
+            spline_tolerance_mm: 0.001,
             loops: LoopLimits::default(),
         }
     }

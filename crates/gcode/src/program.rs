@@ -253,6 +253,7 @@ impl<R: BufRead> Program<R> {
         self.ended = true;
         match self.flow.recorder.take() {
             None => {
+                self.interpreter.check_spline_complete()?;
                 self.interpreter.end_compensation(&mut self.items)?;
                 self.count();
                 Ok(false)

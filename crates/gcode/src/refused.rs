@@ -20,7 +20,6 @@ pub(crate) fn unknown_m(value: f64, span: Span) -> Box<Fault> {
 #[cold]
 pub(crate) fn refused_g(tenths: u32, value: f64, span: Span) -> Box<Fault> {
     let (what, help) = match tenths {
-        50..=53 | 62 | 63 => ("spline", "let the CAM system write lines and arcs"),
         330 | 331 | 760 => (
             "spindle-synchronised motion",
             "no encoder of a spindle is read; cut threads with a tap or a mill (G84, G2, G3)",

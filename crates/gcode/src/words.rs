@@ -5,7 +5,7 @@ use glidepath_motion::PathMode;
 use crate::block::{AXIS_WORDS, Block, Letters};
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::dialect::Dialect;
-use crate::modes::{CutterRadius, Cycle, Motion, Once, SpindleMode, ToolLength};
+use crate::modes::{CutterRadius, Cycle, Motion, Once, SpindleMode, Spline, ToolLength};
 
 /// Largest tool number.
 pub(crate) const MAX_TOOL: u32 = 999_999;
@@ -20,6 +20,13 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 9] {
         match motion {
             Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Letters::of(b"IJKRP"),
             Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQK"),
+            Some(Motion::Spline(spline)) => match spline {
+                Spline::Cubic => Letters::of(b"IJPQ"),
+                Spline::Quadratic => Letters::of(b"IJ"),
+                Spline::Weighted => Letters::of(b"PL"),
+                Spline::EndWeighted => none,
+                Spline::Knotted => Letters::of(b"KRPQ"),
+            },
             Some(Motion::Cycle(cycle)) => match cycle {
                 Cycle::Drill | Cycle::Bore => Letters::of(b"RL"),
                 Cycle::ChipBreak | Cycle::Peck => Letters::of(b"RLQ"),

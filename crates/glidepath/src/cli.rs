@@ -1,11 +1,13 @@
 //! The command line.
 
+mod curves;
 mod operator;
 
+pub use curves::{FitArgs, FitMethod, PreviewArgs, PreviewMethod};
 pub use operator::{OperatorArgs, OverrideArgs, SingleBlockArgs, Switch};
 
 use crate::config::{INSTANCE_RULE, is_instance_name};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
 mod program;
@@ -84,6 +86,12 @@ pub enum Command {
     /// Plan the benchmark programs, and compare with what is known of them
     #[command(after_help = "Example: glidepath bench tests/data/bench --config-dir config --json")]
     Bench(BenchArgs),
+    /// Fit NURBS to the dense runs of short lines of a program
+    #[command(
+        after_help = "Examples: glidepath fit part.ngc --tolerance 0.01 --output smooth.ngc · \
+                            glidepath fit part.ngc --tolerance 0.01 --method hybrid --seed 7 --json"
+    )]
+    Fit(FitArgs),
     /// Is this host fit for real time? With the fix for each no
     #[command(after_help = "Example: glidepath doctor --config mill.toml")]
     Doctor(DoctorArgs),
@@ -262,42 +270,6 @@ pub struct FeedArgs {
     pub instance: InstanceArgs,
 }
 
-/// How `preview` reads a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum PreviewMethod {
-    /// Tick by tick
-    Traditional,
-    /// By growing steps, and back where they meet something
-    AdvanceRetreat,
-    /// By bounds and roots of polynomials: misses nothing
-    Certified,
-}
-
-/// Arguments of `preview`. What is not given is taken from the curve file or the configuration.
-#[derive(Debug, Args)]
-pub struct PreviewArgs {
-    /// The curve file (TOML or JSON)
-    pub file: PathBuf,
-    /// Configuration and form of the report.
-    #[command(flatten)]
-    pub basic: BasicArgs,
-    /// How to read the curve
-    #[arg(long, value_enum, default_value = "certified")]
-    pub method: PreviewMethod,
-    /// Period of a setpoint, µs
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(50..=1_000_000))]
-    pub period_us: Option<u32>,
-    /// Feedrate, mm/min
-    #[arg(long, value_name = "MM_PER_MIN", value_parser = positive)]
-    pub feed: Option<f64>,
-    /// Chord error of one tick, mm; without it the path tolerance
-    #[arg(long, value_name = "MM", value_parser = positive)]
-    pub chord_error: Option<f64>,
-    /// Write a plot of the curve, coloured by the speed it allows (SVG)
-    #[arg(long, value_name = "SVG")]
-    pub plot: Option<PathBuf>,
-}
-
 /// Arguments of `bench`.
 #[derive(Debug, Args)]
 pub struct BenchArgs {
@@ -351,13 +323,6 @@ pub struct JitterArgs {
     pub plot: Option<PathBuf>,
 }
 
-fn positive(text: &str) -> Result<f64, &'static str> {
-    text.parse()
-        .ok()
-        .filter(|number: &f64| *number > 0.0 && number.is_finite())
-        .ok_or("give a number greater than zero")
-}
-
 impl Command {
     /// What every command is told.
     #[must_use]
@@ -378,6 +343,7 @@ impl Command {
             | Self::Abort(args) => &args.basic,
             Self::SingleBlock(args) => &args.operator.basic,
             Self::Override(args) => &args.operator.basic,
+            Self::Fit(args) => &args.basic,
             Self::Preview(args) => &args.basic,
             Self::Bench(args) => &args.basic,
             Self::Doctor(args) => &args.basic,

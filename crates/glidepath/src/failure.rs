@@ -5,6 +5,7 @@ use crate::config::ConfigError;
 use crate::curve_file::CurveError;
 use crate::exit::Exit;
 use crate::jitter::CyclictestError;
+use crate::program_text::UnknownEvent;
 use glidepath_gcode::Diagnostic;
 use glidepath_interpolator as interpolator;
 use glidepath_link::{LinkError, RecordingError};
@@ -54,6 +55,19 @@ pub enum Failure {
     /// A curve file has a finding.
     #[error("the curve is rejected: {0}")]
     Curve(#[from] Box<CurveError>),
+    /// A curve file holds one curve.
+    #[error("{runs} runs cannot be written as one curve; write a program: --output FILE.ngc")]
+    NotOneCurve {
+        /// How many there are.
+        runs: usize,
+    },
+    /// An event that cannot be written into a program.
+    #[error(
+        "line {line}: the words of this M code are not known any more, so it cannot be written; take \
+         it out, or write curve files",
+        line = .0.line
+    )]
+    UnknownEvent(UnknownEvent),
     /// No feedrate is known.
     #[error("no feedrate: give --feed, or `feed` in the curve file")]
     NoFeed,
@@ -124,6 +138,12 @@ pub enum Failure {
     Interrupted,
 }
 
+impl From<UnknownEvent> for Failure {
+    fn from(event: UnknownEvent) -> Self {
+        Self::UnknownEvent(event)
+    }
+}
+
 impl Failure {
     /// For `map_err` of opening a file.
     pub fn open(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
@@ -165,6 +185,8 @@ impl Failure {
             | Self::Open { .. }
             | Self::Catalogue(_)
             | Self::NoFeed
+            | Self::NotOneCurve { .. }
+            | Self::UnknownEvent(_)
             | Self::Cyclictest(CyclictestError::Absent) => Exit::Usage,
             Self::Rejected { .. }
             | Self::Curve(_)

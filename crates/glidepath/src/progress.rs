@@ -29,6 +29,18 @@ impl Progress {
         Self(bar)
     }
 
+    /// A bar of so many steps that tells nothing but their share.
+    #[must_use]
+    pub fn share(total: u64) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
+        if let Ok(style) =
+            ProgressStyle::with_template("{msg:10} {wide_bar} {percent} %, {elapsed}")
+        {
+            bar.set_style(style);
+        }
+        Self(bar)
+    }
+
     /// What is being done.
     pub fn doing(&self, what: &'static str) {
         self.0.set_message(what);

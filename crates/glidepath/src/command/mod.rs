@@ -4,6 +4,7 @@ mod bench;
 pub mod check;
 mod doctor;
 mod feed;
+mod fit;
 mod interpolator;
 mod jitter;
 mod operator;
@@ -48,6 +49,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
             let command = link::Command::StopAtEndOfBlock;
             operator::command(args, &config, "stop-at-block-end", command)
         }
+        Command::Fit(args) => fit::fit(args, &config),
         Command::Preview(args) => preview::preview(args, &config),
         Command::SingleBlock(args) => {
             let command = link::Command::SingleBlock(args.switch == Switch::On);

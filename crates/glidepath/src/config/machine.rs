@@ -71,6 +71,9 @@ pub struct MachineConfig {
     pub program: ProgramConfig,
 }
 
+/// Share of the path tolerance that the straight moves of a spline may use.
+const SPLINE_SHARE: f64 = 0.05;
+
 impl MachineConfig {
     /// Name used where neither the file nor the command line gives one.
     pub const DEFAULT_INSTANCE: &'static str = "default";
@@ -170,6 +173,7 @@ impl MachineConfig {
             dialect: self.program.dialect.unwrap_or_default(),
             extruder: self.program.extruder,
             connections: self.program.connections,
+            spline_tolerance_mm: SPLINE_SHARE * self.path.tolerance_mm,
             ..Options::default()
         }
     }

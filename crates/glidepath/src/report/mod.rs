@@ -2,6 +2,7 @@
 
 mod diagnosis;
 mod finding;
+mod fit;
 mod memory;
 mod motion;
 mod quantity;
@@ -10,6 +11,7 @@ mod status;
 
 pub use diagnosis::{DiagnosisReport, PlaceReport};
 pub use finding::{ProgramFinding, finding_object};
+pub use fit::{FitReport, FittedRun};
 pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};
 pub use quantity::{grouped, seconds};

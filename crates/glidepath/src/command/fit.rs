@@ -1,0 +1,175 @@
+//! `glidepath fit`: NURBS through the dense runs of a program.
+
+use super::check;
+use super::plan::title;
+use crate::cli::{FitArgs, FitMethod};
+use crate::clock;
+use crate::config::MachineConfig;
+use crate::curve_file;
+use crate::dense_runs::{Piece, Run, Runs};
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::output;
+use crate::plot::curve::{CurvePlot, Mark};
+use crate::program_text::ProgramText;
+use crate::progress::Progress;
+use crate::report::{FitReport, FittedRun};
+use glidepath_fit::{Fit, FitError, Method, Settings, fit as fit_points};
+use glidepath_gcode::Program;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// Steps of the progress bar for each run.
+const STEPS: f64 = 1000.0;
+
+/// Fits every run and writes what was asked for.
+///
+/// # Errors
+/// The program is rejected, has no run, or a file cannot be written.
+pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    check::accepted(&args.file, config)?;
+    let pieces = read(&args.file, config)?;
+    let runs: Vec<&Run> = pieces.iter().filter_map(run).collect();
+    let settings = Settings {
+        method: match args.method {
+            FitMethod::LeastSquares => Method::LeastSquares,
+            FitMethod::Foraging => Method::Foraging,
+            FitMethod::Hybrid => Method::Hybrid,
+        },
+        seed: args.seed,
+        ..Settings::new(args.tolerance)
+    };
+    let start = clock::elapsed();
+    let results = fit_runs(&runs, &settings);
+    let wall_s = (clock::elapsed() - start).as_secs_f64();
+    if let Some(path) = &args.output {
+        let text = written(path, &pieces, &runs, &results, config, args.tolerance)?;
+        std::fs::write(path, text).map_err(Failure::file("write", path))?;
+    }
+    if let Some(path) = &args.plot {
+        let text = plot(&title(&args.file), &runs, &results);
+        std::fs::write(path, text).map_err(Failure::file("write", path))?;
+    }
+    let fitted = runs.iter().zip(&results);
+    let report = FitReport {
+        program: args.file.display().to_string(),
+        tolerance_mm: args.tolerance,
+        method: args.method.name(),
+        seed: args.seed,
+        runs: fitted
+            .map(|(run, fit)| FittedRun::new(run, fit, args.tolerance))
+            .collect(),
+        wall_s,
+    };
+    if args.basic.json {
+        output::object(&report.object());
+    } else {
+        output::result(&report.text());
+    }
+    Ok(Exit::Done)
+}
+
+fn read(path: &Path, config: &MachineConfig) -> Result<Vec<Piece>, Failure> {
+    let file = File::open(path).map_err(Failure::open(path))?;
+    let options = config.program_options(config.home());
+    let mut runs = Runs::default();
+    for item in Program::new(BufReader::with_capacity(1 << 16, file), options) {
+        let item = item.map_err(|finding| Failure::Rejected {
+            program: path.display().to_string(),
+            findings: vec![finding],
+            more: 0,
+            moved: false,
+        })?;
+        runs.push(item);
+    }
+    Ok(runs.finish())
+}
+
+const fn run(piece: &Piece) -> Option<&Run> {
+    match piece {
+        Piece::Run(run) => Some(run),
+        Piece::Item(_) => None,
+    }
+}
+
+fn fit_runs(runs: &[&Run], settings: &Settings) -> Vec<Result<Fit, FitError>> {
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "steps of a bar"
+    )]
+    let steps = |done: f64| (done * STEPS) as u64;
+    let progress = Progress::share(steps(runs.len() as f64));
+    progress.doing("fitting");
+    let fit_run = |(index, run): (usize, &&Run)| {
+        fit_points(&run.points(), settings, &mut |done| {
+            progress.at(steps(index as f64 + done));
+        })
+    };
+    let results = runs.iter().enumerate().map(fit_run).collect();
+    progress.finish();
+    results
+}
+
+/// The text of the output file: a curve file of the one run, or a program with every run that could be
+/// fitted as a curve.
+fn written(
+    path: &Path,
+    pieces: &[Piece],
+    runs: &[&Run],
+    results: &[Result<Fit, FitError>],
+    config: &MachineConfig,
+    tolerance_mm: f64,
+) -> Result<String, Failure> {
+    if path
+        .extension()
+        .is_some_and(|extension| extension == "toml")
+    {
+        let ([run], [Ok(fit)]) = (runs, results) else {
+            return Err(Failure::NotOneCurve { runs: runs.len() });
+        };
+        return Ok(curve_file::to_toml(
+            &title(path),
+            Some(run.feed_v * 60.0),
+            &fit.curve,
+        ));
+    }
+    let mut text = ProgramText::new(config.home());
+    let mut results = results.iter();
+    for piece in pieces {
+        match piece {
+            Piece::Item(item) => text.item(item)?,
+            Piece::Run(run) => match results.next() {
+                Some(Ok(fit)) if fit.deviation.max_mm() <= tolerance_mm => {
+                    text.curve(&fit.curve, run.feed_v, run.mode);
+                }
+                _ => run.items.iter().try_for_each(|item| text.item(item))?,
+            },
+        }
+    }
+    Ok(text.finish())
+}
+
+/// The curves with their control points.
+fn plot(title: &str, runs: &[&Run], results: &[Result<Fit, FitError>]) -> String {
+    let mut plot = CurvePlot::new();
+    let mut control_points = 0;
+    for (run, fit) in runs.iter().zip(results) {
+        let Ok(fit) = fit else { continue };
+        for span in fit.curve.spans() {
+            for i in 0..=40 {
+                let u = span.from_u() + (span.to_u() - span.from_u()) * f64::from(i) / 40.0;
+                plot.point(&fit.curve.jet(u).position, run.feed_v);
+            }
+        }
+        for point in fit.curve.control_points() {
+            plot.mark(point, Mark::Control);
+        }
+        control_points += fit.curve.control_points().len();
+    }
+    plot.render(
+        title,
+        &format!("{} runs, {control_points} control points", runs.len()),
+    )
+}
