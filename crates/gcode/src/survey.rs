@@ -1,7 +1,7 @@
 //! What a program asks of a machine, beside its totals: where it turns most sharply.
 
 use glidepath_geometry::{AxisVector, Segment, feed_length};
-use glidepath_motion::{Item, ItemKind, Rate};
+use glidepath_motion::{Item, ItemKind};
 
 /// A corner of the path: where two feed moves meet at an angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,11 +31,11 @@ impl Survey {
     /// Takes the next item of the program into account.
     pub fn add(&mut self, item: &Item) {
         match &item.kind {
-            ItemKind::Move {
-                segment,
-                rate: Rate::Feed(feed_v),
-                ..
-            } => {
+            ItemKind::Move { segment, rate, .. } => {
+                let Some(feed_v) = rate.feed_v() else {
+                    self.last = None;
+                    return;
+                };
                 let seconds = segment.length() / feed_v;
                 match segment {
                     Segment::Arc(_) => self.arc_time_s += seconds,
@@ -44,7 +44,7 @@ impl Survey {
                 self.corner(item.line, segment);
             }
             ItemKind::Event(event) if !event.is_at_rest() => {}
-            // After a rapid move or a rest the next corner is none.
+            // After a rest, as after a rapid move, the next corner is none.
             _ => self.last = None,
         }
     }

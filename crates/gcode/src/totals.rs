@@ -74,8 +74,8 @@ impl Totals {
             Some((l, h)) => (l.inf(&low), h.sup(&high)),
             None => (low, high),
         });
-        match rate {
-            Rate::Rapid => {
+        match rate.feed_v() {
+            None => {
                 self.rapids += 1;
                 *(if linear {
                     &mut self.rapid_length_mm
@@ -83,7 +83,7 @@ impl Totals {
                     &mut self.rapid_rotary_deg
                 }) += path;
             }
-            Rate::Feed(feed_v) => {
+            Some(feed_v) => {
                 let arc = matches!(segment, Segment::Arc(_));
                 *(if arc {
                     &mut self.arcs

@@ -2,8 +2,9 @@
 //!
 //! Along the path: reach, singularities and ranges of the joints, at places at most [`STEP`] apart, so
 //! that `check` needs no plan. Over the plan: velocity, acceleration and jerk of every joint, too, by
-//! finite differences at the period. The plan knows limits of axes only, so a program that asks more
-//! of a joint is refused, before anything moves.
+//! finite differences at the period. Speeds, accelerations and jerks of the axes were kept where joints
+//! can follow when the plan was made (`AxisShare`, `PathCaps`); should a program ask more of a joint all
+//! the same, it is refused before anything moves.
 
 use crate::config::MachineConfig;
 use crate::failure::Failure;
@@ -110,7 +111,7 @@ pub(crate) fn check_plan(
     };
     let settings = config.settings();
     let source = FileSource::open(path, config.program_options(start), &settings)?;
-    let mut pipeline = Pipeline::new(source, settings, start);
+    let mut pipeline = Pipeline::new(source, settings, start).with_joints(config.path_caps());
     while let Some(frame) = pipeline.next_frame()? {
         watch
             .take(&frame.position)

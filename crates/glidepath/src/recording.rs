@@ -45,7 +45,8 @@ impl Recording {
             .map(|path| {
                 // Now, so that a path that cannot be written is known before an hour of motion.
                 File::create(path).map_err(Failure::open(path))?;
-                let plot = Plot::new(&axes, config.limits(), config.period_t());
+                let plot = Plot::new(&axes, config.limits(), config.period_t())
+                    .with_joints(&config.joint_limits, config.joints());
                 Ok::<_, Failure>((path.to_owned(), plot))
             })
             .transpose()?;

@@ -113,22 +113,6 @@ fn what_joints_cannot_do_is_refused_with_line_and_reason() {
             "{said}"
         );
     }
-    // The path is fine, its speed is not.
-    let slow = HEXAPOD.replacen("max_velocity = 120.0", "max_velocity = 5.0", 1);
-    let across = "G21 G90\nG0 Z500\nG1 X80 F3000\nM2\n";
-    assert_eq!(
-        glidepath("check", across, &slow, &[]).status.code(),
-        Some(0)
-    );
-    for command in ["plan", "run"] {
-        let output = glidepath(command, across, &slow, &[]);
-        let said = stderr(&output);
-        assert_eq!(output.status.code(), Some(1), "{said}");
-        assert!(
-            said.contains("joint J0: velocity 5.000 is exceeded"),
-            "{said}"
-        );
-    }
     // A singular place: the platform turned until the struts hold it no more.
     let wide = HEXAPOD
         .replace(
@@ -147,6 +131,89 @@ fn what_joints_cannot_do_is_refused_with_line_and_reason() {
         stderr(&output)
     );
     assert_eq!(output.status.code(), Some(1));
+}
+
+/// Largest first, second and third difference of the joints in a file of setpoints, per s, s², s³.
+fn fastest(csv: &Path) -> [f64; 3] {
+    let text = std::fs::read_to_string(csv).unwrap();
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .skip(1)
+        .map(|line| {
+            line.split(',')
+                .skip(24)
+                .map(|n| n.parse().unwrap())
+                .collect()
+        })
+        .collect();
+    let mut most = [0.0_f64; 3];
+    for rows in rows.windows(4) {
+        for joint in 0..6 {
+            let [a, b, c, d] = [3, 2, 1, 0].map(|row: usize| rows[row][joint]);
+            let differences = [a - b, a - 2.0 * b + c, a - 3.0 * b + 3.0 * c - d];
+            for (k, (most, difference)) in (1..).zip(most.iter_mut().zip(differences)) {
+                *most = most.max(difference.abs() / 0.004_f64.powi(k));
+            }
+        }
+    }
+    most
+}
+
+#[test]
+fn motion_is_as_slow_as_its_joints() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("out.csv");
+    let more = ["--json", "--setpoints", csv.to_str().unwrap()];
+    let across = "G21 G90\nG0 Z500\nG1 X80 F3000\nG1 Y40\nM2\n";
+    let plan = |config: &str| {
+        let output = glidepath("plan", across, config, &more);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        (
+            report["cycle_time_s"].as_f64().unwrap(),
+            fastest(&csv),
+            stderr(&output),
+        )
+    };
+    let (quick_t, quick, _) = plan(HEXAPOD);
+    assert!(quick[0] > 20.0, "{quick:?}");
+
+    // One strut of six is slow.
+    let slow = HEXAPOD.replacen("max_velocity = 120.0", "max_velocity = 5.0", 1);
+    let (slow_t, _, _) = plan(&slow);
+    assert!(slow_t > 2.0 * quick_t, "{slow_t} {quick_t}");
+    let slow = HEXAPOD.replace("max_velocity = 120.0", "max_velocity = 5.0");
+    let (_, most, _) = plan(&slow);
+    assert!(most[0] <= 5.0 && most[0] > 4.5, "{most:?}");
+
+    // All are weak.
+    let weak = HEXAPOD
+        .replace("max_acceleration = 1500.0", "max_acceleration = 400.0")
+        .replace("max_jerk = 40000.0", "max_jerk = 6000.0");
+    let (_, most, said) = plan(&weak);
+    assert!(most[1] <= 400.0 && most[2] <= 6000.0, "{most:?}");
+    assert!(
+        said.contains("of the axes' acceleration, which is what is used"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_plot_shows_joints_beside_their_limits() {
+    let folder = tempfile::tempdir().unwrap();
+    let svg = folder.path().join("out.svg");
+    let more = ["--plot", svg.to_str().unwrap()];
+    let output = glidepath("plan", PROGRAM, HEXAPOD, &more);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = std::fs::read_to_string(svg).unwrap();
+    for joint in 0..6 {
+        for quantity in ["velocity", "acceleration", "jerk"] {
+            assert!(
+                text.contains(&format!(">J{joint} {quantity}<")),
+                "J{joint} {quantity}"
+            );
+        }
+    }
 }
 
 fn findings(text: &str) -> Vec<String> {

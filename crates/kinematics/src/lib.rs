@@ -18,6 +18,7 @@
 //! does not have are zero. Axes that a mechanism does not use are ignored.
 
 mod axes;
+mod axis_share;
 mod core_xy;
 mod error;
 mod five_axis;
@@ -26,6 +27,7 @@ mod joint_limits;
 mod linear_delta;
 mod machine;
 mod mechanism;
+mod path_caps;
 mod rotary_delta;
 mod scara;
 mod space;
@@ -35,6 +37,7 @@ mod trivial;
 mod watch;
 
 pub use axes::AxisList;
+pub use axis_share::{AxisRates, AxisShare};
 pub use core_xy::CoreXy;
 pub use error::KinematicsError;
 pub use five_axis::{FiveAxis, Rotaries, Tilt};
@@ -46,6 +49,7 @@ pub use machine::{
     axis_series,
 };
 pub use mechanism::Mechanism;
+pub use path_caps::{PathCaps, PlaceCaps};
 pub use rotary_delta::RotaryDelta;
 pub use scara::{Elbow, Scara};
 pub use speed_caps::{PathRates, SpeedCaps};

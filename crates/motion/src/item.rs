@@ -10,6 +10,51 @@ pub enum Rate {
     Rapid,
     /// Feedrate: the rate of path position, mm/s (°/s for a move of rotary axes alone), > 0.
     Feed(f64),
+    /// As [`Rate::Rapid`], but never above a speed, > 0, that no override lifts: that of joints, where
+    /// they are not axes.
+    RapidUpTo(f64),
+    /// As [`Rate::Feed`] with `feed_v`, but never above `most_v`, > 0, that no override lifts.
+    FeedUpTo {
+        /// Feedrate.
+        feed_v: f64,
+        /// The speed that is not exceeded.
+        most_v: f64,
+    },
+}
+
+impl Rate {
+    /// True for a rapid, up to a speed or not.
+    #[must_use]
+    pub const fn is_rapid(self) -> bool {
+        matches!(self, Self::Rapid | Self::RapidUpTo(_))
+    }
+
+    /// The programmed feedrate; `None` for a rapid.
+    #[must_use]
+    pub const fn feed_v(self) -> Option<f64> {
+        match self {
+            Self::Rapid | Self::RapidUpTo(_) => None,
+            Self::Feed(feed_v) | Self::FeedUpTo { feed_v, .. } => Some(feed_v),
+        }
+    }
+
+    /// The speed that no override lifts, infinite where there is none.
+    #[must_use]
+    pub const fn most_v(self) -> f64 {
+        match self {
+            Self::Rapid | Self::Feed(_) => f64::INFINITY,
+            Self::RapidUpTo(most_v) | Self::FeedUpTo { most_v, .. } => most_v,
+        }
+    }
+
+    /// The same rate, never above a speed.
+    #[must_use]
+    pub const fn up_to(self, most_v: f64) -> Self {
+        match self.feed_v() {
+            None => Self::RapidUpTo(most_v),
+            Some(feed_v) => Self::FeedUpTo { feed_v, most_v },
+        }
+    }
 }
 
 /// How the path goes through the corner at the *end* of a segment (G61, G61.1, G64).

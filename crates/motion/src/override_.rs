@@ -31,9 +31,10 @@ pub(crate) struct ProgrammedRate {
 impl ProgrammedRate {
     /// The rate under an override, mm/s.
     pub(crate) fn under(&self, wanted: Override) -> f64 {
-        match self.rate {
-            Rate::Feed(feed_v) => feed_v * wanted.feed_r,
-            Rate::Rapid => self.axes_v * wanted.rapid_r,
-        }
+        let programmed_v = match self.rate.feed_v() {
+            Some(feed_v) => feed_v * wanted.feed_r,
+            None => self.axes_v * wanted.rapid_r,
+        };
+        programmed_v.min(self.rate.most_v())
     }
 }

@@ -40,7 +40,7 @@ impl PathFront {
         mode: PathMode,
         out: &mut Vec<Element>,
     ) -> bool {
-        let (Segment::Line(block), Rate::Feed(_)) = (segment, rate) else {
+        let (Segment::Line(block), Some(_)) = (segment, rate.feed_v()) else {
             return false;
         };
         let is_continuous = matches!(mode, PathMode::Continuous { .. });

@@ -362,8 +362,12 @@ pub(crate) fn check(
     if gap_mm > SHORTEST_MOVE_MM {
         return Err(PlanError::Gap { line, gap_mm });
     }
-    if let Rate::Feed(feed_v) = rate
-        && !(feed_v > 0.0 && feed_v.is_finite())
+    // Not a number is no rate either.
+    let wrong = [rate.feed_v(), Some(rate.most_v().min(f64::MAX))];
+    if let Some(feed_v) = wrong
+        .into_iter()
+        .flatten()
+        .find(|v| !(*v > 0.0 && v.is_finite()))
     {
         return Err(PlanError::Feed { line, feed_v });
     }

@@ -11,9 +11,9 @@
 //! share is fixed here, so that a piece has one top speed, one acceleration and one jerk, all of
 //! which may be used at once anywhere on it.
 
+use crate::Limits;
 use crate::override_::{Override, ProgrammedRate};
 use crate::scurve::{Extremes, PathLimits};
-use crate::{Limits, Rate};
 use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds, limit_along};
 
 /// What a piece of path allows.
@@ -111,7 +111,7 @@ impl SpeedRule {
 
     /// True if only rapids touch the piece.
     pub(crate) fn is_rapid(&self) -> bool {
-        let is_rapid = |rate: &ProgrammedRate| rate.rate == Rate::Rapid;
+        let is_rapid = |rate: &ProgrammedRate| rate.rate.is_rapid();
         match self {
             Self::Straight { rate, .. } | Self::Arc { rate, .. } => is_rapid(rate),
             Self::Curve { rates, .. } => rates.iter().all(is_rapid),

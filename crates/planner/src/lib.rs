@@ -18,6 +18,7 @@ mod error;
 mod feed;
 mod file;
 mod fingerprint;
+mod joint_speed;
 mod listen;
 mod machine;
 mod pipeline;

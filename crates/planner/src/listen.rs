@@ -11,6 +11,7 @@
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
+use glidepath_kinematics::PathCaps;
 use glidepath_link::{LinkError, SegmentRefusal, SegmentReply, SegmentRequest, Server, Transport};
 use glidepath_motion::{PlanError, Settings};
 
@@ -33,6 +34,8 @@ type Segments = dyn Server<SegmentRequest, SegmentReply>;
 pub struct Listening {
     /// What to plan with.
     pub settings: Settings,
+    /// What keeps joints inside their limits, where they are not axes.
+    pub joints: Option<PathCaps>,
     /// How to publish.
     pub pace: Pace,
     /// Where the axes may go; `None`: not checked.
@@ -155,7 +158,8 @@ impl Listener<'_> {
         control: &mut Control<'_>,
     ) -> Result<Statistics, RunError> {
         let source = StreamSource::new(self.server.as_mut(), stream);
-        let mut pipeline = Pipeline::new(source, listening.settings, position);
+        let mut pipeline =
+            Pipeline::new(source, listening.settings, position).with_joints(listening.joints);
         let outcome = self.publisher.publish(&mut pipeline, control);
         let mut stream = pipeline.into_source().stream;
         match &outcome {

@@ -15,9 +15,11 @@
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
-use glidepath_motion::{Frame, Item, ItemKind, Override, Planner, Settings};
+use glidepath_kinematics::PathCaps;
+use glidepath_motion::{Frame, Item, ItemKind, Limits, Override, Planner, Settings};
 
 use crate::blocks::Blocks;
+use crate::joint_speed::JointSpeed;
 use crate::{ItemSource, Refusal, Rest, Supply};
 
 /// One step of a pipeline.
@@ -70,6 +72,9 @@ pub struct Pipeline<S> {
     blocks: Blocks,
     /// Path position at the start, mm.
     start_s: f64,
+    /// Limits of axes, and what keeps joints inside theirs.
+    limits: Limits,
+    joints: Option<JointSpeed>,
 }
 
 impl<S: ItemSource> Pipeline<Rest<S>> {
@@ -98,6 +103,18 @@ impl<S: ItemSource> Pipeline<S> {
             wanted: Override::NONE,
             blocks: Blocks::whole(),
             start_s: 0.0,
+            limits: settings.limits,
+            joints: None,
+        }
+    }
+
+    /// The same pipeline for a machine whose joints are not its axes: speeds are kept where joints
+    /// can follow.
+    #[must_use]
+    pub fn with_joints(self, caps: Option<PathCaps>) -> Self {
+        Self {
+            joints: caps.map(|caps| JointSpeed::new(caps, &self.limits)),
+            ..self
         }
     }
 
@@ -217,6 +234,10 @@ impl<S: ItemSource> Pipeline<S> {
     }
 
     fn plan(&mut self, item: Item) -> Output {
+        let item = match &mut self.joints {
+            Some(joints) => joints.keep(item),
+            None => item,
+        };
         let numbered = Item {
             line: self.blocks.enter(item.line),
             ..item

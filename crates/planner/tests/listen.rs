@@ -26,6 +26,7 @@ use support::items::{Listed, PERIOD_NS, point, records, settings, staircase};
 
 fn listening() -> Listening {
     Listening {
+        joints: None,
         settings: settings(),
         pace: Pace {
             period_ns: PERIOD_NS,

@@ -95,7 +95,9 @@ impl Pass {
             tolerance_mm: settings.tolerance_mm,
         };
         Ok(Self {
-            pipeline: Pipeline::new(source, settings, home).with_clock(clock),
+            pipeline: Pipeline::new(source, settings, home)
+                .with_joints(config.path_caps())
+                .with_clock(clock),
             audit: Audit::new(&judged),
             diagnosis: Diagnosis::new(&judged),
             joints: PlanWatch::new(path, config),

@@ -78,7 +78,9 @@ fn run<S: ItemSource>(
     let mut publisher = Publisher::connect(transport, session::pace(config))?;
     let start = publisher.wait_until_ready(control)?;
     let source = open(start).map_err(|refusal| Failure::refused(name, refusal, false))?;
-    let mut pipeline = Pipeline::new(source, config.settings(), start).with_clock(clock::elapsed);
+    let mut pipeline = Pipeline::new(source, config.settings(), start)
+        .with_joints(config.path_caps())
+        .with_clock(clock::elapsed);
     publisher
         .publish(&mut pipeline, control)
         .map_err(|error| match error {
@@ -102,7 +104,9 @@ fn resume<S: ItemSource>(
         open(point.program_start).map_err(|refusal| Failure::refused(name, refusal, false))?;
     let settings = config.settings();
     let rest = Rest::find(source, point, settings.tolerance_mm)?;
-    let mut pipeline = Pipeline::resuming(rest, settings).with_clock(clock::elapsed);
+    let mut pipeline = Pipeline::resuming(rest, settings)
+        .with_joints(config.path_caps())
+        .with_clock(clock::elapsed);
     Ok(publisher.publish(&mut pipeline, control)?)
 }
 
@@ -116,6 +120,7 @@ fn serve(
     let (low, high) = config.travel();
     let listening = Listening {
         settings: config.settings(),
+        joints: config.path_caps(),
         pace: session::pace(config),
         limits: Some(SoftLimits { low, high }),
     };

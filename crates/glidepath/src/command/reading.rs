@@ -5,6 +5,7 @@ use crate::config::MachineConfig;
 use crate::failure::Failure;
 use crate::output;
 use glidepath_gcode::{Dialect, ToolTable};
+use glidepath_kinematics::AxisShare;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -30,10 +31,24 @@ pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<()
     if let Some(path) = &config.program.tool_table {
         config.program.tools = Some(Arc::new(tool_table(path)?));
     }
+    tell_share(&config.axis_share);
     if let Some(file) = file {
         config.program.dialect = Some(dialect(file, config));
     }
     Ok(())
+}
+
+/// Says what joints leave of the axes' limits, where that is not all.
+fn tell_share(share: &AxisShare) {
+    let parts = [(share.acceleration, "acceleration"), (share.jerk, "jerk")];
+    for ((part, name), joint) in parts.into_iter().zip(share.joints) {
+        if let Some(joint) = joint {
+            output::note(&format!(
+                "joint J{joint} leaves {:.0} % of the axes' {name}, which is what is used",
+                100.0 * part
+            ));
+        }
+    }
 }
 
 fn tool_table(path: &Path) -> Result<ToolTable, Failure> {

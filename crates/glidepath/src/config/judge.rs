@@ -2,7 +2,7 @@
 
 use super::finding::Finding;
 use super::horizon;
-use super::machine::{AxisConfig, InterpolatorConfig, MachineConfig, PathConfig};
+use super::machine::{AxisConfig, InterpolatorConfig, MachineConfig, PathConfig, axis_share};
 use super::program::ProgramConfig;
 use super::raw::{Optional, RawAxis, RawConfig, RawInterpolator, RawLink, RawPath};
 use glidepath_geometry::Axis;
@@ -38,6 +38,7 @@ pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<Finding>> {
     let config = MachineConfig {
         mechanism,
         joint_limits,
+        axis_share: axis_share(&mechanism, &joint_limits, &axes),
         axes,
         path: judge.path(raw.path),
         interpolator,

@@ -3,7 +3,9 @@
 use super::program::ProgramConfig;
 use glidepath_gcode::{Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_kinematics::{JointLimits, JointWatch, Kinematics as _, Mechanism};
+use glidepath_kinematics::{
+    AxisRates, AxisShare, JointLimits, JointWatch, Kinematics as _, Mechanism, PathCaps,
+};
 use glidepath_motion::preview::AdvanceRetreat;
 use glidepath_motion::{Effort, Limits, Settings, Smoothing};
 
@@ -57,6 +59,8 @@ pub struct MachineConfig {
     pub mechanism: Mechanism,
     /// What each joint can do; no limits where every axis has a drive of its own.
     pub joint_limits: JointLimits,
+    /// What joints leave of the axes' accelerations and jerks.
+    pub axis_share: AxisShare,
     /// The axes in the order X Y Z A B C U V W, at least one.
     pub axes: Vec<AxisConfig>,
     /// The tolerance and how it is used.
@@ -94,6 +98,20 @@ impl MachineConfig {
         (!is_trivial).then(|| JointWatch::new(self.mechanism, self.joint_limits, self.period_t()))
     }
 
+    /// What keeps joints inside their limits along a path, where joints are not axes.
+    #[must_use]
+    pub fn path_caps(&self) -> Option<PathCaps> {
+        let Limits {
+            acceleration, jerk, ..
+        } = self.limits();
+        let is_trivial = matches!(self.mechanism, Mechanism::Trivial(_));
+        (!is_trivial).then_some(PathCaps {
+            mechanism: self.mechanism,
+            limits: self.joint_limits,
+            rates: AxisRates { acceleration, jerk },
+        })
+    }
+
     /// Interpolation period in seconds.
     #[must_use]
     pub fn period_t(&self) -> f64 {
@@ -120,15 +138,16 @@ impl MachineConfig {
         (low, high)
     }
 
-    /// Limits over all nine axes; an axis the machine does not have is unlimited.
+    /// Limits over all nine axes, as far as joints leave them; an axis the machine does not have is
+    /// unlimited.
     #[must_use]
     pub fn limits(&self) -> Limits {
         let mut limits = Limits::uniform(Limits::UNLIMITED, Limits::UNLIMITED, Limits::UNLIMITED);
         for axis in &self.axes {
             let i = axis.axis.index();
             limits.velocity[i] = axis.max_velocity;
-            limits.acceleration[i] = axis.max_acceleration;
-            limits.jerk[i] = axis.max_jerk;
+            limits.acceleration[i] = axis.max_acceleration * self.axis_share.acceleration;
+            limits.jerk[i] = axis.max_jerk * self.axis_share.jerk;
         }
         limits
     }
@@ -190,4 +209,32 @@ impl MachineConfig {
         }
         home
     }
+}
+
+/// What joints leave of the axes' accelerations and jerks, anywhere in their travel; a rotary axis
+/// without soft limits is back where it was after a turn.
+pub(super) fn axis_share(
+    mechanism: &Mechanism,
+    limits: &JointLimits,
+    axes: &[AxisConfig],
+) -> AxisShare {
+    if matches!(mechanism, Mechanism::Trivial(_)) {
+        return AxisShare::FULL;
+    }
+    let travel: Vec<_> = axes
+        .iter()
+        .map(|axis| {
+            let (low, high) = axis.travel.unwrap_or((-180.0, 180.0));
+            (axis.axis, low, high)
+        })
+        .collect();
+    let mut rates = AxisRates {
+        acceleration: AxisVector::zeros(),
+        jerk: AxisVector::zeros(),
+    };
+    for axis in axes {
+        let i = axis.axis.index();
+        (rates.acceleration[i], rates.jerk[i]) = (axis.max_acceleration, axis.max_jerk);
+    }
+    AxisShare::over(mechanism, limits, &travel, &rates)
 }

@@ -1,6 +1,6 @@
 //! A picture of a motion: the tool path coloured by the limit that binds, or by feed where that is not
-//! known; and feed, velocity, acceleration and jerk
-//! of each axis against time with their limits, as one SVG file.
+//! known; and feed, velocity, acceleration and jerk of each axis, and of each joint where joints are not
+//! axes, against time with their limits, as one SVG file.
 //!
 //! Samples are taken one by one and kept in bounded memory, so that a motion of any length gives a
 //! file of at most about 2 MB. Velocity, acceleration and jerk are finite differences of the
@@ -11,6 +11,7 @@ mod colour;
 pub mod curve;
 mod envelope;
 mod lateness;
+mod quantities;
 mod strip;
 mod svg;
 mod ticks;
@@ -19,11 +20,13 @@ mod view;
 
 use crate::sample::Sample;
 use bound::Bound;
-use colour::{CURVES, INK, QUIET};
+use colour::{INK, QUIET};
 use envelope::Envelope;
-use glidepath_geometry::{Axis, AxisVector};
+use glidepath_geometry::Axis;
+use glidepath_kinematics::JointLimits;
 use glidepath_motion::Limits;
 pub use lateness::{Series, lateness};
+use quantities::{Quantities, Row};
 use strip::{Strip, TimeAxis};
 use svg::{Anchor, Area, Svg};
 use track::{Track, TrackPoint};
@@ -38,14 +41,12 @@ const STRIP_GAP: f64 = 9.0;
 /// A picture as it grows.
 #[derive(Debug)]
 pub struct Plot {
-    axes: Vec<Axis>,
-    limits: Limits,
+    axes: Quantities,
+    joints: Quantities,
     period_t: f64,
     track: Track,
     feed: Envelope,
-    /// Velocity, acceleration and jerk of each axis in `axes`.
-    curves: Vec<[Envelope; 3]>,
-    recent: Recent,
+    first_tick: Option<u64>,
     ticks: u64,
 }
 
@@ -53,19 +54,43 @@ impl Plot {
     /// An empty picture of a machine with these axes.
     #[must_use]
     pub fn new(axes: &[Axis], limits: Limits, period_t: f64) -> Self {
-        let curves = axes
-            .iter()
-            .map(|_| [const { Envelope::new() }; 3])
-            .collect();
+        let rows = axes.iter().map(|axis| {
+            let i = axis.index();
+            let limits = [limits.velocity, limits.acceleration, limits.jerk].map(|limit| limit[i]);
+            let units = if axis.is_rotary() {
+                ["°/s", "°/s²", "°/s³"]
+            } else {
+                ["mm/s", "mm/s²", "mm/s³"]
+            };
+            Row::new(axis.to_string(), i, limits, units)
+        });
         Self {
-            axes: axes.to_vec(),
-            limits,
+            axes: Quantities::new(rows.collect()),
+            joints: Quantities::new(Vec::new()),
             period_t,
             track: Track::default(),
             feed: Envelope::new(),
-            curves,
-            recent: Recent::default(),
+            first_tick: None,
             ticks: 0,
+        }
+    }
+
+    /// The same picture, with the first `count` joints, too.
+    #[must_use]
+    pub fn with_joints(self, limits: &JointLimits, count: usize) -> Self {
+        let rows = limits
+            .0
+            .iter()
+            .take(count)
+            .enumerate()
+            .map(|(joint, limit)| {
+                let limits = [limit.velocity, limit.acceleration, limit.jerk];
+                // Joints are lengths or angles, as the mechanism has it.
+                Row::new(format!("J{joint}"), joint, limits, ["/s", "/s²", "/s³"])
+            });
+        Self {
+            joints: Quantities::new(rows.collect()),
+            ..self
         }
     }
 
@@ -78,20 +103,12 @@ impl Plot {
             rapid: sample.rapid,
             bound: sample.binding.map(Bound::of),
         });
-        let first = *self.recent.first.get_or_insert(sample.tick);
+        let first = *self.first_tick.get_or_insert(sample.tick);
         let tick = sample.tick.saturating_sub(first);
         self.ticks = tick + 1;
         self.feed.push(tick, sample.feed_v);
-        let differences = self.recent.differences(sample.tick, &sample.position);
-        for (axis, curves) in self.axes.iter().zip(&mut self.curves) {
-            let mut scale = 1.0;
-            for (curve, difference) in curves.iter_mut().zip(&differences) {
-                scale /= self.period_t;
-                if let Some(difference) = difference {
-                    curve.push(tick, difference[axis.index()] * scale);
-                }
-            }
-        }
+        self.axes.push(tick, self.period_t, &sample.position);
+        self.joints.push(tick, self.period_t, &sample.joints);
     }
 
     /// The SVG document. The title is the largest text, the subtitle stands below it.
@@ -193,64 +210,8 @@ impl Plot {
             signed: false,
         };
         let mut strips = vec![feed];
-        let moving = |curves: &[Envelope; 3]| curves.iter().any(|curve| curve.peak() > 0.0);
-        for (axis, curves) in self.axes.iter().zip(&self.curves) {
-            if !moving(curves) {
-                continue;
-            }
-            let i = axis.index();
-            let limits = [
-                self.limits.velocity,
-                self.limits.acceleration,
-                self.limits.jerk,
-            ];
-            let names = ["velocity", "acceleration", "jerk"];
-            let units = if axis.is_rotary() {
-                ["°/s", "°/s²", "°/s³"]
-            } else {
-                ["mm/s", "mm/s²", "mm/s³"]
-            };
-            for (k, curve) in curves.iter().enumerate() {
-                strips.push(Strip {
-                    title: format!("{axis} {}", names[k]),
-                    unit: units[k],
-                    colour: CURVES[k],
-                    curve,
-                    limit: Some(limits[k][i]),
-                    signed: true,
-                });
-            }
-        }
+        strips.extend(self.axes.strips());
+        strips.extend(self.joints.strips());
         strips
-    }
-}
-
-/// The samples finite differences are made of. Before the first the machine is at rest.
-#[derive(Debug, Default)]
-struct Recent {
-    first: Option<u64>,
-    last_tick: u64,
-    /// The last three positions, newest first; fewer after a gap.
-    positions: Vec<AxisVector>,
-}
-
-impl Recent {
-    /// First, second and third difference of the positions, as far as there are enough of them.
-    fn differences(&mut self, tick: u64, position: &AxisVector) -> [Option<AxisVector>; 3] {
-        if self.positions.is_empty() {
-            self.positions = vec![*position; 3];
-        } else if tick != self.last_tick + 1 {
-            self.positions.clear();
-        }
-        self.last_tick = tick;
-        let known = &self.positions;
-        let first = known.first().map(|a| position - a);
-        let second = known.get(1).map(|b| position - 2.0 * known[0] + b);
-        let third = known
-            .get(2)
-            .map(|c| position - 3.0 * known[0] + 3.0 * known[1] - c);
-        self.positions.insert(0, *position);
-        self.positions.truncate(3);
-        [first, second, third]
     }
 }

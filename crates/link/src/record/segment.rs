@@ -164,9 +164,10 @@ impl SegmentRequest {
     }
 
     fn set_rate(&mut self, rate: Rate) {
-        match rate {
-            Rate::Rapid => self.rapid = 1,
-            Rate::Feed(feed_v) => self.feed_v = feed_v,
+        // The planner that receives it knows by itself what its joints can do.
+        match rate.feed_v() {
+            None => self.rapid = 1,
+            Some(feed_v) => self.feed_v = feed_v,
         }
     }
 

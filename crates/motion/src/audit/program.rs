@@ -249,10 +249,7 @@ impl Rows {
         self.fed.push_back(Move {
             segment: *segment,
             line,
-            feed_v: match rate {
-                Rate::Rapid => f64::INFINITY,
-                Rate::Feed(feed_v) => feed_v,
-            },
+            feed_v: rate.feed_v().unwrap_or(f64::INFINITY).min(rate.most_v()),
             tolerance_mm,
             end_tolerance_mm: end_tolerance_mm * slack,
             exact_end: is_stop.then_some(ExactEnd::STOP),

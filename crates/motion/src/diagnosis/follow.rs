@@ -115,14 +115,15 @@ impl Follow {
     }
 
     fn feed_v(&self, here: &Move, s: f64, frame: &Frame) -> f64 {
-        match here.rate {
-            Rate::Feed(feed_v) => feed_v * frame.planned_override,
-            Rate::Rapid if frame.planned_override >= 1.0 => f64::INFINITY,
-            Rate::Rapid => {
+        let programmed_v = match here.rate.feed_v() {
+            Some(feed_v) => feed_v * frame.planned_override,
+            None if frame.planned_override >= 1.0 => f64::INFINITY,
+            None => {
                 let axes_v = limit_along(&here.segment.jet(s).d1, &self.limits.velocity);
                 axes_v * frame.planned_override
             }
-        }
+        };
+        programmed_v.min(here.rate.most_v())
     }
 }
 

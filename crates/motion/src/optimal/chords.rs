@@ -167,7 +167,7 @@ impl Open {
     fn merge(&mut self, next: &Chord) -> bool {
         let chord = &mut self.chord;
         let alike = chord.rate == next.rate
-            && matches!(chord.rate, Rate::Feed(_))
+            && !chord.rate.is_rapid()
             && chord.tolerance_mm.total_cmp(&next.tolerance_mm).is_eq()
             && next.events.is_empty();
         let allowed_mm = MERGING_R * chord.tolerance_mm;

@@ -1,8 +1,8 @@
 //! What the pieces of a stretch have to do with the program: their lines, rates and events, by tag.
 
+use crate::Event;
 use crate::grid::Passing;
 use crate::override_::{Override, ProgrammedRate};
-use crate::{Event, Rate};
 use std::collections::VecDeque;
 
 /// A piece as the program sees it.
@@ -92,9 +92,9 @@ impl Ledger {
     /// commanded over planned override gets what is commanded while the speed is brought down.
     pub(super) fn place(&mut self, path_s: f64, path_v: f64) -> Passing {
         if let Some(part) = self.parts.front() {
-            let (programmed_v, told, wanted) = match part.rate.rate {
-                Rate::Feed(feed_v) => (feed_v, &mut self.told.feed_r, self.wanted.feed_r),
-                Rate::Rapid => (
+            let (programmed_v, told, wanted) = match part.rate.rate.feed_v() {
+                Some(feed_v) => (feed_v, &mut self.told.feed_r, self.wanted.feed_r),
+                None => (
                     part.rate.axes_v,
                     &mut self.told.rapid_r,
                     self.wanted.rapid_r,
@@ -117,7 +117,7 @@ impl Ledger {
             Some(&(_, line)) => line,
             None => part.line,
         };
-        let rapid = part.rate.rate == Rate::Rapid;
+        let rapid = part.rate.rate.is_rapid();
         Passing {
             line,
             rapid,

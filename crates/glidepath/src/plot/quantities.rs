@@ -1,0 +1,108 @@
+//! Velocity, acceleration and jerk of each of several positions, against their limits.
+
+use super::colour::CURVES;
+use super::envelope::Envelope;
+use super::strip::Strip;
+use glidepath_kinematics::JointVector;
+
+/// One position, of an axis or a joint, and what is drawn of it.
+#[derive(Debug)]
+pub(super) struct Row {
+    name: String,
+    index: usize,
+    limits: [f64; 3],
+    units: [&'static str; 3],
+    curves: [Envelope; 3],
+}
+
+impl Row {
+    /// The position with an index, and limits and units of its three derivatives.
+    pub(super) fn new(
+        name: String,
+        index: usize,
+        limits: [f64; 3],
+        units: [&'static str; 3],
+    ) -> Self {
+        Self {
+            name,
+            index,
+            limits,
+            units,
+            curves: [const { Envelope::new() }; 3],
+        }
+    }
+}
+
+/// Positions of one kind.
+#[derive(Debug)]
+pub(super) struct Quantities {
+    rows: Vec<Row>,
+    recent: Recent,
+}
+
+impl Quantities {
+    pub(super) fn new(rows: Vec<Row>) -> Self {
+        Self {
+            rows,
+            recent: Recent::default(),
+        }
+    }
+
+    pub(super) fn push(&mut self, tick: u64, period_t: f64, positions: &JointVector) {
+        let differences = self.recent.differences(tick, positions);
+        for row in &mut self.rows {
+            let mut scale = 1.0;
+            for (curve, difference) in row.curves.iter_mut().zip(&differences) {
+                scale /= period_t;
+                if let Some(difference) = difference {
+                    curve.push(tick, difference[row.index] * scale);
+                }
+            }
+        }
+    }
+
+    /// What is drawn of those that move.
+    pub(super) fn strips(&self) -> impl Iterator<Item = Strip<'_>> {
+        let moving = |row: &&Row| row.curves.iter().any(|curve| curve.peak() > 0.0);
+        self.rows.iter().filter(moving).flat_map(|row| {
+            let names = ["velocity", "acceleration", "jerk"];
+            row.curves.iter().enumerate().map(move |(k, curve)| Strip {
+                title: format!("{} {}", row.name, names[k]),
+                unit: row.units[k],
+                colour: CURVES[k],
+                curve,
+                limit: Some(row.limits[k]),
+                signed: true,
+            })
+        })
+    }
+}
+
+/// The samples finite differences are made of. Before the first the machine is at rest.
+#[derive(Debug, Default)]
+struct Recent {
+    last_tick: u64,
+    /// The last three positions, newest first; fewer after a gap.
+    positions: Vec<JointVector>,
+}
+
+impl Recent {
+    /// First, second and third difference of the positions, as far as there are enough of them.
+    fn differences(&mut self, tick: u64, position: &JointVector) -> [Option<JointVector>; 3] {
+        if self.positions.is_empty() {
+            self.positions = vec![*position; 3];
+        } else if tick != self.last_tick + 1 {
+            self.positions.clear();
+        }
+        self.last_tick = tick;
+        let known = &self.positions;
+        let first = known.first().map(|a| position - a);
+        let second = known.get(1).map(|b| position - 2.0 * known[0] + b);
+        let third = known
+            .get(2)
+            .map(|c| position - 3.0 * known[0] + 3.0 * known[1] - c);
+        self.positions.insert(0, *position);
+        self.positions.truncate(3);
+        [first, second, third]
+    }
+}
