@@ -10,7 +10,9 @@ use crate::config::MachineConfig;
 use crate::failure::Failure;
 use glidepath_gcode::{Code, Diagnostic};
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_kinematics::{JointFault, JointWatch, KinematicsError, Quantity};
+use glidepath_kinematics::{
+    JointFault, JointWatch, Kinematics as _, KinematicsError, Mechanism, Quantity,
+};
 use glidepath_motion::{Frame, ItemKind};
 use glidepath_planner::{FileSource, ItemSource, Pipeline, Refusal, Supply};
 use std::fs::File;
@@ -74,6 +76,9 @@ fn walk(segment: &Segment, watch: &JointWatch) -> Result<(), JointFault> {
 pub(crate) struct PlanWatch {
     watch: JointWatch,
     path: PathBuf,
+    mechanism: Mechanism,
+    last: Option<AxisVector>,
+    most_error: f64,
 }
 
 impl PlanWatch {
@@ -82,6 +87,9 @@ impl PlanWatch {
         config.joint_watch().map(|watch| Self {
             watch,
             path: path.to_owned(),
+            mechanism: config.mechanism,
+            last: None,
+            most_error: 0.0,
         })
     }
 
@@ -93,7 +101,21 @@ impl PlanWatch {
         self.watch.take(&frame.position).map_err(|fault| {
             let finding = finding(&self.path, frame.line, &fault);
             Failure::refused(&self.path.display().to_string(), refusal(finding), false)
-        })
+        })?;
+        if let Some(last) = self.last.replace(frame.position) {
+            let middle = (last + frame.position) / 2.0;
+            let joints = [&last, &middle, &frame.position]
+                .map(|place| self.mechanism.inverse(place).unwrap_or_default());
+            let error = (joints[0] + joints[2]) / 2.0 - joints[1];
+            self.most_error = self.most_error.max(error.amax());
+        }
+        Ok(())
+    }
+
+    /// How far joints that go straight from setpoint to setpoint are from where they should be half-way
+    /// between them, at most, mm or degrees.
+    pub(crate) const fn line_error(&self) -> f64 {
+        self.most_error
     }
 }
 

@@ -199,6 +199,22 @@ fn motion_is_as_slow_as_its_joints() {
 }
 
 #[test]
+fn struts_are_straight_enough_between_setpoints() {
+    // 100 mm/s at the edge of the workspace, where the struts bend most.
+    let fast = HEXAPOD.replace("max_velocity = 60.0", "max_velocity = 120.0");
+    let across = "G21 G90\nG0 X-100 Y-60 Z430\nG1 X100 F6000\nM2\n";
+    let output = glidepath("plan", across, &fast, &["--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(
+        report["max_feed_ratio"].as_f64().unwrap() > 0.999,
+        "{report}"
+    );
+    let error_mm = report["max_joint_line_error"].as_f64().unwrap();
+    assert!(error_mm > 1e-6 && error_mm <= 1e-4, "{error_mm}");
+}
+
+#[test]
 fn a_plot_shows_joints_beside_their_limits() {
     let folder = tempfile::tempdir().unwrap();
     let svg = folder.path().join("out.svg");

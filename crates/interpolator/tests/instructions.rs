@@ -21,7 +21,9 @@
 
 mod synthetic;
 
+use glidepath_geometry::AxisVector;
 use glidepath_interpolator::{Config, stepped};
+use glidepath_kinematics::{Hexapod, Kinematics as _, Mechanism};
 use glidepath_link::Command;
 use std::hint::black_box;
 use std::process::Command as Process;
@@ -86,11 +88,11 @@ fn drive(case: &Case, ticks: usize) {
 }
 
 /// Instructions of this test as another process, with so many ticks.
-fn counted(case: usize, ticks: usize) -> u64 {
+fn counted(test: &str, case: usize, ticks: usize) -> u64 {
     let output = Process::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
         .arg(std::env::current_exe().unwrap())
-        .args(["--exact", "a_tick_takes_few_instructions", "--nocapture"])
+        .args(["--exact", test, "--nocapture"])
         .env(CASE, case.to_string())
         .env(TICKS, ticks.to_string())
         .output()
@@ -103,24 +105,68 @@ fn counted(case: usize, ticks: usize) -> u64 {
     total.unwrap_or_else(|| panic!("no count: {text}"))
 }
 
+/// What a tick costs beside that where joints are not axes: positions, velocities and accelerations of
+/// the six struts of a hexapod. It is done by the thread that owns the ports, once a tick.
+const MOST_FOR_JOINTS: u64 = 4_500;
+
+fn turn(times: usize) {
+    let hexapod = Mechanism::Hexapod(Hexapod::paired(400.0, 150.0, 15.0));
+    let mut position = AxisVector::zeros();
+    position[2] = 500.0;
+    let (velocity, acceleration) = (AxisVector::repeat(10.0), AxisVector::repeat(100.0));
+    for _ in 0..times {
+        position[0] += 1e-3;
+        let motion = hexapod.motion(black_box(&position), &velocity, &acceleration);
+        black_box(motion.unwrap());
+    }
+}
+
+#[test]
+fn joints_take_few_instructions() {
+    if let Some(times) = number(TICKS) {
+        turn(times);
+        return;
+    }
+    if cannot_count() {
+        return;
+    }
+    let times = 5_000;
+    let test = "joints_take_few_instructions";
+    let each = (counted(test, 0, 2 * times) - counted(test, 0, times)) / times as u64;
+    println!("joints of a hexapod: {each} instructions a tick");
+    assert!(each <= MOST_FOR_JOINTS, "{each} > {MOST_FOR_JOINTS}");
+}
+
+fn number(name: &str) -> Option<usize> {
+    std::env::var(name).ok()?.parse().ok()
+}
+
+/// True, and says why, where instructions of optimised code cannot be counted.
+fn cannot_count() -> bool {
+    if cfg!(debug_assertions) {
+        println!("skipped: counts optimised code, use cargo test --release");
+        return true;
+    }
+    let is_missing = Process::new("valgrind").arg("--version").output().is_err();
+    if is_missing {
+        println!("skipped: valgrind is not installed");
+    }
+    is_missing
+}
+
 #[test]
 fn a_tick_takes_few_instructions() {
-    let number = |name| std::env::var(name).ok()?.parse::<usize>().ok();
     if let (Some(case), Some(ticks)) = (number(CASE), number(TICKS)) {
         drive(&CASES[case], ticks);
         return;
     }
-    if cfg!(debug_assertions) {
-        println!("skipped: counts optimised code, use cargo test --release");
+    if cannot_count() {
         return;
     }
-    if Process::new("valgrind").arg("--version").output().is_err() {
-        println!("skipped: valgrind is not installed");
-        return;
-    }
+    let test = "a_tick_takes_few_instructions";
     for (k, case) in CASES.iter().enumerate() {
         let ticks = 5_000;
-        let each = (counted(k, 2 * ticks) - counted(k, ticks)) / ticks as u64;
+        let each = (counted(test, k, 2 * ticks) - counted(test, k, ticks)) / ticks as u64;
         println!("{AXES} axes, {}: {each} instructions a tick", case.name);
         assert!(each <= case.most, "{}: {each} > {}", case.name, case.most);
     }

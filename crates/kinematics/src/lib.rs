@@ -49,7 +49,7 @@ pub use machine::{
     axis_series,
 };
 pub use mechanism::Mechanism;
-pub use path_caps::{PathCaps, PlaceCaps};
+pub use path_caps::{Heading, PathCaps, PlaceCaps};
 pub use rotary_delta::RotaryDelta;
 pub use scara::{Elbow, Scara};
 pub use speed_caps::{PathRates, SpeedCaps};

@@ -17,14 +17,14 @@ use crate::{
     AxisRates, JOINTS, JointLimits, JointVector, Kinematics as _, KinematicsError, Mechanism,
     axis_series,
 };
-use glidepath_geometry::{AXES, AxisVector};
+use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, ROTARY_ABC};
 use nalgebra::SMatrix;
 
 /// Part of every limit that is left for what these bounds do not see: the change of derivatives
 /// between places, the tolerance of the path, differences in place of derivatives.
 const SPARE_R: f64 = 0.01;
-/// The same of the velocities, where rotary axes turn along with linear ones: the feed is that of the
-/// linear ones, and at a corner the others may be faster than they are along the path.
+/// The same of the velocities where rotary axes turn along with linear ones: the feed is that of the
+/// linear ones, and within the tolerance the others may for moments be faster than along the path.
 const TURNING_SPARE_R: f64 = 0.05;
 /// Least part of a limit that is used for bends where axes leave none.
 const LEAST_R: f64 = 0.01;
@@ -42,10 +42,22 @@ pub struct PathCaps {
     pub rates: AxisRates,
 }
 
+/// The direction of a path, as far as it is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Heading {
+    /// Change of every axis per path position.
+    pub d1: AxisVector,
+    /// How much the linear axes together may differ from that.
+    pub linear_spread: f64,
+    /// The same of the rotary axes, degrees per path position.
+    pub rotary_spread: f64,
+}
+
 /// What belongs to a place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaceCaps {
     caps: PathCaps,
+    jacobian: SMatrix<f64, JOINTS, AXES>,
     /// What the axes leave of accelerations and jerks of the joints.
     left_a: JointVector,
     left_j: JointVector,
@@ -73,6 +85,7 @@ impl PathCaps {
         let joints = &self.limits.0;
         Ok(PlaceCaps {
             caps: *self,
+            jacobian,
             left_a: left(&self.rates.acceleration, &|i| joints[i].acceleration),
             left_j: left(&self.rates.jerk, &|i| joints[i].jerk),
             bends: Box::new(self.bends(place, &jacobian)?),
@@ -114,20 +127,22 @@ impl PathCaps {
 }
 
 impl PlaceCaps {
-    /// The largest speed along a path through `place`, near where this belongs to, in the direction
-    /// `d1` (change of every axis per path position); infinite where joints do not limit it.
+    /// The largest speed along a path through `place`, near where this belongs to; infinite where
+    /// joints do not limit it.
     ///
     /// # Errors
     /// A position out of reach.
-    pub fn speed(&self, place: &AxisVector, d1: &AxisVector) -> Result<f64, KinematicsError> {
+    pub fn speed(&self, place: &AxisVector, heading: &Heading) -> Result<f64, KinematicsError> {
+        let d1 = &heading.d1;
         let series = axis_series::<4>(&[*place, *d1]);
         let joints = self.caps.mechanism.inverse_series(&series)?;
         let is_moved = |axes: core::ops::Range<usize>| axes.clone().any(|k| d1[k] != 0.0);
-        let is_turning = is_moved(0..3) && is_moved(3..6);
+        let is_turning = is_moved(LINEAR_XYZ) && is_moved(ROTARY_ABC);
         let spare_r = if is_turning { TURNING_SPARE_R } else { SPARE_R };
         let mut speed = f64::INFINITY;
         for (i, joint) in joints.iter().enumerate() {
-            let [rate, bend, third] = [1, 2, 3].map(|k| joint.derivative(k).abs());
+            let [along, bend, third] = [1, 2, 3].map(|k| joint.derivative(k).abs());
+            let rate = along + self.aside(i, heading);
             let bent = self.bends[i] * d1;
             // An axis that the machine does not have bends nothing, and may be said to do anything.
             let cross: f64 = (0..AXES)
@@ -150,5 +165,17 @@ impl PlaceCaps {
                 .min(at_most(0.5 * self.left_j[i], third).cbrt());
         }
         Ok(speed)
+    }
+
+    /// What a joint may move besides its motion along the path, per path position.
+    fn aside(&self, joint: usize, heading: &Heading) -> f64 {
+        let row = self.jacobian.row(joint);
+        let is_rotary = |k: &usize| ROTARY_ABC.contains(k);
+        let group = |is_in: &dyn Fn(&usize) -> bool| -> f64 {
+            let squares = (0..AXES).filter(is_in).map(|k| row[k] * row[k]);
+            squares.sum::<f64>().sqrt()
+        };
+        group(&|k| !is_rotary(k)) * heading.linear_spread
+            + group(&is_rotary) * heading.rotary_spread
     }
 }

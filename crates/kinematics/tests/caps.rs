@@ -70,7 +70,8 @@ proptest! {
         let place = place(&unit);
         let mut d1 = axes(&direction);
         d1 /= d1.fixed_rows::<3>(0).norm().max(1e-3);
-        let speed = caps.at(&place).unwrap().speed(&place, &d1).unwrap();
+        let heading = Heading { d1, linear_spread: 0.0, rotary_spread: 0.0 };
+        let speed = caps.at(&place).unwrap().speed(&place, &heading).unwrap();
         prop_assert!(speed > 0.0);
         let derivatives = [
             place,

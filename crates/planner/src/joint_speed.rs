@@ -5,10 +5,15 @@
 //! ```
 //!
 //! An item keeps its rate where no override could make joints too fast.
+//!
+//! The motion may leave the path by the tolerance e, and so differ from its direction: where the path
+//! has curvature κ, a smoother one cuts it by e over a length of √(8e/κ), at whose ends it differs by an
+//! angle of about √(2eκ). For items that follow each other, κ is the change of direction over the length
+//! of an item.
 
-use glidepath_geometry::{Axis, AxisVector, Segment, limit_along};
-use glidepath_kinematics::{PathCaps, PlaceCaps};
-use glidepath_motion::{Item, ItemKind, Limits};
+use glidepath_geometry::{Axis, AxisVector, ROTARY_ABC, Segment, limit_along};
+use glidepath_kinematics::{Heading, PathCaps, PlaceCaps};
+use glidepath_motion::{Item, ItemKind, PathMode, Settings};
 
 /// Largest change of any axis between two places that are looked at, mm or degrees.
 const STEP: f64 = 1.0;
@@ -19,17 +24,19 @@ const STEPS_PER_OCTAVE: f64 = 16.0;
 #[derive(Debug)]
 pub(crate) struct JointSpeed {
     caps: PathCaps,
-    /// Limits of the axes: no item is driven faster than they allow.
-    velocity: AxisVector,
+    settings: Settings,
+    /// The direction in which the last item ended, and how curved it was, in linear and rotary axes.
+    last: Option<(AxisVector, [f64; 2])>,
     /// The place that was looked at last.
     place: Option<(AxisVector, PlaceCaps)>,
 }
 
 impl JointSpeed {
-    pub(crate) fn new(caps: PathCaps, limits: &Limits) -> Self {
+    pub(crate) fn new(caps: PathCaps, settings: Settings) -> Self {
         Self {
             caps,
-            velocity: limits.velocity,
+            settings,
+            last: None,
             place: None,
         }
     }
@@ -42,9 +49,19 @@ impl JointSpeed {
             mode,
         } = item.kind
         else {
+            self.last = None;
             return item;
         };
-        let (joints_v, axes_v) = self.along(&segment);
+        let tolerance_mm = match mode {
+            PathMode::ExactStop | PathMode::ExactPath => 0.0,
+            PathMode::Continuous { tolerance_mm } => {
+                tolerance_mm.unwrap_or(self.settings.tolerance_mm)
+            }
+        };
+        let spread = self
+            .curvature(&segment)
+            .map(|curvature_k| (2.0 * tolerance_mm * curvature_k).sqrt());
+        let (joints_v, axes_v) = self.along(&segment, spread);
         if joints_v >= axes_v {
             return item;
         }
@@ -59,8 +76,25 @@ impl JointSpeed {
         }
     }
 
+    /// How curved the path is, 1/mm and °/mm², at a segment or where it begins or the last one did.
+    fn curvature(&mut self, segment: &Segment) -> [f64; 2] {
+        let length_s = segment.length();
+        let [start, end] = [0.0, length_s].map(|s| segment.jet(s));
+        let mut curvature = groups(&start.d2);
+        let mut before = [0.0; 2];
+        if let Some((last_d1, last)) = self.last {
+            let turn = groups(&(start.d1 - last_d1));
+            for group in 0..2 {
+                curvature[group] = curvature[group].max(turn[group] / length_s);
+                before[group] = last[group];
+            }
+        }
+        self.last = Some((end.d1, curvature));
+        [0, 1].map(|group| curvature[group].max(before[group]))
+    }
+
     /// The least speeds that joints and axes allow on a segment.
-    fn along(&mut self, segment: &Segment) -> (f64, f64) {
+    fn along(&mut self, segment: &Segment, spread: [f64; 2]) -> (f64, f64) {
         let length_s = segment.length();
         // The fastest axis per unit of path position, which rotary axes may be many times over.
         let fastest = (0..=8)
@@ -71,9 +105,14 @@ impl JointSpeed {
         let mut step = 0.0;
         while step <= steps {
             let at = segment.jet(length_s * step / steps);
-            axes_v = axes_v.min(limit_along(&at.d1, &self.velocity));
+            axes_v = axes_v.min(limit_along(&at.d1, &self.settings.limits.velocity));
             // Where a machine cannot go is told by those who look at the path for that.
-            if let Some(speed_v) = self.at(&at.position, &at.d1) {
+            let heading = Heading {
+                d1: at.d1,
+                linear_spread: spread[0],
+                rotary_spread: spread[1],
+            };
+            if let Some(speed_v) = self.at(&at.position, &heading) {
                 joints_v = joints_v.min(speed_v);
             }
             step += 1.0;
@@ -81,7 +120,7 @@ impl JointSpeed {
         (joints_v, axes_v)
     }
 
-    fn at(&mut self, position: &AxisVector, d1: &AxisVector) -> Option<f64> {
+    fn at(&mut self, position: &AxisVector, heading: &Heading) -> Option<f64> {
         let is_near = |(place, _): &(AxisVector, PlaceCaps)| {
             Axis::ALL
                 .into_iter()
@@ -91,6 +130,18 @@ impl JointSpeed {
             self.place = Some((*position, self.caps.at(position).ok()?));
         }
         let (_, caps) = self.place.as_ref()?;
-        caps.speed(position, d1).ok()
+        caps.speed(position, heading).ok()
     }
+}
+
+/// Length of a vector in the linear axes, and in the rotary ones.
+fn groups(vector: &AxisVector) -> [f64; 2] {
+    let rotary = vector
+        .as_slice()
+        .get(ROTARY_ABC)
+        .map_or(0.0, |part| part.iter().map(|x| x * x).sum::<f64>());
+    [
+        (vector.norm_squared() - rotary).max(0.0).sqrt(),
+        rotary.sqrt(),
+    ]
 }

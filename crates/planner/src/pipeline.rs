@@ -16,7 +16,7 @@ use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::PathCaps;
-use glidepath_motion::{Frame, Item, ItemKind, Limits, Override, Planner, Settings};
+use glidepath_motion::{Frame, Item, ItemKind, Override, Planner, Settings};
 
 use crate::blocks::Blocks;
 use crate::joint_speed::JointSpeed;
@@ -72,8 +72,8 @@ pub struct Pipeline<S> {
     blocks: Blocks,
     /// Path position at the start, mm.
     start_s: f64,
-    /// Limits of axes, and what keeps joints inside theirs.
-    limits: Limits,
+    settings: Settings,
+    /// What keeps joints inside their limits.
     joints: Option<JointSpeed>,
 }
 
@@ -103,7 +103,7 @@ impl<S: ItemSource> Pipeline<S> {
             wanted: Override::NONE,
             blocks: Blocks::whole(),
             start_s: 0.0,
-            limits: settings.limits,
+            settings,
             joints: None,
         }
     }
@@ -113,7 +113,7 @@ impl<S: ItemSource> Pipeline<S> {
     #[must_use]
     pub fn with_joints(self, caps: Option<PathCaps>) -> Self {
         Self {
-            joints: caps.map(|caps| JointSpeed::new(caps, &self.limits)),
+            joints: caps.map(|caps| JointSpeed::new(caps, self.settings)),
             ..self
         }
     }

@@ -142,6 +142,7 @@ impl Pass {
             peak_rss_bytes: peak_rss_bytes(),
         };
         let mut report = MotionReport::new(&planning, &self.audit.finish(), config);
+        report.max_joint_line_error = self.joints.map(|joints| joints.line_error());
         report.diagnosis = Some((&self.diagnosis.finish()).into());
         report
     }

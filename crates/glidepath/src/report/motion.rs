@@ -55,6 +55,10 @@ pub struct MotionReport {
     pub max_jerk_ratio: f64,
     /// Largest path speed, as a share of the programmed feedrate.
     pub max_feed_ratio: f64,
+    /// How far joints that go straight between setpoints are off half-way, at most, mm or degrees; of
+    /// a plan, where joints are not axes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_joint_line_error: Option<f64>,
     /// Breaches of limits, tolerance or order the auditor found. More than none is a defect of ours.
     pub violation_count: u64,
     /// The first of them.
@@ -162,6 +166,13 @@ impl MotionReport {
             percent(self.max_jerk_ratio),
             percent(self.max_feed_ratio)
         )?;
+        if let Some(error) = self.max_joint_line_error {
+            let text = &mut *text;
+            writeln!(
+                text,
+                "  joints        straight between setpoints: off by {error:.2e}"
+            )?;
+        }
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,

@@ -8,6 +8,7 @@
 
 use super::*;
 use crate::testing::{lines, mill, records};
+use glidepath_kinematics::{CoreXy, JointLimit, Mechanism};
 
 const PERIOD_NS: u64 = 4_000_000;
 
@@ -188,4 +189,70 @@ fn a_new_epoch_waits_until_the_machine_stands() {
     admission.note(&faulted);
     assert_eq!(admission.judge(&frames(3)[0], &faulted), refused);
     assert_eq!(admission.judge(&frames(3)[0], &aborted), Verdict::Pass);
+}
+
+/// The verdict on a motion of axes one of whose joints has a limit.
+fn with_joint_limit(limit: JointLimit) -> Option<(FrameRefusal, f64, f64)> {
+    let mut config = config();
+    config.mechanism = Mechanism::CoreXy(CoreXy::new(&[Axis::X, Axis::Y, Axis::Z]));
+    config.joint_limits.0[0] = limit;
+    let mut admission = Admission::new(&config);
+    let verdicts = frames(1).into_iter().enumerate().map(|(i, frame)| {
+        let machine = if i == 0 { idle() } else { running(1) };
+        admission.judge(&frame, &machine)
+    });
+    match verdicts
+        .into_iter()
+        .find(|verdict| *verdict != Verdict::Pass)?
+    {
+        Verdict::Fault(Fault {
+            cause: FaultCause::Frame(refusal),
+            value,
+            limit,
+            ..
+        }) => Some((refusal, value, limit)),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn what_a_joint_cannot_do_is_refused_like_what_an_axis_cannot() {
+    assert_eq!(with_joint_limit(JointLimit::NONE), None);
+    // Inside what each axis can do: two of them move the first belt.
+    let cases = [
+        (
+            JointLimit {
+                min_position: -0.1,
+                max_position: 0.1,
+                ..JointLimit::NONE
+            },
+            FrameRefusal::SoftLimit,
+        ),
+        (
+            JointLimit {
+                velocity: 50.0,
+                ..JointLimit::NONE
+            },
+            FrameRefusal::Velocity,
+        ),
+        (
+            JointLimit {
+                acceleration: 500.0,
+                ..JointLimit::NONE
+            },
+            FrameRefusal::Acceleration,
+        ),
+        (
+            JointLimit {
+                jerk: 10_000.0,
+                ..JointLimit::NONE
+            },
+            FrameRefusal::Jerk,
+        ),
+    ];
+    for (joint, expected) in cases {
+        let (refusal, value, limit) = with_joint_limit(joint).unwrap();
+        assert_eq!(refusal, expected);
+        assert!(value.abs() > limit.abs(), "{expected:?}: {value} {limit}");
+    }
 }
