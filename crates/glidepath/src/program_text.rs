@@ -121,10 +121,10 @@ impl ProgramText {
     }
 
     fn segment(&mut self, segment: &Segment, rate: Rate) {
-        match (segment, rate) {
+        match (segment, rate.feed_v()) {
             (Segment::Arc(arc), _) => self.arc(arc),
-            (_, Rate::Rapid) => self.text.push_str("G0"),
-            (_, Rate::Feed(_)) => self.text.push_str("G1"),
+            (_, None) => self.text.push_str("G0"),
+            (_, Some(_)) => self.text.push_str("G1"),
         }
         let end = segment.end();
         for axis in Axis::ALL {
@@ -133,7 +133,7 @@ impl ProgramText {
                 let _ = write!(self.text, " {axis}{value}");
             }
         }
-        if let Rate::Feed(feed_v) = rate
+        if let Some(feed_v) = rate.feed_v()
             && feed_v.to_bits() != self.feed_v.to_bits()
         {
             let _ = write!(self.text, " F{}", feed_v * 60.0);

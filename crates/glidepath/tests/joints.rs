@@ -148,8 +148,8 @@ fn fastest(csv: &Path) -> [f64; 3] {
         .collect();
     let mut most = [0.0_f64; 3];
     for rows in rows.windows(4) {
-        for joint in 0..6 {
-            let [a, b, c, d] = [3, 2, 1, 0].map(|row: usize| rows[row][joint]);
+        let joints = rows[3].iter().zip(&rows[2]).zip(&rows[1]).zip(&rows[0]);
+        for (((a, b), c), d) in joints {
             let differences = [a - b, a - 2.0 * b + c, a - 3.0 * b + 3.0 * c - d];
             for (k, (most, difference)) in (1..).zip(most.iter_mut().zip(differences)) {
                 *most = most.max(difference.abs() / 0.004_f64.powi(k));
