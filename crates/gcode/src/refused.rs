@@ -21,8 +21,9 @@ pub(crate) fn unknown_m(value: f64, span: Span) -> Box<Fault> {
 pub(crate) fn refused_g(tenths: u32, value: f64, span: Span) -> Box<Fault> {
     let (what, help) = match tenths {
         330 | 331 | 760 => (
-            "spindle-synchronised motion",
-            "no encoder of a spindle is read; cut threads with a tap or a mill (G84, G2, G3)",
+            "motion synchronised with the spindle",
+            "it follows an encoder of the spindle, and none is read here; cut the thread with a tap \
+             (G84) or with a mill on a helix (G2, G3)",
         ),
         700..=703 | 710..=713 | 720..=723 => (
             "lathe contour cycle",

@@ -1,7 +1,8 @@
 //! Real programs, compared with what an independent interpreter made of them.
 //!
 //! Runs where the environment variable `GLIDEPATH_CORPUS` names the directory of the programs and
-//! their `EXPECTED.json`; says so and passes where it does not.
+//! their `EXPECTED.json`; says so and passes where it does not. With `--nocapture` it lists every
+//! difference and how much agrees.
 
 #![expect(clippy::print_stderr, reason = "a skipped test says so")]
 
@@ -33,6 +34,14 @@ const OTHER_VERDICT: [(&str, bool, &str); 5] = [
     ("macro/mmount.ngc", false, SYNCHRONISED),
 ];
 
+/// What the makers of the expectations call no example to follow: a block that is lost, a byte order
+/// mark that is refused, a line that is too long for a buffer. Left out of what agrees.
+const FAULTS: [&str; 3] = [
+    "malformed/bom-crlf.nc",
+    "malformed/nul-bytes.nc",
+    "malformed/numbers-huge.nc",
+];
+
 const SYNCHRONISED: &str = "G33.1 and G76 need the encoder of a spindle, which nothing reads here";
 
 /// First findings in another line than the reference's, each with the reason.
@@ -60,7 +69,7 @@ const OTHER_LINE: [(&str, u32, &str); 4] = [
 ];
 
 /// Figures that differ from the reference, each with the reason.
-const OTHER_FIGURES: [(&str, &str, &str); 7] = [
+const OTHER_FIGURES: [(&str, &str, &str); 8] = [
     (
         "axes/4axis-rotary-xza-51k.ngc",
         "final A",
@@ -75,6 +84,11 @@ const OTHER_FIGURES: [(&str, &str, &str); 7] = [
         "malformed/tiny-moves.nc",
         "feed length",
         "moves of a picometre are merged",
+    ),
+    (
+        "spline/quadratic-g51-text.ngc",
+        "final X",
+        "G92.1 at its end renames the place, it moves nothing",
     ),
     (
         "spline/quadratic-g51-text.ngc",
@@ -130,9 +144,9 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or(0.0)
 }
 
-/// Every difference between the report and the expectation.
-fn differences(report: &Report, expected: &Value) -> Vec<String> {
-    let mut all = Vec::new();
+/// Every difference between the report and the expectation, and how many figures were compared.
+fn differences(report: &Report, expected: &Value) -> (u32, Vec<String>) {
+    let (mut all, mut figures) = (Vec::new(), 0);
     let totals = &report.totals;
     let (counts, zero) = (&expected["counts"], &expected["zero_length_moves"]);
     let moving = |name: &str| counts[name].as_i64().unwrap_or(0) - zero[name].as_i64().unwrap_or(0);
@@ -155,6 +169,7 @@ fn differences(report: &Report, expected: &Value) -> Vec<String> {
             counts["dwells"].as_i64().unwrap_or(0),
         ),
     ] {
+        figures += 1;
         if i64::from(ours) != theirs && !(splines && what == "straight feeds") {
             all.push(format!("{what}: {ours}, expected {theirs}"));
         }
@@ -165,6 +180,7 @@ fn differences(report: &Report, expected: &Value) -> Vec<String> {
         ("feed time", totals.feed_time_s, "feed_time_s"),
     ] {
         let theirs = number(&expected[key]);
+        figures += u32::from(expected[key].is_number());
         if expected[key].is_number() && (ours - theirs).abs() > length * theirs.abs().max(1.0) {
             all.push(format!("{what}: {ours}, expected {theirs}"));
         }
@@ -172,6 +188,7 @@ fn differences(report: &Report, expected: &Value) -> Vec<String> {
     for (axis, letter) in "XYZABCUVW".chars().enumerate() {
         let theirs = number(&expected["final_mm_deg"][letter.to_string()]);
         let ours = report.final_position[axis];
+        figures += 1;
         if (ours - theirs).abs() > 1e-6 {
             all.push(format!("final {letter}: {ours}, expected {theirs}"));
         }
@@ -180,13 +197,35 @@ fn differences(report: &Report, expected: &Value) -> Vec<String> {
             totals.bounding_box,
         ) {
             for (ours, theirs) in [(low[axis], &theirs[0]), (high[axis], &theirs[1])] {
+                figures += 1;
                 if (ours - number(theirs)).abs() > corner_mm {
                     all.push(format!("box {letter}: {ours}, expected {theirs}"));
                 }
             }
         }
     }
-    all
+    (figures, all)
+}
+
+/// How much of what was compared agrees.
+#[derive(Debug, Default)]
+struct Agreement {
+    programs: u32,
+    /// Programs that agree in everything.
+    alike: u32,
+    /// Verdicts, places of errors, lengths, times, counts, ends, corners.
+    figures: u32,
+    differing: u32,
+}
+
+impl Agreement {
+    fn count(&mut self, figures: u32, differing: usize) {
+        let differing = u32::try_from(differing).expect("few");
+        self.programs += 1;
+        self.alike += u32::from(differing == 0);
+        self.figures += figures;
+        self.differing += differing;
+    }
 }
 
 #[test]
@@ -194,7 +233,7 @@ fn programs_go_where_the_reference_goes() {
     let Some(directory) = corpus() else { return };
     let text = fs::read_to_string(directory.join("EXPECTED.json")).expect("the expectations");
     let expectations: Value = serde_json::from_str(&text).expect("JSON");
-    let (mut compared, mut failures) = (0, Vec::new());
+    let (mut agreement, mut failures) = (Agreement::default(), Vec::new());
     for expected in expectations["programs"].as_array().expect("a list") {
         let name = expected["file"].as_str().expect("a file name");
         let bytes = fs::read(directory.join(name)).expect("a program of the list");
@@ -205,8 +244,12 @@ fn programs_go_where_the_reference_goes() {
         let other = OTHER_VERDICT.iter().find(|(file, ..)| *file == name);
         let accepted = expected["accepted"] == true || expected["missing_program_end"] == true;
         let verdict = other.map_or(accepted, |(_, verdict, _)| *verdict);
-        compared += 1;
-        println!("{name}: {}", if verdict { "accepted" } else { "rejected" });
+        let (mut figures, mut found) = (1, Vec::new());
+        // A program that lacks its end alone may be judged either way.
+        let theirs = expected["accepted"] == true;
+        if verdict != theirs && verdict != accepted {
+            found.push(format!("accepted is {verdict}, expected {accepted}"));
+        }
         if report.is_accepted() != verdict {
             let first = report.diagnostics.first();
             failures.push(format!("{name}: accepted is not {verdict}; {first:?}"));
@@ -215,13 +258,19 @@ fn programs_go_where_the_reference_goes() {
             let theirs = expected["error_line"].as_u64();
             let other = OTHER_LINE.iter().find(|(file, ..)| *file == name);
             let wanted = other.map_or(theirs, |(_, line, _)| Some(u64::from(*line)));
+            figures += u32::from(theirs.is_some());
+            if other.is_some() {
+                found.push(format!("finding in {wanted:?}, expected {theirs:?}"));
+            }
             if wanted.is_some() && ours != wanted {
                 failures.push(format!(
                     "{name}: first finding in {ours:?}, expected {wanted:?}"
                 ));
             }
         } else if verdict && other.is_none() {
-            let found = differences(&report, expected);
+            let compared = differences(&report, expected);
+            figures += compared.0;
+            found = compared.1;
             let known = |found: &&String| {
                 OTHER_FIGURES
                     .iter()
@@ -230,9 +279,23 @@ fn programs_go_where_the_reference_goes() {
             let unknown = found.iter().filter(|found| !known(found));
             failures.extend(unknown.map(|difference| format!("{name}: {difference}")));
         }
+        for difference in &found {
+            println!("{name}: {difference}");
+        }
+        if !FAULTS.contains(&name) {
+            agreement.count(figures, found.len());
+        }
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
-    assert!(compared >= 87, "only {compared} programs compared");
+    println!("{agreement:?}");
+    let Agreement {
+        programs,
+        figures,
+        differing,
+        ..
+    } = agreement;
+    assert!(programs >= 84, "only {programs} programs compared");
+    assert!(100 * differing <= figures, "{differing} of {figures}");
 }
 
 /// Programs with cutter radius compensation, once more with a tool that has a radius.

@@ -1,27 +1,4 @@
-//! Dialects: what the languages of other controls have in the place of RS274/NGC's words.
-//!
-//! The words all of them share are read as LinuxCNC reads them. What differs:
-//!
-//! | | LinuxCNC | Marlin | FANUC | SIEMENS |
-//! |---|---|---|---|---|
-//! | program number | `O1` | – | `O1`, `:1` | `%_N_…`, `;$PATH` |
-//! | comments | `( )` `;` | `( )` `;` | `( )` | `;`, `MSG( )` |
-//! | line check | – | `N… *…` verified | – | – |
-//! | parameters | `#1`, `#<name>` | – | `#1` | `R1` |
-//! | expressions | `X[#1+2]` | – | `X[#1+2]`, `X#1` | `X=R1+2` |
-//! | flow | O words | – | `IF` `GOTO` `THEN`, `WHILE` `DO` `END`, `G65`, `M98`, `M99` | refused |
-//! | dwell | `G4 P` s | `G4 P` ms, `S` s | `G4 P` ms, `X` s | `G4 F` s |
-//! | G0 | rapid | at feed | rapid | rapid |
-//! | extruder | – | E: the axis [`Options::extruder`](crate::Options); `M82`, `M83`, `G92 E` | – | – |
-//! | tolerance | `G64 P` | – | – | `CYCLE832( )`, `G641 ADIS=`, `G642` … `G645` |
-//! | exact stop | `G61`, `G61.1` | – | `G61` | `G60` |
-//! | radius of an arc | `R` | `R` | `R` | `CR=`, `TURN=` |
-//! | repetitions of a cycle | `L` | – | `K`, `L` | – |
-//! | look-ahead on, off | – | – | `G05.1 Q`, `G05 P`, `G08 P`: always on | `FFWON`, `SOFT`, `COMPCAD` …: always on |
-//! | machine functions (heaters, fans) | – | refused, or events where simulated | – | – |
-//!
-//! Programs of grbl are LinuxCNC's; its `$` commands are no part of a program. Everything else a
-//! dialect has is refused with the word.
+//! What the languages of other controls have in the place of RS274/NGC's words.
 
 pub(crate) mod fanuc;
 pub(crate) mod marlin;
@@ -32,6 +9,29 @@ mod tape;
 pub(crate) use tape::Tape;
 
 /// The language a program is written in.
+///
+/// The words all of them share are read as LinuxCNC reads them. What differs:
+///
+/// | | LinuxCNC | Marlin | FANUC | SIEMENS |
+/// |---|---|---|---|---|
+/// | program number | `O1` | – | `O1`, `:1` | `%_N_…`, `;$PATH` |
+/// | comments | `( )` `;` | `( )` `;` | `( )` | `;`, `MSG( )` |
+/// | line check | – | `N… *…` verified | – | – |
+/// | parameters | `#1`, `#<name>` | – | `#1` | `R1` |
+/// | expressions | `X[#1+2]` | – | `X[#1+2]`, `X#1` | `X=R1+2` |
+/// | flow | O words | – | `IF` `GOTO` `THEN`, `WHILE` `DO` `END`, `G65`, `M98`, `M99` | refused |
+/// | dwell | `G4 P` s | `G4 P` ms, `S` s | `G4 P` ms, `X` s | `G4 F` s |
+/// | G0 | rapid | at feed | rapid | rapid |
+/// | extruder | – | E: the axis [`Options::extruder`](crate::Options); `M82`, `M83`, `G92 E` | – | – |
+/// | tolerance | `G64 P` | – | – | `CYCLE832( )`, `G641 ADIS=`, `G642` … `G645` |
+/// | exact stop | `G61`, `G61.1` | – | `G61` | `G60` |
+/// | radius of an arc | `R` | `R` | `R` | `CR=`, `TURN=` |
+/// | repetitions of a cycle | `L` | – | `K`, `L` | – |
+/// | look-ahead on, off | – | – | `G05.1 Q`, `G05 P`, `G08 P`: always on | `FFWON`, `SOFT`, `COMPCAD` …: always on |
+/// | machine functions (heaters, fans) | – | refused, or events where simulated | – | – |
+///
+/// Programs of grbl are LinuxCNC's; its `$` commands are no part of a program. Everything else a
+/// dialect has is refused with the word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Dialect {
     /// RS274/NGC as LinuxCNC reads it; grbl too.
