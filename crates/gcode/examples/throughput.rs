@@ -19,8 +19,10 @@ use glidepath_gcode::{Options, Program};
 
 /// Lines of the programs in memory.
 const LINES: u32 = 2_000_000;
-/// Bytes of the program that is streamed.
-const STREAM: u64 = 1 << 30;
+/// Bytes of a line of the program that is streamed.
+const LINE: u64 = 26;
+/// Bytes of that program: 1 GiB, in whole lines.
+const STREAM: u64 = (1 << 30) / LINE * LINE;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     if std::env::args().nth(1).as_deref() == Some("stream") {
@@ -86,7 +88,7 @@ impl Read for Endless {
             self.text.clear();
             self.given = 0;
             for _ in 0..100 {
-                // Each line is of the same length, so that the stream ends with a whole one.
+                // Each line is of the same length: LINE.
                 let at = self.line % 1000;
                 self.text
                     .push_str(&format!("G1X{at:06}.5Y{:06}.25F900\n", 999 - at));

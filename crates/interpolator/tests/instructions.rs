@@ -107,7 +107,7 @@ fn counted(test: &str, case: usize, ticks: usize) -> u64 {
 
 /// What a tick costs beside that where joints are not axes: positions, velocities and accelerations of
 /// the six struts of a hexapod. It is done by the thread that owns the ports, once a tick.
-const MOST_FOR_JOINTS: u64 = 4_500;
+const MOST_FOR_JOINTS: u64 = 3_300;
 
 fn turn(times: usize) {
     let hexapod = Mechanism::Hexapod(Hexapod::paired(400.0, 150.0, 15.0));
