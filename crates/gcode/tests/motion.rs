@@ -61,7 +61,7 @@ fn feeds_at(text: &str, expected_v: f64) {
                 "{text}: {feed_v}"
             );
         }
-        Rate::Rapid => panic!("{text}: rapid"),
+        other => panic!("{text}: {other:?}"),
     }
 }
 

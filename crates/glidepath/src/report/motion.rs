@@ -166,26 +166,7 @@ impl MotionReport {
             percent(self.max_jerk_ratio),
             percent(self.max_feed_ratio)
         )?;
-        if let Some(error) = self.max_joint_line_error {
-            let text = &mut *text;
-            writeln!(
-                text,
-                "  joints        straight between setpoints: off by {error:.2e}"
-            )?;
-        }
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a rounded rate, for display; a cast saturates"
-        )]
-        let rate = self.segments_per_s.round() as u64;
-        writeln!(
-            text,
-            "  planning      {} ({} segments/s){}",
-            seconds(self.plan_wall_s),
-            grouped(rate),
-            self.peak_memory()
-        )?;
+        self.write_planning(text)?;
         let end: Vec<String> = self
             .final_position
             .iter()
@@ -205,6 +186,29 @@ impl MotionReport {
         for violation in &self.violations {
             writeln!(text, "    {violation}")?;
         }
+        Ok(())
+    }
+
+    fn write_planning(&self, text: &mut String) -> core::fmt::Result {
+        if let Some(error) = self.max_joint_line_error {
+            writeln!(
+                text,
+                "  joints        straight between setpoints: off by {error:.2e}"
+            )?;
+        }
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a rounded rate, for display; a cast saturates"
+        )]
+        let rate = self.segments_per_s.round() as u64;
+        writeln!(
+            text,
+            "  planning      {} ({} segments/s){}",
+            seconds(self.plan_wall_s),
+            grouped(rate),
+            self.peak_memory()
+        )?;
         Ok(())
     }
 
