@@ -84,8 +84,8 @@ pub struct Options {
     pub extruder: Option<Axis>,
     /// What inputs, outputs and the probe are.
     pub connections: Connections,
-    /// How far the straight moves a spline is made of may leave it, mm, > 0. G64 P overrides it with a
-    /// share of P.
+    /// How far the pieces a spline is made of may be away from it, mm, > 0. G64 P overrides it with a
+    /// thousandth of P.
     pub spline_tolerance_mm: f64,
     /// How long loops may go on.
     pub loops: LoopLimits,
@@ -134,7 +134,7 @@ impl Default for Options {
             dialect: Dialect::LinuxCnc,
             extruder: None,
             connections: Connections::None,
-            spline_tolerance_mm: 0.001,
+            spline_tolerance_mm: 1e-5,
             loops: LoopLimits::default(),
         }
     }

@@ -38,7 +38,7 @@ impl Survey {
                 };
                 let seconds = segment.length() / feed_v;
                 match segment {
-                    Segment::Arc(_) => self.arc_time_s += seconds,
+                    Segment::Arc(_) | Segment::Curve(_) => self.arc_time_s += seconds,
                     _ => self.straight_time_s += seconds,
                 }
                 self.corner(item.line, segment);

@@ -12,6 +12,8 @@ pub struct Totals {
     pub straight_feeds: u32,
     /// Arcs (G2, G3).
     pub arcs: u32,
+    /// Feed moves along pieces of other curves.
+    pub curves: u32,
     /// Rapid moves (G0, G28, G30), without those of zero length.
     pub rapids: u32,
     /// Feed moves that go nowhere. They are left out of the motion.
@@ -68,7 +70,7 @@ impl Totals {
                     (line.start.inf(&line.end), line.start.sup(&line.end)),
                 )
             }
-            Segment::Arc(arc) => (true, arc.bounding_box()),
+            Segment::Arc(_) | Segment::Curve(_) => (true, segment.bounding_box()),
         };
         self.bounding_box = Some(match self.bounding_box {
             Some((l, h)) => (l.inf(&low), h.sup(&high)),
@@ -84,11 +86,10 @@ impl Totals {
                 }) += path;
             }
             Some(feed_v) => {
-                let arc = matches!(segment, Segment::Arc(_));
-                *(if arc {
-                    &mut self.arcs
-                } else {
-                    &mut self.straight_feeds
+                *(match segment {
+                    Segment::Line(_) => &mut self.straight_feeds,
+                    Segment::Arc(_) => &mut self.arcs,
+                    Segment::Curve(_) => &mut self.curves,
                 }) += 1;
                 *(if linear {
                     &mut self.feed_length_mm

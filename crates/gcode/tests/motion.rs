@@ -48,7 +48,7 @@ fn ends_at(text: &str, axes: &[(Axis, f64)]) {
 fn arc(text: &str) -> Arc {
     match last(text).0 {
         Segment::Arc(arc) => arc,
-        Segment::Line(line) => panic!("{text}: {line:?}"),
+        other => panic!("{text}: {other:?}"),
     }
 }
 

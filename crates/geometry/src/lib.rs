@@ -17,6 +17,7 @@ mod cubic;
 pub mod number;
 mod nurbs;
 mod quadrature;
+mod quintic;
 mod segment;
 mod transition;
 mod turn;
@@ -25,6 +26,7 @@ pub use arc::{Arc, Plane};
 pub use axis::{AXES, Axis, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 pub use cubic::Cubic;
 pub use nurbs::{MAX_DEGREE, Nurbs, NurbsError, NurbsJet, NurbsPath, Span, SpanCurvature};
+pub use quintic::Quintic;
 pub use segment::{Jet, Line, Segment, feed_length};
 pub use transition::{
     BezierPair, Blend, DerivativeBounds, HeadingCurve, Hermite, PairShape, Profile, Transition,

@@ -5,7 +5,7 @@
 //! of those moves, else the length of the rotary motion in degrees. The feedrate is the rate of `s`,
 //! so a rotary axis that turns along with a linear move does not slow the tool.
 
-use crate::{Arc, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+use crate::{Arc, AxisVector, LINEAR_XYZ, Quintic, ROTARY_ABC, UVW};
 
 /// Position and its first three derivatives by path position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +36,8 @@ pub enum Segment {
     Line(Line),
     /// Circular, helical, or slightly spiral.
     Arc(Arc),
+    /// A piece of another smooth curve.
+    Curve(Quintic),
 }
 
 /// A displacement below this in a group of axes is rounding of coordinates, not a move: 0.1 nm (or
@@ -82,6 +84,7 @@ impl Segment {
         match self {
             Self::Line(line) => line.start,
             Self::Arc(arc) => arc.start,
+            Self::Curve(curve) => curve.start,
         }
     }
 
@@ -91,6 +94,7 @@ impl Segment {
         match self {
             Self::Line(line) => line.end,
             Self::Arc(arc) => arc.end,
+            Self::Curve(curve) => curve.end,
         }
     }
 
@@ -100,6 +104,7 @@ impl Segment {
         match self {
             Self::Line(line) => feed_length(&line.displacement()),
             Self::Arc(arc) => arc.length(),
+            Self::Curve(curve) => curve.length,
         }
     }
 
@@ -110,6 +115,26 @@ impl Segment {
         match self {
             Self::Line(line) => line.jet(s),
             Self::Arc(arc) => arc.jet(s),
+            Self::Curve(curve) => curve.jet(s),
+        }
+    }
+
+    /// How far it is from what was programmed, at most, mm.
+    #[must_use]
+    pub const fn error_mm(&self) -> f64 {
+        match self {
+            Self::Line(_) | Self::Arc(_) => 0.0,
+            Self::Curve(curve) => curve.error_mm,
+        }
+    }
+
+    /// Smallest and largest coordinate on every axis.
+    #[must_use]
+    pub fn bounding_box(&self) -> (AxisVector, AxisVector) {
+        match self {
+            Self::Line(line) => (line.start.inf(&line.end), line.start.sup(&line.end)),
+            Self::Arc(arc) => arc.bounding_box(),
+            Self::Curve(curve) => curve.bounding_box(),
         }
     }
 }

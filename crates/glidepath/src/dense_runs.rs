@@ -8,6 +8,7 @@ use glidepath_motion::{Item, ItemKind, PathMode, Rate};
 const FEWEST: usize = 16;
 
 /// A piece of a program.
+#[allow(clippy::large_enum_variant, reason = "nearly every piece is an item")]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Piece {
     /// Lines in X, Y and Z one after the other, at one feedrate in one path mode.

@@ -3,8 +3,11 @@
 
 use core::f64::consts::TAU;
 use core::fmt::Write as _;
-use glidepath_geometry::{Arc, Axis, AxisVector, Nurbs, Plane, Segment};
+use glidepath_geometry::{Arc, Axis, AxisVector, Nurbs, Plane, Quintic, Segment};
 use glidepath_motion::{Event, Item, ItemKind, PathMode, Rate};
+
+/// How far the chords of a curve that was read may be away from it, mm.
+const CHORD_MM: f64 = 1e-3;
 
 /// A program as it grows.
 #[derive(Debug)]
@@ -123,6 +126,7 @@ impl ProgramText {
     fn segment(&mut self, segment: &Segment, rate: Rate) {
         match (segment, rate.feed_v()) {
             (Segment::Arc(arc), _) => self.arc(arc),
+            (Segment::Curve(curve), _) => self.chords(segment, curve),
             (_, None) => self.text.push_str("G0"),
             (_, Some(_)) => self.text.push_str("G1"),
         }
@@ -141,6 +145,19 @@ impl ProgramText {
         }
         self.text.push('\n');
         self.position = end;
+    }
+
+    /// The inner points of a piece of a curve, and the code of the move to its end.
+    fn chords(&mut self, segment: &Segment, curve: &Quintic) {
+        let bend_k = curve.bounds().d2.norm();
+        let count = (curve.length * (bend_k / (8.0 * CHORD_MM)).sqrt()).ceil();
+        let mut k = 1.0;
+        while k < count {
+            let point = segment.jet(curve.length * k / count).position;
+            let _ = writeln!(self.text, "G1 X{} Y{} Z{}", point[0], point[1], point[2]);
+            k += 1.0;
+        }
+        self.text.push_str("G1");
     }
 
     fn arc(&mut self, arc: &Arc) {

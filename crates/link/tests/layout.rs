@@ -51,10 +51,10 @@ layout!(command_request, CommandRequest, "glidepath.CommandRequest.v2", 32, {
 layout!(command_reply, CommandReply, "glidepath.CommandReply.v2", 152, {
     boot_id: 0, number: 8, refusal: 16, state: 20, message: 24,
 });
-layout!(segment_request, SegmentRequest, "glidepath.SegmentRequest.v1", 240, {
+layout!(segment_request, SegmentRequest, "glidepath.SegmentRequest.v2", 352, {
     session: 0, number: 8, kind: 16, line: 20, rapid: 24, mode: 28, plane: 32, event_kind: 36,
     event_value: 40, feed_v: 48, tolerance_mm: 56, dwell_t: 64, sweep_rad: 72, center: 80,
-    start: 96, end: 168,
+    start: 96, end: 168, tangents: 240, bends: 288, length: 336, error_mm: 344,
 });
 layout!(segment_reply, SegmentReply, "glidepath.SegmentReply.v1", 232, {
     session: 0, number: 8, accepted: 16, credit: 24, refusal: 28, position: 32, message: 104,

@@ -1,16 +1,18 @@
 //! The fast engine: corners replaced by transitions, and closed-form S-curves along the path.
 //!
 //! ```text
-//!  item ──PathFront──▶ pieces, rests ──Scheduler──▶ settled motion ──Sampler──▶ frames
+//!  item ──PathFront──▶ pieces, rests ──Scheduler──▶ settled motion ──Refiner──▶ ──Sampler──▶ frames
+//!                                                                  (on curves)
 //! ```
 
+use crate::law::Refiner;
 use crate::path::PathFront;
 use crate::piece::{Element, Piece};
 use crate::sample::{Sampler, Step};
 use crate::schedule::{Scheduler, Settled};
 use crate::scurve::{PathLimits, slowing_horizon};
-use crate::{Frame, Item, Limits, Override, PlanError, Settings};
-use glidepath_geometry::AxisVector;
+use crate::{Frame, Item, ItemKind, Limits, Override, PlanError, Settings};
+use glidepath_geometry::{AxisVector, Segment};
 use std::collections::VecDeque;
 
 /// The fast engine, as [`crate::Planner`] uses it.
@@ -18,6 +20,7 @@ use std::collections::VecDeque;
 pub(crate) struct FastEngine {
     front: PathFront,
     scheduler: Scheduler,
+    refiner: Refiner,
     sampler: Sampler,
     elements: Vec<Element>,
     settled: VecDeque<Settled>,
@@ -34,6 +37,7 @@ impl FastEngine {
         Self {
             front: PathFront::new(settings, start),
             scheduler: Scheduler::new(settings.limits, settings.period_t),
+            refiner: Refiner::new(settings.limits),
             sampler: Sampler::new(settings.period_t, start),
             elements: Vec::new(),
             settled: VecDeque::new(),
@@ -47,6 +51,13 @@ impl FastEngine {
     /// Takes the next item; see [`crate::Planner::push`].
     pub(crate) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
         self.front.push(item, &mut self.elements)?;
+        let segment = match item.kind {
+            ItemKind::Move { segment, .. } => Some(segment),
+            ItemKind::Dwell(_) | ItemKind::Event(_) => None,
+        };
+        if matches!(segment, Some(Segment::Curve(_))) {
+            self.refiner.want();
+        }
         self.schedule();
         Ok(())
     }
@@ -108,6 +119,7 @@ impl FastEngine {
         let elements = rest_of_stretch
             .into_iter()
             .chain(self.settled.iter().flat_map(Settled::elements))
+            .chain(self.refiner.elements())
             .chain(self.scheduler.elements());
         let mut slowing = Slowing::new(entry_v, wanted);
         for element in elements {
@@ -136,14 +148,19 @@ impl FastEngine {
         }
         self.sampler.drop_stretch();
         self.scheduler = scheduler;
+        self.refiner.restart(entry_v);
         self.settled = settled;
         self.wanted = None;
         true
     }
 
     fn schedule(&mut self) {
+        let mut settled = VecDeque::new();
         for element in self.elements.drain(..) {
-            self.scheduler.push(element, &mut self.settled);
+            self.scheduler.push(element, &mut settled);
+        }
+        for settled in settled {
+            self.refiner.push(settled, &mut self.settled);
         }
     }
 }

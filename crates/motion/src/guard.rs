@@ -28,6 +28,7 @@ impl Guard {
             velocity,
             acceleration,
             jerk,
+            ..
         } = settings.limits;
         let t = settings.period_t;
         let most = [velocity * t, acceleration * (t * t), jerk * t.powi(3)]

@@ -125,6 +125,7 @@ pub struct Item {
 }
 
 /// The kinds of [`Item`].
+#[allow(clippy::large_enum_variant, reason = "nearly every item is a move")]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ItemKind {
     /// Move along a segment. It starts where the segment before it ended.

@@ -337,7 +337,7 @@ fn greatest_stretch(transition: &Transition) -> f64 {
 /// The most an arc may give to a joint.
 fn arc_share(segment: &Segment) -> f64 {
     match segment {
-        Segment::Line(_) => f64::INFINITY,
+        Segment::Line(_) | Segment::Curve(_) => f64::INFINITY,
         Segment::Arc(arc) => ARC_SHARE_RAD / arc.sweep_rad.abs() * arc.length(),
     }
 }

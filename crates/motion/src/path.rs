@@ -5,12 +5,12 @@
 //! one, since the joint between the two tells where each ends. What comes out depends on the order of
 //! the items alone.
 
-use crate::joint::{Joint, join};
+use crate::joint::{Joint, chord_error_mm, join};
 use crate::override_::{Override, ProgrammedRate};
 use crate::parts::DenseRun;
 use crate::pending::{Pending, axes_speed};
 use crate::piece::{Element, Piece, Rest, RestKind, Shape};
-use crate::speed_limit::{self, SpeedRule};
+use crate::speed_limit::{self, CurveRule, SpeedRule};
 use crate::stops::Blocks;
 use crate::{Event, Item, ItemKind, Limits, PathMode, PlanError, Rate, Settings};
 use glidepath_geometry::{AxisVector, Segment};
@@ -154,7 +154,7 @@ impl PathFront {
             mode,
             trimmed_s: 0.0,
             events: core::mem::take(&mut self.events),
-            error_mm: 0.0,
+            error_mm: segment.error_mm(),
             continues: [false; 2],
         };
         if let Some(before) = self.pending.take() {
@@ -233,6 +233,15 @@ impl PathFront {
                 arc: *arc,
                 rate,
                 chord_v: chord_speed(segment, mode, &self.settings),
+            },
+            Segment::Curve(curve) => SpeedRule::Curve {
+                curve: Box::new(CurveRule {
+                    bounds: curve.bounds(),
+                    gentle: true,
+                    stretch_r: 1.0,
+                    chord_v: chord_speed(segment, mode, &self.settings),
+                }),
+                rates: [rate; 2],
             },
         }
     }
@@ -321,10 +330,16 @@ impl PathFront {
     }
 }
 
-/// The speed at which the chords of one period reach the tolerance of an arc.
+/// The speed at which the chords of one period reach the tolerance of an arc or another curve.
 fn chord_speed(segment: &Segment, mode: PathMode, settings: &Settings) -> f64 {
-    let Segment::Arc(arc) = segment else {
-        return f64::INFINITY;
+    let arc = match segment {
+        Segment::Line(_) => return f64::INFINITY,
+        Segment::Arc(arc) => arc,
+        Segment::Curve(curve) => {
+            let left_mm = mode.tolerance_mm(settings) - curve.error_mm;
+            let at_unit_mm = chord_error_mm(&curve.bounds(), 1.0, settings.period_t);
+            return (left_mm.max(0.0) / at_unit_mm).sqrt();
+        }
     };
     let radius_mm = arc.start_radius().max(arc.end_radius());
     let omega = arc.sweep_rad / arc.length();
@@ -337,6 +352,7 @@ pub(crate) fn starting_at(mut segment: Segment, start: AxisVector) -> Segment {
     match &mut segment {
         Segment::Line(line) => line.start = start,
         Segment::Arc(arc) => arc.start = start,
+        Segment::Curve(curve) => curve.start = start,
     }
     segment
 }

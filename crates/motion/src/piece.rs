@@ -26,6 +26,7 @@ pub(crate) struct Piece {
 }
 
 /// The curve a piece is cut from.
+#[allow(clippy::large_enum_variant, reason = "a piece is mostly of a segment")]
 #[derive(Debug, Clone)]
 pub(crate) enum Shape {
     Segment(Segment),

@@ -61,7 +61,7 @@ enum Engine {
 impl Engine {
     fn new(settings: Settings, start: AxisVector) -> Self {
         match (settings.effort, settings.smoothing) {
-            (Effort::Optimal, Smoothing::Auto) => {
+            (Effort::Optimal, Smoothing::Auto) if settings.limits.path.is_none() => {
                 Self::Optimal(Box::new(OptimalEngine::new(settings, start)))
             }
             _ => Self::Fast(Box::new(FastEngine::new(settings, start))),

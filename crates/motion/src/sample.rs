@@ -6,8 +6,10 @@
 
 use crate::Frame;
 use crate::grid::{FrameGrid, Moving, Passing};
+use crate::law::Law;
 use crate::piece::Piece;
 use crate::schedule::Settled;
+use crate::scurve::PathState;
 use crate::valley::Leg;
 use glidepath_geometry::AxisVector;
 use std::collections::VecDeque;
@@ -44,6 +46,8 @@ pub(crate) enum Step {
 #[derive(Debug)]
 struct Stretch {
     pieces: Vec<Piece>,
+    /// How it is driven: by a law, or else by S-curves.
+    law: Option<Law>,
     legs: Vec<Leg>,
     leg: usize,
     piece: usize,
@@ -98,15 +102,14 @@ impl Sampler {
                         let line = pieces.first().map_or(0, |piece| piece.line);
                         return Step::Broken { line };
                     }
-                    self.stretch = Some(Stretch {
-                        pieces,
-                        legs,
-                        leg: 0,
-                        piece: 0,
-                        piece_s: 0.0,
-                        frames: 0,
-                    });
-                    self.enter_piece();
+                    self.enter_stretch(pieces, legs, None);
+                }
+                Some(Settled::Lawful { pieces, law }) => {
+                    if !is_whole(&pieces, law.length_s()) {
+                        let line = pieces.first().map_or(0, |piece| piece.line);
+                        return Step::Broken { line };
+                    }
+                    self.enter_stretch(pieces, Vec::new(), Some(law));
                 }
                 Some(Settled::Rest(rest)) => {
                     self.speed_v = 0.0;
@@ -147,19 +150,46 @@ impl Sampler {
         }
     }
 
+    fn enter_stretch(&mut self, pieces: Vec<Piece>, legs: Vec<Leg>, law: Option<Law>) {
+        self.stretch = Some(Stretch {
+            pieces,
+            law,
+            legs,
+            leg: 0,
+            piece: 0,
+            piece_s: 0.0,
+            frames: 0,
+        });
+        self.enter_piece();
+    }
+
     /// The next frame of the stretch, or `None` after setting up for the next one.
     fn motion_frame(&mut self) -> Option<Frame> {
         loop {
             let stretch = self.stretch.as_ref()?;
-            let Some(leg) = stretch.legs.get(stretch.leg).copied() else {
-                self.leave_stretch();
-                return None;
-            };
             let t = self.first_frame_t + f64::from(stretch.frames) * self.period_t;
-            if t < leg.profile.duration_t() {
-                return self.frame_at(leg, t);
-            }
-            self.first_frame_t = (t - leg.profile.duration_t()).min(self.period_t);
+            let leg = stretch.legs.get(stretch.leg).copied();
+            let duration_t = match (&stretch.law, &leg) {
+                (Some(law), _) if stretch.leg == 0 => {
+                    if t < law.duration_t() {
+                        return self.frame_at(law.at(t));
+                    }
+                    law.duration_t()
+                }
+                (None, Some(leg)) => {
+                    if t < leg.profile.duration_t() {
+                        let mut state = leg.profile.at(t);
+                        state.position_s += leg.from_s;
+                        return self.frame_at(state);
+                    }
+                    leg.profile.duration_t()
+                }
+                _ => {
+                    self.leave_stretch();
+                    return None;
+                }
+            };
+            self.first_frame_t = (t - duration_t).min(self.period_t);
             if let Some(stretch) = &mut self.stretch {
                 stretch.leg += 1;
                 stretch.frames = 0;
@@ -167,9 +197,8 @@ impl Sampler {
         }
     }
 
-    fn frame_at(&mut self, leg: Leg, t: f64) -> Option<Frame> {
-        let state = leg.profile.at(t);
-        let s = leg.from_s + state.position_s;
+    fn frame_at(&mut self, state: PathState) -> Option<Frame> {
+        let s = state.position_s;
         loop {
             let stretch = self.stretch.as_ref()?;
             let piece = stretch.pieces.get(stretch.piece)?;
@@ -235,7 +264,8 @@ impl Sampler {
         if let Some(stretch) = &self.stretch
             && let Some(piece) = stretch.pieces.last()
         {
-            self.speed_v = stretch.legs.last().map_or(0.0, |leg| leg.profile.exit_v());
+            let by_legs_v = stretch.legs.last().map_or(0.0, |leg| leg.profile.exit_v());
+            self.speed_v = stretch.law.as_ref().map_or(by_legs_v, Law::exit_v);
             self.path_s += piece.length_s;
             self.grid
                 .leave(piece.jet(piece.length_s).position, self.path_s);
@@ -245,16 +275,20 @@ impl Sampler {
 
 /// True if the S-curves of a stretch follow each other from its start to its end.
 fn leads_to_the_end(pieces: &[Piece], legs: &[Leg]) -> bool {
-    let length_s: f64 = pieces.iter().map(|piece| piece.length_s).sum();
-    let rounding_s = 1e-9 * length_s.max(1.0);
     let mut driven_s = 0.0;
     for leg in legs {
-        if (leg.from_s - driven_s).abs() > rounding_s {
+        if (leg.from_s - driven_s).abs() > 1e-9 * leg.from_s.max(1.0) {
             return false;
         }
         driven_s = leg.from_s + leg.profile.at(leg.profile.duration_t()).position_s;
     }
-    (driven_s - length_s).abs() <= rounding_s
+    is_whole(pieces, driven_s)
+}
+
+/// True if a length driven is that of some pieces.
+fn is_whole(pieces: &[Piece], driven_s: f64) -> bool {
+    let length_s: f64 = pieces.iter().map(|piece| piece.length_s).sum();
+    (driven_s - length_s).abs() <= 1e-9 * length_s.max(1.0)
 }
 
 #[cfg(test)]

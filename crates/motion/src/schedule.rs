@@ -14,6 +14,7 @@
 
 use crate::Limits;
 use crate::group::Group;
+use crate::law::Law;
 use crate::piece::{Element, Piece, Rest, RestKind};
 use crate::run::Run;
 use crate::scurve::{PathLimits, slowing_horizon};
@@ -26,6 +27,8 @@ use std::collections::VecDeque;
 pub(crate) enum Settled {
     /// Drive these pieces with these S-curves.
     Motion { pieces: Vec<Piece>, legs: Vec<Leg> },
+    /// Drive these pieces by this law.
+    Lawful { pieces: Vec<Piece>, law: Law },
     /// Rest.
     Rest(Rest),
 }
@@ -35,6 +38,7 @@ impl Settled {
     fn duration_t(&self) -> f64 {
         match self {
             Self::Motion { legs, .. } => legs.iter().map(|leg| leg.profile.duration_t()).sum(),
+            Self::Lawful { law, .. } => law.duration_t(),
             Self::Rest(_) => 0.0,
         }
     }
@@ -42,7 +46,9 @@ impl Settled {
     /// What it was made of.
     pub(crate) fn elements(&self) -> Vec<Element> {
         match self {
-            Self::Motion { pieces, .. } => pieces.iter().cloned().map(Element::Piece).collect(),
+            Self::Motion { pieces, .. } | Self::Lawful { pieces, .. } => {
+                pieces.iter().cloned().map(Element::Piece).collect()
+            }
             Self::Rest(rest) => vec![Element::Rest(*rest)],
         }
     }

@@ -11,10 +11,12 @@
 //! share is fixed here, so that a piece has one top speed, one acceleration and one jerk, all of
 //! which may be used at once anywhere on it.
 
-use crate::Limits;
+use crate::joint::tolerance_norm;
 use crate::override_::{Override, ProgrammedRate};
+use crate::run::weaker;
 use crate::scurve::{Extremes, PathLimits};
-use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds, limit_along};
+use crate::{Limits, PathBounds};
+use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds, feed_length, limit_along};
 
 /// What a piece of path allows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,6 +69,15 @@ pub(crate) struct CurveRule {
 
 impl SpeedRule {
     pub(crate) fn limit(&self, wanted: Override, limits: &Limits) -> SpeedLimit {
+        let by_axes = self.limit_of_axes(wanted, limits);
+        if limits.path.is_none() {
+            by_axes
+        } else {
+            by_axes.within(&limits.path, self.curvature_k())
+        }
+    }
+
+    fn limit_of_axes(&self, wanted: Override, limits: &Limits) -> SpeedLimit {
         match self {
             Self::Straight { d1, rate } => straight(d1, rate.under(wanted), limits),
             Self::Arc {
@@ -81,7 +92,34 @@ impl SpeedRule {
     }
 }
 
+impl SpeedLimit {
+    fn within(mut self, bounds: &PathBounds, curvature_k: f64) -> Self {
+        let bounding = PathLimits {
+            accel_a: bounds.tangential_a,
+            jerk_j: bounds.jerk_j,
+        };
+        let fastest_v = bounds.speed_v(curvature_k);
+        self.top_v = self.top_v.min(fastest_v);
+        self.peak_v = self.peak_v.min(fastest_v);
+        self.change = weaker(self.change, bounding);
+        self.alone = weaker(self.alone, bounding);
+        self
+    }
+}
+
 impl SpeedRule {
+    /// The largest curvature, or more, 1/mm.
+    fn curvature_k(&self) -> f64 {
+        match self {
+            Self::Straight { .. } => 0.0,
+            Self::Arc { arc, .. } => {
+                let omega = arc.sweep_rad / arc.length();
+                arc.start_radius().max(arc.end_radius()) * omega * omega
+            }
+            Self::Curve { curve, .. } => feed_length(&curve.bounds.d2),
+        }
+    }
+
     /// True if a piece with these limits may be driven with so much speed, acceleration and jerk
     /// along the path, all at once.
     pub(crate) fn permits(&self, own: &SpeedLimit, most: &Extremes, limits: &Limits) -> bool {
@@ -101,10 +139,35 @@ impl SpeedRule {
             Self::Curve { curve, .. } => {
                 let DerivativeBounds { d1, d2, d3 } = &curve.bounds;
                 let (v2, v3, cross) = (v * v, v * v * v, 3.0 * v * accel_a);
-                (0..AXES).all(|i| {
-                    below(d2[i] * v2 + d1[i] * accel_a, limits.acceleration[i])
-                        && below(d3[i] * v3 + d2[i] * cross + d1[i] * jerk_j, limits.jerk[i])
-                })
+                let along = below(accel_a, own.alone.accel_a) && below(jerk_j, own.alone.jerk_j);
+                along
+                    && (0..AXES).all(|i| {
+                        below(d2[i] * v2 + d1[i] * accel_a, limits.acceleration[i])
+                            && below(d3[i] * v3 + d2[i] * cross + d1[i] * jerk_j, limits.jerk[i])
+                    })
+            }
+        }
+    }
+
+    /// What bounds the speed whatever the axes can do: the rate, mm/s, and the acceleration across the
+    /// path at which the chord of one period uses up the tolerance, mm/s².
+    pub(crate) fn caps(&self, wanted: Override) -> (f64, f64) {
+        match self {
+            Self::Straight { rate, .. } => (rate.under(wanted), f64::INFINITY),
+            Self::Arc { rate, chord_v, .. } => {
+                let chord_a = chord_v * chord_v * self.curvature_k();
+                (rate.under(wanted), chord_a)
+            }
+            Self::Curve { curve, rates } => {
+                let rate_v = rates[0].under(wanted).min(rates[1].under(wanted));
+                let chord_a = curve.chord_v * curve.chord_v * tolerance_norm(&curve.bounds.d2);
+                // On a straight one both factors are without meaning.
+                let chord_a = if chord_a.is_nan() {
+                    f64::INFINITY
+                } else {
+                    chord_a
+                };
+                (rate_v / curve.stretch_r, chord_a)
             }
         }
     }

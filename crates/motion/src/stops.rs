@@ -80,6 +80,7 @@ fn ends_at(piece: &Piece, point: &AxisVector) -> bool {
     match &piece.shape {
         Shape::Segment(Segment::Line(line)) => line.end == *point,
         Shape::Segment(Segment::Arc(arc)) => arc.end == *point,
+        Shape::Segment(Segment::Curve(curve)) => curve.end == *point,
         Shape::Transition(_) | Shape::Spline(_) => false,
     }
 }

@@ -11,7 +11,7 @@ mod support;
 use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Segment};
 use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
 use glidepath_motion::{
-    Effort, Frame, Item, ItemKind, Limits, PathMode, Planner, Rate, Settings, Smoothing,
+    Effort, Frame, Item, ItemKind, Limits, PathBounds, PathMode, Planner, Rate, Settings, Smoothing,
 };
 use proptest::prelude::*;
 use support::cases;
@@ -257,6 +257,7 @@ fn any_limits() -> impl Strategy<Value = Limits> {
                 velocity: per_axis(150.0),
                 acceleration: per_axis(2000.0),
                 jerk: per_axis(60_000.0),
+                path: PathBounds::NONE,
             }
         }),
     ]

@@ -322,6 +322,7 @@ fn a_machine_in_micrometres_takes_the_same_time() {
             velocity: settings.limits.velocity * 1000.0,
             acceleration: settings.limits.acceleration * 1000.0,
             jerk: settings.limits.jerk * 1000.0,
+            ..settings.limits
         },
         tolerance_mm: settings.tolerance_mm * 1000.0,
         ..settings

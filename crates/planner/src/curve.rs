@@ -8,23 +8,18 @@
 //! The motion begins with a straight rapid from where the machine stands to the start of the curve,
 //! where it rests.
 
-use std::io::{self, Read};
-use std::path::Path;
-
 use glidepath_curve::{ChordRule, Chords, CurveError, CurveFile, ShapeKey};
 use glidepath_gcode::{Code, Diagnostic, Options, Report, Survey, Totals};
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_motion::{Item, ItemKind, PathMode, Rate, Settings};
 
-use crate::fingerprint::Fingerprinting;
+use crate::fingerprint::fingerprint;
 use crate::{ItemSource, Refusal, Supply};
 
 /// Part of the tolerance that chords may take.
 const CHORD_SHARE: f64 = 0.1;
 /// Longest chord where neither file nor tolerance asks for a shorter one, mm.
 const LONGEST_MM: f64 = 10.0;
-/// Largest curve file, bytes.
-const MOST_BYTES: u64 = 1 << 20;
 
 /// Items of a curve file, made as they are wanted.
 #[derive(Debug)]
@@ -41,32 +36,7 @@ pub struct CurveSource {
 }
 
 impl CurveSource {
-    /// Whether a file is a curve file, by its name.
-    #[must_use]
-    pub fn is_for(path: &Path) -> bool {
-        path.extension()
-            .is_some_and(|extension| extension == "toml")
-    }
-
-    /// Reads a curve file for a machine that stands at the start of the options.
-    ///
-    /// # Errors
-    /// All findings about the file, or why it cannot be read.
-    pub fn open(path: &Path, options: Options, settings: &Settings) -> Result<Self, Refusal> {
-        let mut text = String::new();
-        let file = std::fs::File::open(path)?;
-        file.take(MOST_BYTES + 1).read_to_string(&mut text)?;
-        if text.len() as u64 > MOST_BYTES {
-            let message = "a curve file has at most 1 MiB";
-            return Err(io::Error::new(io::ErrorKind::InvalidData, message).into());
-        }
-        Self::new(text, options, settings).map_err(|findings| Refusal::Program {
-            findings,
-            unlisted: 0,
-        })
-    }
-
-    /// The same from the text of a file.
+    /// The curve of a file's text, for a machine that stands at the start of the options.
     ///
     /// # Errors
     /// All findings.
@@ -250,8 +220,6 @@ impl ItemSource for CurveSource {
     }
 
     fn fingerprint(&self) -> u64 {
-        let mut reader = Fingerprinting::new(self.text.as_bytes());
-        // Reading from memory into nowhere does not fail.
-        io::copy(&mut reader, &mut io::sink()).map_or(0, |_| reader.fingerprint())
+        fingerprint(&self.text)
     }
 }

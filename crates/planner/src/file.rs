@@ -1,24 +1,30 @@
 //! Programs in files, of whatever kind.
 
 use std::fs::File;
-use std::io::{self, BufReader};
+use std::io::{self, BufReader, Read as _};
 use std::path::Path;
 
+use glidepath_curve::NurbsFile;
 use glidepath_gcode::{Options, Report, check};
 use glidepath_motion::Settings;
 
-use crate::{CurveSource, ItemSource, ProgramSource, Refusal, Supply};
+use crate::{CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Supply};
 
 /// Bytes read from a file at a time.
 const BUFFER: usize = 64 * 1024;
 
-/// Items of a file: G-code, or a curve if the name ends in `.toml`.
+/// Largest curve file, bytes.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// Items of a file: G-code, or a curve if the name ends in `.toml` or `.json`.
 #[derive(Debug)]
 pub enum FileSource {
     /// G-code.
     Program(Box<ProgramSource<BufReader<File>>>),
-    /// A curve file.
+    /// A curve given by formulas.
     Curve(Box<CurveSource>),
+    /// A NURBS.
+    Nurbs(Box<NurbsSource>),
 }
 
 impl FileSource {
@@ -27,9 +33,8 @@ impl FileSource {
     /// # Errors
     /// It cannot be read, or (curves) not be understood.
     pub fn unchecked(path: &Path, options: Options, settings: &Settings) -> Result<Self, Refusal> {
-        if CurveSource::is_for(path) {
-            let source = CurveSource::open(path, options, settings)?;
-            return Ok(Self::Curve(Box::new(source)));
+        if is_curve(path) {
+            return Self::curve(path, options, settings);
         }
         let reader = BufReader::with_capacity(BUFFER, File::open(path)?);
         Ok(Self::Program(Box::new(ProgramSource::new(reader, options))))
@@ -40,7 +45,7 @@ impl FileSource {
     /// # Errors
     /// All findings, if there is any; or why the file cannot be read.
     pub fn open(path: &Path, options: Options, settings: &Settings) -> Result<Self, Refusal> {
-        if !CurveSource::is_for(path) {
+        if !is_curve(path) {
             return Ok(Self::Program(Box::new(ProgramSource::open(path, options)?)));
         }
         let report = check_file(path, options.clone(), settings)?;
@@ -52,6 +57,33 @@ impl FileSource {
         }
         Self::unchecked(path, options, settings)
     }
+
+    fn curve(path: &Path, options: Options, settings: &Settings) -> Result<Self, Refusal> {
+        let mut text = String::new();
+        let file = File::open(path)?;
+        file.take(MOST_BYTES + 1).read_to_string(&mut text)?;
+        if text.len() as u64 > MOST_BYTES {
+            let message = "a curve file has at most 64 MiB";
+            return Err(io::Error::new(io::ErrorKind::InvalidData, message).into());
+        }
+        let refuse = |findings| Refusal::Program {
+            findings,
+            unlisted: 0,
+        };
+        if NurbsFile::is_meant(&text) {
+            let source = NurbsSource::new(text, options, settings);
+            let source = source.map_err(|finding| refuse(vec![*finding]))?;
+            return Ok(Self::Nurbs(Box::new(source)));
+        }
+        let source = CurveSource::new(text, options, settings).map_err(refuse)?;
+        Ok(Self::Curve(Box::new(source)))
+    }
+}
+
+/// Whether a file is a curve file, by its name.
+fn is_curve(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|extension| extension == "toml" || extension == "json")
 }
 
 /// Finds everything wrong with a file, without motion.
@@ -59,13 +91,15 @@ impl FileSource {
 /// # Errors
 /// The file cannot be read.
 pub fn check_file(path: &Path, options: Options, settings: &Settings) -> io::Result<Report> {
-    if !CurveSource::is_for(path) {
+    let final_position = options.start;
+    if !is_curve(path) {
         let file = File::open(path)?;
         return Ok(check(BufReader::with_capacity(BUFFER, file), options));
     }
-    let final_position = options.start;
-    match CurveSource::open(path, options, settings) {
-        Ok(source) => Ok(source.check()),
+    match FileSource::curve(path, options, settings) {
+        Ok(FileSource::Curve(source)) => Ok(source.check()),
+        Ok(FileSource::Nurbs(source)) => Ok(source.check()),
+        Ok(FileSource::Program(_)) => Err(io::Error::other("a curve is no program")),
         Err(Refusal::Read(error)) => Err(error),
         Err(Refusal::Program { findings, .. }) => Ok(Report {
             diagnostics: findings,
@@ -84,6 +118,7 @@ impl ItemSource for FileSource {
         match self {
             Self::Program(source) => source.next_item(),
             Self::Curve(source) => source.next_item(),
+            Self::Nurbs(source) => source.next_item(),
         }
     }
 
@@ -91,6 +126,7 @@ impl ItemSource for FileSource {
         match self {
             Self::Program(source) => source.lines_read(),
             Self::Curve(source) => source.lines_read(),
+            Self::Nurbs(source) => source.lines_read(),
         }
     }
 
@@ -98,6 +134,7 @@ impl ItemSource for FileSource {
         match self {
             Self::Program(source) => source.fingerprint(),
             Self::Curve(source) => source.fingerprint(),
+            Self::Nurbs(source) => source.fingerprint(),
         }
     }
 }

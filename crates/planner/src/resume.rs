@@ -263,5 +263,7 @@ fn rest_of(segment: &Segment, position: &AxisVector, part: f64) -> Segment {
             rest.sweep_rad = turned + TAU * ((about - turned) / TAU).round();
             Segment::Arc(rest)
         }
+        Segment::Curve(curve) if part >= 1.0 => Segment::line(*position, curve.end),
+        Segment::Curve(curve) => Segment::Curve(curve.after(part * curve.length, *position)),
     }
 }

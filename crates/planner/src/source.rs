@@ -12,6 +12,7 @@ use glidepath_motion::{Item, PlanError};
 use crate::Refusal;
 
 /// What a source answers when it is asked for the next item.
+#[allow(clippy::large_enum_variant, reason = "nearly every supply is an item")]
 #[derive(Debug)]
 pub enum Supply {
     /// The next item of the program.

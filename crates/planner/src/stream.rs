@@ -41,10 +41,7 @@ pub struct SoftLimits {
 impl SoftLimits {
     /// The first axis on which a segment leaves the limits.
     fn broken_by(&self, segment: &Segment) -> Option<(Axis, f64)> {
-        let (low, high) = match segment {
-            Segment::Line(line) => (line.start.inf(&line.end), line.start.sup(&line.end)),
-            Segment::Arc(arc) => arc.bounding_box(),
-        };
+        let (low, high) = segment.bounding_box();
         Axis::ALL.into_iter().find_map(|axis| {
             let i = axis.index();
             if low[i] < self.low[i] {

@@ -10,13 +10,12 @@
 //! The words are those of LinuxCNC and, for G6.2, those FANUC writes as G06.2 (Q is read over). G5 and
 //! G5.1 go in the XY plane, G5.2 in the two axes of the active plane, G6.2 in any axes.
 //!
-//! A curve is given out as straight moves that leave it by no more than
-//! [`crate::Options::spline_tolerance_mm`].
+//! A curve is given out in smooth pieces (straight ones, where other axes than X, Y, Z move along) that
+//! are away from it by no more than [`crate::Options::spline_tolerance_mm`].
 
-mod flatten;
 mod open;
 
-use glidepath_geometry::{Axis, AxisVector, Nurbs, Plane, Segment};
+use glidepath_geometry::{Axis, AxisVector, Nurbs, NurbsPath, Plane, Segment};
 use glidepath_motion::{Item, PathMode};
 
 use crate::block::{AXIS_WORDS, Block, Letters};
@@ -25,11 +24,10 @@ use crate::interpreter::Interpreter;
 use crate::modes::{Motion, Spline};
 use crate::moves::{Pace, Speed, motion_span, settled};
 use crate::words::missing;
-use flatten::flatten;
 pub(crate) use open::OpenSpline;
 
-/// Share of the tolerance of G64 P that the straight moves of a curve may use.
-const SHARE: f64 = 0.05;
+/// Share of the tolerance of G64 P that the pieces of a curve may be away from it.
+const PIECE_R: f64 = 1e-3;
 
 impl Interpreter {
     /// Makes a spline, or the part of one that stands in a block.
@@ -158,7 +156,7 @@ impl Interpreter {
             return Ok(());
         }
         match Nurbs::new(degree, points, &vec![1.0; points.len()], &knots) {
-            Ok(curve) => self.push_curve(block, &curve, out),
+            Ok(curve) => self.push_curve(block, curve, out),
             Err(error) => Err(Fault::new(
                 Code::Spline,
                 motion_span(block),
@@ -174,39 +172,32 @@ impl Interpreter {
             .map_or(Ok(()), |open| Err(interrupted(open, Span::default())))
     }
 
-    /// Gives out a curve as straight moves at the feedrate. It starts where the last move ended.
-    fn push_curve(&mut self, block: &Block, curve: &Nurbs, out: &mut Vec<Item>) -> Outcome<()> {
-        let tolerance_mm = match self.state.modal.path_mode {
+    /// Gives out a curve, piece by piece, at the feedrate. It starts where the last move ended.
+    fn push_curve(&mut self, block: &Block, curve: Nurbs, out: &mut Vec<Item>) -> Outcome<()> {
+        let error_mm = match self.state.modal.path_mode {
             PathMode::Continuous {
                 tolerance_mm: Some(tolerance_mm),
-            } => SHARE * tolerance_mm,
+            } => PIECE_R * tolerance_mm,
             _ => self.options.spline_tolerance_mm,
         };
-        let mut points = flatten(curve, tolerance_mm);
+        let path = NurbsPath::new(curve);
         let start = self.state.path_end;
-        let mut length = 0.0;
-        let mut last = start;
-        for point in &mut points {
-            *point = settled(last, *point, [None, None]);
-            length += Segment::line(last, *point).length();
-            last = *point;
-        }
-        let (low, high) = points.iter().fold((start, start), |(low, high), point| {
-            (low.inf(point), high.sup(point))
-        });
+        let segments = path.segments(error_mm);
+        let (low, high) = segments
+            .iter()
+            .fold((start, start), |(low, high), segment| {
+                let (from, to) = segment.bounding_box();
+                (low.inf(&from), high.sup(&to))
+            });
         self.check_limits(block, &low, &high, "a point")?;
         let farthest = Segment::line(low, high);
         let speed = match self.speed(block, &farthest, Pace::Feed)? {
             // The whole curve is one move.
-            Speed::Moves(per_minute) => Speed::Feed(length * per_minute / 60.0),
+            Speed::Moves(per_minute) => Speed::Feed(path.length() * per_minute / 60.0),
             speed => speed,
         };
-        let mut from = start;
-        for to in points {
-            if to != from {
-                self.push_move(Segment::line(from, to), speed, out);
-                from = to;
-            }
+        for segment in segments {
+            self.push_move(segment, speed, out);
         }
         Ok(())
     }

@@ -260,7 +260,7 @@ impl Interpreter {
         let degree = open.order as usize - 1;
         let curve = Nurbs::new(degree, &open.points, &open.weights, &open.knots)
             .map_err(|error| no_curve(open, &error, span))?;
-        self.push_curve(block, &curve, out)
+        self.push_curve(block, curve, out)
     }
 }
 

@@ -20,6 +20,7 @@
 mod arc_length;
 mod curvature;
 mod error;
+mod pieces;
 mod polynomial;
 mod span;
 

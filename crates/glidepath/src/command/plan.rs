@@ -115,7 +115,7 @@ impl Pass {
                     self.diagnosis.program(&item);
                 }
                 Output::Frame(frame) => {
-                    self.audit.sample(&(&frame).into());
+                    self.audit.sample_at(&(&frame).into(), frame.path_s);
                     let binding = self.diagnosis.frame(&frame);
                     if let Some(joints) = &mut self.joints {
                         joints.take(&frame)?;

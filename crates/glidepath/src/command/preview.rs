@@ -38,7 +38,7 @@ pub(super) fn preview(args: &PreviewArgs, config: &MachineConfig) -> Result<Exit
     let wall_s = (clock::elapsed() - start).as_secs_f64();
 
     let report = Report {
-        name: &file.name,
+        name: file.name.as_deref().unwrap_or_default(),
         method: method.name(),
         path: &path,
         demand: &demand,

@@ -249,6 +249,7 @@ impl Judge {
             help: "the feedrate where the program has no F",
         };
         PathConfig {
+            bounds: self.bounds(&raw),
             tolerance_mm: self.number_or("path.tolerance", &raw.tolerance, &tolerance, 0.02),
             smoothing: self.choice(
                 "path.smoothing",

@@ -7,7 +7,7 @@ use glidepath_kinematics::{
     AxisRates, AxisShare, JointLimits, JointWatch, Kinematics as _, Mechanism, PathCaps,
 };
 use glidepath_motion::preview::AdvanceRetreat;
-use glidepath_motion::{Effort, Limits, Settings, Smoothing};
+use glidepath_motion::{Effort, Limits, PathBounds, Settings, Smoothing};
 
 /// One axis: mm, or degrees for A, B and C.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,6 +35,8 @@ pub struct PathConfig {
     pub effort: Effort,
     /// mm/min where the program has no F; `None` refuses such a program.
     pub default_feed: Option<f64>,
+    /// Limits along the path.
+    pub bounds: PathBounds,
 }
 
 /// The real-time side.
@@ -75,8 +77,8 @@ pub struct MachineConfig {
     pub program: ProgramConfig,
 }
 
-/// Share of the path tolerance that the straight moves of a spline may use.
-const SPLINE_SHARE: f64 = 0.05;
+/// Share of the path tolerance that the pieces of a spline may be away from it.
+const SPLINE_SHARE: f64 = 1e-3;
 
 impl MachineConfig {
     /// Name used where neither the file nor the command line gives one.
@@ -149,6 +151,7 @@ impl MachineConfig {
             limits.acceleration[i] = axis.max_acceleration * self.axis_share.acceleration;
             limits.jerk[i] = axis.max_jerk * self.axis_share.jerk;
         }
+        limits.path = self.path.bounds;
         limits
     }
 

@@ -2,6 +2,7 @@
 //! knows only syntax and names, the second only values. Nothing is guessed: a key that is not known
 //! or a value out of range refuses the file, with the place and the remedy.
 
+mod bounds;
 mod finding;
 mod horizon;
 mod judge;
@@ -16,7 +17,6 @@ pub use finding::{ConfigError, Finding, FindingReport};
 pub use horizon::MAX_FRAMES_AHEAD;
 pub use judge::{INSTANCE_RULE, is_instance_name};
 pub use machine::{AxisConfig, InterpolatorConfig, MachineConfig, PathConfig};
-pub(crate) use parse::nearest;
 pub use program::ProgramConfig;
 
 use std::path::Path;

@@ -49,7 +49,7 @@ fn explain(message: &str) -> (String, Option<String>) {
 }
 
 /// The known name that is most like the unknown one, if any is alike.
-pub(crate) fn nearest<'a>(unknown: &str, known: &[&'a str]) -> Option<&'a str> {
+fn nearest<'a>(unknown: &str, known: &[&'a str]) -> Option<&'a str> {
     known
         .iter()
         .map(|name| {

@@ -79,6 +79,9 @@ pub(super) struct RawPath {
     pub(super) smoothing: Optional<String>,
     pub(super) effort: Optional<String>,
     pub(super) default_feed: Optional<f64>,
+    pub(super) max_tangential_acceleration: Optional<f64>,
+    pub(super) max_normal_acceleration: Optional<f64>,
+    pub(super) max_jerk: Optional<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]

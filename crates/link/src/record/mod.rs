@@ -19,6 +19,7 @@ mod command;
 mod event;
 mod frame;
 mod segment;
+mod segment_reply;
 mod setpoint;
 mod state;
 mod status;
@@ -31,10 +32,8 @@ pub use command::{
 };
 pub use event::EventKind;
 pub use frame::{PERIOD_NS_MAX, SetpointFrame};
-pub use segment::{
-    ModeCode, PlaneCode, RequestKind, SegmentOutcome, SegmentRefusal, SegmentReply, SegmentRequest,
-    StreamItem,
-};
+pub use segment::{ModeCode, PlaneCode, RequestKind, SegmentRequest, StreamItem};
+pub use segment_reply::{SegmentOutcome, SegmentRefusal, SegmentReply};
 pub use setpoint::{Setpoint, SetpointMarks};
 pub use state::{EndOfEpoch, FRAME_REFUSALS, FaultCause, FrameRefusal, MachineState};
 pub use status::{Grants, Quantiles, Status};

@@ -2,8 +2,8 @@
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
-use super::{Record, Text, event};
-use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Segment};
+use super::{Record, event};
+use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Quintic, Segment};
 use glidepath_motion::{Item, ItemKind, PathMode, Rate};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -22,6 +22,8 @@ coded! {
         Event = 5,
         /// End of the stream.
         End = 6,
+        /// A piece of a smooth curve.
+        Curve = 7,
     }
 }
 
@@ -75,13 +77,13 @@ pub enum StreamItem {
 /// One piece of a stream on its way. Fields a kind does not use are zero.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.SegmentRequest.v1")]
+#[type_name("glidepath.SegmentRequest.v2")]
 pub struct SegmentRequest {
     /// Chosen by the client at random, the same for all of a stream.
     pub session: u64,
     /// Counts the requests of a stream from 0 (its `Open`), without gaps.
     pub number: u64,
-    /// What this is: 1 open, 2 line, 3 arc, 4 dwell, 5 event, 6 end.
+    /// What this is: 1 open, 2 line, 3 arc, 4 dwell, 5 event, 6 end, 7 curve.
     pub kind: u32,
     /// Source line, from 1; 0 for open and end.
     pub line: u32,
@@ -109,6 +111,14 @@ pub struct SegmentRequest {
     pub start: [f64; AXES],
     /// End of a line or arc.
     pub end: [f64; AXES],
+    /// Of a curve: first derivative of X, Y, Z by path position, at start and end.
+    pub tangents: [[f64; 3]; 2],
+    /// Of a curve: second derivative, 1/mm.
+    pub bends: [[f64; 3]; 2],
+    /// Of a curve: its length, mm, > 0.
+    pub length: f64,
+    /// Of a curve: how far it is from what it stands for, mm, ≥ 0.
+    pub error_mm: f64,
 }
 
 impl SegmentRequest {
@@ -160,6 +170,12 @@ impl SegmentRequest {
                 self.center = arc.center;
                 self.sweep_rad = arc.sweep_rad;
             }
+            Segment::Curve(curve) => {
+                self.kind = RequestKind::Curve.code();
+                self.tangents = curve.tangents.map(Into::into);
+                self.bends = curve.bends.map(Into::into);
+                (self.length, self.error_mm) = (curve.length, curve.error_mm);
+            }
         }
     }
 
@@ -202,6 +218,7 @@ impl SegmentRequest {
                 self.motion(Segment::line(start, end))?
             }
             RequestKind::Arc => self.motion(Segment::Arc(self.arc()?))?,
+            RequestKind::Curve => self.motion(Segment::Curve(self.curve()?))?,
             RequestKind::Dwell => {
                 fields.range("dwell_t", self.dwell_t, 0.0, f64::MAX)?;
                 ItemKind::Dwell(self.dwell_t)
@@ -230,6 +247,10 @@ impl SegmentRequest {
         fields.all_finite("start", &self.start)?;
         fields.all_finite("end", &self.end)?;
         fields.all_finite("center", &self.center)?;
+        fields.all_finite("tangents", self.tangents.as_flattened())?;
+        fields.all_finite("bends", self.bends.as_flattened())?;
+        fields.finite("length", self.length)?;
+        fields.finite("error_mm", self.error_mm)?;
         fields.finite("sweep_rad", self.sweep_rad)?;
         fields.finite("event_value", self.event_value)?;
         fields.finite("feed_v", self.feed_v)?;
@@ -293,6 +314,20 @@ impl SegmentRequest {
             sweep_rad: self.sweep_rad,
         })
     }
+
+    fn curve(&self) -> Result<Quintic, RecordError> {
+        let fields = Fields(Self::NAME);
+        fields.range("length", self.length, f64::MIN_POSITIVE, f64::MAX)?;
+        fields.range("error_mm", self.error_mm, 0.0, f64::MAX)?;
+        Ok(Quintic {
+            start: AxisVector::from(self.start),
+            end: AxisVector::from(self.end),
+            tangents: self.tangents.map(Into::into),
+            bends: self.bends.map(Into::into),
+            length: self.length,
+            error_mm: self.error_mm,
+        })
+    }
 }
 
 const fn plane_code(plane: Plane) -> PlaneCode {
@@ -318,83 +353,9 @@ const fn plane_of(code: PlaneCode) -> Plane {
 }
 
 impl Record for SegmentRequest {
-    const NAME: &'static str = "glidepath.SegmentRequest.v1";
+    const NAME: &'static str = "glidepath.SegmentRequest.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         self.item().map(|_| ())
-    }
-}
-
-coded! {
-    /// Why a request was refused.
-    pub enum SegmentRefusal {
-        /// Another client's stream is open.
-        Busy = 1,
-        /// No stream of this session is open.
-        NotOpen = 2,
-        /// Not the next number; send again from the accepted one.
-        OutOfOrder = 3,
-        /// No room; wait, then send the same request again.
-        NoCredit = 4,
-        /// Unknown codes or numbers out of range.
-        Malformed = 5,
-        /// Does not start where the one before ended.
-        Discontinuous = 6,
-        /// Leaves the soft limits.
-        SoftLimit = 7,
-        /// The planner cannot plan it.
-        Unplannable = 8,
-        /// The machine has a fault, or the program was aborted.
-        Stopped = 9,
-        /// The planner is ending.
-        ShuttingDown = 10,
-    }
-}
-
-/// The answer to a request.
-pub type SegmentOutcome = Result<(), SegmentRefusal>;
-
-/// The answer on its way back.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.SegmentReply.v1")]
-pub struct SegmentReply {
-    /// The session of the request.
-    pub session: u64,
-    /// The number of the request.
-    pub number: u64,
-    /// Requests of the stream accepted so far: the number of the next one expected.
-    pub accepted: u64,
-    /// How many more would be accepted now.
-    pub credit: u32,
-    /// Code of a [`SegmentRefusal`], 0 if the request was accepted.
-    pub refusal: u32,
-    /// Where the next segment must start.
-    pub position: [f64; AXES],
-    /// More about a refusal, for people.
-    pub message: Text,
-}
-
-impl SegmentReply {
-    /// The answer.
-    ///
-    /// # Errors
-    ///
-    /// An unknown code.
-    pub fn outcome(&self) -> Result<SegmentOutcome, RecordError> {
-        match self.refusal {
-            0 => Ok(Ok(())),
-            code => Fields(Self::NAME).code("refusal", code).map(Err),
-        }
-    }
-}
-
-impl Record for SegmentReply {
-    const NAME: &'static str = "glidepath.SegmentReply.v1";
-
-    fn check(&self) -> Result<(), RecordError> {
-        Fields(Self::NAME).all_finite("position", &self.position)?;
-        self.outcome()?.ok();
-        self.message.check(Self::NAME, "message")
     }
 }

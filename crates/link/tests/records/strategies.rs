@@ -1,6 +1,6 @@
 //! Any frame, any item of a stream, any command.
 
-use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
+use glidepath_geometry::{Arc, AxisVector, Plane, Quintic, Segment};
 use glidepath_link::{Command, OVERRIDE_MAX, StreamItem};
 use glidepath_motion::{Event, Frame, FrameFlags, Item, ItemKind, PathMode, Rate};
 use proptest::prelude::*;
@@ -69,6 +69,21 @@ pub(crate) fn segment() -> impl Strategy<Value = Segment> {
     );
     prop_oneof![
         (vector(), vector()).prop_map(|(start, end)| Segment::line(start, end)),
+        (
+            (vector(), vector(), positive(), finite()),
+            proptest::array::uniform4(proptest::array::uniform3(finite())),
+        )
+            .prop_map(|((start, end, length, error_mm), ends)| {
+                let [t0, t1, b0, b1] = ends.map(Into::into);
+                Segment::Curve(Quintic {
+                    start,
+                    end,
+                    tangents: [t0, t1],
+                    bends: [b0, b1],
+                    length,
+                    error_mm: error_mm.abs(),
+                })
+            }),
         arc.prop_map(|(start, end, plane, center, sweep, clockwise)| {
             let sweep_rad = if clockwise { -sweep } else { sweep };
             Segment::Arc(Arc {

@@ -13,6 +13,7 @@
 //!
 //! Memory is bounded by how far the program is fed ahead of the samples; work is linear in both.
 
+mod along;
 mod column;
 mod free_space;
 mod judge;
@@ -25,6 +26,7 @@ mod widen;
 pub use report::{Inconsistency, Report, Violation, ViolationKind, Worst};
 
 use crate::{Frame, Item, Limits};
+use along::AlongAudit;
 use glidepath_geometry::AxisVector;
 use limits::LimitAudit;
 use matching::Matching;
@@ -72,6 +74,7 @@ impl From<&Frame> for Sample {
 #[derive(Debug)]
 pub struct Audit {
     limits: LimitAudit,
+    along: AlongAudit,
     matching: Matching,
 }
 
@@ -81,6 +84,7 @@ impl Audit {
     pub fn new(settings: &AuditSettings) -> Self {
         Self {
             limits: LimitAudit::new(settings),
+            along: AlongAudit::new(settings),
             matching: Matching::new(settings),
         }
     }
@@ -103,12 +107,18 @@ impl Audit {
         self.matching.sample(sample);
     }
 
+    /// The next sample of the motion and its path position, whose limits are judged too.
+    pub fn sample_at(&mut self, sample: &Sample, path_s: f64) {
+        self.along.sample(sample, path_s);
+        self.sample(sample);
+    }
+
     /// The verdict, after the last sample: the machine rests there from now on.
     #[must_use]
     pub fn finish(mut self) -> Report {
         self.matching.finish();
         self.limits.finish();
-        Report::new(&self.limits, &self.matching)
+        Report::new(&self.limits, &self.along, &self.matching)
     }
 }
 

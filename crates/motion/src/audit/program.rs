@@ -10,6 +10,8 @@ use std::collections::VecDeque;
 
 /// Distance between an arc and its chords, as a part of the tolerance.
 pub(super) const FLATTENING: f64 = 1e-5;
+/// The same for other curves.
+pub(super) const CURVE_FLATTENING: f64 = 1e-3;
 /// A tolerance of zero would leave no room for rounding, mm.
 pub(super) const SMALLEST_TOLERANCE_MM: f64 = 1e-6;
 /// A tolerance counts as kept up to this factor; on arcs the chords come in addition.
@@ -223,12 +225,13 @@ impl Rows {
                 tolerance_mm: Some(tolerance),
             } => tolerance,
             _ => self.default_tolerance_mm,
-        }
-        .max(SMALLEST_TOLERANCE_MM);
+        };
+        let end_tolerance_mm = (end_tolerance_mm - segment.error_mm()).max(SMALLEST_TOLERANCE_MM);
         self.max_tolerance_mm = self.max_tolerance_mm.max(end_tolerance_mm);
         let slack = match segment {
             Segment::Line(_) => SLACK,
             Segment::Arc(_) => SLACK + 3.0 * FLATTENING,
+            Segment::Curve(_) => SLACK + CURVE_FLATTENING,
         };
         if length <= 0.0 {
             if is_stop {
@@ -338,11 +341,20 @@ impl Rows {
 
 /// Number of chords of a segment.
 fn chords(of: &Segment, tolerance_mm: f64) -> u32 {
-    let Segment::Arc(arc) = of else { return 1 };
-    let radius = arc.start_radius().max(arc.end_radius());
-    // A chord over the angle α has sagitta R·α²/8, twice the distance that is allowed.
-    let angle = (16.0 * FLATTENING * tolerance_mm / radius).sqrt().min(0.5);
-    let count = (arc.sweep_rad.abs() / angle).ceil().clamp(1.0, 1e9);
+    let count = match of {
+        Segment::Line(_) => return 1,
+        Segment::Arc(arc) => {
+            let radius = arc.start_radius().max(arc.end_radius());
+            // A chord over the angle α has sagitta R·α²/8, twice the distance that is allowed.
+            let angle = (16.0 * FLATTENING * tolerance_mm / radius).sqrt().min(0.5);
+            arc.sweep_rad.abs() / angle
+        }
+        Segment::Curve(curve) => {
+            let max_k = curve.bounds().d2.norm();
+            curve.length * (max_k / (8.0 * CURVE_FLATTENING * tolerance_mm)).sqrt()
+        }
+    };
+    let count = count.ceil().clamp(1.0, 1e9);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -1,5 +1,6 @@
 //! What an audit found.
 
+use super::along::AlongAudit;
 use super::limits::LimitAudit;
 use super::matching::Matching;
 use core::fmt;
@@ -39,6 +40,21 @@ pub enum ViolationKind {
     Jerk {
         /// The axis.
         axis: Axis,
+        /// Jerk over limit.
+        ratio: f64,
+    },
+    /// Acceleration along the path beyond its limit.
+    AlongPath {
+        /// Acceleration over limit.
+        ratio: f64,
+    },
+    /// Acceleration across the path beyond its limit.
+    AcrossPath {
+        /// Acceleration over limit.
+        ratio: f64,
+    },
+    /// Jerk along the path beyond its limit.
+    PathJerk {
         /// Jerk over limit.
         ratio: f64,
     },
@@ -118,6 +134,15 @@ impl fmt::Display for Violation {
             ViolationKind::Jerk { axis, ratio } => {
                 write!(f, "{axis} has {ratio:.6} of its jerk limit")
             }
+            ViolationKind::AlongPath { ratio } => {
+                write!(f, "{ratio:.6} of the acceleration allowed along the path")
+            }
+            ViolationKind::AcrossPath { ratio } => {
+                write!(f, "{ratio:.6} of the acceleration allowed across the path")
+            }
+            ViolationKind::PathJerk { ratio } => {
+                write!(f, "{ratio:.6} of the jerk allowed along the path")
+            }
             ViolationKind::Feed { ratio } => write!(f, "{ratio:.6} of the programmed feed"),
             ViolationKind::Inconsistent { axis, what } => {
                 write!(
@@ -172,6 +197,8 @@ pub struct Report {
     pub max_jerk_ratio: Worst,
     /// Largest path speed over programmed feed, between two samples.
     pub max_feed_ratio: Worst,
+    /// Largest acceleration along and across the path and jerk along it, over their limits.
+    pub max_path_ratios: [Worst; 3],
     /// Largest velocity of each axis, mm/s or °/s.
     pub max_velocity: AxisVector,
     /// Largest acceleration of each axis.
@@ -215,8 +242,9 @@ impl Report {
         self.violation_count == 0
     }
 
-    pub(super) fn new(limits: &LimitAudit, matching: &Matching) -> Self {
+    pub(super) fn new(limits: &LimitAudit, along: &AlongAudit, matching: &Matching) -> Self {
         let mut violations = limits.violations.kept.clone();
+        violations.extend_from_slice(&along.violations.kept);
         violations.extend_from_slice(&matching.violations.kept);
         violations.sort_by_key(|violation| violation.tick);
         violations.truncate(KEPT_VIOLATIONS);
@@ -226,6 +254,7 @@ impl Report {
             max_acceleration_ratio: limits.worst[1],
             max_jerk_ratio: limits.worst[2],
             max_feed_ratio: matching.max_feed,
+            max_path_ratios: along.worst,
             max_velocity: limits.maxima[0],
             max_acceleration: limits.maxima[1],
             max_jerk: limits.maxima[2],
@@ -241,7 +270,9 @@ impl Report {
             cycle_time_s: limits.cycle_time_s(),
             final_position: limits.last_position(),
             violations,
-            violation_count: limits.violations.count + matching.violations.count,
+            violation_count: limits.violations.count
+                + along.violations.count
+                + matching.violations.count,
         }
     }
 }

@@ -147,6 +147,17 @@ impl Move {
                 let step_rad = (angle_rad - from_rad + 0.5 * turn).rem_euclid(turn) - 0.5 * turn;
                 from_s + step_rad / per_s
             }
+            Segment::Curve(curve) => {
+                // A piece turns little: from the place on its chord, Newton's method.
+                let way = curve.end - curve.start;
+                let mut s = way.dot(&(position - curve.start)) / way.norm_squared() * self.length_s;
+                for _ in 0..3 {
+                    let jet = self.segment.jet(s.max(0.0).min(self.length_s));
+                    let gap = position - jet.position;
+                    s += gap.dot(&jet.d1) / (jet.d1.norm_squared() - gap.dot(&jet.d2)).max(0.5);
+                }
+                s
+            }
         };
         let s = s.max(from_s).min(self.length_s);
         let gap = position - self.segment.jet(s).position;

@@ -12,6 +12,7 @@
 
 use super::intake::{Intake, Move, Work};
 use super::ledger::Part;
+use crate::joint::tolerance_norm;
 use crate::merge::Dropped;
 use crate::override_::ProgrammedRate;
 use crate::pending::axes_speed;
@@ -195,6 +196,13 @@ impl Flattening {
         let (count, error_mm) = match &of.segment {
             Segment::Line(_) => (1, 0.0),
             Segment::Arc(arc) => cuts(arc, FLATTENING_R * of.tolerance_mm),
+            Segment::Curve(curve) => {
+                let second_k = tolerance_norm(&curve.bounds().d2);
+                let allowed_mm = FLATTENING_R * of.tolerance_mm;
+                let turn_rad = second_k * curve.length;
+                let (count, error_mm) = chords_of((curve.length, second_k, turn_rad), allowed_mm);
+                (count, error_mm + curve.error_mm)
+            }
         };
         Self {
             at: of.segment.start(),
@@ -237,8 +245,13 @@ fn cuts(arc: &Arc, allowed_mm: f64) -> (u32, f64) {
     let drift = (arc.end_radius() - arc.start_radius()).abs() / length_s;
     let omega = arc.sweep_rad.abs() / length_s;
     let second_k = radius_mm * omega * omega + 2.0 * drift * omega;
+    chords_of((length_s, second_k, arc.sweep_rad.abs()), allowed_mm)
+}
+
+/// The same from length, largest second derivative and turn.
+fn chords_of((length_s, second_k, turn_rad): (f64, f64, f64), allowed_mm: f64) -> (u32, f64) {
     let by_error = length_s * (second_k / (8.0 * allowed_mm)).sqrt();
-    let by_turn = arc.sweep_rad.abs() / LARGEST_TURN_RAD;
+    let by_turn = turn_rad / LARGEST_TURN_RAD;
     let count = by_error.max(by_turn).ceil().clamp(1.0, 4e9);
     let chord_s = length_s / count;
     #[allow(

@@ -139,6 +139,12 @@ impl Profile {
         (self.phases[3].position_s, self.phases[4].position_s)
     }
 
+    /// How long each phase takes, its state at the start, and its jerk.
+    pub(crate) fn phases(&self) -> impl Iterator<Item = (f64, PathState, f64)> {
+        let phases = self.phases.into_iter();
+        phases.map(|phase| (phase.duration_t, phase.at(0.0), phase.jerk_j))
+    }
+
     /// The state `t` seconds after the start, held before the start and after the end.
     #[must_use]
     pub fn at(&self, t: f64) -> PathState {

@@ -80,6 +80,8 @@ impl Search {
                         self.consider(place, segment, part);
                     }
                     Segment::Arc(arc) => self.look_along(place, segment, arc.sweep_rad.abs()),
+                    // Its pieces turn little.
+                    Segment::Curve(_) => self.look_along(place, segment, 0.0),
                 }
                 self.passed_mm += segment.length();
             }

@@ -1,7 +1,6 @@
 //! A curve file as it is written, before any value is judged.
 
-use super::CurveError;
-use crate::config::nearest;
+use crate::FileFinding;
 use core::ops::Range;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -9,8 +8,11 @@ use serde::de::IgnoredAny;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawCurve {
+    #[serde(rename = "kind")]
+    _kind: Option<Kind>,
     pub(super) name: Option<String>,
     pub(super) feed: Option<f64>,
+    pub(super) tolerance: Option<f64>,
     pub(super) degree: u64,
     pub(super) control_points: Vec<Vec<f64>>,
     pub(super) weights: Option<Vec<f64>>,
@@ -24,12 +26,19 @@ pub(super) struct RawCurve {
     _note: Option<IgnoredAny>,
 }
 
+/// The only kind there is in these files.
+#[derive(Debug, Deserialize)]
+enum Kind {
+    #[serde(rename = "nurbs")]
+    Nurbs,
+}
+
 /// Reads JSON if the text begins with `{`, else TOML.
 ///
 /// # Errors
 /// The first thing that is not the format, not a known key, or not of the key's type.
-pub(super) fn parse(name: &str, text: &str) -> Result<RawCurve, Box<CurveError>> {
-    let (message, span) = if text.trim_start().starts_with('{') {
+pub(super) fn parse(text: &str) -> Result<RawCurve, Box<FileFinding>> {
+    let (message, at) = if text.trim_start().starts_with('{') {
         match serde_json::from_str(text) {
             Ok(raw) => return Ok(raw),
             Err(error) => {
@@ -49,7 +58,17 @@ pub(super) fn parse(name: &str, text: &str) -> Result<RawCurve, Box<CurveError>>
         }
     };
     let help = help(&message);
-    Err(CurveError::new(name, text, span, message, &help))
+    Err(Box::new(FileFinding { message, help, at }))
+}
+
+/// The known name that looks most like an unknown one, if any does.
+fn nearest<'a>(unknown: &str, known: &[&'a str]) -> Option<&'a str> {
+    let like = |name: &str| strsim::jaro_winkler(&unknown.to_lowercase(), name);
+    let likeness = known.iter().map(|name| (like(name), *name));
+    likeness
+        .filter(|(likeness, _)| *likeness > 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, name)| name)
 }
 
 /// Byte of a line and column, both from 1.

@@ -1,0 +1,221 @@
+//! The problem: a quadratic spline on a track of knots, and every limit as a row over three of its
+//! coefficients.
+
+use super::track::{Interval, Track};
+use crate::Limits;
+use glidepath_geometry::{AXES, Jet, feed_length};
+
+/// A limit: `of`·x ≤ limit, or ≤ limit/√(`root_of`·x), x three neighbouring coefficients.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Row {
+    pub(super) first: usize,
+    pub(super) of: [f64; 3],
+    pub(super) root_of: Option<[f64; 3]>,
+    pub(super) limit: f64,
+}
+
+/// The value of b at a knot, and the path around it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Knot {
+    pub(super) first: usize,
+    pub(super) of: [f64; 3],
+    pub(super) share_s: f64,
+}
+
+impl Knot {
+    pub(super) fn value(&self, x: &[f64]) -> f64 {
+        let near = &x[self.first..self.first + 3];
+        self.of[0] * near[0] + self.of[1] * near[1] + self.of[2] * near[2]
+    }
+}
+
+/// All rows.
+#[derive(Debug)]
+pub(super) struct Problem {
+    pub(super) rows: Vec<Row>,
+    pub(super) knots: Vec<Knot>,
+}
+
+/// Share of the speed that a curve allows, for the places between knots.
+const BETWEEN_R: f64 = 1.0 - 1e-4;
+/// A limit this many times what can be asked for is none.
+const IDLE_R: f64 = 1.5;
+
+/// b, b′ and b″ at a place, over three coefficients.
+#[derive(Clone, Copy)]
+struct Taylor {
+    value: [f64; 3],
+    slope: [f64; 3],
+    second: [f64; 3],
+}
+
+/// The parabola of an interval, over its three coefficients.
+#[derive(Clone, Copy)]
+pub(super) struct Parabola {
+    start: Taylor,
+    end: Taylor,
+}
+
+impl Parabola {
+    /// `lengths`: of the interval before (0 if there is none), its own, and of the one after.
+    pub(super) fn new(lengths: [f64; 3]) -> Self {
+        let [before, own, after] = lengths;
+        let (left, right) = (before + own, own + after);
+        let start_slope = [-2.0 / left, 2.0 / left, 0.0];
+        let end_slope = [0.0, -2.0 / right, 2.0 / right];
+        let second = core::array::from_fn(|i| (end_slope[i] - start_slope[i]) / own);
+        Self {
+            start: Taylor {
+                value: [own / left, before / left, 0.0],
+                slope: start_slope,
+                second,
+            },
+            end: Taylor {
+                value: [0.0, after / right, own / right],
+                slope: end_slope,
+                second,
+            },
+        }
+    }
+
+    /// b, b′ and b″ at the start for some coefficients.
+    pub(super) fn at_start(&self, x: &[f64]) -> [f64; 3] {
+        [self.start.value, self.start.slope, self.start.second]
+            .map(|of| of[0] * x[0] + of[1] * x[1] + of[2] * x[2])
+    }
+
+    fn middle(&self) -> [f64; 3] {
+        let (start, end) = (self.start.value, self.end.value);
+        let inner = [0.0, 2.0, 0.0];
+        core::array::from_fn(|i| 0.25 * (start[i] + inner[i] + end[i]))
+    }
+}
+
+impl Problem {
+    pub(super) fn new(track: &Track, limits: &Limits) -> Self {
+        let mut problem = Self {
+            rows: Vec::new(),
+            knots: Vec::new(),
+        };
+        let count = track.intervals.len();
+        for (k, interval) in track.intervals.iter().enumerate() {
+            let parabola = track.parabola(k);
+            problem.cap(k, parabola.middle(), interval.middle_v);
+            for (taylor, jet, top_v) in [
+                (&parabola.start, &interval.start, interval.start_v),
+                (&parabola.end, &interval.end, interval.end_v),
+            ] {
+                problem.cap(k, taylor.value, top_v);
+                problem.axes(k, taylor, (jet, top_v), limits);
+                problem.path(k, taylor, limits);
+            }
+            problem.knots.push(Knot {
+                first: k,
+                of: parabola.start.value,
+                share_s: 0.5 * (interval.length_s + track.before_s(k)),
+            });
+            if k + 1 == count {
+                problem.knots.push(Knot {
+                    first: k,
+                    of: parabola.end.value,
+                    share_s: 0.5 * interval.length_s,
+                });
+            }
+        }
+        problem
+    }
+
+    /// Time, about: Σ h/√b.
+    pub(super) fn time(&self, x: &[f64]) -> f64 {
+        let times = self.knots.iter().map(|k| k.share_s / k.value(x).sqrt());
+        times.sum()
+    }
+
+    pub(super) fn knots(&self) -> usize {
+        self.knots.len()
+    }
+
+    fn cap(&mut self, first: usize, of: [f64; 3], top_v: f64) {
+        let limit = top_v * top_v;
+        if limit.is_finite() {
+            self.rows.push(Row {
+                first,
+                of,
+                root_of: None,
+                limit,
+            });
+        }
+    }
+
+    /// A limit both ways.
+    fn both(&mut self, first: usize, of: [f64; 3], root_of: Option<[f64; 3]>, limit: f64) {
+        for of in [of, of.map(|c| -c)] {
+            self.rows.push(Row {
+                first,
+                of,
+                root_of,
+                limit,
+            });
+        }
+    }
+
+    fn path(&mut self, first: usize, taylor: &Taylor, limits: &Limits) {
+        let bounds = &limits.path;
+        if bounds.tangential_a < Limits::UNLIMITED {
+            self.both(first, taylor.slope, None, 2.0 * bounds.tangential_a);
+        }
+        if bounds.jerk_j < Limits::UNLIMITED {
+            self.both(
+                first,
+                taylor.second,
+                Some(taylor.value),
+                2.0 * bounds.jerk_j,
+            );
+        }
+    }
+
+    /// The limits of the axes at a place, but for those that cannot bind there whatever the others
+    /// leave.
+    fn axes(&mut self, first: usize, taylor: &Taylor, (jet, top_v): (&Jet, f64), limits: &Limits) {
+        let bounds = &limits.path;
+        let Taylor {
+            value,
+            slope,
+            second,
+        } = taylor;
+        for axis in 0..AXES {
+            let (d1, d2, d3) = (jet.d1[axis], jet.d2[axis], jet.d3[axis]);
+            if d1.to_bits() << 1 == 0 && d2.to_bits() << 1 == 0 && d3.to_bits() << 1 == 0 {
+                continue;
+            }
+            let (most_a, most_j) = (limits.acceleration[axis], limits.jerk[axis]);
+            let along_a = d1.abs() * bounds.tangential_a;
+            let needed_a = along_a + d2.abs() * top_v * top_v;
+            let cross_j = 3.0 * d2.abs() * top_v * bounds.tangential_a;
+            let needed_j = d1.abs() * bounds.jerk_j + cross_j + d3.abs() * top_v.powi(3);
+            if most_a < IDLE_R * needed_a && most_a < Limits::UNLIMITED {
+                let of = core::array::from_fn(|i| 0.5 * d1 * slope[i] + d2 * value[i]);
+                self.both(first, of, None, most_a);
+            }
+            if most_j < IDLE_R * needed_j && most_j < Limits::UNLIMITED {
+                let of = core::array::from_fn(|i| {
+                    0.5 * d1 * second[i] + 1.5 * d2 * slope[i] + d3 * value[i]
+                });
+                self.both(first, of, Some(*value), most_j);
+            }
+        }
+    }
+}
+
+impl Interval {
+    /// The highest speed where a piece has these derivatives, mm/s.
+    pub(super) fn cap_v(jet: &Jet, own: &super::track::Caps, limits: &Limits) -> f64 {
+        let curvature_k = feed_length(&jet.d2);
+        let by_axes = (0..AXES)
+            .map(|i| limits.velocity[i] / jet.d1[i].abs())
+            .fold(f64::INFINITY, f64::min);
+        let by_chord = (own.chord_a / curvature_k).sqrt();
+        let by_curve = by_chord.min(limits.path.speed_v(curvature_k));
+        own.rate_v.min(by_axes).min(BETWEEN_R * by_curve)
+    }
+}

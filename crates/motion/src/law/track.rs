@@ -1,0 +1,315 @@
+//! Where the knots of a law are, what the path is there, and the S-curves it starts from.
+
+use super::rows::{Parabola, Problem};
+use super::{Builder, Law, solver};
+use crate::Limits;
+use crate::piece::Piece;
+use crate::scurve::PathState;
+use crate::valley::{Course, Leg};
+use glidepath_geometry::Jet;
+
+/// Time from knot to knot on the S-curves, s.
+const KNOT_T: f64 = 0.002;
+/// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's.
+const REST_T: f64 = 0.001;
+const REST_R: f64 = 0.25;
+/// Next to a rest, the time to a knot grows by this factor from the one before.
+const REST_GROWTH: f64 = 1.5;
+/// Knots nearer than this share of their distance to a place where pieces meet are left out.
+const NEAREST_R: f64 = 0.35;
+
+/// What bounds the speed on a piece whatever the axes can do.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Caps {
+    pub(super) rate_v: f64,
+    /// The largest acceleration across the path.
+    pub(super) chord_a: f64,
+}
+
+/// The path between two knots.
+#[derive(Debug)]
+pub(super) struct Interval {
+    pub(super) from_s: f64,
+    pub(super) length_s: f64,
+    pub(super) start: Jet,
+    pub(super) end: Jet,
+    pub(super) start_v: f64,
+    pub(super) middle_v: f64,
+    pub(super) end_v: f64,
+}
+
+/// A place on the S-curves: time, path position, speed.
+#[derive(Debug, Clone, Copy)]
+struct Mark {
+    t: f64,
+    s: f64,
+    v: f64,
+}
+
+/// The phase of constant jerk next to a rest.
+#[derive(Debug, Clone, Copy)]
+struct RestPhase {
+    jerk_j: f64,
+    duration_t: f64,
+}
+
+/// Knots, path and S-curves.
+#[derive(Debug)]
+pub(super) struct Track {
+    pub(super) intervals: Vec<Interval>,
+    /// What the law starts from, densely.
+    marks: Vec<Mark>,
+    /// At start and end; `None` where the motion does not rest.
+    rests: [Option<RestPhase>; 2],
+    ends_v: [f64; 2],
+    length_s: f64,
+}
+
+impl Track {
+    /// A track along some pieces that S-curves drive.
+    pub(super) fn new(pieces: &[Piece], legs: &[Leg], limits: &Limits) -> Option<Self> {
+        let course = Course::new(pieces);
+        let first = legs.first()?.profile;
+        let last = legs.last()?.profile;
+        let rests = [
+            (first.entry_v() <= 0.0).then(|| rest_phase(first.phases())),
+            (last.exit_v() <= 0.0).then(|| {
+                let phases: Vec<_> = last.phases().collect();
+                rest_phase(phases.into_iter().rev())
+            }),
+        ];
+        let mut track = Self {
+            intervals: Vec::new(),
+            marks: marks(legs),
+            rests,
+            ends_v: [first.entry_v(), last.exit_v()],
+            length_s: course.length_s(),
+        };
+        let knots = track.knots(&course);
+        track.lay(&course, &knots, limits);
+        (track.intervals.len() > 4).then_some(track)
+    }
+
+    /// Length of the interval before one, 0 if there is none.
+    pub(super) fn before_s(&self, k: usize) -> f64 {
+        let before = k.checked_sub(1).and_then(|k| self.intervals.get(k));
+        before.map_or(0.0, |interval| interval.length_s)
+    }
+
+    /// The parabola of an interval, over its coefficients.
+    pub(super) fn parabola(&self, k: usize) -> Parabola {
+        let length = |k: usize| self.intervals.get(k).map_or(0.0, |i| i.length_s);
+        Parabola::new([self.before_s(k), length(k), length(k + 1)])
+    }
+
+    /// Path position at which the phase next to the start ends, and that where the one next to the end
+    /// begins.
+    fn inner(&self) -> [f64; 2] {
+        let [start_s, end_s] = self
+            .rests
+            .map(|rest| rest.map_or(0.0, |r| r.jerk_j * r.duration_t.powi(3) / 6.0));
+        [start_s, self.length_s - end_s]
+    }
+
+    /// Path positions of the knots.
+    fn knots(&self, course: &Course<'_>) -> Vec<f64> {
+        let [from_s, to_s] = self.inner();
+        let duration_t = self.marks.last().map_or(0.0, |mark| mark.t);
+        // From both ends to the middle.
+        let [mut times, mut back] = self.rests.map(|rest| times(rest, 0.5 * duration_t));
+        back.reverse();
+        let left = back.into_iter().map(|t| duration_t - t);
+        times.extend(left.filter(|t| *t > 0.5 * (duration_t + KNOT_T)));
+        let mut own = vec![from_s];
+        own.extend(times.into_iter().map(|t| self.position_at(t)));
+        own.push(to_s);
+        let joints: Vec<f64> = course.starts_s.clone();
+        let joints = &joints[joints.partition_point(|s| *s <= from_s)..];
+        let joints = &joints[..joints.partition_point(|s| *s < to_s)];
+        let mut knots = vec![from_s];
+        let mut next = joints.iter().copied().peekable();
+        for window in own.windows(3) {
+            let [before_s, here_s, after_s] = [window[0], window[1], window[2]];
+            let near_s = NEAREST_R * (here_s - before_s).min(after_s - here_s);
+            while let Some(joint_s) = next.next_if(|s| *s <= here_s) {
+                knots.push(joint_s);
+            }
+            let passed_s = knots.last().copied().unwrap_or(from_s);
+            let is_near = next.peek().is_some_and(|s| s - here_s < near_s);
+            if here_s - passed_s > near_s && !is_near {
+                knots.push(here_s);
+            }
+        }
+        knots.extend(next);
+        knots.push(to_s);
+        knots
+    }
+
+    /// Path position of the S-curves at a time.
+    fn position_at(&self, t: f64) -> f64 {
+        let after = self.marks.partition_point(|mark| mark.t <= t);
+        let before = after.saturating_sub(1);
+        match (self.marks.get(before), self.marks.get(after)) {
+            (Some(a), Some(b)) => a.s + (b.s - a.s) * (t - a.t) / (b.t - a.t),
+            _ => self.length_s,
+        }
+    }
+
+    /// b of the S-curves at a path position.
+    fn square_at(&self, s: f64) -> f64 {
+        let after = self.marks.partition_point(|mark| mark.s <= s);
+        let before = after.saturating_sub(1);
+        match (self.marks.get(before), self.marks.get(after)) {
+            (Some(a), Some(b)) => a.v * a.v + (b.v * b.v - a.v * a.v) * (s - a.s) / (b.s - a.s),
+            _ => self.ends_v[1] * self.ends_v[1],
+        }
+    }
+
+    /// The path between the knots.
+    fn lay(&mut self, course: &Course<'_>, knots: &[f64], limits: &Limits) {
+        for window in knots.windows(2) {
+            let (from_s, to_s) = (window[0], window[1]);
+            let middle_s = 0.5 * (from_s + to_s);
+            let index = course.touched(middle_s, middle_s).start;
+            let piece = &course.pieces[index];
+            let (rate_v, chord_a) = piece.rule.caps(piece.planned);
+            let caps = Caps { rate_v, chord_a };
+            let jet = |s: f64| piece.jet((s - course.starts_s[index]).clamp(0.0, piece.length_s));
+            let [start, middle, end] = [from_s, middle_s, to_s].map(jet);
+            let top_v = |jet: &Jet| Interval::cap_v(jet, &caps, limits);
+            self.intervals.push(Interval {
+                from_s,
+                length_s: to_s - from_s,
+                start_v: top_v(&start),
+                middle_v: top_v(&middle),
+                end_v: top_v(&end),
+                start,
+                end,
+            });
+        }
+    }
+
+    /// Coefficients of the S-curves, `rate_r` times as fast.
+    fn start(&self, rate_r: f64) -> Vec<f64> {
+        let square_r = rate_r * rate_r;
+        let count = self.intervals.len();
+        let mut x = Vec::with_capacity(count + 2);
+        let speed = |rest: Option<RestPhase>, end_v: f64| match rest {
+            Some(r) => {
+                let speed_v = 0.5 * r.jerk_j * r.duration_t * r.duration_t;
+                (speed_v * speed_v, r.jerk_j * r.duration_t)
+            }
+            None => (end_v * end_v, 0.0),
+        };
+        let (start_b, start_a) = speed(self.rests[0], self.ends_v[0]);
+        let (end_b, end_a) = speed(self.rests[1], self.ends_v[1]);
+        x.push(start_b);
+        for interval in &self.intervals {
+            x.push(self.square_at(interval.from_s + 0.5 * interval.length_s));
+        }
+        x.push(end_b);
+        // b′ at the ends is twice the acceleration.
+        if let (Some(first), Some(last)) = (self.intervals.first(), self.intervals.last()) {
+            x[1] = start_b + start_a * first.length_s;
+            x[count] = end_b + end_a * last.length_s;
+        }
+        for b in &mut x {
+            *b *= square_r;
+        }
+        x
+    }
+
+    /// The law near the least time that starts and ends as the S-curves do, `rate_r` times as fast.
+    pub(super) fn optimise(&self, problem: &Problem, rate_r: f64) -> Option<Law> {
+        let x = solver::solve(problem, self.start(rate_r))?;
+        let mut builder = Builder::new();
+        let zero = PathState {
+            position_s: 0.0,
+            speed_v: 0.0,
+            accel_a: 0.0,
+        };
+        let slowed = |rest: RestPhase| (rest.jerk_j * rate_r.powi(3), rest.duration_t / rate_r);
+        if let Some((jerk_j, duration_t)) = self.rests[0].map(slowed) {
+            builder.push_phase(zero, jerk_j, duration_t);
+        }
+        for (k, interval) in self.intervals.iter().enumerate() {
+            let [b, slope, second] = self.parabola(k).at_start(&x[k..k + 3]);
+            let state = PathState {
+                position_s: interval.from_s,
+                speed_v: b.max(0.0).sqrt(),
+                accel_a: 0.5 * slope,
+            };
+            builder.push_span(state, interval.length_s, second)?;
+        }
+        if let Some((jerk_j, duration_t)) = self.rests[1].map(slowed) {
+            let state = PathState {
+                position_s: self.inner()[1],
+                speed_v: 0.5 * jerk_j * duration_t * duration_t,
+                accel_a: -jerk_j * duration_t,
+            };
+            builder.push_phase(state, jerk_j, duration_t);
+        }
+        Some(builder.finish(PathState {
+            position_s: self.length_s,
+            speed_v: self.ends_v[1] * rate_r,
+            accel_a: 0.0,
+        }))
+    }
+}
+
+/// Times of knots from an end of the motion up to some time, without the end.
+fn times(rest: Option<RestPhase>, to_t: f64) -> Vec<f64> {
+    let mut times = Vec::new();
+    let mut t = rest.map_or(0.0, |rest| rest.duration_t);
+    loop {
+        t += match rest {
+            Some(_) => ((REST_GROWTH - 1.0) * t).min(KNOT_T),
+            None => KNOT_T,
+        };
+        let is_before = t > 0.0 && t < to_t;
+        if !is_before {
+            return times;
+        }
+        times.push(t);
+    }
+}
+
+/// The phase next to a rest, from the phases of an S-curve in the order away from it.
+fn rest_phase(mut phases: impl Iterator<Item = (f64, PathState, f64)>) -> RestPhase {
+    let first = phases.find(|(duration_t, ..)| *duration_t > 0.0);
+    let (duration_t, jerk_j) = first.map_or((0.0, 0.0), |(t, _, jerk_j)| (t, jerk_j));
+    RestPhase {
+        jerk_j: jerk_j.abs(),
+        duration_t: (REST_R * duration_t).min(REST_T),
+    }
+}
+
+/// Places on some S-curves, four between two knots.
+fn marks(legs: &[Leg]) -> Vec<Mark> {
+    let mut marks = Vec::new();
+    let mut from_t = 0.0;
+    for leg in legs {
+        let duration_t = leg.profile.duration_t();
+        let steps = (duration_t / (0.25 * KNOT_T)).ceil().max(8.0);
+        let mut k = 0.0;
+        while k < steps {
+            let t = duration_t * k / steps;
+            let state = leg.profile.at(t);
+            marks.push(Mark {
+                t: from_t + t,
+                s: leg.from_s + state.position_s,
+                v: state.speed_v,
+            });
+            k += 1.0;
+        }
+        from_t += duration_t;
+    }
+    if let Some(last) = legs.last() {
+        marks.push(Mark {
+            t: from_t,
+            s: last.from_s + last.profile.length_s(),
+            v: last.profile.exit_v(),
+        });
+    }
+    marks
+}
