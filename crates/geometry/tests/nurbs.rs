@@ -2,9 +2,9 @@
 
 mod support;
 
-use glidepath_geometry::{Axis, AxisVector, MAX_DEGREE, Nurbs, NurbsError, NurbsPath};
+use glidepath_geometry::{Axis, AxisVector, Nurbs, NurbsError, NurbsPath};
 use proptest::prelude::*;
-use support::{curve, definition, evaluate, numbers, point, reference};
+use support::{curve, definition, evaluate, numbers, point, random_definition, reference};
 
 const CURVES: [&str; 10] = [
     "butterfly",
@@ -258,40 +258,11 @@ fn bad_definitions_are_refused_by_name() {
     assert!(matches!(error, NurbsError::StandsStill { .. }));
 }
 
-/// Degree, points, weights and knots of a random curve, knots up to `degree`-fold.
-fn random_curve() -> impl Strategy<Value = support::Definition> {
-    (1..=MAX_DEGREE).prop_flat_map(|degree| {
-        (degree + 1..degree + 12).prop_flat_map(move |n| {
-            let points = prop::collection::vec(prop::array::uniform3(-100.0..100.0_f64), n);
-            let weights = prop::collection::vec(0.2..5.0_f64, n);
-            let gaps = prop::collection::vec(prop_oneof![Just(0.0), 0.01..1.0_f64], n - degree);
-            (points, weights, gaps).prop_map(move |(points, weights, gaps)| {
-                let mut knots = vec![0.0; degree + 1];
-                let mut run = degree;
-                for gap in &gaps[1..] {
-                    let last = knots[knots.len() - 1];
-                    let gap = if run >= degree { gap + 0.01 } else { *gap };
-                    run = if gap > 0.0 { 1 } else { run + 1 };
-                    knots.push(last + gap);
-                }
-                let end = knots[knots.len() - 1] + gaps[0] + 0.01;
-                knots.extend(vec![end; degree + 1]);
-                (
-                    degree,
-                    points.iter().map(|p| point(p)).collect(),
-                    weights,
-                    knots,
-                )
-            })
-        })
-    })
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
     #[test]
-    fn evaluation_is_the_definition(definition in random_curve(), at in prop::collection::vec(0.0..1.0_f64, 20)) {
+    fn evaluation_is_the_definition(definition in random_definition(), at in prop::collection::vec(0.0..1.0_f64, 20)) {
         let (degree, points, weights, knots) = &definition;
         let curve = Nurbs::new(*degree, points, weights, knots).expect("valid");
         let (from, to) = curve.domain();
@@ -306,7 +277,7 @@ proptest! {
 
     #[test]
     fn the_curvature_bound_holds_and_curvature_is_monotone_between_critical_points(
-        definition in random_curve(),
+        definition in random_definition(),
     ) {
         let (degree, points, weights, knots) = &definition;
         let curve = Nurbs::new(*degree, points, weights, knots).expect("valid");

@@ -1,4 +1,4 @@
-//! Cost of NURBS: evaluation per span, u(s), and the three previews.
+//! Cost of NURBS: evaluation per span, u(s), the three previews, whole plans.
 //! `cargo bench -p glidepath-motion --bench nurbs`.
 //!
 //! Prints processor time for each call; for counts of instructions run it under
@@ -11,6 +11,9 @@ mod curves;
 
 use glidepath_geometry::NurbsPath;
 use glidepath_motion::preview::{AdvanceRetreat, Certified, Demand, Method, Traditional, preview};
+use glidepath_motion::{
+    Effort, Item, ItemKind, Limits, PathBounds, PathMode, Planner, Rate, Settings, Smoothing,
+};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -69,6 +72,63 @@ fn previews(name: &str, path: &NurbsPath) {
     }
 }
 
+/// A whole plan: curve to frames.
+fn plans(name: &str, path: &NurbsPath) {
+    let mill = Limits::uniform(200.0, 2000.0, 40_000.0);
+    let mut bounded = Limits::uniform(1e4, 1e5, 1e8);
+    bounded.path = PathBounds {
+        tangential_a: 1000.0,
+        normal_a: 1000.0,
+        jerk_j: 20_000.0,
+    };
+    for (kind, limits, tolerance_mm) in [
+        ("limits of axes", mill, 0.02),
+        ("limits of the path", bounded, 0.001),
+    ] {
+        let settings = Settings {
+            limits,
+            tolerance_mm,
+            smoothing: Smoothing::Auto,
+            period_t: 0.004,
+            effort: Effort::Fast,
+        };
+        let spans = path.curve().spans().len() as f64;
+        let cut_ns = nanoseconds(20, |_| {
+            black_box(path.segments(1e-3 * tolerance_mm));
+        });
+        let mut frames = 0;
+        let ns = nanoseconds(5, |_| frames = planned(path, settings));
+        println!(
+            "{name}, {kind}: cut in {:.1} µs a span, planned in {:.0} µs a span, {:.1} % of the \
+             time of motion",
+            cut_ns / spans / 1e3,
+            ns / spans / 1e3,
+            100.0 * ns * 1e-9 / (f64::from(frames) * settings.period_t)
+        );
+    }
+}
+
+fn planned(path: &NurbsPath, settings: Settings) -> u32 {
+    let segments = path.segments(1e-3 * settings.tolerance_mm);
+    let mut planner = Planner::new(settings, path.jet(0.0).position);
+    for segment in segments {
+        let kind = ItemKind::Move {
+            segment,
+            rate: Rate::Feed(100.0),
+            mode: PathMode::Continuous { tolerance_mm: None },
+        };
+        // Pieces of a curve are accepted.
+        let _ = planner.push(&Item { line: 1, kind });
+    }
+    planner.finish();
+    let mut frames = 0;
+    while let Ok(Some(frame)) = planner.pop_frame() {
+        black_box(frame);
+        frames += 1;
+    }
+    frames
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     let count = arguments.iter().position(|a| a == "--count");
@@ -84,4 +144,7 @@ fn main() {
         evaluation(name, &curves::path(name));
     }
     previews("butterfly", &butterfly);
+    for name in ["butterfly", "helix3d"] {
+        plans(name, &curves::path(name));
+    }
 }

@@ -7,7 +7,8 @@
     reason = "each test file uses its part, and a test that fails may panic"
 )]
 
-use glidepath_geometry::{AxisVector, Nurbs};
+use glidepath_geometry::{AxisVector, MAX_DEGREE, Nurbs};
+use proptest::prelude::*;
 use serde_json::Value;
 
 /// A file of reference values.
@@ -82,4 +83,33 @@ pub(crate) fn evaluate((degree, points, weights, knots): &Definition, u: f64) ->
         weight += share;
     }
     sum / weight
+}
+
+/// Degree, points, weights and knots of a random curve, knots up to `degree`-fold.
+pub(crate) fn random_definition() -> impl Strategy<Value = Definition> {
+    (1..=MAX_DEGREE).prop_flat_map(|degree| {
+        (degree + 1..degree + 12).prop_flat_map(move |n| {
+            let points = prop::collection::vec(prop::array::uniform3(-100.0..100.0_f64), n);
+            let weights = prop::collection::vec(0.2..5.0_f64, n);
+            let gaps = prop::collection::vec(prop_oneof![Just(0.0), 0.01..1.0_f64], n - degree);
+            (points, weights, gaps).prop_map(move |(points, weights, gaps)| {
+                let mut knots = vec![0.0; degree + 1];
+                let mut run = degree;
+                for gap in &gaps[1..] {
+                    let last = knots[knots.len() - 1];
+                    let gap = if run >= degree { gap + 0.01 } else { *gap };
+                    run = if gap > 0.0 { 1 } else { run + 1 };
+                    knots.push(last + gap);
+                }
+                let end = knots[knots.len() - 1] + gaps[0] + 0.01;
+                knots.extend(vec![end; degree + 1]);
+                (
+                    degree,
+                    points.iter().map(|p| point(p)).collect(),
+                    weights,
+                    knots,
+                )
+            })
+        })
+    })
 }
