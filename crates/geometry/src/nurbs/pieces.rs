@@ -15,7 +15,7 @@ use crate::{AxisVector, Jet, LINEAR_XYZ, Line, Quintic, Segment, feed_length};
 /// Halvings of a knot span, at most.
 const MAX_HALVINGS: u32 = 24;
 /// How far the speed of a piece may be from one, relative.
-const SPEED_R: f64 = 4e-5;
+const SPEED_R: f64 = 3e-5;
 /// Where a piece is compared with the curve.
 const PLACES: [f64; 7] = [0.12, 0.276_4, 0.4, 0.5, 0.6, 0.723_6, 0.88];
 /// What is measured counts as so much larger, for the places between.

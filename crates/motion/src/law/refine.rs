@@ -13,9 +13,9 @@ use std::collections::VecDeque;
 const WINDOW_T: f64 = 30.0;
 const MOST_PIECES: usize = 4096;
 /// How much slower than the S-curves a law starts, and passes from one window to the next.
-const RATE_R: f64 = 0.9;
+const RATE_R: f64 = 0.85;
 /// From rest to rest, other rates to start from.
-const RATES: [f64; 4] = [RATE_R, 0.75, 0.6, 0.4];
+const RATES: [f64; 4] = [RATE_R, 0.7, 0.55, 0.4];
 
 /// Takes what is settled and gives it on, some of it driven faster.
 #[derive(Debug)]

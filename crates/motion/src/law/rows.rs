@@ -36,8 +36,10 @@ pub(super) struct Problem {
     pub(super) knots: Vec<Knot>,
 }
 
-/// Share of the speed that a curve allows, for the places between knots.
-const BETWEEN_R: f64 = 1.0 - 1e-4;
+/// Share of what a curve allows, for the places between knots.
+const BETWEEN_R: f64 = 1.0 - 2e-4;
+/// The same of the jerk of an axis, which changes faster.
+const JERK_BETWEEN_R: f64 = 1.0 - 2e-3;
 /// A limit this many times what can be asked for is none.
 const IDLE_R: f64 = 1.5;
 
@@ -169,7 +171,7 @@ impl Problem {
                 first,
                 taylor.second,
                 Some(taylor.value),
-                2.0 * bounds.jerk_j,
+                2.0 * BETWEEN_R * bounds.jerk_j,
             );
         }
     }
@@ -195,13 +197,13 @@ impl Problem {
             let needed_j = d1.abs() * bounds.jerk_j + cross_j + d3.abs() * top_v.powi(3);
             if most_a < IDLE_R * needed_a && most_a < Limits::UNLIMITED {
                 let of = core::array::from_fn(|i| 0.5 * d1 * slope[i] + d2 * value[i]);
-                self.both(first, of, None, most_a);
+                self.both(first, of, None, BETWEEN_R * most_a);
             }
             if most_j < IDLE_R * needed_j && most_j < Limits::UNLIMITED {
                 let of = core::array::from_fn(|i| {
                     0.5 * d1 * second[i] + 1.5 * d2 * slope[i] + d3 * value[i]
                 });
-                self.both(first, of, Some(*value), most_j);
+                self.both(first, of, Some(*value), JERK_BETWEEN_R * most_j);
             }
         }
     }

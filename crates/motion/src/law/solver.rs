@@ -11,7 +11,7 @@ const SMALL_STEP: f64 = 0.1;
 /// Halvings of a step that would leave the limits.
 const HALVINGS: u32 = 40;
 /// What is left to gain in the end, as a share of the time.
-const GAP_R: f64 = 2e-4;
+const GAP_R: f64 = 2e-5;
 
 /// Coefficients of a law that keeps all limits and takes near the least time, from one that keeps
 /// them with room to spare; `None` if the start does not.

@@ -14,7 +14,7 @@ const KNOT_T: f64 = 0.002;
 const REST_T: f64 = 0.001;
 const REST_R: f64 = 0.25;
 /// Next to a rest, the time to a knot grows by this factor from the one before.
-const REST_GROWTH: f64 = 1.5;
+const REST_GROWTH: f64 = 1.2;
 /// Knots nearer than this share of their distance to a place where pieces meet are left out.
 const NEAREST_R: f64 = 0.35;
 
@@ -38,12 +38,11 @@ pub(super) struct Interval {
     pub(super) end_v: f64,
 }
 
-/// A place on the S-curves: time, path position, speed.
+/// A place on the S-curves: time and path position.
 #[derive(Debug, Clone, Copy)]
 struct Mark {
     t: f64,
     s: f64,
-    v: f64,
 }
 
 /// The phase of constant jerk next to a rest.
@@ -57,7 +56,8 @@ struct RestPhase {
 #[derive(Debug)]
 pub(super) struct Track {
     pub(super) intervals: Vec<Interval>,
-    /// What the law starts from, densely.
+    /// What the law starts from, and places on it, densely.
+    legs: Vec<Leg>,
     marks: Vec<Mark>,
     /// At start and end; `None` where the motion does not rest.
     rests: [Option<RestPhase>; 2],
@@ -80,6 +80,7 @@ impl Track {
         ];
         let mut track = Self {
             intervals: Vec::new(),
+            legs: legs.to_vec(),
             marks: marks(legs),
             rests,
             ends_v: [first.entry_v(), last.exit_v()],
@@ -155,14 +156,20 @@ impl Track {
         }
     }
 
-    /// b of the S-curves at a path position.
-    fn square_at(&self, s: f64) -> f64 {
-        let after = self.marks.partition_point(|mark| mark.s <= s);
-        let before = after.saturating_sub(1);
-        match (self.marks.get(before), self.marks.get(after)) {
-            (Some(a), Some(b)) => a.v * a.v + (b.v * b.v - a.v * a.v) * (s - a.s) / (b.s - a.s),
-            _ => self.ends_v[1] * self.ends_v[1],
-        }
+    /// The coefficient of b on an interval, as the S-curves have it: where the tangents of b at the ends
+    /// have the middle, on average. Exact for a parabola.
+    fn coefficient(&self, interval: &Interval) -> f64 {
+        let half_s = 0.5 * interval.length_s;
+        let after = |s: f64| self.legs.partition_point(|leg| leg.from_s <= s);
+        let tangent = |s: f64, step_s: f64| {
+            let leg = self.legs.get(after(s).saturating_sub(1));
+            leg.map_or(0.0, |leg| {
+                let state = leg.profile.at_position(s - leg.from_s);
+                state.speed_v * state.speed_v + 2.0 * state.accel_a * step_s
+            })
+        };
+        let [from_s, to_s] = [interval.from_s, interval.from_s + interval.length_s];
+        0.5 * (tangent(from_s, half_s) + tangent(to_s, -half_s))
     }
 
     /// The path between the knots.
@@ -205,7 +212,7 @@ impl Track {
         let (end_b, end_a) = speed(self.rests[1], self.ends_v[1]);
         x.push(start_b);
         for interval in &self.intervals {
-            x.push(self.square_at(interval.from_s + 0.5 * interval.length_s));
+            x.push(self.coefficient(interval));
         }
         x.push(end_b);
         // b′ at the ends is twice the acceleration.
@@ -298,7 +305,6 @@ fn marks(legs: &[Leg]) -> Vec<Mark> {
             marks.push(Mark {
                 t: from_t + t,
                 s: leg.from_s + state.position_s,
-                v: state.speed_v,
             });
             k += 1.0;
         }
@@ -308,7 +314,6 @@ fn marks(legs: &[Leg]) -> Vec<Mark> {
         marks.push(Mark {
             t: from_t,
             s: last.from_s + last.profile.length_s(),
-            v: last.profile.exit_v(),
         });
     }
     marks

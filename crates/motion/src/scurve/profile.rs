@@ -145,6 +145,16 @@ impl Profile {
         phases.map(|phase| (phase.duration_t, phase.at(0.0), phase.jerk_j))
     }
 
+    /// The state at a path position of the profile.
+    pub(crate) fn at_position(&self, s: f64) -> PathState {
+        let phases = self.phases.iter().rev();
+        let passed = phases.filter(|p| p.duration_t > 0.0 && p.position_s <= s);
+        match passed.into_iter().next() {
+            Some(phase) => phase.at(phase.time_at(s)),
+            None => self.phases[0].at(0.0),
+        }
+    }
+
     /// The state `t` seconds after the start, held before the start and after the end.
     #[must_use]
     pub fn at(&self, t: f64) -> PathState {
