@@ -13,7 +13,7 @@ use glidepath_kinematics::{
     AxisRates, AxisShare, FiveAxis, Hexapod, JointLimit, JointLimits, JointVector, Kinematics as _,
     LinearDelta, Mechanism, PathCaps, Rotaries, Tilt,
 };
-use glidepath_motion::{Effort, Limits, Override, Settings, Smoothing};
+use glidepath_motion::{Effort, Limits, Override, PathBounds, Settings, Smoothing};
 use glidepath_planner::{Output, Pipeline, ProgramSource};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -40,6 +40,7 @@ fn limits(linear: [f64; 3], rotary: [f64; 3]) -> Limits {
         velocity: all(0),
         acceleration: all(1),
         jerk: all(2),
+        path: PathBounds::NONE,
     }
 }
 
