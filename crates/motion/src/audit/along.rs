@@ -140,7 +140,7 @@ mod tests {
         assert_eq!(found(19.9, 99.0, 0.0), "");
         assert_eq!(found(20.1, 99.0, 0.0), "n");
         assert_eq!(found(5.0, 101.0, 0.0), "a");
-        assert_eq!(found(5.0, -80.0, 990.0), "");
-        assert_eq!(found(5.0, -80.0, 1010.0), "j");
+        assert_eq!(found(15.0, -95.0, 990.0), "");
+        assert_eq!(found(15.0, -95.0, 1010.0), "j");
     }
 }
