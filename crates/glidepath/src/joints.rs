@@ -9,7 +9,7 @@
 use crate::config::MachineConfig;
 use crate::failure::Failure;
 use glidepath_gcode::{Code, Diagnostic};
-use glidepath_geometry::{AxisVector, Segment};
+use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_kinematics::{
     JointFault, JointWatch, Kinematics as _, KinematicsError, Mechanism, Quantity,
 };
@@ -36,22 +36,34 @@ pub(crate) fn check_path(
     };
     let options = config.program_options(config.home());
     let mut source = FileSource::unchecked(path, options, &config.settings())?;
-    if let Err(fault) = watch.stand(&config.home()) {
-        return Ok(Some(finding(path, 1, &fault)));
+    let home = config.home();
+    if let Err(fault) = watch.stand(&home) {
+        return Ok(Some(finding(
+            path,
+            1,
+            &fault,
+            (&home, &config.axis_names()),
+        )));
     }
     // A file that changed since it was checked is found out when it is planned.
     while let Supply::Item(item) = source.next_item() {
         let ItemKind::Move { segment, .. } = &item.kind else {
             continue;
         };
-        if let Err(fault) = walk(segment, &watch) {
-            return Ok(Some(finding(path, item.line, &fault)));
+        if let Err((fault, place)) = walk(segment, &watch) {
+            return Ok(Some(finding(
+                path,
+                item.line,
+                &fault,
+                (&place, &config.axis_names()),
+            )));
         }
     }
     Ok(None)
 }
 
-fn walk(segment: &Segment, watch: &JointWatch) -> Result<(), JointFault> {
+/// Goes along a segment, up to the first place where the machine may not be.
+fn walk(segment: &Segment, watch: &JointWatch) -> Result<(), (JointFault, AxisVector)> {
     let length = segment.length();
     // The fastest axis per unit of path position, which rotary axes may be many times over.
     let fastest = (0..=8)
@@ -66,7 +78,8 @@ fn walk(segment: &Segment, watch: &JointWatch) -> Result<(), JointFault> {
     let steps = steps as u32;
     for step in 1..=steps {
         let s = length * f64::from(step) / f64::from(steps);
-        watch.stand(&segment.jet(s).position)?;
+        let place = segment.jet(s).position;
+        watch.stand(&place).map_err(|fault| (fault, place))?;
     }
     Ok(())
 }
@@ -77,6 +90,7 @@ pub(crate) struct PlanWatch {
     watch: JointWatch,
     path: PathBuf,
     mechanism: Mechanism,
+    axes: Vec<Axis>,
     last: Option<AxisVector>,
     most_error: f64,
 }
@@ -88,6 +102,7 @@ impl PlanWatch {
             watch,
             path: path.to_owned(),
             mechanism: config.mechanism,
+            axes: config.axis_names(),
             last: None,
             most_error: 0.0,
         })
@@ -99,7 +114,8 @@ impl PlanWatch {
     /// The joints cannot do it.
     pub(crate) fn take(&mut self, frame: &Frame) -> Result<(), Failure> {
         self.watch.take(&frame.position).map_err(|fault| {
-            let finding = finding(&self.path, frame.line, &fault);
+            let place = (&frame.position, self.axes.as_slice());
+            let finding = finding(&self.path, frame.line, &fault, place);
             Failure::refused(&self.path.display().to_string(), refusal(finding), false)
         })?;
         if let Some(last) = self.last.replace(frame.position) {
@@ -135,9 +151,10 @@ pub(crate) fn check_plan(
     let source = FileSource::open(path, config.program_options(start), &settings)?;
     let mut pipeline = Pipeline::new(source, settings, start).with_joints(config.path_caps());
     while let Some(frame) = pipeline.next_frame()? {
-        watch
-            .take(&frame.position)
-            .map_err(|fault| refusal(finding(path, frame.line, &fault)))?;
+        watch.take(&frame.position).map_err(|fault| {
+            let axes = config.axis_names();
+            refusal(finding(path, frame.line, &fault, (&frame.position, &axes)))
+        })?;
     }
     Ok(())
 }
@@ -149,7 +166,13 @@ fn refusal(finding: Diagnostic) -> Refusal {
     }
 }
 
-fn finding(path: &Path, line: u32, fault: &JointFault) -> Diagnostic {
+/// A finding at a place of the machine.
+fn finding(
+    path: &Path,
+    line: u32,
+    fault: &JointFault,
+    (place, axes): (&AxisVector, &[Axis]),
+) -> Diagnostic {
     let help = match fault {
         JointFault::Position(KinematicsError::Unreachable { .. }) => {
             "keep the program inside the machine's workspace"
@@ -166,13 +189,17 @@ fn finding(path: &Path, line: u32, fault: &JointFault) -> Diagnostic {
     };
     let text = line_of(path, line);
     let whole = 0..text.trim_end().len();
+    let at: Vec<String> = axes
+        .iter()
+        .map(|axis| format!("{axis}{:.3}", place[axis.index()]))
+        .collect();
     Diagnostic {
         line,
         ..Diagnostic::in_text(
             &text,
             whole,
             Code::Joint,
-            fault.to_string(),
+            format!("{fault}, at {}", at.join(" ")),
             help.to_owned(),
         )
     }

@@ -109,7 +109,9 @@ fn what_joints_cannot_do_is_refused_with_line_and_reason() {
         let said = stderr(&output);
         assert!(said.contains("p.ngc:3:1"), "{said}");
         assert!(
-            said.contains("joint J") && said.contains("highest position"),
+            said.contains("joint J")
+                && said.contains("highest position")
+                && said.contains(", at X"),
             "{said}"
         );
     }
@@ -126,7 +128,7 @@ fn what_joints_cannot_do_is_refused_with_line_and_reason() {
     let turned = "G21 G90\nG0 Z500\nG1 C89.8 F300\nM2\n";
     let output = glidepath("check", turned, &wide, &[]);
     assert!(
-        stderr(&output).contains("near a singularity"),
+        stderr(&output).contains("near a singularity") && stderr(&output).contains("Z500.000"),
         "{}",
         stderr(&output)
     );

@@ -337,12 +337,12 @@ impl Rate {
                 Search::Barred | Search::OutOfReach => Trial::Barred,
             };
         }
-        let mut from_first = 0;
         if scene.track.stop().is_some() {
             return Trial::Passed(None);
         }
-        match Reserve::find(steady, 0, scene, &mut from_first, budget) {
+        match Reserve::find(steady, 0, scene, search_at, budget) {
             Some(reserve) => Trial::Passed(Some(reserve)),
+            None if *search_at < reserve::CANDIDATES => Trial::OutOfBudget,
             None => Trial::Barred,
         }
     }

@@ -34,11 +34,21 @@ pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<Finding>> {
     let names: Vec<Axis> = axes.iter().map(|axis| axis.axis).collect();
     let mechanism = judge.mechanism(&raw.machine, &names);
     let joint_limits = judge.joints(&raw.joint, &mechanism);
-    let interpolator = judge.interpolator(&raw.interpolator, &axes);
+    let axis_share = axis_share(&mechanism, &joint_limits, &axes);
+    // Stops take as long as joints let them.
+    let braking: Vec<AxisConfig> = axes
+        .iter()
+        .map(|axis| AxisConfig {
+            max_acceleration: axis.max_acceleration * axis_share.acceleration,
+            max_jerk: axis.max_jerk * axis_share.jerk,
+            ..*axis
+        })
+        .collect();
+    let interpolator = judge.interpolator(&raw.interpolator, &braking);
     let config = MachineConfig {
         mechanism,
         joint_limits,
-        axis_share: axis_share(&mechanism, &joint_limits, &axes),
+        axis_share,
         axes,
         path: judge.path(raw.path),
         interpolator,

@@ -75,7 +75,7 @@ const SHAPES: [Shape; 7] = [
 ];
 
 /// All candidates: every shape at every place.
-const CANDIDATES: usize = PLACES * SHAPES.len();
+pub(super) const CANDIDATES: usize = PLACES * SHAPES.len();
 
 /// Between the end of the first ramp and the second: ticks, and the second's pace.
 const SECOND: [(f64, f64); 8] = [
