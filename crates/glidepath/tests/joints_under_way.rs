@@ -1,7 +1,11 @@
 //! Joints of a machine keep their limits whatever the operator does: holds and overrides change the
 //! motion without knowing of joints, by the limits of the axes alone.
 
-#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test that fails may panic"
+)]
 
 use glidepath::config::{self, MachineConfig};
 use glidepath_geometry::AxisVector;
@@ -64,12 +68,11 @@ impl Shares {
             (a - b * 2.0 + c) / period_t.powi(2),
             (a - b * 3.0 + c * 3.0 - d) / period_t.powi(3),
         ];
-        for joint in 0..machine.joints() {
-            let limit = &machine.joint_limits.0[joint];
+        let joints = machine.joint_limits.0.iter().take(machine.joints());
+        for (joint, limit) in joints.enumerate() {
             let limits = [limit.velocity, limit.acceleration, limit.jerk];
-            for k in 0..3 {
-                let share = differences[k][joint].abs() / limits[k];
-                self.most[k] = self.most[k].max(share);
+            for ((most, difference), limit) in self.most.iter_mut().zip(&differences).zip(limits) {
+                *most = most.max(difference[joint].abs() / limit);
             }
         }
     }
