@@ -31,7 +31,10 @@ pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<()
     if let Some(path) = &config.program.tool_table {
         config.program.tools = Some(Arc::new(tool_table(path)?));
     }
-    tell_share(&config.axis_share);
+    // `run` says so, and the planner it starts need not say it again.
+    if !matches!(command, Command::Planner(_)) {
+        tell_share(&config.axis_share);
+    }
     if let Some(file) = file {
         config.program.dialect = Some(dialect(file, config));
     }
