@@ -53,6 +53,7 @@ tolerance = 0.001
 max_tangential_acceleration = 1000.0
 max_normal_acceleration = 1000.0
 max_jerk = 20000.0
+default_feed = 6000.0
 [program]
 dialect = \"linuxcnc\"
 ";
@@ -128,7 +129,11 @@ fn what_is_wrong_with_a_curve_file_has_its_place() {
             let output = glidepath(&[command, path, "--json"]);
             assert_eq!(output.status.code(), Some(1), "{command} {name}");
             let report = object(&output);
-            let finding = &report["findings"][0];
+            let list = match command {
+                "check" => &report["programs"][0]["findings"],
+                _ => &report["findings"],
+            };
+            let finding = &list[0];
             assert_eq!(finding["line"], line, "{report}");
             assert_eq!(finding["column"], column, "{report}");
             let said = finding["message"].as_str().expect("text");

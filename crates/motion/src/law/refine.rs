@@ -9,8 +9,11 @@ use crate::schedule::Settled;
 use crate::valley::Leg;
 use std::collections::VecDeque;
 
-/// Motion that is optimised together, s, and its most pieces.
-const WINDOW_T: f64 = 30.0;
+/// Motion that is optimised together, s, as the S-curves drive it, and its most pieces: little enough
+/// for the work to be done while what was published before is executed.
+const WINDOW_T: f64 = 12.0;
+/// A window ends where the S-curves are slowest, after this share of it: there little is lost.
+const SHORTEST_R: f64 = 0.4;
 const MOST_PIECES: usize = 4096;
 /// How much slower than the S-curves a law starts, and passes from one window to the next.
 const RATE_R: f64 = 0.85;
@@ -29,8 +32,20 @@ pub(crate) struct Refiner {
     is_slowed: bool,
     pieces: Vec<Piece>,
     legs: Vec<Leg>,
+    /// Where the motions end that these were settled as.
+    ends: Vec<End>,
     length_s: f64,
     duration_t: f64,
+}
+
+/// Where a motion ends, from the start of what waits.
+#[derive(Debug, Clone, Copy)]
+struct End {
+    pieces: usize,
+    legs: usize,
+    length_s: f64,
+    duration_t: f64,
+    exit_v: f64,
 }
 
 impl Refiner {
@@ -42,6 +57,7 @@ impl Refiner {
             is_slowed: false,
             pieces: Vec::new(),
             legs: Vec::new(),
+            ends: Vec::new(),
             length_s: 0.0,
             duration_t: 0.0,
         }
@@ -72,7 +88,7 @@ impl Refiner {
             Settled::Motion { pieces, legs } if self.is_wanted && self.is_from_rest => {
                 self.take(pieces, &legs);
                 if self.duration_t >= WINDOW_T || self.pieces.len() >= MOST_PIECES {
-                    self.put(out);
+                    self.put_window(out);
                 }
             }
             Settled::Motion { .. } | Settled::Lawful { .. } => {
@@ -98,12 +114,51 @@ impl Refiner {
         }
         self.length_s += pieces.iter().map(|piece| piece.length_s).sum::<f64>();
         self.pieces.extend(pieces);
+        self.ends.push(End {
+            pieces: self.pieces.len(),
+            legs: self.legs.len(),
+            length_s: self.length_s,
+            duration_t: self.duration_t,
+            exit_v: self.legs.last().map_or(0.0, |leg| leg.profile.exit_v()),
+        });
+    }
+
+    /// Gives on what waits up to the slowest end in its later part.
+    fn put_window(&mut self, out: &mut VecDeque<Settled>) {
+        let shortest_t = SHORTEST_R * self.duration_t;
+        let later = self.ends.iter().filter(|end| end.duration_t >= shortest_t);
+        let slowest = later.min_by(|a, b| a.exit_v.total_cmp(&b.exit_v)).copied();
+        let Some(end) = slowest else { return };
+        let pieces = self.pieces.split_off(end.pieces);
+        let mut legs = self.legs.split_off(end.legs);
+        let (length_s, duration_t) = (self.length_s, self.duration_t);
+        let ends = core::mem::take(&mut self.ends);
+        self.duration_t = end.duration_t;
+        self.put(out);
+        for leg in &mut legs {
+            leg.from_s -= end.length_s;
+        }
+        self.ends = ends
+            .into_iter()
+            .filter(|other| other.pieces > end.pieces)
+            .map(|other| End {
+                pieces: other.pieces - end.pieces,
+                legs: other.legs - end.legs,
+                length_s: other.length_s - end.length_s,
+                duration_t: other.duration_t - end.duration_t,
+                ..other
+            })
+            .collect();
+        (self.pieces, self.legs) = (pieces, legs);
+        self.length_s = length_s - end.length_s;
+        self.duration_t = duration_t - end.duration_t;
     }
 
     fn put(&mut self, out: &mut VecDeque<Settled>) {
         let pieces = core::mem::take(&mut self.pieces);
         let legs = core::mem::take(&mut self.legs);
         let duration_t = core::mem::take(&mut self.duration_t);
+        self.ends.clear();
         self.length_s = 0.0;
         let Some(exit_v) = legs.last().map(|leg| leg.profile.exit_v()) else {
             return;

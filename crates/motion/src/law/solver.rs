@@ -2,12 +2,14 @@
 
 use super::rows::{Problem, Row};
 
+/// The weight of the time at the start, in limits for the time that the start takes.
+const START: f64 = 5.0;
 /// Steps of Newton's method for one weight of the barrier, and in all.
 const STEPS: u32 = 60;
 /// The weight of the time grows by this factor when a step is small.
 const GROWTH: f64 = 5.0;
 /// The square of a step, in the measure of the barrier, that counts as small.
-const SMALL_STEP: f64 = 0.1;
+const SMALL_STEP: f64 = 1.0;
 /// Halvings of a step that would leave the limits.
 const HALVINGS: u32 = 40;
 /// What is left to gain in the end, as a share of the time.
@@ -19,7 +21,7 @@ pub(super) fn solve(problem: &Problem, start: Vec<f64>) -> Option<Vec<f64>> {
     let mut x = start;
     let time_t = problem.time(&x);
     let count = problem.knots() as f64;
-    let mut weight = problem.rows.len() as f64 / time_t;
+    let mut weight = START * problem.rows.len() as f64 / time_t;
     let last = 3.0 * count / (GAP_R * time_t);
     let mut value = merit(problem, &x, weight)?;
     let mut newton = Newton::new(x.len());
