@@ -16,6 +16,7 @@ use glidepath_motion::audit::{Audit, AuditSettings, Report};
 use glidepath_motion::{
     Effort, Frame, Item, ItemKind, Limits, Override, PathBounds, Planner, Rate, Settings, Smoothing,
 };
+use proptest::prelude::*;
 
 /// The published comparison: limits along the path alone, those of the axes do not bind.
 fn sheet(period_t: f64) -> Settings {
@@ -220,5 +221,42 @@ fn an_override_on_a_curve_keeps_all_limits() {
             }
         }
         assert_clean(&audit.finish());
+    }
+}
+
+/// A curve of degree 1 to 5 in space: a point, a weight and a gap between knots each.
+fn any_curve() -> impl Strategy<Value = NurbsPath> {
+    let part = (
+        prop::array::uniform3(-60.0..60.0_f64),
+        prop_oneof![Just(1.0), 0.3..3.0_f64],
+        0.02..1.0_f64,
+    );
+    (1..=5_usize, prop::collection::vec(part, 6..16)).prop_map(|(degree, parts)| {
+        let over_axes = |p: &[f64; 3]| {
+            let mut point = support::at(p[0], p[1]);
+            point[2] = p[2];
+            point
+        };
+        let points: Vec<_> = parts.iter().map(|part| over_axes(&part.0)).collect();
+        let weights: Vec<f64> = parts.iter().map(|part| part.1).collect();
+        let mut knots = vec![0.0; degree];
+        let mut last = 0.0;
+        for part in &parts[degree..] {
+            knots.push(last);
+            last += part.2;
+        }
+        knots.extend(vec![last; degree + 1]);
+        NurbsPath::new(Nurbs::new(degree, &points, &weights, &knots).expect("valid"))
+    })
+}
+
+proptest! {
+    #![proptest_config(support::cases(20))]
+
+    #[test]
+    fn random_curves_are_followed_within_all_limits(path in any_curve(), bounded in any::<bool>()) {
+        let settings = if bounded { sheet(0.004) } else { mill() };
+        let (_, report) = plan(&items(&path, settings.tolerance_mm, 100.0), settings);
+        prop_assert!(report.is_clean() && report.is_complete, "{:?}", report.violations);
     }
 }
