@@ -12,6 +12,9 @@ use super::spline::Grid;
 
 /// Planes kept for each ball.
 const KEPT: usize = 5;
+/// Directions kept in which a velocity was above the feed, by this factor.
+const KEPT_DIRECTIONS: usize = 3;
+pub(super) const WORTH_OF_FEED: f64 = 1.0 + 1e-4;
 /// From this part of the radius on a motion is worth a plane.
 const WORTH_R: f64 = 0.5;
 
@@ -55,6 +58,8 @@ impl<const D: usize> Few<D> {
 pub(super) struct Cuts<const D: usize> {
     samples: Vec<Few<D>>,
     corners: Vec<Few<D>>,
+    /// By first control point of a first difference, newest first.
+    feeds: Vec<[Option<[f64; D]>; KEPT_DIRECTIONS]>,
 }
 
 impl<const D: usize> Cuts<D> {
@@ -62,6 +67,7 @@ impl<const D: usize> Cuts<D> {
         Self {
             samples: Vec::new(),
             corners: Vec::new(),
+            feeds: Vec::new(),
         }
     }
 
@@ -70,6 +76,16 @@ impl<const D: usize> Cuts<D> {
         self.samples.resize(samples + 1, Few::EMPTY);
         self.corners.clear();
         self.corners.resize(corners, Few::EMPTY);
+        self.feeds.clear();
+    }
+
+    /// Directions in which the velocity at a first difference was above the feed, as unit vectors of
+    /// what [`velocity_over_feed`] gives.
+    pub(super) fn of_feed(&self, k: usize) -> impl Iterator<Item = &[f64; D]> {
+        self.feeds
+            .get(k)
+            .into_iter()
+            .flat_map(|few| few.iter().flatten())
     }
 
     /// Planes of sample `k` as long as it is on a piece.
@@ -108,6 +124,25 @@ impl<const D: usize> Cuts<D> {
                     };
                     self.corners[i].add(i, plane);
                 }
+            }
+        }
+        self.learn_feeds(scene, samples, points, grid);
+    }
+
+    fn learn_feeds(
+        &mut self,
+        scene: &Scene<D>,
+        samples: &Samples,
+        points: &[[f64; D]],
+        grid: &Grid,
+    ) {
+        self.feeds.resize(points.len(), [None; KEPT_DIRECTIONS]);
+        for k in 2..points.len() - 3 {
+            let slowest = slowest_feed(scene, pieces_at(samples, grid, k));
+            let (size, direction) = velocity_over_feed(points, &slowest, k, grid);
+            if size > WORTH_OF_FEED {
+                self.feeds[k].rotate_right(1);
+                self.feeds[k][0] = Some(direction);
             }
         }
     }
@@ -156,4 +191,46 @@ pub(super) fn nearest_to_corner<const D: usize>(
     let (first, weights) = grid.chord_site(k - 1, lambda);
     let nearest = combine(points, first, &weights);
     (lambda, core::array::from_fn(|a| nearest[a] - vertex[a]))
+}
+
+/// The pieces that the first difference from control point `k` on has a part in.
+pub(super) fn pieces_at(
+    samples: &Samples,
+    grid: &Grid,
+    k: usize,
+) -> core::ops::RangeInclusive<usize> {
+    piece_at(samples, grid, 2 * k - 4)..=piece_at(samples, grid, 2 * k + 2 + grid.knots)
+}
+
+/// The piece at a number of half intervals.
+pub(super) fn piece_at(samples: &Samples, grid: &Grid, halves: usize) -> usize {
+    let period = halves * grid.periods / (2 * grid.knots);
+    samples.piece[period.min(samples.count())]
+}
+
+/// Per axis, one over the feed of the slowest of some pieces, where the feed counts the axis.
+pub(super) fn slowest_feed<const D: usize>(
+    scene: &Scene<D>,
+    pieces: core::ops::RangeInclusive<usize>,
+) -> [f64; D] {
+    let mut slowest = [0.0_f64; D];
+    for chord in &scene.chords[pieces] {
+        for a in 0..D {
+            slowest[a] = slowest[a].max(chord.feed_axes[a]);
+        }
+    }
+    slowest
+}
+
+/// The velocity at a first difference over the feed, and its direction in that measure.
+pub(super) fn velocity_over_feed<const D: usize>(
+    points: &[[f64; D]],
+    slowest: &[f64; D],
+    k: usize,
+    grid: &Grid,
+) -> (f64, [f64; D]) {
+    let weighted: [f64; D] =
+        core::array::from_fn(|a| (points[k + 1][a] - points[k][a]) * slowest[a] / grid.knot_t);
+    let size = dot(&weighted, &weighted).sqrt();
+    (size, weighted.map(|w| w / size))
 }

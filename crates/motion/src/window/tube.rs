@@ -15,7 +15,9 @@
 //!
 //! The round parts are bounded by planes ([`super::cuts`]).
 
-use super::cuts::{Cuts, nearest_to_corner};
+use super::cuts::{
+    Cuts, WORTH_OF_FEED, nearest_to_corner, piece_at, pieces_at, slowest_feed, velocity_over_feed,
+};
 use super::samples::Samples;
 use super::scene::Scene;
 use super::solver::{FAR, Problem, dot};
@@ -30,7 +32,7 @@ const CLOSE_R: f64 = 0.85;
 /// Most corners between two samples that get rows.
 const MOST_CORNERS: usize = 4;
 /// Share of the feed that is planned with.
-const FEED_R: f64 = 0.9995;
+const FEED_R: f64 = 0.999_95;
 /// Pull towards the middle of the tube, so that a motion at rest has a place there.
 const RIDGE: f64 = 1e-5;
 /// The same where the middle is all that is aimed at.
@@ -258,43 +260,30 @@ fn add_feeds<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
         samples,
         points,
         style,
-        ..
+        cuts,
     } = layout;
-    let h = style.grid.knot_t;
-    // The piece at a number of half intervals.
-    let piece_at = |halves: usize| {
-        let period = halves * style.grid.periods / (2 * style.grid.knots);
-        samples.piece[period.min(samples.count())]
-    };
+    let (grid, h) = (&style.grid, style.grid.knot_t);
     for k in 2..problem.intervals {
-        let middle = piece_at(2 * k - 1);
-        let (first, last) = (piece_at(2 * k - 4), piece_at(2 * k + 2 + style.grid.knots));
-        let bends_here = (piece_at(2 * k - 3)..piece_at(2 * k + 1 + style.grid.knots))
+        let middle = piece_at(samples, grid, 2 * k - 1);
+        let bends_here = (piece_at(samples, grid, 2 * k - 3)
+            ..piece_at(samples, grid, 2 * k + 1 + grid.knots))
             .any(|i| scene.turn(i, i + 1) > SHARP);
-        // The slowest piece that this difference has a part in.
         let scale = scene.chords[middle].feed_axes;
-        let mut slowest = scale;
-        let mut factor = 1.0_f64;
-        for chord in &scene.chords[first..=last] {
-            for a in 0..D {
-                slowest[a] = slowest[a].max(chord.feed_axes[a]);
-                if scale[a] > 0.0 {
-                    factor = factor.max(chord.feed_axes[a] / scale[a]);
-                }
-            }
-        }
+        let slowest = slowest_feed(scene, pieces_at(samples, grid, k));
+        let factor = (0..D)
+            .filter(|&a| scale[a] > 0.0)
+            .fold(1.0_f64, |most, a| most.max(slowest[a] / scale[a]));
         problem.add_site(k, [-1.0, 1.0, 0.0, 0.0, 0.0]);
         let normal = scene.chords[middle].feed.map(|f| f * factor / h);
         let low = if bends_here { -FAR } else { 0.0 };
         problem.add_feed_row(normal, [low, FEED_R], style.is_feed_firm);
-        let mut weighted: [f64; D] =
-            core::array::from_fn(|a| (points[k + 1][a] - points[k][a]) * slowest[a]);
-        let size = dot(&weighted, &weighted).sqrt();
-        if size > 0.2 * h {
-            for a in 0..D {
-                weighted[a] *= slowest[a] / (size * h);
-            }
-            problem.add_feed_row(weighted, [-FAR, FEED_R], style.is_feed_firm);
+        // The feed bounds a ball of velocities: a plane touches it where the last motion was, and
+        // more where earlier ones were beyond it.
+        let (size, direction) = velocity_over_feed(points, &slowest, k, grid);
+        let last = Some(direction).filter(|_| size > 0.2 && size <= WORTH_OF_FEED);
+        for direction in last.iter().chain(cuts.of_feed(k)) {
+            let normal = core::array::from_fn(|a| direction[a] * slowest[a] / h);
+            problem.add_feed_row(normal, [-FAR, FEED_R], style.is_feed_firm);
         }
     }
 }
