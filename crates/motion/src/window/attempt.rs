@@ -23,6 +23,8 @@ const STOPS: f64 = 2.4;
 pub(super) struct View {
     pub(super) pieces: core::ops::Range<usize>,
     pub(super) intervals: usize,
+    /// The motion is to rest at the end of the last piece, whatever follows.
+    pub(super) is_halt: bool,
 }
 
 impl View {
@@ -61,6 +63,7 @@ impl View {
                 return Some(Self {
                     pieces: first..end,
                     intervals: grid.whole_periods(needed + grid.knots - 1),
+                    is_halt: false,
                 });
             }
         }
@@ -72,7 +75,9 @@ impl View {
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
     pub(super) points: Vec<AxisVector>,
-    /// Rests at the end of the path.
+    /// Rests at the end of the last piece in view.
+    pub(super) is_rest: bool,
+    /// Which is the end of the path.
     pub(super) is_end: bool,
 }
 
@@ -90,6 +95,8 @@ pub(super) struct Setting<'a> {
     pub(super) end: usize,
     /// Periods after which the next window will start.
     pub(super) commit: usize,
+    /// What goes on without a window keeps the rates, which may have changed.
+    pub(super) keeps_rates: bool,
 }
 
 /// Optimisers by number of axes, made when first needed.
@@ -149,13 +156,15 @@ fn attempt<const D: usize>(
     moves: [bool; glidepath_geometry::AXES],
 ) -> Option<Motion> {
     let origin = setting.history.last();
-    let scene: Scene<D> = Scene::new(
+    let is_path_end = setting.track.is_last(setting.end - 1);
+    let mut scene: Scene<D> = Scene::new(
         setting.limits,
         setting.track,
         view.pieces.clone(),
         origin,
         moves,
     );
+    scene.is_final |= view.is_halt;
     let tail: Vec<_> = (0..view.intervals.max(tail.len() - 3) + 3)
         .filter_map(|k| tail.get(k).or(tail.last()))
         .map(|point| scene.inside(point))
@@ -164,6 +173,7 @@ fn attempt<const D: usize>(
     let chord = scene.chords.get(piece)?;
     let opening = Opening {
         tail: &tail,
+        keeps_rates: setting.keeps_rates,
         piece,
         progress: chord.s + chord.length * setting.progress.1,
         passed: setting.follower.place.last() - scene.first,
@@ -185,13 +195,14 @@ fn attempt<const D: usize>(
     }
     Some(Motion {
         points,
-        is_end: solution.is_end,
+        is_rest: solution.is_end,
+        is_end: solution.is_end && is_path_end,
     })
 }
 
-/// The last control points are the end of the path, to the bit.
+/// The last control points are the end of what is in view, to the bit.
 fn end_exactly(setting: &Setting<'_>, points: &mut [AxisVector]) {
-    if let Some(last) = setting.track.get(setting.track.end().saturating_sub(1)) {
+    if let Some(last) = setting.track.get(setting.end - 1) {
         let count = points.len();
         points[count - 3..].fill(last.end);
     }
@@ -204,14 +215,14 @@ fn passes(setting: &Setting<'_>, points: &[AxisVector], question: Question) -> b
         end_exactly(setting, &mut points);
     }
     let mut history = setting.history.clone();
-    let mut follower = Follower::new(setting.follower.place.clone(), setting.end);
+    let mut follower = setting.follower.to(setting.end);
     let periods = setting.grid.periods_in(points.len() - 3);
     for period in 1..=periods + 3 {
-        let next = setting.grid.position(&points, period);
+        let next = setting.grid.state(&points, period);
         let way = (setting.track, &mut follower);
         if !history.follow(setting.limits, setting.period_t, way, &next) {
             return false;
         }
     }
-    question == Question::IsValid || follower.place.is_at_end(setting.track)
+    question == Question::IsValid || follower.place.is_at_end_of(setting.end - 1)
 }

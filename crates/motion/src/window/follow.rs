@@ -1,7 +1,7 @@
 //! Does a motion follow the path? The check that every motion passes before it is handed out.
 //!
-//! The motion is the polyline through its positions at the periods. It follows the path if both can
-//! be run through together, neither ever going back, without being further apart than the tolerance:
+//! The motion is the polyline through its positions at the periods, and, where time runs slower, the
+//! curve between them ([`super::bend`]). It follows the path if both can be run through together, neither ever going back, without being further apart than the tolerance:
 //! that keeps every point of the motion near the path, and every vertex of the path near the motion,
 //! in order. All pairs (point of path, point of motion) that can be reached so are found chord by
 //! chord of the motion:
@@ -20,6 +20,7 @@
 //! piece as its threshold. Distances are taken by groups of axes: XYZ together, UVW together, each
 //! rotary axis by itself.
 
+use super::bend::Bend;
 use super::track::{Piece, Track};
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 
@@ -81,7 +82,12 @@ impl Place {
 
     /// True if the end of the path has been reached.
     pub(super) fn is_at_end(&self, track: &Track) -> bool {
-        track.is_last(self.last()) && self.spans.last().is_some_and(|span| span.to >= 1.0)
+        track.is_last(self.last()) && self.is_at_end_of(self.last())
+    }
+
+    /// True if the end of piece `index` has been reached, and no later piece.
+    pub(super) fn is_at_end_of(&self, index: usize) -> bool {
+        self.last() == index && self.spans.last().is_some_and(|span| span.to >= 1.0)
     }
 
     /// The place nearest to a position that is not before `(piece, parameter)`.
@@ -130,54 +136,90 @@ impl Place {
     }
 }
 
-/// Walks a motion along a path.
-#[derive(Debug)]
+/// Walks a motion along a path: its chords, and the curve between them.
+#[derive(Debug, Clone)]
 pub(super) struct Follower {
     pub(super) place: Place,
     /// Pieces from this one on are not looked at, though they may be known: what comes out must not
     /// depend on when they became known.
     pub(super) end: usize,
+    /// Places of the curve.
+    curve: Place,
+    /// Memory for the places after a step.
     next: Place,
+    curve_next: [Place; 2],
 }
 
 impl Follower {
     pub(super) fn new(place: Place, end: usize) -> Self {
-        let next = place.clone();
-        Self { place, end, next }
+        Self {
+            end,
+            curve: place.clone(),
+            next: place.clone(),
+            curve_next: [place.clone(), place.clone()],
+            place,
+        }
     }
 
-    /// Goes straight from one position to the next. False if that leaves the path; then the place is
-    /// what it was.
-    pub(super) fn step(&mut self, track: &Track, from: &AxisVector, to: &AxisVector) -> bool {
-        self.next.spans.clear();
-        self.next.first = self.place.first;
-        let end = self.place.first + self.place.spans.len();
-        let mut bottom = Span::EMPTY;
-        let mut index = self.place.first;
-        while index < end || (index < self.end && !bottom.is_empty()) {
-            let Some(piece) = track.get(index) else { break };
-            let left = match self.place.spans.get(index - self.place.first) {
-                Some(span) => *span,
-                None => Span::EMPTY,
-            };
-            let (right, top) = cell(
-                piece,
-                corner_tolerance(track, index),
-                left,
-                bottom,
-                [from, to],
-            );
-            self.next.spans.push(right);
-            bottom = top;
-            index += 1;
+    /// Another one at the same place that looks at pieces up to `end`.
+    pub(super) fn to(&self, end: usize) -> Self {
+        Self {
+            end,
+            ..self.clone()
         }
-        self.next.trim();
-        if self.next.spans.is_empty() {
+    }
+
+    /// The first piece that matters to what comes.
+    pub(super) fn first(&self) -> usize {
+        self.place.first.min(self.curve.first)
+    }
+
+    /// Goes on by a period. False if that leaves the path; then the place is what it was.
+    pub(super) fn step(&mut self, track: &Track, bend: &Bend<'_>) -> bool {
+        let (from, to) = (&bend.from.position, &bend.to.position);
+        let Some(piece) = track.get(self.place.first) else {
+            return false;
+        };
+        if !walk(track, self.end, &self.place, &mut self.next, [from, to]) {
             return false;
         }
+        let [curve, next] = &mut self.curve_next;
+        curve.clone_from(&self.curve);
+        let mut from = *from;
+        for to in bend.points(piece) {
+            if !walk(track, self.end, curve, next, [&from, &to]) {
+                return false;
+            }
+            core::mem::swap(curve, next);
+            from = to;
+        }
+        core::mem::swap(&mut self.curve, curve);
         core::mem::swap(&mut self.place, &mut self.next);
         true
     }
+}
+
+/// Goes straight from one position to the next; `next` is where that leads. False if it leaves the
+/// path.
+fn walk(track: &Track, end: usize, place: &Place, next: &mut Place, way: [&AxisVector; 2]) -> bool {
+    next.spans.clear();
+    next.first = place.first;
+    let known = place.first + place.spans.len();
+    let mut bottom = Span::EMPTY;
+    let mut index = place.first;
+    while index < known || (index < end && !bottom.is_empty()) {
+        let Some(piece) = track.get(index) else { break };
+        let left = match place.spans.get(index - place.first) {
+            Some(span) => *span,
+            None => Span::EMPTY,
+        };
+        let (right, top) = cell(piece, corner_tolerance(track, index), left, bottom, way);
+        next.spans.push(right);
+        bottom = top;
+        index += 1;
+    }
+    next.trim();
+    !next.spans.is_empty()
 }
 
 /// Share of a piece's own tolerance that holds at its end: the smaller one of both sides.

@@ -3,6 +3,7 @@
 //! Only positions at the periods count: differences of first, second and third order against the
 //! limits of every axis, the feed, and the way along the path ([`super::follow`]).
 
+use super::bend::{Bend, State};
 use super::follow::Follower;
 use super::track::Track;
 use crate::Limits;
@@ -11,13 +12,14 @@ use glidepath_geometry::{AXES, AxisVector, feed_length};
 /// A limit counts as kept up to this factor.
 const SLACK: f64 = 1.0 + 5e-7;
 /// The feed counts as kept up to this factor.
-const FEED_SLACK: f64 = 1.0 + 8e-4;
+pub(super) const FEED_SLACK: f64 = 1.0 + 5e-4;
 
 /// The last positions handed out.
 #[derive(Debug, Clone)]
 pub(super) struct History {
     /// Newest first.
     recent: [AxisVector; 3],
+    state: State,
     /// Speed that is allowed although the feed is less: what it was before a change of rates. Zero
     /// once the motion has slowed down.
     pub(super) overspeed_v: f64,
@@ -28,16 +30,13 @@ impl History {
     pub(super) fn new(position: AxisVector) -> Self {
         Self {
             recent: [position; 3],
+            state: State::rest(position),
             overspeed_v: 0.0,
         }
     }
 
     pub(super) fn last(&self) -> AxisVector {
         self.recent[0]
-    }
-
-    pub(super) fn push(&mut self, position: AxisVector) {
-        self.recent = [position, self.recent[0], self.recent[1]];
     }
 
     /// True if every axis keeps its limits on the way to the next position.
@@ -62,17 +61,24 @@ impl History {
         limits: &Limits,
         period_t: f64,
         (track, follower): (&Track, &mut Follower),
-        next: &AxisVector,
+        next: &State,
     ) -> bool {
         let from = follower.place.first;
-        if !self.allows(limits, period_t, next) || !follower.step(track, &self.recent[0], next) {
+        let position = next.position;
+        let bend = Bend {
+            from: &self.state,
+            to: next,
+            period_t,
+        };
+        if !self.allows(limits, period_t, &position) || !follower.step(track, &bend) {
             return false;
         }
-        let speed_v = feed_length(&(next - self.recent[0])) / period_t;
+        let speed_v = feed_length(&(position - self.recent[0])) / period_t;
         let feed_v = (from..=follower.place.last())
             .filter_map(|index| track.get(index))
             .fold(0.0_f64, |most, piece| most.max(piece.top_v));
-        self.push(*next);
+        self.recent = [position, self.recent[0], self.recent[1]];
+        self.state = *next;
         if speed_v <= feed_v {
             self.overspeed_v = 0.0;
         }

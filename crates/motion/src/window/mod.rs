@@ -25,13 +25,16 @@
 )]
 
 mod attempt;
+mod bend;
 mod cuts;
 mod follow;
 mod guess;
 mod judge;
+mod lead;
 mod legs;
 mod opening;
 mod optimiser;
+mod planning;
 mod rounds;
 mod samples;
 mod scene;
@@ -44,10 +47,11 @@ mod track;
 mod tube;
 
 use crate::Limits;
-use attempt::{Optimisers, Setting, View};
+use attempt::Optimisers;
 use follow::{Follower, Place};
-use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC};
+use glidepath_geometry::AxisVector;
 use judge::History;
+use lead::Rival;
 use spline::Grid;
 use stop_leg::StopLeg;
 use track::Track;
@@ -111,13 +115,15 @@ const MOST_LEGS: usize = 32;
 enum Force {
     /// At rest.
     Nothing,
-    /// Legs to the next vertices, so many of them; time since the start of the one under way.
+    /// Legs from vertex to vertex: the one under way, the time since its start, how many are to end
+    /// before a window is tried; rates have changed since its start.
     Legs {
         leg: Option<Box<StopLeg>>,
         leg_t: f64,
-        left: usize,
+        wait: usize,
+        is_stale: bool,
     },
-    /// A window that ends at rest, and periods of it that have been handed out.
+    /// A window that ends at rest, periods of it that have been handed out and that will be.
     Window {
         points: Vec<AxisVector>,
         is_end: bool,
@@ -141,6 +147,10 @@ pub(crate) struct WindowPlanner {
     optimisers: Optimisers,
     /// Legs to run when the next window is refused: the more, the more have been.
     legs: usize,
+    /// Stopping at every vertex; `None` after rates have changed, until the next rest.
+    rival: Option<Rival>,
+    /// Periods handed out.
+    clock: usize,
     is_over: bool,
 }
 
@@ -158,6 +168,8 @@ impl WindowPlanner {
             grid: None,
             optimisers: Optimisers::default(),
             legs: 1,
+            rival: None,
+            clock: 0,
             is_over: false,
         }
     }
@@ -186,20 +198,23 @@ impl WindowPlanner {
     pub(crate) fn set_rates(&mut self, rate_of: impl FnMut(u64) -> f64) {
         let before_v = self.track.top_v();
         self.track.set_rates(rate_of);
-        self.history.overspeed_v = self.history.overspeed_v.max(before_v * (1.0 + 8e-4));
-        if let (
-            Force::Window {
-                is_end,
-                done,
-                commit,
-                points,
-            },
-            Some(grid),
-        ) = (&mut self.force, &self.grid)
-        {
-            *is_end = false;
-            *commit = (*commit).min(done.div_ceil(grid.periods) * grid.periods);
-            let _ = points;
+        self.history.overspeed_v = self.history.overspeed_v.max(before_v * judge::FEED_SLACK);
+        self.rival = None;
+        match (&mut self.force, &self.grid) {
+            (
+                Force::Window {
+                    is_end,
+                    done,
+                    commit,
+                    ..
+                },
+                Some(grid),
+            ) => {
+                *is_end = false;
+                *commit = (*commit).min(done.div_ceil(grid.periods) * grid.periods);
+            }
+            (Force::Legs { is_stale, .. }, _) => *is_stale = true,
+            _ => {}
         }
     }
 
@@ -215,13 +230,13 @@ impl WindowPlanner {
                 Force::Window { done, commit, .. } if done < commit => {
                     break self.next_of_window()?;
                 }
-                Force::Legs { .. } => match self.next_of_legs()? {
-                    Some(period) => break period,
-                    None => self.force = Force::Nothing,
-                },
+                Force::Legs { leg: Some(_), .. } if !self.is_trial_due() => {
+                    break self.next_of_legs()?;
+                }
                 _ => self.plan()?,
             }
         };
+        self.clock += 1;
         let place = &self.follower.place;
         self.progress = place.nearest(&self.track, &period.position, self.progress);
         if let Some(piece) = self.track.get(self.progress.0) {
@@ -229,8 +244,11 @@ impl WindowPlanner {
             period.tag = piece.tag;
             period.path_v = piece.path_v(&period.velocity);
         }
-        self.track
-            .forget_before(self.follower.place.first.min(self.progress.0));
+        let kept = self.follower.first().min(self.progress.0);
+        self.track.forget_before(kept);
+        if let Some(rival) = &mut self.rival {
+            rival.forget_before(kept);
+        }
         period.rest_at_end = self.is_over;
         Some(period)
     }
@@ -248,132 +266,18 @@ impl WindowPlanner {
         };
         let grid = self.grid.as_ref()?;
         *done += 1;
-        let position = grid.position(points, *done);
-        let [velocity, acceleration] = grid.derivatives(points, *done);
+        let state = grid.state(points, *done);
         self.is_over = *is_end && *done == grid.periods_in(points.len() - 3);
         let way = (&self.track, &mut self.follower);
         let is_kept = self
             .history
-            .follow(&self.limits, self.period_t, way, &position);
+            .follow(&self.limits, self.period_t, way, &state);
         // Too fast for a rate that was lowered meanwhile is all that it may be.
-        let is_followed = is_kept || self.history.last() == position;
+        let is_followed = is_kept || self.history.last() == state.position;
         is_followed.then_some(Period {
-            velocity,
-            acceleration,
-            ..Period::rest(position)
+            velocity: state.velocity,
+            acceleration: state.acceleration,
+            ..Period::rest(state.position)
         })
     }
-
-    /// Plans the next window, or legs where none is found. `None` if more of the path is needed.
-    fn plan(&mut self) -> Option<()> {
-        let grid = match self.grid {
-            Some(grid) => grid,
-            None => wanted_grid(&self.limits, self.period_t, self.track.get(0)?),
-        };
-        self.grid = Some(grid);
-        let first = self.follower.place.first;
-        let view = View::new(&self.limits, &self.track, &grid, first, self.progress)?;
-        let tail = self.tail(&grid);
-        let commit = grid.periods_in(grid.whole_periods(view.intervals / 3).max(grid.knots));
-        let setting = Setting {
-            limits: &self.limits,
-            period_t: self.period_t,
-            grid: &grid,
-            track: &self.track,
-            history: &self.history,
-            follower: &self.follower,
-            progress: self.progress,
-            end: view.pieces.end,
-            commit,
-        };
-        let is_at_rest = tail.iter().all(|point| *point == tail[0]);
-        let legs_t = self.legs_t(&view).filter(|_| is_at_rest);
-        let is_one_line = legs_t.is_some() && view.pieces.end - self.progress.0 == 1;
-        let motion = match is_one_line {
-            true => None,
-            false => self.optimisers.attempt(&setting, &view, &tail),
-        };
-        let motion = motion.filter(|motion| {
-            let periods = grid.periods_in(motion.points.len() - 3);
-            #[expect(clippy::cast_precision_loss, reason = "hundreds")]
-            let before_last_t = (periods.max(1) - 1) as f64 * self.period_t;
-            // Never slower than stopping at every vertex.
-            !motion.is_end || legs_t.is_none_or(|legs_t| before_last_t < legs_t)
-        });
-        // Never less than before: what is left of the last window may go as far as that one saw.
-        self.follower.end = self.follower.end.max(view.pieces.end);
-        self.force = match motion {
-            Some(motion) => {
-                self.legs = 1;
-                let all = grid.periods_in(motion.points.len() - 3);
-                Force::Window {
-                    commit: if motion.is_end { all } else { commit },
-                    points: motion.points,
-                    is_end: motion.is_end,
-                    done: 0,
-                }
-            }
-            None if is_at_rest && self.is_at_end() => {
-                self.is_over = true;
-                return None;
-            }
-            None if is_at_rest => {
-                let left = self.legs;
-                self.legs = (2 * self.legs).min(MOST_LEGS);
-                Force::Legs {
-                    leg: None,
-                    leg_t: 0.0,
-                    left,
-                }
-            }
-            None => Force::Window {
-                commit,
-                points: tail,
-                is_end: false,
-                done: 0,
-            },
-        };
-        Some(())
-    }
-
-    /// True if the motion handed out so far is exactly at the end of the path.
-    fn is_at_end(&self) -> bool {
-        let end = self
-            .track
-            .get(self.follower.place.last())
-            .map(|piece| piece.end);
-        self.follower.place.is_at_end(&self.track) && end == Some(self.history.last())
-    }
-
-    /// The motion from the present knot to rest that is known to work.
-    fn tail(&self, grid: &Grid) -> Vec<AxisVector> {
-        match &self.force {
-            Force::Window { points, done, .. } => {
-                let passed = done * grid.knots / grid.periods;
-                let last = points.len() - 1;
-                (passed..passed.max(last - 2) + 3)
-                    .map(|k| points[k.min(last)])
-                    .collect()
-            }
-            _ => vec![self.history.last(); 4],
-        }
-    }
-}
-
-/// Half the time in which jerk strays by a tolerance: the grid on which corners are still resolved.
-fn wanted_grid(limits: &Limits, period_t: f64, piece: &track::Piece) -> Grid {
-    let moved = piece.end - piece.start;
-    let wanted_t = (0..AXES)
-        .filter(|&i| moved[i] != 0.0)
-        .map(|i| {
-            let is_rotary = ROTARY_ABC.contains(&i);
-            let tolerance = if is_rotary {
-                piece.tolerance_deg
-            } else {
-                piece.tolerance_mm
-            };
-            0.5 * (tolerance / limits.jerk[i]).cbrt()
-        })
-        .fold(f64::INFINITY, f64::min);
-    Grid::new(period_t, wanted_t)
 }

@@ -11,6 +11,8 @@ pub(super) struct Opening<'a, const D: usize> {
     /// A motion from the start state to rest: the one to fall back on. Its number of control points
     /// sets that of the window.
     pub(super) tail: &'a [[f64; D]],
+    /// The tail keeps the rates: it tells where to start from, and a window is to go further.
+    pub(super) keeps_rates: bool,
     /// Piece of the scene and progress on which it starts.
     pub(super) piece: usize,
     pub(super) progress: f64,
@@ -39,6 +41,9 @@ impl<const D: usize> Opening<'_, D> {
     /// From which sample on the tail rests, and from which it may be slowing down for that.
     pub(super) fn tail_ends(&self, scene: &Scene<D>) -> (usize, usize) {
         let tail = self.tail;
+        if !self.keeps_rates {
+            return (0, 0);
+        }
         let last = tail[tail.len() - 1];
         let differs = |point: &[f64; D]| point.iter().zip(&last).any(|(a, b)| (a - b).abs() > 0.0);
         let moving = tail.iter().rposition(differs).map_or(0, |k| k + 1);

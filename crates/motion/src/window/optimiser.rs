@@ -49,8 +49,10 @@ const ENOUGH_VIOLATION: f64 = 0.02;
 const SOLVER_ITERATIONS: usize = 40;
 /// Lines may leave the path by this many radii while searching.
 const SEARCH_STRAY_R: f64 = 12.0;
-/// Interior point iterations after which a window is given up.
-const MOST_WORK: usize = 450;
+/// Work of the solver after which a window is given up, and more for its end; for two or three axes
+/// (more axes may cost more), in multiplications: some nanosecond each.
+const MOST_WORK: usize = 30_000_000;
+const MOST_FINISH_WORK: usize = 10_000_000;
 
 /// A motion that has passed.
 #[derive(Debug, Clone)]
@@ -116,12 +118,15 @@ impl<const D: usize> Optimiser<D> {
             (&opening.grid, opening.period_t),
             false,
         );
+        if !opening.keeps_rates {
+            self.samples.progress.fill(opening.progress);
+        }
         let tail_progress = self.samples.progress.clone();
         let tail_mean = self.samples.mean();
         let (rest_at, stop_at) = opening.tail_ends(scene);
         let mut found = Found {
             best: None,
-            most_iterations: self.interior.iterations + MOST_WORK,
+            most_work: self.interior.work + MOST_WORK * D.max(3) / 3,
         };
         for attempt in 0..=PACES.len() {
             self.samples.progress.clone_from(&tail_progress);
@@ -136,7 +141,7 @@ impl<const D: usize> Optimiser<D> {
                 None => opening.play_stops(scene, progress, rest_at),
             }
             self.iterate(scene, opening, attempt > 0, judge, &mut found);
-            if found.best.is_some() || self.interior.iterations > found.most_iterations {
+            if found.best.is_some() || self.interior.work > found.most_work {
                 break;
             }
         }
@@ -177,7 +182,7 @@ impl<const D: usize> Optimiser<D> {
         };
         for (number, phase) in PHASES.iter().enumerate() {
             for round in 0..phase.search + phase.polish {
-                if self.interior.iterations > found.most_iterations {
+                if self.interior.work > found.most_work {
                     return;
                 }
                 if round <= phase.search {
@@ -304,8 +309,9 @@ impl<const D: usize> Optimiser<D> {
         let mut shortest: Option<Vec<[f64; D]>> = None;
         let mut progress = progress.to_vec();
         let mut count = first;
+        let most_work = self.interior.work + MOST_FINISH_WORK * D.max(3) / 3;
         for _ in 0..FINISHES {
-            if count < 6 || count > intervals {
+            if count < 6 || count > intervals || self.interior.work > most_work {
                 break;
             }
             self.samples.progress.clone_from(&progress);

@@ -9,8 +9,8 @@ const LITTLE_GAIN: f64 = 1e-4;
 #[derive(Debug)]
 pub(super) struct Found<const D: usize> {
     pub(super) best: Option<(f64, Vec<[f64; D]>, Samples)>,
-    /// Iterations of the solver up to which there is something left to spend.
-    pub(super) most_iterations: usize,
+    /// Work of the solver up to which there is something left to spend.
+    pub(super) most_work: usize,
 }
 
 impl<const D: usize> Found<D> {

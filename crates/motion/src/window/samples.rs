@@ -90,6 +90,8 @@ impl Samples {
         self.worst_r = 0.0;
         for k in 1..=self.count() {
             let y = sample(points, grid, k);
+            let (first, weights) = grid.middle_site(k);
+            let middle = nearest(scene, &combine(points, first, &weights), at, period_t);
             let (piece, s, distance) = nearest(scene, &y, at, period_t);
             at = (piece, s);
             self.progress[k] = s;
@@ -101,6 +103,13 @@ impl Samples {
             }
             if distance_r > 0.9995 && distance_r < 1.5 {
                 self.shrink[k] = (self.shrink[k] * 0.998 / distance_r).max(0.7);
+            }
+            // What lies between two samples is kept in by both of them.
+            let middle_r = middle.2 / scene.chords[middle.0].radius;
+            if middle_r > 0.9995 && middle_r < 1.5 && middle_r > distance_r {
+                for shrink in &mut self.shrink[k - 1..=k] {
+                    *shrink = (*shrink * 0.998 / middle_r).max(0.7);
+                }
             }
         }
     }

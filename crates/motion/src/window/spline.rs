@@ -1,5 +1,6 @@
 //! Uniform cubic B-splines in time, and the grid of knots against the grid of periods.
 
+use super::bend::State;
 use super::solver::SPAN;
 use glidepath_geometry::AxisVector;
 
@@ -89,6 +90,14 @@ impl Grid {
         (first, widen(basis(u), 0))
     }
 
+    /// First control point and weights of the middle of a period ≥ 1, given by its end.
+    pub(super) fn middle_site(&self, period: usize) -> (usize, [f64; SPAN]) {
+        let steps = (2 * period - 1) * self.knots;
+        #[expect(clippy::cast_precision_loss, reason = "at most sixteen")]
+        let u = (steps % (2 * self.periods)) as f64 / (2 * self.periods) as f64;
+        (steps / (2 * self.periods), widen(basis(u), 0))
+    }
+
     /// First control point and weights of a point of the straight line from the end of one period to
     /// that of the next, at parameter `lambda`.
     pub(super) fn chord_site(&self, period: usize, lambda: f64) -> (usize, [f64; SPAN]) {
@@ -122,6 +131,16 @@ impl Grid {
             }
         }
         sum
+    }
+
+    /// The state at the end of a period.
+    pub(super) fn state(&self, points: &[AxisVector], period: usize) -> State {
+        let [velocity, acceleration] = self.derivatives(points, period);
+        State {
+            position: self.position(points, period),
+            velocity,
+            acceleration,
+        }
     }
 
     /// Position at the end of a period, counted from the first knot of the control points.

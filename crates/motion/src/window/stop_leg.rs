@@ -58,6 +58,26 @@ impl StopLeg {
         self.profile.duration_t()
     }
 
+    /// When it begins to slow down for its end, s after its start: at once if it has not the length
+    /// for its top speed.
+    pub(super) fn eager_t(&self) -> f64 {
+        let cruise_t = self.profile.cruise_t();
+        if cruise_t.is_empty() {
+            0.0
+        } else {
+            cruise_t.end
+        }
+    }
+
+    /// Where it is `t` ≥ 0 seconds after the start; at its end from then on.
+    pub(super) fn position(&self, t: f64) -> AxisVector {
+        if t >= self.duration_t() {
+            self.to
+        } else {
+            self.at(t).position
+        }
+    }
+
     /// The state `t` seconds after the start, 0 ≤ t < duration; where on the path that is, is not
     /// known here.
     pub(super) fn at(&self, t: f64) -> Period {

@@ -23,6 +23,11 @@ const BACK_OFF: f64 = 0.99;
 /// Largest residual of the rows of a solution.
 const RESIDUAL: f64 = 1e-7;
 
+/// Multiplications and divisions for a row, its two sides and both directions.
+const ROW_WORK: usize = 80;
+/// Products of blocks for each block row of the matrix, factored and solved with.
+const FACTOR_PRODUCTS: usize = 16;
+
 /// When to stop.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::window) struct Goal {
@@ -43,8 +48,9 @@ pub(in crate::window) struct Interior<const D: usize> {
     /// Coefficients of the differences, by order and first control point, folded at the end.
     stencils: [Vec<[f64; 4]>; 3],
     orders: [bool; 3],
-    /// Iterations so far, over all problems: the measure of work.
-    pub(in crate::window) iterations: usize,
+    /// Multiplications so far, over all problems, as far as they grow with a problem's size: the
+    /// measure of work.
+    pub(in crate::window) work: usize,
 }
 
 impl<const D: usize> Interior<D> {
@@ -56,7 +62,7 @@ impl<const D: usize> Interior<D> {
             d_rows: Vec::new(),
             stencils: [Vec::new(), Vec::new(), Vec::new()],
             orders: [true; 3],
-            iterations: 0,
+            work: 0,
         }
     }
 
@@ -71,6 +77,7 @@ impl<const D: usize> Interior<D> {
         let pairs = self.prepare(problem);
         self.evaluate(problem, x);
         self.sides.start();
+        let work = self.work_of_iteration(problem);
         for _ in 0..goal.iterations {
             let (mu, residual) = self.sides.state(pairs);
             if mu < goal.mu && residual < RESIDUAL {
@@ -79,7 +86,7 @@ impl<const D: usize> Interior<D> {
             if !(mu.is_finite() && residual.is_finite()) {
                 return false;
             }
-            self.iterations += 1;
+            self.work += work;
             self.sides.aim_at_zero();
             self.sides.weigh();
             self.assemble(problem, goal.damping);
@@ -100,6 +107,17 @@ impl<const D: usize> Interior<D> {
         }
         let (mu, residual) = self.sides.state(pairs);
         mu < goal.mu && residual < RESIDUAL
+    }
+
+    /// Multiplications of an iteration: every row goes through both directions and, with its square,
+    /// into the matrix, which is factored once.
+    fn work_of_iteration(&self, problem: &Problem<D>) -> usize {
+        let axis_rows: usize = self.stencils.iter().map(|of| D * of.len()).sum();
+        let rows = problem.rows.len();
+        let of_sides = ROW_WORK * (axis_rows + rows);
+        let of_matrix = rows * D * D + SPAN * (SPAN + 1) / 2 * problem.sites.len() * D * D;
+        let of_factor = problem.intervals * FACTOR_PRODUCTS * D * D * D;
+        of_sides + of_matrix + of_factor
     }
 
     /// How much the elastic rows of the last solution are violated at most.

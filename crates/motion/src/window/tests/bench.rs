@@ -87,7 +87,7 @@ fn bench() {
         let mut case = Case::mill(points);
         if is_light {
             case.limits = Limits::uniform(100.0, 10_000.0, 1e6);
-            case.tolerance_mm = 0.03;
+            case.tolerance_mm = 0.05;
             case.feed_v = 5000.0 / 60.0;
         }
         let mut planned = Case {

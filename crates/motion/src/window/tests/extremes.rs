@@ -75,21 +75,61 @@ fn no_path_is_over_at_once() {
     assert!(case.plan().is_empty());
 }
 
-#[test]
-fn in_micrometres_the_same_motion_takes_the_same_time() {
-    let case = Case::mill(plane(&[
-        (0.0, 0.0),
-        (2.0, 0.0),
-        (2.0, 1.0),
-        (3.0, 1.3),
-        (3.1, 0.0),
-    ]));
+/// The same case in a unit that many times smaller. A power of two, so that every product of lengths
+/// is scaled exactly, and the motions must be alike to the bit.
+fn in_smaller_unit(case: &Case, factor: f64) -> Case {
     let mut scaled = case.clone();
-    scaled.limits = Limits::uniform(200e3, 2000e3, 40_000e3);
-    scaled.tolerance_mm *= 1e3;
-    scaled.feed_v *= 1e3;
-    for point in &mut scaled.points {
-        *point *= 1e3;
+    let limits = &mut scaled.limits;
+    for of_axes in [
+        &mut limits.velocity,
+        &mut limits.acceleration,
+        &mut limits.jerk,
+    ] {
+        *of_axes *= factor;
     }
-    assert_eq!(case.plan().len(), scaled.plan().len());
+    scaled.tolerance_mm *= factor;
+    scaled.feed_v *= factor;
+    for point in &mut scaled.points {
+        *point *= factor;
+    }
+    scaled
+}
+
+proptest! {
+    #![proptest_config(cases(4))]
+    #[test]
+    fn in_another_unit_it_is_the_same_motion(seed: u64, is_light: bool) {
+        let case = random_case(seed, is_light);
+        let plain = case.plan();
+        for factor in [1024.0, 1.0 / 1024.0] {
+            let scaled = in_smaller_unit(&case, factor).plan();
+            assert_eq!(plain.len(), scaled.len());
+            for (a, b) in plain.iter().zip(&scaled) {
+                assert_eq!(a.position * factor, b.position);
+            }
+        }
+    }
+}
+
+#[test]
+fn legs_go_to_the_very_end_of_a_last_piece_shorter_than_the_tolerance() {
+    let case = Case::mill(plane(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.005)]));
+    let mut planner = case.planner();
+    for reference in case.references() {
+        planner.push(reference);
+    }
+    planner.finish();
+    let leg = planner.leg_from(case.points[0], 0).expect("a leg");
+    planner.force = Force::Legs {
+        leg: Some(Box::new(leg)),
+        leg_t: 0.0,
+        wait: usize::MAX,
+        is_stale: false,
+    };
+    let periods: Vec<_> = core::iter::from_fn(|| planner.next_period()).collect();
+    assert_clean(&case, &periods);
+    assert_eq!(
+        periods.last().map(|last| last.position),
+        Some(case.points[2])
+    );
 }

@@ -1,0 +1,130 @@
+//! The motion between two periods, as it is when time runs slower.
+//!
+//! At 100 % the positions at the periods are all there is. Under an override, in a hold, the motion
+//! between two of them is the quintic polynomial through both states, and it bulges out of the chord:
+//!
+//! ```text
+//!        bulge ╭──·──╮      by about a·T²/8 in the middle; in n parts, by 1/n² of that
+//!             ╱       ╲
+//!            ●─────────●
+//! ```
+
+use super::Period;
+use super::track::Piece;
+use glidepath_geometry::AxisVector;
+
+/// What the motion may bulge out of the chords of the parts, in tolerances.
+const BULGE_R: f64 = 1e-3;
+/// Most parts of a period.
+const MOST_PARTS: f64 = 16.0;
+
+/// Position, velocity and acceleration.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct State {
+    pub(super) position: AxisVector,
+    pub(super) velocity: AxisVector,
+    pub(super) acceleration: AxisVector,
+}
+
+impl State {
+    /// At rest somewhere.
+    pub(super) fn rest(position: AxisVector) -> Self {
+        Self {
+            position,
+            velocity: AxisVector::zeros(),
+            acceleration: AxisVector::zeros(),
+        }
+    }
+}
+
+impl From<&Period> for State {
+    fn from(period: &Period) -> Self {
+        Self {
+            position: period.position,
+            velocity: period.velocity,
+            acceleration: period.acceleration,
+        }
+    }
+}
+
+/// The motion of a period.
+#[derive(Debug)]
+pub(super) struct Bend<'a> {
+    pub(super) from: &'a State,
+    pub(super) to: &'a State,
+    pub(super) period_t: f64,
+}
+
+impl Bend<'_> {
+    /// Points after the first, near enough to each other that the motion is hardly off their chords
+    /// in the tolerance of a piece.
+    pub(super) fn points(&self, piece: &Piece) -> impl Iterator<Item = AxisVector> {
+        let (from, to, t) = (self.from, self.to, self.period_t);
+        let chord = to.position - from.position;
+        let mut bulge = (from.velocity - to.velocity) * (t * 5.0 / 32.0)
+            + (from.acceleration + to.acceleration) * (t * t / 64.0);
+        let along = bulge.dot(&chord) / chord.norm_squared();
+        if along.is_finite() {
+            bulge -= chord * along;
+        }
+        let parts = (piece.distance_r(&bulge) / BULGE_R)
+            .sqrt()
+            .ceil()
+            .clamp(1.0, MOST_PARTS);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "clamped"
+        )]
+        let count = parts as u32;
+        (1..=count).map(move |k| {
+            if k == count {
+                to.position
+            } else {
+                self.at(f64::from(k) / parts)
+            }
+        })
+    }
+
+    /// The position at a part of the period.
+    fn at(&self, u: f64) -> AxisVector {
+        let (from, to, t) = (self.from, self.to, self.period_t);
+        let (u_2, u_3) = (u * u, u * u * u);
+        let end = u_3 * (10.0 - 15.0 * u + 6.0 * u_2);
+        let start_v = u - u_3 * (6.0 - 8.0 * u + 3.0 * u_2);
+        let start_a = 0.5 * u_2 - u_3 * (1.5 - 1.5 * u + 0.5 * u_2);
+        let end_v = -u_3 * (4.0 - 7.0 * u + 3.0 * u_2);
+        let end_a = u_3 * (0.5 - u + 0.5 * u_2);
+        from.position
+            + (to.position - from.position) * end
+            + (from.velocity * start_v + to.velocity * end_v) * t
+            + (from.acceleration * start_a + to.acceleration * end_a) * (t * t)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_motion_of_constant_jerk_is_its_own_quintic() {
+        let at = |t: f64| {
+            let mut state = State::rest(AxisVector::zeros());
+            (state.position[0], state.position[1]) =
+                (2.0 * t, 1.0 + t + 3.0 * t * t - 5.0 * t * t * t);
+            (state.velocity[0], state.velocity[1]) = (2.0, 1.0 + 6.0 * t - 15.0 * t * t);
+            state.acceleration[1] = 6.0 - 30.0 * t;
+            state
+        };
+        let (from, to) = (at(0.0), at(0.5));
+        let bend = Bend {
+            from: &from,
+            to: &to,
+            period_t: 0.5,
+        };
+        for k in 0..=10 {
+            let u = f64::from(k) / 10.0;
+            assert!((bend.at(u) - at(0.5 * u).position).amax() < 1e-12, "{u}");
+        }
+    }
+}
