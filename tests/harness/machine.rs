@@ -26,7 +26,7 @@ pub fn settings() -> Settings {
         tolerance_mm: 0.02,
         smoothing: Smoothing::Sextic,
         period_t: 0.004,
-        effort: Effort::Fast,
+        effort: Effort::default(),
     }
 }
 

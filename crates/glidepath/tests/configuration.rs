@@ -44,7 +44,7 @@ fn the_embedded_machine_is_the_mill() {
     assert_eq!(settings.tolerance_mm, 0.02);
     assert_eq!(settings.period_t, 0.004);
     assert_eq!(settings.smoothing, Smoothing::default());
-    assert_eq!(settings.effort, Effort::Fast);
+    assert_eq!(settings.effort, Effort::Optimal);
     assert_eq!(settings.limits.jerk[Axis::A.index()], Limits::UNLIMITED);
     assert_eq!(config.instance, None);
 }

@@ -274,7 +274,7 @@ impl Judge {
             effort: self.choice(
                 "path.effort",
                 raw.effort,
-                &[("fast", Effort::Fast), ("optimal", Effort::Optimal)],
+                &[("optimal", Effort::Optimal), ("fast", Effort::Fast)],
             ),
             default_feed: raw
                 .default_feed
