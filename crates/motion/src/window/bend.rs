@@ -8,6 +8,9 @@
 //!             ╱       ╲
 //!            ●─────────●
 //! ```
+//!
+//! And when it has run slower for a while, periods end elsewhere: then chords cut off what the motion
+//! bulges out, and the vertices must be nearer to it by that.
 
 use super::Period;
 use super::track::Piece;
@@ -56,17 +59,35 @@ pub(super) struct Bend<'a> {
 }
 
 impl Bend<'_> {
+    /// What a chord that is one period long may cut off, wherever on the motion it begins, in
+    /// tolerances of a piece: a·T²/8 across.
+    pub(super) fn sagitta_r(&self, piece: &Piece) -> f64 {
+        let part = self.period_t * self.period_t / 8.0;
+        [self.from, self.to]
+            .map(|state| piece.distance_r(&self.across(&(state.acceleration * part))))
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
+
+    /// The part of a vector across the chord.
+    fn across(&self, vector: &AxisVector) -> AxisVector {
+        let chord = self.to.position - self.from.position;
+        let along = vector.dot(&chord) / chord.norm_squared();
+        if along.is_finite() {
+            vector - chord * along
+        } else {
+            *vector
+        }
+    }
+
     /// Points after the first, near enough to each other that the motion is hardly off their chords
     /// in the tolerance of a piece.
     pub(super) fn points(&self, piece: &Piece) -> impl Iterator<Item = AxisVector> {
         let (from, to, t) = (self.from, self.to, self.period_t);
-        let chord = to.position - from.position;
-        let mut bulge = (from.velocity - to.velocity) * (t * 5.0 / 32.0)
-            + (from.acceleration + to.acceleration) * (t * t / 64.0);
-        let along = bulge.dot(&chord) / chord.norm_squared();
-        if along.is_finite() {
-            bulge -= chord * along;
-        }
+        let bulge = self.across(
+            &((from.velocity - to.velocity) * (t * 5.0 / 32.0)
+                + (from.acceleration + to.acceleration) * (t * t / 64.0)),
+        );
         let parts = (piece.distance_r(&bulge) / BULGE_R)
             .sqrt()
             .ceil()
@@ -87,7 +108,7 @@ impl Bend<'_> {
     }
 
     /// The position at a part of the period.
-    fn at(&self, u: f64) -> AxisVector {
+    pub(super) fn at(&self, u: f64) -> AxisVector {
         let (from, to, t) = (self.from, self.to, self.period_t);
         let (u_2, u_3) = (u * u, u * u * u);
         let end = u_3 * (10.0 - 15.0 * u + 6.0 * u_2);

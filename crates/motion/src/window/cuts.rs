@@ -9,6 +9,7 @@ use super::samples::{Samples, sample};
 use super::scene::Scene;
 use super::solver::{combine, dot};
 use super::spline::Grid;
+use super::tube::{CLOSE_R, SHARP};
 
 /// Planes kept for each ball.
 const KEPT: usize = 5;
@@ -114,10 +115,15 @@ impl<const D: usize> Cuts<D> {
             let piece = samples.piece[k];
             self.learn_sample(scene, (k, piece), &sample(points, grid, k));
             for i in samples.piece[k - 1]..piece {
-                let (_, off) = nearest_to_corner(scene, points, (i, k), grid);
+                let off = nearest_to_corner(scene, points, (i, k, samples.count()), grid).off;
                 let radius = scene.chords[i].radius.min(scene.chords[i + 1].radius);
                 let distance = dot(&off, &off).sqrt();
-                if distance > WORTH_R * radius {
+                let worth_r = if scene.turn(i, i + 1) > SHARP {
+                    WORTH_R
+                } else {
+                    CLOSE_R
+                };
+                if distance > worth_r * radius {
                     let plane = Plane {
                         normal: off.map(|o| o / distance),
                         center: scene.chords[i + 1].start,
@@ -170,14 +176,44 @@ impl<const D: usize> Cuts<D> {
     }
 }
 
-/// Where the line from the sample before `k` to sample `k` is nearest to the corner at the end of
-/// piece `i`: its parameter, and how far off in what direction.
+/// Periods before and after the one in which samples change pieces, in which a corner may be passed.
+const NEAR_PERIODS: usize = 2;
+
+/// How a motion passes a corner.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Passing<const D: usize> {
+    /// The sample after it.
+    pub(super) sample: usize,
+    /// The parameter of the nearest point since the sample before, and how far off it is.
+    pub(super) lambda: f64,
+    pub(super) off: [f64; D],
+    /// What a chord of one period may cut off there.
+    pub(super) sagitta: f64,
+}
+
+/// How a motion passes the corner at the end of piece `i` near sample `k` of so many.
 pub(super) fn nearest_to_corner<const D: usize>(
+    scene: &Scene<D>,
+    points: &[[f64; D]],
+    (i, k, count): (usize, usize, usize),
+    grid: &Grid,
+) -> Passing<D> {
+    let mut best = passing(scene, points, (i, k), grid);
+    for k in k.saturating_sub(NEAR_PERIODS).max(1)..=(k + NEAR_PERIODS).min(count) {
+        let other = passing(scene, points, (i, k), grid);
+        if dot(&other.off, &other.off) < dot(&best.off, &best.off) {
+            best = other;
+        }
+    }
+    best
+}
+
+fn passing<const D: usize>(
     scene: &Scene<D>,
     points: &[[f64; D]],
     (i, k): (usize, usize),
     grid: &Grid,
-) -> (f64, [f64; D]) {
+) -> Passing<D> {
     let vertex = &scene.chords[i + 1].start;
     let (from, to) = (sample(points, grid, k - 1), sample(points, grid, k));
     let along: [f64; D] = core::array::from_fn(|a| to[a] - from[a]);
@@ -188,9 +224,22 @@ pub(super) fn nearest_to_corner<const D: usize>(
     } else {
         0.5
     };
-    let (first, weights) = grid.chord_site(k - 1, lambda);
+    let (first, weights) = grid.inner_site(k - 1, lambda);
     let nearest = combine(points, first, &weights);
-    (lambda, core::array::from_fn(|a| nearest[a] - vertex[a]))
+    let bend = |k: usize| {
+        let (first, weights) = grid.bend_site(k);
+        let bend = combine(points, first, &weights);
+        let part = dot(&bend, &along) / dot(&along, &along);
+        let part = if part.is_finite() { part } else { 0.0 };
+        let across: [f64; D] = core::array::from_fn(|a| bend[a] - part * along[a]);
+        dot(&across, &across).sqrt()
+    };
+    Passing {
+        sample: k,
+        lambda,
+        off: core::array::from_fn(|a| nearest[a] - vertex[a]),
+        sagitta: bend(k - 1).max(bend(k)) / 8.0,
+    }
 }
 
 /// The pieces that the first difference from control point `k` on has a part in.

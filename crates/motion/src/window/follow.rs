@@ -145,10 +145,19 @@ pub(super) struct Follower {
     pub(super) end: usize,
     /// Places of the curve.
     curve: Place,
+    /// Places of chords that begin at other parts of a period, and where their last ones end.
+    phases: [Place; PHASES.len()],
+    phase_ends: Option<[AxisVector; PHASES.len()]>,
     /// Memory for the places after a step.
     next: Place,
     curve_next: [Place; 2],
+    phases_next: [Place; PHASES.len()],
 }
+
+/// Parts of a period at which chords begin, if time has run slower for a while.
+const PHASES: [f64; 3] = [0.25, 0.5, 0.75];
+/// Of what a chord cuts off, the part by which one that begins between them may cut off more.
+const BETWEEN_PHASES: f64 = 1.0 / 16.0;
 
 impl Follower {
     pub(super) fn new(place: Place, end: usize) -> Self {
@@ -157,6 +166,9 @@ impl Follower {
             curve: place.clone(),
             next: place.clone(),
             curve_next: [place.clone(), place.clone()],
+            phases: PHASES.map(|_| place.clone()),
+            phases_next: PHASES.map(|_| place.clone()),
+            phase_ends: None,
             place,
         }
     }
@@ -171,7 +183,8 @@ impl Follower {
 
     /// The first piece that matters to what comes.
     pub(super) fn first(&self) -> usize {
-        self.place.first.min(self.curve.first)
+        let phases = self.phases.iter().map(|place| place.first);
+        phases.fold(self.place.first.min(self.curve.first), usize::min)
     }
 
     /// Goes on by a period. False if that leaves the path; then the place is what it was.
@@ -180,28 +193,51 @@ impl Follower {
         let Some(piece) = track.get(self.place.first) else {
             return false;
         };
-        if !walk(track, self.end, &self.place, &mut self.next, [from, to]) {
+        if !walk(
+            track,
+            self.end,
+            &self.place,
+            &mut self.next,
+            ([from, to], 0.0),
+        ) {
             return false;
         }
         let [curve, next] = &mut self.curve_next;
         curve.clone_from(&self.curve);
+        let cut_r = BETWEEN_PHASES * bend.sagitta_r(piece);
+        let phase_ends = PHASES.map(|phase| bend.at(phase));
+        let phase_starts = self.phase_ends.unwrap_or([*from; PHASES.len()]);
+        for (k, next) in self.phases_next.iter_mut().enumerate() {
+            let way = [&phase_starts[k], &phase_ends[k]];
+            if !walk(track, self.end, &self.phases[k], next, (way, cut_r)) {
+                return false;
+            }
+        }
         let mut from = *from;
         for to in bend.points(piece) {
-            if !walk(track, self.end, curve, next, [&from, &to]) {
+            if !walk(track, self.end, curve, next, ([&from, &to], 0.0)) {
                 return false;
             }
             core::mem::swap(curve, next);
             from = to;
         }
         core::mem::swap(&mut self.curve, curve);
+        core::mem::swap(&mut self.phases, &mut self.phases_next);
+        self.phase_ends = Some(phase_ends);
         core::mem::swap(&mut self.place, &mut self.next);
         true
     }
 }
 
-/// Goes straight from one position to the next; `next` is where that leads. False if it leaves the
-/// path.
-fn walk(track: &Track, end: usize, place: &Place, next: &mut Place, way: [&AxisVector; 2]) -> bool {
+/// Goes straight from one position to the next, nearer to vertices than the tolerance by `cut_r` of
+/// it; `next` is where that leads. False if it leaves the path.
+fn walk(
+    track: &Track,
+    end: usize,
+    place: &Place,
+    next: &mut Place,
+    (way, cut_r): ([&AxisVector; 2], f64),
+) -> bool {
     next.spans.clear();
     next.first = place.first;
     let known = place.first + place.spans.len();
@@ -213,7 +249,13 @@ fn walk(track: &Track, end: usize, place: &Place, next: &mut Place, way: [&AxisV
             Some(span) => *span,
             None => Span::EMPTY,
         };
-        let (right, top) = cell(piece, corner_tolerance(track, index), left, bottom, way);
+        let (right, top) = cell(
+            piece,
+            (corner_tolerance(track, index) - cut_r).max(0.0),
+            left,
+            bottom,
+            way,
+        );
         next.spans.push(right);
         bottom = top;
         index += 1;

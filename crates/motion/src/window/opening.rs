@@ -34,6 +34,8 @@ impl<const D: usize> Opening<'_, D> {
             stray_r: 1.0,
             is_feed_firm: true,
             is_centred: false,
+            keep_r: 0.995,
+            ridge: 1e-5,
             has_motion,
         }
     }

@@ -18,24 +18,33 @@ use super::scene::Scene;
 use super::solver::{Goal, Interior, Problem};
 use super::tube::{self, Extents, Layout, Style};
 
-/// Rounds in which samples change pieces, and rounds in which they do not.
+/// Rounds in which samples change pieces, and rounds in which they do not; what of the radius is used
+/// in them, and how strong the pull to the middle is.
 struct Phase {
     search: usize,
     polish: usize,
+    keep_r: f64,
+    ridge: f64,
 }
-/// The rounds of one attempt.
+/// The rounds of one attempt: what comes and goes at the edge of the tube is given more and more room.
 const PHASES: [Phase; 3] = [
     Phase {
         search: 3,
-        polish: 4,
+        polish: 3,
+        keep_r: 0.995,
+        ridge: 1e-5,
     },
     Phase {
         search: 2,
-        polish: 4,
+        polish: 3,
+        keep_r: 0.97,
+        ridge: 1e-4,
     },
     Phase {
         search: 2,
-        polish: 4,
+        polish: 3,
+        keep_r: 0.92,
+        ridge: 1e-3,
     },
 ];
 /// Paces of the attempts, relative to what is expected; after them comes one that stops at every vertex.
@@ -43,6 +52,8 @@ const PACES: [f64; 3] = [1.0, 0.9, 0.75];
 /// Lengths of the last window that are tried, and rounds for each.
 const FINISHES: usize = 6;
 const FINISH_ROUNDS: usize = 5;
+/// Pull towards the middle where the middle is all that is aimed at.
+const CENTRED_RIDGE: f64 = 1e-2;
 /// Rows violated by more than this, in radii, are so for good.
 const ENOUGH_VIOLATION: f64 = 0.02;
 /// Interior point iterations in one problem.
@@ -193,6 +204,8 @@ impl<const D: usize> Optimiser<D> {
                 let style = Style {
                     stray_r: if is_wide { SEARCH_STRAY_R } else { 1.0 },
                     is_feed_firm: is_polish || walk.is_exceeding,
+                    keep_r: phase.keep_r,
+                    ridge: phase.ridge,
                     ..opening.style(walk.has_motion)
                 };
                 let given = self.samples.progress.clone();
@@ -304,6 +317,7 @@ impl<const D: usize> Optimiser<D> {
         let first = arrival.max(6).div_ceil(multiple) * multiple;
         let style = Style {
             is_centred: true,
+            ridge: CENTRED_RIDGE,
             ..opening.style(true)
         };
         let mut shortest: Option<Vec<[f64; D]>> = None;

@@ -7,7 +7,7 @@
 //! and the next solution can use the room.
 
 use super::scene::Scene;
-use super::solver::{combine, dot};
+use super::solver::{SPAN, combine, dot};
 use super::spline::Grid;
 
 /// Cosine of the turn from which a corner holds samples back.
@@ -26,6 +26,8 @@ pub(super) struct Samples {
     pub(super) piece: Vec<usize>,
     /// Factor of the radius: below one where a sample has come out too far off.
     pub(super) shrink: Vec<f64>,
+    /// What the motion bulges out of chords next to a sample, and chords cut off it.
+    pub(super) sagitta: Vec<f64>,
     /// Largest distance from the path, in radii, found by the last projection.
     pub(super) worst_r: f64,
 }
@@ -51,6 +53,8 @@ impl Samples {
         self.at_least.resize(count, 0);
         self.shrink.clear();
         self.shrink.resize(count, 1.0);
+        self.sagitta.clear();
+        self.sagitta.resize(count, 0.0);
     }
 
     pub(super) fn count(&self) -> usize {
@@ -88,14 +92,17 @@ impl Samples {
     ) {
         let mut at = (first, self.progress[0]);
         self.worst_r = 0.0;
+        let mut bend_before = 0.0;
         for k in 1..=self.count() {
             let y = sample(points, grid, k);
-            let (first, weights) = grid.middle_site(k);
-            let middle = nearest(scene, &combine(points, first, &weights), at, period_t);
             let (piece, s, distance) = nearest(scene, &y, at, period_t);
             at = (piece, s);
             self.progress[k] = s;
             self.at_least[k] = 0;
+            let bend = across(scene, points, piece, grid.bend_site(k));
+            self.sagitta[k - 1] = f64::max(bend, bend_before).max(self.sagitta[k - 1]);
+            self.sagitta[k] = bend.max(bend_before);
+            bend_before = bend;
             let distance_r = distance / scene.chords[piece].radius;
             self.worst_r = self.worst_r.max(distance_r);
             if may_lead && leads(scene, &y, piece, s) {
@@ -103,13 +110,6 @@ impl Samples {
             }
             if distance_r > 0.9995 && distance_r < 1.5 {
                 self.shrink[k] = (self.shrink[k] * 0.998 / distance_r).max(0.7);
-            }
-            // What lies between two samples is kept in by both of them.
-            let middle_r = middle.2 / scene.chords[middle.0].radius;
-            if middle_r > 0.9995 && middle_r < 1.5 && middle_r > distance_r {
-                for shrink in &mut self.shrink[k - 1..=k] {
-                    *shrink = (*shrink * 0.998 / middle_r).max(0.7);
-                }
             }
         }
     }
@@ -128,6 +128,20 @@ impl Samples {
         let count = self.progress.len() as f64;
         self.progress.iter().sum::<f64>() / count
     }
+}
+
+/// How far a chord of one period is from the motion in its middle, a·T²/8 across a piece.
+fn across<const D: usize>(
+    scene: &Scene<D>,
+    points: &[[f64; D]],
+    piece: usize,
+    (first, weights): (usize, [f64; SPAN]),
+) -> f64 {
+    let bend = combine(points, first, &weights);
+    let tangent = &scene.chords[piece].tangent;
+    let along = dot(&bend, tangent);
+    let rest: [f64; D] = core::array::from_fn(|a| bend[a] - along * tangent[a]);
+    dot(&rest, &rest).sqrt() / 8.0
 }
 
 /// The point of a sample.

@@ -90,27 +90,30 @@ impl Grid {
         (first, widen(basis(u), 0))
     }
 
-    /// First control point and weights of the middle of a period ≥ 1, given by its end.
-    pub(super) fn middle_site(&self, period: usize) -> (usize, [f64; SPAN]) {
-        let steps = (2 * period - 1) * self.knots;
-        #[expect(clippy::cast_precision_loss, reason = "at most sixteen")]
-        let u = (steps % (2 * self.periods)) as f64 / (2 * self.periods) as f64;
-        (steps / (2 * self.periods), widen(basis(u), 0))
+    /// First control point and weights of a point within the period that follows `period`, at
+    /// parameter `lambda`.
+    pub(super) fn inner_site(&self, period: usize, lambda: f64) -> (usize, [f64; SPAN]) {
+        #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+        let steps =
+            (period as f64 + lambda.clamp(0.0, 1.0)) * self.knots as f64 / self.periods as f64;
+        // The end of a period belongs to the interval before it.
+        let whole = (steps.ceil() - 1.0).max(0.0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a count of intervals"
+        )]
+        let first = whole as usize;
+        (first, widen(basis(steps - whole), 0))
     }
 
-    /// First control point and weights of a point of the straight line from the end of one period to
-    /// that of the next, at parameter `lambda`.
-    pub(super) fn chord_site(&self, period: usize, lambda: f64) -> (usize, [f64; SPAN]) {
+    /// First control point and weights of the acceleration at the end of a period, times the square of
+    /// the period.
+    pub(super) fn bend_site(&self, period: usize) -> (usize, [f64; SPAN]) {
         let (first, u) = self.place(period);
-        let (second, v) = self.place(period + 1);
-        let (offset, v) = if self.periods > 1 && second > first {
-            (0, 1.0)
-        } else {
-            (second - first, v)
-        };
-        let (from, to) = (widen(basis(u), 0), widen(basis(v), offset));
-        let weights = core::array::from_fn(|i| (1.0 - lambda) * from[i] + lambda * to[i]);
-        (first, weights)
+        #[expect(clippy::cast_precision_loss, reason = "at most eight")]
+        let ratio = self.knots as f64 / self.periods as f64;
+        (first, widen(basis_2(u).map(|w| w * ratio * ratio), 0))
     }
 
     /// Periods in a number of knot intervals; intervals may be cut off.

@@ -236,5 +236,7 @@ proptest! {
         let case = random_case(seed, is_light);
         let periods = case.plan();
         assert_clean(&case, &periods);
+        let before_last_t = (periods.len() - 1) as f64 * case.period_t;
+        assert!(before_last_t <= bench::exact_stop_t(&case) * (1.0 + 1e-9), "no slower than stopping");
     }
 }

@@ -9,9 +9,10 @@
 //! ```
 //!
 //! Only samples are bound to the tube: a straight line between two samples of one piece is then in
-//! it too, and where the motion goes over to another piece, the straight line between the two samples
-//! must come near every corner on the way: a point of that line, which is linear in the control
-//! points, must be inside the ball round the corner. Together that is just what the judge asks.
+//! it too, and where the motion goes over to another piece, it must come near every corner on the way:
+//! a point of it between the two samples, which is linear in the control points, must be inside the
+//! ball round the corner, by as much as a chord of one period may cut off. Together that is just what
+//! the judge asks.
 //!
 //! The round parts are bounded by planes ([`super::cuts`]).
 
@@ -23,21 +24,16 @@ use super::scene::Scene;
 use super::solver::{FAR, Problem, dot};
 use super::spline::Grid;
 
-/// Rows leave this much of the radius to rounding and to what lies between samples.
-const KEEP_R: f64 = 0.995;
 /// Turn from which the motion may run back for a moment, as a corner of less than the tolerance does.
-const SHARP: f64 = 0.3;
+pub(super) const SHARP: f64 = 0.3;
 /// Part of the radius from which a gentle corner gets rows.
-const CLOSE_R: f64 = 0.85;
+pub(super) const CLOSE_R: f64 = 0.85;
+/// Most of the radius of a corner that is left to chords that cut it off.
+const MOST_SAGITTA_R: f64 = 0.5;
 /// Most corners between two samples that get rows.
 const MOST_CORNERS: usize = 4;
 /// Share of the feed that is planned with.
 const FEED_R: f64 = 0.999_95;
-/// Pull towards the middle of the tube, so that a motion at rest has a place there.
-const RIDGE: f64 = 1e-5;
-/// The same where the middle is all that is aimed at.
-const CENTRED_RIDGE: f64 = 1e-2;
-
 /// How the rows are to be made.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Style {
@@ -49,6 +45,10 @@ pub(super) struct Style {
     pub(super) passed: usize,
     /// The feed is not exceeded to be in time on a piece.
     pub(super) is_feed_firm: bool,
+    /// Part of the radius that is used: the rest is left to rounding, and to iterates that come and go.
+    pub(super) keep_r: f64,
+    /// Pull towards the middle of the tube, so that a motion at rest has a place there.
+    pub(super) ridge: f64,
     /// Not as far as possible, but as much in the middle as possible.
     pub(super) is_centred: bool,
     /// The points of the last motion are one, and not only a place to start from.
@@ -185,14 +185,10 @@ fn add_tube<const D: usize>(
 ) {
     let piece = layout.samples.piece[k];
     let chord = &layout.scene.chords[piece];
-    let radius = chord.radius * KEEP_R * layout.samples.shrink[k];
+    let sagitta = layout.samples.sagitta[k].min(MOST_SAGITTA_R * chord.radius);
+    let radius = (chord.radius * layout.style.keep_r - sagitta) * layout.samples.shrink[k];
     if let Some(site) = problem.sites.last_mut() {
-        let ridge = if layout.style.is_centred {
-            CENTRED_RIDGE
-        } else {
-            RIDGE
-        };
-        site.ridge = ridge / (radius * radius);
+        site.ridge = layout.style.ridge / (radius * radius);
         site.center = chord.start;
         site.tangent = chord.tangent;
     }
@@ -218,26 +214,29 @@ fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>,
         ..
     } = layout;
     let (from, to) = (samples.piece[k - 1].max(style.passed), samples.piece[k]);
-    let mut corners: Vec<(f64, usize, f64)> = (from..to)
+    let mut corners: Vec<(f64, usize, (usize, f64), f64)> = (from..to)
         .filter_map(|i| {
             let turn = scene.turn(i, i + 1);
+            let radius = scene.chords[i].radius.min(scene.chords[i + 1].radius) * style.keep_r;
             if !style.has_motion {
-                return (turn > SHARP).then_some((turn, i, 0.5));
+                return (turn > SHARP).then_some((turn, i, (k, 0.5), radius));
             }
-            let radius = scene.chords[i].radius.min(scene.chords[i + 1].radius);
-            let (lambda, off) = nearest_to_corner(scene, points, (i, k), &style.grid);
-            let distance_r = dot(&off, &off).sqrt() / radius;
-            (turn > SHARP || distance_r > CLOSE_R).then_some((distance_r, i, lambda))
+            let passing = nearest_to_corner(scene, points, (i, k, samples.count()), &style.grid);
+            let left = radius - passing.sagitta.min(MOST_SAGITTA_R * radius);
+            let distance_r = dot(&passing.off, &passing.off).sqrt() / left;
+            // A corner once close stays in, or else it would come and go from round to round.
+            let is_close = distance_r > CLOSE_R || layout.cuts.of_corner(i).next().is_some();
+            let place = (passing.sample, passing.lambda);
+            (turn > SHARP || is_close).then_some((distance_r, i, place, left))
         })
         .collect();
     corners.sort_by(|a, b| b.0.total_cmp(&a.0));
-    for &(_, i, lambda) in corners.iter().take(MOST_CORNERS) {
+    for &(_, i, (k, lambda), radius) in corners.iter().take(MOST_CORNERS) {
         let (before, after) = (&scene.chords[i], &scene.chords[i + 1]);
-        let radius = before.radius.min(after.radius) * KEEP_R;
-        let (first, weights) = style.grid.chord_site(k - 1, lambda);
+        let (first, weights) = style.grid.inner_site(k - 1, lambda);
         problem.add_site(first, weights);
         if let Some(site) = problem.sites.last_mut().filter(|_| style.is_centred) {
-            site.ridge = CENTRED_RIDGE / (radius * radius);
+            site.ridge = style.ridge / (radius * radius);
             site.center = after.start;
         }
         let turn = scene.turn(i, i + 1);

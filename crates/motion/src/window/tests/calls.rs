@@ -1,6 +1,8 @@
 //! What the motion depends on, and what it does not; changes of rates.
 
+use super::bend::State;
 use super::*;
+use crate::audit::{Violation, ViolationKind};
 
 /// Pushes as late as possible.
 fn plan_lazily(case: &Case) -> Vec<Period> {
@@ -99,4 +101,43 @@ fn feeds_may_differ_from_piece_to_piece() {
         last = period.position;
     }
     assert!(planner.is_over());
+}
+
+/// Where the motion is between periods, as the interpolator has it: with the quintic through both
+/// states.
+fn shifted(periods: &[Period], start: AxisVector, period_t: f64, shift: f64) -> Vec<Period> {
+    let mut from = State::rest(start);
+    let mut shifted = Vec::new();
+    for period in periods {
+        let to = State::from(period);
+        let bend = bend::Bend {
+            from: &from,
+            to: &to,
+            period_t,
+        };
+        shifted.push(Period {
+            rest_at_end: false,
+            position: bend.at(shift),
+            ..*period
+        });
+        from = to;
+    }
+    shifted.extend(periods.last());
+    shifted
+}
+
+proptest! {
+    #![proptest_config(cases(4))]
+    #[test]
+    fn the_tolerance_holds_for_periods_that_end_anywhere(seed: u64, is_light: bool) {
+        let case = random_case(seed, is_light);
+        let periods = case.plan();
+        for shift in [0.15, 0.3, 0.5, 0.7, 0.85] {
+            let shifted = shifted(&periods, case.points[0], case.period_t, shift);
+            let report = case.audit(&shifted);
+            let is_off = |v: &Violation| matches!(v.kind, ViolationKind::Deviation { .. });
+            let off: Vec<_> = report.violations.iter().filter(|v| is_off(v)).collect();
+            assert!(off.is_empty(), "{shift}: {off:?}");
+        }
+    }
 }

@@ -133,3 +133,51 @@ fn legs_go_to_the_very_end_of_a_last_piece_shorter_than_the_tolerance() {
         Some(case.points[2])
     );
 }
+
+#[test]
+fn nine_axes_go_together() {
+    let mut points = vec![AxisVector::zeros()];
+    for (k, length) in [3.0, 0.4, 5.0, 2.0].into_iter().enumerate() {
+        let step = AxisVector::from_fn(|i, _| f64::from(((i + 2) * (k + 3) % 7) as u8) / 3.0 - 1.0);
+        points.push(points[k] + step * length);
+    }
+    let case = Case::mill(points);
+    let periods = case.plan();
+    assert_clean(&case, &periods);
+    assert!((periods.len() as f64) * case.period_t < 0.95 * bench::exact_stop_t(&case));
+}
+
+#[test]
+fn pieces_may_be_metres_long() {
+    let case = Case {
+        feed_v: 200.0,
+        ..Case::mill(plane(&[(0.0, 0.0), (1e4, 0.0), (1e4, 30.0), (9e3, 31.0)]))
+    };
+    let periods = case.plan();
+    assert_clean(&case, &periods);
+    assert!((periods.len() as f64) * case.period_t < bench::exact_stop_t(&case));
+}
+
+/// A thousandth of it, or all of it with `GLIDEPATH_LONG`.
+#[test]
+fn a_hundred_thousand_blocks_go_through() {
+    let is_long = std::env::var_os("GLIDEPATH_LONG").is_some();
+    let count = if is_long { 100_000 } else { 100 };
+    let points: Vec<_> = (0..=count)
+        .map(|k| {
+            let x = f64::from(k);
+            (0.4 * x, 0.3 * (0.7 * x).sin() + 0.1 * f64::from(k % 3))
+        })
+        .collect();
+    let case = Case::mill(plane(&points));
+    let mut planner = case.planner();
+    let mut periods = Vec::new();
+    for reference in case.references() {
+        planner.push(reference);
+        periods.extend(core::iter::from_fn(|| planner.next_period()));
+        assert!(planner.track.end() - planner.follower.first() < 2000);
+    }
+    planner.finish();
+    periods.extend(core::iter::from_fn(|| planner.next_period()));
+    assert_clean(&case, &periods);
+}
