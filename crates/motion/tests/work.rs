@@ -1,0 +1,140 @@
+//! How much work planning is: instructions for a block, and for a period of motion. Figures that other
+//! load on the host does not change.
+//!
+//! The test runs itself under callgrind, with a length of path and with twice as much; the difference
+//! is what the path took. It counts optimised code only, and is skipped without valgrind:
+//!
+//! ```text
+//! cargo test --release -p glidepath-motion --test work -- --nocapture
+//! ```
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test, and a measurement"
+)]
+
+mod support;
+
+use glidepath_geometry::{AxisVector, Segment};
+use glidepath_motion::{Item, ItemKind, Planner, Rate, Settings};
+use std::hint::black_box;
+use std::process::Command;
+use support::{FREE, at, mill, optimal};
+
+/// In the environment of the process that is counted: the case, and the number of blocks.
+const CASE: &str = "GLIDEPATH_COUNTED_CASE";
+const BLOCKS: &str = "GLIDEPATH_COUNTED_BLOCKS";
+
+/// What is counted: an effort, a path, how many blocks of it, and the most instructions of one on
+/// average.
+struct Case {
+    name: &'static str,
+    settings: fn() -> Settings,
+    path: fn(u32) -> AxisVector,
+    blocks: u32,
+    most: u64,
+}
+
+const CASES: [Case; 4] = [
+    Case {
+        name: "fast, dense lines",
+        settings: mill,
+        path: dense,
+        blocks: 5000,
+        most: 14_000,
+    },
+    Case {
+        name: "fast, corners",
+        settings: mill,
+        path: zigzag,
+        blocks: 100,
+        most: 120_000,
+    },
+    Case {
+        name: "optimal, dense lines",
+        settings: optimal,
+        path: dense,
+        blocks: 5000,
+        most: 200_000,
+    },
+    Case {
+        name: "optimal, corners",
+        settings: optimal,
+        path: zigzag,
+        blocks: 40,
+        most: 80_000_000,
+    },
+];
+
+/// Lines of a hundredth of a millimetre along a wave.
+fn dense(k: u32) -> AxisVector {
+    let x = 0.01 * f64::from(k);
+    at(x, (0.5 * x).sin())
+}
+
+/// Lines of two millimetres there and back.
+fn zigzag(k: u32) -> AxisVector {
+    at(0.2 * f64::from(k), 2.0 * f64::from(k % 2))
+}
+
+fn plan(case: &Case, blocks: u32) {
+    let mut planner = Planner::new((case.settings)(), (case.path)(0));
+    for k in 0..blocks {
+        let segment = Segment::line((case.path)(k), (case.path)(k + 1));
+        let kind = ItemKind::Move {
+            segment,
+            rate: Rate::Feed(100.0),
+            mode: FREE,
+        };
+        planner.push(&Item { line: k + 1, kind }).unwrap();
+        while let Some(frame) = planner.pop_frame().unwrap() {
+            black_box(frame);
+        }
+    }
+    planner.finish();
+    while let Some(frame) = planner.pop_frame().unwrap() {
+        black_box(frame);
+    }
+}
+
+/// Instructions of this test as another process, with so many blocks.
+fn counted(case: usize, blocks: u32) -> u64 {
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .arg(std::env::current_exe().unwrap())
+        .args(["--exact", "a_block_takes_few_instructions", "--nocapture"])
+        .env(CASE, case.to_string())
+        .env(BLOCKS, blocks.to_string())
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stderr);
+    let total = text
+        .lines()
+        .find_map(|line| line.split_once("Collected :"))
+        .and_then(|(_, count)| count.trim().parse().ok());
+    total.unwrap_or_else(|| panic!("no count: {text}"))
+}
+
+#[test]
+fn a_block_takes_few_instructions() {
+    let number = |name| std::env::var(name).ok()?.parse::<u32>().ok();
+    if let (Some(case), Some(blocks)) = (number(CASE), number(BLOCKS)) {
+        plan(&CASES[case as usize], blocks);
+        return;
+    }
+    if cfg!(debug_assertions) {
+        println!("skipped: counts optimised code, use cargo test --release");
+        return;
+    }
+    if Command::new("valgrind").arg("--version").output().is_err() {
+        println!("skipped: valgrind is not installed");
+        return;
+    }
+    for (k, case) in CASES.iter().enumerate() {
+        let blocks = case.blocks;
+        let each = (counted(k, 2 * blocks) - counted(k, blocks)) / u64::from(blocks);
+        println!("{}: {each} instructions a block", case.name);
+        assert!(each <= case.most, "{}: {each} > {}", case.name, case.most);
+    }
+}
