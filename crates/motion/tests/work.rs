@@ -56,7 +56,7 @@ const CASES: [Case; 4] = [
         settings: optimal,
         path: dense,
         blocks: 5000,
-        most: 200_000,
+        most: 400_000,
     },
     Case {
         name: "optimal, corners",
