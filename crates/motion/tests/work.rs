@@ -42,7 +42,7 @@ const CASES: [Case; 4] = [
         settings: mill,
         path: dense,
         blocks: 5000,
-        most: 14_000,
+        most: 6_500,
     },
     Case {
         name: "fast, corners",
@@ -56,14 +56,14 @@ const CASES: [Case; 4] = [
         settings: optimal,
         path: dense,
         blocks: 5000,
-        most: 400_000,
+        most: 800_000,
     },
     Case {
         name: "optimal, corners",
         settings: optimal,
         path: zigzag,
         blocks: 40,
-        most: 80_000_000,
+        most: 90_000_000,
     },
 ];
 

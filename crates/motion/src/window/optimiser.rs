@@ -12,7 +12,7 @@
 use super::cuts::Cuts;
 use super::guess::Guess;
 use super::opening::Opening;
-use super::rounds::{Found, Walk};
+use super::rounds::{Found, Walk, hurried};
 use super::samples::Samples;
 use super::scene::Scene;
 use super::solver::{Goal, Interior, Problem};
@@ -384,20 +384,4 @@ impl<const D: usize> Optimiser<D> {
         }
         false
     }
-}
-
-/// The same way in fewer steps.
-fn hurried<T>(values: &[T], fewer: usize, between: impl Fn(&T, &T, f64) -> T) -> Vec<T> {
-    let count = values.len() - 1;
-    let less = count.saturating_sub(fewer).max(1);
-    (0..=less)
-        .map(|k| {
-            let at = k * count;
-            let (before, rest) = (at / less, at % less);
-            let after = (before + 1).min(count);
-            #[expect(clippy::cast_precision_loss, reason = "hundreds")]
-            let share = rest as f64 / less as f64;
-            between(&values[before], &values[after], share)
-        })
-        .collect()
 }
