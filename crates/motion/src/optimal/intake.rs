@@ -51,6 +51,8 @@ enum Stretch {
     None,
     Free,
     Exact,
+    /// Begun with a curve: driven along it, not along chords, and so is all that follows.
+    Curved,
 }
 
 impl Intake {
@@ -110,6 +112,7 @@ impl Intake {
     fn push_move(&mut self, line: u32, segment: Segment, rate: Rate, mode: PathMode) {
         let stretch = match mode {
             PathMode::ExactPath => Stretch::Exact,
+            _ if self.begins_curved(&segment) => Stretch::Curved,
             PathMode::ExactStop | PathMode::Continuous { .. } => Stretch::Free,
         };
         if self.stretch != Stretch::None && self.stretch != stretch {
@@ -127,7 +130,7 @@ impl Intake {
         self.stretch = stretch;
         self.position = segment.end();
         let events = core::mem::take(&mut self.events);
-        if stretch == Stretch::Exact {
+        if stretch != Stretch::Free {
             let events = events.into_iter().map(|(line, event)| Item {
                 line,
                 kind: ItemKind::Event(event),
@@ -141,6 +144,10 @@ impl Intake {
                     mode,
                 },
             }));
+            if mode == PathMode::ExactStop {
+                self.end_stretch();
+                self.put_rest(RestKind::ExactStop, line);
+            }
             return;
         }
         self.works.push_back(Work::Move(Move {
@@ -154,6 +161,12 @@ impl Intake {
             self.end_stretch();
             self.put_rest(RestKind::ExactStop, line);
         }
+    }
+
+    /// True in a stretch that begins with a curve, and where one would.
+    fn begins_curved(&self, segment: &Segment) -> bool {
+        let is_curve = matches!(segment, Segment::Curve(_));
+        self.stretch == Stretch::Curved || (self.stretch == Stretch::None && is_curve)
     }
 
     /// Ends the path at rest.
@@ -174,7 +187,7 @@ impl Intake {
         let (line, rate) = self.last;
         // Moves that were too short to be made by themselves.
         let is_left = segment.length() > 0.0;
-        if self.stretch == Stretch::Exact {
+        if matches!(self.stretch, Stretch::Exact | Stretch::Curved) {
             if is_left {
                 let mode = PathMode::ExactPath;
                 let kind = ItemKind::Move {
