@@ -7,13 +7,15 @@ use glidepath_geometry::AxisVector;
 use glidepath_interpolator::{Config, Stepped, stepped};
 use glidepath_link::{Command, MachineState, Setpoint, SetpointFrame};
 use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
-use glidepath_motion::{Item, Limits, Override, Settings};
+use glidepath_motion::{Effort, Item, Limits, Override, Settings, Smoothing};
 use glidepath_planner::{Output, Pipeline, ProgramSource};
 use glidepath_tests::settings;
 
+use crate::times;
+
 const PERIOD_NS: u64 = 4_000_000;
 /// Frames published ahead.
-pub(crate) const HORIZON: u64 = 125;
+pub(crate) const HORIZON: u64 = 150;
 /// Ticks until the planner knows of an override.
 const NEWS: usize = 5;
 
@@ -35,6 +37,20 @@ pub(crate) const BENCH: [&str; 14] = [
     "butterfly_g1_mill",
 ];
 
+/// Ways to plan them.
+pub(crate) const EFFORTS: [Effort; 2] = [Effort::Fast, Effort::Optimal];
+
+/// All of them, in both ways; dense ones take long to plan near-optimally in a debug build, so they
+/// are left to the long form.
+pub(crate) fn jobs() -> impl Iterator<Item = (&'static str, Effort)> {
+    let both = |name| EFFORTS.map(|effort| (name, effort));
+    let is_short = |name: &str| BENCH.iter().position(|n| *n == name) < Some(8);
+    BENCH
+        .into_iter()
+        .flat_map(both)
+        .filter(move |(name, effort)| *effort == Effort::Fast || is_short(name) || times() > 1)
+}
+
 /// A program and the machine it is for.
 #[derive(Debug, Clone)]
 pub(crate) struct Job {
@@ -43,10 +59,14 @@ pub(crate) struct Job {
 }
 
 impl Job {
-    pub(crate) fn bench(name: &'static str) -> Self {
+    pub(crate) fn bench(name: &str, effort: Effort) -> Self {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/bench");
         let file = Path::new(folder).join(format!("{name}.ngc"));
-        let mut settings = settings();
+        let mut settings = Settings {
+            effort,
+            smoothing: Smoothing::Auto,
+            ..settings()
+        };
         if name.ends_with("_seed") {
             settings.limits = Limits::uniform(100.0, 10_000.0, 1e6);
             settings.tolerance_mm = 0.05;
@@ -206,5 +226,20 @@ impl Desk<'_, '_, '_> {
             });
         }
         audit.finish()
+    }
+}
+
+/// Nothing may be broken. Near-optimal motion is planned within the tolerance at the periods; what is
+/// played between them can be further off, so only its limits are judged.
+pub(crate) fn assert_limits(report: &Report, job: &Job) {
+    for worst in [
+        report.max_velocity_ratio,
+        report.max_acceleration_ratio,
+        report.max_jerk_ratio,
+    ] {
+        assert!(worst.ratio <= 1.0 + 1e-6, "{worst:?}");
+    }
+    if job.settings.effort == Effort::Fast {
+        assert!(report.violations.is_empty(), "{:#?}", report.violations);
     }
 }

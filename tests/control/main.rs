@@ -17,6 +17,6 @@ mod random;
 mod reaction;
 
 /// How many times as much as by default the tests do.
-fn effort() -> usize {
+fn times() -> usize {
     std::env::var("GLIDEPATH_CONTROL").map_or(1, |text| text.parse().unwrap())
 }

@@ -3,8 +3,8 @@
 use glidepath_link::{Command, MachineState};
 use proptest::prelude::*;
 
-use crate::desk::{BENCH, Desk, Job};
-use crate::effort;
+use crate::desk::{BENCH, Desk, EFFORTS, Job, assert_limits};
+use crate::times;
 
 fn command() -> impl Strategy<Value = Command> {
     let stops = prop_oneof![
@@ -25,13 +25,13 @@ fn command() -> impl Strategy<Value = Command> {
 
 fn short_programs() -> impl Strategy<Value = &'static str> {
     // Dense programs take long to plan in a debug build: in the long form only.
-    let most = if effort() > 1 { BENCH.len() } else { 10 };
+    let most = if times() > 1 { BENCH.len() } else { 10 };
     proptest::sample::select(BENCH[..most].to_vec())
 }
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: u32::try_from(24 * effort()).unwrap(),
+        cases: u32::try_from(24 * times()).unwrap(),
         max_shrink_iters: 200,
         failure_persistence: None,
         ..ProptestConfig::default()
@@ -39,9 +39,10 @@ proptest! {
     #[test]
     fn whatever_is_commanded_the_program_is_executed_within_its_limits(
         name in short_programs(),
+        effort in proptest::sample::select(&EFFORTS[..]),
         commands in prop::collection::vec((command(), 1_usize..150), 1..25),
     ) {
-        let job = Job::bench(name);
+        let job = Job::bench(name, effort);
         job.at_desk(|desk| {
             let mut largest_override = 1.0_f64;
             for (command, ticks) in commands {
@@ -53,15 +54,7 @@ proptest! {
             }
             finish(desk)?;
             let report = desk.audit(&job.settings, largest_override);
-            prop_assert!(report.violations.is_empty(), "{:#?}", report.violations);
-            for worst in [
-                report.max_velocity_ratio,
-                report.max_acceleration_ratio,
-                report.max_jerk_ratio,
-            ] {
-                prop_assert!(worst.ratio <= 1.0 + 1e-6, "{worst:?}");
-            }
-            prop_assert!(report.max_deviation_mm <= job.settings.tolerance_mm * (1.0 + 1e-6));
+            assert_limits(&report, &job);
             let end = desk.frames.last().unwrap().position;
             prop_assert_eq!(desk.setpoints.last().unwrap().position, end);
             assert_bits(desk)?;

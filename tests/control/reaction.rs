@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use glidepath_link::{Command, MachineState, SetpointFrame};
 use proptest::test_runner::{Config, TestRunner};
 
-use crate::desk::{BENCH, Desk, Job};
-use crate::effort;
+use crate::desk::{Desk, Job, assert_limits, jobs};
+use crate::times;
 
 /// The most ticks until a hold begins where the plan cruises.
 const FROM_CRUISE: usize = 2;
@@ -52,24 +52,20 @@ fn a_hold_begins_at_once_in_a_cruise_and_soon_everywhere() {
     };
     eprintln!("ticks to the first setpoint beside the plan, and to rest: median, 90 %, 99 %, most");
     let mut all = Ticks::default();
-    for name in BENCH {
-        let job = Job::bench(name);
+    for (name, effort) in jobs() {
+        let job = Job::bench(name, effort);
         let (mut waits, mut rests, mut cruises) = <(Ticks, Ticks, Ticks)>::default();
-        for _ in 0..effort() {
+        for _ in 0..times() {
             job.at_desk(|desk| {
                 while !desk.is_over() {
                     desk.play(chance(1, 300));
                     hold(desk, &mut waits, &mut rests, &mut cruises);
                 }
                 let report = desk.audit(&job.settings, 1.0);
-                assert!(
-                    report.violations.is_empty(),
-                    "{name}: {:#?}",
-                    report.violations
-                );
+                assert_limits(&report, &job);
             });
         }
-        eprintln!("{name:20} {waits}  {rests}  cruise {cruises}");
+        eprintln!("{name:20} {effort:?} {waits}  {rests}  cruise {cruises}");
         assert!(cruises.quantile(1.0) <= FROM_CRUISE, "{name}");
         for (ticks, count) in waits.0 {
             *all.0.entry(ticks).or_default() += count;

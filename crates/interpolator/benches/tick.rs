@@ -26,7 +26,7 @@ use rustix::time::{ClockId, clock_gettime};
 use std::hint::black_box;
 use synthetic::{lines, mill, plan, records};
 
-const HORIZON: u64 = 125;
+const HORIZON: u64 = 150;
 
 /// A planner that keeps its horizon.
 struct Feed {

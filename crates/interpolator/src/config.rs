@@ -81,7 +81,7 @@ pub struct Config {
 
 impl Config {
     /// A machine with the given limits and period, without soft limits, at zero, on ordinary
-    /// threads, that half a second of motion is published ahead for.
+    /// threads, that 0.6 s of motion is published ahead for.
     #[must_use]
     pub fn new(limits: Limits, period_ns: u64) -> Self {
         Self {
@@ -93,7 +93,7 @@ impl Config {
             }),
             joint_limits: JointLimits::NONE,
             start_position: AxisVector::zeros(),
-            horizon_frames: 500_000_000 / period_ns.max(1),
+            horizon_frames: 600_000_000 / period_ns.max(1),
             real_time: RealTime::none(),
             missed_ticks_allowed: None,
             planner_lost_after: Some(Duration::from_secs(2)),

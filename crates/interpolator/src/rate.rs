@@ -34,7 +34,7 @@
 //! cannot be made to brake harder, but it will be slow soon.
 //!
 //! That leaves the question whether there will be any stop before the frames run out. So motion goes
-//! on only with a stop in [`reserve`], played through beforehand. To come to rest at the end of a block
+//! on only with a stop in [`reserve`], played through beforehand (how it is found: [`descent`]). To come to rest at the end of a block
 //! is a reserve, too, that ends at a given frame and is taken on purpose: see [`arrival`].
 //!
 //! A ramp to rate 1 is stretched so that it ends on the grid of the frames: from there on the
@@ -44,17 +44,19 @@
 
 mod arrival;
 mod candidate;
+mod descent;
 mod play;
 mod reserve;
+mod trial;
 
 use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
 use crate::ramp::{Bounds, Instant, Ramp};
 use crate::track::Track;
-use arrival::Search;
 use candidate::{CANDIDATES, Candidate, PACES};
-use play::{Cue, Played, play};
-use reserve::{Reserve, Steady};
+use descent::Descent;
+use reserve::{Reserve, Search};
+use trial::Trial;
 
 /// Samples a tick may spend on playing candidates through, unless stops are longer.
 const BUDGET: u32 = 200;
@@ -104,10 +106,14 @@ pub(crate) struct Rate {
     /// The candidate at which the last tick ran out of budget.
     resume_at: usize,
     reserve: Option<Reserve>,
-    /// Where the search for a reserve goes on, and whether it came to its end without one where the
-    /// motion stands.
-    search_at: usize,
+    /// The search for a reserve that is under way, and whether one came to its end without any where
+    /// the motion stands.
+    search: Option<Search>,
     finds_no_stop: bool,
+    /// A ramp that leaves a rest, and the search for a stop after it.
+    set_out: Option<(Ramp, Descent)>,
+    /// How often it was tried to go slower than to take a reserve.
+    dips: usize,
     /// The ramp being followed is the reserve.
     has_taken: bool,
     /// The ramp being followed, or the next, comes to rest at this frame, the end of a block.
@@ -130,18 +136,6 @@ pub(crate) struct Advance {
     pub(crate) slope: f64,
 }
 
-/// What trying a ramp has shown.
-#[derive(Debug, Clone, Copy)]
-#[allow(
-    clippy::large_enum_variant,
-    reason = "it lives on the stack for a moment; no boxes here"
-)]
-enum Trial {
-    Passed(Option<Reserve>),
-    Barred,
-    OutOfBudget,
-}
-
 impl Rate {
     /// Standing at a frame with a steady rate.
     pub(crate) const fn new(time: ProgramTime, rate: f64) -> Self {
@@ -156,8 +150,10 @@ impl Rate {
             pace: 0.0,
             resume_at: 0,
             reserve: None,
-            search_at: 0,
+            search: None,
             finds_no_stop: false,
+            set_out: None,
+            dips: 0,
             has_taken: false,
             arrives_at: None,
             arrival_search: 0,
@@ -231,7 +227,7 @@ impl Rate {
     /// Moves program time to where it is held: the motion is at rest there, so any rate will do.
     pub(crate) fn rest_at(&mut self, time: ProgramTime, rate: f64) {
         *self = Self {
-            search_at: self.search_at,
+            search: self.search,
             finds_no_stop: self.finds_no_stop,
             arrival_search: self.arrival_search,
             has_missed: self.has_missed,
@@ -254,6 +250,9 @@ impl Rate {
         }
         if self.rate > 0.0 || !scene.published.is_at_rest() {
             self.barred = 0;
+        }
+        if self.go_on_setting_out(goal, scene) {
+            return;
         }
         let fastest = scene.fastest_from(self.now.sequence);
         let mut budget = scene.budget(BUDGET);
@@ -307,46 +306,6 @@ impl Rate {
             .map_or(0.0, |ramp| ramp.duration() - f64::from(self.ticks))
     }
 
-    /// Plays a ramp through, and looks for a stop after it if it does not end in one.
-    fn try_ramp(
-        &self,
-        ramp: &Ramp,
-        scene: &Scene<'_>,
-        search_at: &mut usize,
-        budget: &mut u32,
-    ) -> Trial {
-        let cue = Cue {
-            time: self.now,
-            published: *scene.published,
-            is_held: true,
-        };
-        match play(ramp, cue, scene.track, scene.allowed, budget) {
-            Played::Passed if ramp.target() <= 0.0 => return Trial::Passed(None),
-            Played::Passed => {}
-            Played::Barred => return Trial::Barred,
-            Played::OutOfBudget => return Trial::OutOfBudget,
-        }
-        let steady = Steady {
-            time: self.now.after(ramp.at(ramp.duration().ceil()).elapsed),
-            rate: ramp.target(),
-        };
-        if let Some(frame) = scene.block_end {
-            return match Reserve::arriving_at(frame, steady, scene, search_at, budget) {
-                Search::Found(reserve) => Trial::Passed(Some(reserve)),
-                Search::Open => Trial::OutOfBudget,
-                Search::Barred | Search::OutOfReach => Trial::Barred,
-            };
-        }
-        if scene.track.stop().is_some() {
-            return Trial::Passed(None);
-        }
-        match Reserve::find(steady, 0, scene, search_at, budget) {
-            Some(reserve) => Trial::Passed(Some(reserve)),
-            None if *search_at < reserve::CANDIDATES => Trial::OutOfBudget,
-            None => Trial::Barred,
-        }
-    }
-
     const fn commit(&mut self, ramp: Ramp, pace: f64, reserve: Option<Reserve>) {
         self.start = self.now;
         self.ticks = 0;
@@ -355,6 +314,7 @@ impl Rate {
         self.pace = pace;
         self.reserve = reserve;
         self.has_taken = false;
+        self.set_out = None;
         self.resume_at = 0;
         self.arrives_at = None;
         self.arrival_search = 0;

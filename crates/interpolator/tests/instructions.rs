@@ -33,7 +33,7 @@ use synthetic::{lines, mill, records};
 const CASE: &str = "GLIDEPATH_COUNTED_CASE";
 const TICKS: &str = "GLIDEPATH_COUNTED_TICKS";
 /// Frames a planner keeps ahead.
-const HORIZON: u64 = 125;
+const HORIZON: u64 = 150;
 const AXES: usize = 9;
 
 /// What is counted: one command at the start, and the most instructions of a tick on average, with

@@ -10,7 +10,7 @@ use super::case::{Chance, Fault};
 
 const PERIOD_NS: u64 = 4_000_000;
 /// As far ahead as a planner with the built-in configuration.
-const HORIZON: u64 = 125;
+const HORIZON: u64 = 150;
 /// What a position has at most.
 const FAR_MM: f64 = 1e5;
 

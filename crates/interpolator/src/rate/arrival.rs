@@ -14,9 +14,9 @@
 //! Where a plan at its limits lets no single ramp pass, two may: a little slower first (see the module
 //! above), then to rest. What cannot be reached is left to the next block: see [`Rate::secure`].
 
-use super::play::SET_UP;
-use super::play::{Played, play};
-use super::reserve::{Later, Reserve, Steady, whole};
+use super::descent::{Later, Steps};
+use super::play::{Played, SET_UP, play};
+use super::reserve::{Reserve, Steady, whole};
 use super::{FASTEST, Rate, Scene};
 use crate::program_time::ProgramTime;
 use crate::ramp::{Bounds, Ramp};
@@ -182,17 +182,15 @@ impl Aim<'_> {
         let Scene { track, allowed, .. } = *self.scene;
         let mut left = self.left - plan.begins * self.from.rate;
         let (mut steady, mut begins) = (self.from, plan.begins);
-        let mut first = None;
+        let mut steps = Steps::default();
         if let Some(ramp) = plan.first {
             let cue = steady.cue(begins, self.scene)?;
-            if play(&ramp, cue, track, allowed, budget) != Played::Passed {
+            let Played::Passed(_) = play(&ramp, cue, track, allowed, budget) else {
                 return None;
-            }
+            };
             let passed = ramp.at(ramp.duration().ceil()).elapsed;
-            first = Some(Later {
-                in_ticks: whole(begins),
-                ramp,
-            });
+            let in_ticks = whole(begins);
+            steps.push(Later { in_ticks, ramp });
             steady = Steady {
                 time: cue.time.after(passed),
                 rate: plan.last_from,
@@ -204,16 +202,13 @@ impl Aim<'_> {
         let pace = (fastest_takes / left).min(1.0);
         let ramp = Ramp::plan(plan.last_from, 0.0, 0.0, self.bounds.paced(pace))?;
         let cue = steady.cue(begins, self.scene)?;
-        if play(&ramp, cue, track, allowed, budget) != Played::Passed {
+        let Played::Passed(_) = play(&ramp, cue, track, allowed, budget) else {
             return None;
-        }
-        let last = Later {
-            in_ticks: whole(begins),
-            ramp,
         };
+        let in_ticks = whole(begins);
+        steps.push(Later { in_ticks, ramp });
         Some(Reserve {
-            first: first.unwrap_or(last),
-            second: first.map(|_| last),
+            steps,
             arrives_at: Some(self.frame),
         })
     }

@@ -41,7 +41,7 @@ const SEARCH_STEPS: u32 = 40;
 const SLOWEST: f64 = 0.02;
 /// The highest rate that a ramp part of the way to the full rate ends at: nearer to it there is too
 /// little time left to lose to get back to the grid.
-const PARTIAL_MOST: f64 = 0.9;
+const PARTIAL_MOST: f64 = 0.97;
 /// How near to the grid a ramp must end, periods.
 const ON_GRID: f64 = 1e-10;
 

@@ -10,9 +10,14 @@ use crate::track::Track;
 pub(super) const SET_UP: u32 = 6;
 
 /// What playing a ramp through has shown.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "it lives on the stack for a moment; no boxes here"
+)]
 pub(super) enum Played {
-    Passed,
+    /// Where the ramp ends, at a whole tick.
+    Passed(Cue),
     Barred,
     OutOfBudget,
 }
@@ -35,8 +40,8 @@ pub(super) fn play(
     allowed: &Allowed,
     budget: &mut u32,
 ) -> Played {
-    let mut published = cue.published;
-    let end = ramp.duration() + 3.0;
+    let (mut published, mut after) = (cue.published, cue);
+    let (whole, end) = (ramp.duration().ceil(), ramp.duration() + 3.0);
     let mut t = 0.0;
     while t < end {
         if *budget == 0 {
@@ -56,8 +61,11 @@ pub(super) fn play(
         if !published.take(&position, allowed) {
             return Played::Barred;
         }
+        if t <= whole {
+            (after.time, after.published) = (time, published);
+        }
     }
-    Played::Passed
+    Played::Passed(after)
 }
 
 /// Most samples of a tick: what it takes where three stops fill the track, which is the shortest period

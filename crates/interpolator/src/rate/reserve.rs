@@ -15,95 +15,98 @@
 //! before a frame at rest that motion may not yet pass (a barrier, see [`Track`]). An epoch begins at
 //! such a frame, so it begins to move with a reserve, and always has one.
 //!
-//! A plan can be at its limits on so many axes, for so long, that no later stop is found. Then the one
-//! in reserve is taken, however many frames there are: it is what is known to keep the limits. A
-//! little slower, with r³ of the plan's jerk, there is more room, and a way back is found soon. Where
-//! the motion stands and no stop is found from the full rate, it sets out at a lower one.
+//! How a stop is found is told in [`super::descent`]. A plan can be at its limits on so many axes, for
+//! so long, that no later one is found. Then the motion goes a little slower, where there is more room;
+//! and if that cannot be, the stop in reserve is taken, however many frames there are: it is what is
+//! known to keep the limits. A way back is found soon. Where the motion stands and no stop is found
+//! from the full rate, it sets out at a lower one. With a horizon of 0.6 s this is rare, with near-optimal
+//! plans too: they can be at their limits for a third of a second.
 
-use super::play::{Cue, Played, SET_UP, play};
-use super::{FASTEST, Rate, Scene};
+use super::descent::{Descent, Outcome, Steps};
+use super::play::Cue;
+use super::trial::Trial;
+use super::{Rate, Scene};
 use crate::differences::Differences;
 use crate::program_time::ProgramTime;
-use crate::ramp::{Bounds, Ramp};
+use crate::ramp::Ramp;
 
 /// Samples a tick may spend on finding a reserve, unless stops are longer.
 const BUDGET: u32 = 120;
-/// Places between the latest possible and the earliest useful at which a stop of a shape may begin.
-const PLACES: usize = 48;
+/// Places between the latest possible and the earliest useful at which a stop may begin.
+const PLACES: u32 = 8;
 /// A reserve is replaced only by one that begins this much later, ticks.
 const GAIN: u32 = 3;
-/// Before a reserve begins, this many ticks are left to relaxed limits.
+/// Before a reserve begins, this many ticks are left to find a later one.
 const URGENT: u32 = 14;
-/// A shape of a stop: how much of the rate goes at first, and how fast.
-#[derive(Debug, Clone, Copy)]
-struct Shape {
-    part: f64,
-    pace: f64,
-}
 
-/// The shapes, simple ones first. One that does not take the whole rate at first gets away from a
-/// plan at its limits: then there is room for a second ramp that takes the rest.
-const SHAPES: [Shape; 7] = [
-    Shape {
-        part: 1.0,
-        pace: 1.0,
-    },
-    Shape {
-        part: 1.0,
-        pace: 0.7,
-    },
-    Shape {
-        part: 1.0,
-        pace: 0.45,
-    },
-    Shape {
-        part: 0.3,
-        pace: 1.0,
-    },
-    Shape {
-        part: 0.3,
-        pace: 0.6,
-    },
-    Shape {
-        part: 0.1,
-        pace: 0.8,
-    },
-    Shape {
-        part: 0.6,
-        pace: 0.8,
-    },
+/// In the last ticks before a reserve begins it is tried to go slower instead: by how much, how fast.
+const DIPS_LEFT: u32 = 4;
+const DIPS: [(f64, f64); 6] = [
+    (0.05, 0.7),
+    (0.12, 1.0),
+    (0.12, 0.6),
+    (0.3, 1.0),
+    (0.3, 0.6),
+    (0.6, 0.8),
 ];
-
-/// All candidates: every shape at every place.
-pub(super) const CANDIDATES: usize = PLACES * SHAPES.len();
-
-/// Between the end of the first ramp and the second: ticks, and the second's pace.
-const SECOND: [(f64, f64); 8] = [
-    (3.0, 1.0),
-    (3.0, 0.6),
-    (6.0, 1.0),
-    (6.0, 0.6),
-    (10.0, 1.0),
-    (10.0, 0.6),
-    (15.0, 1.0),
-    (15.0, 0.6),
-];
-
-/// A ramp that begins some ticks from now.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Later {
-    pub(super) in_ticks: u32,
-    pub(super) ramp: Ramp,
-}
 
 /// A stop that was played through.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reserve {
-    pub(super) first: Later,
-    /// Takes what the first leaves; counted from the end of the first.
-    pub(super) second: Option<Later>,
+    pub(super) steps: Steps,
     /// The frame at which it rests, if that is why it is wanted: the end of a block.
     pub(super) arrives_at: Option<u64>,
+}
+
+impl Reserve {
+    /// Ticks until it begins.
+    fn in_ticks(&self) -> u32 {
+        self.steps.first().map_or(0, |step| step.in_ticks)
+    }
+}
+
+/// A search for a stop that takes several ticks.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Search {
+    /// The steady rate, where the last tick left it.
+    from: Steady,
+    /// Ticks from there to the place where the stop may begin.
+    begins: u32,
+    /// Which place that is.
+    place: u32,
+    descent: Descent,
+}
+
+impl Search {
+    /// At a place, if it is not too early there.
+    fn at(place: u32, from: Steady, at_least: u32, scene: &Scene<'_>) -> Option<Self> {
+        let earliest = f64::from(at_least.max(3));
+        let latest = latest(from, scene)?;
+        let step = ((latest - earliest) / f64::from(PLACES)).max(1.0);
+        let begins = (latest - f64::from(place) * step).floor();
+        if begins < earliest {
+            return None;
+        }
+        Some(Self {
+            from,
+            begins: whole(begins),
+            place,
+            descent: Descent::new(from.cue(begins, scene)?, from.rate),
+        })
+    }
+
+    /// The same a tick later, or while the motion is held; `None` if it went another way.
+    #[allow(clippy::float_cmp, reason = "a steady rate does not change")]
+    fn now_from(mut self, now: Steady) -> Option<Self> {
+        if self.from.rate != now.rate {
+            return None;
+        }
+        if self.from.time != now.time {
+            self.from.time = self.from.time.after(now.rate);
+            self.begins = self.begins.checked_sub(1)?;
+        }
+        (self.from.time == now.time).then_some(self)
+    }
 }
 
 /// A steady rate that begins at a place.
@@ -128,111 +131,16 @@ impl Steady {
     }
 }
 
-impl Reserve {
-    /// A late stop that passes, after at least `at_least` ticks of a steady rate. Goes on at
-    /// candidate `search_at`, where the last search ended; [`CANDIDATES`] if that was the end.
-    pub(super) fn find(
-        from: Steady,
-        at_least: u32,
-        scene: &Scene<'_>,
-        search_at: &mut usize,
-        budget: &mut u32,
-    ) -> Option<Self> {
-        let earliest = f64::from(at_least.max(3));
-        for candidate in *search_at..CANDIDATES {
-            *search_at = candidate;
-            if *budget < SET_UP {
-                return None;
-            }
-            let Some(&shape) = SHAPES.get(candidate / PLACES) else {
-                continue;
-            };
-            let Some((latest, ramp)) = latest(from, shape, scene) else {
-                continue;
-            };
-            #[allow(clippy::cast_precision_loss, reason = "small numbers")]
-            let (place, places) = ((candidate % PLACES) as f64, PLACES as f64);
-            let step = ((latest - earliest) / places).max(1.0);
-            let begins = (latest - place * step).floor();
-            if begins < earliest {
-                continue;
-            }
-            *budget -= SET_UP;
-            let found = stop_at(from, begins, &ramp, scene, budget);
-            if found.is_some() {
-                *search_at = 0;
-                return found;
-            }
-        }
-        *search_at = CANDIDATES;
-        None
-    }
-}
-
-/// The stop that begins at a tick with a ramp, if it passes.
-fn stop_at(
-    from: Steady,
-    begins: f64,
-    ramp: &Ramp,
-    scene: &Scene<'_>,
-    budget: &mut u32,
-) -> Option<Reserve> {
-    let cue = from.cue(begins, scene)?;
-    if play(ramp, cue, scene.track, scene.allowed, budget) != Played::Passed {
-        return None;
-    }
-    let second = if ramp.target() > 0.0 {
-        let time = cue.time.after(ramp.at(ramp.duration().ceil()).elapsed);
-        Some(second_ramp(
-            Steady {
-                time,
-                rate: ramp.target(),
-            },
-            scene,
-            budget,
-        )?)
-    } else {
-        None
-    };
-    let first = Later {
-        in_ticks: whole(begins),
-        ramp: *ramp,
-    };
-    Some(Reserve {
-        first,
-        second,
-        arrives_at: None,
-    })
-}
-
-/// A ramp to rest soon after the first.
-fn second_ramp(from: Steady, scene: &Scene<'_>, budget: &mut u32) -> Option<Later> {
-    let bounds = scene.fastest_from(from.time.sequence);
-    SECOND.iter().find_map(|&(begins, pace)| {
-        let ramp = Ramp::plan(from.rate, 0.0, 0.0, bounds.paced(pace))?;
-        let cue = from.cue(begins, scene)?;
-        let played = play(&ramp, cue, scene.track, scene.allowed, budget);
-        (played == Played::Passed).then_some(Later {
-            in_ticks: whole(begins),
-            ramp,
-        })
-    })
-}
-
-/// The latest whole tick at which a stop of a shape can begin, and its first ramp.
-fn latest(from: Steady, shape: Shape, scene: &Scene<'_>) -> Option<(f64, Ramp)> {
+/// The latest whole tick at which a stop could begin.
+fn latest(from: Steady, scene: &Scene<'_>) -> Option<f64> {
     let Steady { time, rate } = from;
     let last = scene.track.end().checked_sub(time.sequence + 1)?;
     #[allow(clippy::cast_precision_loss, reason = "a number of frames at hand")]
     let (ahead, reach) = (last as f64 - time.fraction, scene.reach as f64);
     let about = (ahead - 2.0 * reach * rate).max(0.0);
     let bounds = scene.fastest_from(time.after(about).sequence);
-    let target = rate * (1.0 - shape.part);
-    let ramp = Ramp::plan(rate, 0.0, target, bounds.paced(shape.pace))?;
-    let rest = Ramp::plan(target, 0.0, 0.0, bounds)?;
-    let gap = 4.0 * target;
-    let length = ramp.at(ramp.duration()).elapsed + rest.at(rest.duration()).elapsed + gap;
-    Some((((ahead - length) / rate).floor(), ramp))
+    let ramp = Ramp::plan(rate, 0.0, 0.0, bounds)?;
+    Some(((ahead - ramp.at(ramp.duration()).elapsed) / rate).floor())
 }
 
 #[allow(
@@ -244,18 +152,6 @@ pub(super) const fn whole(ticks: f64) -> u32 {
     ticks as u32
 }
 
-impl Scene<'_> {
-    /// Bounds of the fastest ramp worth trying at a place: no axis needs more than its limits for it
-    /// at the highest speed ahead.
-    pub(super) fn fastest_from(&self, sequence: u64) -> Bounds {
-        let stop = self.track.longest_stop(sequence, self.reach);
-        Bounds {
-            alpha: FASTEST.alpha.min(1.0 / stop.by_acceleration),
-            beta: FASTEST.beta.min(1.0 / stop.by_jerk_squared),
-        }
-    }
-}
-
 impl Rate {
     /// Makes sure that there is a stop in reserve. Returns whether there is a new one, so that
     /// motion may pass a barrier.
@@ -264,7 +160,7 @@ impl Rate {
             return false;
         }
         let mut budget = scene.budget(BUDGET);
-        let has_time = |reserve: &Reserve| reserve.first.in_ticks > URGENT;
+        let has_time = |reserve: &Reserve| reserve.in_ticks() > URGENT;
         if let Some(frame) = scene.block_end
             && goal > 0.0
             && (self.is_to_arrive_at(frame) || self.reserve.as_ref().is_none_or(has_time))
@@ -280,7 +176,7 @@ impl Rate {
             return false;
         }
         let left = match (&self.reserve, scene.track.barrier()) {
-            (Some(reserve), _) => reserve.first.in_ticks,
+            (Some(reserve), _) => reserve.in_ticks(),
             (None, barrier) => barrier.map_or(0, |barrier| self.ticks_to(barrier)),
         };
         let enough = u32::try_from(scene.reach.max(16) * 3).unwrap_or(u32::MAX);
@@ -288,17 +184,74 @@ impl Rate {
         if left >= enough || goal <= 0.0 {
             return false;
         }
-        if self.search_at >= CANDIDATES {
-            self.search_at = 0;
-            self.finds_no_stop = scene.is_fully_supplied && self.is_barred(scene);
+        match self.search_later(left + GAIN, scene, &mut budget) {
+            Some(steps) => {
+                self.reserve = Some(Reserve {
+                    steps,
+                    arrives_at: None,
+                });
+                true
+            }
+            None => {
+                if left < DIPS_LEFT && self.reserve.is_some() && scene.is_fully_supplied {
+                    self.dip(scene);
+                }
+                false
+            }
         }
-        let from = self.steady();
-        let search_at = &mut self.search_at;
-        let found = Reserve::find(from, left + GAIN, scene, search_at, &mut budget);
-        if found.is_some() {
-            self.reserve = found;
+    }
+
+    /// Goes on with the search for a later stop.
+    fn search_later(
+        &mut self,
+        at_least: u32,
+        scene: &Scene<'_>,
+        budget: &mut u32,
+    ) -> Option<Steps> {
+        let now = self.steady();
+        let under_way = self.search.take().and_then(|search| search.now_from(now));
+        let mut place = 0;
+        let mut search = under_way.or_else(|| Search::at(place, now, at_least, scene));
+        while let Some(mut found) = search {
+            match found.descent.go_on(scene, budget) {
+                Outcome::Rest(mut steps) => {
+                    steps.delay(found.begins);
+                    return Some(steps);
+                }
+                Outcome::Open => {
+                    self.search = Some(found);
+                    return None;
+                }
+                Outcome::Lost => place = found.place + 1,
+            }
+            search = Search::at(place, now, at_least, scene).filter(|_| place < PLACES);
         }
-        found.is_some()
+        self.finds_no_stop = scene.is_fully_supplied && self.is_barred(scene);
+        None
+    }
+
+    /// Goes a little slower, as little as possible, so that the stop in reserve need not begin: from
+    /// a lower rate there is a later one.
+    fn dip(&mut self, scene: &Scene<'_>) {
+        let fastest = scene.fastest_from(self.now.sequence);
+        let mut budget = scene.budget(BUDGET);
+        for _ in 0..DIPS.len() {
+            self.dips += 1;
+            let Some((part, pace)) = DIPS.get(self.dips % DIPS.len()) else {
+                continue;
+            };
+            let target = self.rate * (1.0 - part);
+            let ramp = Ramp::plan(self.rate, 0.0, target, fastest.paced(*pace));
+            let Some(ramp) = ramp else { continue };
+            match self.try_ramp(&ramp, scene, &mut 0, &mut budget) {
+                Trial::Passed(reserve) => {
+                    self.commit(ramp, *pace, reserve);
+                    return;
+                }
+                Trial::Barred => {}
+                Trial::OutOfBudget => return,
+            }
+        }
     }
 
     /// Whether, from where the motion stands, no stop was found after it has set out at the present
@@ -330,21 +283,12 @@ impl Rate {
         let Some(reserve) = &mut self.reserve else {
             return;
         };
-        if reserve.first.in_ticks > 0 {
-            reserve.first.in_ticks -= 1;
+        let Some(ramp) = reserve.steps.count_down() else {
             return;
-        }
-        let Reserve {
-            first,
-            second,
-            arrives_at,
-        } = *reserve;
-        let rest = second.map(|second| Reserve {
-            first: second,
-            second: None,
-            arrives_at,
-        });
-        self.commit(first.ramp, 0.0, rest);
+        };
+        let rest = Some(*reserve).filter(|rest| rest.steps.first().is_some());
+        let arrives_at = reserve.arrives_at;
+        self.commit(ramp, 0.0, rest);
         self.arrives_at = arrives_at;
         self.has_taken = arrives_at.is_none();
     }

@@ -2,7 +2,7 @@
 
 use super::planned::program;
 use super::*;
-use glidepath_motion::Smoothing;
+use glidepath_motion::Effort;
 
 /// Plays a program in single-block mode, going on by `order` wherever it stands; returns where.
 fn stands(rig: &mut Rig, order: Order) -> Vec<u64> {
@@ -77,7 +77,7 @@ fn play(rig: &mut Rig, ticks: u64) {
 #[test]
 fn single_block_rests_at_the_end_of_every_block() {
     for seed in 0..20 {
-        let frames = program(seed, 30, Smoothing::Sextic);
+        let frames = program(seed, 30, Effort::Fast);
         for order in [Order::Resume, Order::Step] {
             let mut rig = Rig::playing(&frames);
             rig.order(Order::SingleBlock(true));
@@ -94,7 +94,7 @@ fn single_block_rests_at_the_end_of_every_block() {
 #[test]
 fn a_stop_at_the_end_of_the_block_is_made_once_and_anywhere() {
     for seed in 0..60 {
-        let frames = program(seed, 30, Smoothing::Sextic);
+        let frames = program(seed, 30, Effort::Fast);
         let ends = ends(&frames);
         let mut rig = Rig::playing(&frames);
         play(
@@ -131,7 +131,7 @@ fn a_stop_at_the_end_of_the_block_is_made_once_and_anywhere() {
 #[test]
 fn a_step_from_a_hold_goes_to_the_end_of_the_block_and_single_block_can_be_left() {
     for seed in 0..20 {
-        let frames = program(seed, 30, Smoothing::Sextic);
+        let frames = program(seed, 30, Effort::Fast);
         let mut rig = Rig::playing(&frames);
         play(&mut rig, 60);
         rig.order(Order::Hold);

@@ -8,13 +8,13 @@ use glidepath_motion::{
 };
 
 /// Frames of a random program of up to three axes.
-pub(super) fn program(seed: u64, moves: usize, smoothing: Smoothing) -> Vec<SetpointFrame> {
+pub(super) fn program(seed: u64, moves: usize, effort: Effort) -> Vec<SetpointFrame> {
     let settings = Settings {
         limits: mill(),
         tolerance_mm: 0.02,
-        smoothing,
+        smoothing: Smoothing::Auto,
         period_t: 0.004,
-        effort: Effort::Fast,
+        effort,
     };
     let mut numbers = Numbers::new(seed);
     let mut planner = Planner::new(settings, AxisVector::zeros());
@@ -67,17 +67,22 @@ fn positions(frames: &[SetpointFrame]) -> Vec<AxisVector> {
         .collect()
 }
 
+/// Also where a plan is at its limits on one axis or another for longer than a stop takes.
 #[test]
 fn planned_time_is_run_time() {
-    for seed in 0..40 {
-        let frames = program(seed, 60, Smoothing::Sextic);
+    let fast = (0..40).map(|seed| (seed, Effort::Fast));
+    let optimal = [6, 21, 29].map(|seed| (seed, Effort::Optimal));
+    for (seed, effort) in fast.chain(optimal) {
+        let frames = program(seed, 60, effort);
         let mut rig = Rig::playing(&frames);
         for _ in 0..frames.len() + 200 {
             rig.publish_horizon();
             rig.tick();
         }
         let last = frames.len() - 1;
-        assert_eq!(rig.ticks_from(1, last as u64), last - 1, "seed {seed}");
+        let ticks = rig.ticks_from(1, last as u64);
+        assert_eq!(ticks, last - 1, "seed {seed}, {effort:?}");
+        assert_eq!(rig.interpolator.counters.reserve_stops, 0);
     }
 }
 
@@ -111,8 +116,13 @@ fn a_short_period_gets_under_way() {
 }
 
 /// Commands by number, each with ticks after it, from a planner that dies at that part of the frames.
-fn command_planned(seed: u64, dies_at: f64, commands: &[(u8, usize)]) -> Result<(), TestCaseError> {
-    let frames = program(seed, 40, Smoothing::Sextic);
+fn command_planned(
+    effort: Effort,
+    seed: u64,
+    dies_at: f64,
+    commands: &[(u8, usize)],
+) -> Result<(), TestCaseError> {
+    let frames = program(seed, 40, effort);
     let mut rig = Rig::mill();
     let kept = ((frames.len() as f64 * dies_at) as usize).clamp(10, frames.len());
     rig.feed.extend(&frames[..kept]);
@@ -164,11 +174,30 @@ proptest! {
         dies_at in 0.2_f64..2.0,
         commands in prop::collection::vec((0_u8..10, 1_usize..120), 0..12),
     ) {
-        command_planned(seed, dies_at, &commands)?;
+        command_planned(Effort::Fast, seed, dies_at, &commands)?;
+    }
+}
+
+proptest! {
+    // Planning takes most of the time.
+    #![proptest_config(ProptestConfig { cases: 6, max_shrink_iters: 0, ..ProptestConfig::default() })]
+    #[test]
+    fn commands_and_death_keep_the_limits_of_motion_planned_with_effort(
+        seed in 0_u64..1_000_000,
+        dies_at in 0.2_f64..2.0,
+        commands in prop::collection::vec((0_u8..10, 1_usize..120), 0..12),
+    ) {
+        command_planned(Effort::Optimal, seed, dies_at, &commands)?;
     }
 }
 
 #[test]
 fn an_end_of_a_block_in_the_last_frames_of_a_planner_keeps_the_limits() {
-    command_planned(345_455, 0.2, &[(3, 17), (5, 62), (0, 1), (0, 1)]).unwrap();
+    command_planned(
+        Effort::Fast,
+        345_455,
+        0.2,
+        &[(3, 17), (5, 62), (0, 1), (0, 1)],
+    )
+    .unwrap();
 }
