@@ -15,7 +15,8 @@
 //!   constant on a span, and on each span ẍ = b′(x)/2 is a linear differential equation, solved by
 //!   hyperbolic or circular functions. So the law is evaluated exactly, and what was checked on b holds
 //!   for the motion ([`Law`]). Next to a rest, where b ~ s^(4/3), a short phase of constant jerk
-//!   takes the place of the spline.
+//!   takes the place of the spline. Between the knots, where there are no rows, the law is judged
+//!   afterwards ([`between`]).
 //! * **Optimisation.** Least Σ h/√b with a logarithmic barrier for each limit, by Newton's method; each
 //!   row of the problem touches three neighbouring coefficients, so a step costs a banded
 //!   factorisation ([`solver`]). It starts from the S-curves, slowed down, which keeps all
@@ -23,6 +24,7 @@
 //! * **Stretches.** [`Refiner`] takes what the scheduler has settled, from rest to rest or in windows,
 //!   and puts a law in place of the S-curves wherever a smooth curve of the program is on the way.
 
+mod between;
 mod refine;
 mod rows;
 mod solver;

@@ -1,12 +1,11 @@
 //! Where a law takes the place of S-curves.
 
 use super::Law;
-use super::rows::Problem;
 use super::track::Track;
 use crate::Limits;
 use crate::piece::{Element, Piece};
 use crate::schedule::Settled;
-use crate::valley::Leg;
+use crate::valley::{Course, Leg};
 use std::collections::VecDeque;
 
 /// Motion that is optimised together, s, as the S-curves drive it, and its most pieces: little enough
@@ -165,13 +164,15 @@ impl Refiner {
         };
         let is_free = exit_v <= 0.0 && !self.is_slowed;
         self.is_slowed = exit_v > 0.0;
-        let law = Track::new(&pieces, &legs, &self.limits).and_then(|track| {
-            let problem = Problem::new(&track, &self.limits);
-            let rates = if is_free { &RATES[..] } else { &RATES[..1] };
-            rates
-                .iter()
-                .find_map(|rate_r| track.optimise(&problem, *rate_r))
-        });
+        let law = {
+            let course = Course::new(&pieces);
+            Track::new(&course, &legs, &self.limits).and_then(|track| {
+                let rates = if is_free { &RATES[..] } else { &RATES[..1] };
+                rates
+                    .iter()
+                    .find_map(|rate_r| track.optimise(&course, &self.limits, *rate_r))
+            })
+        };
         let law = if is_free {
             law.filter(|law| law.duration_t() < duration_t)
         } else {

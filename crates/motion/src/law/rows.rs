@@ -94,21 +94,22 @@ impl Parabola {
 }
 
 impl Problem {
-    pub(super) fn new(track: &Track, limits: &Limits) -> Self {
+    /// `shares`: of its limits that each interval may use.
+    pub(super) fn new(track: &Track, limits: &Limits, shares: &[f64]) -> Self {
         let mut problem = Self {
             rows: Vec::new(),
             knots: Vec::new(),
         };
         let count = track.intervals.len();
-        for (k, interval) in track.intervals.iter().enumerate() {
+        for (k, (interval, share_r)) in track.intervals.iter().zip(shares).enumerate() {
             let parabola = track.parabola(k);
-            problem.cap(k, parabola.middle(), interval.middle_v);
+            problem.cap(k, parabola.middle(), share_r * interval.middle_v);
             for (taylor, jet, top_v) in [
                 (&parabola.start, &interval.start, interval.start_v),
                 (&parabola.end, &interval.end, interval.end_v),
             ] {
-                problem.cap(k, taylor.value, top_v);
-                problem.axes(k, taylor, (jet, top_v), limits);
+                problem.cap(k, taylor.value, share_r * top_v);
+                problem.axes(k, taylor, (jet, top_v), limits, *share_r);
                 problem.path(k, taylor, limits);
             }
             problem.knots.push(Knot {
@@ -178,7 +179,14 @@ impl Problem {
 
     /// The limits of the axes at a place, but for those that cannot bind there whatever the others
     /// leave.
-    fn axes(&mut self, first: usize, taylor: &Taylor, (jet, top_v): (&Jet, f64), limits: &Limits) {
+    fn axes(
+        &mut self,
+        first: usize,
+        taylor: &Taylor,
+        (jet, top_v): (&Jet, f64),
+        limits: &Limits,
+        share_r: f64,
+    ) {
         let bounds = &limits.path;
         let Taylor {
             value,
@@ -197,13 +205,13 @@ impl Problem {
             let needed_j = d1.abs() * bounds.jerk_j + cross_j + d3.abs() * top_v.powi(3);
             if most_a < IDLE_R * needed_a && most_a < Limits::UNLIMITED {
                 let of = core::array::from_fn(|i| 0.5 * d1 * slope[i] + d2 * value[i]);
-                self.both(first, of, None, BETWEEN_R * most_a);
+                self.both(first, of, None, share_r * BETWEEN_R * most_a);
             }
             if most_j < IDLE_R * needed_j && most_j < Limits::UNLIMITED {
                 let of = core::array::from_fn(|i| {
                     0.5 * d1 * second[i] + 1.5 * d2 * slope[i] + d3 * value[i]
                 });
-                self.both(first, of, Some(*value), JERK_BETWEEN_R * most_j);
+                self.both(first, of, Some(*value), share_r * JERK_BETWEEN_R * most_j);
             }
         }
     }

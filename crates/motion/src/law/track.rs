@@ -1,9 +1,8 @@
 //! Where the knots of a law are, what the path is there, and the S-curves it starts from.
 
 use super::rows::{Parabola, Problem};
-use super::{Builder, Law, solver};
+use super::{Builder, Law, between, solver};
 use crate::Limits;
-use crate::piece::Piece;
 use crate::scurve::PathState;
 use crate::valley::{Course, Leg};
 use glidepath_geometry::Jet;
@@ -15,6 +14,8 @@ const REST_T: f64 = 0.001;
 const REST_R: f64 = 0.25;
 /// Next to a rest, the time to a knot grows by this factor from the one before.
 const REST_GROWTH: f64 = 1.2;
+/// Times a law is made anew where it demands too much between its knots.
+const ROUNDS: u32 = 6;
 /// Knots nearer than this share of their distance to a place where pieces meet are left out.
 const NEAREST_R: f64 = 0.35;
 
@@ -29,6 +30,8 @@ pub(super) struct Caps {
 /// The path between two knots.
 #[derive(Debug)]
 pub(super) struct Interval {
+    /// The piece it is on.
+    pub(super) piece: usize,
     pub(super) from_s: f64,
     pub(super) length_s: f64,
     pub(super) start: Jet,
@@ -66,9 +69,8 @@ pub(super) struct Track {
 }
 
 impl Track {
-    /// A track along some pieces that S-curves drive.
-    pub(super) fn new(pieces: &[Piece], legs: &[Leg], limits: &Limits) -> Option<Self> {
-        let course = Course::new(pieces);
+    /// A track along a course that S-curves drive.
+    pub(super) fn new(course: &Course<'_>, legs: &[Leg], limits: &Limits) -> Option<Self> {
         let first = legs.first()?.profile;
         let last = legs.last()?.profile;
         let rests = [
@@ -86,8 +88,8 @@ impl Track {
             ends_v: [first.entry_v(), last.exit_v()],
             length_s: course.length_s(),
         };
-        let knots = track.knots(&course);
-        track.lay(&course, &knots, limits);
+        let knots = track.knots(course);
+        track.lay(course, &knots, limits);
         (track.intervals.len() > 4).then_some(track)
     }
 
@@ -185,6 +187,7 @@ impl Track {
             let [start, middle, end] = [from_s, middle_s, to_s].map(jet);
             let top_v = |jet: &Jet| Interval::cap_v(jet, &caps, limits);
             self.intervals.push(Interval {
+                piece: index,
                 from_s,
                 length_s: to_s - from_s,
                 start_v: top_v(&start),
@@ -226,8 +229,26 @@ impl Track {
         x
     }
 
-    /// The law near the least time that starts and ends as the S-curves do, `rate_r` times as fast.
-    pub(super) fn optimise(&self, problem: &Problem, rate_r: f64) -> Option<Law> {
+    /// The law near the least time that starts and ends as the S-curves do, `rate_r` times as fast;
+    /// `None` if none is found that keeps all limits, also between knots.
+    pub(super) fn optimise(
+        &self,
+        course: &Course<'_>,
+        limits: &Limits,
+        rate_r: f64,
+    ) -> Option<Law> {
+        let mut shares = vec![1.0; self.intervals.len()];
+        let first = usize::from(self.rests[0].is_some());
+        for _ in 0..ROUNDS {
+            let law = self.law(&Problem::new(self, limits, &shares), rate_r)?;
+            if between::lessen(&mut shares, &law, first, &self.intervals, course, limits) {
+                return Some(law);
+            }
+        }
+        None
+    }
+
+    fn law(&self, problem: &Problem, rate_r: f64) -> Option<Law> {
         let x = solver::solve(problem, self.start(rate_r))?;
         let mut builder = Builder::new();
         let zero = PathState {
