@@ -101,7 +101,7 @@ impl MotionReport {
             period_s: config.period_t(),
             cycle_time_s: audit.cycle_time_s,
             path_length_mm: audit.path_length_mm,
-            tolerance_mm: config.path.tolerance_mm,
+            tolerance_mm: audit.tolerance_mm,
             max_deviation_mm: audit.max_deviation_mm,
             max_velocity_ratio: audit.max_velocity_ratio.ratio,
             max_acceleration_ratio: audit.max_acceleration_ratio.ratio,
