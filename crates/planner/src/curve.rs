@@ -9,12 +9,13 @@
 //! where it rests.
 
 use glidepath_curve::{ChordRule, Chords, CurveError, CurveFile, ShapeKey};
-use glidepath_gcode::{Code, Diagnostic, Options, Report, Survey, Totals};
+use glidepath_gcode::{Code, Diagnostic, Options, Report};
 use glidepath_geometry::{Axis, AxisVector, Segment};
-use glidepath_motion::{Item, ItemKind, PathMode, Rate, Settings};
+use glidepath_motion::{PathMode, Rate, Settings};
 
+use crate::file_moves::{FileMoves, Next, supply, survey};
 use crate::fingerprint::fingerprint;
-use crate::{ItemSource, Refusal, Supply};
+use crate::{ItemSource, Supply};
 
 /// Part of the tolerance that chords may take.
 const CHORD_SHARE: f64 = 0.1;
@@ -24,15 +25,13 @@ const LONGEST_MM: f64 = 10.0;
 /// Items of a curve file, made as they are wanted.
 #[derive(Debug)]
 pub struct CurveSource {
-    text: String,
+    /// From where the first formula stands in the text.
+    moves: FileMoves,
     file: CurveFile,
     chords: Chords,
-    options: Options,
     rate: Rate,
     mode: PathMode,
-    position: AxisVector,
     has_approached: bool,
-    totals: Totals,
 }
 
 impl CurveSource {
@@ -78,110 +77,52 @@ impl CurveSource {
         let chords = file
             .chords(rule)
             .map_err(|error| vec![cannot_follow(&text, &file, &error)])?;
-        let position = options.start;
         Ok(Self {
-            text,
+            moves: FileMoves::new(text, file.place(ShapeKey::Formula), options),
             file,
             chords,
-            options,
             rate: Rate::Feed(feed_mm_min / 60.0),
             mode: PathMode::Continuous {
                 tolerance_mm: Some(tolerance_mm - error_mm),
             },
-            position,
             has_approached: false,
-            totals: Totals::default(),
         })
     }
 
     /// Goes through the whole curve without motion.
     #[must_use]
     pub fn check(mut self) -> Report {
-        let mut diagnostics = Vec::new();
-        let mut survey = Survey::default();
-        loop {
-            match self.next() {
-                Ok(Some(item)) => survey.add(&item),
-                Ok(None) => break,
-                Err(finding) => {
-                    diagnostics.push(*finding);
-                    break;
-                }
-            }
-        }
-        Report {
-            diagnostics,
-            more: 0,
-            complete: true,
-            totals: self.totals,
-            survey,
-            final_position: self.position,
-        }
+        let found = survey(|| self.next());
+        self.moves.into_report(found)
     }
 
-    fn next(&mut self) -> Result<Option<Item>, Box<Diagnostic>> {
+    fn next(&mut self) -> Next {
         if !self.has_approached {
             self.has_approached = true;
             let to = self.at((*self.chords.point()).into());
-            if to != self.position {
-                return self.go(to, Rate::Rapid, PathMode::ExactStop).map(Some);
+            let from = *self.moves.position();
+            if to != from {
+                let approach = Segment::line(from, to);
+                return self.moves.go(approach, Rate::Rapid, PathMode::ExactStop);
             }
         }
         let chord = self
             .chords
             .next_chord()
-            .map_err(|error| Box::new(cannot_follow(&self.text, &self.file, &error)))?;
+            .map_err(|error| Box::new(cannot_follow(self.moves.text(), &self.file, &error)))?;
         let Some(chord) = chord else { return Ok(None) };
         let to = self.at(chord.point.into());
-        self.go(to, self.rate, self.mode).map(Some)
+        let segment = Segment::line(*self.moves.position(), to);
+        self.moves.go(segment, self.rate, self.mode)
     }
 
     /// A point of the curve with the other axes where they are.
     fn at(&self, point: [f64; 3]) -> AxisVector {
-        let mut to = self.position;
+        let mut to = *self.moves.position();
         for (axis, coordinate) in point.into_iter().enumerate() {
             to[axis] = coordinate;
         }
         to
-    }
-
-    fn go(&mut self, to: AxisVector, rate: Rate, mode: PathMode) -> Result<Item, Box<Diagnostic>> {
-        for axis in [Axis::X, Axis::Y, Axis::Z] {
-            let value = to[axis.index()];
-            let travel = self.options.machine.travel(axis);
-            if let Some(travel) = travel.filter(|t| !(t.min..=t.max).contains(&value)) {
-                return Err(Box::new(Diagnostic::in_text(
-                    &self.text,
-                    self.file.place(ShapeKey::Formula),
-                    Code::SoftLimit,
-                    format!("the curve goes to {axis}{value:.3}, outside the axis' travel"),
-                    format!(
-                        "keep the curve between {axis}{} and {axis}{}",
-                        travel.min, travel.max
-                    ),
-                )));
-            }
-        }
-        let segment = Segment::line(self.position, to);
-        self.position = to;
-        let item = Item {
-            line: self.line(),
-            kind: ItemKind::Move {
-                segment,
-                rate,
-                mode,
-            },
-        };
-        self.totals.lines = self.line();
-        self.totals.add(&item);
-        Ok(item)
-    }
-
-    /// The line of the file that every move comes from: that of the first formula.
-    fn line(&self) -> u32 {
-        let at = self.file.place(ShapeKey::Formula).start;
-        let before = self.text.get(..at).unwrap_or_default();
-        u32::try_from(before.matches('\n').count() + 1).unwrap_or(u32::MAX)
     }
 }
 
@@ -205,21 +146,14 @@ fn cannot_follow(text: &str, file: &CurveFile, error: &CurveError) -> Diagnostic
 
 impl ItemSource for CurveSource {
     fn next_item(&mut self) -> Supply {
-        match self.next() {
-            Ok(Some(item)) => Supply::Item(item),
-            Ok(None) => Supply::End,
-            Err(finding) => Supply::Refused(Refusal::Program {
-                findings: vec![*finding],
-                unlisted: 0,
-            }),
-        }
+        supply(self.next())
     }
 
     fn lines_read(&self) -> u64 {
-        self.totals.lines.into()
+        self.moves.lines_read()
     }
 
     fn fingerprint(&self) -> u64 {
-        fingerprint(&self.text)
+        fingerprint(self.moves.text())
     }
 }

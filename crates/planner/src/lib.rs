@@ -17,6 +17,7 @@ mod epoch;
 mod error;
 mod feed;
 mod file;
+mod file_moves;
 mod fingerprint;
 mod joint_speed;
 mod listen;

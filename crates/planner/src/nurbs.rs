@@ -7,12 +7,13 @@
 use std::collections::VecDeque;
 
 use glidepath_curve::NurbsFile;
-use glidepath_gcode::{Code, Diagnostic, Options, Report, Survey, Totals};
+use glidepath_gcode::{Code, Diagnostic, Options, Report};
 use glidepath_geometry::{AXES, Axis, AxisVector, Nurbs, NurbsPath, Segment};
-use glidepath_motion::{Item, ItemKind, PathMode, Rate, Settings};
+use glidepath_motion::{PathMode, Rate, Settings};
 
+use crate::file_moves::{FileMoves, Next, supply, survey};
 use crate::fingerprint::fingerprint;
-use crate::{ItemSource, Refusal, Supply};
+use crate::{ItemSource, Supply};
 
 /// Part of the tolerance that pieces may be away from the curve.
 const PIECE_SHARE: f64 = 1e-3;
@@ -20,21 +21,16 @@ const PIECE_SHARE: f64 = 1e-3;
 /// Items of a NURBS file, made as they are wanted.
 #[derive(Debug)]
 pub struct NurbsSource {
-    text: String,
+    /// From where the control points stand in the text.
+    moves: FileMoves,
     path: NurbsPath,
-    /// Where the control points stand in the text.
-    place: core::ops::Range<usize>,
-    line: u32,
     /// Knot spans that have been cut, and their segments that have not been given out.
     cut: usize,
     segments: VecDeque<Segment>,
     error_mm: f64,
-    options: Options,
     rate: Rate,
     mode: PathMode,
-    position: AxisVector,
     has_approached: bool,
-    totals: Totals,
 }
 
 impl NurbsSource {
@@ -102,10 +98,8 @@ impl NurbsSource {
         } else {
             tolerance_mm - error_mm
         };
-        let before = text.get(..file.place.start).unwrap_or_default();
         Ok(Self {
-            line: u32::try_from(before.matches('\n').count() + 1).unwrap_or(u32::MAX),
-            place: file.place,
+            moves: FileMoves::new(text, file.place, options),
             path,
             cut: 0,
             segments: VecDeque::new(),
@@ -114,102 +108,41 @@ impl NurbsSource {
             mode: PathMode::Continuous {
                 tolerance_mm: Some(left_mm),
             },
-            position: options.start,
             has_approached: false,
-            totals: Totals::default(),
-            options,
-            text,
         })
     }
 
     /// Goes through the whole curve without motion.
     #[must_use]
     pub fn check(mut self) -> Report {
-        let mut diagnostics = Vec::new();
-        let mut survey = Survey::default();
-        loop {
-            match self.next() {
-                Ok(Some(item)) => survey.add(&item),
-                Ok(None) => break,
-                Err(finding) => {
-                    diagnostics.push(*finding);
-                    break;
-                }
-            }
-        }
-        Report {
-            diagnostics,
-            more: 0,
-            complete: true,
-            totals: self.totals,
-            survey,
-            final_position: self.position,
-        }
+        let found = survey(|| self.next());
+        self.moves.into_report(found)
     }
 
-    fn next(&mut self) -> Result<Option<Item>, Box<Diagnostic>> {
+    fn next(&mut self) -> Next {
         if !self.has_approached {
             self.has_approached = true;
             let start = self.path.jet(0.0).position;
-            if start != self.position {
-                let approach = Segment::line(self.position, start);
-                return self
-                    .go(approach, Rate::Rapid, PathMode::ExactStop)
-                    .map(Some);
+            if start != *self.moves.position() {
+                let approach = Segment::line(*self.moves.position(), start);
+                return self.moves.go(approach, Rate::Rapid, PathMode::ExactStop);
             }
         }
         while self.segments.is_empty() && self.cut < self.path.curve().spans().len() {
             let mut segments = Vec::new();
-            self.path
-                .cut_span(self.cut, self.position, self.error_mm, &mut segments);
+            self.path.cut_span(
+                self.cut,
+                *self.moves.position(),
+                self.error_mm,
+                &mut segments,
+            );
             self.segments.extend(segments);
             self.cut += 1;
         }
         let Some(segment) = self.segments.pop_front() else {
             return Ok(None);
         };
-        self.go(segment, self.rate, self.mode).map(Some)
-    }
-
-    fn go(
-        &mut self,
-        segment: Segment,
-        rate: Rate,
-        mode: PathMode,
-    ) -> Result<Item, Box<Diagnostic>> {
-        let (low, high) = segment.bounding_box();
-        for axis in Axis::ALL {
-            let Some(travel) = self.options.machine.travel(axis) else {
-                continue;
-            };
-            let range = travel.min..=travel.max;
-            let outside = [low, high].map(|point| point[axis.index()]);
-            if let Some(value) = outside.into_iter().find(|value| !range.contains(value)) {
-                return Err(Box::new(Diagnostic::in_text(
-                    &self.text,
-                    self.place.clone(),
-                    Code::SoftLimit,
-                    format!("the curve goes to {axis}{value:.3}, outside the axis' travel"),
-                    format!(
-                        "keep the curve between {axis}{} and {axis}{}",
-                        travel.min, travel.max
-                    ),
-                )));
-            }
-        }
-        self.position = segment.end();
-        let kind = ItemKind::Move {
-            segment,
-            rate,
-            mode,
-        };
-        let item = Item {
-            line: self.line,
-            kind,
-        };
-        self.totals.lines = self.line;
-        self.totals.add(&item);
-        Ok(item)
+        self.moves.go(segment, self.rate, self.mode)
     }
 }
 
@@ -230,21 +163,14 @@ fn with_others(
 
 impl ItemSource for NurbsSource {
     fn next_item(&mut self) -> Supply {
-        match self.next() {
-            Ok(Some(item)) => Supply::Item(item),
-            Ok(None) => Supply::End,
-            Err(finding) => Supply::Refused(Refusal::Program {
-                findings: vec![*finding],
-                unlisted: 0,
-            }),
-        }
+        supply(self.next())
     }
 
     fn lines_read(&self) -> u64 {
-        self.totals.lines.into()
+        self.moves.lines_read()
     }
 
     fn fingerprint(&self) -> u64 {
-        fingerprint(&self.text)
+        fingerprint(self.moves.text())
     }
 }

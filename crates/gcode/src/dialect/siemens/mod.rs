@@ -150,18 +150,19 @@ impl Writer<'_> {
         })
     }
 
+    /// Letters, digits and what else may be in a name, from here on.
+    fn name_ahead(&self) -> Vec<u8> {
+        (0..)
+            .map_while(|ahead| self.peek(ahead))
+            .take_while(|byte| matches!(byte, b'A'..=b'Z' | b'0'..=b'9' | b'_' | b'$'))
+            .collect()
+    }
+
     /// A word: an address with its value, an assignment, or a name.
     fn word(&mut self, dwell: bool) -> Outcome<()> {
         let start = self.at;
-        let length = (0..)
-            .take_while(|ahead| {
-                matches!(
-                    self.peek(*ahead),
-                    Some(b'A'..=b'Z' | b'0'..=b'9' | b'_' | b'$')
-                )
-            })
-            .count();
-        let name: Vec<u8> = (0..length).filter_map(|ahead| self.peek(ahead)).collect();
+        let name = self.name_ahead();
+        let length = name.len();
         let letters = name
             .iter()
             .take_while(|byte| !byte.is_ascii_digit())
@@ -309,15 +310,8 @@ impl Writer<'_> {
     /// A parameter or a function in an expression; true if it is a value.
     fn name_in_expression(&mut self) -> Outcome<bool> {
         let start = self.at;
-        let length = (0..)
-            .take_while(|ahead| {
-                matches!(
-                    self.peek(*ahead),
-                    Some(b'A'..=b'Z' | b'0'..=b'9' | b'_' | b'$')
-                )
-            })
-            .count();
-        let name: Vec<u8> = (0..length).filter_map(|ahead| self.peek(ahead)).collect();
+        let name = self.name_ahead();
+        let length = name.len();
         let span = Span::new(start, start + length);
         if let [b'R', digits @ ..] = name.as_slice()
             && !digits.is_empty()

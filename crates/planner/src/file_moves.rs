@@ -1,0 +1,130 @@
+//! What the moves of all curve files have in common, whatever kind of curve makes them.
+
+use glidepath_gcode::{Code, Diagnostic, Options, Report, Survey, Totals};
+use glidepath_geometry::{Axis, AxisVector, Segment};
+use glidepath_motion::{Item, ItemKind, PathMode, Rate};
+
+use crate::{Refusal, Supply};
+
+/// An item, the end of the curve, or what is wrong with it.
+pub(crate) type Next = Result<Option<Item>, Box<Diagnostic>>;
+
+/// Moves that all come from the same place of a file.
+#[derive(Debug)]
+pub(crate) struct FileMoves {
+    text: String,
+    place: core::ops::Range<usize>,
+    line: u32,
+    options: Options,
+    position: AxisVector,
+    totals: Totals,
+}
+
+impl FileMoves {
+    /// Moves of the curve that stands at `place` in a text, for a machine at the start of the options.
+    pub(crate) fn new(text: String, place: core::ops::Range<usize>, options: Options) -> Self {
+        let before = text.get(..place.start).unwrap_or_default();
+        Self {
+            line: u32::try_from(before.matches('\n').count() + 1).unwrap_or(u32::MAX),
+            position: options.start,
+            totals: Totals::default(),
+            text,
+            place,
+            options,
+        }
+    }
+
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Where the last move ends, mm and degrees.
+    pub(crate) const fn position(&self) -> &AxisVector {
+        &self.position
+    }
+
+    pub(crate) fn lines_read(&self) -> u64 {
+        self.totals.lines.into()
+    }
+
+    /// The next move; refused if it leads an axis out of its travel.
+    pub(crate) fn go(&mut self, segment: Segment, rate: Rate, mode: PathMode) -> Next {
+        let (low, high) = match &segment {
+            // Where the machine stands is not the curve's fault.
+            Segment::Line(_) => (segment.end(), segment.end()),
+            _ => segment.bounding_box(),
+        };
+        for axis in Axis::ALL {
+            let i = axis.index();
+            let stands = self.position[i].to_bits();
+            let stays = [low[i], high[i]]
+                .iter()
+                .all(|value| value.to_bits() == stands);
+            let Some(travel) = self.options.machine.travel(axis).filter(|_| !stays) else {
+                continue;
+            };
+            let range = travel.min..=travel.max;
+            if let Some(value) = [low[i], high[i]].into_iter().find(|v| !range.contains(v)) {
+                return Err(Box::new(Diagnostic::in_text(
+                    &self.text,
+                    self.place.clone(),
+                    Code::SoftLimit,
+                    format!("the curve goes to {axis}{value:.3}, outside the axis' travel"),
+                    format!(
+                        "keep the curve between {axis}{} and {axis}{}",
+                        travel.min, travel.max
+                    ),
+                )));
+            }
+        }
+        self.position = segment.end();
+        let kind = ItemKind::Move {
+            segment,
+            rate,
+            mode,
+        };
+        let item = Item {
+            line: self.line,
+            kind,
+        };
+        self.totals.lines = self.line;
+        self.totals.add(&item);
+        Ok(Some(item))
+    }
+
+    /// What a check found.
+    pub(crate) fn into_report(self, (survey, diagnostics): (Survey, Vec<Diagnostic>)) -> Report {
+        Report {
+            diagnostics,
+            more: 0,
+            complete: true,
+            totals: self.totals,
+            survey,
+            final_position: self.position,
+        }
+    }
+}
+
+/// Goes through a whole curve without motion, up to its first finding.
+pub(crate) fn survey(mut next: impl FnMut() -> Next) -> (Survey, Vec<Diagnostic>) {
+    let mut survey = Survey::default();
+    loop {
+        match next() {
+            Ok(Some(item)) => survey.add(&item),
+            Ok(None) => return (survey, Vec::new()),
+            Err(finding) => return (survey, vec![*finding]),
+        }
+    }
+}
+
+/// What a planner is given.
+pub(crate) fn supply(next: Next) -> Supply {
+    match next {
+        Ok(Some(item)) => Supply::Item(item),
+        Ok(None) => Supply::End,
+        Err(finding) => Supply::Refused(Refusal::Program {
+            findings: vec![*finding],
+            unlisted: 0,
+        }),
+    }
+}
