@@ -328,29 +328,6 @@ fn ends() {
     ));
 }
 
-#[test]
-fn a_closed_curve_with_a_node_is_followed_and_its_node_named() {
-    let curve = viviani();
-    let rule = ChordRule {
-        longest_mm: 0.4,
-        error_mm: 1e-3,
-    };
-    let start = Vector3::new(20.0, 20.0, 28.284);
-    let mut chords =
-        ImplicitChords::new(curve.clone(), &start, &-Vector3::x(), End::Closed, rule).unwrap();
-    let (mut count, mut unproven, mut length) = (0, 0, 0.0);
-    while let Some(chord) = chords.next_chord().unwrap() {
-        count += 1;
-        unproven += u32::from(!chord.is_proven);
-        length += chord.chord_mm;
-        assert!(off_viviani(&chord.point).1 < 1e-8);
-        assert!(chord.is_proven || (chord.point - Vector3::new(40.0, 0.0, 0.0)).norm() < 0.5);
-    }
-    println!("{count} chords, {unproven} of them unproven, {length} mm");
-    assert!((length - 305.6).abs() < 0.5, "{length}");
-    assert!(unproven < 200, "{unproven}");
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 

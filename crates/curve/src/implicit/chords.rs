@@ -1,5 +1,8 @@
 //! An implicit curve as a sequence of chords whose error is proven.
 
+use super::branch::Branch;
+use super::node::touching_point;
+use super::passage::Passage;
 use super::step::{ImplicitStep, ImplicitStepper, Place, onto_curve};
 use super::tube::chord_error_mm;
 use super::{ImplicitCurve, curvature_k};
@@ -12,10 +15,12 @@ const GIVEN_MM: f64 = 0.01;
 const ENDLESS_MM: f64 = 1e7;
 /// Corrections beyond which a chord is too long for the curve.
 const HARD: u32 = 6;
-/// Longest chord that may pass a node without proof, mm.
-const NODE_MM: f64 = 0.01;
-/// Angle of the surfaces (its sine) that makes a place a node.
-const NODE_SINE: f64 = 0.01;
+/// How far ahead or behind a node is looked for, in chords.
+const NODE_CHORDS: f64 = 10.0;
+/// Longest chord without proof where surfaces nearly touch, mm.
+const TOUCHING_MM: f64 = 0.01;
+/// Angle of the surfaces (its sine) below which they nearly touch.
+const TOUCHING_SINE: f64 = 0.01;
 
 /// Where a curve ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +41,9 @@ pub struct ImplicitChords {
     rule: ChordRule,
     /// Where it ends, if at a point.
     target: Option<Vector3<f64>>,
+    /// Tangents of the branch by which a closed curve left a node, and of the other: passing the node on
+    /// the other is not its end.
+    branches: Option<[Vector3<f64>; 2]>,
     /// Length along the curve at which it ends, mm.
     until_mm: f64,
     travelled_mm: f64,
@@ -43,11 +51,45 @@ pub struct ImplicitChords {
     is_over: bool,
 }
 
+/// The branches of a node next to a point, first the one that leads ahead, or nearly.
+fn leaving(
+    curve: &ImplicitCurve,
+    point: &Vector3<f64>,
+    ahead: &Vector3<f64>,
+) -> Result<[Branch; 2], CurveError> {
+    let branches = Branch::through(curve, point, GIVEN_MM, ahead)
+        .ok_or(CurveError::Singular { point: *point })?;
+    let straight = |branch: &Branch| branch.along().dot(ahead) / ahead.norm();
+    let [a, b] = branches;
+    let (branch, other) = if straight(&a) >= straight(&b) {
+        (a, b)
+    } else {
+        (b, a)
+    };
+    // Midway between the branches, no one can tell which is meant.
+    let is_told = straight(&branch) > straight(&other) + 1e-6;
+    is_told
+        .then_some([branch, other])
+        .ok_or(CurveError::Sideways)
+}
+
+/// The end of a curve: the point next to the given one, or the node.
+fn ending(curve: &ImplicitCurve, point: &Vector3<f64>) -> Result<Vector3<f64>, CurveError> {
+    let end = onto_curve(curve, point, GIVEN_MM)?;
+    let is_clean = curve.contact(&end).is_clean();
+    let node = if is_clean {
+        None
+    } else {
+        touching_point(curve, &end, GIVEN_MM)
+    };
+    Ok(node.unwrap_or(end))
+}
+
 impl ImplicitChords {
     /// Chords from the point of the curve next to `start`, in the direction of `ahead`.
     ///
     /// # Errors
-    /// Start or end are not on the curve, or the surfaces touch at the start.
+    /// Start or end are not on the curve, or the surfaces touch at the start without crossing.
     pub fn new(
         curve: ImplicitCurve,
         start: &Vector3<f64>,
@@ -55,18 +97,29 @@ impl ImplicitChords {
         end: End,
         rule: ChordRule,
     ) -> Result<Self, CurveError> {
-        let start = onto_curve(&curve, start, GIVEN_MM)?;
+        let mut start = onto_curve(&curve, start, GIVEN_MM)?;
+        let mut branches = None;
+        let place = match ImplicitStepper::new(&curve, start, ahead) {
+            Err(CurveError::Singular { point }) => {
+                let [branch, other] = leaving(&curve, &point, ahead)?;
+                start = *branch.node();
+                branches = Some([*branch.along(), *other.along()]);
+                Place::new(&curve, start, *branch.along())
+            }
+            stepper => stepper?.place(),
+        };
         let (target, until_mm) = match end {
             End::Closed => (Some(start), ENDLESS_MM),
-            End::At(point) => (Some(onto_curve(&curve, &point, GIVEN_MM)?), ENDLESS_MM),
+            End::At(point) => (Some(ending(&curve, &point)?), ENDLESS_MM),
             End::Length(length_mm) => (None, length_mm),
         };
-        let place = ImplicitStepper::new(&curve, start, ahead)?.place();
+        let branches = branches.filter(|_| end == End::Closed);
         Ok(Self {
             curve,
             place,
             rule,
             target,
+            branches,
             until_mm,
             travelled_mm: 0.0,
             last_mm: f64::INFINITY,
@@ -93,7 +146,7 @@ impl ImplicitChords {
                 length_mm: ENDLESS_MM,
             });
         }
-        let here = curvature_k(&self.curve, self.point());
+        let here = self.bend_k(self.point());
         let mut wanted = self.rule.longest_mm.min(1.5 * self.last_mm);
         if here.is_finite() {
             wanted = wanted.min(chord_mm(here, self.rule.error_mm));
@@ -121,30 +174,80 @@ impl ImplicitChords {
 
     /// A chord of a length, if it is within the error.
     fn attempt(&self, wanted: f64) -> Option<(ImplicitStep, Chord)> {
-        let step = ImplicitStepper::resume(&self.curve, self.place)
-            .look(wanted)
-            .ok()?;
-        if step.corrections > HARD {
-            return None;
-        }
-        let expected = self.expected_mm(&step, wanted);
-        let proven = chord_error_mm(&self.curve, self.point(), &step.point, expected);
-        // Near a node nothing can be proven, but a short chord is harmless.
+        let stepper = ImplicitStepper::resume(&self.curve, self.place);
+        let step = stepper.look(wanted).ok();
+        let step = step.filter(|step| step.corrections <= HARD);
+        let expected = step.map(|step| self.expected_mm(&step, wanted));
+        let proven = step.zip(expected).and_then(|(step, expected)| {
+            let error_mm = chord_error_mm(&self.curve, self.point(), &step.point, expected)?;
+            (error_mm <= self.rule.error_mm).then_some((step, error_mm))
+        });
+        let proven = proven.or_else(|| self.past_node(wanted));
         let is_proven = proven.is_some();
-        let passes_node = wanted <= NODE_MM && step.sine <= NODE_SINE;
-        let error_mm = proven.or_else(|| passes_node.then_some(2.0 * expected))?;
-        (error_mm <= self.rule.error_mm).then_some((
-            step,
-            Chord {
-                point: step.point,
-                chord_mm: wanted,
-                error_mm,
-                is_proven,
-            },
-        ))
+        let (step, error_mm) = proven.or_else(|| {
+            // Of surfaces that nearly touch nothing can be proven, but a short chord is harmless.
+            let (step, error_mm) = (step?, 2.0 * expected?);
+            let is_short = wanted <= TOUCHING_MM && step.sine <= TOUCHING_SINE;
+            (is_short && error_mm <= self.rule.error_mm).then_some((step, error_mm))
+        })?;
+        let chord = Chord {
+            point: step.point,
+            chord_mm: wanted,
+            error_mm,
+            is_proven,
+        };
+        Some((step, chord))
     }
 
-    /// The sagitta by the curvature at both ends, as far as it is known, and by the last turn.
+    /// A chord of a length along the branch of a node nearby, and its error.
+    fn past_node(&self, wanted: f64) -> Option<(ImplicitStep, f64)> {
+        let (branch, from_s) = self.branch(wanted)?;
+        let from = *self.point();
+        let (to_s, point) = branch.step(&self.curve, from_s, &from, wanted)?;
+        let passage = Passage {
+            curve: &self.curve,
+            branch: &branch,
+            s: [from_s, to_s],
+            ends: [from, point],
+        };
+        let error_mm = passage.error_mm(self.rule.error_mm)?;
+        let stepper = ImplicitStepper::resume(&self.curve, self.place);
+        Some((stepper.at(point), error_mm))
+    }
+
+    /// The branch of a node nearby on which the next chord begins, and where it does.
+    fn branch(&self, chord_mm: f64) -> Option<(Branch, f64)> {
+        let stepper = ImplicitStepper::resume(&self.curve, self.place);
+        let (from, ahead) = (self.point(), stepper.ahead());
+        // ∇f × ∇g vanishes at a node, nearly in proportion to the way to it.
+        let along = |point: &Vector3<f64>| self.curve.contact(point).along();
+        let here = along(from);
+        let change = along(&(from + ahead * chord_mm)) - here;
+        let chords = -here.dot(&change) / change.norm_squared();
+        if chords.is_nan() || chords.abs() > NODE_CHORDS {
+            return None;
+        }
+        let guess = from + ahead * (chord_mm * chords);
+        let reach_mm = NODE_CHORDS * chord_mm;
+        let branches = Branch::through(&self.curve, &guess, reach_mm, &ahead)?;
+        let straight = |branch: &Branch| branch.along().dot(&ahead);
+        branches
+            .into_iter()
+            .filter_map(|branch| Some((branch, branch.place(&self.curve, from)?)))
+            .max_by(|(a, _), (b, _)| straight(a).total_cmp(&straight(b)))
+    }
+
+    /// Curvature at a point, 1/mm: that of the branch at a node where surfaces nearly touch, because it
+    /// is lost in rounding there.
+    fn bend_k(&self, point: &Vector3<f64>) -> f64 {
+        if self.curve.contact(point).sine() >= TOUCHING_SINE {
+            return curvature_k(&self.curve, point);
+        }
+        self.branch(self.rule.longest_mm)
+            .map_or(f64::INFINITY, |(branch, _)| branch.curvature_k())
+    }
+
+    /// The sagitta by the curvature at both ends, as far as it is known.
     fn expected_mm(&self, step: &ImplicitStep, chord: f64) -> f64 {
         let ends = [*self.point(), step.point];
         let sharpest = ends
@@ -170,7 +273,7 @@ impl ImplicitChords {
         let mut stepper = ImplicitStepper::resume(&self.curve, self.place);
         stepper.advance(step);
         self.place = stepper.place();
-        let curvature = curvature_k(&self.curve, &step.point);
+        let curvature = self.bend_k(&step.point);
         let arc = if curvature.is_finite() && curvature * wanted < 1.0 {
             wanted * arc_over_chord(curvature, wanted)
         } else {
@@ -191,6 +294,10 @@ impl ImplicitChords {
         let share = out.dot(&along) / along.norm_squared();
         let off = (out - along * share).norm();
         let near = 2.0 * self.rule.error_mm + 1e-9;
-        (share > 0.0 && share <= 1.0 + 1e-9 && off <= near).then_some(target)
+        let is_home = self
+            .branches
+            .is_none_or(|[own, other]| own.dot(&along).abs() > other.dot(&along).abs());
+        let is_passed = share > 0.0 && share <= 1.0 + 1e-9 && off <= near;
+        (is_home && is_passed).then_some(target)
     }
 }

@@ -1,9 +1,12 @@
 //! Curves where two surfaces f(x, y, z) = 0 and g(x, y, z) = 0 cross.
 
+mod across;
+mod branch;
 mod chords;
 mod curvature;
 mod linear;
 mod node;
+mod passage;
 mod step;
 mod tube;
 

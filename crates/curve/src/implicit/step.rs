@@ -7,7 +7,8 @@
 //!
 //! Where the surfaces (nearly) touch, the tangent is not to be had from the gradients: two branches may
 //! cross there. The chord is then continued from the last two, d = 2 d₁ − d₂, and corrected by
-//! Gauss-Newton steps in the directions the equations do determine. That stays on the branch it came by.
+//! Gauss-Newton steps in the directions the equations do determine. That stays on the branch it came by;
+//! `branch.rs` does better where the surfaces touch exactly, and proves it.
 
 use super::{Contact, ImplicitCurve};
 use crate::CurveError;
@@ -53,6 +54,18 @@ pub(super) struct Place {
     /// The last two chords, the newer first; before the first chord, the direction to take.
     chords: [Option<Vector3<f64>>; 2],
     ahead: Vector3<f64>,
+}
+
+impl Place {
+    /// At the start of a curve that leads `ahead`.
+    pub(super) fn new(curve: &ImplicitCurve, point: Vector3<f64>, ahead: Vector3<f64>) -> Self {
+        Self {
+            point,
+            contact: curve.contact(&point),
+            chords: [None; 2],
+            ahead,
+        }
+    }
 }
 
 /// Moves a point onto the curve the shortest way, by at most `most_mm`.
@@ -148,12 +161,7 @@ impl<'a> ImplicitStepper<'a> {
         if along.dot(ahead) <= 1e-6 * ahead.norm() {
             return Err(CurveError::Sideways);
         }
-        let place = Place {
-            point,
-            contact,
-            chords: [None; 2],
-            ahead: along,
-        };
+        let place = Place::new(curve, point, along);
         Ok(Self { curve, place })
     }
 
@@ -248,6 +256,18 @@ impl<'a> ImplicitStepper<'a> {
             point -= correction * (0.1 * chord_mm / length).min(1.0);
         }
         Err(lost)
+    }
+
+    /// A step to a point of the curve that is known.
+    pub(super) fn at(&self, point: Vector3<f64>) -> ImplicitStep {
+        let contact = self.curve.contact(&point);
+        ImplicitStep {
+            point,
+            corrections: 0,
+            evaluations: 1,
+            sine: contact.sine().min(self.place.contact.sine()),
+            contact,
+        }
     }
 
     /// Moves to the end of a chord.

@@ -18,8 +18,9 @@
 //! the axis-parallel box around a slanting tube they would vary much more than in the tube.
 
 use super::ImplicitCurve;
+use super::across::Across;
 use glidepath_geometry::number::{Interval, Number, Series};
-use nalgebra::{Matrix2, Vector3};
+use nalgebra::Vector3;
 
 /// A bound on the distance between the curve and the chord from `from` to `to`, both points of the
 /// curve, mm: both ways, and in order. `None` if no tube of a few times the `expected_mm` gives a proof.
@@ -110,7 +111,9 @@ impl Tube {
             let hessian = s.hessian.iter().flatten();
             s.gradient.iter().chain(hessian).all(|c| c.is_finite())
         });
-        let across = Across::new(&surfaces).filter(|_| is_finite)?;
+        // The part of the Jacobian by (v, w).
+        let [f, g] = [0, 1].map(|i: usize| [surfaces[i].gradient[1], surfaces[i].gradient[2]]);
+        let across = Across::new([f, g]).filter(|_| is_finite)?;
         let [dv, dw] = across.solve([surfaces[0].gradient[0], surfaces[1].gradient[0]])?;
         let xi = [Interval::constant(1.0), dv, dw];
         let bends = [0, 1].map(|surface: usize| {
@@ -137,47 +140,4 @@ fn component(vector: &[Interval; 3], direction: &Vector3<f64>) -> Interval {
     (0..3).fold(Interval::constant(0.0), |sum, i| {
         sum + vector[i] * Interval::constant(direction[i])
     })
-}
-
-/// The part of the Jacobian by (v, w), multiplied by the inverse of its middle: nearly the unit matrix,
-/// so that quotients are nearly sharp.
-struct Across {
-    inverse: Matrix2<f64>,
-    rows: [[Interval; 2]; 2],
-    determinant: Interval,
-}
-
-impl Across {
-    fn new(surfaces: &[Slopes; 2]) -> Option<Self> {
-        let middle = |i: &Interval| 0.5 * (i.low() + i.high());
-        let [f, g] = [0, 1].map(|i: usize| [surfaces[i].gradient[1], surfaces[i].gradient[2]]);
-        let inverse = Matrix2::new(middle(&f[0]), middle(&f[1]), middle(&g[0]), middle(&g[1]))
-            .try_inverse()
-            .filter(|inverse| inverse.iter().all(|c| c.is_finite()))?;
-        let rows =
-            core::array::from_fn(|i| core::array::from_fn(|j| combine(&inverse, i, f[j], g[j])));
-        let [[a, b], [c, d]]: [[Interval; 2]; 2] = rows;
-        let determinant = a * d - b * c;
-        (!determinant.contains(0.0)).then_some(Self {
-            inverse,
-            rows,
-            determinant,
-        })
-    }
-
-    /// (v, w) with J (v, w) = −right, by Cramer's rule.
-    fn solve(&self, right: [Interval; 2]) -> Option<[Interval; 2]> {
-        let [p, q] = [0, 1].map(|i| combine(&self.inverse, i, right[0], right[1]));
-        let [[a, b], [c, d]] = self.rows;
-        let solved = [
-            (b * q - d * p) / self.determinant,
-            (c * p - a * q) / self.determinant,
-        ];
-        solved.iter().all(|s| s.is_finite()).then_some(solved)
-    }
-}
-
-/// Row `i` of a matrix times a column.
-fn combine(matrix: &Matrix2<f64>, i: usize, first: Interval, second: Interval) -> Interval {
-    first * Interval::constant(matrix[(i, 0)]) + second * Interval::constant(matrix[(i, 1)])
 }
