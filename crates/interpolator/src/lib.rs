@@ -11,6 +11,7 @@
 //!   stamp, and reads like a table of contents: what it owns
 //!   is a `track` (the frames ahead), a `rate` (of program time: the essay on hold, resume and
 //!   override is there), a `supply` (are there frames enough?) and a `will` (what stops the motion);
+//! * `joints` turns its axes into those of the mechanism;
 //! * `admission` judges every frame before the real-time thread sees it;
 //! * `ports` is one turn of the ports thread.
 //!
@@ -26,6 +27,7 @@ mod block_end;
 mod commands;
 mod config;
 mod differences;
+mod joints;
 mod loops;
 mod message;
 mod ports;

@@ -11,7 +11,6 @@ use crate::config::Config;
 use crate::message::{Fault, Happening, Order, PortsEnds, Report};
 use crate::status::{StatusBook, grants_of};
 use glidepath_geometry::AxisVector;
-use glidepath_kinematics::{JointVector, Kinematics as _, Mechanism};
 use glidepath_link::{
     CommandReply, CommandRequest, EndOfEpoch, FaultCause, LinkError, MachineState, Publisher,
     Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
@@ -55,9 +54,6 @@ pub(crate) struct Ports<'a> {
     happenings: EventReader<'a, Happening>,
     log: &'a mut dyn FnMut(&str),
     admission: Admission,
-    mechanism: Mechanism,
-    /// Where the joints were told to be last.
-    joints: JointVector,
     /// A frame that is to be judged again.
     pending: Option<SetpointFrame>,
     report: Option<Report>,
@@ -83,8 +79,6 @@ impl<'a> Ports<'a> {
             happenings,
             log,
             admission: Admission::new(config),
-            mechanism: config.mechanism,
-            joints: JointVector::zeros(),
             pending: None,
             report: None,
             book: StatusBook::new(config, boot_id),
@@ -151,8 +145,7 @@ impl<'a> Ports<'a> {
     fn publish_setpoints(&mut self) -> Result<(), LinkError> {
         let mut result = Ok(());
         while let Some(report) = self.ends.reports.dequeue() {
-            let setpoint = self.with_joints(report.setpoint);
-            let published = self.links.setpoints.publish(&setpoint);
+            let published = self.links.setpoints.publish(&report.setpoint);
             if published.is_ok() {
                 self.book.status.setpoints_published += 1;
             }
@@ -165,32 +158,6 @@ impl<'a> Ports<'a> {
             self.report = Some(report);
         }
         result
-    }
-
-    /// A setpoint with what the joints are to do. This thread has time for it; the one with the
-    /// deadline only knows axes.
-    fn with_joints(&mut self, setpoint: Setpoint) -> Setpoint {
-        let (position, velocity) = (setpoint.position.into(), setpoint.velocity.into());
-        let motion = self
-            .mechanism
-            .motion(&position, &velocity, &setpoint.acceleration.into());
-        let Ok(motion) = motion else {
-            // Every frame passed a judge of the joints, so this cannot be; if it were, the joints stay
-            // and the motion ends.
-            let sequence = setpoint.sequence;
-            self.fault(Fault::new(FaultCause::Output, setpoint.line, sequence));
-            return Setpoint {
-                joint_position: self.joints.into(),
-                ..setpoint
-            };
-        };
-        self.joints = motion.position;
-        Setpoint {
-            joint_position: motion.position.into(),
-            joint_velocity: motion.velocity.into(),
-            joint_acceleration: motion.acceleration.into(),
-            ..setpoint
-        }
     }
 
     fn serve_commands(&mut self) -> Result<(), LinkError> {

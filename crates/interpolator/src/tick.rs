@@ -2,9 +2,9 @@
 //!
 //! ```text
 //! orders ─► will ─┐
-//! frames ─► track ┼─► supply ─► steer ─► advance ─► setpoint ─► settle ─► report ─┊─► stamp
-//!                 └─ enough to go on?  rate  program time   check   end of epoch,  deadline
-//!                                                                   program stop
+//! frames ─► track ┼─► supply ─► steer ─► advance ─► setpoint ─► joints ─► settle ─► report ─┊─► stamp
+//!                 └─ enough to go on?  rate  program time   check           end of epoch,  deadline
+//!                                                                           program stop
 //! ```
 //!
 //! Everything but the stamp is done shortly before the deadline: how long it takes, and how cold the
@@ -16,6 +16,7 @@
 use crate::block_end::BlockEnd;
 use crate::config::Config;
 use crate::differences::{Allowed, Differences};
+use crate::joints::Joints;
 use crate::message::{Fault, Happening, Inputs, Order, Report};
 use crate::program_time::ProgramTime;
 use crate::rate::{BESIDE_FULL, Rate, Scene};
@@ -52,6 +53,7 @@ pub(crate) struct Interpolator<'a> {
     sets_out_at: f64,
     pub(crate) published: Differences,
     allowed: Allowed,
+    joints: Joints,
     /// The open or last epoch, 0 before the first.
     pub(crate) epoch: u64,
     pub(crate) end_of_epoch: EndOfEpoch,
@@ -84,6 +86,7 @@ impl<'a> Interpolator<'a> {
             sets_out_at: 1.0,
             published: Differences::at_rest(config.start_position),
             allowed: Allowed::new(&config.limits, period_t),
+            joints: Joints::new(config.mechanism),
             epoch: 0,
             end_of_epoch: EndOfEpoch::None,
             counters: Counters::new(config),
@@ -101,7 +104,7 @@ impl<'a> Interpolator<'a> {
         self.obey(inputs);
         self.take_frames(inputs);
         self.watch_supply();
-        let setpoint = if self.is_open() {
+        let mut setpoint = if self.is_open() {
             self.look_for_block_end();
             self.steer();
             self.advance(tick);
@@ -109,6 +112,10 @@ impl<'a> Interpolator<'a> {
         } else {
             self.standing()
         };
+        if self.joints.follow(&mut setpoint).is_err() {
+            // Every frame passed a judge of the joints, so this cannot be; if it were, the motion ends.
+            self.fail(FaultCause::Output);
+        }
         self.settle();
         self.change_state(tick);
         self.report(setpoint)

@@ -21,7 +21,7 @@ use glidepath_link::{
 };
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-use synthetic::{audit, lines, mill, records};
+use synthetic::{audit, hexapod, lines, mill, records};
 
 /// Generous: the machine may be busy with other things.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -299,6 +299,7 @@ fn the_real_time_thread_makes_no_system_call() {
     let frames = trajectory(6, 4_000, 1, AxisVector::zeros());
     let config = Config {
         forbid_system_calls: true,
+        mechanism: hexapod(),
         ..config()
     };
     let link = InProcess::default();

@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::message::{Fault, Order, PortsEnds};
-use crate::testing::{Rig, lines, mill, records};
+use crate::testing::{Rig, hexapod, lines, mill, records};
 use glidepath_link::{MachineState, SetpointFrame};
 use glidepath_realtime::{CountingAllocator, Monotonic};
 use std::collections::VecDeque;
@@ -79,6 +79,7 @@ fn allocations(steps: &[Step]) -> u64 {
     } = Rig::new(Config {
         // A busy host may not run this thread for longer.
         planner_lost_after: None,
+        mechanism: hexapod(),
         ..Config::new(mill(), 4_000_000)
     });
     let feed = records(&lines(3, 3, 12_000, &mill(), 0.004), 1, 4_000_000);

@@ -14,12 +14,22 @@
 #![allow(dead_code, reason = "each test binary uses its part")]
 
 use glidepath_geometry::{AXES, AxisVector};
+use glidepath_kinematics::{Hexapod, Mechanism};
 use glidepath_link::SetpointFrame;
 use glidepath_motion::{Frame, FrameFlags, Limits};
 
 /// The default machine: 200 mm/s, 2000 mm/s², 40000 mm/s³ on every axis.
 pub fn mill() -> Limits {
     Limits::uniform(200.0, 2_000.0, 40_000.0)
+}
+
+/// A hexapod that is large beside the motions here, with its base below them.
+pub fn hexapod() -> Mechanism {
+    let mut hexapod = Hexapod::paired(4_000.0, 1_500.0, 15.0);
+    for joint in &mut hexapod.base {
+        joint.z = -5_000.0;
+    }
+    Mechanism::Hexapod(hexapod)
 }
 
 /// A small generator of numbers (xorshift64*), so that a plan is a function of its seed.

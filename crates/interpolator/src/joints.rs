@@ -1,0 +1,122 @@
+//! What the joints are to do: the mechanism's inverse, at every tick.
+//!
+//! The setpoint leaves the real-time thread whole, so what a drive gets depends on no other thread. The
+//! inverse is bounded work without allocation, a closed form for every mechanism.
+
+use glidepath_kinematics::{JointVector, Kinematics as _, KinematicsError, Mechanism};
+use glidepath_link::Setpoint;
+
+/// The joints of the machine.
+#[derive(Debug)]
+pub(crate) struct Joints {
+    mechanism: Mechanism,
+    /// Where they were told to be last.
+    last: JointVector,
+}
+
+impl Joints {
+    pub(crate) fn new(mechanism: Mechanism) -> Self {
+        Self {
+            mechanism,
+            last: JointVector::zeros(),
+        }
+    }
+
+    /// Writes into a setpoint what the joints are to do for its axes.
+    ///
+    /// # Errors
+    /// The mechanism cannot be there. The joints are told to stay where they were.
+    pub(crate) fn follow(&mut self, setpoint: &mut Setpoint) -> Result<(), KinematicsError> {
+        let motion = self.mechanism.motion(
+            &setpoint.position.into(),
+            &setpoint.velocity.into(),
+            &setpoint.acceleration.into(),
+        );
+        match motion {
+            Ok(motion) => {
+                self.last = motion.position;
+                setpoint.joint_position = motion.position.into();
+                setpoint.joint_velocity = motion.velocity.into();
+                setpoint.joint_acceleration = motion.acceleration.into();
+                Ok(())
+            }
+            Err(error) => {
+                setpoint.joint_position = self.last.into();
+                Err(error)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::float_cmp, reason = "a test")]
+
+    use super::*;
+    use crate::config::Config;
+    use crate::message::Order;
+    use crate::testing::{Rig, hexapod, lines, mill, records};
+    use glidepath_kinematics::{AxisList, LinearDelta};
+    use glidepath_link::{FaultCause, MachineState};
+
+    #[test]
+    fn a_setpoint_leaves_the_tick_with_joints() {
+        let mechanism = hexapod();
+        let mut rig = Rig::new(Config {
+            mechanism,
+            ..Config::new(mill(), 4_000_000)
+        });
+        rig.feed = records(&lines(4, 3, 900, &mill(), 0.004), 1, 4_000_000).into();
+        rig.run(100);
+        rig.order(Order::FeedOverride(0.37));
+        rig.run(100);
+        rig.order(Order::Hold);
+        assert!(rig.run_until(2_000, |s| s.state() == Ok(MachineState::Held)));
+        for s in &rig.setpoints {
+            let joints = mechanism.inverse(&s.position.into()).unwrap();
+            assert_eq!(s.joint_position, <[f64; 9]>::from(joints));
+        }
+        // Velocities and accelerations are those of the positions: the differences are off by J T² / 6
+        // and, where jerk steps, J T / 3, with the jerk J of three axes together.
+        for window in rig.setpoints.windows(3).filter(|w| w[1].number > 130) {
+            let [a, b, c] = [0, 1, 2].map(|k| JointVector::from(window[k].joint_position));
+            let rate = (c - a) / 0.008 - JointVector::from(window[1].joint_velocity);
+            assert!(rate.amax() < 0.2, "{rate:?}");
+            let second = (a - b * 2.0 + c) / 1.6e-5;
+            let beyond = second - JointVector::from(window[1].joint_acceleration);
+            assert!(beyond.amax() < 100.0, "{beyond:?}");
+        }
+        let fastest = rig.setpoints.iter().map(|s| s.joint_velocity[0].abs());
+        assert!(fastest.fold(0.0, f64::max) > 10.0);
+    }
+
+    #[test]
+    fn joints_stay_and_the_motion_ends_where_the_mechanism_cannot_be() {
+        let mut rig = Rig::new(Config {
+            mechanism: Mechanism::LinearDelta(LinearDelta {
+                rod_mm: 100.0,
+                radius_mm: 90.0,
+                tower_deg: [90.0, 210.0, 330.0],
+                others: AxisList::new(&[]),
+            }),
+            ..Config::new(mill(), 4_000_000)
+        });
+        // Nobody judges these frames.
+        let frames = lines(1, 1, 3_000, &mill(), 0.004);
+        let farthest = frames
+            .iter()
+            .map(|f| f.position[0].abs())
+            .fold(0.0, f64::max);
+        assert!(farthest > 100.0, "out of reach: {farthest}");
+        rig.feed = records(&frames, 1, 4_000_000).into();
+        assert!(rig.run_until(5_000, |s| s.state() == Ok(MachineState::Faulted)));
+        let fault = rig.last.unwrap().fault.unwrap();
+        assert_eq!(fault.cause, FaultCause::Output);
+        let (last, before) = rig.setpoints.split_last().unwrap();
+        let reached = |s: &&Setpoint| rig.config.mechanism.inverse(&s.position.into()).is_ok();
+        let reached = before.iter().rev().find(reached).unwrap();
+        assert_eq!(last.joint_position, reached.joint_position);
+        assert_eq!(last.joint_velocity, [0.0; 9]);
+        assert!(rig.worst_ratio() <= 1.0 + 1e-6);
+    }
+}
