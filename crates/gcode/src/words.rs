@@ -129,7 +129,7 @@ pub(crate) fn unused(letter: char, span: Span) -> Box<Fault> {
 pub(crate) fn missing(span: Span, code: &str, word: &str, meaning: &str) -> Box<Fault> {
     Fault::new(Code::MissingWord, span, format!("{code} without {word}"))
         .because(format!("{code} needs {word}: {meaning}"))
-        .help(format!("add the {word} word"))
+        .help(format!("add the {} word", word.trim_start_matches("an ")))
 }
 
 pub(crate) fn require_axes(block: &Block, span: Span, code: &str) -> Outcome<()> {

@@ -114,23 +114,18 @@ impl Node {
 
     /// The value if there are no variables in it.
     fn constant(&self) -> Option<f64> {
-        let constant = |nodes: [&Self; 2]| {
-            nodes
-                .into_iter()
-                .all(|node| node.constant().is_some())
-                .then(|| self.eval::<f64>(&[]))
-        };
-        match self {
-            Self::Constant(value) => Some(*value),
-            Self::Variable(_) => None,
-            Self::Negated(a) | Self::WholePower(a, _) | Self::Call(_, a) => constant([a, a]),
+        let is_constant = match self {
+            Self::Constant(_) => true,
+            Self::Variable(_) => false,
+            Self::Negated(a) | Self::WholePower(a, _) | Self::Call(_, a) => a.constant().is_some(),
             Self::Sum(a, b)
             | Self::Difference(a, b)
             | Self::Product(a, b)
             | Self::Quotient(a, b)
             | Self::Power(a, b)
-            | Self::Atan2(a, b) => constant([a, b]),
-        }
+            | Self::Atan2(a, b) => a.constant().is_some() && b.constant().is_some(),
+        };
+        is_constant.then(|| self.eval::<f64>(&[]))
     }
 }
 

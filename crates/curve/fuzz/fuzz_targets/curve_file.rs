@@ -1,0 +1,54 @@
+//! Any text is a curve file or is refused with a place; a curve that is accepted can be followed.
+#![no_main]
+
+use glidepath_curve::{ChordRule, CurveFile, FileFinding, NurbsFile};
+use libfuzzer_sys::fuzz_target;
+
+/// Chords followed along a curve, and their rule.
+const CHORDS: usize = 10;
+const RULE: ChordRule = ChordRule {
+    longest_mm: 0.5,
+    error_mm: 0.01,
+};
+
+fn is_in(text: &str, finding: &FileFinding) {
+    assert!(!finding.message.is_empty());
+    assert!(finding.at.start <= finding.at.end && finding.at.end <= text.len());
+}
+
+fuzz_target!(|bytes: &[u8]| {
+    let Ok(text) = core::str::from_utf8(bytes) else {
+        return;
+    };
+    if NurbsFile::is_meant(text) {
+        match NurbsFile::parse(text) {
+            Ok(file) => {
+                let (start, end) = file.curve.domain();
+                for u in [start, 0.5 * (start + end), end] {
+                    assert!(file.curve.jet(u).position.iter().all(|p| p.is_finite()));
+                }
+            }
+            Err(finding) => is_in(text, &finding),
+        }
+        return;
+    }
+    match CurveFile::parse(text) {
+        Ok(file) => {
+            let Ok(mut chords) = file.chords(RULE) else {
+                return;
+            };
+            for _ in 0..CHORDS {
+                let Ok(Some(chord)) = chords.next_chord() else {
+                    return;
+                };
+                assert!(chord.point.iter().all(|p| p.is_finite()));
+                assert!(chord.chord_mm > 0.0 && chord.chord_mm <= RULE.longest_mm * (1.0 + 1e-9));
+                assert!(chord.error_mm <= RULE.error_mm);
+            }
+        }
+        Err(findings) => {
+            assert!(!findings.is_empty());
+            findings.iter().for_each(|finding| is_in(text, finding));
+        }
+    }
+});
