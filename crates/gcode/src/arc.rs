@@ -37,9 +37,9 @@ const MAX_TURNS: u32 = 10_000;
 
 /// The two in-plane coordinates of an arc's ends, mm.
 #[derive(Debug, Clone, Copy)]
-struct Ends {
-    start: [f64; 2],
-    end: [f64; 2],
+pub(crate) struct Ends {
+    pub(crate) start: [f64; 2],
+    pub(crate) end: [f64; 2],
 }
 
 impl Interpreter {
@@ -226,7 +226,7 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-fn check_radii(block: &Block, ends: Ends, center: [f64; 2]) -> Outcome<()> {
+pub(crate) fn check_radii(block: &Block, ends: Ends, center: [f64; 2]) -> Outcome<()> {
     let (start, end) = (distance(ends.start, center), distance(ends.end, center));
     let span = center_span(block);
     if start <= MIN_MOVE || end <= MIN_MOVE {
@@ -261,7 +261,7 @@ fn center_span(block: &Block) -> Span {
 }
 
 /// Centre of the arc with the given radius in mm; negative: the longer one.
-fn center_from_radius(
+pub(crate) fn center_from_radius(
     block: &Block,
     ends: Ends,
     radius: f64,
@@ -309,7 +309,7 @@ fn center_from_radius(
 }
 
 /// Signed sweep in radians: up to one turn, and the further turns.
-fn sweep(ends: Ends, center: [f64; 2], counterclockwise: bool, turns: f64) -> f64 {
+pub(crate) fn sweep(ends: Ends, center: [f64; 2], counterclockwise: bool, turns: f64) -> f64 {
     let angle = |p: [f64; 2]| (p[1] - center[1]).atan2(p[0] - center[0]);
     let turn = if counterclockwise { TAU } else { -TAU };
     let mut swept = angle(ends.end) - angle(ends.start);

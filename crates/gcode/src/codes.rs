@@ -8,8 +8,8 @@ use glidepath_motion::PathMode;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::dialect::marlin::is_function;
 use crate::modes::{
-    CutterRadius, Cycle, Distance, FeedMode, Motion, Once, Probe, Retract, Side, SpindleMode,
-    Spline, Stop, ToolLength, Units,
+    Contour, CutterRadius, Cycle, Distance, FeedMode, Motion, Once, Pockets, Probe, Retract, Side,
+    SpindleMode, Spline, Stop, ToolLength, Units,
 };
 use crate::refused::{refused_g, refused_m, unknown_g, unknown_m};
 
@@ -99,6 +99,9 @@ impl Codes {
             70 | 80 => set(&mut self.diameter, tenths == 70, span),
             730 | 740 | 810..=860 | 890 if tenths % 10 == 0 => {
                 self.set_motion(Some(Motion::Cycle(cycle(tenths))), span)
+            }
+            700 | 710..=712 | 720..=722 => {
+                self.set_motion(Some(Motion::Contour(contour(tenths))), span)
             }
             900 => set(&mut self.distance, Distance::Absolute, span),
             910 => set(&mut self.distance, Distance::Incremental, span),
@@ -193,6 +196,19 @@ const fn cycle(tenths: u32) -> Cycle {
         860 => Cycle::BoreStop,
         890 => Cycle::BoreDwell,
         _ => Cycle::Drill,
+    }
+}
+
+const fn contour(tenths: u32) -> Contour {
+    let pockets = match tenths % 10 {
+        0 => Pockets::Cut,
+        1 => Pockets::LeftOut,
+        _ => Pockets::Only,
+    };
+    match tenths / 10 {
+        70 => Contour::Finish,
+        71 => Contour::Turn(pockets),
+        _ => Contour::Face(pockets),
     }
 }
 

@@ -3,7 +3,7 @@
 use std::io::BufRead;
 use std::sync::Arc;
 
-use crate::diagnostic::{Code as FaultCode, Fault, Outcome};
+use crate::diagnostic::{Code as FaultCode, Fault, Outcome, Span};
 use crate::flow::{Code, Frame, Line, MAX_CALLS, Recorder, misplaced};
 use crate::flow_word::{Head, Keyword, Label};
 use crate::parameters::ProgramScope;
@@ -197,14 +197,20 @@ impl<R: BufRead> Program<R> {
                 _ => fault.help("define it before this line"),
             });
         };
+        let code = Arc::clone(code);
+        self.enter(&code, &arguments, head.span)
+    }
+
+    /// Begins a subroutine; `span` is what calls it.
+    pub(crate) fn enter(&mut self, code: &Arc<Code>, arguments: &[f64], span: Span) -> Outcome<()> {
         if self.parameters.call_level() >= MAX_CALLS {
             let message = format!("more than {MAX_CALLS} calls in each other");
-            return Err(Fault::new(FaultCode::CallDepth, head.span, message)
+            return Err(Fault::new(FaultCode::CallDepth, span, message)
                 .because("the depth of subroutine calls is bounded")
                 .help("check what should end the recursion"));
         }
         self.flow.frames.push(Frame::new(Arc::clone(code), true));
-        self.parameters.enter(&arguments);
+        self.parameters.enter(arguments);
         Ok(())
     }
 }

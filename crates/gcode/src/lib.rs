@@ -30,6 +30,7 @@
 //! | G40 G41 G42 D, G41.1 G42.1 D L | cutter radius compensation, in G17 and G18 |
 //! | G43 H, G43.1, G43.2 H, G49 | tool length offsets, on every axis |
 //! | G61 G61.1 G64 P Q | path mode; Q is checked and not used |
+//! | G70, G71 G71.1 G71.2, G72 G72.1 G72.2 Q | lathe cycles along the profile in subroutine Q: finishing, turning, facing |
 //! | G73 G74 G81 … G86 G89, G98 G99 | canned cycles, L holes each |
 //! | G90 G91, G90.1 G91.1 | absolute, incremental; of I J K |
 //! | G93 G94 G95 F | inverse time, per minute, per revolution |
@@ -42,7 +43,7 @@
 //! | `#1`, `#<name>`, `[ ]`, functions | parameters and expressions |
 //! | O words | `sub` `call` `return`, `if`, `while`, `do`, `repeat`, `break`, `continue` |
 //!
-//! Not supported, and refused by name: threading (G33, G76), G70 to G72, G87, G88, M50 to
+//! Not supported, and refused by name: threading (G33, G76), G87, G88, M50 to
 //! M53, M70 to M73, subroutines in other files.
 //!
 //! # Where it differs from LinuxCNC
@@ -58,6 +59,7 @@
 //! | a coordinate of 1e24 | accepted | refused: above [`MAX_NUMBER`] |
 //! | moves of a picometre | executed | merged with the next |
 //! | a weight of zero in G5.2 | accepted | refused: it has no meaning |
+//! | G71, G72 beside arcs in each other's way; from the wrong side | come nearer to the profile than D; cut there | keep the distance; refused |
 //! | recursion without end | blamed on the first call | on the call that is one too many |
 //! | a corner that the tool's radius cannot reach | blamed on the move behind it | on the move that is too short |
 //! | a loop without end and without motion | never ends | refused after [`LoopLimits`] |
@@ -89,6 +91,7 @@ mod block;
 mod check;
 mod codes;
 mod compensation;
+mod contour;
 mod cursor;
 mod cycle;
 mod diagnostic;
@@ -126,7 +129,9 @@ pub use cursor::MAX_NUMBER;
 pub use diagnostic::{Code, Diagnostic, Excerpt};
 pub use dialect::Dialect;
 pub use modal::{Feed, Modal};
-pub use modes::{Cycle, Distance, FeedMode, Motion, Probe, Retract, Spline, Units};
+pub use modes::{
+    Contour, Cycle, Distance, FeedMode, Motion, Pockets, Probe, Retract, Spline, Units,
+};
 pub use options::{Connections, LoopLimits, Machine, Options, Travel};
 pub use program::Program;
 pub use source::MAX_LINE_BYTES;

@@ -13,6 +13,8 @@ pub enum Motion {
     ArcCounterclockwise,
     /// G73, G74, G81 to G89.
     Cycle(Cycle),
+    /// G70 to G72.2.
+    Contour(Contour),
     /// G38.2 to G38.5.
     Probe(Probe),
     /// G5, G5.1, G5.2, G5.3, G6.2.
@@ -20,10 +22,10 @@ pub enum Motion {
 }
 
 impl Motion {
-    /// True if a block of this mode may do without axis words: arcs and splines.
+    /// True if a block of this mode may do without axis words: arcs, splines, lathe cycles.
     #[must_use]
     pub const fn may_lack_axes(self) -> bool {
-        self.is_arc() || matches!(self, Self::Spline(_))
+        self.is_arc() || matches!(self, Self::Spline(_) | Self::Contour(_))
     }
 
     /// True for G2 and G3.
@@ -69,6 +71,28 @@ pub enum Cycle {
     BoreStop,
     /// G89: boring with a dwell, feed out.
     BoreDwell,
+}
+
+/// Lathe cycles along a profile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Contour {
+    /// G70: finishing.
+    Finish,
+    /// G71, G71.1, G71.2: roughing by passes along Z.
+    Turn(Pockets),
+    /// G72, G72.1, G72.2: roughing by passes along X.
+    Face(Pockets),
+}
+
+/// What a roughing cycle does about the pockets of a profile: places where it leads back inwards.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pockets {
+    /// G71, G72: cut like the rest.
+    Cut,
+    /// G71.1, G72.1: left out.
+    LeftOut,
+    /// G71.2, G72.2: nothing else is cut.
+    Only,
 }
 
 /// Probing moves.

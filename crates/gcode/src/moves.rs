@@ -67,6 +67,7 @@ impl Interpreter {
             }
             Motion::ArcClockwise | Motion::ArcCounterclockwise => self.arc(block, motion, out)?,
             Motion::Cycle(cycle) => self.cycle(block, cycle, out)?,
+            Motion::Contour(contour) => self.begin_contour(block, contour, out)?,
             Motion::Probe(_) => self.probe(block, out)?,
             Motion::Spline(spline) => self.spline(block, spline, out)?,
         }

@@ -7,6 +7,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_motion::Item;
 
 use crate::block::{Block, LineKind};
+use crate::contour::OpenContour;
 use crate::cursor::Cursor;
 use crate::diagnostic::{Code as FaultCode, Diagnostic, Fault, Outcome, Span};
 use crate::dialect::{Dialect, Tape, marlin, siemens};
@@ -45,6 +46,8 @@ pub struct Program<R> {
     pub(crate) tape: Tape,
     pub(crate) place: Place,
     block: Block,
+    /// The lathe cycle whose profile is being read.
+    pub(crate) contour: Option<Box<OpenContour>>,
     /// Items of the last block; the first `given` of them have been given out.
     items: Vec<Item>,
     given: usize,
@@ -72,6 +75,7 @@ impl<R: BufRead> Program<R> {
             tape: Tape::default(),
             place: Place::Stream,
             block,
+            contour: None,
             items: Vec::new(),
             given: 0,
             totals: Totals::default(),
@@ -98,6 +102,18 @@ impl<R: BufRead> Program<R> {
     /// Items of the line read last.
     pub(crate) fn items(&self) -> &[Item] {
         &self.items
+    }
+
+    /// Gives out the items of a lathe cycle.
+    pub(crate) fn give(&mut self, items: Vec<Item>) {
+        self.items = items;
+        self.idle_lines = 0;
+        self.count();
+    }
+
+    /// The block read last.
+    pub(crate) const fn block(&self) -> &Block {
+        &self.block
     }
 
     /// Counts and sums over the blocks read so far.
@@ -192,7 +208,8 @@ impl<R: BufRead> Program<R> {
                 .get(index)
                 .is_some_and(|line| line.head.is_some());
             if has_head {
-                return self.execute_flow(&code, index).map(|()| true);
+                self.execute_flow(&code, index)?;
+                return self.close_contour().map(|()| true);
             }
             return self.execute_block();
         }
@@ -313,12 +330,20 @@ impl<R: BufRead> Program<R> {
             self.parameters
                 .check_assignable(&assignment.parameter, assignment.span)?;
         }
-        let flow = self
-            .interpreter
-            .execute(&self.block, number, &mut self.items)?;
+        let asked = self.asked_contour(&self.block)?;
+        let flow = if self.contour.is_some() {
+            self.draw_block()?;
+            BlockFlow::Continue
+        } else {
+            self.interpreter
+                .execute(&self.block, number, &mut self.items)?
+        };
         for assignment in &self.block.assignments {
             self.parameters
                 .assign(&assignment.parameter, assignment.value);
+        }
+        if let Some(asked) = asked {
+            self.open_contour(number, &asked)?;
         }
         if !self.items.is_empty() {
             self.idle_lines = 0;

@@ -25,10 +25,6 @@ pub(crate) fn refused_g(tenths: u32, value: f64, span: Span) -> Box<Fault> {
             "it follows an encoder of the spindle, and none is read here; cut the thread with a tap \
              (G84) or with a mill on a helix (G2, G3)",
         ),
-        700..=703 | 710..=713 | 720..=723 => (
-            "lathe contour cycle",
-            "let the CAM system write the passes out",
-        ),
         870 => (
             "back boring",
             "write the moves out; the spindle has to stop in a known position for them",

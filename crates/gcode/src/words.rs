@@ -5,7 +5,7 @@ use glidepath_motion::PathMode;
 use crate::block::{AXIS_WORDS, Block, Letters};
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::dialect::Dialect;
-use crate::modes::{CutterRadius, Cycle, Motion, Once, SpindleMode, Spline, ToolLength};
+use crate::modes::{Contour, CutterRadius, Cycle, Motion, Once, SpindleMode, Spline, ToolLength};
 
 /// Largest tool number.
 pub(crate) const MAX_TOOL: u32 = 999_999;
@@ -20,6 +20,8 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 9] {
         match motion {
             Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Letters::of(b"IJKRP"),
             Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQK"),
+            Some(Motion::Contour(Contour::Finish)) => Letters::of(b"QDEP"),
+            Some(Motion::Contour(_)) => Letters::of(b"QDIR"),
             Some(Motion::Spline(spline)) => match spline {
                 Spline::Cubic => Letters::of(b"IJPQ"),
                 Spline::Quadratic => Letters::of(b"IJ"),
@@ -113,7 +115,9 @@ pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> 
 pub(crate) fn unused(letter: char, span: Span) -> Box<Fault> {
     if letter == 'E' {
         return Fault::new(Code::UnknownWord, span, "nothing in the block uses E")
-            .because("E is a word of M66, M67 and M68 here; printers have it for their extruder")
+            .because(
+                "E is a word of G70, M66, M67 and M68 here; printers have it for their extruder",
+            )
             .help("remove it; read programs of printers with the dialect `marlin`");
     }
     Fault::new(

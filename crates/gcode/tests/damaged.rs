@@ -3,6 +3,7 @@
 //! Runs where the environment variable `GLIDEPATH_CORPUS` names the directory of the programs; says
 //! so and passes where it does not.
 
+#![allow(clippy::expect_used, reason = "a test")]
 #![expect(clippy::print_stderr, reason = "a skipped test says so")]
 
 use std::fs;

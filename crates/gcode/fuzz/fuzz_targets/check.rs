@@ -32,8 +32,8 @@ fn options() -> Options {
         extruder: Some(Axis::U),
         connections: Connections::Simulated,
         loops: LoopLimits {
-            idle_lines: 10_000,
-            checked_lines: 20_000,
+            idle_lines: 2_000,
+            checked_lines: 4_000,
         },
         ..Options::default()
     }
@@ -48,7 +48,7 @@ fuzz_target!(|bytes: &[u8]| {
     let report = check(bytes, options.clone());
     let mut end = options.start;
     // A loop of the program may have no end.
-    for item in Program::new(bytes, options).take(10_000) {
+    for item in Program::new(bytes, options).take(2_000) {
         match item {
             Ok(item) => match item.kind {
                 ItemKind::Move { segment, rate, .. } => {

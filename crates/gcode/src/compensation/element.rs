@@ -72,11 +72,11 @@ impl Element {
         }
     }
 
-    pub(super) fn start_tangent(&self) -> Point {
+    pub(crate) fn start_tangent(&self) -> Point {
         self.tangent(self.start)
     }
 
-    pub(super) fn end_tangent(&self) -> Point {
+    pub(crate) fn end_tangent(&self) -> Point {
         self.tangent(self.end)
     }
 
@@ -89,7 +89,7 @@ impl Element {
     }
 
     /// The element at a distance to the left (negative: right); `None` if an arc is too small.
-    pub(super) fn offset(&self, left: f64) -> Option<Self> {
+    pub(crate) fn offset(&self, left: f64) -> Option<Self> {
         if let Some((center, sweep)) = self.arc {
             let inward = left * sweep.signum();
             let smallest = distance(self.start, center).min(distance(self.end, center));
@@ -128,7 +128,7 @@ impl Element {
     }
 
     /// Ends it earlier.
-    pub(super) fn end_at(&mut self, at: Point) {
+    pub(crate) fn end_at(&mut self, at: Point) {
         let kept = self.fraction(at, true);
         self.end = at;
         if let Some((_, sweep)) = &mut self.arc {
@@ -137,7 +137,7 @@ impl Element {
     }
 
     /// Starts it later.
-    pub(super) fn start_at(&mut self, at: Point) {
+    pub(crate) fn start_at(&mut self, at: Point) {
         let left_out = self.fraction(at, false);
         self.start = at;
         if let Some((_, sweep)) = &mut self.arc {
@@ -199,7 +199,7 @@ fn circles(c1: Point, r1: f64, c2: Point, r2: f64) -> [Option<Point>; 2] {
 
 /// Where two offset elements meet before the corner between them: on both, and as near to the end
 /// of the first as possible.
-pub(super) fn meet(a: &Element, b: &Element) -> Option<Point> {
+pub(crate) fn meet(a: &Element, b: &Element) -> Option<Point> {
     let within = |fraction: f64| (-OVER..=1.0 + OVER).contains(&fraction);
     common(a, b)
         .into_iter()

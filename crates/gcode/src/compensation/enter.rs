@@ -11,7 +11,7 @@ use crate::block::Block;
 use crate::codes::Coded;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::interpreter::Interpreter;
-use crate::modes::{CutterRadius, Motion, Once, Side};
+use crate::modes::{Contour, CutterRadius, Motion, Once, Side};
 use crate::moves::{MIN_MOVE, Pace, Speed, motion_span, settled};
 use crate::words::{missing, whole};
 
@@ -182,9 +182,10 @@ impl Interpreter {
         let once = codes
             .once
             .filter(|once| !matches!(once.code, Once::Dwell | Once::SetReference(_)));
-        let motion = codes
-            .motion
-            .filter(|motion| matches!(motion.code, Some(Motion::Cycle(_) | Motion::Probe(_))));
+        let motion = codes.motion.filter(|motion| match motion.code {
+            Some(Motion::Contour(contour)) => contour != Contour::Finish,
+            code => matches!(code, Some(Motion::Cycle(_) | Motion::Probe(_))),
+        });
         let plane = codes
             .plane
             .filter(|plane| plane.code != self.state.modal.plane);

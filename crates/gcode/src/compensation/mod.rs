@@ -41,8 +41,8 @@ use glidepath_motion::{Item, ItemKind, PathMode};
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::modes::Side;
 use crate::moves::{MIN_MOVE, Speed};
-pub(crate) use element::Element;
-use element::{Point, cross, distance, dot, lines, meet};
+pub(crate) use element::{Element, meet};
+use element::{Point, cross, distance, dot, lines};
 
 /// Offset elements whose ends are as near as this are joined, mm: coordinates of programs are
 /// rounded, so that a tangent is none to the last digit.
@@ -136,6 +136,17 @@ impl Compensation {
             pending: None,
             held: Vec::new(),
             entered: false,
+        }
+    }
+
+    /// The same compensation, as if it had been turned on where the tool is.
+    pub(crate) fn again(self, tool: AxisVector) -> Self {
+        Self {
+            tool,
+            pending: None,
+            held: Vec::new(),
+            entered: false,
+            ..self
         }
     }
 

@@ -26,6 +26,7 @@ pub(crate) use tape::Tape;
 /// | tolerance | `G64 P` | – | – | `CYCLE832( )`, `G641 ADIS=`, `G642` … `G645` |
 /// | exact stop | `G61`, `G61.1` | – | `G61` | `G60` |
 /// | radius of an arc | `R` | `R` | `R` | `CR=`, `TURN=` |
+/// | lathe cycles along a profile | `G70` … `G72.2`, in subroutine `Q` | – | refused | refused |
 /// | repetitions of a cycle | `L` | – | `K`, `L` | – |
 /// | look-ahead on, off | – | – | `G05.1 Q`, `G05 P`, `G08 P`: always on | `FFWON`, `SOFT`, `COMPCAD` …: always on |
 /// | machine functions (heaters, fans) | – | refused, or events where simulated | – | – |
