@@ -48,7 +48,7 @@ fn a_program_under_an_override_takes_as_long_as_one_planned_with_it() {
                 ticks.abs_diff(planned) as f64 <= most,
                 "{name} at {feed_r}: {ticks} ticks, planned {planned}"
             );
-            assert_limits(&report, &job);
+            assert_limits(&report);
         }
     }
 }

@@ -54,7 +54,7 @@ proptest! {
             }
             finish(desk)?;
             let report = desk.audit(&job.settings, largest_override);
-            assert_limits(&report, &job);
+            assert_limits(&report);
             let end = desk.frames.last().unwrap().position;
             prop_assert_eq!(desk.setpoints.last().unwrap().position, end);
             assert_bits(desk)?;

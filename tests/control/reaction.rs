@@ -62,7 +62,7 @@ fn a_hold_begins_at_once_in_a_cruise_and_soon_everywhere() {
                     hold(desk, &mut waits, &mut rests, &mut cruises);
                 }
                 let report = desk.audit(&job.settings, 1.0);
-                assert_limits(&report, &job);
+                assert_limits(&report);
             });
         }
         eprintln!("{name:20} {effort:?} {waits}  {rests}  cruise {cruises}");

@@ -18,6 +18,8 @@ use glidepath_geometry::AxisVector;
 
 /// What the motion may bulge out of the chords of the parts, in tolerances.
 const BULGE_R: f64 = 1e-3;
+/// Cosine of the turn within a period up to which what is along the chord does not matter.
+const STRAIGHT: f64 = 0.8;
 /// Most parts of a period.
 const MOST_PARTS: f64 = 16.0;
 
@@ -59,14 +61,21 @@ pub(super) struct Bend<'a> {
 }
 
 impl Bend<'_> {
-    /// What a chord that is one period long may cut off, wherever on the motion it begins, in
-    /// tolerances of a piece: a·T²/8 across.
-    pub(super) fn sagitta_r(&self, piece: &Piece) -> f64 {
+    /// What a chord of one period is off the motion in its middle, a·T²/8, at both ends; across the
+    /// chord, if the motion hardly turns.
+    pub(super) fn sagittas(&self) -> [AxisVector; 2] {
         let part = self.period_t * self.period_t / 8.0;
-        [self.from, self.to]
-            .map(|state| piece.distance_r(&self.across(&(state.acceleration * part))))
-            .into_iter()
-            .fold(0.0, f64::max)
+        let [before, after] = [self.from, self.to].map(|state| state.velocity);
+        // From or to a rest it does not turn.
+        let is_straight = before.dot(&after) >= STRAIGHT * before.norm() * after.norm();
+        [self.from, self.to].map(|state| {
+            let sagitta = state.acceleration * part;
+            if is_straight {
+                self.across(&sagitta)
+            } else {
+                sagitta
+            }
+        })
     }
 
     /// The part of a vector across the chord.

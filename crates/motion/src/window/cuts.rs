@@ -115,7 +115,8 @@ impl<const D: usize> Cuts<D> {
             let piece = samples.piece[k];
             self.learn_sample(scene, (k, piece), &sample(points, grid, k));
             for i in samples.piece[k - 1]..piece {
-                let off = nearest_to_corner(scene, points, (i, k, samples.count()), grid).off;
+                let passing = nearest_to_corner(scene, points, (i, k, samples.count()), grid);
+                let off = passing.furthest();
                 let radius = scene.chords[i].radius.min(scene.chords[i + 1].radius);
                 let distance = dot(&off, &off).sqrt();
                 let worth_r = if scene.turn(i, i + 1) > SHARP {
@@ -179,16 +180,42 @@ impl<const D: usize> Cuts<D> {
 /// Periods before and after the one in which samples change pieces, in which a corner may be passed.
 const NEAR_PERIODS: usize = 2;
 
+/// Half-way from the motion to a chord that cuts it off, as a part of T² times acceleration.
+pub(super) const HALF_WAY: f64 = 1.0 / 16.0;
+/// What the judge adds for chords that begin between those it looks at, of half their distance.
+const BETWEEN: f64 = 0.06;
+/// Cosine of the turn within a period up to which all of the acceleration takes room at a corner.
+const TURNING: f64 = 0.9;
+
 /// How a motion passes a corner.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Passing<const D: usize> {
     /// The sample after it.
     pub(super) sample: usize,
-    /// The parameter of the nearest point since the sample before, and how far off it is.
+    /// The parameter since the sample before at which it is nearest, and how far off: half-way from
+    /// the motion to the chords that cut it off there.
     pub(super) lambda: f64,
-    pub(super) off: [f64; D],
-    /// What a chord of one period may cut off there.
-    pub(super) sagitta: f64,
+    off: [f64; D],
+    /// From the motion to there, and from there to the chords.
+    half: [f64; D],
+}
+
+impl<const D: usize> Passing<D> {
+    /// The further one of motion and chords from the corner.
+    pub(super) fn furthest(&self) -> [f64; D] {
+        let side = if dot(&self.off, &self.half) < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        core::array::from_fn(|a| self.off[a] + side * self.half[a])
+    }
+
+    /// How much nearer than motion and chords half-way is in a direction, with what lies between
+    /// the chords the judge looks at.
+    pub(super) fn room(&self, normal: &[f64; D]) -> f64 {
+        dot(&self.half, normal).abs() + BETWEEN * dot(&self.half, &self.half).sqrt()
+    }
 }
 
 /// How a motion passes the corner at the end of piece `i` near sample `k` of so many.
@@ -215,7 +242,11 @@ fn passing<const D: usize>(
     grid: &Grid,
 ) -> Passing<D> {
     let vertex = &scene.chords[i + 1].start;
-    let (from, to) = (sample(points, grid, k - 1), sample(points, grid, k));
+    let at = |lambda: f64, part: f64| -> [f64; D] {
+        let (first, weights) = grid.inner_site(k - 1, lambda, part);
+        combine(points, first, &weights)
+    };
+    let (from, to) = (at(0.0, HALF_WAY), at(1.0, HALF_WAY));
     let along: [f64; D] = core::array::from_fn(|a| to[a] - from[a]);
     let offset: [f64; D] = core::array::from_fn(|a| vertex[a] - from[a]);
     let lambda = dot(&along, &offset) / dot(&along, &along);
@@ -224,21 +255,38 @@ fn passing<const D: usize>(
     } else {
         0.5
     };
-    let (first, weights) = grid.inner_site(k - 1, lambda);
-    let nearest = combine(points, first, &weights);
-    let bend = |k: usize| {
-        let (first, weights) = grid.bend_site(k);
-        let bend = combine(points, first, &weights);
-        let part = dot(&bend, &along) / dot(&along, &along);
-        let part = if part.is_finite() { part } else { 0.0 };
-        let across: [f64; D] = core::array::from_fn(|a| bend[a] - part * along[a]);
-        dot(&across, &across).sqrt()
-    };
+    let (nearest, motion) = (at(lambda, HALF_WAY), at(lambda, 0.0));
+    let mut half: [f64; D] = core::array::from_fn(|a| nearest[a] - motion[a]);
+    let part = dot(&half, &along) / dot(&along, &along);
+    if part.is_finite() {
+        let share = if scene.turn(i, i + 1) <= SHARP {
+            1.0
+        } else {
+            straightness(points, grid, k)
+        };
+        half = core::array::from_fn(|a| half[a] - share * part * along[a]);
+    }
     Passing {
         sample: k,
         lambda,
         off: core::array::from_fn(|a| nearest[a] - vertex[a]),
-        sagitta: bend(k - 1).max(bend(k)) / 8.0,
+        half,
+    }
+}
+
+/// How much of what is along the motion does not matter in the period that ends with sample `k`: the
+/// less, the more it turns. The judge knows yes and no only; here that would come and go from round to
+/// round.
+fn straightness<const D: usize>(points: &[[f64; D]], grid: &Grid, k: usize) -> f64 {
+    let [before, after] = [k - 1, k].map(|k| {
+        let (first, weights) = grid.velocity_site(k);
+        combine(points, first, &weights)
+    });
+    let cos = dot(&before, &after) / (dot(&before, &before) * dot(&after, &after)).sqrt();
+    if cos.is_finite() {
+        ((cos - TURNING) / (1.0 - TURNING)).clamp(0.0, 1.0)
+    } else {
+        0.0
     }
 }
 

@@ -148,6 +148,8 @@ pub(super) struct Follower {
     /// Places of chords that begin at other parts of a period, and where their last ones end.
     phases: [Place; PHASES.len()],
     phase_ends: Option<[AxisVector; PHASES.len()]>,
+    /// [`Bend::sagittas`] of the last period.
+    sagittas: [AxisVector; 2],
     /// Memory for the places after a step.
     next: Place,
     curve_next: [Place; 2],
@@ -155,9 +157,7 @@ pub(super) struct Follower {
 }
 
 /// Parts of a period at which chords begin, if time has run slower for a while.
-const PHASES: [f64; 3] = [0.25, 0.5, 0.75];
-/// Of what a chord cuts off, the part by which one that begins between them may cut off more.
-const BETWEEN_PHASES: f64 = 1.0 / 16.0;
+const PHASES: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
 
 impl Follower {
     pub(super) fn new(place: Place, end: usize) -> Self {
@@ -169,6 +169,7 @@ impl Follower {
             phases: PHASES.map(|_| place.clone()),
             phases_next: PHASES.map(|_| place.clone()),
             phase_ends: None,
+            sagittas: [AxisVector::zeros(); 2],
             place,
         }
     }
@@ -190,6 +191,11 @@ impl Follower {
     /// Goes on by a period. False if that leaves the path; then the place is what it was.
     pub(super) fn step(&mut self, track: &Track, bend: &Bend<'_>) -> bool {
         let (from, to) = (&bend.from.position, &bend.to.position);
+        let sagittas = bend.sagittas();
+        let shift = Shift {
+            before: self.sagittas,
+            now: sagittas,
+        };
         let Some(piece) = track.get(self.place.first) else {
             return false;
         };
@@ -198,24 +204,23 @@ impl Follower {
             self.end,
             &self.place,
             &mut self.next,
-            ([from, to], 0.0),
+            ([from, to], Some(&shift)),
         ) {
             return false;
         }
         let [curve, next] = &mut self.curve_next;
         curve.clone_from(&self.curve);
-        let cut_r = BETWEEN_PHASES * bend.sagitta_r(piece);
         let phase_ends = PHASES.map(|phase| bend.at(phase));
         let phase_starts = self.phase_ends.unwrap_or([*from; PHASES.len()]);
         for (k, next) in self.phases_next.iter_mut().enumerate() {
             let way = [&phase_starts[k], &phase_ends[k]];
-            if !walk(track, self.end, &self.phases[k], next, (way, cut_r)) {
+            if !walk(track, self.end, &self.phases[k], next, (way, Some(&shift))) {
                 return false;
             }
         }
         let mut from = *from;
         for to in bend.points(piece) {
-            if !walk(track, self.end, curve, next, ([&from, &to], 0.0)) {
+            if !walk(track, self.end, curve, next, ([&from, &to], None)) {
                 return false;
             }
             core::mem::swap(curve, next);
@@ -224,19 +229,21 @@ impl Follower {
         core::mem::swap(&mut self.curve, curve);
         core::mem::swap(&mut self.phases, &mut self.phases_next);
         self.phase_ends = Some(phase_ends);
+        self.sagittas = sagittas;
         core::mem::swap(&mut self.place, &mut self.next);
         true
     }
 }
 
-/// Goes straight from one position to the next, nearer to vertices than the tolerance by `cut_r` of
-/// it; `next` is where that leads. False if it leaves the path.
+/// Goes straight from one position to the next, nearer to vertices than the tolerance by what a chord
+/// that begins a little earlier or later may be further off; `next` is where that leads. False if it
+/// leaves the path.
 fn walk(
     track: &Track,
     end: usize,
     place: &Place,
     next: &mut Place,
-    (way, cut_r): ([&AxisVector; 2], f64),
+    (way, shift): ([&AxisVector; 2], Option<&Shift>),
 ) -> bool {
     next.spans.clear();
     next.first = place.first;
@@ -251,7 +258,7 @@ fn walk(
         };
         let (right, top) = cell(
             piece,
-            (corner_tolerance(track, index) - cut_r).max(0.0),
+            (corner_tolerance(track, index), shift),
             left,
             bottom,
             way,
@@ -262,6 +269,56 @@ fn walk(
     }
     next.trim();
     !next.spans.is_empty()
+}
+
+/// What chords may be further off a vertex that begin up to half a step of [`PHASES`] earlier or later.
+///
+/// Of a motion q of constant acceleration, a chord over one period T is off by e = aT²/2·λ(1 − λ) at
+/// its parameter λ. One that begins by δ·T later has the same time at λ − δ, where it is off by
+/// aT²/2·δ(1 − 2λ + δ) less: so much the nearest chords can hide, and most at the ends of a chord.
+/// A change of acceleration adds, to first order in δ, jT³/6·δ/2.
+#[derive(Debug)]
+struct Shift {
+    /// [`Bend::sagittas`] of the two periods that a chord has a part of.
+    before: [AxisVector; 2],
+    now: [AxisVector; 2],
+}
+
+/// Half a step of [`PHASES`].
+const HALF_STEP: f64 = 0.0625;
+/// Parts round the middle of a chord in which it is asked whether the chord is near enough.
+const MIDDLES: [f64; 3] = [0.5, 0.25, 0.0625];
+
+impl Shift {
+    /// The part of a chord from which the vertex at the end of a piece is within `corner_r`
+    /// tolerances, less what holds there. Distance and loss are convex, so it is a span, and the
+    /// parts of it found are joined.
+    fn near_vertex(&self, piece: &Piece, corner_r: f64, [from, to]: [&AxisVector; 2]) -> Span {
+        let all = self.before.iter().chain(&self.now);
+        let sagitta_r = all.fold(0.0_f64, |most, s| most.max(piece.distance_r(s)));
+        let change_r = [self.before, self.now]
+            .map(|[a, b]| piece.distance_r(&(b - a)))
+            .into_iter()
+            .fold(0.0, f64::max);
+        let mut joined = Span::EMPTY;
+        for half in MIDDLES {
+            let loss_r = 4.0 * HALF_STEP * (2.0 * half + HALF_STEP) * sagitta_r
+                + 2.0 / 3.0 * HALF_STEP * change_r;
+            let middle = Span {
+                from: 0.5 - half,
+                to: 0.5 + half,
+            };
+            let share_r = (corner_r - loss_r).max(0.0);
+            let part = near(piece, share_r, from, to, &piece.end).cut(middle);
+            if !part.is_empty() {
+                joined = Span {
+                    from: joined.from.min(part.from),
+                    to: joined.to.max(part.to),
+                };
+            }
+        }
+        joined
+    }
 }
 
 /// Share of a piece's own tolerance that holds at its end: the smaller one of both sides.
@@ -277,7 +334,7 @@ fn corner_tolerance(track: &Track, index: usize) -> f64 {
 /// What is reached on the right edge and on top of a cell.
 fn cell(
     piece: &Piece,
-    corner_r: f64,
+    (corner_r, shift): (f64, Option<&Shift>),
     left: Span,
     bottom: Span,
     [from, to]: [&AxisVector; 2],
@@ -290,6 +347,9 @@ fn cell(
         right = right.not_before(left.from);
     }
     let mut top = near(piece, corner_r, from, to, &piece.end);
+    if let Some(shift) = shift.filter(|_| !top.is_empty()) {
+        top = shift.near_vertex(piece, corner_r, [from, to]);
+    }
     if left.is_empty() {
         top = top.not_before(bottom.from);
     }

@@ -39,6 +39,13 @@ impl History {
         self.recent[0]
     }
 
+    /// True if no chord of a period begins before the present rest.
+    pub(super) fn has_rested(&self) -> bool {
+        self.recent
+            .iter()
+            .all(|position| *position == self.recent[0])
+    }
+
     /// True if every axis keeps its limits on the way to the next position.
     pub(super) fn allows(&self, limits: &Limits, period_t: f64, next: &AxisVector) -> bool {
         let t = period_t;

@@ -50,7 +50,7 @@ const PHASES: [Phase; 3] = [
 /// Paces of the attempts, relative to what is expected; after them comes one that stops at every vertex.
 const PACES: [f64; 3] = [1.0, 0.9, 0.75];
 /// Lengths of the last window that are tried, and rounds for each.
-const FINISHES: usize = 6;
+const FINISHES: usize = 16;
 const FINISH_ROUNDS: usize = 5;
 /// Pull towards the middle where the middle is all that is aimed at.
 const CENTRED_RIDGE: f64 = 1e-2;

@@ -93,8 +93,10 @@ impl WindowPlanner {
                 self.legs = (2 * self.legs).min(MOST_LEGS);
             }
             _ => {
+                // From a little further on a window may be found, before this one has slowed down.
+                let soon = commit(&grid, &view) / LEAST_COMMIT;
                 self.force = Force::Window {
-                    commit: commit(&grid, &view),
+                    commit: soon.next_multiple_of(grid.periods).max(grid.periods),
                     points: tail,
                     is_end: false,
                     done: 0,

@@ -91,8 +91,9 @@ impl Grid {
     }
 
     /// First control point and weights of a point within the period that follows `period`, at
-    /// parameter `lambda`.
-    pub(super) fn inner_site(&self, period: usize, lambda: f64) -> (usize, [f64; SPAN]) {
+    /// parameter `lambda`, with a part of the acceleration added: q + `part`·T²·q″. With an eighth it
+    /// is where a chord is that has its middle there.
+    pub(super) fn inner_site(&self, period: usize, lambda: f64, part: f64) -> (usize, [f64; SPAN]) {
         #[expect(clippy::cast_precision_loss, reason = "hundreds")]
         let steps =
             (period as f64 + lambda.clamp(0.0, 1.0)) * self.knots as f64 / self.periods as f64;
@@ -104,15 +105,32 @@ impl Grid {
             reason = "a count of intervals"
         )]
         let first = whole as usize;
-        (first, widen(basis(steps - whole), 0))
+        let u = steps - whole;
+        let part = part * self.ratio() * self.ratio();
+        let (place, bend) = (basis(u), basis_2(u));
+        let weights = core::array::from_fn(|i| place[i] + part * bend[i]);
+        (first, widen(weights, 0))
+    }
+
+    /// Knots in a period, whole or not.
+    fn ratio(&self) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "at most eight")]
+        let ratio = self.knots as f64 / self.periods as f64;
+        ratio
+    }
+
+    /// First control point and weights of the velocity at the end of a period, times the period.
+    pub(super) fn velocity_site(&self, period: usize) -> (usize, [f64; SPAN]) {
+        let (first, u) = self.place(period);
+        let ratio = self.ratio();
+        (first, widen(basis_1(u).map(|w| w * ratio), 0))
     }
 
     /// First control point and weights of the acceleration at the end of a period, times the square of
     /// the period.
     pub(super) fn bend_site(&self, period: usize) -> (usize, [f64; SPAN]) {
         let (first, u) = self.place(period);
-        #[expect(clippy::cast_precision_loss, reason = "at most eight")]
-        let ratio = self.knots as f64 / self.periods as f64;
+        let ratio = self.ratio();
         (first, widen(basis_2(u).map(|w| w * ratio * ratio), 0))
     }
 

@@ -62,7 +62,8 @@ impl StopLeg {
     /// for its top speed.
     pub(super) fn eager_t(&self) -> f64 {
         let cruise_t = self.profile.cruise_t();
-        if cruise_t.is_empty() {
+        // Where there is none, rounding may leave a trace of one.
+        if cruise_t.end - cruise_t.start <= 1e-9 * self.duration_t() {
             0.0
         } else {
             cruise_t.end

@@ -10,14 +10,15 @@
 //!
 //! Only samples are bound to the tube: a straight line between two samples of one piece is then in
 //! it too, and where the motion goes over to another piece, it must come near every corner on the way:
-//! a point of it between the two samples, which is linear in the control points, must be inside the
-//! ball round the corner, by as much as a chord of one period may cut off. Together that is just what
-//! the judge asks.
+//! a point of it between the two samples must be inside the ball round the corner, and so must a chord
+//! that has its middle there. Half-way between both, which is linear in the control points, each plane
+//! that touches the ball is nearer by half the way. Together that is just what the judge asks.
 //!
 //! The round parts are bounded by planes ([`super::cuts`]).
 
 use super::cuts::{
-    Cuts, WORTH_OF_FEED, nearest_to_corner, piece_at, pieces_at, slowest_feed, velocity_over_feed,
+    Cuts, HALF_WAY, Passing, Plane, WORTH_OF_FEED, nearest_to_corner, piece_at, pieces_at,
+    slowest_feed, velocity_over_feed,
 };
 use super::samples::Samples;
 use super::scene::Scene;
@@ -214,42 +215,53 @@ fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>,
         ..
     } = layout;
     let (from, to) = (samples.piece[k - 1].max(style.passed), samples.piece[k]);
-    let mut corners: Vec<(f64, usize, (usize, f64), f64)> = (from..to)
+    let mut corners: Vec<(f64, usize, Option<Passing<D>>)> = (from..to)
         .filter_map(|i| {
             let turn = scene.turn(i, i + 1);
-            let radius = scene.chords[i].radius.min(scene.chords[i + 1].radius) * style.keep_r;
             if !style.has_motion {
-                return (turn > SHARP).then_some((turn, i, (k, 0.5), radius));
+                return (turn > SHARP).then_some((turn, i, None));
             }
             let passing = nearest_to_corner(scene, points, (i, k, samples.count()), &style.grid);
-            let left = radius - passing.sagitta.min(MOST_SAGITTA_R * radius);
-            let distance_r = dot(&passing.off, &passing.off).sqrt() / left;
+            let off = passing.furthest();
+            let distance_r = dot(&off, &off).sqrt() / corner_radius(scene, i, style);
             // A corner once close stays in, or else it would come and go from round to round.
             let is_close = distance_r > CLOSE_R || layout.cuts.of_corner(i).next().is_some();
-            let place = (passing.sample, passing.lambda);
-            (turn > SHARP || is_close).then_some((distance_r, i, place, left))
+            (turn > SHARP || is_close).then_some((distance_r, i, Some(passing)))
         })
         .collect();
     corners.sort_by(|a, b| b.0.total_cmp(&a.0));
-    for &(_, i, (k, lambda), radius) in corners.iter().take(MOST_CORNERS) {
-        let (before, after) = (&scene.chords[i], &scene.chords[i + 1]);
-        let (first, weights) = style.grid.inner_site(k - 1, lambda);
+    for (_, i, passing) in corners.iter().take(MOST_CORNERS) {
+        let (before, after) = (&scene.chords[*i], &scene.chords[i + 1]);
+        let radius = corner_radius(scene, *i, style);
+        let (k, lambda) = passing
+            .as_ref()
+            .map_or((k, 0.5), |passing| (passing.sample, passing.lambda));
+        let left = |normal: &[f64; D]| {
+            let room = passing.as_ref().map_or(0.0, |passing| passing.room(normal));
+            radius - room.min(MOST_SAGITTA_R * radius)
+        };
+        let (first, weights) = style.grid.inner_site(k - 1, lambda, HALF_WAY);
         problem.add_site(first, weights);
         if let Some(site) = problem.sites.last_mut().filter(|_| style.is_centred) {
             site.ridge = style.ridge / (radius * radius);
             site.center = after.start;
         }
-        let turn = scene.turn(i, i + 1);
-        if turn > 1e-6 {
-            let inwards =
-                core::array::from_fn(|a| (after.tangent[a] - before.tangent[a]) / (turn * radius));
-            problem.add_row(inwards, &after.start, [-FAR, 1.0]);
-        }
-        for plane in layout.cuts.of_corner(i) {
-            let normal = plane.normal.map(|n| n / radius);
+        let turn = scene.turn(*i, i + 1);
+        let inwards = (turn > 1e-6).then(|| Plane {
+            normal: core::array::from_fn(|a| (after.tangent[a] - before.tangent[a]) / turn),
+            center: after.start,
+        });
+        for plane in inwards.iter().chain(layout.cuts.of_corner(*i)) {
+            let left = left(&plane.normal);
+            let normal = plane.normal.map(|n| n / left);
             problem.add_row(normal, &plane.center, [-FAR, 1.0]);
         }
     }
+}
+
+/// The part that is used of the tolerance of the corner at the end of piece `i`.
+fn corner_radius<const D: usize>(scene: &Scene<D>, i: usize, style: &Style) -> f64 {
+    scene.chords[i].radius.min(scene.chords[i + 1].radius) * style.keep_r
 }
 
 /// Feed, and no running back, for every first difference that is not given.
