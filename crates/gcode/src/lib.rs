@@ -54,7 +54,7 @@
 //!
 //! | what | LinuxCNC | here |
 //! |---|---|---|
-//! | G33, G33.1, G76 | follow the spindle's encoder | refused: none is read |
+//! | G33, G33.1, G76 | follow the spindle's encoder | refused: none is read, and passes that begin at any angle of the spindle would cut the thread away |
 //! | a byte order mark; NUL bytes | refused; the block behind them is lost | no effect; refused |
 //! | a coordinate of 1e24 | accepted | refused: above [`MAX_NUMBER`] |
 //! | moves of a picometre | executed | merged with the next |

@@ -8,7 +8,7 @@
 use std::fs;
 
 use glidepath_gcode::{Options, Program};
-use glidepath_geometry::Segment;
+use glidepath_geometry::{AxisVector, Segment};
 use glidepath_motion::{Item, ItemKind, Rate};
 use serde_json::Value;
 
@@ -62,6 +62,9 @@ fn ours(text: &str) -> Vec<Move> {
         moves.push(match &segment {
             Segment::Arc(arc) => {
                 let [z, x] = arc.center;
+                let radius = |end: AxisVector| (end[2] - z).hypot(end[0] - x);
+                let apart = radius(segment.start()) - radius(segment.end());
+                assert!(apart.abs() < 1e-6, "{apart} mm between the radii of an arc");
                 ('A', end, [x, z, arc.sweep_rad.signum()])
             }
             _ if rate == Rate::Rapid => ('T', end, [0.0; 3]),
