@@ -77,15 +77,7 @@ impl Interpreter {
             }
             None => self.center_from_words(block, plane, ends)?,
         };
-        let turns = match whole(block, b'P', MAX_TURNS)? {
-            Some(0) => {
-                return Err(
-                    Fault::new(Code::InvalidValue, block.span(b'P'), "an arc of no turns")
-                        .help("write P1 or more, or leave P out"),
-                );
-            }
-            turns => f64::from(turns.unwrap_or(1)),
-        };
+        let turns = turns(block)?;
         let sweep_rad = sweep(ends, center, counterclockwise, turns);
         let arc = Arc {
             start,
@@ -176,6 +168,18 @@ impl Interpreter {
         };
         check_radii(block, ends, center)?;
         Ok(center)
+    }
+}
+
+/// Turns of an arc: P.
+fn turns(block: &Block) -> Outcome<f64> {
+    match whole(block, b'P', MAX_TURNS)? {
+        Some(0) => {
+            let message = "an arc of no turns";
+            Err(Fault::new(Code::InvalidValue, block.span(b'P'), message)
+                .help("write P1 or more, or leave P out"))
+        }
+        turns => Ok(f64::from(turns.unwrap_or(1))),
     }
 }
 

@@ -237,6 +237,15 @@ fn what_cannot_be_cut_is_refused_with_its_place() {
     finds(&profile("G0 X5 Z0\nG1 Z-5 A1 C1\nX6"), "4:11 canned-cycle");
     finds(&profile("G0 X5 Z0\nM2"), "4:1 canned-cycle");
     finds(&profile("G0 X5 Z0\nG71 Q1"), "4:1 canned-cycle");
+    let teeth = (1..400).fold(String::from("G0 X5 Z0\nG1 Z-1"), |mut all, i| {
+        write!(all, "\nX{}", 5 + i % 2).expect("a string");
+        write!(all, "\nZ-{}", 1 + i).expect("a string");
+        all
+    });
+    finds(
+        &profile(&teeth).replace("G71 Q1 X15 Z3", "G70 Q1 X15 Z3 P100"),
+        "805:1 canned-cycle",
+    );
     // Those that show only when the profile is complete are told of the cycle.
     finds(&profile("G0 X5 Z0"), "6:5 canned-cycle");
     finds(&profile("G0 X5 Z0\nG1 Z-5 A1"), "7:5 canned-cycle");

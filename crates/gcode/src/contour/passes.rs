@@ -22,8 +22,8 @@ use crate::modes::Pockets;
 const SAME_MM: f64 = 1e-6;
 /// Most passes of one cycle.
 pub(super) const MAX_PASSES: f64 = 10_000.0;
-/// Most moves of one cycle.
-const MAX_STEPS: usize = 200_000;
+/// Most moves of one cycle: they are in memory together.
+pub(super) const MAX_STEPS: usize = 50_000;
 
 /// A move of the tool, in *a* and *b*.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,7 +8,7 @@ use glidepath_motion::Item;
 
 use super::frame::{Frame, Point, ROUNDING_MM, pieces};
 use super::offset::offset;
-use super::passes::{NoPasses, Roughing, Step, finish, rough};
+use super::passes::{MAX_STEPS, NoPasses, Roughing, Step, finish, rough};
 use super::profile::Profile;
 use super::{OpenContour, label};
 use crate::block::Block;
@@ -201,10 +201,14 @@ impl Interpreter {
             return Err(turns_back(block, false, turned));
         };
         let target = self.state.position;
+        let from = out.len();
         for pass in (0..words.finishing).rev() {
             let share = f64::from(pass) / f64::from(words.finishing);
             let distance_mm = share * (words.distance_mm - words.end_mm) + words.end_mm;
             let along = offset(&pieces, distance_mm).ok_or_else(|| nothing_left(block, b'D'))?;
+            if out.len() - from + along.len() > MAX_STEPS {
+                return Err(no_passes(block, NoPasses::TooMany));
+            }
             self.without_compensation(block, target, out)?;
             for step in finish(&along) {
                 self.step(block, &frame, step, out)?;
@@ -322,8 +326,8 @@ fn no_passes(block: &Block, why: NoPasses) -> Box<Fault> {
         NoPasses::TooMany => {
             let message = "too many passes";
             Fault::new(FaultCode::CannedCycle, span, message)
-                .because("one cycle makes at most 10000 passes and 200000 moves")
-                .help("write a larger I, or make two cycles of it")
+                .because("one cycle makes at most 10000 passes and 50000 moves")
+                .help("write a larger I or a smaller P, or make two cycles of it")
         }
     }
 }
