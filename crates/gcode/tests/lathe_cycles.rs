@@ -113,6 +113,16 @@ fn finishing_comes_from_its_first_distance_to_its_last() {
 }
 
 #[test]
+fn between_finishing_passes_the_tool_rises_where_the_way_back_is_not_free() {
+    // Behind the hill at X9 the profile ends at X6.
+    let hill = "G18 G21 G90 F100\nO100 sub\nG0 X5 Z0\nG1 X9 Z-4\nX6 Z-7\nO100 endsub\n";
+    assert_eq!(
+        moves(&program(hill, "G70 Q100 X10 Z2 P2")),
+        "r(10,2) r(5,0) f(9,-4) f(6,-7) f(10,-7) r(10,2) r(5,0) f(9,-4) f(6,-7)"
+    );
+}
+
+#[test]
 fn a_profile_may_be_computed_incremental_and_have_its_corners_cut() {
     let steps = "G18 G21 G90 F100\nO100 sub\nG0 X2 Z0\nO101 repeat [2]\nG1 W-4\nU2 A1\nO101 endrepeat\n\
                  G1 Z-12 C1\nX12\nO100 endsub\n";

@@ -26,6 +26,7 @@
 //! * the contour at a distance nowhere comes nearer than that to any part of the profile ([`offset`]);
 //! * a start on the side of the workpiece is refused, and a start above the profile is left sideways before
 //!   the tool goes down;
+//! * between finishing passes the tool rises where the straight way back leads through the part;
 //! * codes in the profile that would give its words another meaning are refused, not skipped.
 
 mod corner;

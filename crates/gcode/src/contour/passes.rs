@@ -89,11 +89,43 @@ pub(super) fn rough(
     Ok(passes.steps)
 }
 
-/// The moves of one finishing pass along a contour.
-pub(super) fn finish(contour: &[Piece]) -> Vec<Step> {
-    let begin = contour.first().map(|piece| Step::Rapid(piece.start));
+/// The moves of one finishing pass along a contour, for a tool at `start`. A tool above the contour first
+/// goes beside it.
+pub(super) fn finish(contour: &[Piece], start: Point) -> Vec<Step> {
+    let begin = contour.first().map(|piece| piece.start);
+    let aside = begin
+        .filter(|begin| start[0] < begin[0] - SAME_MM)
+        .map(|begin| Step::Rapid([begin[0], start[1]]));
     let along = contour.iter().map(|piece| along(piece, piece.end));
-    begin.into_iter().chain(along).collect()
+    aside
+        .into_iter()
+        .chain(begin.map(Step::Rapid))
+        .chain(along)
+        .collect()
+}
+
+/// The way from the end of a contour to where the straight one to `start` is free of it: none if it is
+/// already, else up beside the contour and back above it.
+pub(super) fn lift(contour: &[Piece], start: Point) -> Vec<Step> {
+    let (Some(begin), Some(last)) = (contour.first(), contour.last()) else {
+        return Vec::new();
+    };
+    let (begin, end) = (begin.start, last.end);
+    let top = |piece: &Piece| {
+        let ends = piece.start[1].max(piece.end[1]);
+        monotone(piece)[0].map_or(ends, |first| ends.max(first.end[1]))
+    };
+    let way = |a: f64| end[1] + (a - end[0]) / (start[0] - end[0]) * (start[1] - end[1]);
+    let is_below = |piece: &Piece| {
+        let low = way(piece.start[0]).min(way(piece.end[0]));
+        top(piece) <= low + SAME_MM
+    };
+    let beside = start[0].max(begin[0]);
+    if start[0] >= begin[0] && contour.iter().all(is_below) {
+        return Vec::new();
+    }
+    let level = contour.iter().map(top).fold(start[1], f64::max);
+    vec![Step::Feed([end[0], level]), Step::Rapid([beside, level])]
 }
 
 /// A piece in parts that rise or fall all along.

@@ -8,7 +8,7 @@ use glidepath_motion::Item;
 
 use super::frame::{Frame, Point, ROUNDING_MM, pieces};
 use super::offset::offset;
-use super::passes::{MAX_STEPS, NoPasses, Roughing, Step, finish, rough};
+use super::passes::{MAX_STEPS, NoPasses, Roughing, Step, finish, lift, rough};
 use super::profile::Profile;
 use super::{OpenContour, label};
 use crate::block::Block;
@@ -210,8 +210,16 @@ impl Interpreter {
                 return Err(no_passes(block, NoPasses::TooMany));
             }
             self.without_compensation(block, target, out)?;
-            for step in finish(&along) {
+            for step in finish(&along, frame.inside(start)) {
                 self.step(block, &frame, step, out)?;
+            }
+            if pass > 0 {
+                let compensation = self.compensation.clone();
+                self.end_compensation(out)?;
+                for step in lift(&along, frame.inside(start)) {
+                    self.step(block, &frame, step, out)?;
+                }
+                self.compensation = compensation.map(|on| on.again(self.state.path_end));
             }
         }
         Ok(())

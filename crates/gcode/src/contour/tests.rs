@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::frame::{Frame, Piece, Point, pieces};
 use super::offset::offset;
-use super::passes::{Roughing, Step, finish, rough};
+use super::passes::{Roughing, Step, finish, lift, rough};
 use crate::compensation::Element;
 use crate::modes::Pockets;
 
@@ -198,8 +198,8 @@ proptest! {
         let (_, pieces) = in_frame(&profile, [4.0, 40.0]);
         let Some(contour) = offset(&pieces, distance) else { return Ok(()) };
         let points = samples(&profile);
-        let along = finish(&contour);
         let begin = contour[0].start;
+        let along = finish(&contour, begin);
         for point in trace(&along[1..], begin) {
             let clear = clearance(point, &points);
             prop_assert!(clear > distance - SAMPLE_MM, "{clear} at {point:?}");
@@ -209,6 +209,31 @@ proptest! {
         for pair in contour.windows(2) {
             prop_assert!((pair[0].end[0] - pair[1].start[0]).abs() < 1e-6);
             prop_assert!((pair[0].end[1] - pair[1].start[1]).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn finishing_comes_and_goes_clear_of_the_profile(
+        profile in profile().prop_filter("not empty", |p| !p.is_empty()),
+        distance in 0.0..0.8_f64,
+        start in (-10.0..6.0_f64, 2.0..20.0_f64),
+    ) {
+        let start = [start.0, start.1 + 3.0];
+        let (frame, pieces) = in_frame(&profile, start);
+        let Some(contour) = offset(&pieces, distance) else { return Ok(()) };
+        let (start, begin) = (frame.inside(start), contour[0].start);
+        let top = profile.iter().flat_map(|e| [e.start[1], e.end[1]]).fold(0.0, f64::max);
+        // From above hills the way beside the contour is not free, whatever the tool does.
+        prop_assume!(start[0] >= begin[0] || start[1] > top + 12.0);
+        let mut steps = finish(&contour, start);
+        steps.extend(lift(&contour, start));
+        steps.push(Step::Rapid(start));
+        let points = samples(&profile);
+        for point in trace(&steps, start) {
+            let clear = clearance(point, &points);
+            let before = point[0] > begin[0] + 1e-6;
+            let least = if before { 0.0 } else { distance };
+            prop_assert!(clear > least - SAMPLE_MM, "{clear} at {point:?}");
         }
     }
 
@@ -273,7 +298,8 @@ fn the_finishing_path_is_the_profile_shifted() {
         line([-10.0, 8.0], [-20.0, 8.0]),
     ];
     let (_, pieces) = in_frame(&profile, [2.0, 12.0]);
-    let plain = finish(&offset(&pieces, 0.0).expect("itself"));
+    let start = [2.0, 12.0];
+    let plain = finish(&offset(&pieces, 0.0).expect("itself"), start);
     assert_eq!(
         plain,
         [
@@ -283,7 +309,7 @@ fn the_finishing_path_is_the_profile_shifted() {
             Step::Feed([-20.0, 8.0]),
         ]
     );
-    let shifted = finish(&offset(&pieces, 0.5).expect("room"));
+    let shifted = finish(&offset(&pieces, 0.5).expect("room"), start);
     assert_eq!(
         shifted,
         [
