@@ -188,7 +188,7 @@ impl Stock {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 32, ..ProptestConfig::default() })]
 
     #[test]
     fn a_contour_at_a_distance_is_where_brute_force_finds_it(
