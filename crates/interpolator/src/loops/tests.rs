@@ -5,8 +5,9 @@ use super::*;
 use crate::message::{Fault, Order, PortsEnds};
 use crate::testing::{Rig, hexapod, lines, mill, records};
 use glidepath_link::{MachineState, SetpointFrame};
-use glidepath_realtime::{CountingAllocator, Monotonic};
+use glidepath_realtime::CountingAllocator;
 use std::collections::VecDeque;
+use std::sync::atomic::AtomicU64;
 
 /// Ticks a state may take to be reached: several times the longest move.
 const PATIENCE: u64 = 20_000;
@@ -22,8 +23,41 @@ enum Step {
     Frames(bool),
 }
 
+/// A clock that lets the loop go on by one tick at a time, when it is told to: what happens in which
+/// tick does not depend on how busy the host is.
+struct Metronome<'a> {
+    now_ns: u64,
+    /// Beats allowed so far, and those that were made.
+    allowed: &'a AtomicU64,
+    made: u64,
+    stop: &'a AtomicBool,
+}
+
+impl Clock for Metronome<'_> {
+    fn now_ns(&self) -> u64 {
+        self.now_ns
+    }
+
+    fn sleep_until(&mut self, deadline_ns: u64) {
+        self.made += 1;
+        while self.allowed.load(Ordering::Acquire) < self.made && !self.stop.load(Ordering::Relaxed)
+        {
+            std::thread::yield_now();
+        }
+        self.now_ns = self.now_ns.max(deadline_ns);
+    }
+
+    fn spin_until(&mut self, deadline_ns: u64) -> u64 {
+        self.now_ns = self.now_ns.max(deadline_ns);
+        self.now_ns
+    }
+}
+
 /// What the ports thread does in the test.
-struct Script {
+struct Script<'a> {
+    allowed: &'a AtomicU64,
+    /// Whether the loop still runs.
+    lives: &'a dyn Fn() -> bool,
     ends: PortsEnds<'static>,
     feed: VecDeque<SetpointFrame>,
     flows: bool,
@@ -31,7 +65,7 @@ struct Script {
     state: MachineState,
 }
 
-impl Script {
+impl Script<'_> {
     fn play(&mut self, steps: &[Step]) {
         for step in steps {
             let began = self.number;
@@ -54,17 +88,23 @@ impl Script {
         }
     }
 
+    /// One tick: what there is goes in, and its report comes out.
     fn turn(&mut self) {
-        while let Some(report) = self.ends.reports.dequeue() {
-            (self.number, self.state) = (report.setpoint.number, report.state);
-        }
         while self.flows && self.ends.frames.ready() {
             let Some(frame) = self.feed.pop_front() else {
                 break;
             };
             self.ends.frames.enqueue(frame).unwrap();
         }
-        std::thread::yield_now();
+        self.allowed.fetch_add(1, Ordering::Release);
+        let report = loop {
+            if let Some(report) = self.ends.reports.dequeue() {
+                break report;
+            }
+            assert!((self.lives)(), "the loop ended");
+            std::thread::yield_now();
+        };
+        (self.number, self.state) = (report.setpoint.number, report.state);
     }
 }
 
@@ -77,26 +117,21 @@ fn allocations(steps: &[Step]) -> u64 {
         ends,
         ..
     } = Rig::new(Config {
-        // A busy host may not run this thread for longer.
-        planner_lost_after: None,
         mechanism: hexapod(),
         ..Config::new(mill(), 4_000_000)
     });
     let feed = records(&lines(3, 3, 12_000, &mill(), 0.004), 1, 4_000_000);
-    let mut script = Script {
-        ends,
-        feed: feed.into(),
-        flows: true,
-        number: 0,
-        state: MachineState::Idle,
-    };
-    let stop = AtomicBool::new(false);
+    let (stop, allowed) = (AtomicBool::new(false), AtomicU64::new(0));
     std::thread::scope(|scope| {
-        let stop = &stop;
+        let (stop, allowed) = (&stop, &allowed);
         let thread = scope.spawn(move || {
-            // Program time does not care how fast the clock runs.
-            let mut timer =
-                DeadlineTimer::new(Monotonic, Monotonic.now_ns(), 50_000).with_lead(5_000);
+            let clock = Metronome {
+                now_ns: 0,
+                allowed,
+                made: 0,
+                stop,
+            };
+            let mut timer = DeadlineTimer::new(clock, 4_000_000, 4_000_000).with_lead(100_000);
             let before = CountingAllocator::calls_of_this_thread();
             real_time(
                 &mut interpolator,
@@ -107,6 +142,15 @@ fn allocations(steps: &[Step]) -> u64 {
             );
             CountingAllocator::calls_of_this_thread() - before
         });
+        let mut script = Script {
+            allowed,
+            lives: &|| !thread.is_finished(),
+            ends,
+            feed: feed.into(),
+            flows: true,
+            number: 0,
+            state: MachineState::Idle,
+        };
         // Also if the script panics: the scope waits for the thread.
         let played = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| script.play(steps)));
         stop.store(true, Ordering::Relaxed);
