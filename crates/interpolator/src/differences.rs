@@ -78,19 +78,20 @@ impl Differences {
     #[allow(clippy::indexing_slicing, reason = "the index runs over the axes")]
     pub(crate) fn take(&mut self, position: &AxisVector, allowed: &Allowed) -> bool {
         let [velocity, acceleration, jerk] = &allowed.0;
-        let mut inside = true;
+        // A number, not a truth value: that can be kept for several axes at once.
+        let mut inside = 1_u64;
         for i in 0..AXES {
             let first = position[i] - self.position[i];
             let second = first - self.first[i];
             let third = second - self.second[i];
-            inside &= first.abs() <= velocity[i];
-            inside &= second.abs() <= acceleration[i];
-            inside &= third.abs() <= jerk[i];
+            inside &= u64::from(first.abs() <= velocity[i]);
+            inside &= u64::from(second.abs() <= acceleration[i]);
+            inside &= u64::from(third.abs() <= jerk[i]);
             self.position[i] = position[i];
             self.first[i] = first;
             self.second[i] = second;
         }
-        inside
+        inside == 1
     }
 
     /// Largest ratio to a limit one more position would have.

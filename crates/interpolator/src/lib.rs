@@ -32,6 +32,7 @@ mod loops;
 mod message;
 mod ports;
 mod program_time;
+mod quintic;
 mod ramp;
 mod rate;
 mod run;

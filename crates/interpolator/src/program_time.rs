@@ -22,14 +22,16 @@ impl ProgramTime {
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
         reason = "the sum is not negative, and saturates far beyond any program"
     )]
     pub(crate) fn after(self, periods: f64) -> Self {
         let sum = self.fraction + periods;
-        let whole = sum.floor();
+        // Not `floor`, which is a call where the processor is not known to have an instruction for it.
+        let whole = sum as i64;
         Self {
             sequence: self.sequence + whole as u64,
-            fraction: sum - whole,
+            fraction: sum - whole as f64,
         }
     }
 

@@ -31,6 +31,8 @@ impl Bounds {
     }
 }
 
+const SIXTH: f64 = 1.0 / 6.0;
+
 /// Rate, slope, and program time since the start of the ramp, at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Instant {
@@ -40,9 +42,13 @@ pub(crate) struct Instant {
 }
 
 impl Instant {
+    fn elapsed_later(self, t: f64, bend: f64) -> f64 {
+        self.elapsed + t * (self.rate + t * (0.5 * self.slope + t * (bend * SIXTH)))
+    }
+
     fn later(self, t: f64, bend: f64) -> Self {
         Self {
-            elapsed: self.elapsed + t * (self.rate + t * (0.5 * self.slope + t * bend / 6.0)),
+            elapsed: self.elapsed_later(t, bend),
             rate: self.rate + t * (self.slope + t * 0.5 * bend),
             slope: self.slope + t * bend,
         }
@@ -112,24 +118,36 @@ impl Ramp {
         self.target
     }
 
-    /// At `t` ≥ 0 ticks after the start; after the end the rate is the target.
-    pub(crate) fn at(&self, t: f64) -> Instant {
-        let [start, kept, back, end] = self.starts;
+    /// The part in force `t` ≥ 0 ticks after the start: where it began, since when, and its bend.
+    fn part(&self, t: f64) -> (&Instant, f64, f64) {
+        let [start, kept, back, end] = &self.starts;
         let [t1, t2, t3] = self.durations;
         let (after1, after2) = (t - t1, t - t1 - t2);
-        let now = if after1 <= 0.0 {
-            start.later(t, self.bend)
+        if after1 <= 0.0 {
+            (start, t, self.bend)
         } else if after2 <= 0.0 {
-            kept.later(after1, 0.0)
+            (kept, after1, 0.0)
         } else if after2 < t3 {
-            back.later(after2, -self.bend)
+            (back, after2, -self.bend)
         } else {
-            end.later(after2 - t3, 0.0)
-        };
+            (end, after2 - t3, 0.0)
+        }
+    }
+
+    /// At `t` ≥ 0 ticks after the start; after the end the rate is the target.
+    pub(crate) fn at(&self, t: f64) -> Instant {
+        let (start, after, bend) = self.part(t);
+        let now = start.later(after, bend);
         Instant {
             rate: now.rate.clamp(0.0, 1.0),
             ..now
         }
+    }
+
+    /// Program time since the start, `t` ≥ 0 ticks after it, periods.
+    pub(crate) fn elapsed_at(&self, t: f64) -> f64 {
+        let (start, after, bend) = self.part(t);
+        start.elapsed_later(after, bend)
     }
 
     /// Program time lost against a steady rate 1, for a ramp that ends there, periods.

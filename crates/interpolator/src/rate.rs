@@ -293,7 +293,9 @@ impl Rate {
                 Trial::OutOfBudget => {
                     self.barred -= 1;
                     self.trial_search = search_at;
-                    self.resume_at = place;
+                    // What does not fit into the budget of a tick that begins with it never will.
+                    let never = k == 0 && self.set_out.is_none() && search_at == 0;
+                    self.resume_at = place + usize::from(never);
                     return;
                 }
             }

@@ -1,8 +1,7 @@
 //! The frames the real-time thread owns, and the motion through them.
 //!
 //! Between two frames the motion of every axis is the quintic polynomial that has their position,
-//! velocity and acceleration at both ends. Its coefficients are computed once, when the later of
-//! the two arrives; an evaluation is then five multiplications and additions an axis.
+//! velocity and acceleration at both ends.
 //!
 //! ```text
 //! released │ oldest … now … newest │ free          a ring over sequence numbers
@@ -13,72 +12,13 @@
 //! known how to stop after it. Program time stands there: everything later is evaluated as that frame.
 
 use crate::program_time::ProgramTime;
-use glidepath_geometry::{AXES, AxisVector};
+use crate::quintic::{Kinematic, Quintic};
+use glidepath_geometry::AxisVector;
 use glidepath_link::SetpointFrame;
 use glidepath_motion::{FrameFlags, Limits};
 
 /// Most frames that are owned at a time.
 pub(crate) const TRACK_CAPACITY: usize = 512;
-
-/// Position and its first two derivatives by program time in periods.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Kinematic {
-    pub(crate) position: AxisVector,
-    pub(crate) velocity: AxisVector,
-    pub(crate) acceleration: AxisVector,
-}
-
-/// Coefficients of the polynomial in 0 ≤ u ≤ 1 from one frame to the next, constant term first.
-#[derive(Debug, Clone, Copy)]
-struct Quintic([AxisVector; 6]);
-
-impl Quintic {
-    fn between(from: &SetpointFrame, to: &SetpointFrame, period_t: f64) -> Self {
-        let (p0, p1) = (
-            AxisVector::from(from.position),
-            AxisVector::from(to.position),
-        );
-        let (v0, v1) = (
-            AxisVector::from(from.velocity),
-            AxisVector::from(to.velocity),
-        );
-        let (a0, a1) = (
-            AxisVector::from(from.acceleration),
-            AxisVector::from(to.acceleration),
-        );
-        let (v0, v1) = (v0 * period_t, v1 * period_t);
-        let (a0, a1) = (a0 * (period_t * period_t), a1 * (period_t * period_t));
-        let step = p1 - p0;
-        Self([
-            p0,
-            v0,
-            a0 * 0.5,
-            step * 10.0 - v0 * 6.0 - v1 * 4.0 - a0 * 1.5 + a1 * 0.5,
-            step * -15.0 + v0 * 8.0 + v1 * 7.0 + a0 * 1.5 - a1,
-            step * 6.0 - (v0 + v1) * 3.0 + (a1 - a0) * 0.5,
-        ])
-    }
-
-    /// Written as a loop over plain arrays: this is most of the work of a tick.
-    #[allow(clippy::indexing_slicing, reason = "the index runs over the axes")]
-    fn position(&self, u: f64) -> AxisVector {
-        let [c0, c1, c2, c3, c4, c5] = &self.0;
-        let mut position = [0.0; AXES];
-        for i in 0..AXES {
-            position[i] = ((((c5[i] * u + c4[i]) * u + c3[i]) * u + c2[i]) * u + c1[i]) * u + c0[i];
-        }
-        AxisVector::from(position)
-    }
-
-    fn kinematic(&self, u: f64) -> Kinematic {
-        let [_, c1, c2, c3, c4, c5] = &self.0;
-        Kinematic {
-            position: self.position(u),
-            velocity: (((c5 * (5.0 * u) + c4 * 4.0) * u + c3 * 3.0) * u + c2 * 2.0) * u + c1,
-            acceleration: ((c5 * (20.0 * u) + c4 * 12.0) * u + c3 * 6.0) * u + c2 * 2.0,
-        }
-    }
-}
 
 /// Path position and its rate by program time in periods.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,7 +58,7 @@ impl Track {
     /// An empty track. Allocates all it will ever use.
     pub(crate) fn new(period_t: f64, limits: Limits) -> Self {
         let blank = <SetpointFrame as bytemuck::Zeroable>::zeroed();
-        let quintic = Quintic([AxisVector::zeros(); 6]);
+        let quintic = Quintic::zeros();
         Self {
             frames: vec![blank; TRACK_CAPACITY].into_boxed_slice(),
             quintics: vec![quintic; TRACK_CAPACITY].into_boxed_slice(),

@@ -69,21 +69,21 @@ const fn case(name: &'static str, operator: Operator, average: u64, most: u64) -
 }
 
 const CASES: [Case; 7] = [
-    case("rate 1", Operator::Once(None), 4_200, 60_000),
-    case("rate 0.5", HALF, 3_200, 60_000),
+    case("rate 1", Operator::Once(None), 4_000, 48_000),
+    case("rate 0.5", HALF, 3_200, 38_500),
     case("held", Operator::Once(Some(Command::Hold)), 3_000, 3_000),
-    case("operator", Operator::Busy, 7_000, 88_000),
+    case("operator", Operator::Busy, 6_000, 72_000),
     Case {
         is_hard: true,
-        ..case("hard", Operator::Once(None), 70_000, 215_000)
+        ..case("hard", Operator::Once(None), 61_000, 172_000)
     },
     Case {
         is_hard: true,
-        ..case("hard, operator", Operator::Busy, 37_000, 200_000)
+        ..case("hard, operator", Operator::Busy, 33_000, 168_000)
     },
     Case {
         has_joints: true,
-        ..case("hexapod", Operator::Once(None), 7_600, 63_000)
+        ..case("hexapod", Operator::Once(None), 7_300, 51_500)
     },
 ];
 const HALF: Operator = Operator::Once(Some(Command::FeedOverride(0.5)));

@@ -179,13 +179,12 @@ impl Aim<'_> {
 
     /// Plays a plan through; `None` if it does not pass.
     fn play(&self, plan: &Plan, budget: &mut u32) -> Option<Reserve> {
-        let Scene { track, allowed, .. } = *self.scene;
         let mut left = self.left - plan.begins * self.from.rate;
         let (mut steady, mut begins) = (self.from, plan.begins);
         let mut steps = Steps::default();
         if let Some(ramp) = plan.first {
             let cue = steady.cue(begins, self.scene)?;
-            let Played::Passed(_) = play(&ramp, cue, track, allowed, budget) else {
+            let Played::Passed(_) = play(&ramp, cue, self.scene, budget) else {
                 return None;
             };
             let passed = ramp.at(ramp.duration().ceil()).elapsed;
@@ -202,7 +201,7 @@ impl Aim<'_> {
         let pace = (fastest_takes / left).min(1.0);
         let ramp = Ramp::plan(plan.last_from, 0.0, 0.0, self.bounds.paced(pace))?;
         let cue = steady.cue(begins, self.scene)?;
-        let Played::Passed(_) = play(&ramp, cue, track, allowed, budget) else {
+        let Played::Passed(_) = play(&ramp, cue, self.scene, budget) else {
             return None;
         };
         let in_ticks = whole(begins);

@@ -35,10 +35,12 @@ pub(super) const CANDIDATES: [Candidate; 18] = {
 
 /// What it costs to set up a candidate, and to stretch one from a slope, in samples.
 const SET_UP: u32 = 4;
-const SEARCH: u32 = 20;
-/// Halvings of the range of paces, from the slowest to 1, in the search for the grid.
-const SEARCH_STEPS: u32 = 40;
-const SLOWEST: f64 = 0.02;
+const SEARCH: u32 = 6;
+/// Most steps of the search for the grid.
+const SEARCH_STEPS: u32 = 16;
+/// The first guess of how much slower a ramp has to be, how fast that grows, and the most of it.
+const SLOWER: f64 = 1.25;
+const SLOWEST: f64 = 50.0;
 /// The highest rate that a ramp part of the way to the full rate ends at: nearer to it there is too
 /// little time left to lose to get back to the grid.
 const PARTIAL_MOST: f64 = 0.97;
@@ -106,19 +108,55 @@ impl Rate {
             })?
         } else {
             *budget = budget.saturating_sub(SEARCH);
-            let (mut slow, mut fast) = (SLOWEST, 1.0);
-            for _ in 0..SEARCH_STEPS {
-                let pace = 0.5 * (slow + fast);
-                if plan(pace)?.loss() > wanted {
-                    slow = pace;
-                } else {
-                    fast = pace;
-                }
-            }
-            plan(fast)?
+            stretched(&ramp, wanted, plan)?
         };
         // If there is too little time left to lose, another tick will be nearer to the grid.
         let is_on_grid = (on_grid.loss() - wanted).abs() < ON_GRID;
         (is_on_grid && on_grid.duration() < within).then_some(on_grid)
     }
+}
+
+/// The ramp, among those of all paces, that loses so much program time, no less than the one of pace 1.
+///
+/// From a slope the curve is not just stretched, but the loss still grows nearly in proportion to the
+/// stretching: a chord finds it in a few steps.
+fn stretched(ramp: &Ramp, wanted: f64, plan: impl Fn(f64) -> Option<Ramp>) -> Option<Ramp> {
+    let beyond = |stretching: f64| {
+        let ramp = plan(1.0 / stretching)?;
+        Some((ramp, ramp.loss() - wanted))
+    };
+    let (mut low, mut low_by) = (1.0, ramp.loss() - wanted);
+    if low_by > -ON_GRID {
+        return Some(*ramp);
+    }
+    let mut high = SLOWER;
+    let (mut found, mut high_by) = beyond(high)?;
+    while high_by < 0.0 {
+        (low, low_by) = (high, high_by);
+        high *= SLOWER;
+        if high > SLOWEST {
+            return None;
+        }
+        (found, high_by) = beyond(high)?;
+    }
+    let mut kept_low = false;
+    for _ in 0..SEARCH_STEPS {
+        let between = (low * high_by - high * low_by) / (high_by - low_by);
+        let by;
+        (found, by) = beyond(between)?;
+        if by.abs() < 0.5 * ON_GRID {
+            break;
+        }
+        // An end that stays counts half, so that it moves too.
+        if by < 0.0 {
+            (low, low_by) = (between, by);
+            high_by *= if kept_low { 1.0 } else { 0.5 };
+            kept_low = false;
+        } else {
+            (high, high_by) = (between, by);
+            low_by *= if kept_low { 0.5 } else { 1.0 };
+            kept_low = true;
+        }
+    }
+    Some(found)
 }

@@ -14,10 +14,10 @@
 //! ```
 //!
 //! Every step is played through from the very positions that the ones before it end with, so what is
-//! found keeps the limits as it stands. The search can pause between any two steps, and go on in the
-//! next tick.
+//! found keeps the limits as it stands. The search can pause between any two samples, and go on in the
+//! next tick: it is about places on the path, not about when they are looked at.
 
-use super::play::{Cue, Played, SET_UP, play};
+use super::play::{Cue, Played, Playing, SET_UP};
 use super::{FASTEST, Scene};
 use crate::ramp::{Bounds, Ramp};
 
@@ -125,6 +125,8 @@ pub(super) struct Descent {
     /// The shape that is tried next at this place, and whether the gentlest has passed here.
     turn: usize,
     may_go: bool,
+    /// What the last tick had no time to play to its end.
+    playing: Option<Playing>,
     /// Of ramps here and at the next few places.
     bounds: Option<Bounds>,
 }
@@ -139,13 +141,13 @@ impl Descent {
             steps: Steps::default(),
             turn: 0,
             may_go: true,
+            playing: None,
             bounds: None,
         }
     }
 
     /// Goes on until rest, or until the budget is used up.
     pub(super) fn go_on(&mut self, scene: &Scene<'_>, budget: &mut u32) -> Outcome {
-        let mut is_first = true;
         while *budget > SET_UP {
             *budget -= SET_UP;
             let sequence = self.at.time.sequence;
@@ -156,7 +158,7 @@ impl Descent {
                 match self.try_next(bounds, scene, budget) {
                     Try::Rest => return Outcome::Rest(self.steps),
                     Try::Lower => break,
-                    Try::Failed if self.wait_or_turn() => {}
+                    Try::Failed if self.turn_to_next() => {}
                     Try::Failed => {
                         if !self.wait(scene, budget) {
                             return Outcome::Lost;
@@ -164,22 +166,15 @@ impl Descent {
                         break;
                     }
                     Try::Full => return Outcome::Lost,
-                    // What does not fit into the whole budget of a tick never will.
-                    Try::OutOfBudget if is_first => {
-                        self.turn += 1;
-                        return Outcome::Open;
-                    }
                     Try::OutOfBudget => return Outcome::Open,
                 }
-                is_first = false;
             }
-            is_first = false;
         }
         Outcome::Open
     }
 
     /// Turns to the next shape at this place; false if there is none.
-    const fn wait_or_turn(&mut self) -> bool {
+    const fn turn_to_next(&mut self) -> bool {
         if !self.may_go {
             return false;
         }
@@ -188,24 +183,28 @@ impl Descent {
     }
 
     fn try_next(&mut self, bounds: Bounds, scene: &Scene<'_>, budget: &mut u32) -> Try {
-        let turn = if self.may_go { self.turn } else { GENTLEST };
-        let Some(&Shape { part, pace }) = SHAPES.get(turn) else {
-            return Try::Failed;
+        let mut playing = match self.playing.take() {
+            Some(playing) => playing,
+            None => match self.next_ramp(bounds) {
+                Some(ramp) => Playing::new(ramp, self.at),
+                None => return Try::Failed,
+            },
         };
-        let target = self.rate * (1.0 - part);
-        let Some(ramp) = Ramp::plan(self.rate, 0.0, target, bounds.paced(pace)) else {
-            return Try::Failed;
-        };
-        let end = match play(&ramp, self.at, scene.track, scene.allowed, budget) {
+        let end = match playing.go_on(scene.track, scene.allowed, budget) {
             Played::Passed(end) => end,
             Played::Barred => return Try::Failed,
-            Played::OutOfBudget => return Try::OutOfBudget,
+            Played::OutOfBudget => {
+                self.playing = Some(playing);
+                return Try::OutOfBudget;
+            }
         };
         if !self.may_go {
             // There is room: now for the largest that passes.
             (self.may_go, self.turn) = (true, 0);
             return Try::Lower;
         }
+        let ramp = *playing.ramp();
+        let target = ramp.target();
         let step = Later {
             in_ticks: self.waited,
             ramp,
@@ -216,6 +215,14 @@ impl Descent {
         (self.at, self.rate, self.waited, self.turn) = (end, target, 0, 0);
         self.bounds = None;
         if target > 0.0 { Try::Lower } else { Try::Rest }
+    }
+
+    /// The ramp whose turn it is at this place.
+    fn next_ramp(&self, bounds: Bounds) -> Option<Ramp> {
+        let turn = if self.may_go { self.turn } else { GENTLEST };
+        let Shape { part, pace } = *SHAPES.get(turn)?;
+        let target = self.rate * (1.0 - part);
+        Ramp::plan(self.rate, 0.0, target, bounds.paced(pace))
     }
 
     /// Stays at the rate for a tick; false if that cannot be.

@@ -32,40 +32,66 @@ pub(super) struct Cue {
     pub(super) is_held: bool,
 }
 
-/// Plays a ramp through to three ticks past its end.
-pub(super) fn play(
-    ramp: &Ramp,
+/// A ramp that is being played through, to three ticks past its end. It can pause between any two
+/// samples.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Playing {
+    ramp: Ramp,
     cue: Cue,
-    track: &Track,
-    allowed: &Allowed,
-    budget: &mut u32,
-) -> Played {
-    let (mut published, mut after) = (cue.published, cue);
-    let (whole, end) = (ramp.duration().ceil(), ramp.duration() + 3.0);
-    let mut t = 0.0;
-    while t < end {
-        if *budget == 0 {
-            return Played::OutOfBudget;
-        }
-        *budget -= 1;
-        t += 1.0;
-        let time = cue.time.after(ramp.at(t).elapsed);
-        let time = if cue.is_held {
-            track.clamped(time)
-        } else {
-            time
-        };
-        let Some(position) = track.position(time) else {
-            return Played::Barred;
-        };
-        if !published.take(&position, allowed) {
-            return Played::Barred;
-        }
-        if t <= whole {
-            (after.time, after.published) = (time, published);
+    /// Ticks played, and the positions up to there.
+    t: f64,
+    published: Differences,
+    /// Where the ramp ends, once it was played so far.
+    after: Cue,
+}
+
+impl Playing {
+    pub(super) const fn new(ramp: Ramp, cue: Cue) -> Self {
+        Self {
+            ramp,
+            cue,
+            t: 0.0,
+            published: cue.published,
+            after: cue,
         }
     }
-    Played::Passed(after)
+
+    pub(super) const fn ramp(&self) -> &Ramp {
+        &self.ramp
+    }
+
+    #[allow(clippy::float_cmp, reason = "both are whole numbers")]
+    pub(super) fn go_on(&mut self, track: &Track, allowed: &Allowed, budget: &mut u32) -> Played {
+        let stop = track.stop().filter(|_| self.cue.is_held);
+        let (whole, end) = (self.ramp.duration().ceil(), self.ramp.duration() + 3.0);
+        while self.t < end {
+            if *budget == 0 {
+                return Played::OutOfBudget;
+            }
+            *budget -= 1;
+            self.t += 1.0;
+            let time = self.cue.time.after(self.ramp.elapsed_at(self.t));
+            let time = match stop {
+                Some(stop) if time.sequence >= stop => ProgramTime::at(stop),
+                _ => time,
+            };
+            let Some(position) = track.position(time) else {
+                return Played::Barred;
+            };
+            if !self.published.take(&position, allowed) {
+                return Played::Barred;
+            }
+            if self.t == whole {
+                (self.after.time, self.after.published) = (time, self.published);
+            }
+        }
+        Played::Passed(self.after)
+    }
+}
+
+/// Plays a ramp through without a pause.
+pub(super) fn play(ramp: &Ramp, cue: Cue, scene: &Scene<'_>, budget: &mut u32) -> Played {
+    Playing::new(*ramp, cue).go_on(scene.track, scene.allowed, budget)
 }
 
 /// Most samples of a tick: what it takes where three stops fill the track, which is the shortest period
@@ -73,8 +99,8 @@ pub(super) fn play(
 const MOST: u32 = 360;
 
 impl Scene<'_> {
-    /// Samples a tick may spend: so many, or what it takes to play a stop from full speed through
-    /// twice. With less, at a short period, no stop would ever pass.
+    /// Samples a tick may spend on what has to be done within it: so many, or what it takes to play a
+    /// stop from full speed through twice. With less, at a short period, no stop would ever pass.
     pub(super) fn budget(&self, least: u32) -> u32 {
         let stop = u32::try_from(2 * self.reach).unwrap_or(u32::MAX / 4);
         least.max(2 * (stop + 3 + SET_UP)).min(MOST)

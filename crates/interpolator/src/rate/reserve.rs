@@ -30,8 +30,9 @@ use crate::differences::Differences;
 use crate::program_time::ProgramTime;
 use crate::ramp::Ramp;
 
-/// Samples a tick may spend on finding a reserve, unless stops are longer.
+/// Samples a tick may spend on finding a reserve, and those of the first tick of a search.
 const BUDGET: u32 = 120;
+const FIRST_BUDGET: u32 = 60;
 /// Places between the latest possible and the earliest useful at which a stop may begin.
 const PLACES: u32 = 8;
 /// A reserve is replaced only by one that begins this much later, ticks.
@@ -95,17 +96,21 @@ impl Search {
         })
     }
 
-    /// The same a tick later, or while the motion is held; `None` if it went another way.
+    /// Keeps up with the motion: a tick later, or where it was while the motion is held. False if it
+    /// went another way.
     #[allow(clippy::float_cmp, reason = "a steady rate does not change")]
-    fn now_from(mut self, now: Steady) -> Option<Self> {
+    fn follow(&mut self, now: Steady) -> bool {
         if self.from.rate != now.rate {
-            return None;
+            return false;
         }
         if self.from.time != now.time {
             self.from.time = self.from.time.after(now.rate);
-            self.begins = self.begins.checked_sub(1)?;
+            let Some(begins) = self.begins.checked_sub(1) else {
+                return false;
+            };
+            self.begins = begins;
         }
-        (self.from.time == now.time).then_some(self)
+        self.from.time == now.time
     }
 }
 
@@ -159,12 +164,12 @@ impl Rate {
         if self.ramp.is_some() || self.rate <= 0.0 {
             return false;
         }
-        let mut budget = scene.budget(BUDGET);
         let has_time = |reserve: &Reserve| reserve.in_ticks() > URGENT;
         if let Some(frame) = scene.block_end
             && goal > 0.0
             && (self.is_to_arrive_at(frame) || self.reserve.as_ref().is_none_or(has_time))
         {
+            let mut budget = scene.budget(BUDGET);
             let passes_barrier = self.secure_arrival(frame, scene, &mut budget);
             // Motion does not set out without a way to rest at the end of the block.
             if self.is_to_arrive_at(frame) || self.is_barred(scene) {
@@ -184,6 +189,14 @@ impl Rate {
         if left >= enough || goal <= 0.0 {
             return false;
         }
+        // Nearly always a stop is found within the budget of a tick: there is time to spread that over
+        // two. If it is not, the plan is hard to stop on, and no time is to be lost.
+        let has_just_begun = self.search.is_none() && !self.is_barred(scene);
+        let mut budget = if has_just_begun && left > 2 * URGENT {
+            FIRST_BUDGET
+        } else {
+            BUDGET
+        };
         match self.search_later(left + GAIN, scene, &mut budget) {
             Some(steps) => {
                 self.reserve = Some(Reserve {
@@ -209,22 +222,26 @@ impl Rate {
         budget: &mut u32,
     ) -> Option<Steps> {
         let now = self.steady();
-        let under_way = self.search.take().and_then(|search| search.now_from(now));
-        let mut place = 0;
-        let mut search = under_way.or_else(|| Search::at(place, now, at_least, scene));
-        while let Some(mut found) = search {
-            match found.descent.go_on(scene, budget) {
+        if !self
+            .search
+            .as_mut()
+            .is_some_and(|search| search.follow(now))
+        {
+            self.search = Search::at(0, now, at_least, scene);
+        }
+        while let Some(search) = &mut self.search {
+            match search.descent.go_on(scene, budget) {
                 Outcome::Rest(mut steps) => {
-                    steps.delay(found.begins);
+                    steps.delay(search.begins);
+                    self.search = None;
                     return Some(steps);
                 }
-                Outcome::Open => {
-                    self.search = Some(found);
-                    return None;
+                Outcome::Open => return None,
+                Outcome::Lost => {
+                    let next = Some(search.place + 1).filter(|place| *place < PLACES);
+                    self.search = next.and_then(|place| Search::at(place, now, at_least, scene));
                 }
-                Outcome::Lost => place = found.place + 1,
             }
-            search = Search::at(place, now, at_least, scene).filter(|_| place < PLACES);
         }
         self.finds_no_stop = scene.is_fully_supplied && self.is_barred(scene);
         None

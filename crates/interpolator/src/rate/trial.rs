@@ -33,7 +33,7 @@ impl Rate {
             published: *scene.published,
             is_held: true,
         };
-        let end = match play(ramp, cue, scene.track, scene.allowed, budget) {
+        let end = match play(ramp, cue, scene, budget) {
             Played::Passed(_) if ramp.target() <= 0.0 => return Trial::Passed(None),
             Played::Passed(end) => end,
             Played::Barred => return Trial::Barred,
