@@ -199,7 +199,8 @@ impl Branch {
                 return None;
             }
             solution -= step;
-            let is_exact = size * s.abs().max(PRECISION_MM) <= PRECISION_MM;
+            // Until rounding ends it, next to where it should.
+            let is_exact = size * s.abs().max(PRECISION_MM) <= 10.0 * PRECISION_MM;
             if is_exact && (size <= 1e-15 || size >= 0.25 * last) {
                 return Some(solution);
             }
