@@ -41,9 +41,21 @@ pub(super) struct Intake {
     /// Events that wait for the move they happen on.
     events: Vec<(u32, Event)>,
     stretch: Stretch,
+    /// The last works, not to be done before it is known whether a curve follows: so many, of so much
+    /// time at their feedrates.
+    held: Option<(usize, f64)>,
+    /// Moves since the last curve.
+    straight: usize,
     last: (u32, Rate),
     finished: bool,
 }
+
+/// A stretch with a curve among its first moves is driven as if it began with that: so many moves, and
+/// of so much time, s, that no one waits long for the first of them.
+const MOST_HELD: usize = 16;
+const MOST_HELD_T: f64 = 3.0;
+/// After so many other moves a curve is forgotten, and its stretch ends with a stop.
+const STRAIGHT: usize = 64;
 
 /// What the moves since the last rest are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +63,7 @@ enum Stretch {
     None,
     Free,
     Exact,
-    /// Begun with a curve: driven along it, not along chords, and so is all that follows.
+    /// Begun with a curve, or nearly: driven along it, not along chords, and so is what follows.
     Curved,
 }
 
@@ -64,6 +76,8 @@ impl Intake {
             program_position: start,
             events: Vec::new(),
             stretch: Stretch::None,
+            held: None,
+            straight: 0,
             last: (0, Rate::Rapid),
             finished: false,
         }
@@ -71,6 +85,10 @@ impl Intake {
 
     /// The next thing to do, if it is known.
     pub(super) fn next(&mut self) -> Option<Work> {
+        let held = self.held.map_or(0, |(count, _)| count);
+        if self.works.len() <= held {
+            return None;
+        }
         self.works.pop_front()
     }
 
@@ -112,9 +130,12 @@ impl Intake {
     fn push_move(&mut self, line: u32, segment: Segment, rate: Rate, mode: PathMode) {
         let stretch = match mode {
             PathMode::ExactPath => Stretch::Exact,
-            _ if self.begins_curved(&segment) => Stretch::Curved,
+            _ if self.is_curved(&segment) => Stretch::Curved,
             PathMode::ExactStop | PathMode::Continuous { .. } => Stretch::Free,
         };
+        if stretch == Stretch::Curved {
+            self.follow_held();
+        }
         if self.stretch != Stretch::None && self.stretch != stretch {
             self.end_stretch();
             self.put_rest(RestKind::ExactStop, self.last.0);
@@ -126,6 +147,9 @@ impl Intake {
             && (!is_arc || segment.length() < SHORTEST_MOVE_MM)
         {
             return;
+        }
+        if self.stretch == Stretch::None && stretch == Stretch::Free {
+            self.held = Some((0, 0.0));
         }
         self.stretch = stretch;
         self.position = segment.end();
@@ -157,16 +181,53 @@ impl Intake {
             line,
             events: events.into_iter().map(|(_, event)| event).collect(),
         }));
+        self.hold(segment.length() / rate.feed_v().unwrap_or(f64::INFINITY));
         if mode == PathMode::ExactStop {
             self.end_stretch();
             self.put_rest(RestKind::ExactStop, line);
         }
     }
 
-    /// True in a stretch that begins with a curve, and where one would.
-    fn begins_curved(&self, segment: &Segment) -> bool {
-        let is_curve = matches!(segment, Segment::Curve(_));
-        self.stretch == Stretch::Curved || (self.stretch == Stretch::None && is_curve)
+    /// True in a stretch that begins with a curve, or nearly, and where one would.
+    fn is_curved(&mut self, segment: &Segment) -> bool {
+        if !matches!(segment, Segment::Curve(_)) {
+            self.straight += 1;
+            return self.stretch == Stretch::Curved && self.straight <= STRAIGHT;
+        }
+        self.straight = 0;
+        self.stretch != Stretch::Free || self.held.is_some()
+    }
+
+    /// Keeps the last move, if a curve may follow it soon.
+    fn hold(&mut self, move_t: f64) {
+        self.held = self
+            .held
+            .map(|(count, t)| (count + 1, t + move_t))
+            .filter(|&(count, t)| count < MOST_HELD && t < MOST_HELD_T);
+    }
+
+    /// The moves kept are to be passed as the curve that follows them.
+    fn follow_held(&mut self) {
+        let Some((count, _)) = self.held.take() else {
+            return;
+        };
+        let held = self.works.split_off(self.works.len() - count);
+        for work in held {
+            let Work::Move(of) = work else { continue };
+            let line = of.line;
+            let events = of.events.into_iter().map(ItemKind::Event);
+            let kind = ItemKind::Move {
+                segment: of.segment,
+                rate: of.rate,
+                mode: PathMode::Continuous {
+                    tolerance_mm: Some(of.tolerance_mm),
+                },
+            };
+            let kinds = events.chain([kind]);
+            self.works
+                .extend(kinds.map(|kind| Work::Exact(Item { line, kind })));
+        }
+        self.stretch = Stretch::Curved;
     }
 
     /// Ends the path at rest.
@@ -183,6 +244,7 @@ impl Intake {
     }
 
     fn end_stretch(&mut self) {
+        self.held = None;
         let segment = Segment::line(self.position, self.program_position);
         let (line, rate) = self.last;
         // Moves that were too short to be made by themselves.

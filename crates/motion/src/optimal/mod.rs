@@ -13,6 +13,9 @@
 //!   the last state of one and the first of the next are the same frame.
 //! * **Exact path (G61)** leaves no tolerance to optimise in. Such moves are driven by the fast engine,
 //!   with an exact stop where the mode changes.
+//! * **Curves** are driven by the fast engine, too, which follows them without chords, with a law that is
+//!   optimised along them: with what is among a curve's neighbours from the rest before it, if that is
+//!   near ([`intake`]). A window sees nothing but the chords, and is slower along many of them.
 //! * **Work when asked.** [`OptimalEngine::push`] only checks and keeps an item. A frame that is asked
 //!   for takes as many pieces as it needs, one by one, so an arc of a thousand turns or a run of a
 //!   million blocks is never in memory as a whole, and the frames cannot depend on the chunks in which
