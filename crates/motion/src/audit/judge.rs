@@ -1,7 +1,7 @@
 //! Verdicts that come with the matching: start, end, and feed.
 
 use super::Sample;
-use super::column::{Passage, Reach};
+use super::column::{Level, Passage, Reach};
 use super::free_space::distance;
 use super::matching::{EXACT_MM, Goal, Matching};
 use super::program::Presence;
@@ -86,6 +86,9 @@ impl Matching {
     }
 
     /// Path speed against the feed of the chords the motion may be on.
+    ///
+    /// At the level the motion is matched at, those are fewer than the tolerance allows: next to a vertex
+    /// it may be on the chord behind it already. So what seems too fast is judged at the tolerance.
     pub(super) fn judge_feed(&mut self, sample: &Sample, ticks: u64, first: usize) {
         let Some(column) = self.history.back() else {
             return;
@@ -93,12 +96,19 @@ impl Matching {
         #[expect(clippy::cast_precision_loss, reason = "a few")]
         let elapsed_t = self.period_t * ticks as f64;
         let speed_v = feed_length(&(column.to - column.from)) / elapsed_t;
-        let mut feed_v = 0.0_f64;
-        for row in (first..self.reach.end()).filter_map(|index| self.rows.get(index)) {
-            feed_v = feed_v.max(row.feed_v);
-        }
+        let mut feed_v = self.most_feed_v(first, self.reach.end());
         if feed_v <= 0.0 {
             return;
+        }
+        if speed_v > FEED_SLACK * feed_v * self.feed_factor {
+            let widest = Level {
+                lambda_mm: self.cap(),
+                exact_mm: EXACT_MM,
+                floor_mm: 0.0,
+            };
+            if self.replay(0, &widest, Goal::Anything) == Passage::Passed {
+                feed_v = feed_v.max(self.most_feed_v(first, self.scratch[0].end()));
+            }
         }
         let ratio = speed_v / (feed_v * self.feed_factor);
         if ratio > self.max_feed.ratio {
@@ -113,6 +123,12 @@ impl Matching {
             let kind = ViolationKind::Feed { ratio };
             self.violations.push(sample.tick, sample.line, kind);
         }
+    }
+
+    /// The fastest feed of some chords, mm/s; 0 if there are none.
+    fn most_feed_v(&self, first: usize, end: usize) -> f64 {
+        let rows = (first..end).filter_map(|index| self.rows.get(index));
+        rows.fold(0.0, |most, row| row.feed_v.max(most))
     }
 
     pub(super) fn is_reached(&mut self, goal: Goal, reach: &Reach) -> bool {

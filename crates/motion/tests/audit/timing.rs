@@ -112,3 +112,30 @@ fn a_dwell_cut_short_is_found() {
         assert_eq!(found, missing);
     }
 }
+
+/// Next to a vertex the motion may be on the chord behind it, with its feed; farther away it may not.
+#[test]
+fn within_tolerance_of_a_vertex_the_next_feed_holds() {
+    let (start, vertex, end) = (point(0.0, 0.0), point(1.0, 0.0), point(1.0, 1.0));
+    let mut program = polygon(&[start, vertex, end]);
+    for (item, feed_v) in program.iter_mut().zip([1.0, 50.0]) {
+        if let ItemKind::Move { rate, .. } = &mut item.kind {
+            *rate = Rate::Feed(feed_v);
+        }
+    }
+    for (hurried_x, is_clean) in [(0.995, true), (0.97, false)] {
+        // The last step of the slow chord at five times its feed.
+        let mut slow = walk(&[start, point(hurried_x - 0.02, 0.0)], 0.004);
+        slow.push(point(hurried_x, 0.0));
+        let fast = walk(&[vertex, end], 0.1);
+        let mut audit = Audit::new(&settings(Limits::UNLIMITED));
+        for item in &program {
+            audit.program(item);
+        }
+        for (tick, position) in (0..).zip(slow.into_iter().chain(fast)) {
+            audit.sample(&sample(tick, position));
+        }
+        let report = audit.finish();
+        assert_eq!(report.is_clean(), is_clean, "{:?}", report.violations);
+    }
+}
