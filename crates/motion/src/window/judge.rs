@@ -39,6 +39,10 @@ impl History {
         self.recent[0]
     }
 
+    pub(super) const fn velocity(&self) -> &AxisVector {
+        &self.state.velocity
+    }
+
     /// True if no chord of a period begins before the present rest.
     pub(super) fn has_rested(&self) -> bool {
         self.recent

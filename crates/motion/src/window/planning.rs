@@ -14,14 +14,16 @@ use super::attempt::{Motion, Setting, View};
 use super::bend::State;
 use super::lead::{Rival, TRUST_PERIODS, arrival_t};
 use super::spline::Grid;
-use super::stop_leg::StopLeg;
+use super::stop_leg::{Bounds, StopLeg, directional};
 use super::{Force, MOST_LEGS, WindowPlanner};
-use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC};
+use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC, feed_length};
 
 /// Intervals before a leg brakes at which a window is tried.
 const TRIAL_INTERVALS: f64 = 4.0;
 /// Share of a window that is worth handing out by itself.
 const LEAST_COMMIT: usize = 4;
+/// A window that would have to stop in less than one part in so many of the way that takes is not tried.
+const FAR_TOO_FAST: f64 = 2.0;
 
 /// A window that may be taken.
 struct Candidate {
@@ -175,7 +177,7 @@ impl WindowPlanner {
     /// A window that rests at the end of the piece the motion is on, if that is in view.
     fn try_halt(&mut self, grid: &Grid, view: &View, tail: &[AxisVector]) -> Option<Candidate> {
         let end = self.follower.place.last() + 1;
-        if end >= view.pieces.end {
+        if end >= view.pieces.end || !self.may_rest_before(end) {
             return None;
         }
         let view = View {
@@ -184,6 +186,20 @@ impl WindowPlanner {
             ..*view
         };
         self.try_window(grid, &view, tail)
+    }
+
+    /// False if the motion is far too fast to rest at the end of the piece before `end`.
+    fn may_rest_before(&self, end: usize) -> bool {
+        let Some(piece) = self.track.get(end - 1) else {
+            return false;
+        };
+        let velocity = self.history.velocity();
+        let speed_v = feed_length(velocity);
+        let Bounds { path, .. } = directional(&self.limits, &(velocity / speed_v));
+        let stop_s = 0.5 * speed_v * speed_v / path.accel_a;
+        let room = piece.tolerance_mm.max(piece.tolerance_deg);
+        let rest_s = feed_length(&(piece.end - self.history.last()));
+        speed_v <= 0.0 || stop_s <= FAR_TOO_FAST * (rest_s + room)
     }
 
     /// What a motion from now on is worth.
