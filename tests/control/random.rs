@@ -1,6 +1,7 @@
 //! Anything an operator may do, in any order, at any time.
 
 use glidepath_link::{Command, MachineState};
+use glidepath_motion::Effort;
 use proptest::prelude::*;
 
 use crate::desk::{BENCH, Desk, EFFORTS, Job, assert_limits};
@@ -43,24 +44,43 @@ proptest! {
         commands in prop::collection::vec((command(), 1_usize..150), 1..25),
     ) {
         let job = Job::bench(name, effort);
-        job.at_desk(|desk| {
-            let mut largest_override = 1.0_f64;
-            for (command, ticks) in commands {
-                if let Command::FeedOverride(ratio) = command {
-                    largest_override = largest_override.max(ratio);
-                }
-                desk.command(command);
-                desk.play(ticks);
-            }
-            finish(desk)?;
-            let report = desk.audit(&job.settings, largest_override);
-            assert_limits(&report);
-            let end = desk.frames.last().unwrap().position;
-            prop_assert_eq!(desk.setpoints.last().unwrap().position, end);
-            assert_bits(desk)?;
-            Ok(())
-        })?;
+        carry_out(&job, &commands)?;
     }
+}
+
+/// Carries out commands, each followed by some ticks, and the rest of the program.
+fn carry_out(job: &Job, commands: &[(Command, usize)]) -> Result<(), TestCaseError> {
+    job.at_desk(|desk| {
+        let mut largest_override = 1.0_f64;
+        for &(command, ticks) in commands {
+            if let Command::FeedOverride(ratio) = command {
+                largest_override = largest_override.max(ratio);
+            }
+            desk.command(command);
+            desk.play(ticks);
+        }
+        finish(desk)?;
+        let report = desk.audit(&job.settings, largest_override);
+        assert_limits(&report);
+        let end = desk.frames.last().unwrap().position;
+        prop_assert_eq!(desk.setpoints.last().unwrap().position, end);
+        assert_bits(desk)?;
+        Ok(())
+    })
+}
+
+/// The motion is back at the plan just when the way to the end of the block is settled: it began a tick
+/// late, and ended in the next block.
+#[test]
+fn the_end_of_a_block_is_met_where_a_change_of_rate_just_ended() {
+    let commands = [
+        (Command::FeedOverride(0.843_617_697_821_566_7), 59),
+        (Command::Resume, 78),
+        (Command::StopAtEndOfBlock, 33),
+        (Command::StopAtEndOfBlock, 114),
+        (Command::Step, 1),
+    ];
+    carry_out(&Job::bench("star_seed", Effort::Fast), &commands).unwrap();
 }
 
 /// Goes on wherever the machine stands, to the end.

@@ -308,10 +308,14 @@ impl Rate {
             .map_or(0.0, |ramp| ramp.duration() - f64::from(self.ticks))
     }
 
-    const fn commit(&mut self, ramp: Ramp, pace: f64, reserve: Option<Reserve>) {
+    fn commit(&mut self, ramp: Ramp, pace: f64, reserve: Option<Reserve>) {
         self.start = self.now;
         self.ticks = 0;
-        self.ramp = Some(ramp);
+        // A ramp that changes nothing takes no tick, in which what is to begin later would come late.
+        self.ramp = (ramp.duration() > 0.0).then_some(ramp);
+        if self.ramp.is_none() {
+            (self.rate, self.slope) = (ramp.target(), 0.0);
+        }
         self.held_at = None;
         self.pace = pace;
         self.reserve = reserve;
