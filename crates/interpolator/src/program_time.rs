@@ -1,7 +1,7 @@
 //! A place on the planned trajectory.
 
 /// Program time in periods: a frame and the part of a period past it.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
 pub(crate) struct ProgramTime {
     /// The frame at or before it.
     pub(crate) sequence: u64,

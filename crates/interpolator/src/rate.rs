@@ -191,7 +191,11 @@ impl Rate {
                     rate,
                     slope,
                 } = ramp.at(t);
-                self.now = self.clamped(self.start.after(elapsed));
+                let time = self.clamped(self.start.after(elapsed));
+                // Rounding may take it back by a hair, to a frame that was given away.
+                if time > self.now {
+                    self.now = time;
+                }
                 (self.rate, self.slope) = (rate, slope);
                 if t >= ramp.duration() {
                     (self.rate, self.slope) = (ramp.target(), 0.0);
