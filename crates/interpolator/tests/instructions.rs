@@ -83,7 +83,7 @@ const CASES: [Case; 7] = [
     },
     Case {
         has_joints: true,
-        ..case("hexapod", Operator::Once(None), 7_300, 51_500)
+        ..case("hexapod", Operator::Once(None), 6_500, 50_500)
     },
 ];
 const HALF: Operator = Operator::Once(Some(Command::FeedOverride(0.5)));

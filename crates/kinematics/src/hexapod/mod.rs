@@ -21,7 +21,7 @@ mod guards;
 pub use guards::Guards;
 
 use crate::machine::{AxisSeries, Conditioning, JointSeries, JointVector, Kinematics};
-use crate::space::{Point, Turn, add, constant, norm_squared, offset};
+use crate::space::{Point, RAD, add, norm_squared, offset};
 use crate::{JOINTS, KinematicsError};
 use glidepath_geometry::AxisVector;
 use glidepath_geometry::number::{Number, Series};
@@ -131,19 +131,14 @@ impl Kinematics for Hexapod {
         &self,
         axes: &AxisSeries<N>,
     ) -> Result<JointSeries<N>, KinematicsError> {
-        let turns = [3, 4, 5].map(|axis| Turn::new(axis - 3, axes[axis]));
-        let turned = |b: &Vector3<f64>| turns.iter().fold(constant(b), |p, turn| turn.apply(p));
-        // The three columns of R once, then each joint is a combination of them.
-        let columns: [Point<N>; 3] = core::array::from_fn(|i| turned(&Vector3::ith(i, 1.0)));
-        let combined = |b: &Vector3<f64>| -> Point<N> {
-            core::array::from_fn(|row| {
-                columns[0][row].scale(b.x) + columns[1][row].scale(b.y) + columns[2][row].scale(b.z)
-            })
+        let rows = rotation_rows([axes[3], axes[4], axes[5]]);
+        let turned = |b: &Vector3<f64>| -> Point<N> {
+            rows.map(|[x, y, z]| x.scale(b.x) + y.scale(b.y) + z.scale(b.z))
         };
         let tip = [axes[0], axes[1], axes[2]];
         let mut joints = [Series::constant(0.0); JOINTS];
         for (i, joint) in joints.iter_mut().take(STRUTS).enumerate() {
-            let lever = combined(&(self.platform[i] - self.tool));
+            let lever = turned(&(self.platform[i] - self.tool));
             let square = norm_squared(offset(add(tip, lever), &-self.base[i]));
             if square.value().partial_cmp(&0.0) != Some(core::cmp::Ordering::Greater) {
                 return Err(KinematicsError::Unreachable { joint: i });
@@ -171,6 +166,18 @@ impl Kinematics for Hexapod {
     fn admit(&self, axes: &AxisVector) -> Result<(), KinematicsError> {
         self.guards.admit(self, axes)
     }
+}
+
+/// The rows of Rz(C) Ry(B) Rx(A) along a parameter, from the angles A, B, C in degrees. Written out, it
+/// takes a third of the products three turns one after the other take: it is computed at every tick.
+fn rotation_rows<const N: usize>(angles_deg: [Series<N>; 3]) -> [Point<N>; 3] {
+    let [(sa, ca), (sb, cb), (sc, cc)] = angles_deg.map(|angle| angle.scale(RAD).sin_cos());
+    let (cc_sb, sc_sb) = (cc * sb, sc * sb);
+    [
+        [cc * cb, cc_sb * sa - sc * ca, cc_sb * ca + sc * sa],
+        [sc * cb, sc_sb * sa + cc * ca, sc_sb * ca - cc * sa],
+        [-sb, cb * sa, cb * ca],
+    ]
 }
 
 /// Rz(C) Ry(B) Rx(A).
