@@ -9,7 +9,8 @@ use crate::desk::{Desk, HORIZON, Job, assert_limits, jobs};
 /// is played at the override's rate, also where the feed did not bind.
 const PART: f64 = 0.02;
 /// At its limits from beginning to end, with a corner every ten periods: from the full rate there is
-/// no stop within the limits, so it is played more slowly.
+/// no stop within the limits, so it is played more slowly than planned even at 100 %, and at
+/// 50 % four ticks longer than is asked of the others (941 instead of 772 planned).
 const NEVER_AT_FULL_RATE: (&str, Effort) = ("zigzag_mill", Effort::Optimal);
 
 /// Ticks from the first to the last frame.
@@ -26,7 +27,7 @@ fn ticks_of(desk: &mut Desk<'_, '_, '_>, feed_r: f64) -> u64 {
 #[test]
 #[allow(clippy::cast_precision_loss, reason = "numbers of ticks")]
 fn a_program_under_an_override_takes_as_long_as_one_planned_with_it() {
-    for (name, effort) in jobs().filter(|job| *job != NEVER_AT_FULL_RATE) {
+    for (name, effort) in jobs() {
         let job = Job::bench(name, effort);
         for feed_r in [1.0, 0.5, 2.0] {
             let planned = job.planned_periods(Override {
@@ -39,7 +40,12 @@ fn a_program_under_an_override_takes_as_long_as_one_planned_with_it() {
                 (ticks, desk.audit(&job.settings, feed_r.max(1.0)))
             });
             eprintln!("{name:20} {effort:?} {feed_r:3.1}: {ticks:6} ticks, planned {planned:6}");
-            let most = if feed_r == 1.0 {
+            assert_limits(&report);
+            let is_held_up = (name, effort) == NEVER_AT_FULL_RATE;
+            if is_held_up && feed_r < 1.0 {
+                continue;
+            }
+            let most = if feed_r == 1.0 && !is_held_up {
                 0.0
             } else {
                 PART * planned as f64 + HORIZON as f64
@@ -48,7 +54,6 @@ fn a_program_under_an_override_takes_as_long_as_one_planned_with_it() {
                 ticks.abs_diff(planned) as f64 <= most,
                 "{name} at {feed_r}: {ticks} ticks, planned {planned}"
             );
-            assert_limits(&report);
         }
     }
 }
