@@ -11,7 +11,7 @@ use glidepath::config::{self, MachineConfig};
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::{Config, Stepped, stepped};
 use glidepath_kinematics::{JointVector, Kinematics as _};
-use glidepath_link::{Command, MachineState, SetpointFrame};
+use glidepath_link::{Command, MachineState, Setpoint, SetpointFrame};
 use glidepath_planner::{Output, Pipeline, ProgramSource};
 
 const HEXAPOD: &str = include_str!(concat!(
@@ -78,9 +78,13 @@ impl Shares {
     }
 }
 
-/// Plays a program while commands come at their ticks, again and again; the shares used.
-fn play(machine: &MachineConfig, commands: &[(u64, Command)]) -> Shares {
-    let frames = frames(machine);
+/// Plays a program while the operator gives a command, or none, after the setpoint of each tick; the
+/// shares used.
+fn play(
+    machine: &MachineConfig,
+    frames: &[SetpointFrame],
+    mut operator: impl FnMut(u64, &Setpoint) -> Option<Command>,
+) -> Shares {
     let periods = machine.interpolator.horizon_t / machine.period_t();
     #[allow(
         clippy::cast_possible_truncation,
@@ -93,7 +97,6 @@ fn play(machine: &MachineConfig, commands: &[(u64, Command)]) -> Shares {
         horizon_frames: horizon,
         ..Config::new(machine.limits(), machine.period_ns())
     };
-    let round = commands.last().map_or(1, |(tick, _)| tick + 1);
     stepped(&config, |desk: &mut Stepped<'_>| {
         let (mut sent, mut shares) = (0, Shares::default());
         let mut executed = 0;
@@ -104,11 +107,11 @@ fn play(machine: &MachineConfig, commands: &[(u64, Command)]) -> Shares {
             {
                 sent += 1;
             }
-            for (_, command) in commands.iter().filter(|(at, _)| *at == tick % round) {
-                desk.command(*command);
-            }
             let setpoint = desk.tick();
             executed = setpoint.sequence;
+            if let Some(command) = operator(tick, &setpoint) {
+                desk.command(command);
+            }
             shares.add(machine, &setpoint.position.into());
             if setpoint.epoch > 0 && setpoint.state() == Ok(MachineState::Idle) {
                 return shares;
@@ -124,6 +127,7 @@ fn play(machine: &MachineConfig, commands: &[(u64, Command)]) -> Shares {
 #[test]
 fn joints_keep_their_limits_in_holds_and_overrides() {
     let machine = machine();
+    let frames = frames(&machine);
     assert!(machine.axis_share.acceleration < 1.0 && machine.axis_share.jerk < 1.0);
     let cases: [&[(u64, Command)]; 3] = [
         &[],
@@ -141,7 +145,11 @@ fn joints_keep_their_limits_in_holds_and_overrides() {
         ],
     ];
     for commands in cases {
-        let shares = play(&machine, commands);
+        let round = commands.last().map_or(1, |(tick, _)| tick + 1);
+        let shares = play(&machine, &frames, |tick, _| {
+            let mut due = commands.iter().filter(|(at, _)| *at == tick % round);
+            due.next().map(|(_, command)| *command)
+        });
         println!("{:?}", shares.most);
         assert!(
             shares.most.iter().all(|share| *share <= 1.0),
@@ -150,4 +158,35 @@ fn joints_keep_their_limits_in_holds_and_overrides() {
         );
         assert!(shares.most[0] > 0.3, "it moved: {:?}", shares.most);
     }
+}
+
+/// Stops of a slow machine take long: here, more ticks than there are samples in the budget of one.
+#[test]
+fn single_block_rests_at_the_end_of_every_block() {
+    let machine = machine();
+    let frames = frames(&machine);
+    let ends = frames
+        .windows(2)
+        .filter(|pair| pair[0].block > 0 && pair[0].block != pair[1].block);
+    let ends: Vec<u64> = ends.map(|pair| pair[0].sequence).collect();
+    assert!(ends.len() >= 5, "{ends:?}");
+    let mut stands = Vec::new();
+    let shares = play(&machine, &frames, |tick, setpoint| {
+        if tick == 10 {
+            return Some(Command::SingleBlock(true));
+        }
+        let stands_anew = setpoint.state() == Ok(MachineState::ProgramStop)
+            && stands.last() != Some(&setpoint.sequence);
+        stands_anew.then(|| {
+            assert_eq!(setpoint.fraction, 0.0);
+            stands.push(setpoint.sequence);
+            Command::Step
+        })
+    });
+    assert_eq!(stands, ends);
+    assert!(
+        shares.most.iter().all(|share| *share <= 1.0),
+        "{:?}",
+        shares.most
+    );
 }

@@ -53,10 +53,10 @@ use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
 use crate::ramp::{Bounds, Instant, Ramp};
 use crate::track::Track;
+use arrival::Arrival;
 use candidate::{CANDIDATES, Candidate, PACES};
-use descent::Descent;
 use reserve::{Reserve, Search};
-use trial::Trial;
+use trial::{Trial, Trying};
 
 /// Samples a tick may spend on playing candidates through, unless stops are longer.
 const BUDGET: u32 = 200;
@@ -110,17 +110,17 @@ pub(crate) struct Rate {
     /// the motion stands.
     search: Option<Search>,
     finds_no_stop: bool,
-    /// A ramp that leaves a rest, and the search for a stop after it.
-    set_out: Option<(Ramp, Descent)>,
+    /// A ramp that leaves a rest, and is still being tried.
+    set_out: Option<Trying>,
     /// How often it was tried to go slower than to take a reserve.
     dips: usize,
     /// The ramp being followed is the reserve.
     has_taken: bool,
     /// The ramp being followed, or the next, comes to rest at this frame, the end of a block.
     arrives_at: Option<u64>,
-    /// Where the search for such a ramp goes on: after the steady rate, and after the candidate at
+    /// The search for such a ramp after the steady rate, and where it goes on after the candidate at
     /// which the last tick ran out of budget.
-    arrival_search: usize,
+    arrival_search: Option<Arrival>,
     trial_search: usize,
     /// The end of the block turned out to be too near.
     has_missed: bool,
@@ -156,7 +156,7 @@ impl Rate {
             dips: 0,
             has_taken: false,
             arrives_at: None,
-            arrival_search: 0,
+            arrival_search: None,
             trial_search: 0,
             has_missed: false,
             barred: 0,
@@ -255,11 +255,11 @@ impl Rate {
         if self.rate > 0.0 || !scene.published.is_at_rest() {
             self.barred = 0;
         }
-        if self.go_on_setting_out(goal, scene) {
+        let mut budget = scene.budget(BUDGET);
+        if self.go_on_setting_out(goal, scene, &mut budget) {
             return;
         }
         let fastest = scene.fastest_from(self.now.sequence);
-        let mut budget = scene.budget(BUDGET);
         let first = core::mem::take(&mut self.resume_at);
         let mut search_at = core::mem::take(&mut self.trial_search);
         for k in 0..CANDIDATES.len() {
@@ -287,19 +287,21 @@ impl Rate {
             let Some(ramp) = self.ramp_to(target, fastest.paced(pace), within, &mut budget) else {
                 continue;
             };
-            match self.try_ramp(&ramp, scene, &mut search_at, &mut budget) {
+            match self.try_ramp(&ramp, scene, search_at, &mut budget) {
                 Trial::Passed(reserve) => {
                     self.commit(ramp, pace, reserve);
                     self.held_at = scene.track.stop();
                     return;
                 }
                 Trial::Barred => search_at = 0,
-                Trial::OutOfBudget => {
+                Trial::OutOfBudget { approach } => {
                     self.barred -= 1;
-                    self.trial_search = search_at;
                     // What does not fit into the budget of a tick that begins with it never will.
-                    let never = k == 0 && self.set_out.is_none() && search_at == 0;
-                    self.resume_at = place + usize::from(never);
+                    let never = usize::from(k == 0 && self.set_out.is_none());
+                    self.resume_at = place + never * usize::from(approach.is_none());
+                    self.trial_search = approach
+                        .filter(|_| self.set_out.is_none())
+                        .map_or(0, |approach| approach.max(search_at + never));
                     return;
                 }
             }
@@ -327,7 +329,7 @@ impl Rate {
         self.set_out = None;
         self.resume_at = 0;
         self.arrives_at = None;
-        self.arrival_search = 0;
+        self.arrival_search = None;
         self.trial_search = 0;
         self.barred = 0;
     }

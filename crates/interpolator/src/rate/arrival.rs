@@ -13,9 +13,12 @@
 //!
 //! Where a plan at its limits lets no single ramp pass, two may: a little slower first (see the module
 //! above), then to rest. What cannot be reached is left to the next block: see [`Rate::secure`].
+//!
+//! A slow approach to a slow machine's stop takes more samples than a tick may spend, so the search can
+//! pause between any two of them, and go on in the next tick.
 
 use super::descent::{Later, Steps};
-use super::play::{Played, SET_UP, play};
+use super::play::{Played, Playing, SET_UP};
 use super::reserve::{Reserve, Steady, whole};
 use super::{FASTEST, Rate, Scene};
 use crate::program_time::ProgramTime;
@@ -91,69 +94,106 @@ pub(super) enum Search {
     OutOfReach,
 }
 
-/// Where to rest, seen from a steady rate.
-struct Aim<'a> {
+/// A search for a late way to rest exactly at a frame after a steady rate.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Arrival {
     frame: u64,
+    /// The steady rate, where the last tick left it.
     from: Steady,
-    /// Program time to the frame, periods.
-    left: f64,
     bounds: Bounds,
-    scene: &'a Scene<'a>,
+    /// The approach whose turn it is, and as far as it was played.
+    place: usize,
+    attempt: Option<Attempt>,
 }
 
 /// A way to rest, before it is tried.
 struct Plan {
     begins: f64,
     first: Option<Ramp>,
-    last_from: f64,
-    fastest: Ramp,
 }
 
-impl Reserve {
-    /// A late way to rest exactly at `frame` after a steady rate. Goes on at approach `search_at`.
-    pub(super) fn arriving_at(
-        frame: u64,
-        from: Steady,
-        scene: &Scene<'_>,
-        search_at: &mut usize,
-        budget: &mut u32,
-    ) -> Search {
-        #[allow(clippy::cast_precision_loss, reason = "a number of frames at hand")]
-        let left = frame.saturating_sub(from.time.sequence) as f64 - from.time.fraction;
-        if left <= 0.0 {
-            return Search::OutOfReach;
+/// A way to rest that is being played through.
+#[derive(Debug, Clone, Copy)]
+struct Attempt {
+    /// Ticks of the steady rate until it begins.
+    begins: u32,
+    /// The ramp part of the way.
+    first: Option<Ramp>,
+    /// The ramp that is played, and whether it is the one to rest.
+    playing: Playing,
+    is_last: bool,
+}
+
+impl Arrival {
+    /// A search that begins at approach `place`; `None` if the frame is too near.
+    pub(super) fn at(frame: u64, from: Steady, place: usize, scene: &Scene<'_>) -> Option<Self> {
+        if periods(from.time, frame) <= 0.0 {
+            return None;
         }
-        let aim = Aim {
+        let search = Self {
             frame,
             from,
-            left,
             bounds: scene.fastest_up_to(frame, from),
-            scene,
+            place,
+            attempt: None,
         };
-        let direct = APPROACHES.first().and_then(|approach| aim.plan(*approach));
-        if direct.is_none() {
-            return Search::OutOfReach;
+        search
+            .plan(*APPROACHES.first()?)
+            .is_some()
+            .then_some(search)
+    }
+
+    /// The approach whose turn it is.
+    pub(super) const fn place(&self) -> usize {
+        self.place
+    }
+
+    /// Keeps up with the motion: a tick later, or where it was while the motion is held. False if it
+    /// went another way.
+    #[allow(clippy::float_cmp, reason = "a steady rate does not change")]
+    fn follow(&mut self, frame: u64, now: Steady) -> bool {
+        if self.frame != frame || self.from.rate != now.rate {
+            return false;
         }
-        for (place, &approach) in APPROACHES.iter().enumerate().skip(*search_at) {
-            *search_at = place;
-            if *budget < SET_UP {
-                return Search::Open;
+        if self.from.time != now.time {
+            self.from.time = self.from.time.after(now.rate);
+            if let Some(attempt) = &mut self.attempt {
+                let Some(begins) = attempt.begins.checked_sub(1) else {
+                    return false;
+                };
+                attempt.begins = begins;
             }
-            let Some(plan) = aim.plan(approach) else {
+        }
+        self.from.time == now.time
+    }
+
+    /// Goes on until a way is found, none is left, or the budget is used up.
+    pub(super) fn go_on(&mut self, scene: &Scene<'_>, budget: &mut u32) -> Search {
+        while let Some(&approach) = APPROACHES.get(self.place) {
+            let attempt = match self.attempt.take() {
+                Some(attempt) => Some(attempt),
+                None if *budget < SET_UP => return Search::Open,
+                None => self.plan(approach).and_then(|plan| {
+                    *budget -= SET_UP;
+                    self.begin(&plan, scene)
+                }),
+            };
+            let Some(mut attempt) = attempt else {
+                self.place += 1;
                 continue;
             };
-            *budget -= SET_UP;
-            if let Some(found) = aim.play(&plan, budget) {
-                *search_at = 0;
-                return Search::Found(found);
+            match self.play(&mut attempt, scene, budget) {
+                Played::Passed(_) => return Search::Found(attempt.reserve(self.frame)),
+                Played::Barred => self.place += 1,
+                Played::OutOfBudget => {
+                    self.attempt = Some(attempt);
+                    return Search::Open;
+                }
             }
         }
-        *search_at = 0;
         Search::Barred
     }
-}
 
-impl Aim<'_> {
     /// When an approach begins, if there is time for it.
     fn plan(&self, approach: Approach) -> Option<Plan> {
         let rate = self.from.rate;
@@ -161,55 +201,83 @@ impl Aim<'_> {
         let (first, passed) = if approach.part > 0.0 {
             let bounds = self.bounds.paced(approach.part_pace);
             let ramp = Ramp::plan(rate, 0.0, last_from, bounds)?;
-            let passed = ramp.at(ramp.duration().ceil()).elapsed + GAP * last_from;
+            let passed = ramp.elapsed_at(ramp.duration().ceil()) + GAP * last_from;
             (Some(ramp), passed)
         } else {
             (None, 0.0)
         };
         let fastest = Ramp::plan(last_from, 0.0, 0.0, self.bounds)?;
-        let needed = passed + fastest.at(fastest.duration()).elapsed / approach.pace;
-        let begins = ((self.left - needed) / rate).floor();
-        (begins >= 3.0).then_some(Plan {
-            begins,
-            first,
-            last_from,
-            fastest,
+        let needed = passed + fastest.elapsed_at(fastest.duration()) / approach.pace;
+        let begins = ((periods(self.from.time, self.frame) - needed) / rate).floor();
+        (begins >= 3.0).then_some(Plan { begins, first })
+    }
+
+    fn begin(&self, plan: &Plan, scene: &Scene<'_>) -> Option<Attempt> {
+        let playing = match plan.first {
+            Some(ramp) => Playing::new(ramp, self.from.cue(plan.begins, scene)?),
+            None => self.last(self.from, plan.begins, scene)?,
+        };
+        Some(Attempt {
+            begins: whole(plan.begins),
+            first: plan.first,
+            playing,
+            is_last: plan.first.is_none(),
         })
     }
 
-    /// Plays a plan through; `None` if it does not pass.
-    fn play(&self, plan: &Plan, budget: &mut u32) -> Option<Reserve> {
-        let mut left = self.left - plan.begins * self.from.rate;
-        let (mut steady, mut begins) = (self.from, plan.begins);
-        let mut steps = Steps::default();
-        if let Some(ramp) = plan.first {
-            let cue = steady.cue(begins, self.scene)?;
-            let Played::Passed(_) = play(&ramp, cue, self.scene, budget) else {
-                return None;
+    /// The ramp that rests at the frame, so many ticks after a steady rate began.
+    fn last(&self, steady: Steady, begins: f64, scene: &Scene<'_>) -> Option<Playing> {
+        let cue = steady.cue(begins, scene)?;
+        let fastest = Ramp::plan(steady.rate, 0.0, 0.0, self.bounds)?;
+        let fastest_takes = fastest.elapsed_at(fastest.duration());
+        let pace = (fastest_takes / periods(cue.time, self.frame)).min(1.0);
+        let ramp = Ramp::plan(steady.rate, 0.0, 0.0, self.bounds.paced(pace))?;
+        Some(Playing::new(ramp, cue))
+    }
+
+    /// Plays an approach on.
+    fn play(&self, attempt: &mut Attempt, scene: &Scene<'_>, budget: &mut u32) -> Played {
+        loop {
+            let played = attempt.playing.go_on(scene.track, scene.allowed, budget);
+            let Played::Passed(end) = played else {
+                return played;
             };
-            let passed = ramp.at(ramp.duration().ceil()).elapsed;
-            let in_ticks = whole(begins);
-            steps.push(Later { in_ticks, ramp });
-            steady = Steady {
-                time: cue.time.after(passed),
-                rate: plan.last_from,
+            if attempt.is_last {
+                return played;
+            }
+            let steady = Steady {
+                time: end.time,
+                rate: attempt.playing.ramp().target(),
             };
-            left -= passed + GAP * plan.last_from;
-            begins = GAP;
+            let Some(playing) = self.last(steady, GAP, scene) else {
+                return Played::Barred;
+            };
+            (attempt.playing, attempt.is_last) = (playing, true);
         }
-        let fastest_takes = plan.fastest.at(plan.fastest.duration()).elapsed;
-        let pace = (fastest_takes / left).min(1.0);
-        let ramp = Ramp::plan(plan.last_from, 0.0, 0.0, self.bounds.paced(pace))?;
-        let cue = steady.cue(begins, self.scene)?;
-        let Played::Passed(_) = play(&ramp, cue, self.scene, budget) else {
-            return None;
-        };
-        let in_ticks = whole(begins);
+    }
+}
+
+/// Program time from a place to a frame; 0 or less if that is no later.
+#[allow(clippy::cast_precision_loss, reason = "a number of frames at hand")]
+const fn periods(time: ProgramTime, frame: u64) -> f64 {
+    frame.saturating_sub(time.sequence) as f64 - time.fraction
+}
+
+impl Attempt {
+    /// What it is when it has passed.
+    fn reserve(&self, frame: u64) -> Reserve {
+        let mut steps = Steps::default();
+        let mut in_ticks = self.begins;
+        if let Some(ramp) = self.first {
+            steps.push(Later { in_ticks, ramp });
+            in_ticks = whole(GAP);
+        }
+        let ramp = *self.playing.ramp();
         steps.push(Later { in_ticks, ramp });
-        Some(Reserve {
+        Reserve {
             steps,
-            arrives_at: Some(self.frame),
-        })
+            arrives_at: Some(frame),
+        }
     }
 }
 
@@ -244,18 +312,26 @@ impl Rate {
         if self.is_to_arrive_at(frame) {
             return false;
         }
-        let mut search_at = self.arrival_search;
-        let search = Reserve::arriving_at(frame, self.steady(), scene, &mut search_at, budget);
-        self.arrival_search = search_at;
-        match search {
+        let now = self.steady();
+        let mut search = self.arrival_search.take();
+        if !search.as_mut().is_some_and(|it| it.follow(frame, now)) {
+            search = Arrival::at(frame, now, 0, scene);
+        }
+        let found = search
+            .as_mut()
+            .map_or(Search::OutOfReach, |search| search.go_on(scene, budget));
+        match found {
             Search::Found(reserve) => {
                 self.reserve = Some(reserve);
                 scene.track.barrier().is_some_and(|barrier| barrier < frame)
             }
-            Search::Open => false,
+            Search::Open => {
+                self.arrival_search = search;
+                false
+            }
             Search::Barred | Search::OutOfReach => {
                 // From nearer something may pass, but not from a place where the motion stands.
-                self.has_missed = self.is_barred(scene) || matches!(search, Search::OutOfReach);
+                self.has_missed = self.is_barred(scene) || matches!(found, Search::OutOfReach);
                 false
             }
         }

@@ -89,11 +89,6 @@ impl Playing {
     }
 }
 
-/// Plays a ramp through without a pause.
-pub(super) fn play(ramp: &Ramp, cue: Cue, scene: &Scene<'_>, budget: &mut u32) -> Played {
-    Playing::new(*ramp, cue).go_on(scene.track, scene.allowed, budget)
-}
-
 /// Most samples of a tick: what it takes where three stops fill the track, which is the shortest period
 /// a configuration may have.
 const MOST: u32 = 360;

@@ -260,13 +260,13 @@ impl Rate {
             let target = self.rate * (1.0 - part);
             let ramp = Ramp::plan(self.rate, 0.0, target, fastest.paced(*pace));
             let Some(ramp) = ramp else { continue };
-            match self.try_ramp(&ramp, scene, &mut 0, &mut budget) {
+            match self.try_ramp(&ramp, scene, 0, &mut budget) {
                 Trial::Passed(reserve) => {
                     self.commit(ramp, *pace, reserve);
                     return;
                 }
                 Trial::Barred => {}
-                Trial::OutOfBudget => return,
+                Trial::OutOfBudget { .. } => return,
             }
         }
     }

@@ -1,10 +1,13 @@
 //! Trying a ramp: it must pass, and a stop after it must be known.
+//!
+//! Where the motion stands the next tick finds everything as it was: there a trial that has used up the
+//! budget of a tick is kept, and goes on. Where it moves, the next tick is another place.
 
-use super::arrival::Search;
+use super::arrival::{Arrival, Search};
 use super::descent::{Descent, Outcome};
-use super::play::{Cue, Played, play};
+use super::play::{Cue, Played, Playing};
 use super::reserve::{Reserve, Steady};
-use super::{BUDGET, Rate, Scene};
+use super::{Rate, Scene};
 use crate::ramp::Ramp;
 
 /// What trying a ramp has shown.
@@ -16,16 +19,109 @@ use crate::ramp::Ramp;
 pub(super) enum Trial {
     Passed(Option<Reserve>),
     Barred,
-    OutOfBudget,
+    /// There was no time to try everything: on the way to the end of a block, from this approach on.
+    OutOfBudget {
+        approach: Option<usize>,
+    },
+}
+
+/// A trial, as far as it has come.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Trying {
+    ramp: Ramp,
+    /// The approach with which the search for a rest at the end of the block begins.
+    search_at: usize,
+    stage: Stage,
+    /// What held the motion, and was to, when it began.
+    stop: Option<u64>,
+    block_end: Option<u64>,
+}
+
+#[derive(Debug, Clone, Copy)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there is one of them; no boxes here"
+)]
+enum Stage {
+    Ramp(Playing),
+    /// After it: down to any rest, or to the one at the end of the block.
+    Descent(Descent),
+    Arrival(Arrival),
+}
+
+impl Trying {
+    fn new(ramp: &Ramp, cue: Cue, search_at: usize, scene: &Scene<'_>) -> Self {
+        Self {
+            ramp: *ramp,
+            search_at,
+            stage: Stage::Ramp(Playing::new(*ramp, cue)),
+            stop: scene.track.stop(),
+            block_end: scene.block_end,
+        }
+    }
+
+    fn go_on(&mut self, scene: &Scene<'_>, budget: &mut u32) -> Trial {
+        if let Stage::Ramp(playing) = &mut self.stage {
+            let end = match playing.go_on(scene.track, scene.allowed, budget) {
+                Played::Passed(_) if self.ramp.target() <= 0.0 => return Trial::Passed(None),
+                Played::Passed(end) => end,
+                Played::Barred => return Trial::Barred,
+                Played::OutOfBudget => return Trial::OutOfBudget { approach: None },
+            };
+            let rate = self.ramp.target();
+            if let Some(frame) = self.block_end {
+                let steady = Steady {
+                    time: end.time,
+                    rate,
+                };
+                let Some(arrival) = Arrival::at(frame, steady, self.search_at, scene) else {
+                    return Trial::Barred;
+                };
+                self.stage = Stage::Arrival(arrival);
+            } else if self.stop.is_some() {
+                return Trial::Passed(None);
+            } else {
+                let at = Cue {
+                    is_held: false,
+                    ..end
+                };
+                self.stage = Stage::Descent(Descent::new(at, rate));
+            }
+        }
+        self.rest_after(scene, budget)
+    }
+
+    /// Looks for a rest after the ramp.
+    fn rest_after(&mut self, scene: &Scene<'_>, budget: &mut u32) -> Trial {
+        match &mut self.stage {
+            Stage::Ramp(_) => Trial::Barred,
+            Stage::Descent(descent) => match descent.go_on(scene, budget) {
+                Outcome::Rest(steps) => Trial::Passed(Some(Reserve {
+                    steps,
+                    arrives_at: None,
+                })),
+                Outcome::Open => Trial::OutOfBudget { approach: None },
+                Outcome::Lost => Trial::Barred,
+            },
+            Stage::Arrival(arrival) => match arrival.go_on(scene, budget) {
+                Search::Found(reserve) => Trial::Passed(Some(reserve)),
+                Search::Open => Trial::OutOfBudget {
+                    approach: Some(arrival.place()),
+                },
+                Search::Barred | Search::OutOfReach => Trial::Barred,
+            },
+        }
+    }
 }
 
 impl Rate {
-    /// Plays a ramp through, and looks for a stop after it if it does not end in one.
+    /// Plays a ramp through, and looks for a stop after it if it does not end in one. With a rest at
+    /// the end of a block in view, the search for that begins with approach `search_at`.
     pub(super) fn try_ramp(
         &mut self,
         ramp: &Ramp,
         scene: &Scene<'_>,
-        search_at: &mut usize,
+        search_at: usize,
         budget: &mut u32,
     ) -> Trial {
         let cue = Cue {
@@ -33,66 +129,45 @@ impl Rate {
             published: *scene.published,
             is_held: true,
         };
-        let end = match play(ramp, cue, scene, budget) {
-            Played::Passed(_) if ramp.target() <= 0.0 => return Trial::Passed(None),
-            Played::Passed(end) => end,
-            Played::Barred => return Trial::Barred,
-            Played::OutOfBudget => return Trial::OutOfBudget,
-        };
-        if let Some(frame) = scene.block_end {
-            let steady = Steady {
-                time: end.time,
-                rate: ramp.target(),
-            };
-            return match Reserve::arriving_at(frame, steady, scene, search_at, budget) {
-                Search::Found(reserve) => Trial::Passed(Some(reserve)),
-                Search::Open => Trial::OutOfBudget,
-                Search::Barred | Search::OutOfReach => Trial::Barred,
-            };
-        }
-        if scene.track.stop().is_some() {
-            return Trial::Passed(None);
-        }
-        let at = Cue {
-            is_held: false,
-            ..end
-        };
-        let mut descent = Descent::new(at, ramp.target());
-        match descent.go_on(scene, budget) {
-            Outcome::Rest(steps) => Trial::Passed(Some(Reserve {
-                steps,
-                arrives_at: None,
-            })),
-            // Where the motion stands the next tick finds everything as it was, and goes on.
-            Outcome::Open if self.rate <= 0.0 && scene.published.is_at_rest() => {
-                self.set_out = Some((*ramp, descent));
-                Trial::OutOfBudget
+        let mut trying = Trying::new(ramp, cue, search_at, scene);
+        let trial = trying.go_on(scene, budget);
+        if matches!(trial, Trial::OutOfBudget { .. }) {
+            if self.rate <= 0.0 && scene.published.is_at_rest() {
+                self.set_out = Some(trying);
+            } else if matches!(trying.stage, Stage::Descent(_)) {
+                return Trial::Barred;
             }
-            Outcome::Open | Outcome::Lost => Trial::Barred,
         }
+        trial
     }
 
-    /// Goes on with the search for a stop after a ramp that leaves a rest. True if that is all there
-    /// is time for.
-    pub(super) fn go_on_setting_out(&mut self, goal: f64, scene: &Scene<'_>) -> bool {
-        let Some((ramp, mut descent)) = self.set_out.take() else {
+    /// Goes on trying a ramp that leaves a rest. True if that is all there is time for.
+    pub(super) fn go_on_setting_out(
+        &mut self,
+        goal: f64,
+        scene: &Scene<'_>,
+        budget: &mut u32,
+    ) -> bool {
+        let Some(mut trying) = self.set_out.take() else {
             return false;
         };
         let is_as_it_was = self.rate <= 0.0
             && self.ramp.is_none()
             && scene.published.is_at_rest()
-            && scene.track.stop().or(scene.block_end).is_none();
-        if !is_as_it_was || ramp.target() > goal {
+            && scene.track.stop() == trying.stop
+            && scene.block_end == trying.block_end;
+        if !is_as_it_was || trying.ramp.target() > goal {
             return false;
         }
-        match descent.go_on(scene, &mut scene.budget(BUDGET)) {
-            Outcome::Rest(steps) => {
-                let arrives_at = None;
-                self.commit(ramp, 0.0, Some(Reserve { steps, arrives_at }));
+        match trying.go_on(scene, budget) {
+            Trial::Passed(reserve) => {
+                self.commit(trying.ramp, 0.0, reserve);
+                self.held_at = trying.stop;
             }
-            Outcome::Open => self.set_out = Some((ramp, descent)),
-            Outcome::Lost => {
+            Trial::OutOfBudget { .. } => self.set_out = Some(trying),
+            Trial::Barred => {
                 self.resume_at += 1;
+                self.barred += 1;
                 return false;
             }
         }
