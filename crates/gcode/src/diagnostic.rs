@@ -1,5 +1,7 @@
 //! Findings about a program: where, what, why, and how to mend it.
 
+use std::sync::Arc;
+
 pub use crate::finding_code::Code;
 
 /// Longest excerpt of a source line kept in a [`Diagnostic`], characters.
@@ -24,8 +26,10 @@ pub struct Excerpt {
 
 /// One finding about a program.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{line}:{column}: error[{code}]: {message}")]
+#[error("{}{line}:{column}: error[{code}]: {message}", of_file(.file.as_deref()))]
 pub struct Diagnostic {
+    /// The file of a subroutine it is in; `None`: the program itself.
+    pub file: Option<Arc<str>>,
     /// Source line, from 1.
     pub line: u32,
     /// Byte of the line at which the finding starts, from 1.
@@ -73,6 +77,11 @@ impl Diagnostic {
             line_text.as_bytes(),
         )
     }
+}
+
+/// What stands before the line of a finding in another file than the program.
+fn of_file(file: Option<&str>) -> String {
+    file.map_or_else(String::new, |file| format!("{file}:"))
 }
 
 /// A stretch of a line, in bytes from its start.
@@ -130,6 +139,7 @@ impl Fault {
     pub(crate) fn at(self, line: u32, text: &[u8]) -> Diagnostic {
         let small = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
         Diagnostic {
+            file: None,
             line,
             column: small(self.span.start.saturating_add(1)),
             length: small(self.span.length.max(1)),

@@ -13,6 +13,7 @@
 //!        Recorder (links) ── Code ──► frame (code, next line) ──► executed line by line
 //!                              ▲               │ call
 //!                        subroutines ◄─────────┘
+//!                              ▲ first call of one that is in a file of its own
 //! ```
 //!
 //! Memory is bounded: all kept text together by [`MAX_KEPT_BYTES`], calls by [`MAX_CALLS`].
@@ -54,6 +55,8 @@ impl Line {
 #[derive(Debug, Default)]
 pub(crate) struct Code {
     pub(crate) lines: Vec<Line>,
+    /// The file of a subroutine they are in; `None`: the program itself.
+    pub(crate) file: Option<Arc<str>>,
 }
 
 /// A structure that has begun and not ended.
@@ -89,6 +92,12 @@ impl Recorder {
             bytes: 0,
             first: (number, text.into(), span),
         }
+    }
+
+    /// The same for a part of another file than the program.
+    pub(crate) fn in_file(mut self, file: Arc<str>) -> Self {
+        self.code.file = Some(file);
+        self
     }
 
     /// Keeps a line; true if it was the last one of the part.
@@ -287,17 +296,30 @@ pub(crate) struct Frame {
     pub(crate) next: usize,
     /// True for a subroutine.
     pub(crate) is_call: bool,
+    /// The line of the program that calls it.
+    pub(crate) called_from: u32,
     /// `repeat` lines in progress, with the turns still to come.
     pub(crate) repeats: Vec<(usize, u32)>,
 }
 
 impl Frame {
-    pub(crate) const fn new(code: Arc<Code>, is_call: bool) -> Self {
+    /// A structure of the program.
+    pub(crate) const fn structure(code: Arc<Code>) -> Self {
         Self {
             code,
             next: 0,
-            is_call,
+            is_call: false,
+            called_from: 0,
             repeats: Vec::new(),
+        }
+    }
+
+    /// A subroutine, and the line of the program that calls it.
+    pub(crate) fn call(code: Arc<Code>, called_from: u32) -> Self {
+        Self {
+            is_call: true,
+            called_from,
+            ..Self::structure(code)
         }
     }
 
@@ -331,7 +353,7 @@ impl Flow {
                 self.kept += bytes;
                 self.subroutines.insert(label, code);
             }
-            None => self.frames.push(Frame::new(code, false)),
+            None => self.frames.push(Frame::structure(code)),
         }
     }
 

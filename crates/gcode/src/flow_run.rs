@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use crate::diagnostic::{Code as FaultCode, Fault, Outcome, Span};
 use crate::flow::{Code, Frame, Line, MAX_CALLS, Recorder, misplaced};
-use crate::flow_word::{Head, Keyword, Label};
+use crate::flow_word::{Head, Keyword};
 use crate::parameters::ProgramScope;
-use crate::program::{Place, Program};
+use crate::place::Place;
+use crate::program::Program;
 
 impl<R: BufRead> Program<R> {
     pub(crate) const fn scope(&self) -> ProgramScope<'_> {
@@ -188,16 +189,10 @@ impl<R: BufRead> Program<R> {
     fn call(&mut self, head: &Head, text: &[u8]) -> Outcome<()> {
         let label = head.resolved_label(text, &self.scope())?;
         let arguments = head.arguments(text, &self.scope())?;
-        let Some(code) = self.flow.subroutines.get(&label) else {
-            let message = format!("there is no subroutine {label}");
-            let fault = Fault::new(FaultCode::UnknownSubroutine, head.span, message)
-                .because("a subroutine is defined in the same file, before its first call");
-            return Err(match label {
-                Label::Name(_) => fault.help("copy its definition (sub … endsub) into the file"),
-                _ => fault.help("define it before this line"),
-            });
+        let code = match self.flow.subroutines.get(&label) {
+            Some(code) => Arc::clone(code),
+            None => self.load(&label, head.span)?,
         };
-        let code = Arc::clone(code);
         self.enter(&code, &arguments, head.span)
     }
 
@@ -209,7 +204,10 @@ impl<R: BufRead> Program<R> {
                 .because("the depth of subroutine calls is bounded")
                 .help("check what should end the recursion"));
         }
-        self.flow.frames.push(Frame::new(Arc::clone(code), true));
+        let called_from = self.line_of_program();
+        self.flow
+            .frames
+            .push(Frame::call(Arc::clone(code), called_from));
         self.parameters.enter(arguments);
         Ok(())
     }

@@ -42,9 +42,10 @@
 //! | N, `/`, `( )`, `;`, `O1234` alone | no effect (`/`: [`Options::block_delete`]) |
 //! | `#1`, `#<name>`, `[ ]`, functions | parameters and expressions |
 //! | O words | `sub` `call` `return`, `if`, `while`, `do`, `repeat`, `break`, `continue` |
+//! | `o<name> call`, `o100 call` of what the program does not define | the subroutine in `name.ngc`, `100.ngc` ([`Subroutines`]) |
 //!
 //! Not supported, and refused by name: threading (G33, G76), G87, G88, M50 to
-//! M53, M70 to M73, subroutines in other files.
+//! M53, M70 to M73.
 //!
 //! # Where it differs from LinuxCNC
 //!
@@ -65,6 +66,8 @@
 //! | a loop without end and without motion | never ends | refused after [`LoopLimits`] |
 //! | end point and corners after G92, G92.1 | shift with the offset | stay where the machine is |
 //! | a file without M2, M30 or `%` | refused | the end of the file is the end |
+//! | a subroutine behind its call in the same file | found there | refused, if no file has its name |
+//! | the folder of subroutines in other files | of the configuration | the program's, then those of the search path; names with `/` are refused |
 //! | lines above 252 characters | refused | up to [`MAX_LINE_BYTES`] |
 //!
 //! [`Program`] gives the items of a program for motion, and ends at the first finding. [`check`]
@@ -103,6 +106,7 @@ mod flow_run;
 mod flow_word;
 mod input_output;
 mod interpreter;
+mod load;
 mod modal;
 mod modes;
 mod moves;
@@ -111,6 +115,7 @@ mod once;
 mod operation;
 mod options;
 mod parameters;
+mod place;
 mod polar;
 mod probe;
 mod program;
@@ -118,6 +123,7 @@ mod refused;
 mod source;
 mod spindle;
 mod spline;
+mod subroutine_file;
 mod survey;
 mod tool;
 mod tool_table;
@@ -135,6 +141,7 @@ pub use modes::{
 pub use options::{Connections, LoopLimits, Machine, Options, Travel};
 pub use program::Program;
 pub use source::MAX_LINE_BYTES;
+pub use subroutine_file::{MAX_SUBROUTINE_BYTES, NoSubroutineFile, SubroutineFile, Subroutines};
 pub use survey::{Corner, Survey};
 pub use tool_table::{MAX_TOOLS, Tool, ToolTable};
 pub use totals::Totals;

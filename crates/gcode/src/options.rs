@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glidepath_geometry::{AXES, Axis, AxisVector};
 
 use crate::dialect::Dialect;
+use crate::subroutine_file::Subroutines;
 use crate::tool_table::ToolTable;
 
 /// Where an axis may go, in machine coordinates: mm, or degrees for a rotary axis.
@@ -78,6 +79,8 @@ pub struct Options {
     pub start: AxisVector,
     /// Lengths and diameters of the tools. `None`: blocks that need them are errors.
     pub tools: Option<Arc<ToolTable>>,
+    /// Where subroutines come from that the program does not define. `None`: they are errors.
+    pub subroutines: Option<Subroutines>,
     /// The language of the program.
     pub dialect: Dialect,
     /// The axis that E words of [`Dialect::Marlin`] move. `None`: they are errors.
@@ -123,7 +126,7 @@ impl Default for LoopLimits {
 
 impl Default for Options {
     /// All nine axes without soft limits, no default feedrate, block delete off, at machine zero, no
-    /// tool table, LinuxCNC's language, nothing connected, splines to a micrometre.
+    /// tool table, no subroutines in other files, LinuxCNC's language, nothing connected, splines to a micrometre.
     fn default() -> Self {
         Self {
             machine: Machine::unlimited(),
@@ -131,6 +134,7 @@ impl Default for Options {
             block_delete: false,
             start: AxisVector::zeros(),
             tools: None,
+            subroutines: None,
             dialect: Dialect::LinuxCnc,
             extruder: None,
             connections: Connections::None,

@@ -11,27 +11,15 @@ use crate::contour::OpenContour;
 use crate::cursor::Cursor;
 use crate::diagnostic::{Code as FaultCode, Diagnostic, Fault, Outcome, Span};
 use crate::dialect::{Dialect, Tape, marlin, siemens};
-use crate::flow::{Code, Flow};
+use crate::flow::Flow;
 use crate::flow_word::head;
 use crate::interpreter::{Flow as BlockFlow, Interpreter};
 use crate::modal::Modal;
 use crate::options::Options;
 use crate::parameters::{Parameters, ProgramScope};
+use crate::place::{Place, SourceLine};
 use crate::source::LineSource;
 use crate::totals::Totals;
-
-/// Where the line being executed comes from.
-#[derive(Debug)]
-pub(crate) enum Place {
-    /// The input.
-    Stream,
-    /// A subroutine or structure, and the index of the line.
-    Kept(Arc<Code>, usize),
-    /// A line that is gone: number and text.
-    Past(u32, Box<[u8]>),
-    /// A line of the tape: number and text.
-    Tape(u32, Box<[u8]>),
-}
 
 /// A program being read: an iterator of [`Item`]s in constant memory.
 ///
@@ -150,17 +138,36 @@ impl<R: BufRead> Program<R> {
             Err(fault) => {
                 let kept = matches!(self.place, Place::Kept(..) | Place::Past(..));
                 self.ended |= kept || fault.code.is_fatal();
-                Some(Err(match &self.place {
-                    Place::Stream => fault.at(self.source.number(), self.source.text()),
-                    Place::Past(number, text) | Place::Tape(number, text) => {
-                        fault.at(*number, text)
-                    }
-                    Place::Kept(code, index) => match code.lines.get(*index) {
-                        Some(line) => fault.at(line.number, &line.text),
-                        None => fault.at(0, &[]),
-                    },
-                }))
+                Some(Err(self.here().finding(*fault)))
             }
+        }
+    }
+
+    /// The line being executed.
+    pub(crate) fn here(&self) -> SourceLine {
+        match &self.place {
+            Place::Stream => SourceLine::new(self.source.number(), self.source.text()),
+            Place::Past(line) | Place::Tape(line) => line.clone(),
+            Place::Kept(code, index) => match code.lines.get(*index) {
+                Some(line) => SourceLine {
+                    file: code.file.clone(),
+                    ..SourceLine::new(line.number, &line.text)
+                },
+                None => SourceLine::default(),
+            },
+        }
+    }
+
+    /// The line of the program that a move now comes from: in the file of a subroutine, the line that
+    /// calls it.
+    pub(crate) fn line_of_program(&self) -> u32 {
+        match &self.place {
+            Place::Stream => self.source.number(),
+            Place::Past(line) | Place::Tape(line) => line.number,
+            Place::Kept(code, index) if code.file.is_none() => {
+                code.lines.get(*index).map_or(0, |line| line.number)
+            }
+            Place::Kept(..) => self.flow.frames.last().map_or(0, |frame| frame.called_from),
         }
     }
 
@@ -252,7 +259,7 @@ impl<R: BufRead> Program<R> {
     }
 
     pub(crate) fn set_tape_place(&mut self, number: u32, text: &[u8]) {
-        self.place = Place::Tape(number, text.into());
+        self.place = Place::Tape(SourceLine::new(number, text));
     }
 
     /// Executes a text as a block.
@@ -278,7 +285,7 @@ impl<R: BufRead> Program<R> {
             Some(recorder) => {
                 let fault = recorder.unfinished();
                 let (number, text, _) = recorder.first;
-                self.place = Place::Past(number, text);
+                self.place = Place::Past(SourceLine::new(number, &text));
                 Err(fault)
             }
         }
@@ -298,12 +305,13 @@ impl<R: BufRead> Program<R> {
 
     /// Executes the line at the present place as a block.
     fn execute_block(&mut self) -> Outcome<bool> {
-        let (number, text) = match &self.place {
+        let number = self.line_of_program();
+        let text = match &self.place {
             Place::Kept(code, index) => match code.lines.get(*index) {
-                Some(line) => (line.number, &*line.text),
+                Some(line) => &*line.text,
                 None => return Ok(true),
             },
-            _ => (self.source.number(), self.source.text()),
+            _ => self.source.text(),
         };
         let scope = ProgramScope {
             parameters: &self.parameters,
@@ -343,7 +351,7 @@ impl<R: BufRead> Program<R> {
                 .assign(&assignment.parameter, assignment.value);
         }
         if let Some(asked) = asked {
-            self.open_contour(number, &asked)?;
+            self.open_contour(&asked)?;
         }
         if !self.items.is_empty() {
             self.idle_lines = 0;
@@ -357,7 +365,7 @@ impl<R: BufRead> Program<R> {
     }
 }
 
-fn is_percent(text: &[u8]) -> bool {
+pub(crate) fn is_percent(text: &[u8]) -> bool {
     Cursor::new(text).next_visible() == Some(b'%')
 }
 

@@ -17,6 +17,13 @@ impl<R> Fingerprinting<R> {
         }
     }
 
+    /// Takes more into account, as if it had been read.
+    pub(crate) fn add(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.hash = (self.hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
     /// Of everything read so far; not 0, which stands for a program that is not known.
     pub(crate) fn fingerprint(&self) -> u64 {
         self.hash.max(1)
@@ -26,9 +33,7 @@ impl<R> Fingerprinting<R> {
 impl<R: Read> Read for Fingerprinting<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.inner.read(buffer)?;
-        for byte in buffer.iter().take(count) {
-            self.hash = (self.hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-        }
+        self.add(buffer.get(..count).unwrap_or_default());
         Ok(count)
     }
 }

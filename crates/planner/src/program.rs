@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 
-use glidepath_gcode::{Options, Program, check};
+use glidepath_gcode::{Options, Program, Subroutines, check};
 
 use crate::fingerprint::Fingerprinting;
 use crate::{ItemSource, Refusal, Supply};
@@ -50,6 +50,11 @@ impl ProgramSource<BufReader<File>> {
             BufReader::with_capacity(BUFFER, &mut reader),
             options.clone(),
         );
+        // The subroutines it calls in other files belong to the program.
+        for (name, file) in options.subroutines.iter().flat_map(Subroutines::read) {
+            reader.add(name.as_bytes());
+            reader.add(&file.text);
+        }
         let fingerprint = reader.fingerprint();
         if !report.diagnostics.is_empty() {
             return Err(Refusal::Program {

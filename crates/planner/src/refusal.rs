@@ -11,7 +11,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum Refusal {
     /// The text has errors: all of them if the whole file was checked before motion, else the first.
-    #[error("the program has {} error(s), the first in line {}", .findings.len(), .findings.first().map_or(0, |first| first.line))]
+    #[error("the program has {} error(s), the first in {}", .findings.len(), place(.findings.first()))]
     Program {
         /// In the order of the text, at least one.
         findings: Vec<Diagnostic>,
@@ -36,6 +36,15 @@ pub enum Refusal {
     /// The port a stream came by failed.
     #[error("the stream broke off: {0}")]
     StreamFailed(#[source] LinkError),
+}
+
+/// The line of a finding, and its file if that is not the program.
+fn place(finding: Option<&Diagnostic>) -> String {
+    let line = finding.map_or(0, |finding| finding.line);
+    match finding.and_then(|finding| finding.file.as_deref()) {
+        Some(file) => format!("line {line} of {file}"),
+        None => format!("line {line}"),
+    }
 }
 
 impl Refusal {

@@ -46,6 +46,7 @@ use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::interpreter::{Interpreter, State};
 use crate::modes::{Contour, FeedMode};
 use crate::moves::{MIN_MOVE, Pace, motion_span};
+use crate::place::SourceLine;
 use crate::words::{missing, negative, whole};
 use frame::Point;
 use profile::Profile;
@@ -58,9 +59,9 @@ const MAX_LABEL: u32 = 9_999_999;
 /// A cycle whose profile is being read.
 #[derive(Debug)]
 pub(crate) struct OpenContour {
-    /// The block of the cycle: number and text of its line, and what was read.
+    /// The block of the cycle: its line, the line of the program it is executed by, and what was read.
+    source: SourceLine,
     line: u32,
-    text: Box<[u8]>,
     block: Block,
     /// Calls in progress around it.
     level: usize,

@@ -20,7 +20,8 @@ use crate::flow_word::Label;
 use crate::interpreter::Interpreter;
 use crate::modes::{Contour, Motion};
 use crate::moves::{MIN_MOVE, Pace, motion_span, settled};
-use crate::program::{Place, Program};
+use crate::place::Place;
+use crate::program::Program;
 
 /// Arcs whose ends are as near as this are straight, mm.
 const SHORT_ARC_MM: f64 = 2e-6;
@@ -70,17 +71,12 @@ impl<R: BufRead> Program<R> {
     }
 
     /// Begins to read the profile.
-    pub(crate) fn open_contour(&mut self, line: u32, asked: &Asked) -> Outcome<()> {
+    pub(crate) fn open_contour(&mut self, asked: &Asked) -> Outcome<()> {
         let block = self.block().clone();
         let words = self.interpreter.contour_words(&block, asked.contour)?;
-        let text: Box<[u8]> = match &self.place {
-            Place::Kept(code, index) => code.lines.get(*index).map(|l| l.text.clone()),
-            _ => Some(self.source.text().into()),
-        }
-        .unwrap_or_default();
         let contour = OpenContour {
-            line,
-            text,
+            line: self.line_of_program(),
+            source: self.here(),
             level: self.parameters.call_level(),
             words,
             profile: Profile::new(self.interpreter.lathe_point()),
@@ -110,7 +106,7 @@ impl<R: BufRead> Program<R> {
         let Some(contour) = self.contour.take_if(|contour| contour.level >= level) else {
             return Ok(());
         };
-        self.place = Place::Past(contour.line, contour.text.clone());
+        self.place = Place::Past(contour.source.clone());
         self.interpreter.state = contour.state;
         self.interpreter.line = contour.line;
         let mut items = Vec::new();

@@ -11,6 +11,10 @@ pub struct ProgramArgs {
     /// Tool table (LinuxCNC's .tbl); overrides `program.tool_table` of the configuration
     #[arg(long, value_name = "TBL")]
     pub tool_table: Option<PathBuf>,
+    /// Folder to look in for subroutines in files of their own, behind that of the program; may be
+    /// given several times, and comes before `program.subroutine_path` of the configuration
+    #[arg(long, value_name = "FOLDER")]
+    pub subroutine_path: Vec<PathBuf>,
     /// Language of the program: linuxcnc, marlin, fanuc or siemens; else told by its beginning
     #[arg(long, value_name = "NAME", value_parser = dialect)]
     pub dialect: Option<Dialect>,

@@ -1,8 +1,8 @@
 //! `glidepath check`: everything wrong with programs.
 
-use super::reading::dialect;
+use super::reading::for_program;
 use crate::cli::CheckArgs;
-use crate::config::{MachineConfig, ProgramConfig};
+use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::joints;
@@ -39,14 +39,7 @@ pub fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Failure> 
 /// # Errors
 /// The file cannot be opened.
 pub fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
-    // Each program may be in a dialect of its own.
-    let config = &MachineConfig {
-        program: ProgramConfig {
-            dialect: Some(dialect(path, config)),
-            ..config.program.clone()
-        },
-        ..config.clone()
-    };
+    let config = &for_program(path, config);
     let options = config.program_options(config.home());
     let report = check_file(path, options, &config.settings()).map_err(Failure::open(path))?;
     if !report.is_accepted() {

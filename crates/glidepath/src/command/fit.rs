@@ -2,6 +2,7 @@
 
 use super::check;
 use super::plan::title;
+use super::reading::for_program;
 use crate::cli::{FitArgs, FitMethod};
 use crate::clock;
 use crate::config::MachineConfig;
@@ -28,6 +29,7 @@ const STEPS: f64 = 1000.0;
 /// # Errors
 /// The program is rejected, has no run, or a file cannot be written.
 pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let config = &for_program(&args.file, config);
     check::accepted(&args.file, config)?;
     let pieces = read(&args.file, config)?;
     let runs: Vec<&Run> = pieces.iter().filter_map(run).collect();

@@ -15,6 +15,7 @@ mod reading;
 mod run;
 mod servo;
 mod session;
+mod subroutines;
 
 use crate::cli::{Cli, Command, Switch};
 use crate::config;

@@ -1,7 +1,8 @@
-//! How programs are to be read: the tool table and the dialect.
+//! How programs are to be read: the tool table, the search path of subroutines and the dialect.
 
+use super::subroutines::subroutines;
 use crate::cli::Command;
-use crate::config::MachineConfig;
+use crate::config::{MachineConfig, ProgramConfig};
 use crate::failure::Failure;
 use crate::output;
 use glidepath_gcode::{Dialect, ToolTable};
@@ -27,6 +28,14 @@ pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<()
     if let Some(table) = &args.tool_table {
         config.program.tool_table = Some(table.clone());
     }
+    // Folders of the command line come before those of the configuration.
+    let mut path = args.subroutine_path.clone();
+    for folder in config.program.subroutine_path.drain(..) {
+        if !path.contains(&folder) {
+            path.push(folder);
+        }
+    }
+    config.program.subroutine_path = path;
     config.program.dialect = args.dialect.or(config.program.dialect);
     if let Some(path) = &config.program.tool_table {
         config.program.tools = Some(Arc::new(tool_table(path)?));
@@ -36,9 +45,25 @@ pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<()
         tell_share(&config.axis_share);
     }
     if let Some(file) = file {
-        config.program.dialect = Some(dialect(file, config));
+        *config = for_program(file, config);
     }
     Ok(())
+}
+
+/// The configuration for one program: its dialect is settled, and where its subroutines are.
+pub(super) fn for_program(path: &Path, config: &MachineConfig) -> MachineConfig {
+    let program = &config.program;
+    // `planner -` reads a pipe, which is in no folder.
+    let file = (path != Path::new("-")).then_some(path);
+    let found = || subroutines(file, &program.subroutine_path);
+    MachineConfig {
+        program: ProgramConfig {
+            dialect: Some(dialect(path, config)),
+            subroutines: Some(program.subroutines.clone().unwrap_or_else(found)),
+            ..program.clone()
+        },
+        ..config.clone()
+    }
 }
 
 /// Says what joints leave of the axes' limits, where that is not all.
@@ -69,7 +94,7 @@ fn tool_table(path: &Path) -> Result<ToolTable, Failure> {
 }
 
 /// The dialect of a program: the one asked for, or the one its beginning is in, which is said.
-pub(super) fn dialect(path: &Path, config: &MachineConfig) -> Dialect {
+fn dialect(path: &Path, config: &MachineConfig) -> Dialect {
     if let Some(dialect) = config.program.dialect {
         return dialect;
     }

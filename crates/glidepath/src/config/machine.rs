@@ -192,6 +192,7 @@ impl MachineConfig {
             default_feed_mm_min,
             start,
             tools: self.program.tools.clone(),
+            subroutines: self.program.subroutines.clone(),
             dialect: self.program.dialect.unwrap_or_default(),
             extruder: self.program.extruder,
             connections: self.program.connections,

@@ -39,10 +39,13 @@ pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
     match std::fs::read_to_string(path) {
         Ok(text) => {
             let mut config = parse(&name, &text)?;
-            // The tool table is named from where the configuration is.
+            // The tool table and folders are named from where the configuration is.
             let folder = path.parent().unwrap_or(Path::new(""));
             let table = config.program.tool_table.take();
             config.program.tool_table = table.map(|table| folder.join(table));
+            for path in &mut config.program.subroutine_path {
+                *path = folder.join(&*path);
+            }
             Ok(config)
         }
         Err(source) => Err(ConfigError::Unreadable { path: name, source }),

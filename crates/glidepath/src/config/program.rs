@@ -2,7 +2,7 @@
 
 use super::judge::Judge;
 use super::raw::RawProgram;
-use glidepath_gcode::{Connections, Dialect, ToolTable};
+use glidepath_gcode::{Connections, Dialect, Subroutines, ToolTable};
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,6 +16,11 @@ pub struct ProgramConfig {
     pub tool_table: Option<PathBuf>,
     /// The tool table, once it has been read.
     pub tools: Option<Arc<ToolTable>>,
+    /// Folders of subroutines in files of their own, in the order they are looked in, behind the
+    /// folder of the program.
+    pub subroutine_path: Vec<PathBuf>,
+    /// The subroutines of the program to be read, once that is known.
+    pub subroutines: Option<Subroutines>,
     /// What inputs, outputs and the probe are.
     pub connections: Connections,
     /// The axis E words move.
@@ -46,6 +51,8 @@ impl ProgramConfig {
             dialect: judge.choice("program.dialect", raw.dialect, &dialects),
             tool_table: raw.tool_table.map(|path| path.into_inner().into()),
             tools: None,
+            subroutine_path: raw.subroutine_path.into_iter().map(PathBuf::from).collect(),
+            subroutines: None,
             connections: judge.choice("program.inputs_outputs", raw.inputs_outputs, &connections),
             extruder: judge.choice("program.extruder", raw.extruder, &extruders),
         }

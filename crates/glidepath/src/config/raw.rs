@@ -35,6 +35,7 @@ pub(super) struct RawConfig {
 pub(super) struct RawProgram {
     pub(super) dialect: Optional<String>,
     pub(super) tool_table: Optional<String>,
+    pub(super) subroutine_path: Vec<String>,
     pub(super) inputs_outputs: Optional<String>,
     pub(super) extruder: Optional<String>,
 }

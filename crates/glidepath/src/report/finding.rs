@@ -16,11 +16,11 @@ pub struct ProgramFinding<'a> {
 }
 
 impl<'a> ProgramFinding<'a> {
-    /// A finding in the program called `name`.
+    /// A finding in the program called `name`, or in a file of a subroutine it calls.
     #[must_use]
     pub fn new(name: &'a str, diagnostic: &'a Diagnostic) -> Self {
         Self {
-            name,
+            name: diagnostic.file.as_deref().unwrap_or(name),
             diagnostic,
             mark: mark(diagnostic),
         }
@@ -105,6 +105,7 @@ impl SourceCode for ProgramFinding<'_> {
 pub fn finding_object(program: &str, diagnostic: &Diagnostic) -> Value {
     json!({
         "program": program,
+        "file": diagnostic.file.as_deref().unwrap_or(program),
         "line": diagnostic.line,
         "column": diagnostic.column,
         "length": diagnostic.length,

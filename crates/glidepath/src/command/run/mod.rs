@@ -209,6 +209,9 @@ impl Desk<'_> {
         if let Some(table) = &program.tool_table {
             args.extend(["--tool-table".into(), table.into()]);
         }
+        for folder in &program.subroutine_path {
+            args.extend(["--subroutine-path".into(), folder.into()]);
+        }
         args
     }
 

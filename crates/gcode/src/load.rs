@@ -1,0 +1,188 @@
+//! Reads subroutines from files of their own, when they are called first.
+
+use std::io::BufRead;
+use std::sync::Arc;
+
+use crate::cursor::Cursor;
+use crate::diagnostic::{Code as FaultCode, Fault, Outcome, Span};
+use crate::flow::{Code, MAX_KEPT_BYTES, Recorder};
+use crate::flow_word::{Keyword, Label, head};
+use crate::place::{Place, SourceLine};
+use crate::program::{Program, is_percent};
+use crate::source::LineSource;
+use crate::subroutine_file::{MAX_SUBROUTINE_BYTES, NoSubroutineFile, NotTaken, SubroutineFile};
+
+/// Why a file gives no subroutine.
+enum Broken {
+    /// It does not define it.
+    Absent,
+    /// Something in it is wrong.
+    Fault(Box<Fault>, SourceLine),
+}
+
+impl<R: BufRead> Program<R> {
+    /// A subroutine that the program does not define; `span` is what calls it.
+    pub(crate) fn load(&mut self, label: &Label, span: Span) -> Outcome<Arc<Code>> {
+        let stem = match label {
+            Label::Name(name) => name.clone(),
+            Label::Number(number) => number.to_string(),
+            Label::Computed => String::new(),
+        };
+        if stem.is_empty() || stem.starts_with('.') || stem.contains(['/', '\\']) {
+            return Err(no_file_name(label, span));
+        }
+        let Some(subroutines) = &self.interpreter.options.subroutines else {
+            let message = format!("there is no subroutine {label}");
+            return Err(Fault::new(FaultCode::UnknownSubroutine, span, message)
+                .because("a subroutine is defined before its first call")
+                .help("define it before this line (sub … endsub)"));
+        };
+        let name = format!("{stem}.ngc");
+        let file = subroutines
+            .get(&name)
+            .map_err(|why| not_taken(label, &name, span, why))?;
+        match self.record(label, &file) {
+            Ok(recorder) => {
+                self.flow.take_up(recorder);
+                self.flow
+                    .subroutines
+                    .get(label)
+                    .map(Arc::clone)
+                    .ok_or_else(|| absent(label, &file, span))
+            }
+            Err(Broken::Absent) => Err(absent(label, &file, span)),
+            Err(Broken::Fault(fault, line)) => {
+                self.place = Place::Past(line);
+                Err(fault)
+            }
+        }
+    }
+
+    /// The lines of a subroutine in a file, from its `sub` to its `endsub`.
+    fn record(&self, label: &Label, file: &SubroutineFile) -> Result<Recorder, Broken> {
+        let mut lines = LineSource::new(&*file.text);
+        let mut recorder: Option<Recorder> = None;
+        loop {
+            let step = self.record_line(&mut lines, &mut recorder, label, file);
+            let line = |number, text| SourceLine {
+                file: Some(Arc::clone(&file.name)),
+                ..SourceLine::new(number, text)
+            };
+            let goes_on =
+                step.map_err(|fault| Broken::Fault(fault, line(lines.number(), lines.text())))?;
+            match (goes_on, recorder.take()) {
+                (Step::Complete, Some(recorder)) => return Ok(recorder),
+                (Step::End, Some(recorder)) => {
+                    let (number, text, _) = &recorder.first;
+                    return Err(Broken::Fault(recorder.unfinished(), line(*number, text)));
+                }
+                (Step::End | Step::Complete, None) => return Err(Broken::Absent),
+                (Step::Next, open) => recorder = open,
+            }
+        }
+    }
+
+    /// Takes the next line of a file.
+    fn record_line(
+        &self,
+        lines: &mut LineSource<&[u8]>,
+        recorder: &mut Option<Recorder>,
+        label: &Label,
+        file: &SubroutineFile,
+    ) -> Outcome<Step> {
+        if !lines.advance()? {
+            return Ok(Step::End);
+        }
+        let (number, text) = (lines.number(), lines.text());
+        let deleted =
+            self.interpreter.options.block_delete && Cursor::new(text).next_visible() == Some(b'/');
+        if deleted {
+            return Ok(Step::Next);
+        }
+        if let Some(recorder) = recorder {
+            if is_percent(text) {
+                return Ok(Step::End);
+            }
+            let last = recorder.add(number, text, head(text)?, self.flow.kept)?;
+            return Ok(if last { Step::Complete } else { Step::Next });
+        }
+        // What stands before the subroutine is not read, whatever it is.
+        if let Ok(Some(head)) = head(text)
+            && head.keyword == Some(Keyword::Sub)
+            && head.label == *label
+        {
+            head.no_value(text)?;
+            let begun = Recorder::new(Some(head.label), number, text, head.span);
+            *recorder = Some(begun.in_file(Arc::clone(&file.name)));
+        }
+        Ok(Step::Next)
+    }
+}
+
+/// What follows a line of a file.
+enum Step {
+    Next,
+    /// The subroutine is complete.
+    Complete,
+    /// The file ends.
+    End,
+}
+
+fn no_file_name(label: &Label, span: Span) -> Box<Fault> {
+    let message = format!("there is no subroutine {label}, and that cannot be a file's name");
+    Fault::new(FaultCode::UnknownSubroutine, span, message)
+        .because(
+            "a subroutine that the program does not define is looked for in a file of its name; with \
+             / or \\, or . at its beginning, that would lead into other folders",
+        )
+        .help("name the subroutine and its file alone, and add the folder to the search path")
+}
+
+fn not_taken(label: &Label, name: &str, span: Span, why: NotTaken) -> Box<Fault> {
+    let unknown = || {
+        let message = format!("there is no subroutine {label}");
+        Fault::new(FaultCode::UnknownSubroutine, span, message)
+    };
+    match why {
+        NotTaken::None(NoSubroutineFile::Missing { looked_in }) if looked_in.is_empty() => unknown(
+        )
+        .because(format!(
+            "it is not defined before its first call, and there is no folder to look for \
+                     {name} in"
+        ))
+        .help(
+            "define it before this line, or give the folder of its file: --subroutine-path, \
+                     or `subroutine_path` of [program]",
+        ),
+        NotTaken::None(NoSubroutineFile::Missing { looked_in }) => unknown()
+            .because(format!(
+                "it is not defined before its first call, and there is no {name} in {}",
+                looked_in.join(", ")
+            ))
+            .help(
+                "define it before this line, or add the folder of its file: --subroutine-path, or \
+                 `subroutine_path` of [program]",
+            ),
+        NotTaken::None(NoSubroutineFile::Unreadable { path, reason }) => {
+            let message = format!("cannot read {path}: {reason}");
+            Fault::new(FaultCode::ReadFailed, span, message)
+                .because(format!("the subroutine {label} is looked for there"))
+        }
+        NotTaken::TooLong(path) => {
+            let message = format!("{path} is too long for a subroutine");
+            Fault::new(FaultCode::FlowTooLong, span, message)
+                .because(format!(
+                    "a file of a subroutine has at most {MAX_SUBROUTINE_BYTES} bytes, and all those of a \
+                     program together {MAX_KEPT_BYTES}"
+                ))
+                .help("write its moves into the program, outside of O words")
+        }
+    }
+}
+
+fn absent(label: &Label, file: &SubroutineFile, span: Span) -> Box<Fault> {
+    let message = format!("{} does not define {label}", file.name);
+    Fault::new(FaultCode::UnknownSubroutine, span, message)
+        .because("the file of a subroutine has its `sub` and `endsub`, with the same name")
+        .help(format!("write `{label} sub` … `{label} endsub` into it"))
+}
