@@ -4,13 +4,23 @@ use glidepath_motion::{Event, Item, ItemKind};
 
 use crate::block::Block;
 use crate::codes::Coded;
-use crate::diagnostic::{Code, Fault, Outcome};
+use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::dialect::Dialect;
 use crate::interpreter::Interpreter;
 use crate::modal::Feed;
 use crate::modes::{FeedMode, Once};
+use crate::refused::refused_m;
 use crate::spindle::Turning;
-use crate::words::{missing, negative};
+use crate::words::{missing, negative, whole};
+
+/// What the coolant was told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Coolant {
+    /// M7.
+    pub(crate) mist: bool,
+    /// M8.
+    pub(crate) flood: bool,
+}
 
 impl Interpreter {
     /// Feed mode and F.
@@ -56,10 +66,19 @@ impl Interpreter {
                 _ => None,
             };
         }
-        let in_order = [codes.spindle, codes.coolant, codes.overrides];
-        for Coded { code, .. } in in_order.into_iter().flatten() {
+        if let Some(Coded { code, .. }) = codes.coolant {
+            let coolant = &mut self.state.coolant;
+            match code {
+                7 => coolant.mist = true,
+                8 => coolant.flood = true,
+                _ => *coolant = Coolant::default(),
+            }
+        }
+        for Coded { code, .. } in [codes.spindle, codes.coolant].into_iter().flatten() {
             self.push(out, ItemKind::Event(Event::MCode(code)));
         }
+        self.overrides(block, out)?;
+        self.saved_state(block, out)?;
         self.input_output(block, out)?;
         if let Some(Coded {
             code: Once::Dwell,
@@ -74,6 +93,64 @@ impl Interpreter {
             self.push(out, ItemKind::Dwell(seconds));
         }
         Ok(())
+    }
+}
+
+/// Of one override: M50 to M53.
+#[cold]
+fn override_refused(code: u32, block: &Block, span: Span) -> Box<Fault> {
+    let (what, help) = match code {
+        50 => ("the feed override", "remove it, or write M48 after an M49"),
+        51 => (
+            "the spindle override",
+            "remove it, or write M48 after an M49",
+        ),
+        52 => (
+            "adaptive feed",
+            "remove it; the feedrate follows no input here",
+        ),
+        _ => (
+            "the feed stop input",
+            "remove it; the operator holds the motion",
+        ),
+    };
+    let switch = if block.get(b'P') == Some(0.0) {
+        "off"
+    } else {
+        "on"
+    };
+    let message = format!("M{code} that switches {what} {switch} is not supported");
+    Fault::new(Code::NotSupported, span, message)
+        .because(
+            "nothing here switches it alone, and skipping it could change what the machine does",
+        )
+        .help(help)
+}
+
+impl Interpreter {
+    /// M48 to M53. An override that is as the block wants it needs nothing.
+    fn overrides(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        let Some(Coded { code, span }) = block.codes.overrides else {
+            return Ok(());
+        };
+        if matches!(code, 48 | 49) {
+            self.state.overrides_off = code == 49;
+            self.push(out, ItemKind::Event(Event::MCode(code)));
+            return Ok(());
+        }
+        if block.dialect != Dialect::LinuxCnc {
+            return Err(refused_m(code, f64::from(code), span));
+        }
+        let on = whole(block, b'P', 1)? != Some(0);
+        let is_so = match code {
+            50 | 51 => on && !self.state.overrides_off,
+            _ => !on,
+        };
+        if is_so {
+            Ok(())
+        } else {
+            Err(override_refused(code, block, span))
+        }
     }
 }
 

@@ -45,6 +45,8 @@ pub(crate) struct Codes {
     pub(crate) spindle: Option<Coded<u32>>,
     pub(crate) coolant: Option<Coded<u32>>,
     pub(crate) overrides: Option<Coded<u32>>,
+    /// M70 to M73.
+    pub(crate) saved_state: Option<Coded<u32>>,
     pub(crate) stop: Option<Coded<Stop>>,
     /// M19.
     pub(crate) orient: Option<Coded<u32>>,
@@ -141,6 +143,7 @@ impl Codes {
             || self.stop.is_some()
             || self.orient.is_some()
             || self.input_output.is_some()
+            || self.saved_state.is_some()
     }
 
     /// G80 may stand beside another motion code, as in the first line of many programs; that
@@ -177,7 +180,8 @@ impl Codes {
             3..=5 => set(&mut self.spindle, number, span),
             6 | 61 => set(&mut self.tool_change, number, span),
             7..=9 => set(&mut self.coolant, number, span),
-            48 | 49 => set(&mut self.overrides, number, span),
+            48..=53 => set(&mut self.overrides, number, span),
+            70..=73 => set(&mut self.saved_state, number, span),
             19 => set(&mut self.orient, number, span),
             62..=68 => set(&mut self.input_output, number, span),
             _ => Err(refused_m(number, value, span)),

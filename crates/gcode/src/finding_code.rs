@@ -108,6 +108,8 @@ pub enum Code {
     SoftLimit,
     /// A line of a tool table that is not well formed.
     ToolTable,
+    /// A modal state that was not saved.
+    SavedState,
     /// A tool that is not in the tool table.
     UnknownTool,
     /// A canned cycle that cannot be made.
@@ -184,6 +186,7 @@ impl Code {
             Self::ArcPlane => "arc-plane",
             Self::SoftLimit => "soft-limit",
             Self::ToolTable => "tool-table",
+            Self::SavedState => "saved-state",
             Self::UnknownTool => "unknown-tool",
             Self::CannedCycle => "canned-cycle",
             Self::CutterRadius => "cutter-radius",

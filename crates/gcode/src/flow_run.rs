@@ -78,12 +78,14 @@ impl<R: BufRead> Program<R> {
             Some(Keyword::Call) => self.call(head, text)?,
             Some(Keyword::Return | Keyword::EndSub) => {
                 let value = head.optional_value(text, &self.scope())?;
+                self.interpreter.line = self.line_of_program();
                 if !self.flow.end_call() {
                     return Err(
                         misplaced(head, "`return` outside of a subroutine").help("remove it")
                     );
                 }
                 self.parameters.leave(value);
+                self.restore_on_return(head.span)?;
             }
             Some(Keyword::If) => {
                 let holds = head.one_value(text, &self.scope())? != 0.0;
@@ -196,6 +198,16 @@ impl<R: BufRead> Program<R> {
         self.enter(&code, &arguments, head.span)
     }
 
+    /// Restores the modal state a subroutine has saved by M73; `span` is what ends it.
+    fn restore_on_return(&mut self, span: Span) -> Outcome<()> {
+        let mut items = Vec::new();
+        self.interpreter.restore_on_return(span, &mut items)?;
+        if !items.is_empty() {
+            self.give(items);
+        }
+        Ok(())
+    }
+
     /// Begins a subroutine; `span` is what calls it.
     pub(crate) fn enter(&mut self, code: &Arc<Code>, arguments: &[f64], span: Span) -> Outcome<()> {
         if self.parameters.call_level() >= MAX_CALLS {
@@ -209,6 +221,7 @@ impl<R: BufRead> Program<R> {
             .frames
             .push(Frame::call(Arc::clone(code), called_from));
         self.parameters.enter(arguments);
+        self.interpreter.saved_states.enter();
         Ok(())
     }
 }

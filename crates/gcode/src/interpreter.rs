@@ -1,7 +1,7 @@
 //! The modal interpreter: one block at a time, in the order RS274/NGC prescribes.
 //!
 //! Whatever stands where in a line, a block acts in this order: feed mode, F, S, T, tool change,
-//! spindle, coolant, overrides, inputs and outputs, dwell, plane, units, diameter mode, cutter
+//! spindle, coolant, overrides, saved state, inputs and outputs, dwell, plane, units, diameter mode, cutter
 //! radius, tool length, coordinate system, path mode, distance modes, retract mode, then G10, G28,
 //! G30, G52 or G92, then the motion, and last the stop.
 //!
@@ -12,6 +12,7 @@ use std::sync::Arc;
 use glidepath_geometry::AxisVector;
 use glidepath_motion::{Event, Item, ItemKind};
 
+use crate::auxiliary::Coolant;
 use crate::block::Block;
 use crate::codes::Coded;
 use crate::compensation::Compensation;
@@ -22,6 +23,7 @@ use crate::modes::{Distance, Motion, Spline, Stop};
 use crate::offsets::Offsets;
 use crate::options::Options;
 use crate::probe::ProbeResult;
+use crate::saved_state::SavedStates;
 use crate::spindle::Spindle;
 use crate::spline::{self, OpenSpline};
 use crate::tool_table::ToolTable;
@@ -53,6 +55,9 @@ pub(crate) struct State {
     /// radius compensation is on or was just turned off.
     pub(crate) path_end: AxisVector,
     pub(crate) spindle: Spindle,
+    pub(crate) coolant: Coolant,
+    /// M49: the operator is to have no overrides.
+    pub(crate) overrides_off: bool,
     /// Tool number of the last T word.
     pub(crate) selected_tool: u32,
     /// Tool number in the spindle; 0: none.
@@ -82,6 +87,7 @@ pub(crate) struct Interpreter {
     pub(crate) open_spline: Option<OpenSpline>,
     /// The tool table, with what G10 has made of it.
     pub(crate) tools: Option<Arc<ToolTable>>,
+    pub(crate) saved_states: SavedStates,
     /// Of the block executed last.
     pub(crate) zero_length: ZeroLength,
     /// Line of the block being executed.
@@ -100,6 +106,8 @@ impl Interpreter {
                 position: start,
                 path_end: start,
                 spindle: Spindle::default(),
+                coolant: Coolant::default(),
+                overrides_off: false,
                 selected_tool: 0,
                 tool: 0,
                 cycles: Cycles::default(),
@@ -114,6 +122,7 @@ impl Interpreter {
             offsets: Offsets::new(),
             compensation: None,
             tools,
+            saved_states: SavedStates::default(),
             zero_length: ZeroLength::default(),
             line: 0,
         }
@@ -130,8 +139,11 @@ impl Interpreter {
         self.zero_length = ZeroLength::default();
         let state = self.state;
         let codes = &block.codes;
-        let changes_offsets =
-            codes.once.is_some() || codes.system.is_some() || codes.tool_length.is_some();
+        let saved_states = codes.saved_state.map(|_| self.saved_states.clone());
+        let changes_offsets = codes.once.is_some()
+            || codes.system.is_some()
+            || codes.tool_length.is_some()
+            || codes.saved_state.is_some();
         let offsets = changes_offsets.then(|| (self.offsets.clone(), self.tools.clone()));
         let compensation = self.compensation.clone();
         let mark = OpenSpline::mark(self.open_spline.as_ref());
@@ -141,6 +153,9 @@ impl Interpreter {
             self.state = state;
             self.compensation = compensation;
             OpenSpline::rewind(&mut self.open_spline, mark);
+            if let Some(saved_states) = saved_states {
+                self.saved_states = saved_states;
+            }
             if let Some((offsets, tools)) = offsets {
                 self.offsets = offsets;
                 self.tools = tools;

@@ -37,6 +37,8 @@
 //! | G96 S D, G97 S | cutting speed, revolutions |
 //! | `@` `^` | polar words for X and Y |
 //! | S T M0 M1 M3–M9 M48 M49 M60 M61 Q | events, in order with the motion |
+//! | M50 M51 P1, M52 M53 P0 | no effect: so it is; what they would change is refused |
+//! | M70 M71 M72 M73 | save and restore the modal state, by subroutine |
 //! | M19, M62 … M68 | events, only with simulated connections |
 //! | M2 M30, `%` | end of the program; the end of the input is one too |
 //! | N, `/`, `( )`, `;`, `O1234` alone | no effect (`/`: [`Options::block_delete`]) |
@@ -44,8 +46,8 @@
 //! | O words | `sub` `call` `return`, `if`, `while`, `do`, `repeat`, `break`, `continue` |
 //! | `o<name> call`, `o100 call` of what the program does not define | the subroutine in `name.ngc`, `100.ngc` ([`Subroutines`]) |
 //!
-//! Not supported, and refused by name: threading (G33, G76), G87, G88, M50 to
-//! M53, M70 to M73.
+//! Not supported, and refused by name: threading (G33, G76), G87, G88, and to take overrides from the
+//! operator (M50, M51), adaptive feed (M52) and feed stop (M53).
 //!
 //! # Where it differs from LinuxCNC
 //!
@@ -68,6 +70,8 @@
 //! | a file without M2, M30 or `%` | refused | the end of the file is the end |
 //! | a subroutine behind its call in the same file | found there | refused, if no file has its name |
 //! | the folder of subroutines in other files | of the configuration | the program's, then those of the search path; names with `/` are refused |
+//! | M72, M73 with another G41 or G42 in force than was saved | begin it anew, with the tool's diameter | refused |
+//! | M72, M73 with G43.1, G43.2 or G64 P saved | G43 of the tool in the spindle; P in the units in force | as they were |
 //! | lines above 252 characters | refused | up to [`MAX_LINE_BYTES`] |
 //!
 //! [`Program`] gives the items of a program for motion, and ends at the first finding. [`check`]
@@ -120,6 +124,7 @@ mod polar;
 mod probe;
 mod program;
 mod refused;
+mod saved_state;
 mod source;
 mod spindle;
 mod spline;

@@ -118,6 +118,21 @@ impl Interpreter {
         self.push(out, ItemKind::Event(Event::SpindleSpeed(speed)));
     }
 
+    /// Brings back what S means, and the speed.
+    pub(crate) fn restore_speed(&mut self, saved: Spindle, out: &mut Vec<Item>) {
+        let present = self.state.spindle;
+        self.state.spindle.surface = saved.surface;
+        let speed = match self.surface_revolutions() {
+            // The speed follows the tool.
+            Some(_) if present.surface == saved.surface => return,
+            Some(speed) => speed,
+            None => saved.speed,
+        };
+        if (speed - present.speed).abs() > 0.0 {
+            self.tell_speed(speed, out);
+        }
+    }
+
     /// Revolutions a minute for the cutting speed of G96 where the tool is; `None` in G97.
     fn surface_revolutions(&self) -> Option<f64> {
         let surface = self.state.spindle.surface?;

@@ -11,7 +11,7 @@ use crate::modes::{Contour, CutterRadius, Cycle, Motion, Once, SpindleMode, Spli
 pub(crate) const MAX_TOOL: u32 = 999_999;
 
 /// The words each code of a block takes besides F, S and T.
-fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 9] {
+fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 10] {
     let codes = &block.codes;
     let none = Letters::of(b"");
     let once = codes.once.map(|once| once.code);
@@ -69,6 +69,10 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 9] {
             Some(66) => Letters::of(b"PELQ"),
             Some(_) => Letters::of(b"EQ"),
             None => none,
+        },
+        match codes.overrides.map(|code| code.code) {
+            Some(50..=53) => Letters::of(b"P"),
+            _ => none,
         },
         match (codes.tool_change.map(|code| code.code), codes.orient) {
             (Some(61), _) => Letters::of(b"Q"),

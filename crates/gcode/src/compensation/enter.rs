@@ -80,6 +80,13 @@ fn entry_arc(contour: &Element, center: [f64; 2], sweep: f64, end: [f64; 2]) -> 
     })
 }
 
+/// Cutter radius compensation that is in force.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Compensated {
+    /// Radius, positive to the left, and the tip of a turning tool; `None`: a radius of zero.
+    of: Option<(f64, super::Point)>,
+}
+
 impl Interpreter {
     /// G40, G41, G42, G41.1, G42.1.
     pub(crate) fn cutter_radius(
@@ -163,6 +170,13 @@ impl Interpreter {
         self.check_given(None, out.get(from..).unwrap_or_default())?;
         self.state.path_end = compensation.tool();
         Ok(())
+    }
+
+    /// What is in force, if any.
+    pub(crate) fn compensated(&self) -> Option<Compensated> {
+        self.state.on_contour.then(|| Compensated {
+            of: self.compensation.as_ref().map(Compensation::side_and_tip),
+        })
     }
 
     /// Refuses what is not possible while compensation is on.

@@ -43,6 +43,7 @@ use crate::modes::Side;
 use crate::moves::{MIN_MOVE, Speed};
 pub(crate) use element::{Element, meet};
 use element::{Point, cross, distance, dot, lines};
+pub(crate) use enter::Compensated;
 
 /// Offset elements whose ends are as near as this are joined, mm: coordinates of programs are
 /// rounded, so that a tangent is none to the last digit.
@@ -153,6 +154,11 @@ impl Compensation {
     /// Tool radius, mm.
     pub(crate) const fn radius(&self) -> f64 {
         self.left.abs()
+    }
+
+    /// Tool radius, positive to the left, and the tip.
+    pub(crate) const fn side_and_tip(&self) -> (f64, Point) {
+        (self.left, self.tip)
     }
 
     /// True once a move was made.

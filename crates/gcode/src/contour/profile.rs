@@ -280,6 +280,7 @@ fn check_codes(block: &Block, interpreter: &Interpreter) -> Outcome<()> {
         codes.stop.map(|c| c.span),
         codes.orient.map(|c| c.span),
         codes.input_output.map(|c| c.span),
+        codes.saved_state.map(|c| c.span),
     ];
     match changed.into_iter().flatten().min_by_key(|span| span.start) {
         None => Ok(()),
