@@ -311,3 +311,44 @@ fn keeps_limits(steps: &[Step], settings: &Settings) -> Result<(), TestCaseError
     );
     Ok(())
 }
+
+/// A leg that a window leaves beside the last move, which turns A and C, has a little way back in XYZ.
+#[test]
+fn rotary_moves_keep_their_feed_beside_the_path() {
+    let line = |xyz: [f64; 3], ac: [f64; 2], uv: [f64; 2], feed_v| Step::Line {
+        step: [xyz[0], xyz[1], xyz[2], ac[0], 0.0, ac[1], uv[0], uv[1], 0.0],
+        feed_v: Some(feed_v),
+        mode: PathMode::Continuous { tolerance_mm: None },
+    };
+    let (none, still) = ([0.0; 2], [0.0; 3]);
+    let first = [
+        -0.573_609_915_453_666_7,
+        -0.515_821_482_900_072_8,
+        0.776_259_895_080_488_8,
+    ];
+    let turn = [-0.099_325_534_402_875_37, -0.346_075_896_664_517_1];
+    let second = [0.156_121_449_716_230_24, 0.050_678_367_480_935_065, 0.0];
+    let aside = [-0.155_618_826_907_270_9, -0.194_812_206_837_571_06];
+    let third = [
+        0.059_893_836_378_403_92,
+        -0.021_102_088_002_728_32,
+        -0.059_197_878_513_611_9,
+    ];
+    let last = [-2.294_686_382_025_161_3, 5.190_878_525_056_154];
+    let steps = [
+        line(first, turn, none, 20.936_199_626_763_187),
+        line(second, none, aside, 140.360_791_085_039_55),
+        line(third, none, none, 168.292_528_983_540_45),
+        line(still, last, none, 37.639_001_668_288_2),
+    ];
+    let settings = Settings {
+        effort: Effort::Optimal,
+        ..settings(
+            Limits::uniform(100.0, 10_000.0, 1e6),
+            0.02,
+            Smoothing::Auto,
+            0.001,
+        )
+    };
+    keeps_limits(&steps, &settings).unwrap();
+}

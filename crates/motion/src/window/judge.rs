@@ -5,6 +5,7 @@
 
 use super::bend::{Bend, State};
 use super::follow::Follower;
+use super::stop_leg::counted_length;
 use super::track::Track;
 use crate::Limits;
 use glidepath_geometry::{AXES, AxisVector, feed_length};
@@ -84,15 +85,22 @@ impl History {
         if !self.allows(limits, period_t, &position) || !follower.step(track, &bend) {
             return false;
         }
-        let speed_v = feed_length(&(position - self.recent[0])) / period_t;
-        let feed_v = (from..=follower.place.last())
-            .filter_map(|index| track.get(index))
+        let step = position - self.recent[0];
+        let speed_v = feed_length(&step) / period_t;
+        let pieces = (from..=follower.place.last()).filter_map(|index| track.get(index));
+        let feed_v = pieces
+            .clone()
             .fold(0.0_f64, |most, piece| most.max(piece.top_v));
+        // Counted as the pieces count it: beside a rotary move, the least motion of XYZ is all that the
+        // step's own feed length tells.
+        let mut counted =
+            pieces.map(|piece| counted_length(piece, &step) / (piece.top_v * period_t));
+        let is_slow = speed_v <= self.overspeed_v || counted.any(|ratio| ratio <= FEED_SLACK);
         self.recent = [position, self.recent[0], self.recent[1]];
         self.state = *next;
         if speed_v <= feed_v {
             self.overspeed_v = 0.0;
         }
-        speed_v <= (feed_v * FEED_SLACK).max(self.overspeed_v)
+        is_slow && speed_v <= (feed_v * FEED_SLACK).max(self.overspeed_v)
     }
 }

@@ -13,7 +13,7 @@
 //! could get stuck at.
 
 use super::bend::State;
-use super::stop_leg::{Bounds, StopLeg, directional};
+use super::stop_leg::{Bounds, StopLeg, directional, top_v};
 use super::track::{Piece, Track};
 use crate::Limits;
 use crate::scurve::Profile;
@@ -94,7 +94,7 @@ pub(super) fn arrival_t(limits: &Limits, piece: &Piece, state: &State) -> Option
     if eased_v < 0.0 || eased_s > rest_s {
         return None;
     }
-    let top_v = piece.top_v.min(axes_v).max(eased_v);
+    let top_v = top_v(piece, &displacement, rest_s).min(axes_v).max(eased_v);
     let profile = Profile::new(eased_v, 0.0, rest_s - eased_s, top_v, path)?;
     Some(easing_t + profile.duration_t())
 }

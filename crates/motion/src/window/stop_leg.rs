@@ -6,6 +6,7 @@
 //! limits of every axis at every instant, hence all differences over a period.
 
 use super::Period;
+use super::scene::feed_group;
 use super::track::Piece;
 use crate::Limits;
 use crate::scurve::{PathLimits, Profile};
@@ -42,7 +43,7 @@ impl StopLeg {
             0.0,
             0.0,
             length_s,
-            piece.top_v.min(bounds.speed_v),
+            top_v(piece, &displacement, length_s).min(bounds.speed_v),
             bounds.path,
         )?;
         Some(Self {
@@ -93,6 +94,25 @@ impl StopLeg {
             rest_at_end: false,
         }
     }
+}
+
+/// Speed the feed of a piece allows along a displacement of a feed length. What the piece's feed
+/// counts may be another group of axes than what the displacement's does: beside a rotary move, a way
+/// of a micrometre back to the path is all that XYZ move.
+pub(super) fn top_v(piece: &Piece, displacement: &AxisVector, length_s: f64) -> f64 {
+    let counted_s = counted_length(piece, displacement);
+    if counted_s > length_s {
+        piece.top_v * length_s / counted_s
+    } else {
+        piece.top_v
+    }
+}
+
+/// Length of a displacement in the axes that the feed of a piece counts.
+pub(super) fn counted_length(piece: &Piece, displacement: &AxisVector) -> f64 {
+    let counted = feed_group(&(piece.end - piece.start));
+    let square: f64 = counted.map(|i| displacement[i] * displacement[i]).sum();
+    square.sqrt()
 }
 
 /// Limits of the path in a direction.
