@@ -51,8 +51,9 @@ pub(super) struct Intake {
 }
 
 /// A stretch with a curve among its first moves is driven as if it began with that: so many moves, and
-/// of so much time, s, that no one waits long for the first of them.
-const MOST_HELD: usize = 16;
+/// of so much time, s, that no one waits long for the first of them: who sends a few moves through a
+/// pipe expects them to begin.
+const MOST_HELD: usize = 4;
 const MOST_HELD_T: f64 = 3.0;
 /// After so many other moves a curve is forgotten, and its stretch ends with a stop.
 const STRAIGHT: usize = 64;
