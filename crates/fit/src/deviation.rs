@@ -12,6 +12,11 @@ use glidepath_geometry::Nurbs;
 const SAMPLES: usize = 16;
 /// Chords on either side within which the nearest is looked for.
 const WINDOW: usize = 6;
+/// Part of the farthest sample from which a summit between samples is looked for: a summit is never
+/// much higher than the sample beside it.
+const MAY_BE_HIGHEST: f64 = 0.5;
+/// Golden sections of the interval of a summit: down to a thousandth of it, the summit to a millionth.
+const SECTIONS: usize = 16;
 
 /// Largest distances between a curve and a polyline, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,14 +51,6 @@ impl Deviation {
         let last = x[x.len() - 1];
         samples.push((points.len() - 2, last, at(curve, last)));
 
-        let curve_to_points = samples.iter().map(|(chord, _, sample)| {
-            let low = chord.saturating_sub(WINDOW);
-            let high = (chord + WINDOW + 2).min(points.len());
-            points[low..high]
-                .windows(2)
-                .map(|pair| to_chord(sample, &pair[0], &pair[1]))
-                .fold(f64::INFINITY, f64::min)
-        });
         let points_to_curve = points.iter().enumerate().map(|(i, point)| {
             let low = i.saturating_sub(WINDOW) * SAMPLES;
             let high = ((i + WINDOW) * SAMPLES + 1).min(samples.len());
@@ -61,13 +58,60 @@ impl Deviation {
         });
         Self {
             points_to_curve_mm: points_to_curve.fold(0.0, f64::max),
-            curve_to_points_mm: curve_to_points.fold(0.0, f64::max),
+            curve_to_points_mm: farthest_mm(curve, &samples, points),
         }
     }
 }
 
 fn at(curve: &Nurbs, u: f64) -> Point {
     curve.jet(u).position.fixed_rows::<3>(0).into_owned()
+}
+
+/// Distance of the point of a curve that is farthest from a polyline: the samples, and between those
+/// that are farther than their neighbours a search for the summit, where it may be the highest.
+fn farthest_mm(curve: &Nurbs, samples: &[(usize, f64, Point)], points: &[Point]) -> f64 {
+    let to_polyline = |chord: usize, sample: &Point| {
+        let low = chord.saturating_sub(WINDOW);
+        let high = (chord + WINDOW + 2).min(points.len());
+        points[low..high]
+            .windows(2)
+            .map(|pair| to_chord(sample, &pair[0], &pair[1]))
+            .fold(f64::INFINITY, f64::min)
+    };
+    let sampled: Vec<f64> = samples
+        .iter()
+        .map(|(chord, _, sample)| to_polyline(*chord, sample))
+        .collect();
+    let most = sampled.iter().copied().fold(0.0, f64::max);
+    let mut farthest = most;
+    for i in 0..samples.len() {
+        let (before, after) = (i.saturating_sub(1), (i + 1).min(samples.len() - 1));
+        let is_summit = sampled[i] >= sampled[before] && sampled[i] >= sampled[after];
+        if is_summit && sampled[i] >= MAY_BE_HIGHEST * most {
+            let at_u = |u: f64| to_polyline(samples[i].0, &at(curve, u));
+            farthest = farthest.max(summit(&at_u, samples[before].1, samples[after].1));
+        }
+    }
+    farthest
+}
+
+/// The greatest value of a function with one summit between two places, by golden sections.
+fn summit(value: &impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_8;
+    let mut at = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+    let mut is = at.map(value);
+    for _ in 0..SECTIONS {
+        if is[0] >= is[1] {
+            high = at[1];
+            at = [high - GOLDEN * (high - low), at[0]];
+            is = [value(at[0]), is[0]];
+        } else {
+            low = at[0];
+            at = [at[1], low + GOLDEN * (high - low)];
+            is = [is[1], value(at[1])];
+        }
+    }
+    is[0].max(is[1])
 }
 
 /// Distance of a point from the curve: the nearest sample, and Newton steps from there.

@@ -82,12 +82,15 @@ fn within(part: &Part) -> Option<Candidate> {
     equidistribute(part, &greedy).map(|even| remove(part, even))
 }
 
+/// The best of the fits with ever more knots. With knots as many as the points allow, a spline may
+/// swing out far between the points: the last is not always the best.
 fn greedy(part: &Part) -> Option<Candidate> {
     let mut knots: Vec<f64> = Vec::new();
-    let mut best = part.fit(&knots)?;
-    while best.max_mm() > part.tolerance_mm {
+    let mut last = part.fit(&knots)?;
+    let mut best = last.clone();
+    while last.max_mm() > part.tolerance_mm {
         let before = knots.len();
-        for candidate in wanted(part, &best) {
+        for candidate in wanted(part, &last) {
             let at = knots.partition_point(|knot| *knot < candidate);
             let near = |knot: Option<&f64>| {
                 knot.is_some_and(|knot| (knot - candidate).abs() <= 1e-9 * part.length())
@@ -104,8 +107,11 @@ fn greedy(part: &Part) -> Option<Candidate> {
             return Some(best);
         }
         match part.fit(&knots) {
-            Some(next) => best = next,
+            Some(next) => last = next,
             None => return Some(best),
+        }
+        if last.max_mm() < best.max_mm() {
+            best.clone_from(&last);
         }
     }
     Some(best)

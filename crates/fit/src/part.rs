@@ -22,7 +22,7 @@ pub(crate) struct Part {
 }
 
 /// A spline through a part and how far it is from it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Candidate {
     pub(crate) spline: Spline,
     /// For each point its distance from the curve, or that of the curve beyond it from the chord to the
