@@ -16,7 +16,6 @@ use glidepath_kinematics::{
 use glidepath_motion::{Effort, Limits, Override, PathBounds, Settings, Smoothing};
 use glidepath_planner::{Output, Pipeline, ProgramSource};
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 const PERIOD_T: f64 = 0.004;
 
@@ -218,8 +217,6 @@ fn cases() -> Option<u32> {
 proptest! {
     #![proptest_config(ProptestConfig {
         cases: cases().unwrap_or(1),
-        // The same program in every run, unless more are asked for.
-        rng_seed: cases().map_or(RngSeed::Fixed(1), |_| RngSeed::Random),
         ..ProptestConfig::default()
     })]
 
