@@ -32,8 +32,7 @@ impl<R: BufRead> Program<R> {
             return Err(no_file_name(label, span));
         }
         let Some(subroutines) = &self.interpreter.options.subroutines else {
-            let message = format!("there is no subroutine {label}");
-            return Err(Fault::new(FaultCode::UnknownSubroutine, span, message)
+            return Err(unknown(label, span)
                 .because("a subroutine is defined before its first call")
                 .help("define it before this line (sub … endsub)"));
         };
@@ -128,6 +127,11 @@ enum Step {
     End,
 }
 
+fn unknown(label: &Label, span: Span) -> Box<Fault> {
+    let message = format!("there is no subroutine {label}");
+    Fault::new(FaultCode::UnknownSubroutine, span, message)
+}
+
 fn no_file_name(label: &Label, span: Span) -> Box<Fault> {
     let message = format!("there is no subroutine {label}, and that cannot be a file's name");
     Fault::new(FaultCode::UnknownSubroutine, span, message)
@@ -139,12 +143,9 @@ fn no_file_name(label: &Label, span: Span) -> Box<Fault> {
 }
 
 fn not_taken(label: &Label, name: &str, span: Span, why: NotTaken) -> Box<Fault> {
-    let unknown = || {
-        let message = format!("there is no subroutine {label}");
-        Fault::new(FaultCode::UnknownSubroutine, span, message)
-    };
     match why {
         NotTaken::None(NoSubroutineFile::Missing { looked_in }) if looked_in.is_empty() => unknown(
+            label, span,
         )
         .because(format!(
             "it is not defined before its first call, and there is no folder to look for \
@@ -154,7 +155,7 @@ fn not_taken(label: &Label, name: &str, span: Span, why: NotTaken) -> Box<Fault>
             "define it before this line, or give the folder of its file: --subroutine-path, \
                      or `subroutine_path` of [program]",
         ),
-        NotTaken::None(NoSubroutineFile::Missing { looked_in }) => unknown()
+        NotTaken::None(NoSubroutineFile::Missing { looked_in }) => unknown(label, span)
             .because(format!(
                 "it is not defined before its first call, and there is no {name} in {}",
                 looked_in.join(", ")

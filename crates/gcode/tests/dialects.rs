@@ -2,12 +2,15 @@
 
 #![allow(clippy::expect_used, reason = "a test")]
 
+mod support;
+
 use std::fs;
 use std::path::PathBuf;
 
 use glidepath_gcode::{Connections, Dialect, Options, Program, Report, check};
 use glidepath_geometry::Axis;
 use glidepath_motion::{ItemKind, PathMode, Rate};
+use support::findings;
 
 fn options(dialect: Dialect) -> Options {
     Options {
@@ -41,12 +44,7 @@ fn path(dialect: Dialect, text: &str) -> Vec<String> {
 #[track_caller]
 fn finds(dialect: Dialect, text: &str, expected: &[&str]) {
     let report = check(text.as_bytes(), options(dialect));
-    let found: Vec<_> = report
-        .diagnostics
-        .iter()
-        .map(|d| format!("{}:{} {}", d.line, d.column, d.code))
-        .collect();
-    assert_eq!(found, expected, "{text}");
+    assert_eq!(findings(&report), expected, "{text}");
 }
 
 #[test]

@@ -1,21 +1,15 @@
 //! What is refused: kind, line and column of the finding for each.
 
+mod support;
+
 use glidepath_gcode::{Machine, Options, Program, Report, Travel, check};
 use glidepath_geometry::Axis;
 use glidepath_motion::{Item, ItemKind, Rate};
 use proptest::prelude::*;
+use support::findings;
 
 fn report(text: &str) -> Report {
     check(text.as_bytes(), Options::default())
-}
-
-/// `line:column code` of every finding.
-fn findings(report: &Report) -> Vec<String> {
-    report
-        .diagnostics
-        .iter()
-        .map(|d| format!("{}:{} {}", d.line, d.column, d.code))
-        .collect()
 }
 
 #[track_caller]

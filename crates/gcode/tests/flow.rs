@@ -2,8 +2,11 @@
 
 #![expect(clippy::panic, reason = "a wrong program fails the test")]
 
+mod support;
+
 use glidepath_gcode::{Options, Program, check};
 use glidepath_motion::ItemKind;
+use support::findings;
 
 /// X of the end of every move.
 fn path(text: &str) -> Vec<f64> {
@@ -24,12 +27,7 @@ fn goes(text: &str, expected: &[f64]) {
 #[track_caller]
 fn refuses(text: &str, expected: &str) {
     let report = check(text.as_bytes(), Options::default());
-    let found: Vec<_> = report
-        .diagnostics
-        .iter()
-        .map(|d| format!("{}:{} {}", d.line, d.column, d.code))
-        .collect();
-    assert_eq!(found, [expected], "{text}");
+    assert_eq!(findings(&report), [expected], "{text}");
 }
 
 #[test]

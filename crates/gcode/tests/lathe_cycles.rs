@@ -2,11 +2,14 @@
 
 #![allow(clippy::expect_used, reason = "a test")]
 
+mod support;
+
 use std::fmt::Write;
 
 use glidepath_gcode::{Machine, Options, Program, Travel, check};
 use glidepath_geometry::{Axis, Segment};
 use glidepath_motion::{ItemKind, Rate};
+use support::findings;
 
 /// A shaft: radius 5 from Z0 to Z-10, then a shoulder to radius 8.
 const SHAFT: &str = "G18 G21 G90 F100\nO100 sub\nG0 X5 Z0\nG1 Z-10\nX8\nO100 endsub\n";
@@ -40,12 +43,7 @@ fn moves(text: &str) -> String {
 #[track_caller]
 fn finds(text: &str, place_and_code: &str) {
     let report = check(text.as_bytes(), Options::default());
-    let found: Vec<_> = report
-        .diagnostics
-        .iter()
-        .map(|d| format!("{}:{} {}", d.line, d.column, d.code))
-        .collect();
-    assert_eq!(found, [place_and_code], "{text}");
+    assert_eq!(findings(&report), [place_and_code], "{text}");
 }
 
 #[test]

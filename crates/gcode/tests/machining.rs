@@ -2,12 +2,15 @@
 
 #![allow(clippy::expect_used, reason = "a test")]
 
+mod support;
+
 use std::fmt::Write;
 use std::sync::Arc;
 
 use glidepath_gcode::{Connections, Machine, Options, Program, ToolTable, Travel, check};
 use glidepath_geometry::{Axis, Segment};
 use glidepath_motion::{Event, ItemKind, Rate};
+use support::findings;
 
 fn options() -> Options {
     let table = b"T1 D2 Z10\nT2 D4 Z5 Q2\nT3 D-2\n";
@@ -49,12 +52,7 @@ fn items(text: &str) -> String {
 #[track_caller]
 fn finds(text: &str, place_and_code: &str) {
     let report = check(text.as_bytes(), options());
-    let found: Vec<_> = report
-        .diagnostics
-        .iter()
-        .map(|d| format!("{}:{} {}", d.line, d.column, d.code))
-        .collect();
-    assert_eq!(found, [place_and_code], "{text}");
+    assert_eq!(findings(&report), [place_and_code], "{text}");
     let finding = &report.diagnostics[0];
     assert!(!finding.reason.is_empty(), "{finding}");
 }

@@ -1,7 +1,10 @@
 //! Saved modal state (M70 to M73), and overrides switched by the program (M50 to M53).
 
+mod support;
+
 use glidepath_gcode::{Dialect, Options, Program, check};
 use glidepath_motion::{Event, ItemKind, PathMode, Rate};
+use support::findings;
 
 /// What a program does: ends of moves in X and Z with their feedrate in mm/min, and events.
 fn items(text: &str) -> String {
@@ -29,9 +32,8 @@ fn items(text: &str) -> String {
 #[track_caller]
 fn finds(text: &str, expected: &str) {
     let report = check(text.as_bytes(), Options::default());
-    let found = report.diagnostics.first();
-    let found = found.map(|d| format!("{}:{} {}", d.line, d.column, d.code));
-    assert_eq!(found.as_deref(), Some(expected), "{text}");
+    let found = findings(&report);
+    assert_eq!(found.first().map(String::as_str), Some(expected), "{text}");
 }
 
 #[test]

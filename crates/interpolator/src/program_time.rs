@@ -35,6 +35,14 @@ impl ProgramTime {
         }
     }
 
+    /// The same, but not past a frame that holds the motion, if one does.
+    pub(crate) fn held_at(self, frame: Option<u64>) -> Self {
+        match frame {
+            Some(frame) if self.sequence >= frame => Self::at(frame),
+            _ => self,
+        }
+    }
+
     /// The nearest frame, if it is within rounding of it; else itself.
     pub(crate) fn snapped(self) -> Self {
         const ROUNDING: f64 = 1e-9;

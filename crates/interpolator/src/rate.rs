@@ -191,7 +191,7 @@ impl Rate {
                     rate,
                     slope,
                 } = ramp.at(t);
-                let time = self.clamped(self.start.after(elapsed));
+                let time = self.start.after(elapsed).held_at(self.held_at);
                 // Rounding may take it back by a hair, to a frame that was given away.
                 if time > self.now {
                     self.now = time;
@@ -218,14 +218,6 @@ impl Rate {
             }
         }
         self.now()
-    }
-
-    /// Program time not past the frame that holds the ramp.
-    fn clamped(&self, time: ProgramTime) -> ProgramTime {
-        match self.held_at {
-            Some(held) if time.sequence >= held => ProgramTime::at(held),
-            _ => time,
-        }
     }
 
     /// Moves program time to where it is held: the motion is at rest there, so any rate will do.

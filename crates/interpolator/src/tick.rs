@@ -300,7 +300,7 @@ impl<'a> Interpolator<'a> {
             self.counters.reserve_stops += 1;
             self.happenings.write(Happening::ReserveStop { tick });
         }
-        let held = self.track.clamped(time);
+        let held = time.held_at(self.track.stop());
         if held != time {
             self.rate.rest_at(held, self.rate.now().rate);
         }

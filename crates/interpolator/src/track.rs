@@ -217,14 +217,6 @@ impl Track {
             })
     }
 
-    /// Where program time really is if it were `time`: not past the stop.
-    pub(crate) fn clamped(&self, time: ProgramTime) -> ProgramTime {
-        match self.stop() {
-            Some(stop) if time.sequence >= stop => ProgramTime::at(stop),
-            _ => time,
-        }
-    }
-
     /// Planned position at a time; `None` outside the owned frames.
     pub(crate) fn position(&self, time: ProgramTime) -> Option<AxisVector> {
         let frame = self.frame(time.sequence)?;
@@ -335,7 +327,7 @@ mod tests {
             sequence: 600,
             fraction: 0.5,
         };
-        assert_eq!(track.clamped(beyond), ProgramTime::at(512));
+        assert_eq!(beyond.held_at(track.stop()), ProgramTime::at(512));
         assert!(track.position(beyond).is_none());
         track.clear();
         assert!(track.position(ProgramTime::at(512)).is_none());

@@ -33,6 +33,11 @@ pub(super) fn cross(a: Point, b: Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
+/// Angle from one direction to another, rad, positive to the left.
+pub(crate) fn turn(from: Point, to: Point) -> f64 {
+    cross(from, to).atan2(dot(from, to))
+}
+
 pub(super) fn distance(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
@@ -116,7 +121,7 @@ impl Element {
             Some((center, sweep)) => {
                 let base = if from_end { self.end } else { self.start };
                 let (a, b) = (minus(base, center), minus(at, center));
-                let turn = cross(a, b).atan2(dot(a, b)) * sweep.signum();
+                let turn = turn(a, b) * sweep.signum();
                 // From the base: forward from the start, backward from the end.
                 let turn = if from_end { -turn } else { turn };
                 let slack = OVER * sweep.abs();

@@ -67,7 +67,7 @@ fn entry_arc(contour: &Element, center: [f64; 2], sweep: f64, end: [f64; 2]) -> 
     }
     let center = along(end, toward, reach);
     let (a, b) = (minus(contour.start, center), minus(end, center));
-    let mut turn = super::cross(a, b).atan2(super::dot(a, b));
+    let mut turn = super::turn(a, b);
     if turn * sweep < 0.0 {
         turn += TAU.copysign(sweep);
     }

@@ -41,8 +41,8 @@ use glidepath_motion::{Item, ItemKind, PathMode};
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::modes::Side;
 use crate::moves::{MIN_MOVE, Speed};
-pub(crate) use element::{Element, meet};
-use element::{Point, cross, distance, dot, lines};
+pub(crate) use element::{Element, meet, turn};
+use element::{Point, distance, dot, lines};
 pub(crate) use enter::Compensated;
 
 /// Offset elements whose ends are as near as this are joined, mm: coordinates of programs are
@@ -231,13 +231,13 @@ impl Compensation {
     /// True if the tool is on the inner side of the corner between two elements of the contour.
     fn is_concave(&self, last: &Element, next: &Element) -> bool {
         let (before, after) = (last.end_tangent(), next.start_tangent());
-        let turn = cross(before, after).atan2(dot(before, after));
+        let bend = turn(before, after);
         let side = self.left.signum();
-        if core::f64::consts::PI - turn.abs() < REVERSAL_RAD {
+        if core::f64::consts::PI - bend.abs() < REVERSAL_RAD {
             // A cusp: which side the next element lies on is decided by how both bend.
             return side * (last.curvature(last.end) + next.curvature(next.start)) < 0.0;
         }
-        side * turn > 0.0
+        side * bend > 0.0
     }
 
     /// Where two lines with a flat convex corner meet if they are extended.
@@ -257,10 +257,10 @@ impl Compensation {
         let to = next.path.start;
         let (a, b) = (element::minus(from, center), element::minus(to, center));
         // Round the outside: clockwise for a tool on the left.
-        let mut sweep = cross(a, b).atan2(dot(a, b));
-        let turn = -self.left.signum();
-        if sweep * turn < 0.0 {
-            sweep += turn * core::f64::consts::TAU;
+        let mut sweep = turn(a, b);
+        let round = -self.left.signum();
+        if sweep * round < 0.0 {
+            sweep += round * core::f64::consts::TAU;
         }
         let arc = (next.of.speed != Speed::Rapid).then_some((center, sweep));
         let path = Element {

@@ -5,7 +5,7 @@
 //! size would begin and end.
 
 use super::frame::Point;
-use crate::compensation::{Element, meet};
+use crate::compensation::{Element, meet, turn};
 
 /// Directions that differ by less are no corner, radians.
 const SMOOTH_RAD: f64 = 1e-9;
@@ -26,21 +26,21 @@ pub(super) fn cut(
     corner: Corner,
 ) -> Option<Option<Element>> {
     let (u, v) = (before.end_tangent(), after.start_tangent());
-    let turn = (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1]);
-    if turn.abs() < SMOOTH_RAD {
+    let left_turn = turn(u, v);
+    if left_turn.abs() < SMOOTH_RAD {
         return Some(None);
     }
     let radius = match corner {
         Corner::Fillet(radius) | Corner::Chamfer(radius) => radius,
     };
-    let left = radius.copysign(turn);
+    let left = radius.copysign(left_turn);
     let center = meet(&before.offset(left)?, &after.offset(left)?)?;
     let (from, to) = (foot(before, center), foot(after, center));
     before.end_at(from);
     after.start_at(to);
     let a = [from[0] - center[0], from[1] - center[1]];
     let b = [to[0] - center[0], to[1] - center[1]];
-    let sweep = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
+    let sweep = turn(a, b);
     Some(Some(Element {
         start: from,
         end: to,

@@ -14,6 +14,7 @@ use super::corner::{Corner, cut};
 use super::frame::Point;
 use crate::arc::{Ends, center_from_radius, check_radii, sweep};
 use crate::block::{Block, Letters};
+use crate::codes::Coded;
 use crate::compensation::Element;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::interpreter::Interpreter;
@@ -248,30 +249,20 @@ fn refused(span: Span, message: &str) -> Box<Fault> {
         .because("a profile is drawn by G0, G1, G2 and G3 alone")
 }
 
+/// Where a code stands that is another than the one in force.
+fn other_than<T: PartialEq>(coded: Option<Coded<T>>, now: T) -> Option<Span> {
+    coded.filter(|coded| coded.code != now).map(|c| c.span)
+}
+
 /// Refuses codes that would give words another meaning, or end the program.
 fn check_codes(block: &Block, interpreter: &Interpreter) -> Outcome<()> {
     let (codes, modal) = (&block.codes, &interpreter.state.modal);
     let changed = [
-        codes
-            .plane
-            .filter(|c| c.code != modal.plane)
-            .map(|c| c.span),
-        codes
-            .units
-            .filter(|c| c.code != modal.units)
-            .map(|c| c.span),
-        codes
-            .distance
-            .filter(|c| c.code != modal.distance)
-            .map(|c| c.span),
-        codes
-            .arc_distance
-            .filter(|c| c.code != modal.arc_distance)
-            .map(|c| c.span),
-        codes
-            .diameter
-            .filter(|c| c.code != modal.diameter)
-            .map(|c| c.span),
+        other_than(codes.plane, modal.plane),
+        other_than(codes.units, modal.units),
+        other_than(codes.distance, modal.distance),
+        other_than(codes.arc_distance, modal.arc_distance),
+        other_than(codes.diameter, modal.diameter),
         codes.once.map(|c| c.span),
         codes.cutter_radius.map(|c| c.span),
         codes.tool_length.map(|c| c.span),

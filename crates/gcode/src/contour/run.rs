@@ -12,7 +12,7 @@ use super::passes::{MAX_STEPS, NoPasses, Roughing, Step, finish, lift, rough};
 use super::profile::Profile;
 use super::{OpenContour, label};
 use crate::block::Block;
-use crate::compensation::Element;
+use crate::compensation::{Element, turn};
 use crate::diagnostic::{Code as FaultCode, Fault, Outcome};
 use crate::dialect::Dialect;
 use crate::flow::Code;
@@ -269,8 +269,7 @@ impl Interpreter {
             [z - center[0], x - center[1]]
         };
         let (a, b) = (by(&start), by(&end));
-        let turn = (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]);
-        let sweep_rad = turn.abs().copysign(if left { 1.0 } else { -1.0 });
+        let sweep_rad = turn(a, b).abs().copysign(if left { 1.0 } else { -1.0 });
         let arc = ArcSegment {
             start,
             end,

@@ -148,23 +148,23 @@ impl Arrival {
         self.place
     }
 
-    /// Keeps up with the motion: a tick later, or where it was while the motion is held. False if it
-    /// went another way.
-    #[allow(clippy::float_cmp, reason = "a steady rate does not change")]
+    /// Keeps up with the motion. False if it is about another frame, if the motion went another way, or
+    /// if what is being tried would have begun.
     fn follow(&mut self, frame: u64, now: Steady) -> bool {
-        if self.frame != frame || self.from.rate != now.rate {
+        if self.frame != frame {
             return false;
         }
-        if self.from.time != now.time {
-            self.from.time = self.from.time.after(now.rate);
-            if let Some(attempt) = &mut self.attempt {
-                let Some(begins) = attempt.begins.checked_sub(1) else {
-                    return false;
-                };
-                attempt.begins = begins;
-            }
-        }
-        self.from.time == now.time
+        let Some(ticks) = self.from.follow(now) else {
+            return false;
+        };
+        let Some(attempt) = &mut self.attempt else {
+            return true;
+        };
+        let Some(begins) = attempt.begins.checked_sub(ticks) else {
+            return false;
+        };
+        attempt.begins = begins;
+        true
     }
 
     /// Goes on until a way is found, none is left, or the budget is used up.

@@ -70,11 +70,8 @@ impl Playing {
             }
             *budget -= 1;
             self.t += 1.0;
-            let time = self.cue.time.after(self.ramp.elapsed_at(self.t));
-            let time = match stop {
-                Some(stop) if time.sequence >= stop => ProgramTime::at(stop),
-                _ => time,
-            };
+            let elapsed = self.ramp.elapsed_at(self.t);
+            let time = self.cue.time.after(elapsed).held_at(stop);
             let Some(position) = track.position(time) else {
                 return Played::Barred;
             };

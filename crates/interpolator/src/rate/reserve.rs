@@ -96,21 +96,14 @@ impl Search {
         })
     }
 
-    /// Keeps up with the motion: a tick later, or where it was while the motion is held. False if it
-    /// went another way.
-    #[allow(clippy::float_cmp, reason = "a steady rate does not change")]
+    /// Keeps up with the motion. False if it went another way, or where the stop may begin is over.
     fn follow(&mut self, now: Steady) -> bool {
-        if self.from.rate != now.rate {
+        let passed = self.from.follow(now);
+        let Some(begins) = passed.and_then(|ticks| self.begins.checked_sub(ticks)) else {
             return false;
-        }
-        if self.from.time != now.time {
-            self.from.time = self.from.time.after(now.rate);
-            let Some(begins) = self.begins.checked_sub(1) else {
-                return false;
-            };
-            self.begins = begins;
-        }
-        self.from.time == now.time
+        };
+        self.begins = begins;
+        true
     }
 }
 
@@ -122,6 +115,20 @@ pub(super) struct Steady {
 }
 
 impl Steady {
+    /// Goes to where the motion is now: ticks that have passed, one, or none while the motion is held.
+    /// None if it went another way.
+    #[allow(clippy::float_cmp, reason = "a steady rate does not change")]
+    pub(super) fn follow(&mut self, now: Self) -> Option<u32> {
+        if self.rate != now.rate {
+            return None;
+        }
+        if self.time == now.time {
+            return Some(0);
+        }
+        self.time = self.time.after(now.rate);
+        (self.time == now.time).then_some(1)
+    }
+
     /// A tick of it, the third or later, with the positions published before it.
     pub(super) fn cue(self, tick: f64, scene: &Scene<'_>) -> Option<Cue> {
         let time = |back: f64| self.time.after(self.rate * (tick - back));

@@ -79,7 +79,7 @@ impl Player {
         if self.rate.secure(goal, &scene) {
             self.track.unbar();
         }
-        let time = self.track.clamped(self.rate.advance().time);
+        let time = self.rate.advance().time.held_at(self.track.stop());
         if time != self.rate.now().time {
             self.rate.rest_at(time, self.rate.now().rate);
         }

@@ -195,11 +195,14 @@ impl WindowPlanner {
         };
         let velocity = self.history.velocity();
         let speed_v = feed_length(velocity);
+        if speed_v <= 0.0 {
+            return true;
+        }
         let Bounds { path, .. } = directional(&self.limits, &(velocity / speed_v));
         let stop_s = 0.5 * speed_v * speed_v / path.accel_a;
         let room = piece.tolerance_mm.max(piece.tolerance_deg);
         let rest_s = feed_length(&(piece.end - self.history.last()));
-        speed_v <= 0.0 || stop_s <= FAR_TOO_FAST * (rest_s + room)
+        stop_s <= FAR_TOO_FAST * (rest_s + room)
     }
 
     /// What a motion from now on is worth.

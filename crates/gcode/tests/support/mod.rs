@@ -1,0 +1,12 @@
+//! What several tests of programs ask.
+
+use glidepath_gcode::Report;
+
+/// `line:column code` of every finding.
+pub(crate) fn findings(report: &Report) -> Vec<String> {
+    report
+        .diagnostics
+        .iter()
+        .map(|d| format!("{}:{} {}", d.line, d.column, d.code))
+        .collect()
+}
