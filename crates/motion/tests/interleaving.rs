@@ -46,6 +46,28 @@ fn plan(items: &[Item], settings: Settings, every: usize) -> Vec<Frame> {
     frames
 }
 
+/// Who sends a few moves through a pipe expects them to begin.
+#[test]
+fn a_few_moves_begin_without_waiting_for_more() {
+    let corners = [
+        at(0.0, 0.0),
+        at(12.0, 0.0),
+        at(12.0, 12.0),
+        at(0.0, 12.0),
+        at(0.0, 0.0),
+        at(12.0, 0.0),
+    ];
+    for settings in efforts() {
+        let mut planner = Planner::new(settings, AxisVector::zeros());
+        for item in numbered(moves(&corners, 40.0, FREE)) {
+            planner.push(&item).expect("valid item");
+        }
+        let mut frames = std::iter::from_fn(|| planner.pop_frame().expect("a motion"));
+        let begins = frames.any(|frame| frame.position != AxisVector::zeros());
+        assert!(begins, "{:?}", settings.effort);
+    }
+}
+
 proptest! {
     #![proptest_config(cases(20))]
 
