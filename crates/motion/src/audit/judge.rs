@@ -88,7 +88,8 @@ impl Matching {
     /// Path speed against the feed of the chords the motion may be on.
     ///
     /// At the level the motion is matched at, those are fewer than the tolerance allows: next to a vertex
-    /// it may be on the chord behind it already. So what seems too fast is judged at the tolerance.
+    /// it may be on the chord behind it already, or still on the one before it. So what seems too fast is
+    /// judged at the tolerance.
     pub(super) fn judge_feed(&mut self, sample: &Sample, ticks: u64, first: usize) {
         let Some(column) = self.history.back() else {
             return;
@@ -107,7 +108,9 @@ impl Matching {
                 floor_mm: 0.0,
             };
             if self.replay(0, &widest, Goal::Anything) == Passage::Passed {
-                feed_v = feed_v.max(self.most_feed_v(first, self.scratch[0].end()));
+                let reach = &self.scratch[0];
+                let (first, end) = (first.min(reach.low), reach.end());
+                feed_v = feed_v.max(self.most_feed_v(first, end));
             }
         }
         let ratio = speed_v / (feed_v * self.feed_factor);

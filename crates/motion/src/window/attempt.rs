@@ -109,6 +109,18 @@ pub(super) struct Optimisers {
 }
 
 impl Optimisers {
+    /// Multiplications of the solvers so far.
+    #[cfg(test)]
+    pub(super) fn work(&self) -> usize {
+        fn of<const D: usize>(optimiser: Option<&Optimiser<D>>) -> usize {
+            optimiser.map_or(0, |optimiser| optimiser.interior.work)
+        }
+        of(self.two.as_deref())
+            + of(self.three.as_deref())
+            + of(self.six.as_deref())
+            + of(self.nine.as_deref())
+    }
+
     /// A better motion than `tail`, which starts at the present state and ends at rest.
     pub(super) fn attempt(
         &mut self,

@@ -103,14 +103,15 @@ impl<const D: usize> Cuts<D> {
             .flat_map(|few| few.planes.iter().flatten())
     }
 
-    /// Takes note of where a motion is, with the samples as they were given out for it.
+    /// Takes note of where a motion is, with the samples as they were given out for it; its largest
+    /// speed over the feed.
     pub(super) fn learn(
         &mut self,
         scene: &Scene<D>,
         samples: &Samples,
         points: &[[f64; D]],
         grid: &Grid,
-    ) {
+    ) -> f64 {
         for k in 1..=samples.count() {
             let piece = samples.piece[k];
             self.learn_sample(scene, (k, piece), &sample(points, grid, k));
@@ -133,7 +134,7 @@ impl<const D: usize> Cuts<D> {
                 }
             }
         }
-        self.learn_feeds(scene, samples, points, grid);
+        self.learn_feeds(scene, samples, points, grid)
     }
 
     fn learn_feeds(
@@ -142,16 +143,19 @@ impl<const D: usize> Cuts<D> {
         samples: &Samples,
         points: &[[f64; D]],
         grid: &Grid,
-    ) {
+    ) -> f64 {
+        let mut most_r = 0.0_f64;
         self.feeds.resize(points.len(), [None; KEPT_DIRECTIONS]);
         for k in 2..points.len() - 3 {
             let slowest = slowest_feed(scene, pieces_at(samples, grid, k));
             let (size, direction) = velocity_over_feed(points, &slowest, k, grid);
+            most_r = most_r.max(size);
             if size > WORTH_OF_FEED {
                 self.feeds[k].rotate_right(1);
                 self.feeds[k][0] = Some(direction);
             }
         }
+        most_r
     }
 
     fn learn_sample(&mut self, scene: &Scene<D>, (k, piece): (usize, usize), y: &[f64; D]) {

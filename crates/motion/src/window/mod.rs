@@ -108,7 +108,7 @@ impl Period {
 }
 
 /// Most legs from vertex to vertex before windows are tried again.
-const MOST_LEGS: usize = 32;
+const MOST_LEGS: usize = 8;
 
 /// What moves the machine.
 #[derive(Debug)]

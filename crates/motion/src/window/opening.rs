@@ -3,7 +3,7 @@
 use super::guess::{Guess, rest_to_rest_t};
 use super::scene::Scene;
 use super::spline::Grid;
-use super::tube::Style;
+use super::tube::{FEED_R, Style};
 
 /// What a window starts from.
 #[derive(Debug)]
@@ -33,6 +33,7 @@ impl<const D: usize> Opening<'_, D> {
             passed: self.passed,
             stray_r: 1.0,
             is_feed_firm: true,
+            feed_r: FEED_R,
             is_centred: false,
             keep_r: 0.995,
             ridge: 1e-5,

@@ -16,7 +16,7 @@ use super::rounds::{Found, Walk, hurried};
 use super::samples::Samples;
 use super::scene::Scene;
 use super::solver::{Goal, Interior, Problem};
-use super::tube::{self, Extents, Layout, Style};
+use super::tube::{self, Extents, FEED_R, Layout, Style};
 
 /// Rounds in which samples change pieces, and rounds in which they do not; what of the radius is used
 /// in them, and how strong the pull to the middle is.
@@ -190,6 +190,8 @@ impl<const D: usize> Optimiser<D> {
             has_motion: false,
             is_exceeding: false,
             mean: f64::NEG_INFINITY,
+            speed_r: 0.0,
+            feed_r: FEED_R,
         };
         for (number, phase) in PHASES.iter().enumerate() {
             for round in 0..phase.search + phase.polish {
@@ -206,11 +208,15 @@ impl<const D: usize> Optimiser<D> {
                     is_feed_firm: is_polish || walk.is_exceeding,
                     keep_r: phase.keep_r,
                     ridge: phase.ridge,
+                    feed_r: if is_polish { walk.feed_r } else { FEED_R },
                     ..opening.style(walk.has_motion)
                 };
                 let given = self.samples.progress.clone();
                 let may_lead = round + 1 < phase.search;
                 let is_solved = self.take_round(scene, opening, &style, may_lead, &mut walk);
+                if is_polish && is_solved {
+                    walk.learn_feed(style.feed_r);
+                }
                 let passes = is_solved && judge(&walk.points, Question::IsValid);
                 if passes {
                     found.add(self.samples.mean(), &walk.points, &self.samples);
@@ -246,7 +252,7 @@ impl<const D: usize> Optimiser<D> {
         let is_exact = style.stray_r <= 1.0;
         let is_solved = self.solve(scene, style, &mut next, false, is_exact);
         if is_solved {
-            self.cuts.learn(scene, &self.samples, &next, &opening.grid);
+            walk.speed_r = self.cuts.learn(scene, &self.samples, &next, &opening.grid);
         }
         walk.is_exceeding = self.interior.violation() > ENOUGH_VIOLATION;
         let grid = (&opening.grid, opening.period_t);

@@ -1,9 +1,16 @@
 //! What is carried from round to round of the optimisation of a window.
 
 use super::samples::Samples;
+use super::tube::FEED_R;
 
 /// Gain of progress, relative to that of the window, below which nothing more is tried.
 const LITTLE_GAIN: f64 = 1e-4;
+
+/// Speed over the feed that is aimed at where motions stand out of the planes: the judge allows a
+/// little more.
+const ALLOWED_R: f64 = 1.0 + 4e-4;
+/// Least share of the feed to plan with.
+const LEAST_FEED_R: f64 = 0.995;
 
 /// The best motion so far.
 #[derive(Debug)]
@@ -31,9 +38,23 @@ pub(super) struct Walk<const D: usize> {
     pub(super) is_exceeding: bool,
     /// Mean progress in the last round.
     pub(super) mean: f64,
+    /// Largest speed over the feed in the last solution.
+    pub(super) speed_r: f64,
+    /// Share of the feed to plan with in rounds in which samples stay where they are.
+    pub(super) feed_r: f64,
 }
 
 impl<const D: usize> Walk<D> {
+    /// Takes note of how far the last solution stands out of the planes that bound the feed, which it was
+    /// planned with a share of: the next one is expected to stand out as far.
+    ///
+    /// On curves velocities turn from round to round, and planes that touch the feed where the last
+    /// ones were come a little late for the next.
+    pub(super) fn learn_feed(&mut self, planned_r: f64) {
+        let excess_r = self.speed_r / planned_r;
+        self.feed_r = (ALLOWED_R / excess_r).clamp(LEAST_FEED_R, FEED_R);
+    }
+
     /// True if progress hardly changes any more.
     pub(super) fn has_settled(&self, mean: f64, start: f64) -> bool {
         (mean - self.mean).abs() < LITTLE_GAIN * (mean - start)

@@ -33,8 +33,8 @@ pub(super) const CLOSE_R: f64 = 0.85;
 const MOST_SAGITTA_R: f64 = 0.5;
 /// Most corners between two samples that get rows.
 const MOST_CORNERS: usize = 4;
-/// Share of the feed that is planned with.
-const FEED_R: f64 = 0.999_95;
+/// Share of the feed that is planned with at most.
+pub(super) const FEED_R: f64 = 0.999_95;
 /// How the rows are to be made.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Style {
@@ -46,6 +46,8 @@ pub(super) struct Style {
     pub(super) passed: usize,
     /// The feed is not exceeded to be in time on a piece.
     pub(super) is_feed_firm: bool,
+    /// Share of the feed that is planned with.
+    pub(super) feed_r: f64,
     /// Part of the radius that is used: the rest is left to rounding, and to iterates that come and go.
     pub(super) keep_r: f64,
     /// Pull towards the middle of the tube, so that a motion at rest has a place there.
@@ -287,14 +289,14 @@ fn add_feeds<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
         problem.add_site(k, [-1.0, 1.0, 0.0, 0.0, 0.0]);
         let normal = scene.chords[middle].feed.map(|f| f * factor / h);
         let low = if bends_here { -FAR } else { 0.0 };
-        problem.add_feed_row(normal, [low, FEED_R], style.is_feed_firm);
+        problem.add_feed_row(normal, [low, style.feed_r], style.is_feed_firm);
         // The feed bounds a ball of velocities: a plane touches it where the last motion was, and
         // more where earlier ones were beyond it.
         let (size, direction) = velocity_over_feed(points, &slowest, k, grid);
         let last = Some(direction).filter(|_| size > 0.2 && size <= WORTH_OF_FEED);
         for direction in last.iter().chain(cuts.of_feed(k)) {
             let normal = core::array::from_fn(|a| direction[a] * slowest[a] / h);
-            problem.add_feed_row(normal, [-FAR, FEED_R], style.is_feed_firm);
+            problem.add_feed_row(normal, [-FAR, style.feed_r], style.is_feed_firm);
         }
     }
 }

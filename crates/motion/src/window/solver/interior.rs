@@ -22,6 +22,8 @@ use super::sides::Sides;
 const BACK_OFF: f64 = 0.99;
 /// Largest residual of the rows of a solution.
 const RESIDUAL: f64 = 1e-7;
+/// The same where rounding allows no less: bounds are kept a little further away from the limits.
+const SPENT_RESIDUAL: f64 = 1e-6;
 
 /// Multiplications and divisions for a row, its two sides and both directions.
 const ROW_WORK: usize = 80;
@@ -78,14 +80,20 @@ impl<const D: usize> Interior<D> {
         self.evaluate(problem, x);
         self.sides.start();
         let work = self.work_of_iteration(problem);
+        let mut last_residual = f64::INFINITY;
         for _ in 0..goal.iterations {
             let (mu, residual) = self.sides.state(pairs);
             if mu < goal.mu && residual < RESIDUAL {
                 return true;
             }
+            // Near the goal, a residual that rises is rounding's: more iterations only add to it.
+            if mu < goal.mu && residual > last_residual {
+                return residual < SPENT_RESIDUAL;
+            }
             if !(mu.is_finite() && residual.is_finite()) {
                 return false;
             }
+            last_residual = residual;
             self.work += work;
             self.sides.aim_at_zero();
             self.sides.weigh();
