@@ -1,7 +1,9 @@
 //! The period grid: what every frame has besides the state of the axes.
 //!
 //! Frames are numbered without gaps. Events are told one a frame, in order, at the place where they
-//! happen or as soon after it as there is a frame; a rest lasts until all of them are told. Engines
+//! happen or as soon after it as there is a frame; a rest lasts until all of them are told. Where the
+//! motion comes to rest, one frame still belongs to the block that led there: who stops at the end of
+//! every block stops there by the plan itself, and what the next block tells has not been told. Engines
 //! say what they pass and where they rest; the frames are made here, so that they tell the same
 //! story whoever planned them.
 
@@ -19,6 +21,8 @@ pub(crate) struct FrameGrid {
     events: VecDeque<Event>,
     /// Frames still to come at rest.
     rest: Option<Resting>,
+    /// The motion has come to rest, and no frame has told it yet.
+    arrives: bool,
     /// Where the machine rests, or was at rest last.
     position: AxisVector,
     path_s: f64,
@@ -55,6 +59,8 @@ pub(crate) struct Moving {
 #[derive(Debug, Clone, Copy)]
 struct Resting {
     frames: u64,
+    /// How many of them still belong to the motion before.
+    of_motion: u64,
     flags: FrameFlags,
     event: Option<Event>,
     line: u32,
@@ -65,6 +71,7 @@ impl FrameGrid {
     pub(crate) const fn new(period_t: f64, start: AxisVector) -> Self {
         let first = Resting {
             frames: 1,
+            of_motion: 0,
             flags: FrameFlags::FIRST,
             event: None,
             line: 0,
@@ -75,6 +82,7 @@ impl FrameGrid {
             passing: Passing::NONE,
             events: VecDeque::new(),
             rest: Some(first),
+            arrives: false,
             position: start,
             path_s: 0.0,
         }
@@ -100,6 +108,7 @@ impl FrameGrid {
     pub(crate) const fn relay(&mut self, frame: Frame) -> Frame {
         self.passing.line = frame.line;
         self.passing.planned_override = frame.planned_override;
+        self.arrives = false;
         let sequence = self.sequence;
         self.sequence += 1;
         Frame { sequence, ..frame }
@@ -109,12 +118,17 @@ impl FrameGrid {
     pub(crate) const fn leave(&mut self, position: AxisVector, path_s: f64) {
         self.position = position;
         self.path_s = path_s;
+        self.arrives = true;
     }
 
     /// Sets up the frames of a rest; false if it has none.
     pub(crate) fn enter_rest(&mut self, rest: Rest) -> bool {
+        // Events of the motion that still wait happen first, from its end on.
+        let waiting = self.events.len() as u64;
+        let of_motion = waiting.max(u64::from(self.arrives));
         let resting = |frames, flags, event| Resting {
             frames,
+            of_motion,
             flags,
             event,
             line: rest.line,
@@ -122,17 +136,19 @@ impl FrameGrid {
         let at_rest = FrameFlags::EXACT_STOP;
         let resting = match rest.kind {
             RestKind::Corner => return false,
-            RestKind::ExactStop => resting(1, at_rest, None),
-            RestKind::Dwell(dwell_t) => resting(1 + self.periods(dwell_t), FrameFlags::DWELL, None),
-            RestKind::Event(event @ (Event::ProgramStop(_) | Event::OptionalStop)) => {
-                resting(1, at_rest.with(FrameFlags::PROGRAM_STOP), Some(event))
+            RestKind::ExactStop => resting(1 + waiting, at_rest, None),
+            RestKind::Dwell(dwell_t) => {
+                let frames = 1 + waiting + self.periods(dwell_t);
+                resting(frames, FrameFlags::DWELL, None)
             }
-            RestKind::Event(event) => resting(1, at_rest, Some(event)),
-            RestKind::End => resting(1, FrameFlags::LAST, None),
+            RestKind::Event(event @ (Event::ProgramStop(_) | Event::OptionalStop)) => {
+                let flags = at_rest.with(FrameFlags::PROGRAM_STOP);
+                resting(1 + of_motion, flags, Some(event))
+            }
+            RestKind::Event(event) => resting(1 + of_motion, at_rest, Some(event)),
+            RestKind::End => resting(1 + waiting, FrameFlags::LAST, None),
         };
-        // Events of the motion that still wait happen first.
-        let frames = resting.frames + self.events.len() as u64;
-        self.rest = Some(Resting { frames, ..resting });
+        self.rest = Some(resting);
         true
     }
 
@@ -154,18 +170,21 @@ impl FrameGrid {
             return None;
         }
         resting.frames -= 1;
+        let is_of_motion = resting.of_motion > 0;
+        resting.of_motion = resting.of_motion.saturating_sub(1);
         let resting = *resting;
+        self.arrives = false;
         let last = resting.frames == 0;
         let queued = self.events.pop_front();
         let event = queued.or(if last { resting.event } else { None });
         // The end and the wait for the operator come when nothing is left to happen before them.
         let is_final = FrameFlags::PROGRAM_STOP.with(FrameFlags::LAST).0;
-        let flags = if queued.is_some() && resting.flags.0 & is_final != 0 {
+        let flags = if !last && resting.flags.0 & is_final != 0 {
             FrameFlags::EXACT_STOP
         } else {
             resting.flags
         };
-        if resting.line > 0 {
+        if resting.line > 0 && !is_of_motion {
             self.passing.line = resting.line;
         }
         let at_rest = Moving {
@@ -185,6 +204,7 @@ impl FrameGrid {
         } else {
             FrameFlags::default()
         };
+        self.arrives = false;
         let event = self.events.pop_front();
         self.frame(moving, flags, event)
     }

@@ -258,6 +258,11 @@ fn check_events(settings: Settings) {
         .filter(|f| f.flags.contains(FrameFlags::PROGRAM_STOP))
         .count();
     assert_eq!(stop, 1, "one frame asks for the operator");
+    for (line, end) in [(5, 20.0_f64), (8, 30.0)] {
+        let arrives = frames.iter().find(|f| f.line == line && f.path_v <= 0.0);
+        let arrives = arrives.map(|f| (f.position[0].to_bits(), f.event));
+        assert_eq!(arrives, Some((end.to_bits(), None)), "it ends at rest");
+    }
     let dwell = frames
         .iter()
         .filter(|f| f.flags.contains(FrameFlags::DWELL))
