@@ -260,8 +260,8 @@ impl Rate {
                 continue;
             };
             if self.rate <= 0.0 && self.barred >= CANDIDATES.len() {
-                // Nothing gets away from here that rests at the end of the block.
-                (self.has_missed, self.barred) = (true, 0);
+                // Nothing gets away from here that rests at the end of the block, where the plan moves.
+                (self.has_missed, self.barred) = (scene.block_end.is_some(), 0);
             }
             self.barred += 1;
             if !self.is_better(part, pace, goal, heading) {

@@ -1,11 +1,13 @@
 //! Single block, stop at the end of the block, steps.
 
-use super::planned::program;
+use super::planned::{planned, program};
 use super::*;
-use glidepath_motion::Effort;
+use glidepath_geometry::{Arc, Plane, Segment};
+use glidepath_motion::{Effort, Item, ItemKind, PathMode, Rate as Speed};
 
-/// Plays a program in single-block mode, going on by `order` wherever it stands; returns where.
-fn stands(rig: &mut Rig, order: Order) -> Vec<u64> {
+/// Plays a program in single-block mode, going on by `order` wherever it has stood for some ticks;
+/// returns where.
+fn stands(rig: &mut Rig, order: Order, waits: u64) -> Vec<u64> {
     let mut stands = vec![];
     for _ in 0..60_000 {
         rig.publish_horizon();
@@ -15,6 +17,7 @@ fn stands(rig: &mut Rig, order: Order) -> Vec<u64> {
                 let place = setpoint.sequence;
                 if stands.last() != Some(&place) {
                     stands.push(place);
+                    play(rig, waits);
                     rig.order(order);
                 }
             }
@@ -81,12 +84,58 @@ fn single_block_rests_at_the_end_of_every_block() {
         for order in [Order::Resume, Order::Step] {
             let mut rig = Rig::playing(&frames);
             rig.order(Order::SingleBlock(true));
-            let stands = stands(&mut rig, order);
+            let stands = stands(&mut rig, order, 0);
             assert_eq!(stands, ends(&frames), "seed {seed}");
             assert_bits(&rig, &frames, &stands);
             let ratio = rig.worst_ratio();
             assert!(ratio <= INSIDE, "seed {seed}: {ratio}");
             assert_eq!(rig.last.unwrap().end_of_epoch, EndOfEpoch::Completed);
+        }
+    }
+}
+
+/// Lines that an arc leads from one to the other, and a dwell behind them, planned in windows.
+#[test]
+fn single_block_rests_where_the_plan_rests() {
+    let at = |x, y, z| {
+        let mut at = AxisVector::zeros();
+        (at[0], at[1], at[2]) = (x, y, z);
+        at
+    };
+    let arc = Arc {
+        start: at(40.0, 10.0, 1.0),
+        end: at(50.0, 20.0, 1.0),
+        plane: Plane::Xy,
+        center: [40.0, 20.0],
+        sweep_rad: core::f64::consts::FRAC_PI_2,
+    };
+    let along = |segment, rate| ItemKind::Move {
+        segment,
+        rate,
+        mode: PathMode::Continuous { tolerance_mm: None },
+    };
+    let (feed, corner) = (Speed::Feed(100.0), at(50.0, 40.0, 0.0));
+    let kinds = [
+        along(
+            Segment::line(at(0.0, 0.0, 0.0), at(10.0, 10.0, 1.0)),
+            Speed::Rapid,
+        ),
+        along(Segment::line(at(10.0, 10.0, 1.0), arc.start), feed),
+        along(Segment::Arc(arc), feed),
+        along(Segment::line(arc.end, corner), feed),
+        ItemKind::Dwell(0.05),
+        along(Segment::line(corner, at(30.0, 35.0, 0.0)), feed),
+    ];
+    let items = (1..).zip(kinds).map(|(line, kind)| Item { line, kind });
+    let items: Vec<_> = items.collect();
+    for effort in [Effort::Fast, Effort::Optimal] {
+        let frames = planned(&items, effort);
+        for order in [Order::Resume, Order::Step] {
+            let mut rig = Rig::playing(&frames);
+            rig.order(Order::SingleBlock(true));
+            let stands = stands(&mut rig, order, 100);
+            assert_eq!(stands, ends(&frames), "{effort:?}");
+            assert_bits(&rig, &frames, &stands);
         }
     }
 }

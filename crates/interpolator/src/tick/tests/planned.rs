@@ -9,15 +9,8 @@ use glidepath_motion::{
 
 /// Frames of a random program of up to three axes.
 pub(super) fn program(seed: u64, moves: usize, effort: Effort) -> Vec<SetpointFrame> {
-    let settings = Settings {
-        limits: mill(),
-        tolerance_mm: 0.02,
-        smoothing: Smoothing::Auto,
-        period_t: 0.004,
-        effort,
-    };
     let mut numbers = Numbers::new(seed);
-    let mut planner = Planner::new(settings, AxisVector::zeros());
+    let mut items = Vec::new();
     let (mut at, mut heading) = (AxisVector::zeros(), 0.0_f64);
     for line in 1..=moves {
         // Long moves between runs of short chords that turn a little each.
@@ -47,13 +40,27 @@ pub(super) fn program(seed: u64, moves: usize, effort: Effort) -> Vec<SetpointFr
             rate,
             mode,
         };
-        planner
-            .push(&Item {
-                line: line as u32,
-                kind,
-            })
-            .unwrap();
+        items.push(Item {
+            line: line as u32,
+            kind,
+        });
         at = to;
+    }
+    planned(&items, effort)
+}
+
+/// Frames of a program.
+pub(super) fn planned(items: &[Item], effort: Effort) -> Vec<SetpointFrame> {
+    let settings = Settings {
+        limits: mill(),
+        tolerance_mm: 0.02,
+        smoothing: Smoothing::Auto,
+        period_t: 0.004,
+        effort,
+    };
+    let mut planner = Planner::new(settings, AxisVector::zeros());
+    for item in items {
+        planner.push(item).unwrap();
     }
     planner.finish();
     let frames: Vec<_> = std::iter::from_fn(|| planner.pop_frame().ok().flatten()).collect();
