@@ -1,6 +1,6 @@
 //! Circular arcs and helices in one of the coordinate planes.
 
-use crate::{Axis, AxisVector, Jet};
+use crate::{Axis, AxisVector};
 
 /// The plane of an arc: two axes, the first turning towards the second for a positive sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,55 +98,6 @@ impl Arc {
         let normal = self.plane.normal().index();
         let rise = self.end[normal] - self.start[normal];
         (radius * self.sweep_rad).hypot(rise)
-    }
-
-    /// Position and derivatives at path position `s`.
-    ///
-    /// For a radius that changes, `s` is proportional to the swept angle and differs from the true
-    /// arc length by the relative size of that change.
-    #[must_use]
-    pub fn jet(&self, s: f64) -> Jet {
-        let length = self.length();
-        let fraction = if length > 0.0 { s / length } else { 0.0 };
-        let (first, second) = self.plane.axes();
-        let (first, second) = (first.index(), second.index());
-        let per_s = if length > 0.0 { 1.0 / length } else { 0.0 };
-
-        let displacement = self.end - self.start;
-        let mut position = self.start + displacement * fraction;
-        let mut d1 = displacement * per_s;
-        let mut d2 = AxisVector::zeros();
-        let mut d3 = AxisVector::zeros();
-
-        let (radius_0, radius_1) = (self.start_radius(), self.end_radius());
-        let radius = radius_0 + (radius_1 - radius_0) * fraction;
-        let radius_d1 = (radius_1 - radius_0) * per_s;
-        let omega = self.sweep_rad * per_s;
-        let (sin, cos) = (self.start_angle_rad() + self.sweep_rad * fraction).sin_cos();
-
-        // r·e(φ): e' = ω n, e'' = −ω² e, e''' = −ω³ n, with r' constant.
-        position[first] = self.center[0] + radius * cos;
-        position[second] = self.center[1] + radius * sin;
-        d1[first] = radius_d1 * cos - radius * omega * sin;
-        d1[second] = radius_d1 * sin + radius * omega * cos;
-        let (along, across) = (-radius * omega * omega, 2.0 * radius_d1 * omega);
-        d2[first] = along * cos - across * sin;
-        d2[second] = along * sin + across * cos;
-        let (along, across) = (
-            -3.0 * radius_d1 * omega * omega,
-            -radius * omega * omega * omega,
-        );
-        d3[first] = along * cos - across * sin;
-        d3[second] = along * sin + across * cos;
-        if fraction >= 1.0 {
-            position = self.end + (displacement * (fraction - 1.0));
-        }
-        Jet {
-            position,
-            d1,
-            d2,
-            d3,
-        }
     }
 
     /// Smallest and largest coordinate of the arc on every axis, bulges included.

@@ -30,6 +30,69 @@ pub struct Cubic {
     length: f64,
 }
 
+/// A place on a span: derivatives by its parameter there.
+struct Place {
+    u: f64,
+    steps: [AxisVector; 3],
+    c1: AxisVector,
+    c2: AxisVector,
+    w: f64,
+    w1: f64,
+    root: f64,
+}
+
+impl Place {
+    #[inline]
+    fn new(span: &Cubic, u: f64) -> Self {
+        let v = 1.0 - u;
+        let steps: [AxisVector; 3] = bernstein::differences(&span.control);
+        let [e0, e1, e2] = &steps;
+        let c1 = (e0 * (v * v) + e1 * (2.0 * u * v) + e2 * (u * u)) * 3.0;
+        let c2 = ((e1 - e0) * v + (e2 - e1) * u) * 6.0;
+        let w = span.dot(&c1, &c1);
+        let w1 = 2.0 * span.dot(&c1, &c2);
+        let root = w.sqrt();
+        Self {
+            u,
+            steps,
+            c1,
+            c2,
+            w,
+            w1,
+            root,
+        }
+    }
+
+    #[inline]
+    fn position(&self, span: &Cubic) -> AxisVector {
+        let (u, v) = (self.u, 1.0 - self.u);
+        let [_, b1, b2, b3] = &span.control;
+        // From the nearer end, so that neighbouring spans meet exactly.
+        if u <= 0.5 {
+            let offset = b1 * (3.0 * v * v) + b2 * (3.0 * v * u) + b3 * (u * u);
+            span.origin + offset * u
+        } else {
+            let back = (b3 - b2) * (3.0 * u * u) + (b3 - b1) * (3.0 * u * v) + b3 * (v * v);
+            span.origin + b3 - back * v
+        }
+    }
+
+    #[inline]
+    fn d1(&self) -> AxisVector {
+        self.c1 / self.root
+    }
+
+    #[inline]
+    fn p(&self) -> AxisVector {
+        self.c2 * self.w - self.c1 * (0.5 * self.w1)
+    }
+
+    #[inline]
+    fn d2(&self) -> AxisVector {
+        self.p() / (self.w * self.w)
+    }
+}
+
 /// The slowest a span may be along its mean direction, as a share of the mean speed by its
 /// parameter. Slower ones come near a cusp, where path position is no good parameter.
 const SLOWEST_R: f64 = 0.1;
@@ -123,32 +186,28 @@ impl Cubic {
     /// Position and derivatives at path position `s`, which is clamped to the span. Never allocates.
     #[must_use]
     pub fn jet(&self, s: f64) -> Jet {
-        let u = self.parameter_at(s);
-        let v = 1.0 - u;
-        let [_, b1, b2, b3] = self.control;
-        let [e0, e1, e2]: [AxisVector; 3] = bernstein::differences(&self.control);
-        // From the nearer end, so that neighbouring spans meet exactly.
-        let position = if u <= 0.5 {
-            let offset = b1 * (3.0 * v * v) + b2 * (3.0 * v * u) + b3 * (u * u);
-            self.origin + offset * u
-        } else {
-            let back = (b3 - b2) * (3.0 * u * u) + (b3 - b1) * (3.0 * u * v) + b3 * (v * v);
-            self.origin + b3 - back * v
-        };
-        let c1 = (e0 * (v * v) + e1 * (2.0 * u * v) + e2 * (u * u)) * 3.0;
-        let c2 = ((e1 - e0) * v + (e2 - e1) * u) * 6.0;
+        let at = Place::new(self, self.parameter_at(s));
+        let [e0, e1, e2] = at.steps;
         let c3 = (e2 - e1 * 2.0 + e0) * 6.0;
-        let w = self.dot(&c1, &c1);
-        let w1 = 2.0 * self.dot(&c1, &c2);
-        let w2 = 2.0 * (self.dot(&c2, &c2) + self.dot(&c1, &c3));
-        let root = w.sqrt();
-        let p = c2 * w - c1 * (0.5 * w1);
-        let p1 = c3 * w + c2 * (0.5 * w1) - c1 * (0.5 * w2);
+        let w2 = 2.0 * (self.dot(&at.c2, &at.c2) + self.dot(&at.c1, &c3));
+        let p1 = c3 * at.w + at.c2 * (0.5 * at.w1) - at.c1 * (0.5 * w2);
         Jet {
-            position,
-            d1: c1 / root,
-            d2: p / (w * w),
-            d3: (p1 * w - p * (2.0 * w1)) / (w * w * w * root),
+            position: at.position(self),
+            d1: at.d1(),
+            d2: at.d2(),
+            d3: (p1 * at.w - at.p() * (2.0 * at.w1)) / (at.w * at.w * at.w * at.root),
+        }
+    }
+
+    /// As [`Cubic::jet`], without the third derivative, which is zero instead.
+    #[must_use]
+    pub fn state(&self, s: f64) -> Jet {
+        let at = Place::new(self, self.parameter_at(s));
+        Jet {
+            position: at.position(self),
+            d1: at.d1(),
+            d2: at.d2(),
+            d3: AxisVector::zeros(),
         }
     }
 

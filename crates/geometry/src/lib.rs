@@ -16,6 +16,7 @@ mod bernstein;
 mod cubic;
 pub mod number;
 mod nurbs;
+mod prepared;
 mod quadrature;
 mod quintic;
 mod segment;
@@ -26,6 +27,7 @@ pub use arc::{Arc, Plane};
 pub use axis::{AXES, Axis, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 pub use cubic::Cubic;
 pub use nurbs::{MAX_DEGREE, Nurbs, NurbsError, NurbsJet, NurbsPath, Span, SpanCurvature};
+pub use prepared::{Prepared, PreparedArc, PreparedLine};
 pub use quintic::Quintic;
 pub use segment::{Jet, Line, Segment, feed_length};
 pub use transition::{

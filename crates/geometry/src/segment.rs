@@ -49,13 +49,18 @@ pub(crate) const ROUNDING_MM: f64 = 1e-7;
 /// A group whose motion is only rounding (below 1e-7) counts as not moving, unless no group moves
 /// more: then the longest decides, so the result is zero only for a zero displacement.
 #[must_use]
+#[inline]
 pub fn feed_length(displacement: &AxisVector) -> f64 {
-    let lengths = [LINEAR_XYZ, UVW, ROTARY_ABC].map(|group| {
-        group
-            .map(|i| displacement[i] * displacement[i])
-            .sum::<f64>()
-            .sqrt()
-    });
+    let length = |group: core::ops::Range<usize>| {
+        let squares = group.map(|i| displacement[i] * displacement[i]);
+        squares.sum::<f64>().sqrt()
+    };
+    let linear = length(LINEAR_XYZ);
+    // Nearly every move is one of XYZ.
+    if linear > ROUNDING_MM {
+        return linear;
+    }
+    let lengths = [linear, length(UVW), length(ROTARY_ABC)];
     let longest = lengths.into_iter().fold(0.0, f64::max);
     lengths
         .into_iter()
@@ -113,7 +118,7 @@ impl Segment {
     #[must_use]
     pub fn jet(&self, s: f64) -> Jet {
         match self {
-            Self::Line(line) => line.jet(s),
+            Self::Line(line) => line.prepared().jet(s),
             Self::Arc(arc) => arc.jet(s),
             Self::Curve(curve) => curve.jet(s),
         }
@@ -135,35 +140,6 @@ impl Segment {
             Self::Line(line) => (line.start.inf(&line.end), line.start.sup(&line.end)),
             Self::Arc(arc) => arc.bounding_box(),
             Self::Curve(curve) => curve.bounding_box(),
-        }
-    }
-}
-
-impl Line {
-    fn jet(&self, s: f64) -> Jet {
-        let displacement = self.displacement();
-        let length = feed_length(&displacement);
-        let zero = AxisVector::zeros();
-        if length <= 0.0 {
-            return Jet {
-                position: self.start,
-                d1: zero,
-                d2: zero,
-                d3: zero,
-            };
-        }
-        // From the nearer end, so that both ends are met exactly.
-        let fraction = s / length;
-        let position = if fraction <= 0.5 {
-            self.start + displacement * fraction
-        } else {
-            self.end - displacement * ((length - s) / length)
-        };
-        Jet {
-            position,
-            d1: displacement / length,
-            d2: zero,
-            d3: zero,
         }
     }
 }

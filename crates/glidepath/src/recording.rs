@@ -53,6 +53,12 @@ impl Recording {
         Ok(Self { csv, plot })
     }
 
+    /// Whether anything is kept.
+    #[must_use]
+    pub const fn is_wanted(&self) -> bool {
+        self.csv.is_some() || self.plot.is_some()
+    }
+
     /// Takes the next sample.
     ///
     /// # Errors

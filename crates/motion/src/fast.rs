@@ -73,19 +73,28 @@ impl FastEngine {
 
     /// The next frame; see [`crate::Planner::pop_frame`].
     pub(crate) fn pop_frame(&mut self) -> Result<Option<Frame>, PlanError> {
+        let mut frame = Frame::blank(AxisVector::zeros());
+        Ok(self.make_frame(&mut frame)?.then_some(frame))
+    }
+
+    /// The next frame, in `frame`; see [`crate::Planner::make_frame`].
+    pub(crate) fn make_frame(&mut self, frame: &mut Frame) -> Result<bool, PlanError> {
         loop {
             let was_planned = self.plan_anew();
-            match self.sampler.next_frame(&mut self.settled, !was_planned) {
-                Step::Frame(frame) => return Ok(Some(frame)),
+            match self
+                .sampler
+                .next_frame(&mut self.settled, !was_planned, frame)
+            {
+                Step::Frame => return Ok(true),
                 Step::Junction => {}
-                Step::End => return Ok(None),
+                Step::End => return Ok(false),
                 Step::Broken { line } => return Err(PlanError::NoMotion { line }),
             }
             // At a junction. If the override cannot be had from here, go on to the next one.
             if !self.plan_anew() {
-                match self.sampler.next_frame(&mut self.settled, false) {
-                    Step::Frame(frame) => return Ok(Some(frame)),
-                    Step::Junction | Step::End => return Ok(None),
+                match self.sampler.next_frame(&mut self.settled, false, frame) {
+                    Step::Frame => return Ok(true),
+                    Step::Junction | Step::End => return Ok(false),
                     Step::Broken { line } => return Err(PlanError::NoMotion { line }),
                 }
             }

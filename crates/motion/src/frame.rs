@@ -58,3 +58,22 @@ pub struct Frame {
     /// Acceleration, mm/s² or °/s².
     pub acceleration: AxisVector,
 }
+
+impl Frame {
+    /// A place for a frame to be written to: at rest somewhere.
+    pub(crate) fn blank(position: AxisVector) -> Self {
+        let zero = AxisVector::zeros();
+        Self {
+            sequence: 0,
+            line: 0,
+            flags: FrameFlags::default(),
+            event: None,
+            planned_override: 1.0,
+            path_v: 0.0,
+            path_s: 0.0,
+            position,
+            velocity: zero,
+            acceleration: zero,
+        }
+    }
+}

@@ -47,6 +47,8 @@ use glidepath_geometry::AxisVector;
 pub struct Planner {
     engine: Engine,
     guard: Guard,
+    /// The frame made last.
+    frame: Frame,
     /// Why there are no more frames.
     failed: Option<PlanError>,
 }
@@ -76,6 +78,7 @@ impl Planner {
         Self {
             engine: Engine::new(settings, start),
             guard: Guard::new(&settings),
+            frame: Frame::blank(start),
             failed: None,
         }
     }
@@ -112,21 +115,45 @@ impl Planner {
     /// within the limits. No more frames follow, and every call gives the same error. Whoever plays
     /// the frames must then stop on those it has.
     pub fn pop_frame(&mut self) -> Result<Option<Frame>, PlanError> {
+        Ok(self.make_frame()?.then_some(self.frame))
+    }
+
+    /// As [`Planner::pop_frame`], but the frame stays where [`Planner::frame`] shows it: a frame is
+    /// large, and making one costs little more than copying it. False if there is none.
+    ///
+    /// # Errors
+    /// As [`Planner::pop_frame`].
+    pub fn make_frame(&mut self) -> Result<bool, PlanError> {
         if let Some(error) = self.failed {
             return Err(error);
         }
-        let taken = match &mut self.engine {
-            Engine::Fast(engine) => engine.pop_frame(),
-            Engine::Optimal(engine) => engine.pop_frame(),
+        let made = match &mut self.engine {
+            Engine::Fast(engine) => engine.make_frame(&mut self.frame),
+            Engine::Optimal(engine) => engine.pop_frame().map(|frame| {
+                let is_made = frame.is_some();
+                self.frame = frame.unwrap_or(self.frame);
+                is_made
+            }),
         };
-        let taken = taken.and_then(|frame| {
-            if let Some(frame) = &frame {
-                self.guard.check(frame)?;
+        let made = made.and_then(|is_made| {
+            if is_made {
+                self.guard.check(&self.frame)?;
             }
-            Ok(frame)
+            Ok(is_made)
         });
-        self.failed = taken.as_ref().err().copied();
-        taken
+        self.failed = made.err();
+        made
+    }
+
+    /// [`Planner::frame`], for who completes it: numbers its line and path position by others.
+    pub const fn frame_mut(&mut self) -> &mut Frame {
+        &mut self.frame
+    }
+
+    /// The frame that was made last; before the first one at rest at the start.
+    #[must_use]
+    pub const fn frame(&self) -> &Frame {
+        &self.frame
     }
 
     /// Plans what no frame was taken of with another override: rates times their override, limits

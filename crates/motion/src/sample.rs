@@ -7,11 +7,11 @@
 use crate::Frame;
 use crate::grid::{FrameGrid, Moving, Passing};
 use crate::law::Law;
-use crate::piece::Piece;
+use crate::piece::{Piece, Shape};
 use crate::schedule::Settled;
 use crate::scurve::PathState;
 use crate::valley::Leg;
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AxisVector, Prepared};
 use std::collections::VecDeque;
 
 /// Makes frames of settled motion, one at a time.
@@ -30,17 +30,15 @@ pub(crate) struct Sampler {
 
 /// What comes next.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[allow(clippy::large_enum_variant, reason = "nearly every step is a frame")]
 pub(crate) enum Step {
-    Frame(Frame),
+    /// A frame was made.
+    Frame,
     /// The next stretch; only if asked to stop there.
     Junction,
     /// Nothing more is settled.
     End,
     /// The motion settled for the path that begins at a line does not lead to its end.
-    Broken {
-        line: u32,
-    },
+    Broken { line: u32 },
 }
 
 #[derive(Debug)]
@@ -53,6 +51,8 @@ struct Stretch {
     piece: usize,
     /// Where the piece at hand starts.
     piece_s: f64,
+    /// The segment of the piece at hand, from its first frame on.
+    prepared: Option<Prepared>,
     /// Frames made since the leg at hand started.
     frames: u32,
 }
@@ -81,15 +81,22 @@ impl Sampler {
         }
     }
 
-    /// The next frame, as far as the motion is settled. With `pause`, stops at the next junction.
-    pub(crate) fn next_frame(&mut self, settled: &mut VecDeque<Settled>, pause: bool) -> Step {
+    /// The next frame, in `frame`, as far as the motion is settled. With `pause`, stops at the next
+    /// junction.
+    pub(crate) fn next_frame(
+        &mut self,
+        settled: &mut VecDeque<Settled>,
+        pause: bool,
+        frame: &mut Frame,
+    ) -> Step {
         loop {
-            if let Some(frame) = self.grid.rest_frame() {
-                return Step::Frame(frame);
+            if let Some(at_rest) = self.grid.rest_frame() {
+                *frame = at_rest;
+                return Step::Frame;
             }
             if self.stretch.is_some() {
-                if let Some(frame) = self.motion_frame() {
-                    return Step::Frame(frame);
+                if self.motion_frame(frame).is_some() {
+                    return Step::Frame;
                 }
                 self.stretch = None;
                 if pause {
@@ -158,21 +165,22 @@ impl Sampler {
             leg: 0,
             piece: 0,
             piece_s: 0.0,
+            prepared: None,
             frames: 0,
         });
         self.enter_piece();
     }
 
     /// The next frame of the stretch, or `None` after setting up for the next one.
-    fn motion_frame(&mut self) -> Option<Frame> {
+    fn motion_frame(&mut self, frame: &mut Frame) -> Option<()> {
         loop {
             let stretch = self.stretch.as_ref()?;
             let t = self.first_frame_t + f64::from(stretch.frames) * self.period_t;
-            let leg = stretch.legs.get(stretch.leg).copied();
-            let duration_t = match (&stretch.law, &leg) {
+            let duration_t = match (&stretch.law, stretch.legs.get(stretch.leg)) {
                 (Some(law), _) if stretch.leg == 0 => {
                     if t < law.duration_t() {
-                        return self.frame_at(law.at(t));
+                        let state = law.at(t);
+                        return self.frame_at(state, frame);
                     }
                     law.duration_t()
                 }
@@ -180,7 +188,7 @@ impl Sampler {
                     if t < leg.profile.duration_t() {
                         let mut state = leg.profile.at(t);
                         state.position_s += leg.from_s;
-                        return self.frame_at(state);
+                        return self.frame_at(state, frame);
                     }
                     leg.profile.duration_t()
                 }
@@ -197,7 +205,7 @@ impl Sampler {
         }
     }
 
-    fn frame_at(&mut self, state: PathState) -> Option<Frame> {
+    fn frame_at(&mut self, state: PathState, frame: &mut Frame) -> Option<()> {
         let s = state.position_s;
         loop {
             let stretch = self.stretch.as_ref()?;
@@ -211,20 +219,29 @@ impl Sampler {
         let stretch = self.stretch.as_mut()?;
         stretch.frames += 1;
         let piece = stretch.pieces.get(stretch.piece)?;
-        let jet = piece.jet(s - stretch.piece_s);
+        let piece_s = s - stretch.piece_s;
+        let jet = match (&piece.shape, &mut stretch.prepared) {
+            (Shape::Segment(_), Some(prepared)) => prepared.jet(piece.from_s + piece_s),
+            (Shape::Segment(segment), none) => {
+                none.insert(segment.prepared()).jet(piece.from_s + piece_s)
+            }
+            (Shape::Spline(span), _) => span.state(piece.from_s + piece_s),
+            (Shape::Transition(_), _) => piece.jet(piece_s),
+        };
         let (v, a) = (state.speed_v, state.accel_a);
         self.grid.pass(Passing {
-            line: piece.line_at(s - stretch.piece_s),
+            line: piece.line_at(piece_s),
             rapid: piece.rapid,
             planned_override: piece.planned_override(),
         });
-        Some(self.grid.motion_frame(&Moving {
+        *frame = self.grid.motion_frame(&Moving {
             path_v: v,
-            path_s: self.path_s + (s - stretch.piece_s),
+            path_s: self.path_s + piece_s,
             position: jet.position,
             velocity: jet.d1 * v,
             acceleration: jet.d2 * (v * v) + jet.d1 * a,
-        }))
+        });
+        Some(())
     }
 
     /// Goes on to the next piece of the stretch.
@@ -234,6 +251,7 @@ impl Sampler {
         {
             stretch.piece_s += piece.length_s;
             stretch.piece += 1;
+            stretch.prepared = None;
             self.path_s += piece.length_s;
         }
         self.enter_piece();
@@ -295,7 +313,6 @@ fn is_whole(pieces: &[Piece], driven_s: f64) -> bool {
 mod tests {
     use super::*;
     use crate::override_::{Override, ProgrammedRate};
-    use crate::piece::Shape;
     use crate::speed_limit::SpeedRule;
     use crate::{Limits, Rate};
     use glidepath_geometry::Segment;
@@ -328,14 +345,9 @@ mod tests {
             pieces: vec![piece],
             legs: Vec::new(),
         }]);
-        let mut sampler = Sampler::new(0.004, start);
-        assert!(matches!(
-            sampler.next_frame(&mut settled, false),
-            Step::Frame(_)
-        ));
-        assert_eq!(
-            sampler.next_frame(&mut settled, false),
-            Step::Broken { line: 17 }
-        );
+        let (mut sampler, mut frame) = (Sampler::new(0.004, start), Frame::blank(start));
+        let mut next = || sampler.next_frame(&mut settled, false, &mut frame);
+        assert_eq!(next(), Step::Frame);
+        assert_eq!(next(), Step::Broken { line: 17 });
     }
 }

@@ -39,7 +39,7 @@ pub use feed::{Fed, FeedError, feed};
 pub use file::{FileSource, check_file};
 pub use listen::{CLIENT_SILENCE, Listening, listen};
 pub use nurbs::NurbsSource;
-pub use pipeline::{Output, Pipeline, Statistics};
+pub use pipeline::{Output, Pipeline, Statistics, Step};
 pub use program::{PipeSource, ProgramSource};
 pub use publish::Publisher;
 pub use refusal::Refusal;

@@ -35,6 +35,19 @@ pub enum Output {
     End,
 }
 
+/// What a step came to. What it made is shown by the pipeline: items and frames are large.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Step {
+    /// The planner took an item: [`Pipeline::item`].
+    Item,
+    /// A frame was made: [`Pipeline::frame`].
+    Frame,
+    /// See [`Output::Pending`].
+    Pending,
+    /// All frames are out.
+    End,
+}
+
 /// What a pipeline has done so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Statistics {
@@ -65,6 +78,8 @@ enum Program {
 pub struct Pipeline<S> {
     source: S,
     planner: Planner,
+    /// The item taken last.
+    item: Item,
     program: Program,
     statistics: Statistics,
     clock: Option<fn() -> Duration>,
@@ -94,9 +109,14 @@ impl<S: ItemSource> Pipeline<S> {
     /// A pipeline for a machine at rest at `start` (mm, degrees).
     #[must_use]
     pub fn new(source: S, settings: Settings, start: AxisVector) -> Self {
+        let planner = Planner::new(settings, start);
         Self {
             source,
-            planner: Planner::new(settings, start),
+            planner,
+            item: Item {
+                line: 0,
+                kind: ItemKind::Dwell(0.0),
+            },
             program: Program::Open,
             statistics: Statistics::default(),
             clock: None,
@@ -135,36 +155,62 @@ impl<S: ItemSource> Pipeline<S> {
     /// at the last good item. If planning failed inside ([`Refusal::leaves_motion_open`]), it comes
     /// at once, and the frames given out do not end at rest. From then on the pipeline is at its end.
     pub fn advance(&mut self) -> Result<Output, Refusal> {
-        let Some(clock) = self.clock else {
-            return self.step();
-        };
-        let before = clock();
-        let output = self.step();
-        self.statistics.planning += clock().saturating_sub(before);
-        output
+        Ok(match self.step()? {
+            Step::Item => Output::Item(self.item),
+            Step::Frame => Output::Frame(*self.frame()),
+            Step::Pending => Output::Pending,
+            Step::End => Output::End,
+        })
     }
 
-    fn step(&mut self) -> Result<Output, Refusal> {
+    /// As [`Pipeline::advance`], without a copy of what was made.
+    ///
+    /// # Errors
+    /// As [`Pipeline::advance`].
+    pub fn step(&mut self) -> Result<Step, Refusal> {
+        let Some(clock) = self.clock else {
+            return self.go_on();
+        };
+        let before = clock();
+        let step = self.go_on();
+        self.statistics.planning += clock().saturating_sub(before);
+        step
+    }
+
+    /// The item that the planner took last; before the first an empty dwell.
+    #[must_use]
+    pub const fn item(&self) -> &Item {
+        &self.item
+    }
+
+    /// The frame made last; before the first one at rest at the start.
+    #[must_use]
+    pub const fn frame(&self) -> &Frame {
+        self.planner.frame()
+    }
+
+    fn go_on(&mut self) -> Result<Step, Refusal> {
         if matches!(self.program, Program::Broken) {
-            return Ok(Output::End);
+            return Ok(Step::End);
         }
-        match self.planner.pop_frame() {
-            Ok(Some(mut frame)) => {
+        match self.planner.make_frame() {
+            Ok(true) => {
+                let frame = self.planner.frame_mut();
                 self.statistics.frames += 1;
-                self.blocks.leave(&mut frame);
+                self.blocks.leave(frame);
                 frame.path_s += self.start_s;
-                return Ok(Output::Frame(frame));
+                return Ok(Step::Frame);
             }
-            Ok(None) => {}
+            Ok(false) => {}
             Err(error) => {
                 self.program = Program::Broken;
                 return Err(self.blocks.name(error).into());
             }
         }
         match &mut self.program {
-            Program::Broken => Ok(Output::End),
+            Program::Broken => Ok(Step::End),
             Program::Open => Ok(self.take_item()),
-            Program::Ended(refusal) => refusal.take().map_or(Ok(Output::End), Err),
+            Program::Ended(refusal) => refusal.take().map_or(Ok(Step::End), Err),
         }
     }
 
@@ -176,10 +222,10 @@ impl<S: ItemSource> Pipeline<S> {
     /// As [`Pipeline::advance`].
     pub fn next_frame(&mut self) -> Result<Option<Frame>, Refusal> {
         loop {
-            match self.advance()? {
-                Output::Frame(frame) => return Ok(Some(frame)),
-                Output::End => return Ok(None),
-                Output::Item(_) | Output::Pending => {}
+            match self.step()? {
+                Step::Frame => return Ok(Some(*self.frame())),
+                Step::End => return Ok(None),
+                Step::Item | Step::Pending => {}
             }
         }
     }
@@ -224,16 +270,16 @@ impl<S: ItemSource> Pipeline<S> {
         }
     }
 
-    fn take_item(&mut self) -> Output {
+    fn take_item(&mut self) -> Step {
         match self.source.next_item() {
             Supply::Item(item) => self.plan(item),
-            Supply::Pending => Output::Pending,
+            Supply::Pending => Step::Pending,
             Supply::End => self.end(None),
             Supply::Refused(refusal) => self.end(Some(refusal)),
         }
     }
 
-    fn plan(&mut self, item: Item) -> Output {
+    fn plan(&mut self, item: Item) -> Step {
         let item = match &mut self.joints {
             Some(joints) => joints.keep(item),
             None => item,
@@ -251,13 +297,14 @@ impl<S: ItemSource> Pipeline<S> {
             ItemKind::Move { .. } => self.statistics.segments += 1,
             ItemKind::Dwell(_) | ItemKind::Event(_) => self.statistics.others += 1,
         }
-        Output::Item(item)
+        self.item = item;
+        Step::Item
     }
 
     /// Closes the program at the last good item.
-    fn end(&mut self, refusal: Option<Refusal>) -> Output {
+    fn end(&mut self, refusal: Option<Refusal>) -> Step {
         self.planner.finish();
         self.program = Program::Ended(refusal);
-        Output::Pending
+        Step::Pending
     }
 }

@@ -33,9 +33,7 @@ use glidepath_link::{
 
 use crate::epoch::Epoch;
 use crate::machine::{HUNGRY_POLL, Machine, POLL, SILENCE, Standing};
-use crate::{
-    Control, ItemSource, Notice, Output, Pace, Pipeline, ResumePoint, RunError, Statistics,
-};
+use crate::{Control, ItemSource, Notice, Pace, Pipeline, ResumePoint, RunError, Statistics, Step};
 
 /// Steps of the pipeline between two looks at status and stop flag.
 const STEPS_PER_TURN: u32 = 512;
@@ -255,17 +253,18 @@ impl<'t> Publisher<'t> {
             if epoch.ended.is_some() {
                 return Ok(Turn::Wait);
             }
-            match pipeline.advance() {
-                Ok(Output::Frame(frame)) => {
+            match pipeline.step() {
+                Ok(Step::Frame) => {
+                    let frame = pipeline.frame();
                     epoch.in_hand = Some(SetpointFrame {
                         block: pipeline.block(),
                         program: pipeline.fingerprint(),
-                        ..SetpointFrame::from_frame(&frame, epoch.number, self.pace.period_ns)
+                        ..SetpointFrame::from_frame(frame, epoch.number, self.pace.period_ns)
                     });
                 }
-                Ok(Output::Item(_)) => {}
-                Ok(Output::Pending) => return Ok(Turn::Hungry),
-                Ok(Output::End) => epoch.ended = Some(Ok(())),
+                Ok(Step::Item) => {}
+                Ok(Step::Pending) => return Ok(Turn::Hungry),
+                Ok(Step::End) => epoch.ended = Some(Ok(())),
                 Err(refusal) if refusal.leaves_motion_open() => {
                     self.abort(epoch, control)?;
                     return Err(refusal.into());

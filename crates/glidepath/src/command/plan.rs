@@ -16,12 +16,13 @@ use crate::sample::Sample;
 use glidepath_kinematics::{Kinematics as _, Mechanism};
 use glidepath_motion::audit::{Audit, AuditSettings};
 use glidepath_motion::diagnosis::Diagnosis;
-use glidepath_planner::{FileSource, Output, Pipeline, Refusal};
+use glidepath_motion::{Frame, Item};
+use glidepath_planner::{FileSource, Pipeline, Refusal, Step};
 use std::path::Path;
 use std::time::Duration;
 
-/// Steps of the planner between two looks at progress and Ctrl-C.
-const STEPS_PER_TURN: usize = 512;
+/// Steps of the planner between two looks at the clock, at progress and Ctrl-C.
+const STEPS_PER_TURN: usize = 64;
 
 /// Plans a program, audits the motion, and writes the files asked for.
 ///
@@ -67,6 +68,12 @@ pub(super) fn title(path: &Path) -> String {
 /// One pass of the planner over a program.
 pub(super) struct Pass {
     pipeline: Pipeline<FileSource>,
+    clock: fn() -> Duration,
+    planning: Duration,
+    /// The steps of the last turn, and what they took and made.
+    steps: Vec<Step>,
+    items: Vec<Item>,
+    frames: Vec<Frame>,
     audit: Audit,
     diagnosis: Diagnosis,
     joints: Option<PlanWatch>,
@@ -95,9 +102,12 @@ impl Pass {
             tolerance_mm: settings.tolerance_mm,
         };
         Ok(Self {
-            pipeline: Pipeline::new(source, settings, home)
-                .with_joints(config.path_caps())
-                .with_clock(clock),
+            pipeline: Pipeline::new(source, settings, home).with_joints(config.path_caps()),
+            clock,
+            planning: Duration::ZERO,
+            steps: Vec::with_capacity(STEPS_PER_TURN),
+            items: Vec::with_capacity(STEPS_PER_TURN),
+            frames: Vec::with_capacity(STEPS_PER_TURN),
             audit: Audit::new(&judged),
             diagnosis: Diagnosis::new(&judged),
             joints: PlanWatch::new(path, config),
@@ -108,27 +118,51 @@ impl Pass {
 
     /// Takes some steps; false at the end.
     pub(super) fn turn(&mut self, recording: &mut Recording) -> Result<bool, Failure> {
-        for _ in 0..STEPS_PER_TURN {
-            match self.pipeline.advance()? {
-                Output::Item(item) => {
-                    self.audit.program(&item);
-                    self.diagnosis.program(&item);
+        let before = (self.clock)();
+        let goes_on = self.plan_some();
+        self.planning += (self.clock)().saturating_sub(before);
+        let (mut items, mut frames) = (self.items.iter(), self.frames.iter());
+        for step in &self.steps {
+            if *step == Step::Item
+                && let Some(item) = items.next()
+            {
+                self.audit.program(item);
+                self.diagnosis.program(item);
+            } else if let Some(frame) = frames.next() {
+                self.audit.frame(frame);
+                let binding = self.diagnosis.frame(frame);
+                if let Some(joints) = &mut self.joints {
+                    joints.take(frame)?;
                 }
-                Output::Frame(frame) => {
-                    self.audit.sample_at(&(&frame).into(), frame.path_s);
-                    let binding = self.diagnosis.frame(&frame);
-                    if let Some(joints) = &mut self.joints {
-                        joints.take(&frame)?;
-                    }
+                if recording.is_wanted() {
                     // Out of reach is told by the watch; machines without one reach everything.
                     let joints = self.mechanism.inverse(&frame.position).unwrap_or_default();
-                    let sample = Sample::planned(&frame, self.period_t, joints);
+                    let sample = Sample::planned(frame, self.period_t, joints);
                     recording.push(&sample.bound_by(binding))?;
                 }
-                // A file is never without its next item.
-                Output::Pending => {}
-                Output::End => return Ok(false),
             }
+        }
+        Ok(goes_on?)
+    }
+
+    /// The next items and frames; false at the end.
+    fn plan_some(&mut self) -> Result<bool, Refusal> {
+        self.steps.clear();
+        self.items.clear();
+        self.frames.clear();
+        for _ in 0..STEPS_PER_TURN {
+            let step = self.pipeline.step()?;
+            match step {
+                Step::Item => self.items.push(*self.pipeline.item()),
+                // Not `push`, which copies twice.
+                Step::Frame => self
+                    .frames
+                    .extend_from_slice(core::slice::from_ref(self.pipeline.frame())),
+                // A file is never without its next item.
+                Step::Pending => continue,
+                Step::End => return Ok(false),
+            }
+            self.steps.push(step);
         }
         Ok(true)
     }
@@ -138,7 +172,7 @@ impl Pass {
         let planning = Planning {
             lines: statistics.lines,
             segments: statistics.segments,
-            plan_wall_s: statistics.planning.as_secs_f64(),
+            plan_wall_s: self.planning.as_secs_f64(),
             peak_rss_bytes: peak_rss_bytes(),
         };
         let mut report = MotionReport::new(&planning, &self.audit.finish(), config);

@@ -2,7 +2,7 @@
 //! across the path from the reported state.
 
 use super::report::{ViolationKind, ViolationList, Worst};
-use super::{AuditSettings, Sample};
+use super::{AuditSettings, Seen};
 use crate::PathBounds;
 use glidepath_geometry::feed_length;
 
@@ -36,12 +36,20 @@ impl AlongAudit {
         }
     }
 
-    pub(super) fn sample(&mut self, sample: &Sample, path_s: f64) {
+    pub(super) fn sample(&mut self, sample: &Seen<'_>, path_s: f64) {
         if self.known > 0 && sample.tick != self.tick + 1 {
             // Differences across the gap would mean nothing; it is reported elsewhere.
             self.known = 0;
         }
         self.tick = sample.tick;
+        if self.bounds.is_none() {
+            // Nothing to keep but to be a number; whether the state is one is judged with the axes.
+            if !path_s.is_finite() {
+                let kind = ViolationKind::AlongPath { ratio: path_s };
+                self.violations.push(sample.tick, sample.line, kind);
+            }
+            return;
+        }
         let [s1, s2, s3, _] = self.recent;
         self.recent = [path_s, s1, s2, s3];
         self.known = (self.known + 1).min(4);
@@ -58,16 +66,16 @@ impl AlongAudit {
             self.judge(2, jerk_j, allowed, sample);
         }
         if let Some([velocity, acceleration]) = sample.reported {
-            let speed_v = feed_length(&velocity);
+            let speed_v = feed_length(velocity);
             if speed_v > 0.0 {
-                let along = velocity * (acceleration.dot(&velocity) / velocity.norm_squared());
+                let along = velocity * (acceleration.dot(velocity) / velocity.norm_squared());
                 let across_a = feed_length(&(acceleration - along));
                 self.judge(1, across_a, (self.bounds.normal_a, 0.0), sample);
             }
         }
     }
 
-    fn judge(&mut self, which: usize, value: f64, allowed: (f64, f64), sample: &Sample) {
+    fn judge(&mut self, which: usize, value: f64, allowed: (f64, f64), sample: &Seen<'_>) {
         let (limit, rounding) = allowed;
         let ratio = value / limit;
         if ratio > self.worst[which].ratio {
@@ -93,6 +101,7 @@ impl AlongAudit {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Sample;
     use super::*;
     use crate::Limits;
     use glidepath_geometry::AxisVector;
@@ -125,7 +134,7 @@ mod tests {
                     reported: Some([velocity, acceleration]),
                 };
                 let s = t * (speed_v + t * (0.5 * accel_a + t * jerk_j / 6.0));
-                audit.sample(&sample, s);
+                audit.sample(&Seen::from(&sample), s);
             }
             let kinds = audit.violations.kept.iter().map(|v| match v.kind {
                 ViolationKind::AlongPath { .. } => 'a',

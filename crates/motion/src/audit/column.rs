@@ -1,15 +1,30 @@
 //! One column of the free-space diagram: a chord of the motion against the chords of the program.
 
-use super::free_space::{Interval, distance, near};
+use super::free_space::{Chord, Interval, distance};
+use super::matching::EXACT_MM;
 use super::program::{Presence, Row, Rows};
-use glidepath_geometry::AxisVector;
 
 /// Intervals on the program that a matching can have reached at a sample.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Reach {
     /// Chord of the first interval.
     pub(super) low: usize,
     pub(super) intervals: Vec<Interval>,
+}
+
+impl Clone for Reach {
+    fn clone(&self) -> Self {
+        Self {
+            low: self.low,
+            intervals: self.intervals.clone(),
+        }
+    }
+
+    /// Once for every sample: memory is used again.
+    fn clone_from(&mut self, source: &Self) {
+        self.low = source.low;
+        self.intervals.clone_from(&source.intervals);
+    }
 }
 
 impl Reach {
@@ -60,14 +75,24 @@ pub(super) struct Level {
 }
 
 impl Level {
+    /// Tolerances, but no more than this.
+    pub(super) const fn up_to(lambda_mm: f64) -> Self {
+        Self {
+            lambda_mm,
+            exact_mm: EXACT_MM,
+            floor_mm: 0.0,
+        }
+    }
+
     pub(super) fn along(&self, row: &Row) -> f64 {
         row.tolerance_mm.min(self.lambda_mm).max(self.floor_mm)
     }
 
-    /// At the end of a row, for a chord of the motion of some length.
-    fn at_end(&self, row: &Row, chord_mm: f64) -> f64 {
+    /// At the end of a row, for a chord of the motion.
+    fn at_end(&self, row: &Row, chord: &Chord) -> f64 {
         let tolerance = row.exact_end.map_or(row.end_tolerance_mm, |exact| {
-            (self.exact_mm + exact.cut(chord_mm)).min(row.end_tolerance_mm)
+            let cut_mm = exact.cut(distance(&chord.displacement()));
+            (self.exact_mm + cut_mm).min(row.end_tolerance_mm)
         });
         tolerance.min(self.lambda_mm).max(self.floor_mm)
     }
@@ -76,11 +101,12 @@ impl Level {
 /// A chord of the motion.
 #[derive(Debug, Clone)]
 pub(super) struct Column {
-    pub(super) from: AxisVector,
-    pub(super) to: AxisVector,
+    pub(super) chord: Chord,
+    /// Its length over all axes.
+    pub(super) travel_mm: f64,
     pub(super) tick: u64,
     pub(super) line: u32,
-    /// What could be reached at `from`.
+    /// What could be reached at its start.
     pub(super) reach: Reach,
 }
 
@@ -97,7 +123,7 @@ pub(super) enum Passage {
 pub(super) fn step(
     rows: &mut Rows,
     now: &Reach,
-    column: &Column,
+    chord: &Chord,
     level: &Level,
     next: &mut Reach,
 ) -> Passage {
@@ -106,7 +132,6 @@ pub(super) fn step(
     // What can be reached on the lower edge of the present cell.
     let mut bottom = Interval::EMPTY;
     let mut index = now.low;
-    let chord_mm = distance(&(column.to - column.from));
     while index < now.end() || !bottom.is_empty() {
         match rows.reach(index) {
             Presence::Here => {}
@@ -120,16 +145,14 @@ pub(super) fn step(
         if !(left.is_empty() && bottom.is_empty()) {
             // From below every place on the right is above; from the left every place on top is
             // to the right.
-            right = near(&row.start, &row.end, &column.to, level.along(row));
+            right = row.chord.near(&chord.to, level.along(row));
             if bottom.is_empty() {
                 right = right.from(left.low);
             }
-            top = near(
-                &column.from,
-                &column.to,
-                &row.end,
-                level.at_end(row, chord_mm),
-            );
+            let end_mm = level.at_end(row, chord);
+            if !chord.is_far(&row.chord.to, end_mm) {
+                top = chord.near(&row.chord.to, end_mm);
+            }
             if left.is_empty() {
                 top = top.from(bottom.low);
             }

@@ -5,7 +5,10 @@
 //! it is at most a threshold is a convex set of (x, y), and on an edge of the cell (one end of one
 //! chord against the other chord) an interval.
 
-use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+
+/// Indices of all axes but X, Y and Z.
+const OTHERS: core::ops::Range<usize> = LINEAR_XYZ.end..AXES;
 
 /// An interval [low, high]; empty if low > high.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,38 +47,101 @@ impl Interval {
     }
 }
 
-/// The part of the chord from `a` to `b` that is within `threshold` of `point`.
-pub(super) fn near(a: &AxisVector, b: &AxisVector, point: &AxisVector, threshold: f64) -> Interval {
-    let along = b - a;
-    let offset = point - a;
-    let mut part = near_group(&along, &offset, LINEAR_XYZ, threshold, Interval::FULL);
-    if part.is_empty() {
-        return part;
-    }
-    let moves =
-        |axes: core::ops::Range<usize>| axes.clone().any(|i| along[i] != 0.0 || offset[i] != 0.0);
-    if moves(UVW) {
-        part = near_group(&along, &offset, UVW, threshold, part);
-    }
-    if moves(ROTARY_ABC) {
-        for axis in ROTARY_ABC {
-            part = near_group(&along, &offset, axis..axis + 1, threshold, part);
-        }
-    }
-    part
+/// A chord, with what is asked of it again and again.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Chord {
+    pub(super) from: AxisVector,
+    pub(super) to: AxisVector,
+    /// Its length in XYZ, squared.
+    linear_2: f64,
+    /// It moves in XYZ alone.
+    is_linear: bool,
 }
 
+impl Chord {
+    pub(super) fn new(from: AxisVector, to: AxisVector) -> Self {
+        let along = to - from;
+        Self {
+            from,
+            to,
+            linear_2: LINEAR_XYZ.map(|i| along[i] * along[i]).sum(),
+            is_linear: OTHERS.into_iter().all(|i| along[i] == 0.0),
+        }
+    }
+
+    pub(super) fn displacement(&self) -> AxisVector {
+        self.to - self.from
+    }
+
+    /// Its length over all axes.
+    pub(super) fn travel_mm(&self) -> f64 {
+        if self.is_linear {
+            self.linear_2.sqrt()
+        } else {
+            self.displacement().norm()
+        }
+    }
+
+    /// True only if no part is within `threshold` of `point`, told by X, Y and Z one by one: mostly the
+    /// answer, and without a division.
+    #[inline]
+    pub(super) fn is_far(&self, point: &AxisVector, threshold: f64) -> bool {
+        let room = threshold * (1.0 + 1e-9) + 1e-9;
+        LINEAR_XYZ.into_iter().any(|i| {
+            let (a, b, x) = (self.from[i], self.to[i], point[i]);
+            (x > a + room && x > b + room) || (x < a - room && x < b - room)
+        })
+    }
+
+    /// The part that is within `threshold` of `point`.
+    #[inline]
+    pub(super) fn near(&self, point: &AxisVector, threshold: f64) -> Interval {
+        let offset = LINEAR_XYZ.map(|i| point[i] - self.from[i]);
+        let along = LINEAR_XYZ.map(|i| self.to[i] - self.from[i]);
+        let part = near_group(along.zip(offset), self.linear_2, threshold, Interval::FULL);
+        let is_all = self.is_linear && OTHERS.into_iter().all(|i| point[i] - self.from[i] == 0.0);
+        if part.is_empty() || is_all {
+            return part;
+        }
+        self.near_others(point, threshold, part)
+    }
+
+    fn near_others(&self, point: &AxisVector, threshold: f64, mut part: Interval) -> Interval {
+        let offset = point - self.from;
+        let along = self.displacement();
+        let group = |axes: core::ops::Range<usize>, part| {
+            let length_2 = axes.clone().map(|i| along[i] * along[i]).sum();
+            let pairs = axes.map(|i| (along[i], offset[i]));
+            near_group(pairs, length_2, threshold, part)
+        };
+        let moves = |axes: core::ops::Range<usize>| {
+            axes.into_iter()
+                .any(|i| along[i] != 0.0 || offset[i] != 0.0)
+        };
+        if moves(UVW) {
+            part = group(UVW, part);
+        }
+        if moves(ROTARY_ABC) {
+            for axis in ROTARY_ABC {
+                part = group(axis..axis + 1, part);
+            }
+        }
+        part
+    }
+}
+
+/// The part of `part` that is near in a group of axes: of each the chord along it, and the offset of
+/// the point from its start.
+#[inline]
 fn near_group(
-    along: &AxisVector,
-    offset: &AxisVector,
-    axes: core::ops::Range<usize>,
+    axes: impl Iterator<Item = (f64, f64)> + Clone,
+    length_2: f64,
     threshold: f64,
     part: Interval,
 ) -> Interval {
-    let (mut length_2, mut dot) = (0.0, 0.0);
-    for i in axes.clone() {
-        length_2 += along[i] * along[i];
-        dot += along[i] * offset[i];
+    let mut dot = 0.0;
+    for (along, offset) in axes.clone() {
+        dot += along * offset;
     }
     // The foot of the perpendicular, then the perpendicular itself: squaring the offset first would
     // lose half the digits. A chord too short to have a direction is a point.
@@ -85,8 +151,8 @@ fn near_group(
         0.0
     };
     let mut distance_2 = 0.0;
-    for i in axes {
-        let across = offset[i] - along[i] * foot;
+    for (along, offset) in axes {
+        let across = offset - along * foot;
         distance_2 += across * across;
     }
     let room = threshold * threshold - distance_2;

@@ -1,9 +1,8 @@
 //! Verdicts that come with the matching: start, end, and feed.
 
-use super::Sample;
 use super::column::{Level, Passage, Reach};
-use super::free_space::distance;
-use super::matching::{EXACT_MM, Goal, Matching};
+use super::free_space::{Interval, distance};
+use super::matching::{EXACT_MM, Goal, Matching, Spot};
 use super::program::Presence;
 use super::report::{ViolationKind, Worst};
 use glidepath_geometry::{AxisVector, feed_length};
@@ -15,15 +14,15 @@ const RESTS: usize = 64;
 
 impl Matching {
     /// The first sample must be where the program starts; false if that is not known yet.
-    pub(super) fn judge_start(&mut self, sample: &Sample) -> bool {
+    pub(super) fn judge_start(&mut self, spot: &Spot) -> bool {
         if self.rows.reach(0) != Presence::Here {
             return false;
         }
         if let Some(row) = self.rows.get(0) {
-            let deviation_mm = distance(&(sample.position - row.start));
+            let deviation_mm = distance(&(spot.position - row.chord.from));
             if deviation_mm > EXACT_MM {
                 let kind = ViolationKind::ExactStop { deviation_mm };
-                self.violations.push(sample.tick, sample.line, kind);
+                self.violations.push(spot.tick, spot.line, kind);
             }
         }
         true
@@ -59,10 +58,10 @@ impl Matching {
         } else if self.is_complete {
             self.note_deviation(self.lambda_mm, tick, line);
         }
-        if let Some(sample) = self.last_fed {
-            self.note_rest(at, sample.tick.saturating_sub(self.since_tick));
+        if let Some(spot) = self.last_fed {
+            self.note_rest(at, spot.tick.saturating_sub(self.since_tick));
             if self.is_complete {
-                self.judge_dwell(self.reach.end().saturating_sub(1), &sample);
+                self.judge_dwell(self.reach.end().saturating_sub(1), &spot);
             }
         }
         if self.is_complete {
@@ -72,7 +71,7 @@ impl Matching {
         let is_last = self.rows.reach(self.reach.end()) == Presence::Never;
         let row = self.rows.get(last);
         let line = row.map_or(line, |row| row.line);
-        let missed = row.map(|row| (distance(&(at - row.end)), row.tolerance_mm));
+        let missed = row.map(|row| (distance(&(at - row.chord.to)), row.tolerance_mm));
         let kind = match missed {
             Some((deviation_mm, tolerance_mm))
                 if is_last && !is_there && deviation_mm <= tolerance_mm =>
@@ -90,23 +89,19 @@ impl Matching {
     /// At the level the motion is matched at, those are fewer than the tolerance allows: next to a vertex
     /// it may be on the chord behind it already, or still on the one before it. So what seems too fast is
     /// judged at the tolerance.
-    pub(super) fn judge_feed(&mut self, sample: &Sample, ticks: u64, first: usize) {
+    pub(super) fn judge_feed(&mut self, spot: &Spot, ticks: u64, first: usize) {
         let Some(column) = self.history.back() else {
             return;
         };
         #[expect(clippy::cast_precision_loss, reason = "a few")]
         let elapsed_t = self.period_t * ticks as f64;
-        let speed_v = feed_length(&(column.to - column.from)) / elapsed_t;
+        let speed_v = feed_length(&column.chord.displacement()) / elapsed_t;
         let mut feed_v = self.most_feed_v(first, self.reach.end());
         if feed_v <= 0.0 {
             return;
         }
         if speed_v > FEED_SLACK * feed_v * self.feed_factor {
-            let widest = Level {
-                lambda_mm: self.cap(),
-                exact_mm: EXACT_MM,
-                floor_mm: 0.0,
-            };
+            let widest = Level::up_to(self.cap());
             if self.replay(0, &widest, Goal::Anything) == Passage::Passed {
                 let reach = &self.scratch[0];
                 let (first, end) = (first.min(reach.low), reach.end());
@@ -118,13 +113,13 @@ impl Matching {
             self.max_feed = Worst {
                 ratio,
                 axis: None,
-                tick: sample.tick,
-                line: sample.line,
+                tick: spot.tick,
+                line: spot.line,
             };
         }
         if ratio > FEED_SLACK {
             let kind = ViolationKind::Feed { ratio };
-            self.violations.push(sample.tick, sample.line, kind);
+            self.violations.push(spot.tick, spot.line, kind);
         }
     }
 
@@ -135,7 +130,7 @@ impl Matching {
     }
 
     pub(super) fn is_reached(&mut self, goal: Goal, reach: &Reach) -> bool {
-        let Some(at) = self.history.back().map(|column| column.to) else {
+        let Some(at) = self.history.back().map(|column| column.chord.to) else {
             return true;
         };
         match goal {
@@ -151,7 +146,7 @@ impl Matching {
         let Some(row) = self.rows.get(last) else {
             return false;
         };
-        is_last && reach.get(last).high >= 1.0 && distance(&(at - row.end)) <= EXACT_MM
+        is_last && reach.get(last).high >= 1.0 && distance(&(at - row.chord.to)) <= EXACT_MM
     }
 
     /// Keeps in mind that the motion rested somewhere.
@@ -165,18 +160,18 @@ impl Matching {
     }
 
     /// Dwells at the ends of the chords from `first` on that have been left behind.
-    pub(super) fn judge_dwells(&mut self, first: usize, sample: &Sample) {
+    pub(super) fn judge_dwells(&mut self, first: usize, spot: &Spot) {
         for index in first..self.reach.low {
-            self.judge_dwell(index, sample);
+            self.judge_dwell(index, spot);
         }
     }
 
     /// The dwell at the end of a chord.
-    pub(super) fn judge_dwell(&mut self, index: usize, sample: &Sample) {
+    pub(super) fn judge_dwell(&mut self, index: usize, spot: &Spot) {
         let Some(row) = self.rows.get(index).filter(|row| row.dwell_t > 0.0) else {
             return;
         };
-        let is_here = |at: &AxisVector| distance(&(at - row.end)) <= EXACT_MM;
+        let is_here = |at: &AxisVector| distance(&(at - row.chord.to)) <= EXACT_MM;
         let ticks = self
             .rests
             .iter()
@@ -193,7 +188,29 @@ impl Matching {
         if missing_t > self.period_t {
             let line = row.line;
             self.violations
-                .push(sample.tick, line, ViolationKind::Dwell { missing_t });
+                .push(spot.tick, line, ViolationKind::Dwell { missing_t });
         }
+    }
+
+    /// Number of intervals of `reach` that are within tolerance at a position.
+    pub(super) fn count_within_tolerance(&self, reach: &Reach, at: &AxisVector) -> usize {
+        (reach.low..reach.end())
+            .filter(|&i| !self.within_tolerance(reach, i, at).is_empty())
+            .count()
+    }
+
+    pub(super) fn within_tolerance(
+        &self,
+        reach: &Reach,
+        index: usize,
+        at: &AxisVector,
+    ) -> Interval {
+        let Some(row) = self.rows.get(index) else {
+            return Interval::EMPTY;
+        };
+        let level = Level::up_to(f64::INFINITY);
+        reach
+            .get(index)
+            .intersect(row.chord.near(at, level.along(row)))
     }
 }

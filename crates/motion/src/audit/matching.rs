@@ -23,12 +23,12 @@
 //! not enough, exact stops are relaxed, then everything, until the motion is back on the path: that is
 //! reported, with the width that was needed.
 
-use super::column::{Column, Level, Passage, Reach};
-use super::free_space::{Interval, near};
+use super::column::{Column, Level, Passage, Reach, step};
+use super::free_space::{Chord, Interval};
 use super::program::{Presence, Rows, SMALLEST_TOLERANCE_MM};
 use super::report::{ViolationKind, ViolationList, Worst};
 use super::widen::SHORT;
-use super::{AuditSettings, Sample};
+use super::{AuditSettings, Seen};
 use crate::Item;
 use glidepath_geometry::AxisVector;
 use std::collections::VecDeque;
@@ -61,10 +61,18 @@ pub(super) struct Trouble {
     pub(super) line: u32,
 }
 
+/// A sample, as far as it is matched.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spot {
+    pub(super) tick: u64,
+    pub(super) line: u32,
+    pub(super) position: AxisVector,
+}
+
 /// A sample that waits for the program.
 #[derive(Debug, Clone, Copy)]
 struct Waiting {
-    sample: Sample,
+    spot: Spot,
     /// Periods since the sample before.
     ticks: u64,
     /// Periods for which the position before it was kept.
@@ -86,7 +94,7 @@ pub(super) struct Matching {
     /// Samples that wait for the program.
     queue: VecDeque<Waiting>,
     /// The last sample fed.
-    pub(super) last_fed: Option<Sample>,
+    pub(super) last_fed: Option<Spot>,
     /// Tick at which the last position fed was taken up.
     pub(super) since_tick: u64,
     /// The latest rests: where, and for how many periods.
@@ -95,6 +103,8 @@ pub(super) struct Matching {
     pub(super) at: Option<AxisVector>,
     pub(super) reach: Reach,
     pub(super) history: VecDeque<Column>,
+    /// Those of columns that were dropped.
+    spare: Vec<Reach>,
     /// Travel of the motion over the history, mm.
     travel_mm: f64,
     pub(super) lambda_mm: f64,
@@ -132,6 +142,7 @@ impl Matching {
                 }],
             },
             history: VecDeque::new(),
+            spare: Vec::new(),
             travel_mm: 0.0,
             lambda_mm: SMALLEST_TOLERANCE_MM,
             searched_mm: 0.0,
@@ -151,27 +162,38 @@ impl Matching {
         self.advance();
     }
 
-    pub(super) fn sample(&mut self, sample: &Sample) {
+    pub(super) fn sample(&mut self, sample: &Seen<'_>) {
         if self.is_lost || !sample.position.iter().all(|p| p.is_finite()) {
             return;
         }
-        let previous = self.last_fed.replace(*sample);
-        // A motion at rest stays where it is in the diagram.
-        if previous.is_some_and(|previous| previous.position == sample.position) {
-            return;
+        let spot = Spot {
+            tick: sample.tick,
+            line: sample.line,
+            position: *sample.position,
+        };
+        let (mut ticks, mut rest_ticks) = (1, 0);
+        if let Some(previous) = &mut self.last_fed {
+            let is_at_rest = previous.position == spot.position;
+            ticks = spot.tick.saturating_sub(previous.tick).max(1);
+            rest_ticks = previous.tick.saturating_sub(self.since_tick);
+            *previous = spot;
+            // A motion at rest stays where it is in the diagram.
+            if is_at_rest {
+                return;
+            }
+        } else {
+            self.last_fed = Some(spot);
         }
-        let ticks = previous.map_or(1, |previous| {
-            sample.tick.saturating_sub(previous.tick).max(1)
-        });
-        let rest_ticks =
-            previous.map_or(0, |previous| previous.tick.saturating_sub(self.since_tick));
-        self.since_tick = sample.tick;
-        self.queue.push_back(Waiting {
-            sample: *sample,
+        self.since_tick = spot.tick;
+        let waiting = Waiting {
+            spot,
             ticks,
             rest_ticks,
-        });
-        self.advance();
+        };
+        // Where another one waits, the program has not been fed far enough.
+        if !self.queue.is_empty() || !self.take(&waiting) {
+            self.queue.push_back(waiting);
+        }
     }
 
     pub(super) fn finish(&mut self) {
@@ -184,79 +206,118 @@ impl Matching {
 
     /// Matches as many waiting samples as the program allows.
     fn advance(&mut self) {
-        while !self.is_lost {
-            let Some(&waiting) = self.queue.front() else {
-                return;
-            };
-            let sample = waiting.sample;
-            if self.rows.reach(0) == Presence::Never {
-                // Nothing moves in the program: the motion has to stay where it is.
-                if self.at.is_some() {
-                    self.lose(&sample);
-                }
-                self.at = Some(sample.position);
-                self.queue.pop_front();
-                continue;
-            }
-            let from = self.at.unwrap_or(sample.position);
-            let column = Column {
-                from,
-                to: sample.position,
-                tick: sample.tick,
-                line: sample.line,
-                reach: self.reach.clone(),
-            };
-            if self.at.is_none() && !self.judge_start(&sample) {
+        while let Some(&waiting) = self.queue.front() {
+            if !self.take(&waiting) {
                 return;
             }
-            self.travel_mm += (column.to - column.from).norm();
-            self.history.push_back(column);
-            let level = self.level();
-            let passage = self.replay(self.history.len() - 1, &level, Goal::Anything);
-            let passage = match passage {
-                Passage::Blocked => self.widen(Goal::Anything),
-                other => other,
-            };
-            match passage {
-                Passage::Passed => self.commit(&waiting),
-                Passage::Blocked => self.lose(&sample),
-                Passage::NotYet => {
-                    self.history.pop_back();
-                    self.travel_mm -= (sample.position - from).norm();
-                    return;
-                }
-            }
+            self.queue.pop_front();
         }
     }
 
-    /// Takes over what `replay` left in the scratch.
-    fn commit(
-        &mut self,
-        &Waiting {
-            sample,
-            ticks,
-            rest_ticks,
-        }: &Waiting,
-    ) {
-        let before = self.reach.low;
-        core::mem::swap(&mut self.reach, &mut self.scratch[0]);
-        if let Some(at) = self.at.replace(sample.position) {
-            self.note_rest(at, rest_ticks);
+    /// Matches a sample; false if the program has not been fed far enough to tell.
+    fn take(&mut self, waiting: &Waiting) -> bool {
+        let spot = &waiting.spot;
+        if self.rows.reach(0) == Presence::Never {
+            // Nothing moves in the program: the motion has to stay where it is.
+            if self.at.is_some() {
+                self.lose(spot);
+            }
+            self.at = Some(spot.position);
+            return true;
         }
-        self.queue.pop_front();
-        self.judge_dwells(before, &sample);
+        if self.at.is_none() && !self.judge_start(spot) {
+            return false;
+        }
+        let chord = Chord::new(self.at.unwrap_or(spot.position), spot.position);
+        let first = self.reach.low;
+        let passage = match self.trouble {
+            None => {
+                let [next, _] = &mut self.scratch;
+                let level = Level::up_to(self.lambda_mm);
+                step(&mut self.rows, &self.reach, &chord, &level, next)
+            }
+            Some(_) => Passage::Blocked,
+        };
+        let mut reach = self.spare.pop().unwrap_or_default();
+        let passage = match passage {
+            Passage::Passed => {
+                core::mem::swap(&mut reach, &mut self.scratch[0]);
+                core::mem::swap(&mut reach, &mut self.reach);
+                self.put_column(chord, spot, reach);
+                Passage::Passed
+            }
+            Passage::Blocked => {
+                reach.clone_from(&self.reach);
+                self.put_column(chord, spot, reach);
+                let passage = self.pass_somehow();
+                if passage == Passage::Passed {
+                    core::mem::swap(&mut self.reach, &mut self.scratch[0]);
+                }
+                passage
+            }
+            Passage::NotYet => {
+                self.spare.push(reach);
+                return false;
+            }
+        };
+        match passage {
+            Passage::Passed => self.commit(waiting, first),
+            Passage::Blocked => self.lose(spot),
+            Passage::NotYet => {
+                self.drop_column(VecDeque::pop_back);
+                return false;
+            }
+        }
+        true
+    }
+
+    /// The last column does not pass at the present level, or the motion is out of tolerance. What can
+    /// be reached is left in the scratch.
+    fn pass_somehow(&mut self) -> Passage {
+        if let Some(Trouble { floor_mm, .. }) = self.trouble {
+            let level = Level {
+                floor_mm,
+                ..Level::up_to(self.cap())
+            };
+            let passage = self.replay(self.history.len() - 1, &level, Goal::Anything);
+            if passage != Passage::Blocked {
+                return passage;
+            }
+        }
+        self.widen(Goal::Anything)
+    }
+
+    /// What follows from a sample that was matched; `first` is the first chord it may have been on.
+    fn commit(&mut self, waiting: &Waiting, first: usize) {
+        let spot = &waiting.spot;
+        if let Some(at) = self.at.replace(spot.position) {
+            self.note_rest(at, waiting.rest_ticks);
+        }
+        self.judge_dwells(first, spot);
         if self.trouble.is_some() {
-            if self.count_within_tolerance(&self.reach, &sample.position) > 0 {
+            if self.count_within_tolerance(&self.reach, &spot.position) > 0 {
                 self.settle(Goal::WithinTolerance);
             }
         } else {
-            self.judge_feed(&sample, ticks, before);
-            self.note_deviation(self.lambda_mm, sample.tick, sample.line);
+            self.judge_feed(spot, waiting.ticks, first);
+            self.note_deviation(self.lambda_mm, spot.tick, spot.line);
         }
         if core::mem::take(&mut self.is_history_void) {
-            self.restart_history(sample.position);
+            self.restart_history(spot.position);
         }
         self.forget();
+    }
+
+    fn put_column(&mut self, chord: Chord, spot: &Spot, reach: Reach) {
+        let travel_mm = chord.travel_mm();
+        self.travel_mm += travel_mm;
+        self.history.push_back(Column {
+            chord,
+            travel_mm,
+            tick: spot.tick,
+            line: spot.line,
+            reach,
+        });
     }
 
     /// The history starts anew: the motion is here, and no retry goes back.
@@ -267,8 +328,8 @@ impl Matching {
         self.travel_mm = 0.0;
         let reach = self.reach.clone();
         self.history.push_back(Column {
-            from: at,
-            to: at,
+            chord: Chord::new(at, at),
+            travel_mm: 0.0,
             tick,
             line,
             reach,
@@ -276,9 +337,9 @@ impl Matching {
     }
 
     /// Gives up following the motion.
-    fn lose(&mut self, sample: &Sample) {
+    fn lose(&mut self, spot: &Spot) {
         self.violations
-            .push(sample.tick, sample.line, ViolationKind::Lost);
+            .push(spot.tick, spot.line, ViolationKind::Lost);
         self.is_lost = true;
         self.queue.clear();
         self.history.clear();
@@ -296,6 +357,14 @@ impl Matching {
         }
     }
 
+    /// Drops the column that `take` takes from the history; its memory is used again.
+    fn drop_column(&mut self, take: fn(&mut VecDeque<Column>) -> Option<Column>) {
+        if let Some(column) = take(&mut self.history) {
+            self.travel_mm -= column.travel_mm;
+            self.spare.push(column.reach);
+        }
+    }
+
     /// Drops history that can no longer matter, and chords no matching can go back to.
     fn forget(&mut self) {
         let keep_mm = HISTORY_TOLERANCES * self.cap();
@@ -304,9 +373,7 @@ impl Matching {
             if !is_far && self.history.len() <= MAX_HISTORY {
                 break;
             }
-            if let Some(column) = self.history.pop_front() {
-                self.travel_mm -= (column.to - column.from).norm();
-            }
+            self.drop_column(VecDeque::pop_front);
         }
         let oldest = self
             .history
@@ -320,50 +387,9 @@ impl Matching {
         self.rows.max_tolerance_mm() * 1.001
     }
 
-    fn level(&self) -> Level {
-        match self.trouble {
-            None => Level {
-                lambda_mm: self.lambda_mm,
-                exact_mm: EXACT_MM,
-                floor_mm: 0.0,
-            },
-            Some(Trouble { floor_mm, .. }) => Level {
-                lambda_mm: self.cap(),
-                exact_mm: EXACT_MM,
-                floor_mm,
-            },
-        }
-    }
-
     /// What is kept, in chords, columns and samples.
     #[cfg(test)]
     pub(super) fn kept(&self) -> usize {
         self.rows.kept() + self.history.len() + self.queue.len() + self.reach.intervals.len()
-    }
-
-    /// Number of intervals of `reach` that are within tolerance at a position.
-    pub(super) fn count_within_tolerance(&self, reach: &Reach, at: &AxisVector) -> usize {
-        (reach.low..reach.end())
-            .filter(|&i| !self.within_tolerance(reach, i, at).is_empty())
-            .count()
-    }
-
-    pub(super) fn within_tolerance(
-        &self,
-        reach: &Reach,
-        index: usize,
-        at: &AxisVector,
-    ) -> Interval {
-        let Some(row) = self.rows.get(index) else {
-            return Interval::EMPTY;
-        };
-        let level = Level {
-            lambda_mm: f64::INFINITY,
-            exact_mm: EXACT_MM,
-            floor_mm: 0.0,
-        };
-        reach
-            .get(index)
-            .intersect(near(&row.start, &row.end, at, level.along(row)))
     }
 }

@@ -56,6 +56,37 @@ pub struct Sample {
     pub reported: Option<[AxisVector; 2]>,
 }
 
+/// A sample where it lies: a frame is not copied to be judged.
+#[derive(Debug, Clone, Copy)]
+struct Seen<'a> {
+    tick: u64,
+    line: u32,
+    position: &'a AxisVector,
+    reported: Option<[&'a AxisVector; 2]>,
+}
+
+impl<'a> From<&'a Sample> for Seen<'a> {
+    fn from(sample: &'a Sample) -> Self {
+        Self {
+            tick: sample.tick,
+            line: sample.line,
+            position: &sample.position,
+            reported: sample.reported.as_ref().map(|[v, a]| [v, a]),
+        }
+    }
+}
+
+impl<'a> From<&'a Frame> for Seen<'a> {
+    fn from(frame: &'a Frame) -> Self {
+        Self {
+            tick: frame.sequence,
+            line: frame.line,
+            position: &frame.position,
+            reported: Some([&frame.velocity, &frame.acceleration]),
+        }
+    }
+}
+
 impl From<&Frame> for Sample {
     fn from(frame: &Frame) -> Self {
         Self {
@@ -103,14 +134,26 @@ impl Audit {
 
     /// The next sample of the motion.
     pub fn sample(&mut self, sample: &Sample) {
-        self.limits.sample(sample);
-        self.matching.sample(sample);
+        self.see(&sample.into());
     }
 
     /// The next sample of the motion and its path position, whose limits are judged too.
     pub fn sample_at(&mut self, sample: &Sample, path_s: f64) {
-        self.along.sample(sample, path_s);
-        self.sample(sample);
+        let seen = sample.into();
+        self.along.sample(&seen, path_s);
+        self.see(&seen);
+    }
+
+    /// The next sample of the motion: a frame, its path position and all.
+    pub fn frame(&mut self, frame: &Frame) {
+        let seen = frame.into();
+        self.along.sample(&seen, frame.path_s);
+        self.see(&seen);
+    }
+
+    fn see(&mut self, seen: &Seen<'_>) {
+        self.limits.sample(seen);
+        self.matching.sample(seen);
     }
 
     /// The verdict, after the last sample: the machine rests there from now on.

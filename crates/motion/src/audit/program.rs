@@ -4,8 +4,9 @@
 //! polygon is as far outside at its corners as it is inside between them: the distance from the arc
 //! is half the sagitta.
 
+use super::free_space::Chord;
 use crate::{Item, ItemKind, PathMode, Rate};
-use glidepath_geometry::{Arc, AxisVector, Segment, feed_length};
+use glidepath_geometry::{Arc, AxisVector, Prepared, Segment, feed_length};
 use std::collections::VecDeque;
 
 /// Distance between an arc and its chords, as a part of the tolerance.
@@ -51,8 +52,7 @@ impl ExactEnd {
 /// A chord of the programmed path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
-    pub(super) start: AxisVector,
-    pub(super) end: AxisVector,
+    pub(super) chord: Chord,
     /// Tolerance along it, mm.
     pub(super) tolerance_mm: f64,
     /// Tolerance at its end, mm.
@@ -69,6 +69,7 @@ pub(super) struct Row {
 #[derive(Debug, Clone, Copy)]
 struct Move {
     segment: Segment,
+    length: f64,
     line: u32,
     feed_v: f64,
     /// Larger of the tolerances at its start and end.
@@ -104,6 +105,8 @@ pub(super) struct Rows {
     fed: VecDeque<Move>,
     /// Chords already made of the first of them.
     done: u32,
+    /// Its segment, once it has an inner point.
+    prepared: Option<Prepared>,
     is_ended: bool,
     end_position: Option<AxisVector>,
     default_tolerance_mm: f64,
@@ -121,6 +124,7 @@ impl Rows {
             base: 0,
             fed: VecDeque::new(),
             done: 0,
+            prepared: None,
             is_ended: false,
             end_position: None,
             default_tolerance_mm: tolerance_mm,
@@ -206,6 +210,7 @@ impl Rows {
             let segment = Segment::line(start, end);
             self.fed.push_back(Move {
                 segment,
+                length: segment.length(),
                 chords: 1,
                 exact_end: None,
                 dwell_t: 0.0,
@@ -251,6 +256,7 @@ impl Rows {
         let tolerance_mm = end_tolerance_mm.max(self.corner_tolerance_mm) * slack;
         self.fed.push_back(Move {
             segment: *segment,
+            length,
             line,
             feed_v: rate.feed_v().unwrap_or(f64::INFINITY).min(rate.most_v()),
             tolerance_mm,
@@ -275,6 +281,7 @@ impl Rows {
     pub(super) fn discard(&mut self) {
         self.fed.clear();
         self.done = 0;
+        self.prepared = None;
         self.window.clear();
     }
 
@@ -282,12 +289,12 @@ impl Rows {
     pub(super) fn reach(&mut self, index: usize) -> Presence {
         while self.base + self.window.len() <= index {
             let next = match self.fed.front() {
-                Some(next) if self.done < next.chords => *next,
+                Some(next) if self.done < next.chords => next,
                 _ if self.is_ended => return Presence::Never,
                 _ => return Presence::NotYet,
             };
             let start = match self.window.back() {
-                Some(row) if self.done > 0 => row.end,
+                Some(row) if self.done > 0 => row.chord.to,
                 _ => next.segment.start(),
             };
             self.done += 1;
@@ -295,11 +302,11 @@ impl Rows {
             let end = if is_last {
                 next.segment.end()
             } else {
-                inner_point(&next, self.done)
+                let prepared = self.prepared.get_or_insert_with(|| next.segment.prepared());
+                inner_point(next, prepared, self.done)
             };
             self.window.push_back(Row {
-                start,
-                end,
+                chord: Chord::new(start, end),
                 tolerance_mm: next.tolerance_mm,
                 end_tolerance_mm: if is_last {
                     next.end_tolerance_mm
@@ -311,6 +318,9 @@ impl Rows {
                 feed_v: next.feed_v,
                 line: next.line,
             });
+            if is_last {
+                self.prepared = None;
+            }
             if is_last && !next.is_open {
                 self.fed.pop_front();
                 self.done = 0;
@@ -365,10 +375,9 @@ fn chords(of: &Segment, tolerance_mm: f64) -> u32 {
 }
 
 /// Point `k` of the chords of an arc, moved outwards by half the sagitta.
-fn inner_point(of: &Move, k: u32) -> AxisVector {
+fn inner_point(of: &Move, prepared: &Prepared, k: u32) -> AxisVector {
     let count = f64::from(of.chords);
-    let length = of.segment.length();
-    let mut point = of.segment.jet(length * f64::from(k) / count).position;
+    let mut point = prepared.position(of.length * f64::from(k) / count);
     if let Segment::Arc(arc) = &of.segment {
         push_outwards(arc, &mut point, count);
     }

@@ -45,7 +45,7 @@ impl Matching {
                 }
             }
             let column = &self.history[index];
-            passage = step(&mut self.rows, &now, column, level, &mut next);
+            passage = step(&mut self.rows, &now, &column.chord, level, &mut next);
             if passage != Passage::Passed {
                 break;
             }
@@ -67,7 +67,7 @@ impl Matching {
         for index in from..self.history.len() {
             self.history[index].reach.clone_from(&now);
             let column = &self.history[index];
-            if step(&mut self.rows, &now, column, level, &mut next) != Passage::Passed {
+            if step(&mut self.rows, &now, &column.chord, level, &mut next) != Passage::Passed {
                 break;
             }
             core::mem::swap(&mut now, &mut next);
@@ -117,11 +117,7 @@ impl Matching {
     /// The smallest λ that passes, over the last few columns if they suffice.
     fn widen_lambda(&mut self, goal: Goal) -> Found {
         let cap = self.cap();
-        let level = |lambda_mm| Level {
-            lambda_mm,
-            exact_mm: EXACT_MM,
-            floor_mm: 0.0,
-        };
+        let level = Level::up_to;
         let short = self.history.len().saturating_sub(SHORT);
         let from = self.lambda_mm;
         let (mut start, mut found) = (short, self.search(short, from, cap, goal, level));
@@ -155,9 +151,8 @@ impl Matching {
         while floor_mm < MAX_FLOOR_MM {
             floor_mm *= 2.0;
             let level = Level {
-                lambda_mm: self.cap(),
-                exact_mm: EXACT_MM,
                 floor_mm,
+                ..Level::up_to(self.cap())
             };
             match self.replay(0, &level, goal) {
                 Passage::Passed if self.scratch[0].intervals.len() > MAX_REACH => break,
@@ -223,9 +218,8 @@ impl Matching {
         };
         let cap = self.cap();
         let level = |floor_mm| Level {
-            lambda_mm: cap,
-            exact_mm: EXACT_MM,
             floor_mm,
+            ..Level::up_to(cap)
         };
         let deviation_mm = match self.search(0, 0.0, floor_mm, goal, level) {
             Found::At(deviation_mm) => deviation_mm,

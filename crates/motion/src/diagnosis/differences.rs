@@ -15,16 +15,7 @@ pub(super) struct Differences {
     position: AxisVector,
     first: AxisVector,
     second: AxisVector,
-}
-
-/// What a period uses.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Used {
-    /// The axis that uses most of its velocity, acceleration and jerk, and what share.
-    pub(super) ratios: [Option<(Axis, f64)>; 3],
-    /// How far the straight line of the period is from a curve with its acceleration across, mm.
-    pub(super) chord_mm: f64,
-    pub(super) is_at_rest: bool,
+    third: AxisVector,
 }
 
 impl Differences {
@@ -39,32 +30,50 @@ impl Differences {
             position: zero,
             first: zero,
             second: zero,
+            third: zero,
         }
     }
 
     /// The next position; before the first the machine is at rest there.
-    pub(super) fn next(&mut self, position: &AxisVector, is_first: bool) -> Used {
+    pub(super) fn next(&mut self, position: &AxisVector, is_first: bool) {
         if is_first {
             self.position = *position;
         }
         let first = position - self.position;
         let second = first - self.first;
-        let third = second - self.second;
+        self.third = second - self.second;
         self.position = *position;
         self.first = first;
         self.second = second;
-        let ratios = [first, second, third].map(|difference| difference.abs());
+    }
+
+    /// True if the period does not move any axis.
+    pub(super) fn is_at_rest(&self) -> bool {
+        self.first
+            .iter()
+            .all(|difference| difference.abs() <= STILL_MM)
+    }
+
+    /// The axis that uses most of its velocity, acceleration and jerk in the period, and what share.
+    pub(super) fn ratios(&self) -> [Option<(Axis, f64)>; 3] {
+        let [velocity, acceleration, jerk] = &self.most;
+        [
+            largest(&self.first, velocity),
+            largest(&self.second, acceleration),
+            largest(&self.third, jerk),
+        ]
+    }
+
+    /// How far the straight line of the period is from a curve with its acceleration across, mm.
+    pub(super) fn chord_mm(&self) -> f64 {
+        let (first, second) = (self.first, self.second);
         let length_2 = first.norm_squared();
         let across = if length_2 > 0.0 {
             second - first * (second.dot(&first) / length_2)
         } else {
             second
         };
-        Used {
-            ratios: [0, 1, 2].map(|k| largest(&ratios[k], &self.most[k])),
-            chord_mm: tolerance_norm(&across) / 8.0,
-            is_at_rest: first.amax() <= STILL_MM,
-        }
+        tolerance_norm(&across) / 8.0
     }
 }
 
@@ -72,7 +81,6 @@ impl Differences {
 fn largest(difference: &AxisVector, most: &AxisVector) -> Option<(Axis, f64)> {
     Axis::ALL
         .into_iter()
-        .zip(difference.component_div(most).iter())
-        .map(|(axis, &ratio)| (axis, ratio))
+        .map(|axis| (axis, difference[axis.index()].abs() / most[axis.index()]))
         .reduce(|a, b| if b.1 > a.1 { b } else { a })
 }

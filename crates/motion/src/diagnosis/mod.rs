@@ -64,12 +64,13 @@ impl Diagnosis {
     /// as far as the frame is.
     pub fn frame(&mut self, frame: &Frame) -> Binding {
         let is_first = frame.flags.contains(FrameFlags::FIRST);
-        let used = self.differences.next(&frame.position, is_first);
+        self.differences.next(&frame.position, is_first);
+        let is_at_rest = self.differences.is_at_rest();
         let nearby = self.follow.to(frame);
-        let binding = if used.is_at_rest {
+        let binding = if is_at_rest {
             Binding::Rest
         } else {
-            classify(frame.path_v, &used, &nearby)
+            classify(frame.path_v, &self.differences, (&nearby, &self.follow))
         };
         if let Some(count) = self.counts.get_mut(binding.index())
             && !is_first
@@ -85,7 +86,7 @@ impl Diagnosis {
         self.places.next(&Visit {
             sequence: frame.sequence,
             line: frame.line,
-            speed_v: if used.is_at_rest { 0.0 } else { frame.path_v },
+            speed_v: if is_at_rest { 0.0 } else { frame.path_v },
             feed_v: nearby.feed_v,
             binding,
             is_wait,
@@ -116,11 +117,11 @@ impl Diagnosis {
 /// What binds in a period: of the limits that are used fully, the one whose change would help first.
 /// The feed and the velocity of an axis bind whatever else does; acceleration and jerk bind only
 /// until a speed is reached; the tolerance binds where none of them does.
-fn classify(path_v: f64, used: &differences::Used, nearby: &Nearby) -> Binding {
+fn classify(path_v: f64, used: &Differences, (nearby, follow): (&Nearby, &Follow)) -> Binding {
     if path_v >= FULLY_R * nearby.feed_v {
         return Binding::Feed;
     }
-    let [velocity, acceleration, jerk] = used.ratios;
+    let [velocity, acceleration, jerk] = used.ratios();
     for (ratio, binding) in [
         (velocity, Binding::Velocity as fn(_) -> _),
         (acceleration, Binding::Acceleration as fn(_) -> _),
@@ -132,11 +133,13 @@ fn classify(path_v: f64, used: &differences::Used, nearby: &Nearby) -> Binding {
             return binding(axis);
         }
     }
-    let both_mm = nearby.deviation_mm + used.chord_mm;
+    let chord_mm = used.chord_mm();
+    let deviation_mm = follow.deviation_mm();
+    let both_mm = deviation_mm + chord_mm;
     // The middle of a chord is off the path by up to both together.
     if both_mm < FULLY_R * nearby.tolerance_mm {
         Binding::None
-    } else if used.chord_mm > nearby.deviation_mm {
+    } else if chord_mm > deviation_mm {
         Binding::ChordError
     } else {
         Binding::Tolerance

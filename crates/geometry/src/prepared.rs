@@ -1,0 +1,225 @@
+//! Segments made ready to be evaluated many times: what does not depend on path position is computed
+//! once. The values are those of [`Segment::jet`], bit for bit.
+
+use crate::{Arc, AxisVector, Jet, Line, Segment, feed_length};
+
+/// A segment made ready for many evaluations.
+#[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant, reason = "one is kept at a time, or two")]
+pub enum Prepared {
+    /// Straight.
+    Line(PreparedLine),
+    /// Circular, helical, or slightly spiral.
+    Arc(PreparedArc),
+    /// A piece of another curve, which needs no preparation.
+    Curve(crate::Quintic),
+}
+
+/// A line, its length and its direction.
+#[derive(Debug, Clone)]
+pub struct PreparedLine {
+    line: Line,
+    displacement: AxisVector,
+    displacement_2: f64,
+    length: f64,
+    d1: AxisVector,
+}
+
+/// An arc, its length, and where it begins in polar coordinates.
+#[derive(Debug, Clone)]
+pub struct PreparedArc {
+    arc: Arc,
+    displacement: AxisVector,
+    length: f64,
+    radii: [f64; 2],
+    start_angle_rad: f64,
+}
+
+impl Segment {
+    /// The same segment, made ready for many evaluations.
+    #[must_use]
+    pub fn prepared(&self) -> Prepared {
+        match self {
+            Self::Line(line) => Prepared::Line(line.prepared()),
+            Self::Arc(arc) => Prepared::Arc(arc.prepared()),
+            Self::Curve(curve) => Prepared::Curve(*curve),
+        }
+    }
+}
+
+impl Prepared {
+    /// Position and derivatives at path position `s`, as [`Segment::jet`].
+    #[must_use]
+    #[inline]
+    pub fn jet(&self, s: f64) -> Jet {
+        match self {
+            Self::Line(line) => line.jet(s),
+            Self::Arc(arc) => arc.jet(s),
+            Self::Curve(curve) => curve.jet(s),
+        }
+    }
+
+    /// The position at path position `s`.
+    #[must_use]
+    pub fn position(&self, s: f64) -> AxisVector {
+        match self {
+            Self::Line(line) => line.position(s),
+            Self::Arc(arc) => arc.jet(s).position,
+            Self::Curve(curve) => curve.jet(s).position,
+        }
+    }
+}
+
+impl Line {
+    /// The same line, made ready for many evaluations.
+    #[must_use]
+    #[inline]
+    pub fn prepared(&self) -> PreparedLine {
+        let displacement = self.displacement();
+        let length = feed_length(&displacement);
+        let d1 = if length <= 0.0 {
+            AxisVector::zeros()
+        } else {
+            displacement / length
+        };
+        PreparedLine {
+            line: *self,
+            displacement,
+            displacement_2: displacement.norm_squared(),
+            length,
+            d1,
+        }
+    }
+}
+
+impl PreparedLine {
+    /// The line.
+    #[must_use]
+    pub const fn line(&self) -> &Line {
+        &self.line
+    }
+
+    /// End minus start.
+    #[must_use]
+    pub const fn displacement(&self) -> &AxisVector {
+        &self.displacement
+    }
+
+    /// The square of the displacement's norm over all axes.
+    #[must_use]
+    pub const fn displacement_2(&self) -> f64 {
+        self.displacement_2
+    }
+
+    /// Position and derivatives at path position `s`, as [`Segment::jet`].
+    #[must_use]
+    #[inline]
+    pub fn jet(&self, s: f64) -> Jet {
+        let zero = AxisVector::zeros();
+        Jet {
+            position: self.position(s),
+            d1: self.d1,
+            d2: zero,
+            d3: zero,
+        }
+    }
+
+    /// The position at path position `s`.
+    #[must_use]
+    #[inline]
+    pub fn position(&self, s: f64) -> AxisVector {
+        if self.length <= 0.0 {
+            return self.line.start;
+        }
+        // From the nearer end, so that both ends are met exactly.
+        let fraction = s / self.length;
+        if fraction <= 0.5 {
+            self.line.start + self.displacement * fraction
+        } else {
+            self.line.end - self.displacement * ((self.length - s) / self.length)
+        }
+    }
+}
+
+impl Arc {
+    /// The same arc, made ready for many evaluations.
+    #[must_use]
+    pub fn prepared(&self) -> PreparedArc {
+        PreparedArc {
+            arc: *self,
+            displacement: self.end - self.start,
+            length: self.length(),
+            radii: [self.start_radius(), self.end_radius()],
+            start_angle_rad: self.start_angle_rad(),
+        }
+    }
+
+    /// Position and derivatives at path position `s`.
+    ///
+    /// For a radius that changes, `s` is proportional to the swept angle and differs from the true
+    /// arc length by the relative size of that change.
+    #[must_use]
+    pub fn jet(&self, s: f64) -> Jet {
+        self.prepared().jet(s)
+    }
+}
+
+impl PreparedArc {
+    /// The arc.
+    #[must_use]
+    pub const fn arc(&self) -> &Arc {
+        &self.arc
+    }
+
+    /// [`Arc::start_angle_rad`].
+    #[must_use]
+    pub const fn start_angle_rad(&self) -> f64 {
+        self.start_angle_rad
+    }
+
+    /// Position and derivatives at path position `s`, as [`Arc::jet`].
+    #[must_use]
+    pub fn jet(&self, s: f64) -> Jet {
+        let (arc, length) = (&self.arc, self.length);
+        let fraction = if length > 0.0 { s / length } else { 0.0 };
+        let (first, second) = arc.plane.axes();
+        let (first, second) = (first.index(), second.index());
+        let per_s = if length > 0.0 { 1.0 / length } else { 0.0 };
+
+        let displacement = self.displacement;
+        let mut position = arc.start + displacement * fraction;
+        let mut d1 = displacement * per_s;
+        let mut d2 = AxisVector::zeros();
+        let mut d3 = AxisVector::zeros();
+
+        let [radius_0, radius_1] = self.radii;
+        let radius = radius_0 + (radius_1 - radius_0) * fraction;
+        let radius_d1 = (radius_1 - radius_0) * per_s;
+        let omega = arc.sweep_rad * per_s;
+        let (sin, cos) = (self.start_angle_rad + arc.sweep_rad * fraction).sin_cos();
+
+        // r·e(φ): e' = ω n, e'' = −ω² e, e''' = −ω³ n, with r' constant.
+        position[first] = arc.center[0] + radius * cos;
+        position[second] = arc.center[1] + radius * sin;
+        d1[first] = radius_d1 * cos - radius * omega * sin;
+        d1[second] = radius_d1 * sin + radius * omega * cos;
+        let (along, across) = (-radius * omega * omega, 2.0 * radius_d1 * omega);
+        d2[first] = along * cos - across * sin;
+        d2[second] = along * sin + across * cos;
+        let (along, across) = (
+            -3.0 * radius_d1 * omega * omega,
+            -radius * omega * omega * omega,
+        );
+        d3[first] = along * cos - across * sin;
+        d3[second] = along * sin + across * cos;
+        if fraction >= 1.0 {
+            position = arc.end + (displacement * (fraction - 1.0));
+        }
+        Jet {
+            position,
+            d1,
+            d2,
+            d3,
+        }
+    }
+}
