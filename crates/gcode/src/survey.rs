@@ -23,6 +23,8 @@ pub struct Survey {
     pub straight_time_s: f64,
     /// Time of the arcs at their feedrate, as if there were no acceleration, s.
     pub arc_time_s: f64,
+    /// The cosine of the angle at `corner`.
+    least_cosine: f64,
     /// Direction at the end of the last feed move.
     last: Option<AxisVector>,
 }
@@ -61,11 +63,19 @@ impl Survey {
         };
         let start = direction(0.0);
         if let (Some(last), Some(start)) = (self.last, start) {
-            let angle_deg = last.dot(&start).clamp(-1.0, 1.0).acos().to_degrees();
+            let cosine = last.dot(&start).clamp(-1.0, 1.0);
+            // Hardly any is the sharpest so far, and an angle costs more than all the rest.
+            let may_be = self.corner.is_none() || cosine < self.least_cosine;
+            let angle_deg = if may_be {
+                cosine.acos().to_degrees()
+            } else {
+                0.0
+            };
             if self
                 .corner
                 .is_none_or(|corner| angle_deg > corner.angle_deg)
             {
+                self.least_cosine = cosine;
                 self.corner = Some(Corner {
                     line,
                     at: segment.start(),
@@ -73,6 +83,9 @@ impl Survey {
                 });
             }
         }
-        self.last = direction(segment.length());
+        self.last = match segment {
+            Segment::Line(_) => start,
+            _ => direction(segment.length()),
+        };
     }
 }

@@ -20,7 +20,6 @@ pub enum Prepared {
 pub struct PreparedLine {
     line: Line,
     displacement: AxisVector,
-    displacement_2: f64,
     length: f64,
     d1: AxisVector,
 }
@@ -85,7 +84,6 @@ impl Line {
         PreparedLine {
             line: *self,
             displacement,
-            displacement_2: displacement.norm_squared(),
             length,
             d1,
         }
@@ -103,12 +101,6 @@ impl PreparedLine {
     #[must_use]
     pub const fn displacement(&self) -> &AxisVector {
         &self.displacement
-    }
-
-    /// The square of the displacement's norm over all axes.
-    #[must_use]
-    pub const fn displacement_2(&self) -> f64 {
-        self.displacement_2
     }
 
     /// Position and derivatives at path position `s`, as [`Segment::jet`].

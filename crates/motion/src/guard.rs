@@ -5,7 +5,7 @@
 //! the cause; no motion at all is better.
 
 use crate::{Frame, Limits, PlanError, Settings};
-use glidepath_geometry::{AXES, AxisVector};
+use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ};
 
 /// Follows the frames.
 #[derive(Debug)]
@@ -14,6 +14,8 @@ pub(crate) struct Guard {
     most: [AxisVector; 3],
     /// Position, and its first and second differences, at the last frame.
     last: Option<[AxisVector; 3]>,
+    /// Another axis than X, Y, Z has moved.
+    others_move: bool,
 }
 
 /// How far above a limit a difference has to be to count as a hole in the plan. Rounding is far below
@@ -33,33 +35,51 @@ impl Guard {
         let t = settings.period_t;
         let most = [velocity * t, acceleration * (t * t), jerk * t.powi(3)]
             .map(|most| most.map(|x| x.mul_add(ALLOWANCE_R, ROUNDING_MM)));
-        Self { most, last: None }
+        Self {
+            most,
+            last: None,
+            others_move: false,
+        }
     }
 
     /// Refuses a frame that does not follow the one before.
     #[inline]
     pub(crate) fn check(&mut self, frame: &Frame) -> Result<(), PlanError> {
+        let is_first = self.last.is_none();
         let zero = AxisVector::zeros();
-        let [position, first, second] = self.last.unwrap_or([frame.position, zero, zero]);
-        let new_first = frame.position - position;
-        let new_second = new_first - first;
-        let new_third = new_second - second;
+        let [position, first, second] = self.last.get_or_insert([frame.position, zero, zero]);
+        // Axes that do not move are not looked at: but for the sign of a zero, nothing of them changes.
+        let mut differing = 0;
+        for i in LINEAR_XYZ.end..AXES {
+            differing |= frame.position[i].to_bits() ^ position[i].to_bits();
+            differing |= (frame.velocity[i].to_bits() | frame.acceleration[i].to_bits()) << 1;
+        }
+        self.others_move |= differing != 0;
+        let axes = if self.others_move || is_first {
+            AXES
+        } else {
+            LINEAR_XYZ.end
+        };
         let [most_first, most_second, most_third] = &self.most;
-        // All axes together, without a branch for each. Not a number is not within a limit.
+        // All together, without a branch for each. Not a number is not within a limit.
         let mut follows = true;
-        let mut sum = 0.0;
-        for i in 0..AXES {
-            follows &= (new_first[i].abs() <= most_first[i])
-                & (new_second[i].abs() <= most_second[i])
-                & (new_third[i].abs() <= most_third[i]);
-            // Zero unless one of them is not finite.
-            sum += 0.0 * frame.velocity[i] + 0.0 * frame.acceleration[i];
+        for i in 0..axes {
+            let new_first = frame.position[i] - position[i];
+            let new_second = new_first - first[i];
+            let new_third = new_second - second[i];
+            follows &= (new_first.abs() <= most_first[i])
+                & (new_second.abs() <= most_second[i])
+                & (new_third.abs() <= most_third[i])
+                & (frame.velocity[i].abs() <= f64::MAX)
+                & (frame.acceleration[i].abs() <= f64::MAX);
+            (first[i], second[i]) = (new_first, new_second);
         }
-        if !(follows && sum == 0.0) {
-            return Err(PlanError::NoMotion { line: frame.line });
+        *position = frame.position;
+        if follows {
+            Ok(())
+        } else {
+            Err(PlanError::NoMotion { line: frame.line })
         }
-        self.last = Some([frame.position, new_first, new_second]);
-        Ok(())
     }
 }
 

@@ -12,7 +12,7 @@ mod support;
 
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
-use glidepath_motion::{Item, ItemKind, Planner, Rate, Settings};
+use glidepath_motion::{Item, ItemKind, Planner, Rate, Settings, Smoothing};
 use proptest::prelude::*;
 use support::{FREE, at, cases, mill};
 
@@ -101,6 +101,30 @@ fn noise_within_the_tolerance_does_not_slow_a_line() {
         report.cycle_time_s,
         straight.cycle_time_s
     );
+}
+
+#[test]
+fn a_zigzag_as_wide_as_the_tolerance_is_never_slower_than_with_stops() {
+    for turn_deg in [60.0_f64, 75.0, 90.0, 99.0, 105.0] {
+        for step_mm in [0.03, 0.045, 0.06, 0.1] {
+            let height_mm = step_mm * (0.5 * turn_deg.to_radians()).tan();
+            let points: Vec<_> = (0..=150)
+                .map(|i| at(step_mm * f64::from(i), height_mm * f64::from(i % 2)))
+                .collect();
+            let items = items(&points, |_| 100.0);
+            let stops = Settings {
+                smoothing: Smoothing::ExactStop,
+                ..mill()
+            };
+            let [smooth, stopping] = [mill(), stops].map(|settings| audited(&items, settings));
+            assert!(smooth.is_clean(), "{smooth:#?}");
+            let (smooth_t, stop_t) = (smooth.cycle_time_s, stopping.cycle_time_s);
+            assert!(
+                smooth_t < 0.85 * stop_t,
+                "{turn_deg}° {step_mm} mm: {smooth_t} s against {stop_t} s"
+            );
+        }
+    }
 }
 
 proptest! {

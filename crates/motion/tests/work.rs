@@ -17,6 +17,7 @@
 mod support;
 
 use glidepath_geometry::{AxisVector, Segment};
+use glidepath_motion::audit::{Audit, AuditSettings};
 use glidepath_motion::{Item, ItemKind, Planner, Rate, Settings};
 use std::hint::black_box;
 use std::process::Command;
@@ -32,22 +33,38 @@ struct Case {
     name: &'static str,
     settings: fn() -> Settings,
     path: fn(u32) -> AxisVector,
+    feed_v: f64,
+    /// Whether the auditor goes along.
+    is_audited: bool,
     blocks: u32,
     most: u64,
 }
 
-const CASES: [Case; 4] = [
+const CASES: [Case; 5] = [
     Case {
         name: "fast, dense lines",
         settings: mill,
         path: dense,
+        feed_v: 100.0,
+        is_audited: false,
         blocks: 5000,
         most: 6_500,
+    },
+    Case {
+        name: "fast, with the audit, lines of fifty periods each",
+        settings: mill,
+        path: slow,
+        feed_v: 5.0,
+        is_audited: true,
+        blocks: 400,
+        most: 150_000,
     },
     Case {
         name: "fast, corners",
         settings: mill,
         path: zigzag,
+        feed_v: 100.0,
+        is_audited: false,
         blocks: 100,
         most: 120_000,
     },
@@ -55,6 +72,8 @@ const CASES: [Case; 4] = [
         name: "optimal, dense lines",
         settings: optimal,
         path: dense,
+        feed_v: 100.0,
+        is_audited: false,
         blocks: 5000,
         most: 800_000,
     },
@@ -62,6 +81,8 @@ const CASES: [Case; 4] = [
         name: "optimal, corners",
         settings: optimal,
         path: zigzag,
+        feed_v: 100.0,
+        is_audited: false,
         blocks: 40,
         most: 90_000_000,
     },
@@ -73,28 +94,55 @@ fn dense(k: u32) -> AxisVector {
     at(x, (0.5 * x).sin())
 }
 
+/// Lines of a millimetre along a wave.
+fn slow(k: u32) -> AxisVector {
+    let x = f64::from(k);
+    at(x, 5.0 * (0.1 * x).sin())
+}
+
 /// Lines of two millimetres there and back.
 fn zigzag(k: u32) -> AxisVector {
     at(0.2 * f64::from(k), 2.0 * f64::from(k % 2))
 }
 
 fn plan(case: &Case, blocks: u32) {
-    let mut planner = Planner::new((case.settings)(), (case.path)(0));
+    let settings = (case.settings)();
+    let mut planner = Planner::new(settings, (case.path)(0));
+    let mut audit = case.is_audited.then(|| {
+        Audit::new(&AuditSettings {
+            limits: settings.limits,
+            period_t: settings.period_t,
+            tolerance_mm: settings.tolerance_mm,
+        })
+    });
+    let take_all = |planner: &mut Planner, audit: &mut Option<Audit>| {
+        while planner.make_frame().unwrap() {
+            match audit {
+                Some(audit) => audit.frame(planner.frame()),
+                None => {
+                    black_box(planner.frame());
+                }
+            }
+        }
+    };
     for k in 0..blocks {
         let segment = Segment::line((case.path)(k), (case.path)(k + 1));
         let kind = ItemKind::Move {
             segment,
-            rate: Rate::Feed(100.0),
+            rate: Rate::Feed(case.feed_v),
             mode: FREE,
         };
-        planner.push(&Item { line: k + 1, kind }).unwrap();
-        while let Some(frame) = planner.pop_frame().unwrap() {
-            black_box(frame);
+        let item = Item { line: k + 1, kind };
+        planner.push(&item).unwrap();
+        if let Some(audit) = &mut audit {
+            audit.program(&item);
         }
+        take_all(&mut planner, &mut audit);
     }
     planner.finish();
-    while let Some(frame) = planner.pop_frame().unwrap() {
-        black_box(frame);
+    take_all(&mut planner, &mut audit);
+    if let Some(audit) = audit {
+        assert!(audit.finish().is_clean());
     }
 }
 

@@ -19,7 +19,7 @@ use std::time::Duration;
 
 use glidepath_gcode::{Dialect, Options, Program, ToolTable};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
+use glidepath_motion::audit::{Audit, AuditSettings, Report};
 use glidepath_motion::{Effort, ItemKind, Limits, Planner, Settings, Smoothing};
 
 /// Segments planned of a program.
@@ -94,13 +94,13 @@ fn plan(path: &Path, settings: Settings) -> Result<Plan, Box<dyn Error>> {
         }
         planner.push(&item)?;
         audit.program(&item);
-        while let Some(frame) = planner.pop_frame()? {
-            audit.sample(&Sample::from(&frame));
+        while planner.make_frame()? {
+            audit.frame(planner.frame());
         }
     }
     planner.finish();
-    while let Some(frame) = planner.pop_frame()? {
-        audit.sample(&Sample::from(&frame));
+    while planner.make_frame()? {
+        audit.frame(planner.frame());
     }
     Ok(Plan {
         report: audit.finish(),

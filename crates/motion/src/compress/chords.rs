@@ -26,6 +26,13 @@ use super::window::{End, Window};
 const REVERSAL_RAD: f64 = 1.745_329_251_994_33;
 const SHARP_RAD: f64 = core::f64::consts::FRAC_PI_6;
 const GENTLE_RAD: f64 = core::f64::consts::FRAC_PI_6 / 2.0;
+/// Turns to one side and then to the other, each above 55°, are a zigzag.
+const ZIGZAG_RAD: f64 = 0.96;
+/// A zigzag whose chords have at least this length, in tolerances, times the squared sine of half the
+/// turn, is faster with its corners: the curve that is left of it in the tube bends too much. Found by
+/// driving zigzags of 45° to 105° both ways; lengths and times of both go with the cube root of each
+/// other, so that limits do not matter.
+const ZIGZAG_R: f64 = 1.15;
 /// Lengths in tolerances: of a chord whose middle is a line if it bends, and if it does not; of the
 /// curves beside such a line; of a line beside a corner; the least spacing of samples.
 const LONG_BENT_R: f64 = 400.0;
@@ -46,6 +53,8 @@ pub(super) struct Chords<const D: usize> {
     is_curved: bool,
     /// How much the path turns there, rad.
     turn_rad: f64,
+    /// Where to: the difference of the directions.
+    bend: [f64; D],
     /// Spacing of the samples before it.
     spacing_t: f64,
     /// Length of the chords before it.
@@ -60,6 +69,7 @@ impl<const D: usize> Chords<D> {
             waiting: None,
             is_curved: false,
             turn_rad: 0.0,
+            bend: [0.0; D],
             spacing_t: 0.0,
             along_t: 0.0,
         }
@@ -68,8 +78,10 @@ impl<const D: usize> Chords<D> {
     /// The next chord, and what its first block changes.
     pub(super) fn push(&mut self, next: Chord<D>, change: Option<Change>, out: &mut Output) {
         if let Some((chord, mark)) = self.waiting.take() {
-            let turn_rad = turn(&chord, &next);
-            let is_corner = self.is_corner(turn_rad, chord.length_t, next.length_t);
+            let (turn_rad, bend) = turn(&chord, &next);
+            let is_corner = self.is_corner(turn_rad, chord.length_t, next.length_t)
+                || self.is_zigzag((turn_rad, &bend), chord.length_t.min(next.length_t));
+            self.bend = bend;
             let spacing_t = (!is_corner).then(|| self.spacing(turn_rad, next.length_t));
             self.drive(&chord, mark, spacing_t, turn_rad, out);
         }
@@ -96,6 +108,15 @@ impl<const D: usize> Chords<D> {
             REVERSAL_RAD
         };
         turn_rad > least_rad
+    }
+
+    /// Whether a vertex, after another that turned to the other side, is kept as a corner.
+    fn is_zigzag(&self, (turn_rad, bend): (f64, &[f64; D]), shorter_t: f64) -> bool {
+        let less_rad = turn_rad.min(self.turn_rad);
+        let sine = (0.5 * less_rad).sin();
+        less_rad > ZIGZAG_RAD
+            && dot(bend, &self.bend) < 0.0
+            && shorter_t * sine * sine > ZIGZAG_R * self.tube.tolerance_mm
     }
 
     /// The spacing of samples beside a vertex, at most 2.5 times that of the samples on its other
@@ -241,13 +262,14 @@ impl<const D: usize> Chords<D> {
     }
 }
 
-/// How much the path turns between two chords, rad.
-fn turn<const D: usize>(from: &Chord<D>, to: &Chord<D>) -> f64 {
+/// How much the path turns between two chords, rad, and the difference of their directions.
+fn turn<const D: usize>(from: &Chord<D>, to: &Chord<D>) -> (f64, [f64; D]) {
     let first = minus(&from.end, &from.start).map(|x| x / from.length_t);
     let second = minus(&to.end, &to.start).map(|x| x / to.length_t);
     let sum = add_scaled(&first, 1.0, &second);
     let difference = minus(&second, &first);
-    2.0 * dot(&difference, &difference)
+    let half_rad = dot(&difference, &difference)
         .sqrt()
-        .atan2(dot(&sum, &sum).sqrt())
+        .atan2(dot(&sum, &sum).sqrt());
+    (2.0 * half_rad, difference)
 }

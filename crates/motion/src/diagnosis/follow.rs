@@ -15,6 +15,8 @@ use std::collections::VecDeque;
 struct Move {
     segment: Prepared,
     length_s: f64,
+    /// The square of the displacement over all axes.
+    displacement_2: f64,
     rate: Rate,
     tolerance_mm: f64,
 }
@@ -76,6 +78,7 @@ impl Follow {
         self.moves.push_back(Move {
             segment: segment.prepared(),
             length_s,
+            displacement_2: (segment.end() - segment.start()).norm_squared(),
             rate,
             tolerance_mm,
         });
@@ -159,7 +162,7 @@ impl Move {
         let s = match &self.segment {
             Prepared::Line(line) => {
                 let along = line.displacement();
-                let u = along.dot(&(position - line.line().start)) / line.displacement_2();
+                let u = along.dot(&(position - line.line().start)) / self.displacement_2;
                 u * self.length_s
             }
             Prepared::Arc(arc) => {
@@ -176,7 +179,8 @@ impl Move {
             Prepared::Curve(curve) => {
                 // A piece turns little: from the place on its chord, Newton's method.
                 let way = curve.end - curve.start;
-                let mut s = way.dot(&(position - curve.start)) / way.norm_squared() * self.length_s;
+                let mut s =
+                    way.dot(&(position - curve.start)) / self.displacement_2 * self.length_s;
                 for _ in 0..3 {
                     let jet = curve.jet(s.max(0.0).min(self.length_s));
                     let gap = position - jet.position;

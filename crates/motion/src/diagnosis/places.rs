@@ -186,6 +186,9 @@ impl Places {
     }
 
     fn close(&mut self) {
+        if self.valley.is_none() {
+            return;
+        }
         let mut valley = self.valley.take();
         if let (Some(valley), Some(behind)) = (&mut valley, self.behind.take()) {
             valley.join(&behind);
