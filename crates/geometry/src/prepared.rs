@@ -63,7 +63,7 @@ impl Prepared {
     pub fn position(&self, s: f64) -> AxisVector {
         match self {
             Self::Line(line) => line.position(s),
-            Self::Arc(arc) => arc.jet(s).position,
+            Self::Arc(arc) => arc.position(s),
             Self::Curve(curve) => curve.jet(s).position,
         }
     }
@@ -169,30 +169,54 @@ impl PreparedArc {
         self.start_angle_rad
     }
 
+    /// The position at path position `s`.
+    #[must_use]
+    pub fn position(&self, s: f64) -> AxisVector {
+        self.place(s).0
+    }
+
+    /// The position at path position `s`; the radius, and sine and cosine of the direction there.
+    #[inline]
+    fn place(&self, s: f64) -> (AxisVector, f64, (f64, f64)) {
+        let arc = &self.arc;
+        let fraction = if self.length > 0.0 {
+            s / self.length
+        } else {
+            0.0
+        };
+        let [radius_0, radius_1] = self.radii;
+        let radius = radius_0 + (radius_1 - radius_0) * fraction;
+        let (sin, cos) = (self.start_angle_rad + arc.sweep_rad * fraction).sin_cos();
+        let position = if fraction >= 1.0 {
+            arc.end + (self.displacement * (fraction - 1.0))
+        } else {
+            let (first, second) = arc.plane.axes();
+            let mut position = arc.start + self.displacement * fraction;
+            position[first.index()] = arc.center[0] + radius * cos;
+            position[second.index()] = arc.center[1] + radius * sin;
+            position
+        };
+        (position, radius, (sin, cos))
+    }
+
     /// Position and derivatives at path position `s`, as [`Arc::jet`].
     #[must_use]
     pub fn jet(&self, s: f64) -> Jet {
         let (arc, length) = (&self.arc, self.length);
-        let fraction = if length > 0.0 { s / length } else { 0.0 };
         let (first, second) = arc.plane.axes();
         let (first, second) = (first.index(), second.index());
         let per_s = if length > 0.0 { 1.0 / length } else { 0.0 };
 
-        let displacement = self.displacement;
-        let mut position = arc.start + displacement * fraction;
-        let mut d1 = displacement * per_s;
+        let mut d1 = self.displacement * per_s;
         let mut d2 = AxisVector::zeros();
         let mut d3 = AxisVector::zeros();
 
+        let (position, radius, (sin, cos)) = self.place(s);
         let [radius_0, radius_1] = self.radii;
-        let radius = radius_0 + (radius_1 - radius_0) * fraction;
         let radius_d1 = (radius_1 - radius_0) * per_s;
         let omega = arc.sweep_rad * per_s;
-        let (sin, cos) = (self.start_angle_rad + arc.sweep_rad * fraction).sin_cos();
 
         // r·e(φ): e' = ω n, e'' = −ω² e, e''' = −ω³ n, with r' constant.
-        position[first] = arc.center[0] + radius * cos;
-        position[second] = arc.center[1] + radius * sin;
         d1[first] = radius_d1 * cos - radius * omega * sin;
         d1[second] = radius_d1 * sin + radius * omega * cos;
         let (along, across) = (-radius * omega * omega, 2.0 * radius_d1 * omega);
@@ -204,9 +228,6 @@ impl PreparedArc {
         );
         d3[first] = along * cos - across * sin;
         d3[second] = along * sin + across * cos;
-        if fraction >= 1.0 {
-            position = arc.end + (displacement * (fraction - 1.0));
-        }
         Jet {
             position,
             d1,

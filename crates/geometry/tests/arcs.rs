@@ -83,6 +83,7 @@ proptest! {
         let h = 1e-4 / arc.sweep_rad.abs() * length;
         let s = h + x * (length - 2.0 * h);
         let (before, at, after) = (arc.jet(s - h), arc.jet(s), arc.jet(s + h));
+        prop_assert_eq!(arc.prepared().position(s), at.position);
         let curvature = (arc.sweep_rad / length).abs();
         for (low, value, high, order) in [
             (before.position, at.d1, after.position, 0),

@@ -58,7 +58,9 @@ proptest! {
         let bounds = span.bounds();
         let mut most = [AxisVector::zeros(); 3];
         for i in 0..=500 {
-            let jet = span.jet(span.length() * f64::from(i) / 500.0);
+            let s = span.length() * f64::from(i) / 500.0;
+            let (jet, state) = (span.jet(s), span.state(s));
+            prop_assert_eq!([state.position, state.d1, state.d2], [jet.position, jet.d1, jet.d2]);
             for (most, d) in most.iter_mut().zip([jet.d1, jet.d2, jet.d3]) {
                 *most = most.sup(&d.abs());
             }

@@ -133,6 +133,8 @@ pub(super) fn step(
     let mut bottom = Interval::EMPTY;
     let mut index = now.low;
     while index < now.end() || !bottom.is_empty() {
+        // Along a long chord the motion mostly goes on; short ones it mostly leaves behind.
+        let left_is_last = index + 1 == now.end();
         match rows.reach(index) {
             Presence::Here => {}
             Presence::NotYet => return Passage::NotYet,
@@ -145,7 +147,10 @@ pub(super) fn step(
         if !(left.is_empty() && bottom.is_empty()) {
             // From below every place on the right is above; from the left every place on top is
             // to the right.
-            right = row.chord.near(&chord.to, level.along(row));
+            let along_mm = level.along(row);
+            if left_is_last || !row.chord.is_far(&chord.to, along_mm) {
+                right = row.chord.near(&chord.to, along_mm);
+            }
             if bottom.is_empty() {
                 right = right.from(left.low);
             }
