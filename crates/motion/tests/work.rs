@@ -57,7 +57,7 @@ const CASES: [Case; 5] = [
         feed_v: 5.0,
         is_audited: true,
         blocks: 400,
-        most: 150_000,
+        most: 250_000,
     },
     Case {
         name: "fast, corners",
