@@ -48,7 +48,7 @@ const CASES: [Case; 5] = [
         feed_v: 100.0,
         is_audited: false,
         blocks: 5000,
-        most: 6_500,
+        most: 5_500,
     },
     Case {
         name: "fast, with the audit, lines of fifty periods each",
@@ -57,7 +57,7 @@ const CASES: [Case; 5] = [
         feed_v: 5.0,
         is_audited: true,
         blocks: 400,
-        most: 250_000,
+        most: 220_000,
     },
     Case {
         name: "fast, corners",
@@ -66,7 +66,7 @@ const CASES: [Case; 5] = [
         feed_v: 100.0,
         is_audited: false,
         blocks: 100,
-        most: 120_000,
+        most: 90_000,
     },
     Case {
         name: "optimal, dense lines",
