@@ -28,6 +28,16 @@ impl Allowed {
     }
 }
 
+/// The larger of two numbers, the second if one is none: an instruction, which `f64::max` is not.
+fn larger(one: f64, other: f64) -> f64 {
+    if one > other { one } else { other }
+}
+
+/// The smaller one in the same way.
+fn smaller(one: f64, other: f64) -> f64 {
+    if one < other { one } else { other }
+}
+
 /// The last published position and its differences.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Differences {
@@ -92,6 +102,39 @@ impl Differences {
             self.second[i] = second;
         }
         inside == 1
+    }
+
+    /// From where to where the next position may be moved until a limit is reached, from one along a
+    /// velocity, in parts of that. Exact where the motion is straight.
+    #[allow(clippy::indexing_slicing, reason = "the index runs over the axes")]
+    pub(crate) fn room(
+        &self,
+        position: &AxisVector,
+        velocity: &AxisVector,
+        allowed: &Allowed,
+    ) -> (f64, f64) {
+        let [most_first, most_second, most_third] = &allowed.0;
+        let (mut low, mut high) = ([f64::NEG_INFINITY; AXES], [f64::INFINITY; AXES]);
+        for i in 0..AXES {
+            let first = position[i] - self.position[i];
+            let second = first - self.first[i];
+            let third = second - self.second[i];
+            let scale = velocity[i].abs().recip();
+            // What the differences are along the velocity. An axis that stands is not limited by it.
+            let along = |difference: f64| difference.copysign(difference * velocity[i]);
+            for (difference, most) in [
+                (along(first), most_first[i]),
+                (along(second), most_second[i]),
+                (along(third), most_third[i]),
+            ] {
+                low[i] = larger((-most - difference) * scale, low[i]);
+                high[i] = smaller((most - difference) * scale, high[i]);
+            }
+        }
+        (
+            low.into_iter().fold(f64::NEG_INFINITY, larger),
+            high.into_iter().fold(f64::INFINITY, smaller),
+        )
     }
 
     /// Largest ratio to a limit one more position would have.

@@ -60,6 +60,23 @@ impl Quintic {
         AxisVector::from(position)
     }
 
+    /// Position, and velocity by program time in periods.
+    #[allow(clippy::indexing_slicing, reason = "the index runs over the axes")]
+    pub(crate) fn motion(&self, u: f64) -> (AxisVector, AxisVector) {
+        let [c0, c1, c2, c3, c4, c5] = &self.0;
+        let (mut position, mut velocity) = ([0.0; AXES], [0.0; AXES]);
+        for i in 0..AXES {
+            // Horner's scheme for both at once.
+            let p4 = c5[i] * u + c4[i];
+            let (v3, p3) = (c5[i] * u + p4, p4 * u + c3[i]);
+            let (v2, p2) = (v3 * u + p3, p3 * u + c2[i]);
+            let (v1, p1) = (v2 * u + p2, p2 * u + c1[i]);
+            velocity[i] = v1 * u + p1;
+            position[i] = p1 * u + c0[i];
+        }
+        (AxisVector::from(position), AxisVector::from(velocity))
+    }
+
     pub(crate) fn kinematic(&self, u: f64) -> Kinematic {
         let [_, c1, c2, c3, c4, c5] = &self.0;
         Kinematic {

@@ -109,6 +109,36 @@ impl Ramp {
         })
     }
 
+    /// One tick, from a rate and slope to another slope, with the steps in program time of the ticks
+    /// before and after: what is between its two ends is not asked for. `None` if the rate would leave
+    /// 0 ≤ r ≤ 1.
+    pub(crate) fn tick_to(rate: f64, slope: f64, to: f64) -> Option<Self> {
+        let start = Instant {
+            elapsed: 0.0,
+            rate,
+            slope,
+        };
+        // A slope is what a step is more than the one before; the rate is that between two steps.
+        let step = rate - 0.5 * slope + to;
+        let end = Instant {
+            elapsed: step,
+            rate: step + 0.5 * to,
+            slope: to,
+        };
+        let stays = (0.0..=1.0).contains(&end.rate) && step >= 0.0;
+        stays.then_some(Self {
+            starts: [start, start, start, end],
+            durations: [0.0, 0.0, 1.0],
+            bend: to - slope,
+            target: end.rate,
+        })
+    }
+
+    /// Slope at the end.
+    pub(crate) const fn end_slope(&self) -> f64 {
+        self.starts[3].slope
+    }
+
     /// Ticks from start to end, not whole in general.
     pub(crate) fn duration(&self) -> f64 {
         self.durations.iter().sum()

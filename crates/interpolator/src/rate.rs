@@ -45,8 +45,10 @@
 mod arrival;
 mod candidate;
 mod descent;
+mod fall;
 mod play;
 mod reserve;
+mod steps;
 mod trial;
 
 use crate::differences::{Allowed, Differences};
@@ -59,7 +61,7 @@ use reserve::{Reserve, Search};
 use trial::{Trial, Trying};
 
 /// Samples a tick may spend on playing candidates through, unless stops are longer.
-const BUDGET: u32 = 200;
+const BUDGET: u32 = 170;
 /// Largest bounds of a ramp: a change from 0 to 1 takes at least four ticks.
 const FASTEST: Bounds = Bounds {
     alpha: 0.5,
@@ -198,7 +200,7 @@ impl Rate {
                 }
                 (self.rate, self.slope) = (rate, slope);
                 if t >= ramp.duration() {
-                    (self.rate, self.slope) = (ramp.target(), 0.0);
+                    (self.rate, self.slope) = (ramp.target(), ramp.end_slope());
                     if self.rate >= 1.0 {
                         self.now = self.now.snapped();
                     } else if self.rate <= 0.0
@@ -208,6 +210,10 @@ impl Rate {
                         self.now = ProgramTime::at(frame);
                     }
                     self.ramp = None;
+                    if self.slope != 0.0 {
+                        // In the middle of a fall: what follows begins at once.
+                        self.count_down();
+                    }
                 }
                 if self
                     .held_at

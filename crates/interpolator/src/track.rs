@@ -231,6 +231,15 @@ impl Track {
         )
     }
 
+    /// Planned position, and velocity by program time in periods, up to the newest frame but one;
+    /// `None` outside the owned frames.
+    pub(crate) fn motion(&self, time: ProgramTime) -> Option<(AxisVector, AxisVector)> {
+        self.frame(time.sequence)?;
+        self.frame(time.sequence + 1)?;
+        let quintic = self.quintics.get(Self::place(time.sequence))?;
+        Some(quintic.motion(time.fraction))
+    }
+
     /// Position and derivatives between frames; `None` outside the owned frames.
     pub(crate) fn kinematic(&self, time: ProgramTime) -> Option<Kinematic> {
         let frame = self.frame(time.sequence)?;

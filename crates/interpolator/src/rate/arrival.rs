@@ -17,9 +17,9 @@
 //! A slow approach to a slow machine's stop takes more samples than a tick may spend, so the search can
 //! pause between any two of them, and go on in the next tick.
 
-use super::descent::{Later, Steps};
 use super::play::{Played, Playing, SET_UP};
 use super::reserve::{Reserve, Steady, whole};
+use super::steps::{Later, Steps};
 use super::{FASTEST, Rate, Scene};
 use crate::program_time::ProgramTime;
 use crate::ramp::{Bounds, Ramp};
@@ -266,7 +266,7 @@ const fn periods(time: ProgramTime, frame: u64) -> f64 {
 impl Attempt {
     /// What it is when it has passed.
     fn reserve(&self, frame: u64) -> Reserve {
-        let mut steps = Steps::default();
+        let mut steps = Steps::new();
         let mut in_ticks = self.begins;
         if let Some(ramp) = self.first {
             steps.push(Later { in_ticks, ramp });

@@ -43,7 +43,7 @@ const SLOWER: f64 = 1.25;
 const SLOWEST: f64 = 50.0;
 /// The highest rate that a ramp part of the way to the full rate ends at: nearer to it there is too
 /// little time left to lose to get back to the grid.
-const PARTIAL_MOST: f64 = 0.97;
+const PARTIAL_MOST: f64 = 0.985;
 /// How near to the grid a ramp must end, periods.
 const ON_GRID: f64 = 1e-10;
 

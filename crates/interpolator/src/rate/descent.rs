@@ -13,62 +13,17 @@
 //!                   ╰───────  0
 //! ```
 //!
+//! Where none passes for too long there is another way: see [`super::fall`].
+//!
 //! Every step is played through from the very positions that the ones before it end with, so what is
 //! found keeps the limits as it stands. The search can pause between any two samples, and go on in the
 //! next tick: it is about places on the path, not about when they are looked at.
 
+use super::fall::{Fall, Fallen};
 use super::play::{Cue, Played, Playing, SET_UP};
+use super::steps::{Later, Steps};
 use super::{FASTEST, Scene};
 use crate::ramp::{Bounds, Ramp};
-
-/// Most steps of a stop.
-pub(super) const STEPS: usize = 8;
-
-/// A ramp that begins some ticks from now, or from the end of the one before.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Later {
-    pub(super) in_ticks: u32,
-    pub(super) ramp: Ramp,
-}
-
-/// Ramps, one after the other.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Steps([Option<Later>; STEPS]);
-
-impl Steps {
-    /// Appends one; false if there are too many.
-    pub(super) fn push(&mut self, later: Later) -> bool {
-        let free = self.0.iter_mut().find(|step| step.is_none());
-        free.is_some_and(|step| step.replace(later).is_none())
-    }
-
-    pub(super) const fn first(&self) -> Option<&Later> {
-        let [first, ..] = &self.0;
-        first.as_ref()
-    }
-
-    /// All begin so many ticks later.
-    pub(super) const fn delay(&mut self, ticks: u32) {
-        let [first, ..] = &mut self.0;
-        if let Some(first) = first {
-            first.in_ticks += ticks;
-        }
-    }
-
-    /// One tick has passed: the ramp that begins now, if one does.
-    pub(super) fn count_down(&mut self) -> Option<Ramp> {
-        let [first, ..] = &mut self.0;
-        let next = first.as_mut()?;
-        if next.in_ticks > 0 {
-            next.in_ticks -= 1;
-            return None;
-        }
-        let ramp = next.ramp;
-        *first = None;
-        self.0.rotate_left(1);
-        Some(ramp)
-    }
-}
 
 /// A step to try: which part of the rate goes, and how fast.
 #[derive(Debug, Clone, Copy)]
@@ -119,6 +74,9 @@ pub(super) enum Outcome {
 pub(super) struct Descent {
     at: Cue,
     rate: f64,
+    falls: bool,
+    /// A way to a lower rate where no step passes.
+    fall: Option<Fall>,
     /// Ticks since the last step.
     waited: u32,
     steps: Steps,
@@ -132,13 +90,16 @@ pub(super) struct Descent {
 }
 
 impl Descent {
-    /// A search that begins at a place where the rate is steady.
-    pub(super) fn new(at: Cue, rate: f64) -> Self {
+    /// A search that begins at a place where the rate is steady, and falls where no step passes there
+    /// or waits.
+    pub(super) fn new(at: Cue, rate: f64, falls: bool) -> Self {
         Self {
             at,
             rate,
+            falls,
+            fall: None,
             waited: 0,
-            steps: Steps::default(),
+            steps: Steps::new(),
             turn: 0,
             may_go: true,
             playing: None,
@@ -149,7 +110,19 @@ impl Descent {
     /// Goes on until rest, or until the budget is used up.
     pub(super) fn go_on(&mut self, scene: &Scene<'_>, budget: &mut u32) -> Outcome {
         while *budget > SET_UP {
-            *budget -= SET_UP;
+            if let Some(fall) = &mut self.fall {
+                match fall.go_on(scene, budget) {
+                    Fallen::Lower(at, rate, slopes) => {
+                        *self = Self {
+                            steps: Steps::after(slopes),
+                            ..Self::new(at, rate, false)
+                        };
+                    }
+                    Fallen::Open => return Outcome::Open,
+                    Fallen::Lost => return Outcome::Lost,
+                }
+            }
+            *budget = budget.saturating_sub(SET_UP);
             let sequence = self.at.time.sequence;
             let bounds = *self
                 .bounds
@@ -159,6 +132,10 @@ impl Descent {
                     Try::Rest => return Outcome::Rest(self.steps),
                     Try::Lower => break,
                     Try::Failed if self.turn_to_next() => {}
+                    Try::Failed if self.falls => {
+                        self.fall = Some(Fall::new(self.at, self.rate, bounds.alpha));
+                        break;
+                    }
                     Try::Failed => {
                         if !self.wait(scene, budget) {
                             return Outcome::Lost;
@@ -213,7 +190,7 @@ impl Descent {
             return Try::Full;
         }
         (self.at, self.rate, self.waited, self.turn) = (end, target, 0, 0);
-        self.bounds = None;
+        (self.bounds, self.falls) = (None, false);
         if target > 0.0 { Try::Lower } else { Try::Rest }
     }
 

@@ -15,15 +15,17 @@
 //! before a frame at rest that motion may not yet pass (a barrier, see [`Track`]). An epoch begins at
 //! such a frame, so it begins to move with a reserve, and always has one.
 //!
-//! How a stop is found is told in [`super::descent`]. A plan can be at its limits on so many axes, for
-//! so long, that no later one is found. Then the motion goes a little slower, where there is more room;
+//! How a stop is found is told in [`super::descent`] and [`super::fall`]. The first costs less, the second
+//! finds more: it begins when no place is left, or when there is little time. A plan can be at its limits on so many axes,
+//! for so long, that no later one is found. Then the motion goes a little slower, where there is more room;
 //! and if that cannot be, the stop in reserve is taken, however many frames there are: it is what is
 //! known to keep the limits. A way back is found soon. Where the motion stands and no stop is found
 //! from the full rate, it sets out at a lower one. With a horizon of 0.6 s this is rare, with near-optimal
 //! plans too: they can be at their limits for a third of a second.
 
-use super::descent::{Descent, Outcome, Steps};
+use super::descent::{Descent, Outcome};
 use super::play::Cue;
+use super::steps::Steps;
 use super::trial::Trial;
 use super::{Rate, Scene};
 use crate::differences::Differences;
@@ -33,7 +35,8 @@ use crate::ramp::Ramp;
 /// Samples a tick may spend on finding a reserve, and those of the first tick of a search.
 const BUDGET: u32 = 120;
 const FIRST_BUDGET: u32 = 60;
-/// Places between the latest possible and the earliest useful at which a stop may begin.
+/// Places between the latest possible and the earliest useful at which a stop may begin. Counted
+/// beyond that they are those of falls, the latest first again.
 const PLACES: u32 = 8;
 /// A reserve is replaced only by one that begins this much later, ticks.
 const GAIN: u32 = 3;
@@ -62,7 +65,7 @@ pub(super) struct Reserve {
 impl Reserve {
     /// Ticks until it begins.
     fn in_ticks(&self) -> u32 {
-        self.steps.first().map_or(0, |step| step.in_ticks)
+        self.steps.in_ticks().unwrap_or(0)
     }
 }
 
@@ -84,15 +87,16 @@ impl Search {
         let earliest = f64::from(at_least.max(3));
         let latest = latest(from, scene)?;
         let step = ((latest - earliest) / f64::from(PLACES)).max(1.0);
-        let begins = (latest - f64::from(place) * step).floor();
-        if begins < earliest {
+        let begins = (latest - f64::from(place % PLACES) * step).floor();
+        if begins < earliest || place >= 2 * PLACES {
             return None;
         }
+        let falls = place >= PLACES;
         Some(Self {
             from,
             begins: whole(begins),
             place,
-            descent: Descent::new(from.cue(begins, scene)?, from.rate),
+            descent: Descent::new(from.cue(begins, scene)?, from.rate, falls),
         })
     }
 
@@ -229,12 +233,15 @@ impl Rate {
         budget: &mut u32,
     ) -> Option<Steps> {
         let now = self.steady();
-        if !self
+        // Ramps cost less, but the time to look for them ends.
+        let is_urgent = self.reserve.is_some() && at_least <= 2 * URGENT;
+        let first = if is_urgent { PLACES } else { 0 };
+        let goes_on = self
             .search
             .as_mut()
-            .is_some_and(|search| search.follow(now))
-        {
-            self.search = Search::at(0, now, at_least, scene);
+            .is_some_and(|search| search.follow(now) && search.place >= first);
+        if !goes_on {
+            self.search = Search::at(first, now, at_least, scene);
         }
         while let Some(search) = &mut self.search {
             match search.descent.go_on(scene, budget) {
@@ -245,8 +252,11 @@ impl Rate {
                 }
                 Outcome::Open => return None,
                 Outcome::Lost => {
-                    let next = Some(search.place + 1).filter(|place| *place < PLACES);
-                    self.search = next.and_then(|place| Search::at(place, now, at_least, scene));
+                    let next = search.place + 1;
+                    self.search = Search::at(next, now, at_least, scene).or_else(|| {
+                        // No earlier place for ramps: falls from the latest on.
+                        (next < PLACES).then(|| Search::at(PLACES, now, at_least, scene))?
+                    });
                 }
             }
         }
@@ -307,10 +317,10 @@ impl Rate {
         let Some(reserve) = &mut self.reserve else {
             return;
         };
-        let Some(ramp) = reserve.steps.count_down() else {
+        let Some(ramp) = reserve.steps.count_down(self.rate, self.slope) else {
             return;
         };
-        let rest = Some(*reserve).filter(|rest| rest.steps.first().is_some());
+        let rest = Some(*reserve).filter(|rest| !rest.steps.is_empty());
         let arrives_at = reserve.arrives_at;
         self.commit(ramp, 0.0, rest);
         self.arrives_at = arrives_at;

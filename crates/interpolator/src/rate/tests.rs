@@ -135,3 +135,44 @@ proptest! {
         prop_assert!(ratios.iter().all(|r| *r <= 1.0 + 1e-6), "{ratios:?}");
     }
 }
+
+/// From anywhere on a plan that is at its limits on two axes all the time, a fall leads to a lower
+/// steady rate, and what it is kept as repeats it within the limits, bit for bit.
+#[test]
+fn a_fall_leads_down_within_the_limits() {
+    let (p, mut fallen) = (player(5, 2, 400), 0);
+    let scene = Scene {
+        track: &p.track,
+        published: &p.published,
+        allowed: &p.allowed,
+        reach: 19,
+        is_fully_supplied: true,
+        block_end: None,
+    };
+    for sequence in (5..250).step_by(7) {
+        let steady = reserve::Steady {
+            time: ProgramTime::at(sequence),
+            rate: 1.0,
+        };
+        let mut at = steady.cue(3.0, &scene).unwrap();
+        let steepest = scene.fastest_from(sequence).alpha;
+        let mut search = fall::Fall::new(at, 1.0, steepest);
+        let fall::Fallen::Lower(end, rate, slopes) = search.go_on(&scene, &mut 100_000) else {
+            continue;
+        };
+        fallen += 1;
+        assert!(rate < 0.96);
+        let mut steps = steps::Steps::after(slopes);
+        let (mut now, mut slope) = (1.0, 0.0);
+        while !steps.is_empty() {
+            let ramp = steps.count_down(now, slope);
+            let elapsed = ramp.map_or(now, |ramp| ramp.elapsed_at(1.0));
+            (now, slope) = ramp.map_or((now, 0.0), |ramp| (ramp.target(), ramp.end_slope()));
+            at.time = at.time.after(elapsed);
+            let position = p.track.position(at.time).unwrap();
+            assert!(at.published.take(&position, &p.allowed));
+        }
+        assert_eq!((now, slope, at.time), (rate, 0.0, end.time));
+    }
+    assert!(fallen > 25, "{fallen}");
+}

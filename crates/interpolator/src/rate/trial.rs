@@ -10,6 +10,10 @@ use super::reserve::{Reserve, Steady};
 use super::{Rate, Scene};
 use crate::ramp::Ramp;
 
+/// The stop after a ramp begins no earlier than so many ticks after its end, if there are frames for
+/// that: in these a later one is found.
+const AFTERWARDS: u32 = 12;
+
 /// What trying a ramp has shown.
 #[derive(Debug, Clone, Copy)]
 #[allow(
@@ -32,6 +36,8 @@ pub(super) struct Trying {
     /// The approach with which the search for a rest at the end of the block begins.
     search_at: usize,
     stage: Stage,
+    /// Ticks of the steady rate between the ramp and a stop.
+    goes_on: u32,
     /// What held the motion, and was to, when it began.
     stop: Option<u64>,
     block_end: Option<u64>,
@@ -55,6 +61,7 @@ impl Trying {
             ramp: *ramp,
             search_at,
             stage: Stage::Ramp(Playing::new(*ramp, cue)),
+            goes_on: 0,
             stop: scene.track.stop(),
             block_end: scene.block_end,
         }
@@ -81,11 +88,18 @@ impl Trying {
             } else if self.stop.is_some() {
                 return Trial::Passed(None);
             } else {
-                let at = Cue {
+                let steady = Steady {
+                    time: end.time,
+                    rate,
+                };
+                let later = scene.is_fully_supplied.then_some(AFTERWARDS);
+                let at = later.and_then(|ticks| steady.cue(f64::from(ticks), scene));
+                self.goes_on = later.filter(|_| at.is_some()).unwrap_or(0);
+                let at = at.unwrap_or(Cue {
                     is_held: false,
                     ..end
-                };
-                self.stage = Stage::Descent(Descent::new(at, rate));
+                });
+                self.stage = Stage::Descent(Descent::new(at, rate, false));
             }
         }
         self.rest_after(scene, budget)
@@ -96,10 +110,13 @@ impl Trying {
         match &mut self.stage {
             Stage::Ramp(_) => Trial::Barred,
             Stage::Descent(descent) => match descent.go_on(scene, budget) {
-                Outcome::Rest(steps) => Trial::Passed(Some(Reserve {
-                    steps,
-                    arrives_at: None,
-                })),
+                Outcome::Rest(mut steps) => {
+                    steps.delay(self.goes_on);
+                    Trial::Passed(Some(Reserve {
+                        steps,
+                        arrives_at: None,
+                    }))
+                }
                 Outcome::Open => Trial::OutOfBudget { approach: None },
                 Outcome::Lost => Trial::Barred,
             },
