@@ -110,7 +110,11 @@ impl Fall {
     }
 
     /// Where a way leads within a tick.
-    #[allow(clippy::cast_possible_truncation, reason = "kept in single precision")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::float_cmp,
+        reason = "kept in single precision; one that is the same need not be tried again"
+    )]
     fn follow(
         &self,
         way: &Way,
