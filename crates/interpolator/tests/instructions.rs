@@ -72,14 +72,14 @@ const CASES: [Case; 7] = [
     case("rate 1", Operator::Once(None), 4_000, 48_000),
     case("rate 0.5", HALF, 3_200, 38_500),
     case("held", Operator::Once(Some(Command::Hold)), 3_000, 3_000),
-    case("operator", Operator::Busy, 6_000, 72_000),
+    case("operator", Operator::Busy, 6_000, 60_000),
     Case {
         is_hard: true,
-        ..case("hard", Operator::Once(None), 61_000, 172_000)
+        ..case("hard", Operator::Once(None), 63_500, 152_000)
     },
     Case {
         is_hard: true,
-        ..case("hard, operator", Operator::Busy, 33_000, 168_000)
+        ..case("hard, operator", Operator::Busy, 33_000, 152_000)
     },
     Case {
         has_joints: true,
