@@ -15,7 +15,7 @@ pub const MAX_FRAMES_AHEAD: u32 = 512;
 const STOPS: f64 = 3.0;
 
 /// The horizon where the file gives none, s: longer only for a machine that needs more.
-const USUAL_T: f64 = 0.5;
+const USUAL_T: f64 = 0.6;
 
 /// The shortest horizon a machine can do with, s.
 pub(super) fn shortest_t(axes: &[AxisConfig]) -> f64 {
