@@ -86,7 +86,7 @@ impl Guard {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Effort, FrameFlags, Smoothing};
+    use crate::{Effort, Smoothing};
 
     fn guard() -> Guard {
         Guard::new(&Settings {
@@ -102,16 +102,8 @@ mod tests {
         let mut position = AxisVector::zeros();
         position[0] = x;
         Frame {
-            sequence: 0,
             line: 9,
-            flags: FrameFlags::default(),
-            event: None,
-            planned_override: 1.0,
-            path_v: 0.0,
-            path_s: 0.0,
-            position,
-            velocity: AxisVector::zeros(),
-            acceleration: AxisVector::zeros(),
+            ..Frame::blank(position)
         }
     }
 

@@ -76,11 +76,11 @@ impl Trying {
                 Played::OutOfBudget => return Trial::OutOfBudget { approach: None },
             };
             let rate = self.ramp.target();
+            let steady = Steady {
+                time: end.time,
+                rate,
+            };
             if let Some(frame) = self.block_end {
-                let steady = Steady {
-                    time: end.time,
-                    rate,
-                };
                 let Some(arrival) = Arrival::at(frame, steady, self.search_at, scene) else {
                     return Trial::Barred;
                 };
@@ -88,10 +88,6 @@ impl Trying {
             } else if self.stop.is_some() {
                 return Trial::Passed(None);
             } else {
-                let steady = Steady {
-                    time: end.time,
-                    rate,
-                };
                 let later = scene.is_fully_supplied.then_some(AFTERWARDS);
                 let at = later.and_then(|ticks| steady.cue(f64::from(ticks), scene));
                 self.goes_on = later.filter(|_| at.is_some()).unwrap_or(0);

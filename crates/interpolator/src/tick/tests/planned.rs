@@ -74,7 +74,8 @@ fn positions(frames: &[SetpointFrame]) -> Vec<AxisVector> {
         .collect()
 }
 
-/// Also where a plan is at its limits on one axis or another for longer than a stop takes.
+/// Also where a plan is at its limits on one axis or another for longer than a stop takes. Not so
+/// for all near-optimal plans: of the first 60 seeds 2, 47 and 48 take up to 2 % longer.
 #[test]
 fn planned_time_is_run_time() {
     let fast = (0..40).map(|seed| (seed, Effort::Fast));
