@@ -1,5 +1,6 @@
 //! The auditor: what it must find, what it must not, and its numbers against brute force.
 
+mod arcs;
 mod brute_force;
 mod deviation;
 mod limits;
