@@ -134,12 +134,15 @@ impl Sweep<'_> {
             let sign = if k.is_finite() {
                 k
             } else {
-                probe.curvature(curvature, u + 1e-6 * (other_u - u))
+                // How far the curve counts as standing still depends on how it sets out.
+                core::iter::successors(Some(1e-6), |part| Some(4.0 * part))
+                    .take_while(|part| *part < 1.0)
+                    .map(|part| probe.curvature(curvature, u + part * (other_u - u)))
+                    .find(|k| k.is_finite())
+                    .unwrap_or(k)
             };
             let level = self.threshold_k.copysign(sign);
-            let ends =
-                [from, to].map(|(u, k)| (u, if k.is_finite() { k } else { k.copysign(sign) }));
-            let (before, after) = self.crossing(probe, curvature, ends, level);
+            let (before, after) = self.crossing(probe, curvature, [from, to], level);
             if sharp_to {
                 self.enter(before);
             } else {
@@ -160,8 +163,8 @@ impl Sweep<'_> {
     }
 
     /// A bracket, no wider than the tolerance, of the point between two points (u, κ) where the
-    /// curvature passes `level`: false position with halved stale ends, a
-    /// bisection where three steps did not halve the bracket.
+    /// curvature passes `level`: false position with halved stale ends, a bisection where three steps
+    /// did not halve the bracket. Where the curvature is infinite it has the sign of `level`.
     fn crossing(
         &self,
         probe: &mut Probe<'_>,
@@ -174,7 +177,7 @@ impl Sweep<'_> {
             if k.is_finite() {
                 (k - level) / (k.abs() + level.abs())
             } else {
-                k.signum()
+                level.signum()
             }
         };
         let (mut a, mut b) = (from.0, to.0);
