@@ -9,7 +9,7 @@ use super::spline::Grid;
 use super::stop_leg::directional;
 use super::track::Track;
 use crate::Limits;
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AXES, AxisVector};
 
 /// Most pieces a window looks at.
 const MOST_PIECES: usize = 4096;
@@ -97,6 +97,8 @@ pub(super) struct Setting<'a> {
     pub(super) commit: usize,
     /// What goes on without a window keeps the rates, which may have changed.
     pub(super) keeps_rates: bool,
+    /// Multiplications of the solver that may be spent.
+    pub(super) most_work: usize,
 }
 
 /// Optimisers by number of axes, made when first needed.
@@ -104,19 +106,22 @@ pub(super) struct Setting<'a> {
 pub(super) struct Optimisers {
     two: Option<Box<Optimiser<2>>>,
     three: Option<Box<Optimiser<3>>>,
+    four: Option<Box<Optimiser<4>>>,
+    five: Option<Box<Optimiser<5>>>,
     six: Option<Box<Optimiser<6>>>,
     nine: Option<Box<Optimiser<9>>>,
 }
 
 impl Optimisers {
     /// Multiplications of the solvers so far.
-    #[cfg(test)]
     pub(super) fn work(&self) -> usize {
         fn of<const D: usize>(optimiser: Option<&Optimiser<D>>) -> usize {
             optimiser.map_or(0, |optimiser| optimiser.interior.work)
         }
         of(self.two.as_deref())
             + of(self.three.as_deref())
+            + of(self.four.as_deref())
+            + of(self.five.as_deref())
             + of(self.six.as_deref())
             + of(self.nine.as_deref())
     }
@@ -135,38 +140,26 @@ impl Optimisers {
             .filter_map(|index| setting.track.get(index))
             .flat_map(|piece| [&piece.start, &piece.end]);
         let moves = moving_axes(&origin, corners.chain(tail));
+        let way = (setting, view, tail, moves);
         match moves.iter().filter(|&&is_moving| is_moving).count() {
-            0..=2 => attempt(self.two.get_or_insert_with(new), setting, view, tail, moves),
-            3 => attempt(
-                self.three.get_or_insert_with(new),
-                setting,
-                view,
-                tail,
-                moves,
-            ),
-            4..=6 => attempt(self.six.get_or_insert_with(new), setting, view, tail, moves),
-            _ => attempt(
-                self.nine.get_or_insert_with(new),
-                setting,
-                view,
-                tail,
-                moves,
-            ),
+            0..=2 => attempt(&mut self.two, way),
+            3 => attempt(&mut self.three, way),
+            4 => attempt(&mut self.four, way),
+            5 => attempt(&mut self.five, way),
+            6 => attempt(&mut self.six, way),
+            _ => attempt(&mut self.nine, way),
         }
     }
 }
 
-fn new<const D: usize>() -> Box<Optimiser<D>> {
-    Box::new(Optimiser::new())
-}
+/// What an optimiser is given: a setting, a view, the motion to fall back on, which axes move.
+type Way<'a> = (&'a Setting<'a>, &'a View, &'a [AxisVector], [bool; AXES]);
 
 fn attempt<const D: usize>(
-    optimiser: &mut Optimiser<D>,
-    setting: &Setting<'_>,
-    view: &View,
-    tail: &[AxisVector],
-    moves: [bool; glidepath_geometry::AXES],
+    optimiser: &mut Option<Box<Optimiser<D>>>,
+    (setting, view, tail, moves): Way<'_>,
 ) -> Option<Motion> {
+    let optimiser = optimiser.get_or_insert_with(|| Box::new(Optimiser::new()));
     let origin = setting.history.last();
     let is_path_end = setting.track.is_last(setting.end - 1);
     let mut scene: Scene<D> = Scene::new(
@@ -192,6 +185,7 @@ fn attempt<const D: usize>(
         grid: *setting.grid,
         period_t: setting.period_t,
         commit: setting.commit,
+        most_work: setting.most_work,
     };
     let solution = optimiser.optimise(&scene, &opening, &mut |points, question| {
         let points: Vec<_> = points.iter().map(|point| scene.outside(point)).collect();

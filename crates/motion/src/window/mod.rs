@@ -26,6 +26,7 @@
 
 mod attempt;
 mod bend;
+mod budget;
 mod cuts;
 mod follow;
 mod guess;

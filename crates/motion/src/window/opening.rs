@@ -22,6 +22,8 @@ pub(super) struct Opening<'a, const D: usize> {
     pub(super) period_t: f64,
     /// Periods after which the next window will start.
     pub(super) commit: usize,
+    /// Multiplications of the solver that may be spent.
+    pub(super) most_work: usize,
 }
 
 impl<const D: usize> Opening<'_, D> {

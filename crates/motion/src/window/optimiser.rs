@@ -9,6 +9,7 @@
 //! A window ends at rest, so each that is accepted carries its own stop. Stops do not trap the next
 //! window: samples are bound to time, not to places, and move on.
 
+use super::budget;
 use super::cuts::Cuts;
 use super::guess::Guess;
 use super::opening::Opening;
@@ -60,10 +61,6 @@ const ENOUGH_VIOLATION: f64 = 0.02;
 const SOLVER_ITERATIONS: usize = 40;
 /// Lines may leave the path by this many radii while searching.
 const SEARCH_STRAY_R: f64 = 12.0;
-/// Work of the solver after which a window is given up, and more for its end; for two or three axes
-/// (more axes may cost more), in multiplications: some nanosecond each.
-const MOST_WORK: usize = 30_000_000;
-const MOST_FINISH_WORK: usize = 10_000_000;
 
 /// A motion that has passed.
 #[derive(Debug, Clone)]
@@ -135,10 +132,10 @@ impl<const D: usize> Optimiser<D> {
         let tail_progress = self.samples.progress.clone();
         let tail_mean = self.samples.mean();
         let (rest_at, stop_at) = opening.tail_ends(scene);
-        let mut found = Found {
-            best: None,
-            most_work: self.interior.work + MOST_WORK * D.max(3) / 3,
-        };
+        let work = self.interior.work;
+        let allowance = budget::search(D, scene.is_final, opening.most_work);
+        self.interior.allow(allowance);
+        let mut found = Found { best: None };
         for attempt in 0..=PACES.len() {
             self.samples.progress.clone_from(&tail_progress);
             self.samples.forget();
@@ -152,10 +149,12 @@ impl<const D: usize> Optimiser<D> {
                 None => opening.play_stops(scene, progress, rest_at),
             }
             self.iterate(scene, opening, attempt > 0, judge, &mut found);
-            if found.best.is_some() || self.interior.work > found.most_work {
+            if found.best.is_some() || self.interior.is_spent() {
                 break;
             }
         }
+        let left_work = opening.most_work - (self.interior.work - work);
+        self.interior.allow(budget::finish(D, left_work));
         let passed = found
             .best
             .filter(|(mean, ..)| rest_at == 0 || *mean >= tail_mean);
@@ -195,7 +194,7 @@ impl<const D: usize> Optimiser<D> {
         };
         for (number, phase) in PHASES.iter().enumerate() {
             for round in 0..phase.search + phase.polish {
-                if self.interior.work > found.most_work {
+                if self.interior.is_spent() {
                     return;
                 }
                 if round <= phase.search {
@@ -329,9 +328,8 @@ impl<const D: usize> Optimiser<D> {
         let mut shortest: Option<Vec<[f64; D]>> = None;
         let mut progress = progress.to_vec();
         let mut count = first;
-        let most_work = self.interior.work + MOST_FINISH_WORK * D.max(3) / 3;
         for _ in 0..FINISHES {
-            if count < 6 || count > intervals || self.interior.work > most_work {
+            if count < 6 || count > intervals || self.interior.is_spent() {
                 break;
             }
             self.samples.progress.clone_from(&progress);

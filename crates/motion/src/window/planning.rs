@@ -12,6 +12,7 @@
 
 use super::attempt::{Motion, Setting, View};
 use super::bend::State;
+use super::budget::{FIRST_WORK, PLAN_WORK};
 use super::lead::{Rival, TRUST_PERIODS, arrival_t};
 use super::spline::Grid;
 use super::stop_leg::{Bounds, StopLeg, directional};
@@ -111,7 +112,8 @@ impl WindowPlanner {
     /// The window to take, if there is one that is better than to go on without.
     fn best_window(&mut self, grid: &Grid, view: &View, tail: &[AxisVector]) -> Option<Candidate> {
         let stay_t = self.stay_lead_t(grid);
-        let window = self.try_window(grid, view, tail);
+        let work = self.optimisers.work();
+        let window = self.try_window(grid, view, tail, FIRST_WORK);
         let is_behind = |window: &Candidate| window.lead_t.is_none_or(|lead_t| lead_t < 0.0);
         let may_halt = matches!(self.force, Force::Window { .. }) && self.rival.is_some();
         if !may_halt || window.as_ref().is_some_and(|window| !is_behind(window)) {
@@ -124,7 +126,8 @@ impl WindowPlanner {
             // It is too early to know.
             return window;
         }
-        let halt = self.try_halt(grid, view, tail);
+        let left_work = PLAN_WORK.saturating_sub(self.optimisers.work() - work);
+        let halt = self.try_halt(grid, view, tail, left_work);
         let mut all = [window, halt].into_iter().flatten();
         let first = all.next()?;
         let best = all.fold(first, |a, b| if b.lead_t > a.lead_t { b } else { a });
@@ -157,7 +160,13 @@ impl WindowPlanner {
     }
 
     /// A window, and what it is worth.
-    fn try_window(&mut self, grid: &Grid, view: &View, tail: &[AxisVector]) -> Option<Candidate> {
+    fn try_window(
+        &mut self,
+        grid: &Grid,
+        view: &View,
+        tail: &[AxisVector],
+        most_work: usize,
+    ) -> Option<Candidate> {
         let setting = Setting {
             limits: &self.limits,
             period_t: self.period_t,
@@ -169,13 +178,20 @@ impl WindowPlanner {
             end: view.pieces.end,
             commit: commit(grid, view),
             keeps_rates: !matches!(self.force, Force::Legs { is_stale: true, .. }),
+            most_work,
         };
         let motion = self.optimisers.attempt(&setting, view, tail)?;
         Some(self.judge(grid, view, motion))
     }
 
     /// A window that rests at the end of the piece the motion is on, if that is in view.
-    fn try_halt(&mut self, grid: &Grid, view: &View, tail: &[AxisVector]) -> Option<Candidate> {
+    fn try_halt(
+        &mut self,
+        grid: &Grid,
+        view: &View,
+        tail: &[AxisVector],
+        most_work: usize,
+    ) -> Option<Candidate> {
         let end = self.follower.place.last() + 1;
         if end >= view.pieces.end || !self.may_rest_before(end) {
             return None;
@@ -185,7 +201,7 @@ impl WindowPlanner {
             is_halt: true,
             ..*view
         };
-        self.try_window(grid, &view, tail)
+        self.try_window(grid, &view, tail, most_work)
     }
 
     /// False if the motion is far too fast to rest at the end of the piece before `end`.

@@ -16,8 +16,6 @@ const LEAST_FEED_R: f64 = 0.995;
 #[derive(Debug)]
 pub(super) struct Found<const D: usize> {
     pub(super) best: Option<(f64, Vec<[f64; D]>, Samples)>,
-    /// Work of the solver up to which there is something left to spend.
-    pub(super) most_work: usize,
 }
 
 impl<const D: usize> Found<D> {

@@ -10,6 +10,7 @@ mod bench;
 mod calls;
 mod extremes;
 
+use super::budget::PLAN_WORK;
 use super::*;
 use crate::audit::{Audit, AuditSettings, Report, Sample};
 use crate::{Item, ItemKind, PathMode, Rate};
@@ -63,7 +64,18 @@ impl Case {
             planner.push(reference);
         }
         planner.finish();
-        let periods: Vec<_> = core::iter::from_fn(|| planner.next_period()).collect();
+        let mut periods = Vec::new();
+        let mut work = 0;
+        while let Some(period) = planner.next_period() {
+            let spent = planner.optimisers.work() - work;
+            assert!(
+                spent <= PLAN_WORK,
+                "{spent} before period {}",
+                periods.len()
+            );
+            work += spent;
+            periods.push(period);
+        }
         assert!(planner.is_over());
         periods
     }

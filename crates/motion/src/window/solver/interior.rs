@@ -29,6 +29,9 @@ const SPENT_RESIDUAL: f64 = 1e-6;
 const ROW_WORK: usize = 80;
 /// Products of blocks for each block row of the matrix, factored and solved with.
 const FACTOR_PRODUCTS: usize = 16;
+/// Axes from which on multiplications count half: in blocks so large they take half the time of those
+/// in blocks of six.
+const LARGE_BLOCK: usize = 7;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy)]
@@ -38,6 +41,13 @@ pub(in crate::window) struct Goal {
     pub(in crate::window) iterations: usize,
     /// Added to the diagonal of the normal equations, per axis unit squared.
     pub(in crate::window) damping: f64,
+}
+
+/// How much work may be done: what is wanted, and the most.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::window) struct Allowance {
+    pub(in crate::window) wanted: usize,
+    pub(in crate::window) most: usize,
 }
 
 /// The method, with its memory.
@@ -53,6 +63,11 @@ pub(in crate::window) struct Interior<const D: usize> {
     /// Multiplications so far, over all problems, as far as they grow with a problem's size: the
     /// measure of work.
     pub(in crate::window) work: usize,
+    /// Work up to which a problem may be begun, and up to which an iteration may.
+    wanted_work: usize,
+    most_work: usize,
+    /// An iteration was refused.
+    is_cut: bool,
 }
 
 impl<const D: usize> Interior<D> {
@@ -65,7 +80,22 @@ impl<const D: usize> Interior<D> {
             stencils: [Vec::new(), Vec::new(), Vec::new()],
             orders: [true; 3],
             work: 0,
+            wanted_work: 0,
+            most_work: 0,
+            is_cut: false,
         }
+    }
+
+    /// Allows work from now on: more problems up to `wanted`, and to finish the last one up to `most`.
+    pub(in crate::window) const fn allow(&mut self, Allowance { wanted, most }: Allowance) {
+        self.wanted_work = self.work.saturating_add(wanted);
+        self.most_work = self.work.saturating_add(most);
+        self.is_cut = false;
+    }
+
+    /// True if no other problem is to be begun.
+    pub(in crate::window) const fn is_spent(&self) -> bool {
+        self.is_cut || self.work > self.wanted_work
     }
 
     /// Improves `x`, M + 3 control points of which the first three (and the last, if fixed) stay.
@@ -94,6 +124,10 @@ impl<const D: usize> Interior<D> {
                 return false;
             }
             last_residual = residual;
+            if self.work + work > self.most_work {
+                self.is_cut = true;
+                return false;
+            }
             self.work += work;
             self.sides.aim_at_zero();
             self.sides.weigh();
@@ -125,7 +159,7 @@ impl<const D: usize> Interior<D> {
         let of_sides = ROW_WORK * (axis_rows + rows);
         let of_matrix = rows * D * D + SPAN * (SPAN + 1) / 2 * problem.sites.len() * D * D;
         let of_factor = problem.intervals * FACTOR_PRODUCTS * D * D * D;
-        of_sides + of_matrix + of_factor
+        (of_sides + of_matrix + of_factor) / if D < LARGE_BLOCK { 1 } else { 2 }
     }
 
     /// How much the elastic rows of the last solution are violated at most.

@@ -9,5 +9,5 @@ mod sides;
 #[cfg(test)]
 mod tests;
 
-pub(super) use interior::{Goal, Interior};
+pub(super) use interior::{Allowance, Goal, Interior};
 pub(super) use problem::{FAR, Problem, SPAN, combine, dot};

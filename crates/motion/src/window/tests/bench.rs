@@ -6,6 +6,19 @@
 
 use super::*;
 
+/// Six axes with limits of their own, which take all the work that is allowed, and would take more.
+#[test]
+fn no_period_takes_more_work_than_is_allowed() {
+    let mut cost = Cost::default();
+    planned(&random_case(154, false), &mut cost);
+    assert!(cost.worst_work <= PLAN_WORK, "{}", cost.worst_work);
+    assert!(
+        cost.worst_work > PLAN_WORK - PLAN_WORK / 50,
+        "{}",
+        cost.worst_work
+    );
+}
+
 /// Programs, and the time to be held against: the optimum inside the tolerance ("tube"), or along the
 /// exact curve for the chorded ones, s.
 const PROGRAMS: [(&str, bool, f64); 14] = [
@@ -41,6 +54,15 @@ struct Cost {
     worst_t: f64,
     /// Multiplications of the solvers for the dearest one.
     worst_work: usize,
+}
+
+impl Cost {
+    /// That of another path.
+    fn add(&mut self, path: &Self) {
+        self.spent_t += path.spent_t;
+        self.worst_t = self.worst_t.max(path.worst_t);
+        self.worst_work = self.worst_work.max(path.worst_work);
+    }
 }
 
 /// All periods of a path.
@@ -183,43 +205,62 @@ pub(super) fn exact_stop_t(case: &Case) -> f64 {
         .sum()
 }
 
-/// Many random paths, by hand: `GLIDEPATH_RANDOM_PATHS=1000`.
+/// Seeds from "1000" (the first so many) or "270..280" (from, to).
+fn seeds(text: &str) -> Option<core::ops::Range<u64>> {
+    let (first, end) = text.split_once("..").unwrap_or(("0", text));
+    Some(first.parse().ok()?..end.parse().ok()?)
+}
+
+/// Many random paths, by hand: `GLIDEPATH_RANDOM_PATHS=1000`, or some: `GLIDEPATH_RANDOM_PATHS=270..280`,
+/// both profiles or one: `GLIDEPATH_RANDOM_PROFILE=mill`. `GLIDEPATH_RANDOM_EACH` prints each.
 #[test]
 fn random_paths() {
-    let count: u64 = match std::env::var("GLIDEPATH_RANDOM_PATHS").map(|text| text.parse()) {
-        Ok(Ok(count)) => count,
-        _ => return println!("skipped: GLIDEPATH_RANDOM_PATHS is not set"),
+    let chosen = std::env::var("GLIDEPATH_RANDOM_PATHS").ok();
+    let Some(seeds) = chosen.as_deref().and_then(seeds) else {
+        return println!("skipped: GLIDEPATH_RANDOM_PATHS is not set");
     };
+    let profile = std::env::var("GLIDEPATH_RANDOM_PROFILE").unwrap_or_default();
+    let prints_each = std::env::var_os("GLIDEPATH_RANDOM_EACH").is_some();
     for is_light in [false, true] {
+        let name = if is_light { "seed" } else { "mill" };
+        if !name.contains(&profile) {
+            continue;
+        }
         let (mut cost, mut moved, mut worst_ratio) = (Cost::default(), 0.0, 0.0_f64);
         let (mut ratios, mut dearest) = (Vec::new(), 0);
-        for seed in 0..count {
+        for seed in seeds.clone() {
             let case = random_case(seed, is_light);
             let mut of_path = Cost::default();
             let periods = planned(&case, &mut of_path);
             if of_path.worst_work > cost.worst_work {
                 dearest = seed;
             }
-            cost.spent_t += of_path.spent_t;
-            cost.worst_t = cost.worst_t.max(of_path.worst_t);
-            cost.worst_work = cost.worst_work.max(of_path.worst_work);
+            cost.add(&of_path);
             let report = case.audit(&periods);
             let time = periods.len() as f64 * case.period_t;
             let stop_t = exact_stop_t(&case);
             let ratio = (time - case.period_t).max(0.0) / stop_t;
             moved += time;
             ratios.push(time / stop_t);
+            if prints_each {
+                println!(
+                    "{name} {seed}: {} periods, {ratio:.4} of exact stop, {:.1} ms, {:.1} million",
+                    periods.len(),
+                    1e3 * of_path.worst_t,
+                    millions(of_path.worst_work),
+                );
+            }
             worst_ratio = worst_ratio.max(ratio);
             if !report.is_clean() || !report.is_complete || ratio > 1.0 {
                 println!(
-                    "seed {seed} light {is_light}: {time:.3} s, stops {stop_t:.3} s, {:?}",
+                    "{name} {seed}: {time:.3} s, stops {stop_t:.3} s, {:?}",
                     &report.violations[..report.violations.len().min(2)]
                 );
             }
         }
         ratios.sort_by(f64::total_cmp);
         println!(
-            "light {is_light}: median {:.3}, worst {worst_ratio:.3} of exact stop; CPU {:.1} %, worst period {:.1} ms, {:.1} million multiplications (seed {dearest})",
+            "{name}: median {:.3}, worst {worst_ratio:.3} of exact stop; CPU {:.1} %, worst period {:.1} ms, {:.1} million multiplications (seed {dearest})",
             ratios[ratios.len() / 2],
             100.0 * cost.spent_t / moved,
             1e3 * cost.worst_t,
