@@ -15,6 +15,7 @@ use super::ledger::Part;
 use crate::joint::tolerance_norm;
 use crate::merge::Dropped;
 use crate::override_::ProgrammedRate;
+use crate::path::SHORTEST_MOVE_MM;
 use crate::pending::axes_speed;
 use crate::piece::Rest;
 use crate::window::Reference;
@@ -119,7 +120,7 @@ impl Chords {
 
     fn take(&mut self, chord: Chord) {
         if let Some(open) = &mut self.open
-            && open.merge(&chord)
+            && (open.absorb(&chord) || open.merge(&chord))
         {
             return;
         }
@@ -163,10 +164,35 @@ impl Chords {
 }
 
 impl Open {
+    /// Takes in a chord too short for a piece: what moves too short to be made by themselves have left
+    /// at the end of a stretch.
+    fn absorb(&mut self, next: &Chord) -> bool {
+        let left = next.end - next.start;
+        let error_mm = self.chord.error_mm + tolerance_norm(&left);
+        let is_short = left.amax() < SHORTEST_MOVE_MM && next.events.is_empty();
+        if !is_short || error_mm > 2.0 * MERGING_R * self.chord.tolerance_mm {
+            return false;
+        }
+        self.tell_line(next);
+        self.chord.end = next.end;
+        self.chord.error_mm = error_mm;
+        true
+    }
+
+    /// Takes note of the line of a chord that is drawn together with this one.
+    fn tell_line(&mut self, next: &Chord) {
+        let chord = &self.chord;
+        let last_line = self.lines.last().map_or(chord.line, |&(_, line)| line);
+        if next.line != last_line {
+            let passed_s = feed_length(&(chord.end - chord.start));
+            self.lines.push((passed_s, next.line));
+        }
+    }
+
     /// Draws the next chord together with this one, if both are driven alike and the tolerance
     /// allows it.
     fn merge(&mut self, next: &Chord) -> bool {
-        let chord = &mut self.chord;
+        let chord = &self.chord;
         let alike = chord.rate == next.rate
             && !chord.rate.is_rapid()
             && chord.tolerance_mm.total_cmp(&next.tolerance_mm).is_eq()
@@ -180,11 +206,8 @@ impl Open {
         {
             return false;
         }
-        let last_line = self.lines.last().map_or(chord.line, |&(_, line)| line);
-        if next.line != last_line {
-            let passed_s = feed_length(&(chord.end - chord.start));
-            self.lines.push((passed_s, next.line));
-        }
+        self.tell_line(next);
+        let chord = &mut self.chord;
         chord.end = next.end;
         chord.error_mm = base_mm + self.dropped.error_mm;
         true
@@ -264,117 +287,4 @@ fn chords_of((length_s, second_k, turn_rad): (f64, f64, f64), allowed_mm: f64) -
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::optimal::intake::Intake;
-    use crate::{Effort, ItemKind, Limits, PathMode, Smoothing};
-    use glidepath_geometry::Plane;
-
-    fn settings() -> Settings {
-        Settings {
-            limits: Limits::uniform(200.0, 2000.0, 40_000.0),
-            tolerance_mm: 0.02,
-            smoothing: Smoothing::Auto,
-            period_t: 0.004,
-            effort: Effort::Optimal,
-        }
-    }
-
-    fn pieces(segments: &[Segment]) -> Vec<(Part, Reference)> {
-        let start = segments[0].start();
-        let (mut intake, mut chords) = (Intake::new(settings(), start), Chords::new(settings()));
-        for (line, segment) in (1..).zip(segments) {
-            let kind = ItemKind::Move {
-                segment: *segment,
-                rate: Rate::Feed(50.0),
-                mode: PathMode::Continuous { tolerance_mm: None },
-            };
-            assert_eq!(intake.push(&Item { line, kind }), Ok(()));
-        }
-        intake.finish();
-        let mut pieces = Vec::new();
-        while let Some(product) = chords.next(&mut intake) {
-            if let Product::Piece(part, reference) = product {
-                pieces.push((part, reference));
-            }
-        }
-        pieces
-    }
-
-    fn distance_mm(a: &AxisVector, b: &AxisVector, point: &AxisVector) -> f64 {
-        let along = b - a;
-        let u = (along.dot(&(point - a)) / along.norm_squared()).clamp(0.0, 1.0);
-        (point - (a + along * u)).norm()
-    }
-
-    #[test]
-    fn chords_of_a_helix_and_their_tolerance_stay_within_that_of_the_program() {
-        let mut start = AxisVector::zeros();
-        start[0] = 10.0;
-        let mut end = start;
-        end[2] = 3.0;
-        let arc = Arc {
-            start,
-            end,
-            plane: Plane::Xy,
-            center: [0.0, 0.0],
-            sweep_rad: core::f64::consts::TAU * 2.0,
-        };
-        let pieces = pieces(&[Segment::Arc(arc)]);
-        let mut from = start;
-        let mut worst_mm = 0.0_f64;
-        for (part, reference) in &pieces {
-            assert_eq!(part.line, 1);
-            let left_mm = reference.tolerance_mm;
-            for k in 0..=2000 {
-                let at = arc.jet(arc.length() * f64::from(k) / 2000.0).position;
-                // Only the turn the chord belongs to is near it.
-                let gap_mm = distance_mm(&from, &reference.end, &at);
-                let along = (at - from).norm() + (at - reference.end).norm();
-                if along < 1.001 * (reference.end - from).norm() {
-                    worst_mm = worst_mm.max(gap_mm);
-                    assert!(gap_mm + left_mm <= 0.02 + 1e-12, "{gap_mm} and {left_mm}");
-                }
-            }
-            assert!(left_mm >= 0.018);
-            from = reference.end;
-        }
-        assert_eq!(from, end);
-        assert!(
-            worst_mm > 0.5e-3,
-            "the tolerance of flattening is used: {worst_mm}"
-        );
-        assert!(pieces.len() < 600, "{}", pieces.len());
-    }
-
-    #[test]
-    fn dense_chords_merge_and_tell_their_lines() {
-        let point = |i: u32| {
-            let mut point = AxisVector::zeros();
-            let x = 0.01 * f64::from(i);
-            (point[0], point[1]) = (x, 0.02 * x * x);
-            point
-        };
-        let segments: Vec<_> = (0..500)
-            .map(|i| Segment::line(point(i), point(i + 1)))
-            .collect();
-        let pieces = pieces(&segments);
-        assert!(pieces.len() < 60, "{}", pieces.len());
-        let (mut from, mut next_line) = (point(0), 1);
-        for (part, reference) in &pieces {
-            let lines = [(0.0, part.line)]
-                .into_iter()
-                .chain(part.lines.iter().copied());
-            for (start_s, line) in lines {
-                assert_eq!(line, next_line, "every block in order");
-                let vertex = point(line - 1);
-                let gap_mm = distance_mm(&from, &reference.end, &vertex);
-                assert!(gap_mm + reference.tolerance_mm <= 0.02 + 1e-12, "{gap_mm}");
-                assert!(((vertex - from).norm() - start_s).abs() < 1e-3, "{start_s}");
-                next_line += 1;
-            }
-            from = reference.end;
-        }
-        assert_eq!(next_line, 501);
-    }
-}
+mod tests;
