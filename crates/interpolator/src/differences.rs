@@ -4,7 +4,9 @@
 //! differences are averages of the derivatives of any motion through the positions, so a motion
 //! inside its limits is inside these.
 
-use glidepath_geometry::{AXES, AxisVector};
+use crate::pairs::{self, PAIRS, Pair, larger, smaller, sub};
+use crate::quintic::Quintic;
+use glidepath_geometry::AxisVector;
 use glidepath_motion::Limits;
 
 /// Part of a limit that may be lost to rounding; half of what an audit allows.
@@ -14,7 +16,11 @@ const ROUNDING: f64 = 1e-12;
 
 /// The limits on one, two and three differences, mm.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Allowed([AxisVector; 3]);
+pub(crate) struct Allowed {
+    pairs: [[Pair; 3]; PAIRS],
+    /// Pairs with limits. The others are not looked at.
+    used: usize,
+}
 
 impl Allowed {
     pub(crate) fn new(limits: &Limits, period_t: f64) -> Self {
@@ -24,128 +30,182 @@ impl Allowed {
             limits.acceleration * (t * t),
             limits.jerk * (t * t * t),
         ];
-        Self(raw.map(|limit| limit * (1.0 + ALLOWANCE) + AxisVector::repeat(ROUNDING)))
+        let raw = raw.map(|limit| limit * (1.0 + ALLOWANCE) + AxisVector::repeat(ROUNDING));
+        let mut all = [[[f64::INFINITY; 2]; 3]; PAIRS];
+        for (k, limit) in raw.iter().enumerate() {
+            for (slots, pair) in all.iter_mut().zip(pairs::pairs(limit.as_slice())) {
+                if let Some(slot) = slots.get_mut(k) {
+                    *slot = pair;
+                }
+            }
+        }
+        Self {
+            pairs: all,
+            used: pairs::in_use(limits),
+        }
+    }
+
+    fn used(&self) -> &[[Pair; 3]] {
+        self.pairs.get(..self.used).unwrap_or(&self.pairs)
     }
 }
 
-/// The larger of two numbers, the second if one is none: an instruction, which `f64::max` is not.
-fn larger(one: f64, other: f64) -> f64 {
-    if one > other { one } else { other }
+/// The last published position of a pair of axes and its differences.
+#[derive(Debug, Clone, Copy)]
+struct Past {
+    position: Pair,
+    first: Pair,
+    second: Pair,
 }
 
-/// The smaller one in the same way.
-fn smaller(one: f64, other: f64) -> f64 {
-    if one < other { one } else { other }
+impl Past {
+    /// Adds one more position. What is inside keeps its 1, what is not gets 0.
+    fn take(&mut self, position: Pair, most: &[Pair; 3], inside: Pair) -> Pair {
+        let [velocity, acceleration, jerk] = *most;
+        let first = sub(position, self.position);
+        let second = sub(first, self.first);
+        let third = sub(second, self.second);
+        *self = Self {
+            position,
+            first,
+            second,
+        };
+        let mut inside = inside;
+        for i in 0..2 {
+            // Not one after the other: that would be a branch for each.
+            let is_inside = (first[i].abs() <= velocity[i])
+                & (second[i].abs() <= acceleration[i])
+                & (third[i].abs() <= jerk[i]);
+            inside[i] = if is_inside { inside[i] } else { 0.0 };
+        }
+        inside
+    }
 }
+
+const INSIDE: Pair = [1.0; 2];
 
 /// The last published position and its differences.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Differences {
-    position: AxisVector,
-    first: AxisVector,
-    second: AxisVector,
-}
+pub(crate) struct Differences([Past; PAIRS]);
 
 impl Differences {
     /// At rest for ever.
     pub(crate) fn at_rest(position: AxisVector) -> Self {
-        Self {
-            position,
-            first: AxisVector::zeros(),
-            second: AxisVector::zeros(),
+        let mut all = [Past {
+            position: [0.0; 2],
+            first: [0.0; 2],
+            second: [0.0; 2],
+        }; PAIRS];
+        for (past, position) in all.iter_mut().zip(pairs::pairs(position.as_slice())) {
+            past.position = position;
         }
+        Self(all)
     }
 
-    pub(crate) const fn position(&self) -> &AxisVector {
-        &self.position
+    pub(crate) fn position(&self) -> AxisVector {
+        pairs::axes(&self.0.map(|past| past.position))
     }
 
     /// Whether the last three positions are the same.
     pub(crate) fn is_at_rest(&self) -> bool {
-        self.first
-            .iter()
-            .chain(self.second.iter())
-            .all(|d| d.abs() <= ROUNDING)
+        self.0.iter().all(|past| {
+            let moves = pairs::zip(past.first, past.second, |one, other| {
+                larger(one.abs(), other.abs())
+            });
+            moves.iter().all(|d| *d <= ROUNDING)
+        })
     }
 
-    /// After one more position.
-    pub(crate) fn then(&self, position: &AxisVector) -> Self {
-        let first = position - self.position;
-        Self {
-            position: *position,
-            first,
-            second: first - self.first,
+    /// Adds one more position, wherever it is.
+    pub(crate) fn go_to(&mut self, position: &AxisVector) {
+        for (past, position) in self.0.iter_mut().zip(pairs::pairs(position.as_slice())) {
+            let first = sub(position, past.position);
+            *past = Past {
+                position,
+                first,
+                second: sub(first, past.first),
+            };
         }
     }
 
     /// Whether one more position is within the limits.
     pub(crate) fn allow(&self, position: &AxisVector, allowed: &Allowed) -> bool {
-        let mut next = *self;
-        next.take(position, allowed)
-    }
-
-    /// Adds one more position; returns whether it is within the limits. One loop over plain arrays.
-    #[allow(clippy::indexing_slicing, reason = "the index runs over the axes")]
-    pub(crate) fn take(&mut self, position: &AxisVector, allowed: &Allowed) -> bool {
-        let [velocity, acceleration, jerk] = &allowed.0;
-        // A number, not a truth value: that can be kept for several axes at once.
-        let mut inside = 1_u64;
-        for i in 0..AXES {
-            let first = position[i] - self.position[i];
-            let second = first - self.first[i];
-            let third = second - self.second[i];
-            inside &= u64::from(first.abs() <= velocity[i]);
-            inside &= u64::from(second.abs() <= acceleration[i]);
-            inside &= u64::from(third.abs() <= jerk[i]);
-            self.position[i] = position[i];
-            self.first[i] = first;
-            self.second[i] = second;
+        let positions = pairs::pairs(position.as_slice());
+        let mut inside = INSIDE;
+        for ((past, position), most) in self.0.iter().zip(positions).zip(allowed.used()) {
+            inside = { *past }.take(position, most, inside);
         }
-        inside == 1
+        inside == INSIDE
     }
 
-    /// From where to where the next position may be moved until a limit is reached, from one along a
-    /// velocity, in parts of that. Exact where the motion is straight.
-    #[allow(clippy::indexing_slicing, reason = "the index runs over the axes")]
-    pub(crate) fn room(
-        &self,
-        position: &AxisVector,
-        velocity: &AxisVector,
-        allowed: &Allowed,
-    ) -> (f64, f64) {
-        let [most_first, most_second, most_third] = &allowed.0;
-        let (mut low, mut high) = ([f64::NEG_INFINITY; AXES], [f64::INFINITY; AXES]);
-        for i in 0..AXES {
-            let first = position[i] - self.position[i];
-            let second = first - self.first[i];
-            let third = second - self.second[i];
-            let scale = velocity[i].abs().recip();
-            // What the differences are along the velocity. An axis that stands is not limited by it.
-            let along = |difference: f64| difference.copysign(difference * velocity[i]);
-            for (difference, most) in [
-                (along(first), most_first[i]),
-                (along(second), most_second[i]),
-                (along(third), most_third[i]),
-            ] {
-                low[i] = larger((-most - difference) * scale, low[i]);
-                high[i] = smaller((most - difference) * scale, high[i]);
+    /// Adds one more position; returns whether it is within the limits. Of axes without limits nothing
+    /// is kept.
+    pub(crate) fn take(&mut self, position: &AxisVector, allowed: &Allowed) -> bool {
+        let positions = pairs::pairs(position.as_slice());
+        let mut inside = INSIDE;
+        for ((past, position), most) in self.0.iter_mut().zip(positions).zip(allowed.used()) {
+            inside = past.take(position, most, inside);
+        }
+        inside == INSIDE
+    }
+
+    /// The same with a position between two frames: most of the work of a tick that looks for a stop.
+    pub(crate) fn take_at(&mut self, quintic: &Quintic, u: f64, allowed: &Allowed) -> bool {
+        let mut inside = INSIDE;
+        for ((past, pair), most) in self.0.iter_mut().zip(quintic.pairs()).zip(allowed.used()) {
+            inside = past.take(pair.position(u), most, inside);
+        }
+        inside == INSIDE
+    }
+
+    /// From where to where the next position may be moved until a limit is reached, from one between two
+    /// frames along the velocity there, in parts of that. Exact where the motion is straight.
+    pub(crate) fn room(&self, quintic: &Quintic, u: f64, allowed: &Allowed) -> (f64, f64) {
+        let (mut low, mut high) = ([f64::NEG_INFINITY; 2], [f64::INFINITY; 2]);
+        for ((past, pair), most) in self.0.iter().zip(quintic.pairs()).zip(allowed.used()) {
+            let (position, velocity) = pair.motion(u);
+            let first = sub(position, past.position);
+            let second = sub(first, past.first);
+            let third = sub(second, past.second);
+            let scale = pairs::map(velocity, |v| v.abs().recip());
+            for (difference, most) in [first, second, third].into_iter().zip(*most) {
+                // What the differences are along the velocity. An axis that stands is not limited by it.
+                let along = pairs::zip(difference, velocity, |d, v| d.copysign(d * v));
+                let lowest = pairs::zip(most, along, |most, along| -most - along);
+                let highest = sub(most, along);
+                low = pairs::zip(pairs::zip(lowest, scale, |l, s| l * s), low, larger);
+                high = pairs::zip(pairs::zip(highest, scale, |h, s| h * s), high, smaller);
             }
         }
-        (
-            low.into_iter().fold(f64::NEG_INFINITY, larger),
-            high.into_iter().fold(f64::INFINITY, smaller),
-        )
+        let ([low, other_low], [high, other_high]) = (low, high);
+        (larger(low, other_low), smaller(high, other_high))
     }
 
-    /// Largest ratio to a limit one more position would have.
+    /// Largest ratio to a limit one more position would have; not a number if one is none.
+    #[cold]
     pub(crate) fn ratio(&self, position: &AxisVector, allowed: &Allowed) -> f64 {
-        let [velocity, acceleration, jerk] = &allowed.0;
-        let first = position - self.position;
-        let second = first - self.first;
-        let third = second - self.second;
-        [(first, velocity), (second, acceleration), (third, jerk)]
-            .iter()
-            .map(|(difference, limit)| difference.component_div(limit).amax())
-            .fold(0.0, f64::max)
+        let positions = pairs::pairs(position.as_slice());
+        let mut most_ratio = [0.0_f64; 2];
+        for ((past, position), most) in self.0.iter().zip(positions).zip(allowed.used()) {
+            let first = sub(position, past.position);
+            let second = sub(first, past.first);
+            let third = sub(second, past.second);
+            for (difference, most) in [first, second, third].into_iter().zip(*most) {
+                let ratio = pairs::zip(difference, most, |d, most| d.abs() / most);
+                most_ratio = pairs::zip(ratio, most_ratio, |ratio, most| {
+                    if ratio <= most || most.is_nan() {
+                        most
+                    } else {
+                        ratio
+                    }
+                });
+            }
+        }
+        let [one, other] = most_ratio;
+        if one <= other || other.is_nan() {
+            other
+        } else {
+            one
+        }
     }
 }

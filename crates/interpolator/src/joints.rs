@@ -42,6 +42,8 @@ impl Joints {
             }
             Err(error) => {
                 setpoint.joint_position = self.last.into();
+                setpoint.joint_velocity = JointVector::zeros().into();
+                setpoint.joint_acceleration = JointVector::zeros().into();
                 Err(error)
             }
         }

@@ -30,6 +30,8 @@ mod differences;
 mod joints;
 mod loops;
 mod message;
+mod pairs;
+mod place;
 mod ports;
 mod program_time;
 mod quintic;
@@ -39,6 +41,7 @@ mod run;
 mod setpoint;
 mod status;
 mod stepped;
+mod stop_time;
 mod supply;
 #[cfg(test)]
 mod testing;

@@ -96,9 +96,10 @@ pub(crate) fn real_time<C: Clock>(
     timer: &mut DeadlineTimer<C>,
     stop: &AtomicBool,
 ) {
+    let mut report = Report::blank();
     while !stop.load(Ordering::Relaxed) {
         let rise = timer.rise();
-        let mut report = interpolator.prepare(timer.next().tick, inputs);
+        interpolator.prepare(timer.next().tick, inputs, &mut report);
         let prepared_ns = timer.clock().now_ns();
         let wake = timer.wait();
         interpolator.stamp(&mut report, &wake);

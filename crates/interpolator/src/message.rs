@@ -174,6 +174,27 @@ pub(crate) struct Report {
     pub(crate) reserve_stops: u64,
 }
 
+impl Report {
+    /// Of no tick yet.
+    pub(crate) fn blank() -> Self {
+        Self {
+            setpoint: bytemuck::Zeroable::zeroed(),
+            state: MachineState::Idle,
+            end_of_epoch: EndOfEpoch::None,
+            fault: None,
+            frames_executed: 0,
+            queue_depth: 0,
+            timing: Timing::default(),
+            late_ticks: 0,
+            reports_lost: 0,
+            feed_override: 0.0,
+            rapid_override: 0.0,
+            single_block: false,
+            reserve_stops: 0,
+        }
+    }
+}
+
 /// Something for the log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Happening {

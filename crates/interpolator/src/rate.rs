@@ -253,6 +253,15 @@ impl Rate {
         if self.rate > 0.0 || !scene.published.is_at_rest() {
             self.barred = 0;
         }
+        self.choose(goal, heading, scene);
+    }
+
+    /// Tries ramps to a goal, or part of the way, until one passes. Not in line, like all that looks for
+    /// a ramp or a stop: what most ticks do not do is not to spread their code and their stack.
+    #[inline(never)]
+    #[allow(clippy::float_cmp, reason = "targets are copies of goals")]
+    fn choose(&mut self, goal: f64, heading: Option<f64>, scene: &Scene<'_>) {
+        let arrives = heading == Some(goal);
         let mut budget = scene.budget(BUDGET);
         if self.go_on_setting_out(goal, scene, &mut budget) {
             return;

@@ -195,9 +195,9 @@ mod tests {
         let mut log = |line: &str| lines.push(line.to_owned());
         let mut ports =
             Ports::new(&config, 1, Box::new(transport), ends, reader, &mut log).unwrap();
-        reports
-            .enqueue(interpolator.prepare(1, &mut inputs))
-            .unwrap();
+        let mut report = Report::blank();
+        interpolator.prepare(1, &mut inputs, &mut report);
+        reports.enqueue(report).unwrap();
         let grants = enter(&Request::default(), Mode::BestEffort).unwrap().grants;
         let (stop, now_ns) = (AtomicBool::new(false), Monotonic.now_ns());
         serve(&config, &mut ports, now_ns, &grants, &stop, &|| false);

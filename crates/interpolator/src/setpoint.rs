@@ -2,9 +2,11 @@
 
 use crate::config::Config;
 use crate::message::{Report, Timing};
+use crate::place::Place;
+use crate::rate::Advance;
 use crate::tick::Interpolator;
 use glidepath_geometry::AXES;
-use glidepath_link::{FaultCause, OVERRIDE_MAX, Setpoint, SetpointFrame, SetpointMarks};
+use glidepath_link::{FaultCause, OVERRIDE_MAX, Setpoint, SetpointMarks};
 use glidepath_realtime::Wake;
 
 /// Counts of this life.
@@ -85,119 +87,100 @@ impl Counters {
 }
 
 impl Interpolator<'_> {
-    /// The setpoint at the present program time.
-    pub(crate) fn evaluate(&mut self, tick: u64) -> Setpoint {
+    /// Writes the setpoint at the present program time.
+    pub(crate) fn evaluate(&mut self, tick: u64, setpoint: &mut Setpoint) {
         let now = self.rate.now();
-        let (Some(motion), Some(path), Some(frame)) = (
-            self.track.kinematic(now.time),
-            self.track.path(now.time),
-            self.track.frame(now.time.sequence).copied(),
-        ) else {
+        let place = self.track.frame(now.time.sequence).map(Place::of);
+        let (Some(place), Some(())) = (place, self.evaluate_motion(&now, setpoint)) else {
             // Every committed ramp ends on frames at hand, so this cannot be; if it were, standing
             // still is all that is left.
             self.fail(FaultCause::Output);
             self.rate.rest_at(now.time, 0.0);
-            return self.standing();
+            self.stand(setpoint);
+            return;
         };
-        let mut setpoint = self.blank(&frame);
-        self.check(&motion.position, tick);
-        let per_s = self.period_t.recip();
-        if now.rate >= 1.0 && now.slope == 0.0 && now.time.fraction <= 0.0 {
-            (setpoint.position, setpoint.velocity, setpoint.acceleration) =
-                (frame.position, frame.velocity, frame.acceleration);
-            setpoint.feed_v = frame.path_v;
-        } else {
-            let velocity = motion.velocity * (now.rate * per_s);
-            let acceleration = (motion.acceleration * (now.rate * now.rate)
-                + motion.velocity * now.slope)
-                * (per_s * per_s);
-            setpoint.position = motion.position.into();
-            setpoint.velocity = velocity.into();
-            setpoint.acceleration = acceleration.into();
-            setpoint.feed_v = path.path_v * now.rate * per_s;
-        }
+        self.check(&setpoint.position.into(), tick);
+        self.locate(&place, setpoint);
         setpoint.fraction = now.time.fraction;
-        setpoint.path_s = path.path_s;
-        setpoint.effective_override = (frame.planned_override * now.rate).min(OVERRIDE_MAX);
-        if self.announced != Some(frame.sequence) {
-            self.announced = Some(frame.sequence);
-            (setpoint.event_kind, setpoint.event_value) = (frame.event_kind, frame.event_value);
+        setpoint.effective_override = (place.planned_override * now.rate).min(OVERRIDE_MAX);
+        (setpoint.event_kind, setpoint.event_value) = (0, 0.0);
+        if self.announced != Some(place.sequence) {
+            self.announced = Some(place.sequence);
+            if let Some(frame) = self.track.frame(place.sequence) {
+                (setpoint.event_kind, setpoint.event_value) = (frame.event_kind, frame.event_value);
+            }
         }
-        setpoint
     }
 
-    /// The setpoint of a machine at rest without an epoch.
-    pub(crate) fn standing(&mut self) -> Setpoint {
-        let position = *self.published.position();
-        self.published = self.published.then(&position);
+    /// Writes where the axes and the path are and how they move. On the grid of the frames, at rate 1,
+    /// that is the frame.
+    fn evaluate_motion(&self, now: &Advance, setpoint: &mut Setpoint) -> Option<()> {
+        let frame = self.track.frame(now.time.sequence)?;
+        if now.rate >= 1.0 && now.slope == 0.0 && now.time.fraction <= 0.0 {
+            setpoint.position = frame.position;
+            setpoint.velocity = frame.velocity;
+            setpoint.acceleration = frame.acceleration;
+            (setpoint.path_s, setpoint.feed_v) = (frame.path_s, frame.path_v);
+            return Some(());
+        }
+        let motion = self.track.kinematic(now.time)?;
+        let path = self.track.path(now.time)?;
+        let per_s = self.period_t.recip();
+        let velocity = motion.velocity * (now.rate * per_s);
+        let acceleration = (motion.acceleration * (now.rate * now.rate)
+            + motion.velocity * now.slope)
+            * (per_s * per_s);
+        setpoint.position = motion.position.into();
+        setpoint.velocity = velocity.into();
+        setpoint.acceleration = acceleration.into();
+        (setpoint.path_s, setpoint.feed_v) = (path.path_s, path.path_v * now.rate * per_s);
+        Some(())
+    }
+
+    /// Writes the setpoint of a machine at rest without an epoch.
+    pub(crate) fn stand(&mut self, setpoint: &mut Setpoint) {
+        let position = self.published.position();
+        self.published.go_to(&position);
         let passed = self.passed;
-        Setpoint {
-            position: position.into(),
-            path_s: passed.path_s,
-            ..self.blank(&passed)
-        }
+        self.locate(&passed, setpoint);
+        (setpoint.position, setpoint.path_s) = (position.into(), passed.path_s);
+        (setpoint.velocity, setpoint.acceleration) = ([0.0; AXES], [0.0; AXES]);
+        (
+            setpoint.feed_v,
+            setpoint.fraction,
+            setpoint.effective_override,
+        ) = (0.0, 0.0, 0.0);
+        (setpoint.event_kind, setpoint.event_value) = (0, 0.0);
     }
 
-    /// Everything that does not depend on the motion, without the stamp.
-    fn blank(&mut self, frame: &SetpointFrame) -> Setpoint {
-        let number = self.counters.number;
+    /// Writes which setpoint it is, and where in the program.
+    const fn locate(&mut self, place: &Place, setpoint: &mut Setpoint) {
+        setpoint.boot_id = self.boot_id;
+        setpoint.number = self.counters.number;
         self.counters.number += 1;
-        Setpoint {
-            boot_id: self.boot_id,
-            number,
-            // The stamp at the deadline sets these.
-            tick: 0,
-            scheduled_ns: 0,
-            apply_ns: 0,
-            lateness_ns: 0,
-            missed_ticks: 0,
-            marks: 0,
-            epoch: self.epoch,
-            sequence: frame.sequence,
-            fraction: 0.0,
-            line: frame.line,
-            flags: frame.flags,
-            state: self.state.code(),
-            event_kind: 0,
-            block: frame.block,
-            event_value: 0.0,
-            path_s: 0.0,
-            feed_v: 0.0,
-            effective_override: 0.0,
-            position: [0.0; AXES],
-            velocity: [0.0; AXES],
-            acceleration: [0.0; AXES],
-            joint_position: [0.0; AXES],
-            joint_velocity: [0.0; AXES],
-            joint_acceleration: [0.0; AXES],
-        }
+        setpoint.epoch = self.epoch;
+        setpoint.sequence = place.sequence;
+        setpoint.line = place.line;
+        setpoint.block = place.block;
+        setpoint.flags = place.flags;
     }
 
-    /// The setpoint with the state after this tick, and what the ports thread must know.
-    pub(crate) fn report(&self, setpoint: Setpoint) -> Report {
+    /// Writes the state after this tick, and what the ports thread must know.
+    pub(crate) fn report(&self, report: &mut Report) {
         let now = self.rate.now().time.sequence;
         let (feed_override, rapid_override) = self.will.overrides();
-        Report {
-            setpoint: Setpoint {
-                state: self.state.code(),
-                ..setpoint
-            },
-            state: self.state,
-            end_of_epoch: self.end_of_epoch,
-            fault: self.will.fault().copied(),
-            frames_executed: if self.epoch == 0 { 0 } else { now + 1 },
-            queue_depth: if self.is_open() {
-                self.track.end().saturating_sub(now + 1)
-            } else {
-                0
-            },
-            timing: Timing::default(),
-            late_ticks: 0,
-            reports_lost: 0,
-            feed_override,
-            rapid_override,
-            single_block: self.will.is_single_block(),
-            reserve_stops: self.counters.reserve_stops,
-        }
+        report.setpoint.state = self.state.code();
+        report.state = self.state;
+        report.end_of_epoch = self.end_of_epoch;
+        report.fault = self.will.fault().copied();
+        report.frames_executed = if self.epoch == 0 { 0 } else { now + 1 };
+        report.queue_depth = if self.is_open() {
+            self.track.end().saturating_sub(now + 1)
+        } else {
+            0
+        };
+        (report.feed_override, report.rapid_override) = (feed_override, rapid_override);
+        report.single_block = self.will.is_single_block();
+        report.reserve_stops = self.counters.reserve_stops;
     }
 }

@@ -1,7 +1,7 @@
 //! An interpolator that is driven by hand.
 
 use crate::config::Config;
-use crate::message::{HAPPENINGS, Happening, Inputs, Order, PortsEnds, Rings};
+use crate::message::{HAPPENINGS, Happening, Inputs, Order, PortsEnds, Report, Rings};
 use crate::tick::Interpolator;
 use glidepath_link::{Command, Setpoint, SetpointFrame};
 use glidepath_realtime::{Events, Wake, event_ring};
@@ -12,6 +12,7 @@ pub struct Stepped<'a> {
     interpolator: Interpolator<'a>,
     inputs: Inputs<'a>,
     ends: PortsEnds<'a>,
+    report: Report,
     period_ns: u64,
     tick: u64,
 }
@@ -36,6 +37,7 @@ pub fn stepped<R>(config: &Config, drive: impl FnOnce(&mut Stepped<'_>) -> R) ->
         interpolator,
         inputs,
         ends,
+        report: Report::blank(),
         period_ns,
         tick: 0,
     })
@@ -74,8 +76,10 @@ impl Stepped<'_> {
             woke_ns: scheduled_ns,
             missed: 0,
         };
-        let mut report = self.interpolator.prepare(self.tick, &mut self.inputs);
-        self.interpolator.stamp(&mut report, &wake);
+        let report = &mut self.report;
+        self.interpolator
+            .prepare(self.tick, &mut self.inputs, report);
+        self.interpolator.stamp(report, &wake);
         report.setpoint
     }
 }

@@ -152,7 +152,9 @@ impl Rig {
             woke_ns,
             missed,
         };
-        let mut report = self.interpolator.prepare(self.tick, &mut self.inputs);
+        let mut report = Report::blank();
+        self.interpolator
+            .prepare(self.tick, &mut self.inputs, &mut report);
         self.interpolator.stamp(&mut report, &wake);
         self.setpoints.push(report.setpoint);
         self.last = Some(report);

@@ -11,8 +11,10 @@
 //! rests, until the operator lets it pass, and the *barrier*, the latest frame at rest, until it is
 //! known how to stop after it. Program time stands there: everything later is evaluated as that frame.
 
+use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
 use crate::quintic::{Kinematic, Quintic};
+use crate::stop_time::{StopLimits, StopTime};
 use glidepath_geometry::AxisVector;
 use glidepath_link::SetpointFrame;
 use glidepath_motion::{FrameFlags, Limits};
@@ -25,14 +27,6 @@ pub(crate) const TRACK_CAPACITY: usize = 512;
 pub(crate) struct PathState {
     pub(crate) path_s: f64,
     pub(crate) path_v: f64,
-}
-
-/// How many ticks it takes to lose the speed at a frame: at the acceleration limit, and, squared, at
-/// the jerk limit. The slowest axis counts.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct StopTime {
-    pub(crate) by_acceleration: f64,
-    pub(crate) by_jerk_squared: f64,
 }
 
 /// The owned frames of one epoch. Sequences are consecutive.
@@ -51,7 +45,7 @@ pub(crate) struct Track {
     /// The end of a block, at rest, at which the operator wants to stand.
     block_end: Option<u64>,
     period_t: f64,
-    limits: Limits,
+    limits: StopLimits,
 }
 
 impl Track {
@@ -69,7 +63,7 @@ impl Track {
             barrier: None,
             block_end: None,
             period_t,
-            limits,
+            limits: StopLimits::new(&limits),
         }
     }
 
@@ -98,22 +92,20 @@ impl Track {
     pub(crate) fn push(&mut self, frame: &SetpointFrame) {
         if self.is_empty() {
             self.oldest = frame.sequence;
-        } else if let Some(previous) = self.newest().copied()
-            && let Some(quintic) = self.quintics.get_mut(Self::place(previous.sequence))
-        {
-            *quintic = Quintic::between(&previous, frame, self.period_t);
+        } else {
+            let before = Self::place(self.end().wrapping_sub(1));
+            if let (Some(previous), Some(quintic)) =
+                (self.frames.get(before), self.quintics.get_mut(before))
+            {
+                quintic.lead(previous, frame, self.period_t);
+            }
         }
         if let Some(slot) = self.frames.get_mut(Self::place(frame.sequence)) {
             *slot = *frame;
             self.len += 1;
         }
         if let Some(slot) = self.stop_times.get_mut(Self::place(frame.sequence)) {
-            let speed = AxisVector::from(frame.velocity).abs();
-            let t = self.period_t;
-            *slot = StopTime {
-                by_acceleration: speed.component_div(&self.limits.acceleration).max() / t,
-                by_jerk_squared: speed.component_div(&self.limits.jerk).max() / (t * t),
-            };
+            *slot = self.limits.stop_time(frame, self.period_t);
         }
         if is_at_rest(frame) {
             self.barrier = Some(frame.sequence);
@@ -223,21 +215,44 @@ impl Track {
         if time.fraction <= 0.0 {
             return Some(AxisVector::from(frame.position));
         }
-        self.frame(time.sequence + 1)?;
-        Some(
-            self.quintics
-                .get(Self::place(time.sequence))?
-                .position(time.fraction),
-        )
+        Some(self.quintic(time.sequence)?.position(time.fraction))
     }
 
-    /// Planned position, and velocity by program time in periods, up to the newest frame but one;
-    /// `None` outside the owned frames.
-    pub(crate) fn motion(&self, time: ProgramTime) -> Option<(AxisVector, AxisVector)> {
-        self.frame(time.sequence)?;
-        self.frame(time.sequence + 1)?;
-        let quintic = self.quintics.get(Self::place(time.sequence))?;
-        Some(quintic.motion(time.fraction))
+    /// The motion from a frame to the next; `None` outside the owned frames.
+    fn quintic(&self, sequence: u64) -> Option<&Quintic> {
+        let offset = sequence.checked_sub(self.oldest)?;
+        if offset + 1 < self.len as u64 {
+            self.quintics.get(Self::place(sequence))
+        } else {
+            None
+        }
+    }
+
+    /// Adds the planned position at a time to others; returns whether it is within the limits, and
+    /// within the owned frames.
+    pub(crate) fn take(
+        &self,
+        time: ProgramTime,
+        published: &mut Differences,
+        allowed: &Allowed,
+    ) -> bool {
+        if let Some(quintic) = self.quintic(time.sequence) {
+            return published.take_at(quintic, time.fraction, allowed);
+        }
+        let position = self.position(time);
+        position.is_some_and(|position| published.take(&position, allowed))
+    }
+
+    /// By how much the planned position at a time may be moved along the path: see [`Differences::room`].
+    /// Up to the newest frame but one; `None` outside the owned frames.
+    pub(crate) fn room(
+        &self,
+        time: ProgramTime,
+        published: &Differences,
+        allowed: &Allowed,
+    ) -> Option<(f64, f64)> {
+        let quintic = self.quintic(time.sequence)?;
+        Some(published.room(quintic, time.fraction, allowed))
     }
 
     /// Position and derivatives between frames; `None` outside the owned frames.
@@ -251,12 +266,7 @@ impl Track {
                     * (self.period_t * self.period_t),
             });
         }
-        self.frame(time.sequence + 1)?;
-        Some(
-            self.quintics
-                .get(Self::place(time.sequence))?
-                .kinematic(time.fraction),
-        )
+        Some(self.quintic(time.sequence)?.kinematic(time.fraction))
     }
 
     /// Path position and rate, by the cubic through both frames; `None` outside the owned frames.

@@ -1,6 +1,6 @@
 //! One of the mechanisms, chosen when a machine is configured.
 
-use crate::machine::{AxisSeries, Conditioning, JointSeries, JointVector, Kinematics};
+use crate::machine::{AxisSeries, Conditioning, JointMotion, JointSeries, JointVector, Kinematics};
 use crate::{
     CoreXy, FiveAxis, Hexapod, KinematicsError, LinearDelta, RotaryDelta, Scara,
     TranslationalHexapod, Trivial,
@@ -57,6 +57,15 @@ impl Kinematics for Mechanism {
         axes: &AxisSeries<N>,
     ) -> Result<JointSeries<N>, KinematicsError> {
         each!(self, machine => machine.inverse_series(axes))
+    }
+
+    fn motion(
+        &self,
+        position: &AxisVector,
+        velocity: &AxisVector,
+        acceleration: &AxisVector,
+    ) -> Result<JointMotion, KinematicsError> {
+        each!(self, machine => machine.motion(position, velocity, acceleration))
     }
 
     fn forward(

@@ -1,6 +1,6 @@
 //! Each axis has a drive of its own.
 
-use crate::machine::{AxisSeries, Conditioning, JointSeries, JointVector, Kinematics};
+use crate::machine::{AxisSeries, Conditioning, JointMotion, JointSeries, JointVector, Kinematics};
 use crate::{AxisList, KinematicsError};
 use glidepath_geometry::AxisVector;
 use glidepath_geometry::number::{Number, Series};
@@ -24,6 +24,27 @@ impl Kinematics for Trivial {
         let mut joints = [Series::constant(0.0); crate::JOINTS];
         pass_through(self.axes, axes, &mut joints);
         Ok(joints)
+    }
+
+    /// What is true of positions is true of their derivatives: no series is needed.
+    fn motion(
+        &self,
+        position: &AxisVector,
+        velocity: &AxisVector,
+        acceleration: &AxisVector,
+    ) -> Result<JointMotion, KinematicsError> {
+        let mut motion = JointMotion {
+            position: JointVector::zeros(),
+            velocity: JointVector::zeros(),
+            acceleration: JointVector::zeros(),
+        };
+        for (joint, axis) in self.axes.iter().enumerate() {
+            let axis = axis.index();
+            motion.position[joint] = position[axis];
+            motion.velocity[joint] = velocity[axis];
+            motion.acceleration[joint] = acceleration[axis];
+        }
+        Ok(motion)
     }
 
     fn forward(

@@ -303,6 +303,7 @@ impl Scene<'_> {
 impl Rate {
     /// Makes sure of a rest at the end of the block. Returns whether there is a new way to it that
     /// passes a barrier.
+    #[inline(never)]
     pub(super) fn secure_arrival(
         &mut self,
         frame: u64,

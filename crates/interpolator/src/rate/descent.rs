@@ -212,8 +212,10 @@ impl Descent {
         if self.may_go {
             self.bounds = None;
         }
-        let position = scene.track.position(self.at.time);
-        position.is_some_and(|position| self.at.published.take(&position, scene.allowed))
+        let Cue {
+            time, published, ..
+        } = &mut self.at;
+        scene.track.take(*time, published, scene.allowed)
     }
 }
 

@@ -166,8 +166,7 @@ impl Fall {
         } = &mut self.steady;
         at.time = at.time.after(*rate);
         slopes.in_ticks += 1;
-        let position = scene.track.position(at.time);
-        position.is_some_and(|position| at.published.take(&position, scene.allowed))
+        scene.track.take(at.time, &mut at.published, scene.allowed)
     }
 }
 
@@ -178,9 +177,8 @@ impl Way {
         if even <= 0.0 {
             return None;
         }
-        let (position, velocity) = scene.track.motion(self.at.time.after(even))?;
-        let published = &self.at.published;
-        let (low, high) = published.room(&position, &velocity, scene.allowed);
+        let (time, published) = (self.at.time.after(even), &self.at.published);
+        let (low, high) = scene.track.room(time, published, scene.allowed)?;
         let (low, high) = (low.max(-even), high.min(1.0 - even));
         let inside = INSIDE * (high - low);
         (low <= high).then_some((self.slope + low + inside, self.slope + high - inside))
@@ -190,8 +188,7 @@ impl Way {
     fn after(&self, ramp: &Ramp, slope: f32, scene: &Scene<'_>) -> Option<Self> {
         let mut at = self.at;
         at.time = at.time.after(ramp.elapsed_at(1.0));
-        let position = scene.track.position(at.time)?;
-        if !at.published.take(&position, scene.allowed) {
+        if !scene.track.take(at.time, &mut at.published, scene.allowed) {
             return None;
         }
         Some(Self {

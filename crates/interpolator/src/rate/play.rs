@@ -72,10 +72,7 @@ impl Playing {
             self.t += 1.0;
             let elapsed = self.ramp.elapsed_at(self.t);
             let time = self.cue.time.after(elapsed).held_at(stop);
-            let Some(position) = track.position(time) else {
-                return Played::Barred;
-            };
-            if !self.published.take(&position, allowed) {
+            if !track.take(time, &mut self.published, allowed) {
                 return Played::Barred;
             }
             if self.t == whole {

@@ -137,8 +137,10 @@ impl Steady {
     pub(super) fn cue(self, tick: f64, scene: &Scene<'_>) -> Option<Cue> {
         let time = |back: f64| self.time.after(self.rate * (tick - back));
         let at = |back: f64| scene.track.position(time(back));
-        let first = Differences::at_rest(at(3.0)?);
-        let published = first.then(&at(2.0)?).then(&at(1.0)?).then(&at(0.0)?);
+        let mut published = Differences::at_rest(at(3.0)?);
+        for back in [2.0, 1.0, 0.0] {
+            published.go_to(&at(back)?);
+        }
         Some(Cue {
             time: time(0.0),
             published,
@@ -226,6 +228,7 @@ impl Rate {
     }
 
     /// Goes on with the search for a later stop.
+    #[inline(never)]
     fn search_later(
         &mut self,
         at_least: u32,
@@ -266,6 +269,7 @@ impl Rate {
 
     /// Goes a little slower, as little as possible, so that the stop in reserve need not begin: from
     /// a lower rate there is a later one.
+    #[inline(never)]
     fn dip(&mut self, scene: &Scene<'_>) {
         let fastest = scene.fastest_from(self.now.sequence);
         let mut budget = scene.budget(BUDGET);

@@ -84,7 +84,7 @@ impl Player {
             self.rate.rest_at(time, self.rate.now().rate);
         }
         let position = self.track.position(time).unwrap();
-        self.published = self.published.then(&position);
+        self.published.go_to(&position);
         self.positions.push(position);
     }
 
@@ -169,8 +169,7 @@ fn a_fall_leads_down_within_the_limits() {
             let elapsed = ramp.map_or(now, |ramp| ramp.elapsed_at(1.0));
             (now, slope) = ramp.map_or((now, 0.0), |ramp| (ramp.target(), ramp.end_slope()));
             at.time = at.time.after(elapsed);
-            let position = p.track.position(at.time).unwrap();
-            assert!(at.published.take(&position, &p.allowed));
+            assert!(p.track.take(at.time, &mut at.published, &p.allowed));
         }
         assert_eq!((now, slope, at.time), (rate, 0.0, end.time));
     }

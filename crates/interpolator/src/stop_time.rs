@@ -1,0 +1,51 @@
+//! How long a stop takes from the speed at a frame: what the bounds of ramps are worked out from.
+
+use crate::pairs::{self, PAIRS, Pair, larger};
+use glidepath_link::SetpointFrame;
+use glidepath_motion::Limits;
+
+/// How many ticks it takes to lose the speed at a frame: at the acceleration limit, and, squared, at
+/// the jerk limit. The slowest axis counts.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct StopTime {
+    pub(crate) by_acceleration: f64,
+    pub(crate) by_jerk_squared: f64,
+}
+
+/// What limits the time to stop: acceleration and jerk, of the pairs of axes that have limits.
+#[derive(Debug)]
+pub(crate) struct StopLimits {
+    pairs: [[Pair; 2]; PAIRS],
+    used: usize,
+}
+
+impl StopLimits {
+    pub(crate) fn new(limits: &Limits) -> Self {
+        let both =
+            pairs::pairs(limits.acceleration.as_slice()).zip(pairs::pairs(limits.jerk.as_slice()));
+        let mut all = [[[f64::INFINITY; 2]; 2]; PAIRS];
+        for (slot, (acceleration, jerk)) in all.iter_mut().zip(both) {
+            *slot = [acceleration, jerk];
+        }
+        Self {
+            pairs: all,
+            used: pairs::in_use(limits),
+        }
+    }
+
+    pub(crate) fn stop_time(&self, frame: &SetpointFrame, period_t: f64) -> StopTime {
+        let (mut by_acceleration, mut by_jerk) = ([0.0; 2], [0.0; 2]);
+        let used = self.pairs.iter().take(self.used);
+        for (velocity, [acceleration, jerk]) in pairs::pairs(&frame.velocity).zip(used) {
+            // Where there is no second axis that is not a number, and less than any.
+            let part = |limit: &Pair| pairs::zip(velocity, *limit, |v, limit| v.abs() / limit);
+            by_acceleration = pairs::zip(part(acceleration), by_acceleration, larger);
+            by_jerk = pairs::zip(part(jerk), by_jerk, larger);
+        }
+        let most = |[one, other]: Pair| larger(one, other);
+        StopTime {
+            by_acceleration: most(by_acceleration) / period_t,
+            by_jerk_squared: most(by_jerk) / (period_t * period_t),
+        }
+    }
+}
