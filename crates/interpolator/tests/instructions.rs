@@ -69,21 +69,21 @@ const fn case(name: &'static str, operator: Operator, average: u64, most: u64) -
 }
 
 const CASES: [Case; 7] = [
-    case("rate 1", Operator::Once(None), 4_000, 48_000),
-    case("rate 0.5", HALF, 3_200, 38_500),
-    case("held", Operator::Once(Some(Command::Hold)), 3_000, 3_000),
-    case("operator", Operator::Busy, 6_000, 60_000),
+    case("rate 1", Operator::Once(None), 3_000, 45_000),
+    case("rate 0.5", HALF, 2_450, 36_500),
+    case("held", Operator::Once(Some(Command::Hold)), 2_150, 2_150),
+    case("operator", Operator::Busy, 4_400, 56_500),
     Case {
         is_hard: true,
-        ..case("hard", Operator::Once(None), 63_500, 152_000)
+        ..case("hard", Operator::Once(None), 61_000, 147_000)
     },
     Case {
         is_hard: true,
-        ..case("hard, operator", Operator::Busy, 33_000, 152_000)
+        ..case("hard, operator", Operator::Busy, 31_000, 147_000)
     },
     Case {
         has_joints: true,
-        ..case("hexapod", Operator::Once(None), 6_500, 50_500)
+        ..case("hexapod", Operator::Once(None), 4_700, 47_000)
     },
 ];
 const HALF: Operator = Operator::Once(Some(Command::FeedOverride(0.5)));
