@@ -13,9 +13,8 @@ use super::tube::{CLOSE_R, SHARP};
 
 /// Planes kept for each ball.
 const KEPT: usize = 5;
-/// Directions kept in which a velocity was above the feed, by the factor below. Where the feed is low the
-/// tube lets velocities turn far from round to round: with few, they come out where the oldest one was.
-const KEPT_DIRECTIONS: usize = 6;
+/// Directions kept in which a velocity was above the feed, by this factor.
+const KEPT_DIRECTIONS: usize = 3;
 pub(super) const WORTH_OF_FEED: f64 = 1.0 + 1e-4;
 /// From this part of the radius on a motion is worth a plane.
 const WORTH_R: f64 = 0.5;
