@@ -206,7 +206,11 @@ impl<const D: usize> Optimiser<D> {
                     stray_r: if is_wide { SEARCH_STRAY_R } else { 1.0 },
                     is_feed_firm: is_polish || walk.is_exceeding,
                     keep_r: phase.keep_r,
-                    ridge: phase.ridge,
+                    ridge: if is_polish && number > 0 {
+                        walk.firm_ridge(phase.ridge)
+                    } else {
+                        phase.ridge
+                    },
                     feed_r: if is_polish { walk.feed_r } else { FEED_R },
                     ..opening.style(walk.has_motion)
                 };

@@ -1,5 +1,6 @@
 //! What is carried from round to round of the optimisation of a window.
 
+use super::judge::FEED_SLACK;
 use super::samples::Samples;
 use super::tube::FEED_R;
 
@@ -9,6 +10,8 @@ const LITTLE_GAIN: f64 = 1e-4;
 /// Speed over the feed that is aimed at where motions stand out of the planes: the judge allows a
 /// little more.
 const ALLOWED_R: f64 = 1.0 + 4e-4;
+/// How many times stronger the pull to the middle is where the feed was not kept.
+const FIRM: f64 = 1e3;
 /// Least share of the feed to plan with.
 const LEAST_FEED_R: f64 = 0.995;
 
@@ -51,6 +54,17 @@ impl<const D: usize> Walk<D> {
     pub(super) fn learn_feed(&mut self, planned_r: f64) {
         let excess_r = self.speed_r / planned_r;
         self.feed_r = (ALLOWED_R / excess_r).clamp(LEAST_FEED_R, FEED_R);
+    }
+
+    /// The pull to the middle where the feed was not kept: in a wide tube velocities may turn far from
+    /// round to round, and planes of the last ones do not hold the next; near the middle they all point
+    /// along the path.
+    pub(super) fn firm_ridge(&self, ridge: f64) -> f64 {
+        if self.speed_r > FEED_SLACK {
+            FIRM * ridge
+        } else {
+            ridge
+        }
     }
 
     /// True if progress hardly changes any more.

@@ -1,6 +1,7 @@
 //! Extreme paths and machines: nothing panics, nothing sticks, everything is kept.
 
 use super::*;
+use glidepath_geometry::feed_length;
 
 fn drive(case: &Case) {
     let periods = case.plan();
@@ -180,4 +181,27 @@ fn a_hundred_thousand_blocks_go_through() {
     planner.finish();
     periods.extend(core::iter::from_fn(|| planner.next_period()));
     assert_clean(&case, &periods);
+}
+
+/// Chords of a helix, slower than it needs any axis to be.
+#[test]
+fn a_slow_helix_is_passed_without_stops() {
+    let points = (0..=40).map(|k| {
+        let angle = 0.0345 * f64::from(k);
+        let mut point = AxisVector::zeros();
+        (point[0], point[1]) = (-7.0 * angle.sin(), 7.0 * angle.cos());
+        point[2] = -0.0219 * f64::from(k);
+        point
+    });
+    let case = Case {
+        feed_v: 100.0 / 60.0,
+        tolerance_mm: 0.019,
+        ..Case::mill(points.collect())
+    };
+    let periods = case.plan();
+    assert_clean(&case, &periods);
+    let length_s = 40.0 * feed_length(&(case.points[1] - case.points[0]));
+    let time = periods.len() as f64 * case.period_t;
+    let feed_t = length_s / case.feed_v;
+    assert!(time < feed_t + 0.05, "{time} s, {feed_t} s at the feed");
 }
