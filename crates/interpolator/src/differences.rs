@@ -89,13 +89,18 @@ const INSIDE: Pair = [1.0; 2];
 pub(crate) struct Differences([Past; PAIRS]);
 
 impl Differences {
-    /// At rest for ever.
-    pub(crate) fn at_rest(position: AxisVector) -> Self {
-        let mut all = [Past {
+    /// At rest at zero.
+    pub(crate) const NONE: Self = Self(
+        [Past {
             position: [0.0; 2],
             first: [0.0; 2],
             second: [0.0; 2],
-        }; PAIRS];
+        }; PAIRS],
+    );
+
+    /// At rest for ever.
+    pub(crate) fn at_rest(position: AxisVector) -> Self {
+        let Self(mut all) = Self::NONE;
         for (past, position) in all.iter_mut().zip(pairs::pairs(position.as_slice())) {
             past.position = position;
         }

@@ -66,6 +66,21 @@ pub(crate) struct Ramp {
 }
 
 impl Ramp {
+    /// The place of one.
+    pub(crate) const NONE: Self = {
+        let rest = Instant {
+            elapsed: 0.0,
+            rate: 0.0,
+            slope: 0.0,
+        };
+        Self {
+            starts: [rest; 4],
+            durations: [0.0; 3],
+            bend: 0.0,
+            target: 0.0,
+        }
+    };
+
     /// The shortest way from a rate and slope to a target within bounds. `None` if it would leave
     /// 0 ≤ r ≤ 1 on the way.
     pub(crate) fn plan(rate: f64, slope: f64, target: f64, bounds: Bounds) -> Option<Self> {

@@ -110,7 +110,7 @@ pub(crate) struct Rate {
     reserve: Option<Reserve>,
     /// The search for a reserve that is under way, and whether one came to its end without any where
     /// the motion stands.
-    search: Option<Search>,
+    search: Search,
     finds_no_stop: bool,
     /// A ramp that leaves a rest, and is still being tried.
     set_out: Option<Trying>,
@@ -152,7 +152,7 @@ impl Rate {
             pace: 0.0,
             resume_at: 0,
             reserve: None,
-            search: None,
+            search: Search::none(),
             finds_no_stop: false,
             set_out: None,
             dips: 0,
@@ -228,13 +228,22 @@ impl Rate {
 
     /// Moves program time to where it is held: the motion is at rest there, so any rate will do.
     pub(crate) fn rest_at(&mut self, time: ProgramTime, rate: f64) {
-        *self = Self {
-            search: self.search,
-            finds_no_stop: self.finds_no_stop,
-            arrival_search: self.arrival_search,
-            has_missed: self.has_missed,
-            ..Self::new(time, rate)
-        };
+        // Field by field: what is not in use is not written, and the searches stay where they are.
+        (self.start, self.now) = (time, time);
+        (self.rate, self.slope, self.pace) = (rate, 0.0, 0.0);
+        (self.ramp, self.held_at, self.ticks) = (None, None, 0);
+        (self.reserve, self.set_out) = (None, None);
+        (self.has_taken, self.arrives_at) = (false, None);
+        (self.resume_at, self.trial_search) = (0, 0);
+        (self.dips, self.barred) = (0, 0);
+    }
+
+    /// Stands at the first frame of an epoch, and knows of nothing else.
+    pub(crate) fn begin_at(&mut self, time: ProgramTime) {
+        self.rest_at(time, 0.0);
+        self.search.is_under_way = false;
+        (self.arrival_search, self.finds_no_stop) = (None, false);
+        self.has_missed = false;
     }
 
     /// Chooses how to get to a rate: commits a ramp if there is one that passes and is better than

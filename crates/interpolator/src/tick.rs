@@ -197,7 +197,7 @@ impl<'a> Interpolator<'a> {
         }
         self.track.clear();
         self.track.push(frame);
-        self.rate = Rate::new(ProgramTime::at(frame.sequence), 0.0);
+        self.rate.begin_at(ProgramTime::at(frame.sequence));
         self.epoch = frame.epoch;
         self.end_of_epoch = EndOfEpoch::Open;
         self.announced = None;

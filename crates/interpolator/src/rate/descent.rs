@@ -57,12 +57,9 @@ const THOROUGH: u32 = 4;
 
 /// What a search has come to.
 #[derive(Debug, Clone, Copy)]
-#[allow(
-    clippy::large_enum_variant,
-    reason = "it lives on the stack for a moment; no boxes here"
-)]
 pub(super) enum Outcome {
-    Rest(Steps),
+    /// By the steps of the descent.
+    Rest,
     /// There was no time to try everything.
     Open,
     /// The frames at hand do not last.
@@ -92,7 +89,7 @@ pub(super) struct Descent {
 impl Descent {
     /// A search that begins at a place where the rate is steady, and falls where no step passes there
     /// or waits.
-    pub(super) fn new(at: Cue, rate: f64, falls: bool) -> Self {
+    pub(super) const fn new(at: Cue, rate: f64, falls: bool) -> Self {
         Self {
             at,
             rate,
@@ -107,16 +104,27 @@ impl Descent {
         }
     }
 
+    /// Begins anew. What is not in use is not written.
+    pub(super) const fn begin(&mut self, at: Cue, rate: f64, falls: bool) {
+        (self.at, self.rate, self.falls) = (at, rate, falls);
+        (self.fall, self.playing, self.bounds) = (None, None, None);
+        (self.waited, self.turn, self.may_go) = (0, 0, true);
+        self.steps.clear();
+    }
+
+    /// The way to rest, once it is known.
+    pub(super) const fn steps(&self) -> &Steps {
+        &self.steps
+    }
+
     /// Goes on until rest, or until the budget is used up.
     pub(super) fn go_on(&mut self, scene: &Scene<'_>, budget: &mut u32) -> Outcome {
         while *budget > SET_UP {
             if let Some(fall) = &mut self.fall {
                 match fall.go_on(scene, budget) {
                     Fallen::Lower(at, rate, slopes) => {
-                        *self = Self {
-                            steps: Steps::after(slopes),
-                            ..Self::new(at, rate, false)
-                        };
+                        self.begin(at, rate, false);
+                        self.steps = Steps::after(slopes);
                     }
                     Fallen::Open => return Outcome::Open,
                     Fallen::Lost => return Outcome::Lost,
@@ -129,7 +137,7 @@ impl Descent {
                 .get_or_insert_with(|| scene.fastest_from(sequence));
             loop {
                 match self.try_next(bounds, scene, budget) {
-                    Try::Rest => return Outcome::Rest(self.steps),
+                    Try::Rest => return Outcome::Rest,
                     Try::Lower => break,
                     Try::Failed if self.turn_to_next() => {}
                     Try::Failed if self.falls => {

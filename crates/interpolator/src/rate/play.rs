@@ -32,12 +32,22 @@ pub(super) struct Cue {
     pub(super) is_held: bool,
 }
 
+impl Cue {
+    /// Nowhere yet.
+    pub(super) const NONE: Self = Self {
+        time: ProgramTime::at(0),
+        published: Differences::NONE,
+        is_held: false,
+    };
+}
+
 /// A ramp that is being played through, to three ticks past its end. It can pause between any two
 /// samples.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Playing {
     ramp: Ramp,
-    cue: Cue,
+    from: ProgramTime,
+    is_held: bool,
     /// Ticks played, and the positions up to there.
     t: f64,
     published: Differences,
@@ -49,7 +59,8 @@ impl Playing {
     pub(super) const fn new(ramp: Ramp, cue: Cue) -> Self {
         Self {
             ramp,
-            cue,
+            from: cue.time,
+            is_held: cue.is_held,
             t: 0.0,
             published: cue.published,
             after: cue,
@@ -62,7 +73,7 @@ impl Playing {
 
     #[allow(clippy::float_cmp, reason = "both are whole numbers")]
     pub(super) fn go_on(&mut self, track: &Track, allowed: &Allowed, budget: &mut u32) -> Played {
-        let stop = track.stop().filter(|_| self.cue.is_held);
+        let stop = track.stop().filter(|_| self.is_held);
         let (whole, end) = (self.ramp.duration().ceil(), self.ramp.duration() + 3.0);
         while self.t < end {
             if *budget == 0 {
@@ -71,7 +82,7 @@ impl Playing {
             *budget -= 1;
             self.t += 1.0;
             let elapsed = self.ramp.elapsed_at(self.t);
-            let time = self.cue.time.after(elapsed).held_at(stop);
+            let time = self.from.after(elapsed).held_at(stop);
             if !track.take(time, &mut self.published, allowed) {
                 return Played::Barred;
             }

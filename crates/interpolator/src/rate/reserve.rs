@@ -72,6 +72,8 @@ impl Reserve {
 /// A search for a stop that takes several ticks.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Search {
+    /// There is one. It stays where it is: a kilobyte that is moved is sixteen cache lines, twice.
+    pub(super) is_under_way: bool,
     /// The steady rate, where the last tick left it.
     from: Steady,
     /// Ticks from there to the place where the stop may begin.
@@ -82,8 +84,32 @@ pub(super) struct Search {
 }
 
 impl Search {
-    /// At a place, if it is not too early there.
-    fn at(place: u32, from: Steady, at_least: u32, scene: &Scene<'_>) -> Option<Self> {
+    /// None so far.
+    pub(super) const fn none() -> Self {
+        Self {
+            is_under_way: false,
+            from: Steady {
+                time: ProgramTime::at(0),
+                rate: 0.0,
+            },
+            begins: 0,
+            place: 0,
+            descent: Descent::new(Cue::NONE, 0.0, false),
+        }
+    }
+
+    /// Begins at a place, if it is not too early there.
+    fn begin(&mut self, place: u32, from: Steady, at_least: u32, scene: &Scene<'_>) {
+        self.is_under_way = self.try_begin(place, from, at_least, scene).is_some();
+    }
+
+    fn try_begin(
+        &mut self,
+        place: u32,
+        from: Steady,
+        at_least: u32,
+        scene: &Scene<'_>,
+    ) -> Option<()> {
         let earliest = f64::from(at_least.max(3));
         let latest = latest(from, scene)?;
         let step = ((latest - earliest) / f64::from(PLACES)).max(1.0);
@@ -92,12 +118,10 @@ impl Search {
             return None;
         }
         let falls = place >= PLACES;
-        Some(Self {
-            from,
-            begins: whole(begins),
-            place,
-            descent: Descent::new(from.cue(begins, scene)?, from.rate, falls),
-        })
+        self.descent
+            .begin(from.cue(begins, scene)?, from.rate, falls);
+        (self.from, self.begins, self.place) = (from, whole(begins), place);
+        Some(())
     }
 
     /// Keeps up with the motion. False if it went another way, or where the stop may begin is over.
@@ -204,67 +228,63 @@ impl Rate {
         }
         // Nearly always a stop is found within the budget of a tick: there is time to spread that over
         // two. If it is not, the plan is hard to stop on, and no time is to be lost.
-        let has_just_begun = self.search.is_none() && !self.is_barred(scene);
+        let has_just_begun = !self.search.is_under_way && !self.is_barred(scene);
         let mut budget = if has_just_begun && left > 2 * URGENT {
             FIRST_BUDGET
         } else {
             BUDGET
         };
-        match self.search_later(left + GAIN, scene, &mut budget) {
-            Some(steps) => {
-                self.reserve = Some(Reserve {
-                    steps,
-                    arrives_at: None,
-                });
-                true
-            }
-            None => {
-                if left < DIPS_LEFT && self.reserve.is_some() && scene.is_fully_supplied {
-                    self.dip(scene);
-                }
-                false
-            }
+        let finds_one = self.search_later(left + GAIN, scene, &mut budget);
+        if finds_one {
+            self.keep_found();
+        } else if left < DIPS_LEFT && self.reserve.is_some() && scene.is_fully_supplied {
+            self.dip(scene);
         }
+        finds_one
     }
 
-    /// Goes on with the search for a later stop.
+    /// The stop that was found becomes the one in reserve.
+    fn keep_found(&mut self) {
+        let reserve = self.reserve.get_or_insert(Reserve {
+            steps: Steps::new(),
+            arrives_at: None,
+        });
+        reserve.arrives_at = None;
+        reserve.steps.copy(self.search.descent.steps());
+        reserve.steps.delay(self.search.begins);
+    }
+
+    /// Goes on with the search for a later stop. Returns whether it has found one.
     #[inline(never)]
-    fn search_later(
-        &mut self,
-        at_least: u32,
-        scene: &Scene<'_>,
-        budget: &mut u32,
-    ) -> Option<Steps> {
+    fn search_later(&mut self, at_least: u32, scene: &Scene<'_>, budget: &mut u32) -> bool {
         let now = self.steady();
         // Ramps cost less, but the time to look for them ends.
         let is_urgent = self.reserve.is_some() && at_least <= 2 * URGENT;
         let first = if is_urgent { PLACES } else { 0 };
-        let goes_on = self
-            .search
-            .as_mut()
-            .is_some_and(|search| search.follow(now) && search.place >= first);
+        let search = &mut self.search;
+        let goes_on = search.is_under_way && search.follow(now) && search.place >= first;
         if !goes_on {
-            self.search = Search::at(first, now, at_least, scene);
+            search.begin(first, now, at_least, scene);
         }
-        while let Some(search) = &mut self.search {
+        while search.is_under_way {
             match search.descent.go_on(scene, budget) {
-                Outcome::Rest(mut steps) => {
-                    steps.delay(search.begins);
-                    self.search = None;
-                    return Some(steps);
+                Outcome::Rest => {
+                    search.is_under_way = false;
+                    return true;
                 }
-                Outcome::Open => return None,
+                Outcome::Open => return false,
                 Outcome::Lost => {
                     let next = search.place + 1;
-                    self.search = Search::at(next, now, at_least, scene).or_else(|| {
+                    search.begin(next, now, at_least, scene);
+                    if !search.is_under_way && next < PLACES {
                         // No earlier place for ramps: falls from the latest on.
-                        (next < PLACES).then(|| Search::at(PLACES, now, at_least, scene))?
-                    });
+                        search.begin(PLACES, now, at_least, scene);
+                    }
                 }
             }
         }
         self.finds_no_stop = scene.is_fully_supplied && self.is_barred(scene);
-        None
+        false
     }
 
     /// Goes a little slower, as little as possible, so that the stop in reserve need not begin: from

@@ -42,6 +42,10 @@ impl Slopes {
         Some(self)
     }
 
+    const fn clear(&mut self) {
+        (self.in_ticks, self.taken, self.len) = (0, 0, 0);
+    }
+
     const fn is_left(&self) -> bool {
         self.taken < self.len
     }
@@ -51,7 +55,10 @@ impl Slopes {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Steps {
     fall: Slopes,
-    ramps: [Option<Later>; RAMPS],
+    ramps: [Later; RAMPS],
+    /// Ramps that have begun, and all of them.
+    begun: usize,
+    len: usize,
 }
 
 impl Steps {
@@ -61,22 +68,55 @@ impl Steps {
 
     /// What begins with a fall.
     pub(super) const fn after(fall: Slopes) -> Self {
+        let none = Later {
+            in_ticks: 0,
+            ramp: Ramp::NONE,
+        };
         Self {
             fall,
-            ramps: [None; RAMPS],
+            ramps: [none; RAMPS],
+            begun: 0,
+            len: 0,
+        }
+    }
+
+    /// Nothing is left in it.
+    pub(super) const fn clear(&mut self) {
+        self.fall.clear();
+        (self.begun, self.len) = (0, 0);
+    }
+
+    /// Becomes another stop. Copies what there is of it, mostly a small part of its room.
+    pub(super) fn copy(&mut self, other: &Self) {
+        self.fall.clear();
+        if other.fall.is_left() {
+            self.fall = other.fall;
+        }
+        (self.begun, self.len) = (other.begun, other.len);
+        for (slot, later) in self.ramps.iter_mut().zip(&other.ramps).take(other.len) {
+            *slot = *later;
         }
     }
 
     /// Appends a ramp; false if there are too many.
     pub(super) fn push(&mut self, later: Later) -> bool {
-        let free = self.ramps.iter_mut().find(|step| step.is_none());
-        free.is_some_and(|step| step.replace(later).is_none())
+        let Some(free) = self.ramps.get_mut(self.len) else {
+            return false;
+        };
+        *free = later;
+        self.len += 1;
+        true
     }
 
     /// Whether there is nothing in it.
     pub(super) const fn is_empty(&self) -> bool {
-        let [first, ..] = &self.ramps;
-        first.is_none() && !self.fall.is_left()
+        self.begun == self.len && !self.fall.is_left()
+    }
+
+    /// The ramp that begins next.
+    fn next(&mut self) -> Option<&mut Later> {
+        let left = self.ramps.get_mut(self.begun..self.len)?;
+        left.first_mut()
     }
 
     /// Ticks until it begins, or goes on; `None` at its end.
@@ -84,15 +124,15 @@ impl Steps {
         if self.fall.is_left() {
             return Some(self.fall.in_ticks);
         }
-        let [first, ..] = &self.ramps;
-        first.as_ref().map(|later| later.in_ticks)
+        let left = self.ramps.get(self.begun..self.len)?;
+        left.first().map(|later| later.in_ticks)
     }
 
     /// All begin so many ticks later.
-    pub(super) const fn delay(&mut self, ticks: u32) {
+    pub(super) fn delay(&mut self, ticks: u32) {
         if self.fall.is_left() {
             self.fall.in_ticks += ticks;
-        } else if let [Some(first), ..] = &mut self.ramps {
+        } else if let Some(first) = self.next() {
             first.in_ticks += ticks;
         }
     }
@@ -108,15 +148,13 @@ impl Steps {
             self.fall.taken += 1;
             return Ramp::tick_to(rate, slope, f64::from(to));
         }
-        let [first, ..] = &mut self.ramps;
-        let next = first.as_mut()?;
+        let next = self.next()?;
         if next.in_ticks > 0 {
             next.in_ticks -= 1;
             return None;
         }
         let ramp = next.ramp;
-        *first = None;
-        self.ramps.rotate_left(1);
+        self.begun += 1;
         Some(ramp)
     }
 }

@@ -106,7 +106,8 @@ impl Trying {
         match &mut self.stage {
             Stage::Ramp(_) => Trial::Barred,
             Stage::Descent(descent) => match descent.go_on(scene, budget) {
-                Outcome::Rest(mut steps) => {
+                Outcome::Rest => {
+                    let mut steps = *descent.steps();
                     steps.delay(self.goes_on);
                     Trial::Passed(Some(Reserve {
                         steps,
