@@ -12,6 +12,8 @@
 //!   is a `track` (the frames ahead), a `rate` (of program time: the essay on hold, resume and
 //!   override is there), a `supply` (are there frames enough?) and a `will` (what stops the motion);
 //! * `joints` turns its axes into those of the mechanism;
+//! * what it owns lies together, axes in `pairs`, and is not moved: after a period of sleep the caches
+//!   are cold, and a tick takes as long as the lines of memory and of code it touches;
 //! * `admission` judges every frame before the real-time thread sees it;
 //! * `ports` is one turn of the ports thread.
 //!
