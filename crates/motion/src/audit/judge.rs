@@ -88,7 +88,8 @@ impl Matching {
     ///
     /// At the level the motion is matched at, those are fewer than the tolerance allows: next to a vertex
     /// it may be on the chord behind it already, or still on the one before it. So what seems too fast is
-    /// judged at the tolerance.
+    /// judged at the tolerance: by the chords from where the period may have begun to where it may have
+    /// ended.
     pub(super) fn judge_feed(&mut self, spot: &Spot, ticks: u64, first: usize) {
         let Some(column) = self.history.back() else {
             return;
@@ -103,8 +104,8 @@ impl Matching {
         if speed_v > FEED_SLACK * feed_v * self.feed_factor {
             let widest = Level::up_to(self.cap());
             if self.replay(0, &widest, Goal::Anything) == Passage::Passed {
-                let reach = &self.scratch[0];
-                let (first, end) = (first.min(reach.low), reach.end());
+                let [after, before] = &self.scratch;
+                let (first, end) = (first.min(before.low), after.end());
                 feed_v = feed_v.max(self.most_feed_v(first, end));
             }
         }

@@ -30,7 +30,7 @@ fn resolution(level_mm: f64) -> f64 {
 
 impl Matching {
     /// Runs through the history from column `from` on; what can be reached in the end is left in
-    /// `scratch[0]`.
+    /// `scratch[0]`, and what could be at the start of the last column in `scratch[1]`.
     pub(super) fn replay(&mut self, from: usize, level: &Level, goal: Goal) -> Passage {
         let [mut now, mut next] = core::mem::take(&mut self.scratch);
         let start = self.history.get(from).map(|column| &column.reach);
