@@ -18,16 +18,38 @@ pub struct Beat {
     pub is_moving: bool,
 }
 
+/// What the loop does in a period.
+pub(super) trait Load {
+    /// The work of the real-time thread; true if it moved the machine.
+    fn work(&mut self) -> bool;
+
+    /// What other threads do for it meanwhile; its time does not count.
+    fn supply(&mut self);
+}
+
+/// Nothing to do.
+#[derive(Debug)]
+pub(super) struct Idle;
+
+impl Load for Idle {
+    fn work(&mut self) -> bool {
+        false
+    }
+
+    fn supply(&mut self) {}
+}
+
 /// Waits, works and writes a beat, until `stop` is set. Makes no system call but the sleep.
 pub(super) fn beat<C: Clock>(
     timer: &mut DeadlineTimer<C>,
     beats: &mut EventWriter<'_, Beat>,
     stop: &AtomicBool,
-    work: &mut dyn FnMut() -> bool,
+    load: &mut dyn Load,
 ) {
+    load.supply();
     while !stop.load(Ordering::Relaxed) {
         let rise = timer.rise();
-        let is_moving = work();
+        let is_moving = load.work();
         let work_ns = timer.clock().now_ns().saturating_sub(rise.woke_ns);
         let wake = timer.wait();
         beats.write(Beat {
@@ -37,6 +59,7 @@ pub(super) fn beat<C: Clock>(
             work_ns,
             is_moving,
         });
+        load.supply();
     }
 }
 
@@ -44,6 +67,22 @@ pub(super) fn beat<C: Clock>(
 mod tests {
     use super::*;
     use glidepath_realtime::{Events, event_ring};
+
+    /// Moves until there is nothing left, and then stops the loop.
+    struct Steps<'a> {
+        left: u32,
+        stop: &'a AtomicBool,
+    }
+
+    impl Load for Steps<'_> {
+        fn work(&mut self) -> bool {
+            self.left -= 1;
+            self.stop.store(self.left == 0, Ordering::Relaxed);
+            true
+        }
+
+        fn supply(&mut self) {}
+    }
 
     /// Wakes late by 30, 250, 0, 0, … ns.
     struct Script {
@@ -76,12 +115,11 @@ mod tests {
         let mut events = Events::<Beat, 8>::default();
         let (mut writer, mut reader) = event_ring(&mut events);
         let stop = AtomicBool::new(false);
-        let mut left = 3;
-        beat(&mut timer, &mut writer, &stop, &mut || {
-            left -= 1;
-            stop.store(left == 0, Ordering::Relaxed);
-            true
-        });
+        let mut steps = Steps {
+            left: 3,
+            stop: &stop,
+        };
+        beat(&mut timer, &mut writer, &stop, &mut steps);
         let beats: Vec<_> = std::iter::from_fn(|| reader.read()).collect();
         let seen: Vec<_> = beats
             .iter()

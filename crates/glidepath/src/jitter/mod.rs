@@ -35,7 +35,7 @@ pub use windows::Windows;
 
 use crate::failure::Failure;
 use crate::progress::Progress;
-use beat::beat;
+use beat::{Idle, Load, beat};
 use core::sync::atomic::{AtomicBool, Ordering};
 use cyclictest::Cyclictest;
 use glidepath_interpolator::{lead_ns, stepped};
@@ -221,19 +221,18 @@ fn real_time(
     let Ok(entered) = enter(&setup.request, Mode::BestEffort) else {
         return;
     };
-    let mut run = |work: &mut dyn FnMut() -> bool| {
+    let mut run = |load: &mut dyn Load| {
         let (period_ns, lead_ns) = (setup.period_ns, lead_ns(setup.period_ns));
         let origin_ns = part.origin_ns(Monotonic.now_ns() + PREPARED_NS, period_ns, lead_ns);
         let mut timer = DeadlineTimer::new(Monotonic, origin_ns, period_ns).with_lead(lead_ns);
         if tell.send(entered.grants).is_ok() {
-            beat(&mut timer, &mut writer, stop, work);
+            beat(&mut timer, &mut writer, stop, load);
         }
     };
     match &setup.motion {
-        None => run(&mut || false),
+        None => run(&mut Idle),
         Some(motion) => stepped(motion.config(), |interpolator| {
-            let mut player = motion.player();
-            run(&mut || player.tick(interpolator));
+            run(&mut motion.player(interpolator));
         }),
     }
 }

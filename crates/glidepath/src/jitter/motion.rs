@@ -1,5 +1,6 @@
 //! A motion for the interpolator to work on: a curve of short lines in all axes, run again and again.
 
+use super::beat::Load;
 use crate::config::MachineConfig;
 use crate::failure::Failure;
 use core::f64::consts::TAU;
@@ -57,8 +58,12 @@ impl Motion {
         &self.config
     }
 
-    pub(super) const fn player(&self) -> Player<'_> {
+    pub(super) const fn player<'m, 'i, 's>(
+        &'m self,
+        interpolator: &'i mut Stepped<'s>,
+    ) -> Player<'m, 'i, 's> {
         Player {
+            interpolator,
             frames: self.frames.as_slice(),
             next: 0,
             epoch: 1,
@@ -93,17 +98,29 @@ fn program(machine: &MachineConfig) -> String {
     text
 }
 
-/// Gives the interpolator the frames and ticks it.
+/// Gives an interpolator the frames and ticks it. Does not allocate.
 #[derive(Debug)]
-pub(super) struct Player<'a> {
-    frames: &'a [SetpointFrame],
+pub(super) struct Player<'m, 'i, 's> {
+    interpolator: &'i mut Stepped<'s>,
+    frames: &'m [SetpointFrame],
     next: usize,
     epoch: u64,
 }
 
-impl Player<'_> {
-    /// One period: true if the machine moved. Does not allocate.
-    pub(super) fn tick(&mut self, interpolator: &mut Stepped<'_>) -> bool {
+impl Load for Player<'_, '_, '_> {
+    /// One period, as the real-time thread does it.
+    fn work(&mut self) -> bool {
+        let state = self.interpolator.tick().state();
+        if self.next == self.frames.len() && matches!(state, Ok(MachineState::Idle)) {
+            // The motion is over: the same again.
+            self.next = 0;
+            self.epoch += 1;
+        }
+        matches!(state, Ok(MachineState::Running))
+    }
+
+    /// Frames into the ring, as the ports thread puts them there.
+    fn supply(&mut self) {
         for _ in 0..FRAMES_PER_TICK {
             let Some(frame) = self.frames.get(self.next) else {
                 break;
@@ -112,18 +129,11 @@ impl Player<'_> {
                 epoch: self.epoch,
                 ..*frame
             };
-            if !interpolator.offer(&frame) {
+            if !self.interpolator.offer(&frame) {
                 break;
             }
             self.next += 1;
         }
-        let state = interpolator.tick().state();
-        if self.next == self.frames.len() && matches!(state, Ok(MachineState::Idle)) {
-            // The motion is over: the same again.
-            self.next = 0;
-            self.epoch += 1;
-        }
-        matches!(state, Ok(MachineState::Running))
     }
 }
 
@@ -144,9 +154,13 @@ mod tests {
         let once = motion.frames.len();
         assert!(once > 250, "{once} frames: less than a second");
         stepped(motion.config(), |interpolator| {
-            let mut player = motion.player();
+            let mut player = motion.player(interpolator);
             let ticks = 4 * once;
-            let moving = (0..ticks).filter(|_| player.tick(interpolator)).count();
+            let mut moving = 0;
+            for _ in 0..ticks {
+                player.supply();
+                moving += usize::from(player.work());
+            }
             assert!(player.epoch >= 3, "only {} epochs", player.epoch);
             assert!(moving * 10 > ticks * 9, "{moving} of {ticks} ticks moved");
         });
