@@ -17,7 +17,7 @@ const KEPT: usize = 5;
 const KEPT_DIRECTIONS: usize = 3;
 pub(super) const WORTH_OF_FEED: f64 = 1.0 + 1e-4;
 /// From this part of the radius on a motion is worth a plane.
-const WORTH_R: f64 = 0.5;
+pub(super) const WORTH_R: f64 = 0.5;
 
 /// A plane with its outward normal; what it cuts off lies beyond `radius` from `center`.
 #[derive(Debug, Clone, Copy)]

@@ -371,18 +371,21 @@ fn leg_tail(leg: &StopLeg, leg_t: f64, grid: &Grid, intervals: usize) -> Vec<Axi
 
 /// Half the time in which jerk strays by a tolerance: the grid on which corners are still resolved.
 fn wanted_grid(planner: &WindowPlanner, piece: &super::track::Piece) -> Grid {
+    let limits = &planner.limits;
     let moved = piece.end - piece.start;
-    let wanted_t = (0..AXES)
-        .filter(|&i| moved[i] != 0.0)
-        .map(|i| {
-            let is_rotary = ROTARY_ABC.contains(&i);
-            let tolerance = if is_rotary {
-                piece.tolerance_deg
-            } else {
-                piece.tolerance_mm
-            };
-            0.5 * (tolerance / planner.limits.jerk[i]).cbrt()
-        })
-        .fold(f64::INFINITY, f64::min);
-    Grid::new(planner.period_t, wanted_t)
+    let least_of = |of_axis: &dyn Fn(usize) -> f64| {
+        let moving = (0..AXES).filter(|&i| moved[i] != 0.0);
+        moving.map(of_axis).fold(f64::INFINITY, f64::min)
+    };
+    let wanted_t = least_of(&|i| {
+        let is_rotary = ROTARY_ABC.contains(&i);
+        let tolerance = if is_rotary {
+            piece.tolerance_deg
+        } else {
+            piece.tolerance_mm
+        };
+        0.5 * (tolerance / limits.jerk[i]).cbrt()
+    });
+    let ramp_t = least_of(&|i| limits.acceleration[i] / limits.jerk[i]);
+    Grid::new(planner.period_t, wanted_t, ramp_t)
 }

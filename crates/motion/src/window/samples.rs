@@ -6,14 +6,18 @@
 //! the overlap of two tubes goes to the later one at once: the motion it has keeps the new rows too,
 //! and the next solution can use the room.
 
+use super::cuts::WORTH_R;
 use super::scene::Scene;
-use super::solver::{SPAN, combine, dot};
+use super::solver::{combine, dot};
 use super::spline::Grid;
 
 /// Cosine of the turn from which a corner holds samples back.
 const FOLD_COS: f64 = 0.2;
 /// Share of the radius before the end of a piece at which a sample goes over to the next.
 const HOP_R: f64 = 0.3;
+
+/// What the motion bulges out of the chords of half periods, as a part of what it does out of whole ones.
+const OF_HALVES: f64 = 0.25;
 
 /// Samples 0 … count of a window.
 #[derive(Debug, Default, Clone)]
@@ -26,8 +30,10 @@ pub(super) struct Samples {
     pub(super) piece: Vec<usize>,
     /// Factor of the radius: below one where a sample has come out too far off.
     pub(super) shrink: Vec<f64>,
-    /// What the motion bulges out of chords next to a sample, and chords cut off it.
-    pub(super) sagitta: Vec<f64>,
+    /// What the motion bulges out of the chord of the period before a sample.
+    bulge: Vec<f64>,
+    /// Whether the middle of that period has come near the edge of the tube.
+    is_middle_near: Vec<bool>,
     /// Largest distance from the path, in radii, found by the last projection.
     pub(super) worst_r: f64,
 }
@@ -53,12 +59,53 @@ impl Samples {
         self.at_least.resize(count, 0);
         self.shrink.clear();
         self.shrink.resize(count, 1.0);
-        self.sagitta.clear();
-        self.sagitta.resize(count, 0.0);
+        self.bulge.clear();
+        self.bulge.resize(count, 0.0);
+        self.is_middle_near.clear();
+        self.is_middle_near.resize(count, false);
     }
 
     pub(super) fn count(&self) -> usize {
         self.progress.len() - 1
+    }
+
+    /// True if the period before sample `k` lies on one piece.
+    fn is_on_one_piece(&self, k: usize) -> bool {
+        self.piece[k - 1] == self.piece[k]
+    }
+
+    /// True if the tube bounds the middle of the period before sample `k`, too.
+    pub(super) fn has_middle(&self, k: usize) -> bool {
+        self.is_middle_near[k] && self.is_on_one_piece(k)
+    }
+
+    /// What the motion bulges, next to sample `k`, out of chords whose ends are bounded: of half periods
+    /// on one piece; of what a period has before or after a corner, where it comes near that.
+    pub(super) fn sagitta<const D: usize>(&self, scene: &Scene<D>, k: usize) -> f64 {
+        let part_of = |share: f64| (share * share).clamp(OF_HALVES, 1.0);
+        let before = if self.is_on_one_piece(k) {
+            OF_HALVES
+        } else {
+            part_of(1.0 - self.share_before(scene, self.piece[k], k))
+        };
+        let after = match self.piece.get(k + 1) {
+            None => 0.0,
+            Some(next) if *next == self.piece[k] => OF_HALVES,
+            Some(_) => part_of(self.share_before(scene, self.piece[k] + 1, k + 1)),
+        };
+        let bulge_after = self.bulge.get(k + 1).copied().unwrap_or(0.0);
+        f64::max(before * self.bulge[k], after * bulge_after)
+    }
+
+    /// The share of the period before sample `k` that is before the start of a piece.
+    fn share_before<const D: usize>(&self, scene: &Scene<D>, piece: usize, k: usize) -> f64 {
+        let (from, to) = (self.progress[k - 1], self.progress[k]);
+        let share = (scene.chords[piece].s - from) / (to - from);
+        if share.is_finite() {
+            share.clamp(0.0, 1.0)
+        } else {
+            0.5
+        }
     }
 
     /// Gives every sample to a piece by its progress.
@@ -99,10 +146,11 @@ impl Samples {
             at = (piece, s);
             self.progress[k] = s;
             self.at_least[k] = 0;
-            let bend = across(scene, points, piece, grid.bend_site(k));
-            self.sagitta[k - 1] = f64::max(bend, bend_before).max(self.sagitta[k - 1]);
-            self.sagitta[k] = bend.max(bend_before);
+            let (site, weights) = grid.bend_site(k);
+            let bend = across(scene, piece, &combine(points, site, &weights)) / 8.0;
+            self.bulge[k] = f64::max(bend, bend_before);
             bend_before = bend;
+            self.is_middle_near[k] |= middle_r(scene, piece, points, grid, k) > WORTH_R;
             let distance_r = distance / scene.chords[piece].radius;
             self.worst_r = self.worst_r.max(distance_r);
             if may_lead && leads(scene, &y, piece, s) {
@@ -130,18 +178,27 @@ impl Samples {
     }
 }
 
-/// How far a chord of one period is from the motion in its middle, a·T²/8 across a piece.
-fn across<const D: usize>(
-    scene: &Scene<D>,
-    points: &[[f64; D]],
-    piece: usize,
-    (first, weights): (usize, [f64; SPAN]),
-) -> f64 {
-    let bend = combine(points, first, &weights);
+/// The length of a vector across a piece.
+fn across<const D: usize>(scene: &Scene<D>, piece: usize, vector: &[f64; D]) -> f64 {
     let tangent = &scene.chords[piece].tangent;
-    let along = dot(&bend, tangent);
-    let rest: [f64; D] = core::array::from_fn(|a| bend[a] - along * tangent[a]);
-    dot(&rest, &rest).sqrt() / 8.0
+    let along = dot(vector, tangent);
+    let rest: [f64; D] = core::array::from_fn(|a| vector[a] - along * tangent[a]);
+    dot(&rest, &rest).sqrt()
+}
+
+/// How far the middle of the period before sample `k` is off the line of a piece, in radii.
+fn middle_r<const D: usize>(
+    scene: &Scene<D>,
+    piece: usize,
+    points: &[[f64; D]],
+    grid: &Grid,
+    k: usize,
+) -> f64 {
+    let (site, weights) = grid.inner_site(k - 1, 0.5, 0.0);
+    let middle = combine(points, site, &weights);
+    let chord = &scene.chords[piece];
+    let offset = core::array::from_fn(|a| middle[a] - chord.start[a]);
+    across(scene, piece, &offset) / chord.radius
 }
 
 /// The point of a sample.

@@ -40,6 +40,12 @@ fn widen(weights: [f64; 4], offset: usize) -> [f64; SPAN] {
     wide
 }
 
+/// Steps in which acceleration goes to its limit, at least: jerk changes at knots only, so the fewer
+/// there are, the later the changes come.
+const RAMP_STEPS: f64 = 10.0;
+/// Most knots in a period.
+const MOST_KNOTS: usize = 4;
+
 /// How knots lie on the grid of periods: several knots a period, or several periods a knot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Grid {
@@ -52,8 +58,9 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// The grid whose knot step is nearest to `wanted_t`.
-    pub(super) fn new(period_t: f64, wanted_t: f64) -> Self {
+    /// The grid whose knot step is nearest to `wanted_t`, with several knots in a period where
+    /// acceleration goes to its limit in `ramp_t` and that would be a few steps only.
+    pub(super) fn new(period_t: f64, wanted_t: f64, ramp_t: f64) -> Self {
         let ratio = period_t / wanted_t;
         #[expect(
             clippy::cast_possible_truncation,
@@ -63,7 +70,8 @@ impl Grid {
         let whole = |value: f64| value.round().clamp(1.0, 8.0) as usize;
         // A step a third longer does as well, and is cheaper.
         let (knots, periods) = if ratio >= 1.0 {
-            (whole(0.75 * ratio).min(2), 1)
+            let of_ramp = whole(period_t / ramp_t * RAMP_STEPS).min(MOST_KNOTS);
+            (whole(0.75 * ratio).min(2).max(of_ramp), 1)
         } else {
             (1, whole(1.0 / ratio))
         };

@@ -8,11 +8,13 @@
 //!                                     it is far, so that samples need not change pieces at once.
 //! ```
 //!
-//! Only samples are bound to the tube: a straight line between two samples of one piece is then in
-//! it too, and where the motion goes over to another piece, it must come near every corner on the way:
-//! a point of it between the two samples must be inside the ball round the corner, and so must a chord
-//! that has its middle there. Half-way between both, which is linear in the control points, each plane
-//! that touches the ball is nearer by half the way. Together that is just what the judge asks.
+//! Samples are bound to the tube, and the middles between samples of one piece where they are near its
+//! edge; less what the motion bulges out of the chords between them. A straight line between two samples
+//! of one piece is then in it too, and where the motion goes over to another piece, it must come near
+//! every corner on the way: a point of it between the two samples must be inside the ball round the
+//! corner, and so must a chord that has its middle there. Half-way between both, which is linear in the
+//! control points, each plane that touches the ball is nearer by half the way. Together that is just what
+//! the judge asks.
 //!
 //! The round parts are bounded by planes ([`super::cuts`]).
 
@@ -34,7 +36,7 @@ const MOST_SAGITTA_R: f64 = 0.5;
 /// Most corners between two samples that get rows.
 const MOST_CORNERS: usize = 4;
 /// Share of the feed that is planned with at most.
-pub(super) const FEED_R: f64 = 0.999_95;
+pub(super) const FEED_R: f64 = 0.999_99;
 /// How the rows are to be made.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Style {
@@ -188,7 +190,8 @@ fn add_tube<const D: usize>(
 ) {
     let piece = layout.samples.piece[k];
     let chord = &layout.scene.chords[piece];
-    let sagitta = layout.samples.sagitta[k].min(MOST_SAGITTA_R * chord.radius);
+    let sagitta = layout.samples.sagitta(layout.scene, k);
+    let sagitta = sagitta.min(MOST_SAGITTA_R * chord.radius);
     let radius = (chord.radius * layout.style.keep_r - sagitta) * layout.samples.shrink[k];
     if let Some(site) = problem.sites.last_mut() {
         site.ridge = layout.style.ridge / (radius * radius);
@@ -202,6 +205,31 @@ fn add_tube<const D: usize>(
     let ends = [-back / scale, (chord.length + over) / scale];
     problem.add_row(chord.tangent.map(|t| t / scale), &chord.start, ends);
     for plane in layout.cuts.of_sample(k, piece) {
+        let normal = plane.normal.map(|n| n / radius);
+        problem.add_row(normal, &plane.center, [-FAR, 1.0]);
+    }
+    if layout.samples.has_middle(k) {
+        add_middle(problem, layout, k, radius);
+    }
+}
+
+/// The same, but for the ends, for the middle between two samples of one piece. What has bounded the
+/// samples bounds it, too.
+fn add_middle<const D: usize>(
+    problem: &mut Problem<D>,
+    layout: &Layout<'_, D>,
+    k: usize,
+    radius: f64,
+) {
+    let piece = layout.samples.piece[k];
+    let chord = &layout.scene.chords[piece];
+    let (first, weights) = layout.style.grid.inner_site(k - 1, 0.5, 0.0);
+    problem.add_site(first, weights);
+    for normal in &chord.normals[..D - 1] {
+        problem.add_row(normal.map(|n| n / radius), &chord.start, [-1.0, 1.0]);
+    }
+    let planes = [k - 1, k].map(|k| layout.cuts.of_sample(k, piece));
+    for plane in planes.into_iter().flatten() {
         let normal = plane.normal.map(|n| n / radius);
         problem.add_row(normal, &plane.center, [-FAR, 1.0]);
     }
