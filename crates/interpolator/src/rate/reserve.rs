@@ -32,9 +32,11 @@ use crate::differences::Differences;
 use crate::program_time::ProgramTime;
 use crate::ramp::Ramp;
 
-/// Samples a tick may spend on finding a reserve, and those of the first tick of a search.
+/// Samples a tick may spend on finding a reserve, and while there is time.
 const BUDGET: u32 = 120;
-const FIRST_BUDGET: u32 = 60;
+const EASY_BUDGET: u32 = 60;
+/// With fewer ticks left there is no time to lose.
+const HURRY: u32 = 40;
 /// Places between the latest possible and the earliest useful at which a stop may begin. Counted
 /// beyond that they are those of falls, the latest first again.
 const PLACES: u32 = 8;
@@ -221,19 +223,17 @@ impl Rate {
             (Some(reserve), _) => reserve.in_ticks(),
             (None, barrier) => barrier.map_or(0, |barrier| self.ticks_to(barrier)),
         };
-        let enough = u32::try_from(scene.reach.max(16) * 3).unwrap_or(u32::MAX);
         // With the goal to stop, what is here is as good as what may come.
-        if left >= enough || goal <= 0.0 {
+        if left >= self.enough(scene) || goal <= 0.0 {
             return false;
         }
-        // Nearly always a stop is found within the budget of a tick: there is time to spread that over
-        // two. If it is not, the plan is hard to stop on, and no time is to be lost.
-        let has_just_begun = !self.search.is_under_way && !self.is_barred(scene);
-        let mut budget = if has_just_begun && left > 2 * URGENT {
-            FIRST_BUDGET
+        // Where the motion stands there is time while frames keep coming: with few of them no stop is found.
+        let has_time = if self.is_barred(scene) {
+            !scene.is_fully_supplied
         } else {
-            BUDGET
+            left > HURRY
         };
+        let mut budget = if has_time { EASY_BUDGET } else { BUDGET };
         let finds_one = self.search_later(left + GAIN, scene, &mut budget);
         if finds_one {
             self.keep_found();
@@ -241,6 +241,15 @@ impl Rate {
             self.dip(scene);
         }
         finds_one
+    }
+
+    /// With fewer ticks left until the reserve begins a later one is looked for. The sooner a search begins
+    /// the less of it is left to any tick; but what is found soon begins soon.
+    fn enough(&self, scene: &Scene<'_>) -> u32 {
+        let frames = |n: u64| u32::try_from(n).unwrap_or(u32::MAX / 8);
+        let reach = frames(scene.reach.max(16));
+        let ahead = frames(scene.track.end().saturating_sub(self.now.sequence));
+        (3 * ahead.saturating_sub(reach) / 4).clamp(3 * reach, 6 * reach)
     }
 
     /// The stop that was found becomes the one in reserve.
