@@ -69,21 +69,21 @@ const fn case(name: &'static str, operator: Operator, average: u64, most: u64) -
 }
 
 const CASES: [Case; 7] = [
-    case("rate 1", Operator::Once(None), 3_000, 44_000),
-    case("rate 0.5", HALF, 2_450, 35_500),
+    case("rate 1", Operator::Once(None), 3_800, 25_500),
+    case("rate 0.5", HALF, 2_550, 24_600),
     case("held", Operator::Once(Some(Command::Hold)), 2_100, 2_100),
-    case("operator", Operator::Busy, 4_350, 55_500),
+    case("operator", Operator::Busy, 4_450, 83_000),
     Case {
         is_hard: true,
-        ..case("hard", Operator::Once(None), 60_000, 144_000)
+        ..case("hard", Operator::Once(None), 61_000, 185_000)
     },
     Case {
         is_hard: true,
-        ..case("hard, operator", Operator::Busy, 30_500, 144_000)
+        ..case("hard, operator", Operator::Busy, 31_000, 184_000)
     },
     Case {
         has_joints: true,
-        ..case("hexapod", Operator::Once(None), 4_650, 45_800)
+        ..case("hexapod", Operator::Once(None), 5_400, 27_000)
     },
 ];
 const HALF: Operator = Operator::Once(Some(Command::FeedOverride(0.5)));

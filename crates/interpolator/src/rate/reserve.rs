@@ -32,11 +32,12 @@ use crate::differences::Differences;
 use crate::program_time::ProgramTime;
 use crate::ramp::Ramp;
 
-/// Samples a tick may spend on finding a reserve, and while there is time.
-const BUDGET: u32 = 120;
-const EASY_BUDGET: u32 = 60;
-/// With fewer ticks left there is no time to lose.
-const HURRY: u32 = 40;
+/// Samples a tick may spend on finding a reserve while there is time, and when there is little: then
+/// the plan is hard to stop on, and whatever is found saves the motion from slowing down.
+const BUDGET: u32 = 60;
+const URGENT_BUDGET: u32 = 240;
+/// The same for the way to rest at the end of a block, and for going slower.
+const TRIAL_BUDGET: u32 = 120;
 /// Places between the latest possible and the earliest useful at which a stop may begin. Counted
 /// beyond that they are those of falls, the latest first again.
 const PLACES: u32 = 8;
@@ -208,7 +209,7 @@ impl Rate {
             && goal > 0.0
             && (self.is_to_arrive_at(frame) || self.reserve.as_ref().is_none_or(has_time))
         {
-            let mut budget = scene.budget(BUDGET);
+            let mut budget = scene.budget(TRIAL_BUDGET);
             let passes_barrier = self.secure_arrival(frame, scene, &mut budget);
             // Motion does not set out without a way to rest at the end of the block.
             if self.is_to_arrive_at(frame) || self.is_barred(scene) {
@@ -231,9 +232,9 @@ impl Rate {
         let has_time = if self.is_barred(scene) {
             !scene.is_fully_supplied
         } else {
-            left > HURRY
+            left > 2 * URGENT
         };
-        let mut budget = if has_time { EASY_BUDGET } else { BUDGET };
+        let mut budget = if has_time { BUDGET } else { URGENT_BUDGET };
         let finds_one = self.search_later(left + GAIN, scene, &mut budget);
         if finds_one {
             self.keep_found();
@@ -249,7 +250,7 @@ impl Rate {
         let frames = |n: u64| u32::try_from(n).unwrap_or(u32::MAX / 8);
         let reach = frames(scene.reach.max(16));
         let ahead = frames(scene.track.end().saturating_sub(self.now.sequence));
-        (3 * ahead.saturating_sub(reach) / 4).clamp(3 * reach, 6 * reach)
+        (2 * ahead.saturating_sub(reach) / 3).clamp(3 * reach, 4 * reach)
     }
 
     /// The stop that was found becomes the one in reserve.
@@ -301,7 +302,7 @@ impl Rate {
     #[inline(never)]
     fn dip(&mut self, scene: &Scene<'_>) {
         let fastest = scene.fastest_from(self.now.sequence);
-        let mut budget = scene.budget(BUDGET);
+        let mut budget = scene.budget(TRIAL_BUDGET);
         for _ in 0..DIPS.len() {
             self.dips += 1;
             let Some((part, pace)) = DIPS.get(self.dips % DIPS.len()) else {

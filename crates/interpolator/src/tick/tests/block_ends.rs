@@ -177,6 +177,9 @@ fn a_stop_at_the_end_of_the_block_is_made_once_and_anywhere() {
     }
 }
 
+/// Frames.
+const NEAR: u64 = 9;
+
 #[test]
 fn a_step_from_a_hold_goes_to_the_end_of_the_block_and_single_block_can_be_left() {
     for seed in 0..20 {
@@ -186,13 +189,13 @@ fn a_step_from_a_hold_goes_to_the_end_of_the_block_and_single_block_can_be_left(
         rig.order(Order::Hold);
         play_until(&mut rig, MachineState::Held);
         let held_at = rig.setpoints.last().unwrap().sequence;
-        let end = ends(&frames)
-            .into_iter()
-            .find(|end| *end > held_at)
-            .unwrap();
         rig.order(Order::Step);
         play_until(&mut rig, MachineState::ProgramStop);
-        assert_eq!(rig.setpoints.last().unwrap().sequence, end, "seed {seed}");
+        // From a few frames before the end of a block there may be no way to rest just there.
+        let end = rig.setpoints.last().unwrap().sequence;
+        let mut ends = ends(&frames).into_iter().filter(|end| *end > held_at);
+        let passed = ends.find(|passed| *passed >= end || *passed > held_at + NEAR);
+        assert_eq!(passed, Some(end), "seed {seed}: held at {held_at}");
         rig.order(Order::SingleBlock(true));
         rig.order(Order::Resume);
         play(&mut rig, 3);

@@ -74,12 +74,14 @@ fn positions(frames: &[SetpointFrame]) -> Vec<AxisVector> {
         .collect()
 }
 
-/// Also where a plan is at its limits on one axis or another for longer than a stop takes. Not so
-/// for all near-optimal plans: of the first 60 seeds 2, 47 and 48 take up to 2 % longer.
+/// Also where a plan is at its limits on one axis or another for longer than a stop takes. The
+/// near-optimal ones here are the hardest of 200; with `GLIDEPATH_PLANNED=200` those are run.
 #[test]
 fn planned_time_is_run_time() {
     let fast = (0..40).map(|seed| (seed, Effort::Fast));
-    let optimal = [6, 21, 29].map(|seed| (seed, Effort::Optimal));
+    let many = std::env::var("GLIDEPATH_PLANNED").map(|n| n.parse().unwrap());
+    let seeds = many.map_or(vec![2, 21, 29, 31, 46, 47, 48], |n| (0..n).collect());
+    let optimal = seeds.into_iter().map(|seed| (seed, Effort::Optimal));
     for (seed, effort) in fast.chain(optimal) {
         let frames = program(seed, 60, effort);
         let mut rig = Rig::playing(&frames);
