@@ -2,7 +2,7 @@
 
 use glidepath_geometry::{AXES, Axis};
 
-use crate::block::{AXIS_WORDS, Block, Letters};
+use crate::block::{Block, Letters};
 use crate::codes::Coded;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::dialect::Dialect;
@@ -81,7 +81,7 @@ impl Interpreter {
     }
 
     pub(crate) fn check_axes(&self, block: &Block) -> Outcome<()> {
-        if !block.has_any(AXIS_WORDS) {
+        if !block.has_any(self.lacking) {
             return Ok(());
         }
         match block
@@ -110,11 +110,7 @@ impl Interpreter {
         let scale = self.state.modal.units.mm();
         let mut values = [None; AXES];
         for (axis, value) in block.axes() {
-            values[axis.index()] = Some(if axis.is_rotary() {
-                value
-            } else {
-                value * scale
-            });
+            values[axis.index()] = Some(axis_value(axis, value, scale));
         }
         if self.state.modal.diameter {
             values[0] = values[0].map(|x| 0.5 * x);
@@ -151,6 +147,11 @@ impl Interpreter {
         });
         Ok(())
     }
+}
+
+/// An axis word in mm or degrees; `scale` is the unit of length in mm.
+pub(crate) fn axis_value(axis: Axis, word: f64, scale: f64) -> f64 {
+    if axis.is_rotary() { word } else { word * scale }
 }
 
 #[cold]

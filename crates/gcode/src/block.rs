@@ -3,17 +3,17 @@
 //! Nothing here depends on the modal state but the parameters a line reads. A block is filled again
 //! for every line, so that none is allocated.
 
-use glidepath_geometry::{AXES, Axis};
+use glidepath_geometry::Axis;
 
 use crate::bad_byte::bad_byte;
-use crate::codes::Codes;
+use crate::codes::{Coded, Codes};
 use crate::cursor::Cursor;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::dialect::Dialect;
 use crate::expression::{Parameter, Scope, open_expression, parameter, value};
-
-/// Letters of the axes in index order, as [`Block`] indices.
-pub(crate) const AXIS_LETTERS: [u8; AXES] = *b"XYZABCUVW";
+use crate::letters::{AXIS_LETTERS, bit, slot};
+pub(crate) use crate::letters::{AXIS_WORDS, Letters};
+use crate::modes::Motion;
 
 /// What a line is, besides its words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,6 +35,9 @@ pub(crate) struct Block {
     present: u32,
     values: [f64; 26],
     spans: [Span; 26],
+    /// Nothing but what [`Block::parse_plain`] reads was put into it since it was cleared: its codes have
+    /// a motion at most.
+    is_plain: bool,
     /// `@` and `^`.
     pub(crate) polar: [Option<PolarWord>; 2],
     /// Parameters to assign after the block, in order.
@@ -57,41 +60,6 @@ pub(crate) struct Assignment {
     pub(crate) value: f64,
     pub(crate) span: Span,
 }
-
-const fn slot(letter: u8) -> usize {
-    (letter.to_ascii_uppercase().wrapping_sub(b'A') % 26) as usize
-}
-
-const fn bit(letter: u8) -> u32 {
-    1 << slot(letter)
-}
-
-/// A set of word letters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Letters(u32);
-
-impl Letters {
-    pub(crate) const fn of(letters: &[u8]) -> Self {
-        let mut bits = 0;
-        let mut i = 0;
-        while i < letters.len() {
-            bits |= bit(letters[i]);
-            i += 1;
-        }
-        Self(bits)
-    }
-
-    pub(crate) const fn has(self, letter: u8) -> bool {
-        self.0 & bit(letter) != 0
-    }
-
-    pub(crate) const fn and(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-}
-
-/// All axis words.
-pub(crate) const AXIS_WORDS: Letters = Letters::of(&AXIS_LETTERS);
 
 impl Block {
     /// A block to be filled with lines of a dialect.
@@ -136,9 +104,12 @@ impl Block {
 
     /// The axis words, in index order.
     pub(crate) fn axes(&self) -> impl Iterator<Item = (Axis, f64)> + '_ {
-        Axis::ALL.into_iter().filter_map(|axis| {
-            let value = self.get(AXIS_LETTERS[axis.index()])?;
-            Some((axis, value))
+        // The slots of the axes are their indices.
+        let mut left = self.present & AXIS_WORDS.0;
+        core::iter::from_fn(move || {
+            let axis = *Axis::ALL.get(left.trailing_zeros() as usize)?;
+            left &= left - 1;
+            Some((axis, self.values[axis.index()]))
         })
     }
 
@@ -167,14 +138,65 @@ impl Block {
         first.unwrap_or_default()
     }
 
+    /// Makes the block an empty one.
+    #[inline]
+    pub(crate) fn clear(&mut self) {
+        self.present = 0;
+        self.any = false;
+        self.codes.motion = None;
+        if !self.is_plain {
+            self.assignments.clear();
+            self.polar = [None, None];
+            self.codes = Codes::default();
+            self.kind = LineKind::Block;
+            self.is_plain = true;
+        }
+    }
+
+    /// True if the block is of a plain line: words with values, and of codes a motion at most.
+    pub(crate) const fn is_plain(&self) -> bool {
+        self.is_plain
+    }
+
+    /// Adds a word; `None` if the block has one of that letter.
+    #[inline]
+    pub(crate) fn add_value(&mut self, letter: u8, value: f64, span: Span) -> Option<()> {
+        if self.present & bit(letter) != 0 {
+            return None;
+        }
+        self.any = true;
+        self.present |= bit(letter);
+        self.values[slot(letter)] = value;
+        self.spans[slot(letter)] = span;
+        Some(())
+    }
+
+    /// Adds a motion code; `None` if the block has one.
+    #[inline]
+    pub(crate) const fn add_motion(&mut self, motion: Motion, span: Span) -> Option<()> {
+        if self.codes.motion.is_some() {
+            return None;
+        }
+        self.any = true;
+        self.codes.motion = Some(Coded {
+            code: Some(motion),
+            span,
+        });
+        Some(())
+    }
+
     /// Fills the block from the text of a line.
     pub(crate) fn parse(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
-        self.assignments.clear();
-        self.present = 0;
-        self.polar = [None, None];
-        self.codes = Codes::default();
-        self.kind = LineKind::Block;
-        self.any = false;
+        if self.parse_plain(text) == Some(text.len()) {
+            return Ok(());
+        }
+        self.parse_any(text, scope)
+    }
+
+    /// The same for a line that is not plain, or not known to be.
+    pub(crate) fn parse_any(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
+        self.clear();
+        self.is_plain = false;
         let mut cursor = Cursor::new(text);
         match cursor.next_visible() {
             Some(b'%') => return self.percent(cursor),
@@ -299,13 +321,9 @@ impl Block {
             b'G' => self.codes.add_g(value, span),
             b'M' if self.dialect == Dialect::Marlin => self.codes.add_printer_m(value, span),
             b'M' => self.codes.add_m(value, span),
-            _ if self.present & bit(letter) != 0 => Err(duplicate(char::from(letter), span)),
-            _ => {
-                self.present |= bit(letter);
-                self.values[slot(letter)] = value;
-                self.spans[slot(letter)] = span;
-                Ok(())
-            }
+            _ => self
+                .add_value(letter, value, span)
+                .ok_or_else(|| duplicate(char::from(letter), span)),
         }
     }
 }

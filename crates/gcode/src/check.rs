@@ -3,6 +3,7 @@
 use std::io::BufRead;
 
 use glidepath_geometry::AxisVector;
+use glidepath_motion::Item;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::options::Options;
@@ -46,31 +47,52 @@ impl Report {
     }
 }
 
+/// What [`findings`] found.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Findings {
+    /// As [`Report::diagnostics`].
+    pub diagnostics: Vec<Diagnostic>,
+    /// As [`Report::more`].
+    pub more: u32,
+}
+
 /// Checks a program.
 ///
 /// A block with a finding is left out, and reading goes on behind it, so a later finding may be a
 /// consequence of an earlier one. A finding in an O word, a subroutine or a loop ends the check, as
 /// does one that leaves nothing to understand (the input cannot be read).
 pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
-    let most = options.loops.checked_lines;
-    let mut program = Program::new(reader, options);
-    let (mut diagnostics, mut more) = (Vec::new(), 0_u32);
     let mut survey = Survey::default();
-    while program.kept_lines() < most
-        && let Some(line) = program.next_line()
-    {
-        match line {
-            Ok(()) => program.items().iter().for_each(|item| survey.add(item)),
-            Err(diagnostic) if diagnostics.len() < MAX_FINDINGS => diagnostics.push(diagnostic),
-            Err(_) => more = more.saturating_add(1),
-        }
-    }
+    let mut program = Program::new(reader, options);
+    let (found, complete) = read(&mut program, |item| survey.add(item));
     Report {
-        diagnostics,
-        more,
-        complete: program.kept_lines() < most,
+        diagnostics: found.diagnostics,
+        more: found.more,
+        complete,
         totals: *program.totals(),
         survey,
         final_position: *program.position(),
     }
+}
+
+/// The same findings without all else, for a program that is only to be accepted or refused.
+pub fn findings<R: BufRead>(reader: R, options: Options) -> Findings {
+    read(&mut Program::new(reader, options).only_judged(), |_| {}).0
+}
+
+/// Reads a program to its end; false beside the findings if its loops go on for too long.
+fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> (Findings, bool) {
+    let most = program.interpreter.options.loops.checked_lines;
+    let mut found = Findings::default();
+    while program.kept_lines() < most {
+        match program.next_line() {
+            Some(Ok(())) => program.items().iter().for_each(&mut see),
+            Some(Err(diagnostic)) if found.diagnostics.len() < MAX_FINDINGS => {
+                found.diagnostics.push(diagnostic);
+            }
+            Some(Err(_)) => found.more = found.more.saturating_add(1),
+            None => break,
+        }
+    }
+    (found, program.kept_lines() < most)
 }

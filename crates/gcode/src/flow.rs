@@ -358,6 +358,7 @@ impl Flow {
     }
 
     /// The next kept line to execute, if any is in progress.
+    #[inline]
     pub(crate) fn next_line(&mut self) -> Option<(Arc<Code>, usize)> {
         loop {
             let frame = self.frames.last_mut()?;

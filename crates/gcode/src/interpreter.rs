@@ -13,13 +13,14 @@ use glidepath_geometry::AxisVector;
 use glidepath_motion::{Event, Item, ItemKind};
 
 use crate::auxiliary::Coolant;
-use crate::block::Block;
+use crate::block::{Block, Letters};
 use crate::codes::Coded;
 use crate::compensation::Compensation;
 use crate::cycle::Cycles;
 use crate::diagnostic::Outcome;
 use crate::modal::Modal;
 use crate::modes::{Distance, Motion, Spline, Stop};
+use crate::moves::Reach;
 use crate::offsets::Offsets;
 use crate::options::Options;
 use crate::probe::ProbeResult;
@@ -82,6 +83,10 @@ pub(crate) struct Interpreter {
     pub(crate) options: Options,
     pub(crate) state: State,
     pub(crate) offsets: Offsets,
+    /// Words of the axes the machine does not have.
+    pub(crate) lacking: Letters,
+    /// Where moves may end.
+    pub(crate) reach: Reach,
     pub(crate) compensation: Option<Compensation>,
     /// The NURBS whose control points are being read.
     pub(crate) open_spline: Option<OpenSpline>,
@@ -90,6 +95,10 @@ pub(crate) struct Interpreter {
     pub(crate) saved_states: SavedStates,
     /// Of the block executed last.
     pub(crate) zero_length: ZeroLength,
+    /// Straight moves of plain lines are judged, and not given out.
+    pub(crate) only_judges: bool,
+    /// The block executed last was one of them.
+    pub(crate) has_judged: bool,
     /// Line of the block being executed.
     pub(crate) line: u32,
 }
@@ -97,6 +106,8 @@ pub(crate) struct Interpreter {
 impl Interpreter {
     pub(crate) fn new(options: Options) -> Self {
         let start = options.start;
+        let reach = Reach::of(&options.machine);
+        let lacking = Letters::of_axes(|axis| !options.machine.has(axis));
         let modal = Modal::new(options.default_feed_mm_min);
         let tools = options.tools.clone();
         Self {
@@ -120,10 +131,14 @@ impl Interpreter {
             },
             open_spline: None,
             offsets: Offsets::new(),
+            lacking,
+            reach,
             compensation: None,
             tools,
             saved_states: SavedStates::default(),
             zero_length: ZeroLength::default(),
+            only_judges: false,
+            has_judged: false,
             line: 0,
         }
     }
@@ -137,6 +152,10 @@ impl Interpreter {
     ) -> Outcome<Flow> {
         self.line = line;
         self.zero_length = ZeroLength::default();
+        self.has_judged = false;
+        if block.is_plain() && self.go(block, out) {
+            return Ok(Flow::Continue);
+        }
         let state = self.state;
         let codes = &block.codes;
         let saved_states = codes.saved_state.map(|_| self.saved_states.clone());
@@ -181,8 +200,10 @@ impl Interpreter {
         self.check_axes(block)?;
         self.check_compensated(block)?;
         self.feed(block)?;
-        self.auxiliary(block, out)?;
-        self.modes(block, out)?;
+        if !block.is_plain() || block.has_any(Letters::of(b"ST")) {
+            self.auxiliary(block, out)?;
+            self.modes(block, out)?;
+        }
         if let Some(once) = block.codes.once {
             self.act_once(block, once, motion, out)?;
         }
@@ -217,6 +238,7 @@ impl Interpreter {
     }
 
     /// Gives out an item, in order with the moves cutter radius compensation still holds back.
+    #[inline]
     pub(crate) fn push(&mut self, out: &mut Vec<Item>, kind: ItemKind) {
         let item = Item {
             line: self.line,

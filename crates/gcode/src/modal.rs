@@ -1,6 +1,6 @@
 //! Modal state: what stays in force from block to block.
 
-use glidepath_geometry::Plane;
+use glidepath_geometry::{AxisVector, LINEAR_XYZ, Plane, UVW};
 use glidepath_motion::PathMode;
 
 use crate::modes::{Distance, FeedMode, Motion, Retract, Units};
@@ -13,6 +13,20 @@ pub struct Feed {
     /// For moves of rotary axes alone, °/s or ° per revolution, > 0. The same F word, which inches
     /// do not scale.
     pub rotary_v: f64,
+}
+
+impl Feed {
+    /// That of a straight move.
+    pub(crate) fn of_line(self, start: &AxisVector, end: &AxisVector) -> f64 {
+        if LINEAR_XYZ
+            .chain(UVW)
+            .any(|axis| end[axis] - start[axis] != 0.0)
+        {
+            self.linear_v
+        } else {
+            self.rotary_v
+        }
+    }
 }
 
 /// The modal state between two blocks.

@@ -1,6 +1,6 @@
 //! Straight moves, reference moves, and what every move has in common.
 
-use glidepath_geometry::{AXES, Axis, AxisVector, LINEAR_XYZ, Segment, UVW};
+use glidepath_geometry::{AXES, Axis, AxisVector, Segment};
 use glidepath_motion::{Item, ItemKind, Rate};
 
 use crate::block::{AXIS_WORDS, Block};
@@ -9,6 +9,7 @@ use crate::dialect::Dialect;
 use crate::interpreter::Interpreter;
 use crate::modes::{Distance, FeedMode, Motion, Once};
 use crate::offsets::overlay;
+use crate::options::{Machine, Travel};
 
 /// Displacements of an axis up to this, mm or degrees, are rounding of coordinates, and no motion.
 ///
@@ -17,6 +18,35 @@ pub(crate) const MIN_MOVE: f64 = 1e-9;
 
 /// Relative slack of the soft limits, for the rounding of unit conversions.
 const LIMIT_SLACK: f64 = 1e-9;
+
+/// The soft limits with their slack, infinite where there is none.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reach {
+    low: AxisVector,
+    high: AxisVector,
+}
+
+impl Reach {
+    pub(crate) fn of(machine: &Machine) -> Self {
+        let mut reach = Self {
+            low: AxisVector::repeat(f64::NEG_INFINITY),
+            high: AxisVector::repeat(f64::INFINITY),
+        };
+        for axis in Axis::ALL {
+            if let Some(Travel { min, max }) = machine.travel(axis) {
+                reach.low[axis.index()] = min - LIMIT_SLACK * min.abs().max(1.0);
+                reach.high[axis.index()] = max + LIMIT_SLACK * max.abs().max(1.0);
+            }
+        }
+        reach
+    }
+
+    /// True if a coordinate is beyond a limit of its axis, which has that index.
+    #[inline]
+    pub(crate) fn is_left_at(&self, axis: usize, coordinate: f64) -> bool {
+        (coordinate < self.low[axis]) | (coordinate > self.high[axis])
+    }
+}
 
 /// At which speed a block moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -105,10 +135,9 @@ impl Interpreter {
     pub(crate) fn absolute_target(&self, values: &[Option<f64>; AXES]) -> AxisVector {
         let mut target = self.state.position;
         let offsets = &self.offsets;
-        let origin = offsets.system().origin;
         for axis in 0..AXES {
             if let Some(value) = values[axis] {
-                target[axis] = value + (offsets.shift[axis] + origin[axis] + offsets.tool[axis]);
+                target[axis] = value + offsets.origin(axis);
             }
         }
         if offsets.is_rotated() && (values[0].is_some() || values[1].is_some()) {
@@ -220,13 +249,9 @@ impl Interpreter {
             .because("no F word came before it since the program, or its feed mode, began")
             .help("write an F word")
         })?;
-        let displacement = segment.end() - segment.start();
-        let linear = LINEAR_XYZ.chain(UVW).any(|axis| displacement[axis] != 0.0);
-        let turns = matches!(segment, Segment::Arc(_));
-        let feed = if linear || turns {
-            feed.linear_v
-        } else {
-            feed.rotary_v
+        let feed = match segment {
+            Segment::Arc(_) => feed.linear_v,
+            _ => feed.of_line(&segment.start(), &segment.end()),
         };
         if modal.feed_mode == FeedMode::PerMinute {
             return Ok(Speed::Feed(feed));
@@ -256,12 +281,10 @@ impl Interpreter {
             };
             // A machine that stands outside may come back, and may move its other axes.
             let start = self.state.path_end[i];
-            let above = travel.max + LIMIT_SLACK * travel.max.abs().max(1.0);
-            let below = travel.min - LIMIT_SLACK * travel.min.abs().max(1.0);
-            if high[i] > above && high[i] > start {
+            if high[i] > self.reach.high[i] && high[i] > start {
                 return Err(beyond_limit(block, axis, high[i], travel.max, what));
             }
-            if low[i] < below && low[i] < start {
+            if low[i] < self.reach.low[i] && low[i] < start {
                 return Err(beyond_limit(block, axis, low[i], travel.min, what));
             }
         }
@@ -271,16 +294,19 @@ impl Interpreter {
 
 /// `target` with every axis that would not really move put back on `start`; the axes in `keep`
 /// are left alone.
+#[inline]
 pub(crate) fn settled(
     start: AxisVector,
     mut target: AxisVector,
     keep: [Option<Axis>; 2],
 ) -> AxisVector {
-    for axis in Axis::ALL {
-        let i = axis.index();
-        if (target[i] - start[i]).abs() <= MIN_MOVE && !keep.contains(&Some(axis)) {
-            target[i] = start[i];
-        }
+    let programmed = target;
+    for i in 0..AXES {
+        let moves = (target[i] - start[i]).abs() > MIN_MOVE;
+        target[i] = if moves { target[i] } else { start[i] };
+    }
+    for axis in keep.into_iter().flatten() {
+        target[axis.index()] = programmed[axis.index()];
     }
     target
 }

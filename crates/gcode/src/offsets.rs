@@ -76,6 +76,11 @@ impl Offsets {
         self.system().rotation_deg != 0.0
     }
 
+    /// Machine coordinate of the program's zero on an axis, where nothing is turned.
+    pub(crate) fn origin(&self, axis: usize) -> f64 {
+        self.shift[axis] + self.system().origin[axis] + self.tool[axis]
+    }
+
     pub(crate) fn to_machine(&self, program: AxisVector) -> AxisVector {
         let system = self.system();
         system.rotate(program + self.shift, 1.0) + (system.origin + self.tool)

@@ -10,7 +10,7 @@ use crate::block::{Block, LineKind};
 use crate::contour::OpenContour;
 use crate::cursor::Cursor;
 use crate::diagnostic::{Code as FaultCode, Diagnostic, Fault, Outcome, Span};
-use crate::dialect::{Dialect, Tape, marlin, siemens};
+use crate::dialect::{Dialect, Tape};
 use crate::flow::Flow;
 use crate::flow_word::head;
 use crate::interpreter::{Flow as BlockFlow, Interpreter};
@@ -33,7 +33,7 @@ pub struct Program<R> {
     /// Lines of a program in a dialect whose flow is not that of O words.
     pub(crate) tape: Tape,
     pub(crate) place: Place,
-    block: Block,
+    pub(crate) block: Block,
     /// The lathe cycle whose profile is being read.
     pub(crate) contour: Option<Box<OpenContour>>,
     /// Items of the last block; the first `given` of them have been given out.
@@ -73,6 +73,12 @@ impl<R: BufRead> Program<R> {
             begun: false,
             ended: false,
         }
+    }
+
+    /// The same program to be judged alone: its items and totals leave out most moves.
+    pub(crate) const fn only_judged(mut self) -> Self {
+        self.interpreter.only_judges = true;
+        self
     }
 
     /// Modal state after the last block read.
@@ -175,35 +181,8 @@ impl<R: BufRead> Program<R> {
         match self.interpreter.options.dialect {
             Dialect::LinuxCnc => self.read_linuxcnc(),
             Dialect::Fanuc => self.read_fanuc(),
-            Dialect::Marlin | Dialect::Siemens => self.read_plain(),
+            Dialect::Marlin | Dialect::Siemens => self.read_without_flow(),
         }
-    }
-
-    /// A line of a dialect without flow.
-    fn read_plain(&mut self) -> Outcome<bool> {
-        self.place = Place::Stream;
-        if !self.source.advance()? {
-            return self.end_of_input();
-        }
-        if self.is_deleted() {
-            return Ok(true);
-        }
-        let number = self.source.number();
-        let scope = ProgramScope {
-            parameters: &self.parameters,
-            interpreter: &self.interpreter,
-        };
-        if self.interpreter.options.dialect == Dialect::Marlin {
-            let text = marlin::verified(self.source.text())?;
-            let parsed = self.block.parse(text, &scope);
-            return self.execute_parsed(number, parsed);
-        }
-        let line = siemens::rewrite(self.source.text())?;
-        let parsed = self.block.parse(&line.text, &scope);
-        self.execute_parsed(number, parsed).map_err(|mut fault| {
-            fault.span = line.origin(fault.span);
-            fault
-        })
     }
 
     fn read_linuxcnc(&mut self) -> Outcome<bool> {
@@ -220,7 +199,16 @@ impl<R: BufRead> Program<R> {
             }
             return self.execute_block();
         }
-        self.place = Place::Stream;
+        if !matches!(self.place, Place::Stream) {
+            self.place = Place::Stream;
+        }
+        // A plain line has no slash and no O word, and its end is found on the way.
+        if self.flow.recorder.is_none()
+            && let Some(length) = self.block.parse_plain(self.source.ahead())
+            && self.source.pass(length)
+        {
+            return self.execute_parsed(self.source.number(), Ok(()));
+        }
         if !self.source.advance()? {
             return self.end_of_input();
         }
@@ -298,7 +286,7 @@ impl<R: BufRead> Program<R> {
         }
     }
 
-    fn is_deleted(&self) -> bool {
+    pub(crate) fn is_deleted(&self) -> bool {
         self.interpreter.options.block_delete
             && Cursor::new(self.source.text()).next_visible() == Some(b'/')
     }
@@ -306,6 +294,10 @@ impl<R: BufRead> Program<R> {
     /// Executes the line at the present place as a block.
     fn execute_block(&mut self) -> Outcome<bool> {
         let number = self.line_of_program();
+        let scope = ProgramScope {
+            parameters: &self.parameters,
+            interpreter: &self.interpreter,
+        };
         let text = match &self.place {
             Place::Kept(code, index) => match code.lines.get(*index) {
                 Some(line) => &*line.text,
@@ -313,16 +305,12 @@ impl<R: BufRead> Program<R> {
             },
             _ => self.source.text(),
         };
-        let scope = ProgramScope {
-            parameters: &self.parameters,
-            interpreter: &self.interpreter,
-        };
         let parsed = self.block.parse(text, &scope);
         self.execute_parsed(number, parsed)
     }
 
     /// Executes the block, once it has been read.
-    fn execute_parsed(&mut self, number: u32, parsed: Outcome<()>) -> Outcome<bool> {
+    pub(crate) fn execute_parsed(&mut self, number: u32, parsed: Outcome<()>) -> Outcome<bool> {
         self.begun |= self.block.any || parsed.is_err();
         parsed?;
         match self.block.kind {
@@ -353,7 +341,7 @@ impl<R: BufRead> Program<R> {
         if let Some(asked) = asked {
             self.open_contour(&asked)?;
         }
-        if !self.items.is_empty() {
+        if !self.items.is_empty() || self.interpreter.has_judged {
             self.idle_lines = 0;
         }
         self.count();

@@ -2,13 +2,24 @@
 //!
 //! A line ends with LF, CR LF, or a CR by itself. A UTF-8 byte order mark at the very start is
 //! dropped. Of a line longer than [`MAX_LINE_BYTES`] only that much is kept; the rest is skipped.
+//!
+//! ```text
+//!  buffer  …G1 X1.5␊G1 X1.6 Y2␊G1 X
+//!                   └─ line ─┘ └ what follows: completed from the reader when it is wanted
+//! ```
 
-use std::io::BufRead;
+use std::io::{BufRead, ErrorKind};
+use std::ops::Range;
+
+use memchr::memchr2;
 
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 
 /// Longest line accepted, bytes without the line end.
 pub const MAX_LINE_BYTES: usize = 64 * 1024;
+
+/// Most bytes taken from the reader at a time.
+const MOST_TAKEN: usize = 64 * 1024;
 
 const UTF8_MARK: &[u8] = &[0xef, 0xbb, 0xbf];
 const UTF16_LE_MARK: &[u8] = &[0xff, 0xfe];
@@ -18,9 +29,14 @@ const UTF16_BE_MARK: &[u8] = &[0xfe, 0xff];
 #[derive(Debug)]
 pub(crate) struct LineSource<R> {
     reader: R,
-    text: Vec<u8>,
+    /// Text that was read, at most the longest line and what was taken after it.
+    buffer: Vec<u8>,
+    /// The line read last.
+    line: Range<usize>,
+    /// Where the next one starts.
+    next: usize,
     number: u32,
-    /// The last line ended with a CR: an LF that follows belongs to it.
+    /// The last line ended with a CR, and nothing behind it was seen yet: an LF belongs to it.
     after_cr: bool,
 }
 
@@ -28,7 +44,9 @@ impl<R: BufRead> LineSource<R> {
     pub(crate) const fn new(reader: R) -> Self {
         Self {
             reader,
-            text: Vec::new(),
+            buffer: Vec::new(),
+            line: 0..0,
+            next: 0,
             number: 0,
             after_cr: false,
         }
@@ -36,7 +54,32 @@ impl<R: BufRead> LineSource<R> {
 
     /// Text of the line read last, without its end.
     pub(crate) fn text(&self) -> &[u8] {
-        &self.text
+        self.buffer.get(self.line.clone()).unwrap_or_default()
+    }
+
+    /// What follows the line read last, as far as it is in the buffer: with its end, a whole line may be
+    /// passed.
+    #[inline]
+    pub(crate) fn ahead(&self) -> &[u8] {
+        self.buffer.get(self.next..).unwrap_or_default()
+    }
+
+    /// Reads the next line, of that length, if its end is [`LineSource::ahead`] with a byte behind it;
+    /// false if not.
+    #[inline]
+    pub(crate) fn pass(&mut self, length: usize) -> bool {
+        let ahead = self.ahead();
+        let Some(&behind) = ahead.get(length + 1) else {
+            return false;
+        };
+        let crlf = behind == b'\n' && ahead.get(length) == Some(&b'\r');
+        if length > MAX_LINE_BYTES {
+            return false;
+        }
+        self.line = self.next..self.next + length;
+        self.next += length + 1 + usize::from(crlf);
+        self.number = self.number.saturating_add(1);
+        true
     }
 
     /// Number of the line read last, from 1; 0 before the first.
@@ -46,46 +89,57 @@ impl<R: BufRead> LineSource<R> {
 
     /// Reads the next line; false at the end of the input.
     pub(crate) fn advance(&mut self) -> Outcome<bool> {
-        self.text.clear();
-        let first = self.number == 0;
-        let mut any = false;
-        let mut excess = false;
-        loop {
-            let chunk = match self.reader.fill_buf() {
-                Ok(chunk) => chunk,
-                Err(e) if e.kind() == std::io::ErrorKind::Interrupted => continue,
-                Err(error) => {
-                    self.number = self.number.saturating_add(1);
-                    return Err(read_failed(&error));
-                }
-            };
-            if chunk.is_empty() {
-                break;
-            }
-            if self.after_cr {
-                self.after_cr = false;
-                if chunk.first() == Some(&b'\n') {
-                    self.reader.consume(1);
-                    continue;
-                }
-            }
-            any = true;
-            let end = chunk.iter().position(|&b| b == b'\n' || b == b'\r');
-            let part = chunk.get(..end.unwrap_or(chunk.len())).unwrap_or_default();
-            let room = MAX_LINE_BYTES - self.text.len();
-            excess |= part.len() > room;
-            self.text
-                .extend_from_slice(part.get(..room).unwrap_or(part));
-            if let Some(end) = end {
-                self.after_cr = chunk.get(end) == Some(&b'\r');
-                self.reader.consume(end + 1);
-                break;
-            }
-            let used = chunk.len();
-            self.reader.consume(used);
+        // Of most lines the end is in the buffer.
+        if let Some(length) = memchr2(b'\n', b'\r', self.ahead())
+            && self.pass(length)
+        {
+            return Ok(true);
         }
+        self.complete()
+    }
+
+    /// The same for a line whose end has to be read, or is the last byte that was.
+    #[cold]
+    fn complete(&mut self) -> Outcome<bool> {
+        self.buffer.drain(..self.next.min(self.buffer.len()));
+        (self.line, self.next) = (0..0, 0);
+        let first = self.number == 0;
+        let (mut searched, mut any, mut excess) = (0, false, false);
+        let end = loop {
+            if self.after_cr && !self.buffer.is_empty() {
+                self.after_cr = false;
+                if self.buffer.first() == Some(&b'\n') {
+                    self.buffer.remove(0);
+                }
+            }
+            any |= !self.buffer.is_empty();
+            let new = self.buffer.get(searched..).unwrap_or_default();
+            if let Some(at) = memchr2(b'\n', b'\r', new) {
+                break Some(searched + at);
+            }
+            if self.buffer.len() > MAX_LINE_BYTES {
+                excess = true;
+                self.buffer.truncate(MAX_LINE_BYTES);
+            }
+            searched = self.buffer.len();
+            self.line = 0..searched;
+            if !self.take()? {
+                break None;
+            }
+        };
         if !any {
             return Ok(false);
+        }
+        let length = end.unwrap_or(self.buffer.len());
+        excess |= length > MAX_LINE_BYTES;
+        self.line = 0..length.min(MAX_LINE_BYTES);
+        self.next = self.buffer.len().min(length + 1);
+        if self.buffer.get(length) == Some(&b'\r') {
+            match self.buffer.get(self.next) {
+                None => self.after_cr = true,
+                Some(b'\n') => self.next += 1,
+                Some(_) => {}
+            }
         }
         self.number = self.number.saturating_add(1);
         if first {
@@ -94,14 +148,35 @@ impl<R: BufRead> LineSource<R> {
         if excess { Err(too_long()) } else { Ok(true) }
     }
 
+    /// Reads on; false at the end of the input.
+    fn take(&mut self) -> Outcome<bool> {
+        loop {
+            match self.reader.fill_buf() {
+                Ok(chunk) => {
+                    let taken = chunk.get(..MOST_TAKEN).unwrap_or(chunk);
+                    self.buffer.extend_from_slice(taken);
+                    let length = taken.len();
+                    self.reader.consume(length);
+                    return Ok(length > 0);
+                }
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => {
+                    self.number = self.number.saturating_add(1);
+                    return Err(read_failed(&error));
+                }
+            }
+        }
+    }
+
     /// Drops a UTF-8 byte order mark; refuses UTF-16.
     fn start_of_text(&mut self) -> Outcome<()> {
-        if self.text.starts_with(UTF8_MARK) {
-            self.text.drain(..UTF8_MARK.len());
+        if self.text().starts_with(UTF8_MARK) {
+            self.line.start += UTF8_MARK.len();
             return Ok(());
         }
-        let marked = self.text.starts_with(UTF16_LE_MARK) || self.text.starts_with(UTF16_BE_MARK);
-        let head = self.text.get(..2).unwrap_or_default();
+        let text = self.text();
+        let marked = text.starts_with(UTF16_LE_MARK) || text.starts_with(UTF16_BE_MARK);
+        let head = text.get(..2).unwrap_or_default();
         let unmarked = head.contains(&0) && head.iter().any(u8::is_ascii_graphic);
         if marked || unmarked {
             return Err(Fault::new(

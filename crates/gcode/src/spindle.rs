@@ -66,6 +66,13 @@ struct Surface {
     most: f64,
 }
 
+impl Spindle {
+    /// G96 is in force: the speed depends on where the tool is.
+    pub(crate) const fn follows_tool(&self) -> bool {
+        self.surface.is_some()
+    }
+}
+
 impl Interpreter {
     /// G96, G97 and S.
     pub(crate) fn spindle_speed(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {

@@ -53,7 +53,11 @@ impl Survey {
 
     fn corner(&mut self, line: u32, segment: &Segment) {
         let direction = |s: f64| {
-            let mut d = segment.jet(s).d1;
+            let mut d = match segment {
+                // As its jet, without all else.
+                Segment::Line(line) => line.displacement() / segment.length(),
+                _ => segment.jet(s).d1,
+            };
             // Of the linear axes alone: a corner of the tool's path.
             for axis in 3..6 {
                 d[axis] = 0.0;

@@ -22,9 +22,9 @@ use std::collections::BTreeMap;
 use glidepath_geometry::AxisVector;
 
 use crate::bad_byte::bad_byte;
-use crate::block::AXIS_LETTERS;
 use crate::cursor::Cursor;
 use crate::diagnostic::{Code, Diagnostic, Fault, Outcome, Span};
+use crate::letters::AXIS_LETTERS;
 use crate::words::MAX_TOOL;
 
 /// Most tools of a table.

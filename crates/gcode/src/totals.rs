@@ -1,6 +1,6 @@
 //! What a program amounts to.
 
-use glidepath_geometry::{AxisVector, LINEAR_XYZ, Segment, UVW};
+use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, Line, Segment, UVW};
 use glidepath_motion::{Item, ItemKind, Rate};
 
 /// Counts and sums over everything read so far.
@@ -54,6 +54,25 @@ impl Totals {
         }
     }
 
+    /// Takes a segment into the bounding box.
+    fn enclose(&mut self, segment: &Segment) {
+        let (Segment::Line(line), Some((low, high))) = (segment, &mut self.bounding_box) else {
+            let (low, high) = segment.bounding_box();
+            self.bounding_box = Some(match &self.bounding_box {
+                Some((least, most)) => (least.inf(&low), most.sup(&high)),
+                None => (low, high),
+            });
+            return;
+        };
+        // In place, and without a branch.
+        for end in [&line.start, &line.end] {
+            for i in 0..AXES {
+                low[i] = if end[i] < low[i] { end[i] } else { low[i] };
+                high[i] = if end[i] > high[i] { end[i] } else { high[i] };
+            }
+        }
+    }
+
     fn add_move(&mut self, segment: &Segment, rate: Rate) {
         let length = segment.length();
         // An arc whose radius drifts is a little longer than its feed length, which leaves that out.
@@ -61,21 +80,13 @@ impl Totals {
             Segment::Arc(arc) => length.hypot(arc.end_radius() - arc.start_radius()),
             _ => length,
         };
-        let (linear, (low, high)) = match segment {
-            Segment::Line(line) => {
-                let d = line.displacement();
-                let linear = LINEAR_XYZ.chain(UVW).any(|axis| d[axis] != 0.0);
-                (
-                    linear,
-                    (line.start.inf(&line.end), line.start.sup(&line.end)),
-                )
-            }
-            Segment::Arc(_) | Segment::Curve(_) => (true, segment.bounding_box()),
+        let linear = match segment {
+            Segment::Line(Line { start, end }) => LINEAR_XYZ
+                .chain(UVW)
+                .any(|axis| end[axis] - start[axis] != 0.0),
+            Segment::Arc(_) | Segment::Curve(_) => true,
         };
-        self.bounding_box = Some(match self.bounding_box {
-            Some((l, h)) => (l.inf(&low), h.sup(&high)),
-            None => (low, high),
-        });
+        self.enclose(segment);
         match rate.feed_v() {
             None => {
                 self.rapids += 1;

@@ -90,8 +90,26 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 10] {
     ]
 }
 
+/// Words of a block whose only code is a motion, or which has none: as [`taken`], for straight moves and
+/// arcs.
+const fn taken_by_move(motion: Option<Motion>) -> Option<Letters> {
+    const STRAIGHT: Letters = AXIS_WORDS.and(Letters::of(b"FST"));
+    const ARC: Letters = STRAIGHT.and(Letters::of(b"IJKRP"));
+    match motion {
+        Some(Motion::Rapid | Motion::Linear) => Some(STRAIGHT),
+        Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Some(ARC),
+        _ => None,
+    }
+}
+
 /// Refuses words that nothing in the block uses, and words that two codes want.
 pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> {
+    if block.is_plain()
+        && let Some(taken) = taken_by_move(motion)
+        && block.unused(taken).is_none()
+    {
+        return Ok(());
+    }
     let taken = taken(block, motion);
     let always = Letters::of(b"FST");
     let used = taken.iter().fold(always, |used, one| used.and(*one));

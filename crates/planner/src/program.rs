@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 
-use glidepath_gcode::{Options, Program, Subroutines, check};
+use glidepath_gcode::{Options, Program, Subroutines, findings};
 
 use crate::fingerprint::Fingerprinting;
 use crate::{ItemSource, Refusal, Supply};
@@ -46,7 +46,7 @@ impl ProgramSource<BufReader<File>> {
     pub fn open(path: &Path, options: Options) -> Result<Self, Refusal> {
         let mut file = File::open(path)?;
         let mut reader = Fingerprinting::new(&mut file);
-        let report = check(
+        let found = findings(
             BufReader::with_capacity(BUFFER, &mut reader),
             options.clone(),
         );
@@ -56,10 +56,10 @@ impl ProgramSource<BufReader<File>> {
             reader.add(&file.text);
         }
         let fingerprint = reader.fingerprint();
-        if !report.diagnostics.is_empty() {
+        if !found.diagnostics.is_empty() {
             return Err(Refusal::Program {
-                findings: report.diagnostics,
-                unlisted: report.more,
+                findings: found.diagnostics,
+                unlisted: found.more,
             });
         }
         file.rewind()?;

@@ -5,6 +5,7 @@ pub(crate) mod marlin;
 pub(crate) mod siemens;
 mod statement;
 mod tape;
+mod without_flow;
 
 pub(crate) use tape::Tape;
 

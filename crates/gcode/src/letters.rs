@@ -1,0 +1,65 @@
+//! Letters of words, and sets of them.
+
+use glidepath_geometry::{AXES, Axis};
+
+/// Letters of the axes in index order, as [`slot`]s.
+pub(crate) const AXIS_LETTERS: [u8; AXES] = *b"XYZABCUVW";
+
+/// Where the values of the letters from A stand: those of the axes first, in index order.
+const SLOTS: [usize; 26] = {
+    let mut slots = [0; 26];
+    let (mut letter, mut others) = (0, AXES);
+    while letter < 26 {
+        let mut axis = 0;
+        while axis < AXES && AXIS_LETTERS[axis] as usize != b'A' as usize + letter {
+            axis += 1;
+        }
+        slots[letter] = if axis < AXES { axis } else { others };
+        others += (axis == AXES) as usize;
+        letter += 1;
+    }
+    slots
+};
+
+/// Where the value of a letter stands, in either case.
+pub(crate) const fn slot(letter: u8) -> usize {
+    SLOTS[(letter.to_ascii_uppercase().wrapping_sub(b'A') % 26) as usize]
+}
+
+/// The letter in a set.
+pub(crate) const fn bit(letter: u8) -> u32 {
+    1 << slot(letter)
+}
+
+/// A set of word letters, by their slots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Letters(pub(crate) u32);
+
+impl Letters {
+    pub(crate) const fn of(letters: &[u8]) -> Self {
+        let mut bits = 0;
+        let mut i = 0;
+        while i < letters.len() {
+            bits |= bit(letters[i]);
+            i += 1;
+        }
+        Self(bits)
+    }
+
+    /// The words of some axes.
+    pub(crate) fn of_axes(wanted: impl Fn(Axis) -> bool) -> Self {
+        let axes = Axis::ALL.into_iter().filter(|&axis| wanted(axis));
+        Self(axes.fold(0, |bits, axis| bits | bit(AXIS_LETTERS[axis.index()])))
+    }
+
+    pub(crate) const fn has(self, letter: u8) -> bool {
+        self.0 & bit(letter) != 0
+    }
+
+    pub(crate) const fn and(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+}
+
+/// All axis words.
+pub(crate) const AXIS_WORDS: Letters = Letters::of(&AXIS_LETTERS);

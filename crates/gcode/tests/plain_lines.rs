@@ -1,0 +1,225 @@
+//! Plain lines are read and executed in a way of their own: with the same outcome as any other line. An
+//! empty comment makes a line one that is not plain.
+
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use glidepath_gcode::{
+    Connections, Diagnostic, LoopLimits, Machine, Options, Program, Report, Travel, check, findings,
+};
+use glidepath_geometry::Axis;
+use glidepath_motion::Item;
+use proptest::prelude::*;
+
+/// A machine with some axes, some of them limited.
+fn options() -> Options {
+    let travel = Travel {
+        min: -100.0,
+        max: 100.0,
+    };
+    let axes = [Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::U];
+    Options {
+        machine: Machine::new(&axes)
+            .with_travel(Axis::X, travel)
+            .with_travel(Axis::Z, travel),
+        connections: Connections::Simulated,
+        ..Options::default()
+    }
+}
+
+/// The same program without a plain line.
+fn commented(text: &str) -> String {
+    let is_plain = |line: &str| {
+        line.bytes()
+            .all(|b| b.is_ascii_alphanumeric() || b" \t.+-".contains(&b))
+    };
+    text.split_inclusive('\n')
+        .map(|line| {
+            let body = line.trim_end_matches(['\r', '\n']);
+            let comment = if is_plain(body) { "()" } else { "" };
+            format!("{body}{comment}{}", &line[body.len()..])
+        })
+        .collect()
+}
+
+/// A finding without the text it is in: line, column, length, what it says.
+type Place = (u32, u32, u32, String);
+
+fn place(finding: &Diagnostic) -> Place {
+    let Diagnostic {
+        line,
+        column,
+        length,
+        ..
+    } = *finding;
+    (
+        line,
+        column,
+        length,
+        format!("{} {}", finding.code, finding.message),
+    )
+}
+
+fn items(text: &[u8]) -> (Vec<Item>, Option<Place>) {
+    let (mut items, mut end) = (Vec::new(), None);
+    for item in Program::new(text, options()) {
+        match item {
+            Ok(item) => items.push(item),
+            Err(finding) => end = Some(place(&finding)),
+        }
+    }
+    (items, end)
+}
+
+/// Compares a program with the same one without a plain line.
+fn compare(text: &str) {
+    let other = commented(text);
+    // Bit for bit, as far as the shortest text that reads back tells.
+    assert_eq!(
+        format!("{:?}", items(text.as_bytes())),
+        format!("{:?}", items(other.as_bytes()))
+    );
+    let [plain, general] = [text, &other].map(|text| check(text.as_bytes(), options()));
+    let places = |found: &[Diagnostic]| found.iter().map(place).collect::<Vec<_>>();
+    assert_eq!(places(&plain.diagnostics), places(&general.diagnostics));
+    let rest = |report: &Report| {
+        format!(
+            "{} {} {:?} {:?} {:?}",
+            report.more, report.complete, report.totals, report.survey, report.final_position
+        )
+    };
+    assert_eq!(rest(&plain), rest(&general));
+    let found = findings(text.as_bytes(), options());
+    assert_eq!(
+        (found.diagnostics, found.more),
+        (plain.diagnostics, plain.more)
+    );
+}
+
+/// Plain lines, and now and then one that changes what they mean.
+fn line() -> impl Strategy<Value = String> {
+    let plain = "(N[0-9]{1,4} )?(G0?[0-3] ?)?([XYZ]-?[0-9]{1,2}(\\.[0-9]{0,5})? ?){0,2}([AUIJKRF]-?[0-9]{1,2}\\.[0-9] ?)?";
+    let other = prop::sample::select(vec![
+        "G20",
+        "G21",
+        "G90",
+        "G91",
+        "G93",
+        "G94",
+        "G95",
+        "G7",
+        "G8",
+        "G18",
+        "G17",
+        "G53 G0 X1",
+        "G10 L2 P1 X1 Y2 R30",
+        "G10 L2 P1 X3 R0",
+        "G92 X5",
+        "G92.1",
+        "G55",
+        "G54",
+        "G41.1 D1",
+        "G40",
+        "G80",
+        "G81 Z-1 R2",
+        "G96 S100 D1000",
+        "G97 S100",
+        "G61",
+        "G64 P0.1",
+        "G5 I1 J1 P1 Q1 X5",
+        "G43.1 Z3",
+        "G49",
+        "M2",
+        "M70",
+        "M72",
+        "O1 sub",
+        "O1 endsub",
+        "O1 call",
+        "#1=5",
+        "X#1",
+        "G38.2 X3 F10",
+        "G4 P1",
+        "F0",
+        "S5 X1",
+        "T1",
+        "G0 E5",
+        "X1 X2",
+        "(c)",
+    ]);
+    prop_oneof![8 => plain, 1 => other.prop_map(str::to_owned)]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(500))]
+    #[test]
+    fn a_program_is_the_same_with_and_without_plain_lines(
+        lines in prop::collection::vec(line(), 1..30), end in "\n|\r\n|\r"
+    ) {
+        // A lone CR is no line end to `commented`.
+        let text = lines.join(if end == "\r" { "\n" } else { &end });
+        compare(&format!("F100\n{text}"));
+        let joined = lines.join(&end);
+        let expected = items(text.as_bytes());
+        prop_assert_eq!(format!("{:?}", items(joined.as_bytes())), format!("{expected:?}"));
+    }
+
+    #[test]
+    fn how_much_is_read_at_a_time_does_not_matter(
+        lines in prop::collection::vec(line(), 1..12), size in 1_usize..40, end in "\n|\r\n|\r"
+    ) {
+        let text = format!("F100{end}{}", lines.join(&end));
+        let whole = check(text.as_bytes(), options());
+        let parts = check(BufReader::with_capacity(size, text.as_bytes()), options());
+        prop_assert_eq!(whole, parts);
+    }
+}
+
+#[test]
+fn moves_that_are_only_judged_are_moves_of_a_loop() {
+    let text = "F100\n#1=0\nO1 while [#1 LT 9]\n#1=[#1+1]\nG1 X1\nG1 X0\nO1 endwhile\nO2 while [1]\nG4 P0\nO2 endwhile\n";
+    let loops = LoopLimits {
+        idle_lines: 10,
+        checked_lines: 1000,
+    };
+    let options = Options { loops, ..options() };
+    let report = check(text.as_bytes(), options.clone());
+    assert!(report.is_accepted() && !report.complete);
+    let found = findings(text.as_bytes(), options);
+    assert_eq!(found.diagnostics, []);
+}
+
+/// Every file below a folder.
+fn files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            files(&path, found);
+        } else {
+            found.push(path);
+        }
+    }
+}
+
+/// Reads the folder of programs that `GLIDEPATH_CORPUS` names, and is skipped without.
+#[test]
+fn programs_of_others_are_the_same_with_and_without_plain_lines() {
+    let Some(corpus) = std::env::var_os("GLIDEPATH_CORPUS") else {
+        println!("skipped: GLIDEPATH_CORPUS is not set");
+        return;
+    };
+    let mut found = Vec::new();
+    files(Path::new(&corpus), &mut found);
+    found.sort();
+    let mut compared = 0;
+    for path in found {
+        let Ok(text) = std::fs::read_to_string(&path) else {
+            continue;
+        };
+        // The beginning of a long one says as much.
+        let beginning: String = text.split_inclusive('\n').take(3000).collect();
+        compare(&beginning);
+        compared += 1;
+    }
+    println!("{compared} programs");
+    assert!(compared > 100);
+}

@@ -1,0 +1,108 @@
+//! How long a program takes to begin: dense lines in a file, from opening it to the first frame. All of
+//! the file is read and checked before.
+//!
+//! ```text
+//! cargo run --release -p glidepath-planner --example first_frame
+//! ```
+#![allow(clippy::print_stdout, reason = "a table")]
+
+use std::error::Error;
+use std::fs::File;
+use std::io::{BufWriter, Write as _};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use glidepath_gcode::{Machine, Options, Travel};
+use glidepath_geometry::{Axis, AxisVector};
+use glidepath_motion::{Effort, Limits, Settings, Smoothing};
+use glidepath_planner::{Pipeline, ProgramSource};
+
+/// Times each is measured; the median counts.
+const TURNS: usize = 9;
+
+fn settings(effort: Effort) -> Settings {
+    Settings {
+        limits: Limits::uniform(200.0, 2000.0, 40_000.0),
+        tolerance_mm: 0.02,
+        smoothing: Smoothing::Auto,
+        period_t: 0.004,
+        effort,
+    }
+}
+
+/// A mill with soft limits.
+fn options() -> Options {
+    let travel = Travel {
+        min: -500.0,
+        max: 500.0,
+    };
+    let machine = [Axis::X, Axis::Y, Axis::Z]
+        .into_iter()
+        .fold(Machine::new(&[]), |machine, axis| {
+            machine.with_travel(axis, travel)
+        });
+    Options {
+        machine,
+        ..Options::default()
+    }
+}
+
+/// Lines of a hundredth of a millimetre round a circle that slowly sinks.
+fn dense(file: &File, lines: u32) -> std::io::Result<()> {
+    let mut file = BufWriter::new(file);
+    writeln!(file, "G21 G90 G64 F6000\nG0 X0 Y0 Z0")?;
+    for k in 1..=lines {
+        let angle = 2e-4 * f64::from(k);
+        let (x, y, z) = (50.0 * angle.cos() - 50.0, 50.0 * angle.sin(), -1e-4 * angle);
+        writeln!(file, "G1 X{x:.4} Y{y:.4} Z{z:.4}")?;
+    }
+    writeln!(file, "M2")?;
+    file.flush()
+}
+
+/// From the start until the file is checked, and until the first frame.
+fn begin(path: &Path, effort: Effort) -> Result<(Duration, Duration), Box<dyn Error>> {
+    let start = Instant::now();
+    let source = ProgramSource::open(path, options())?;
+    let checked = start.elapsed();
+    let mut pipeline = Pipeline::new(source, settings(effort), AxisVector::zeros());
+    pipeline.next_frame()?.ok_or("no frame")?;
+    Ok((checked, start.elapsed()))
+}
+
+fn median(mut times: Vec<Duration>) -> f64 {
+    times.sort_unstable();
+    let middle = times.get(times.len() / 2).copied();
+    1e3 * middle.unwrap_or_default().as_secs_f64()
+}
+
+/// The most memory this process had, as Linux says it.
+fn peak() -> Option<String> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM"))?;
+    Some(line.trim_start_matches("VmHWM:").trim().to_owned())
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    println!("| lines | checked, ms | first frame, fast, ms | first frame, optimal, ms |");
+    println!("|---|---|---|---|");
+    for lines in [10_000, 100_000, 1_000_000] {
+        let file = tempfile::NamedTempFile::new()?;
+        dense(file.as_file(), lines)?;
+        let (mut checked, mut fast, mut optimal) = (Vec::new(), Vec::new(), Vec::new());
+        for _ in 0..TURNS {
+            let (check, frame) = begin(file.path(), Effort::Fast)?;
+            checked.push(check);
+            fast.push(frame);
+            optimal.push(begin(file.path(), Effort::Optimal)?.1);
+        }
+        println!(
+            "| {lines} | {:.1} | {:.1} | {:.1} |",
+            median(checked),
+            median(fast),
+            median(optimal)
+        );
+    }
+    println!("\n{} at most in memory", peak().unwrap_or_default());
+    Ok(())
+}
