@@ -54,6 +54,8 @@ pub struct Findings {
     pub diagnostics: Vec<Diagnostic>,
     /// As [`Report::more`].
     pub more: u32,
+    /// Lines read, as [`Totals::lines`].
+    pub lines: u32,
 }
 
 /// Checks a program.
@@ -94,5 +96,6 @@ fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> (Fi
             None => break,
         }
     }
+    found.lines = program.totals().lines;
     (found, program.kept_lines() < most)
 }

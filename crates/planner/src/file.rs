@@ -5,7 +5,7 @@ use std::io::{self, BufReader, Read as _};
 use std::path::Path;
 
 use glidepath_curve::NurbsFile;
-use glidepath_gcode::{Options, Report, check};
+use glidepath_gcode::{Findings, Options, Report, check, findings};
 use glidepath_motion::Settings;
 
 use crate::{CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Supply};
@@ -111,6 +111,23 @@ pub fn check_file(path: &Path, options: Options, settings: &Settings) -> io::Res
         }),
         Err(other) => Err(io::Error::other(other)),
     }
+}
+
+/// The same findings without all else, for a file that is only to be accepted or refused.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn find_in_file(path: &Path, options: Options, settings: &Settings) -> io::Result<Findings> {
+    if !is_curve(path) {
+        let file = File::open(path)?;
+        return Ok(findings(BufReader::with_capacity(BUFFER, file), options));
+    }
+    let report = check_file(path, options, settings)?;
+    Ok(Findings {
+        diagnostics: report.diagnostics,
+        more: report.more,
+        lines: report.totals.lines,
+    })
 }
 
 impl ItemSource for FileSource {

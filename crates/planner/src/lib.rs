@@ -36,7 +36,7 @@ pub use curve::CurveSource;
 pub use epoch::Pace;
 pub use error::{Fault, RunError};
 pub use feed::{Fed, FeedError, feed};
-pub use file::{FileSource, check_file};
+pub use file::{FileSource, check_file, find_in_file};
 pub use listen::{CLIENT_SILENCE, Listening, listen};
 pub use nurbs::NurbsSource;
 pub use pipeline::{Output, Pipeline, Statistics, Step};

@@ -10,7 +10,7 @@ use crate::output;
 use crate::report::{ProgramFinding, finding_object, grouped};
 use glidepath_gcode::{Diagnostic, Report};
 use glidepath_geometry::Axis;
-use glidepath_planner::check_file;
+use glidepath_planner::{check_file, find_in_file};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -52,22 +52,26 @@ pub fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
     })
 }
 
-/// Checks a program that is to be run.
+/// Checks a program that is to be run; the number of its lines.
 ///
 /// # Errors
 /// The file cannot be opened, or the program has findings.
-pub fn accepted(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
-    let report = read(path, config)?;
-    if report.is_accepted() {
-        Ok(report)
-    } else {
-        Err(Failure::Rejected {
-            program: path.display().to_string(),
-            findings: report.diagnostics,
-            more: report.more,
-            moved: false,
-        })
+pub fn accepted(path: &Path, config: &MachineConfig) -> Result<u32, Failure> {
+    let config = &for_program(path, config);
+    let options = config.program_options(config.home());
+    let mut found = find_in_file(path, options, &config.settings()).map_err(Failure::open(path))?;
+    if found.diagnostics.is_empty() {
+        found.diagnostics = joints::check_path(path, config)?.into_iter().collect();
     }
+    if found.diagnostics.is_empty() {
+        return Ok(found.lines);
+    }
+    Err(Failure::Rejected {
+        program: path.display().to_string(),
+        findings: found.diagnostics,
+        more: found.more,
+        moved: false,
+    })
 }
 
 /// Prints a program's findings to standard error.

@@ -29,11 +29,11 @@ const STEPS_PER_TURN: usize = 64;
 /// # Errors
 /// The program is rejected, a file cannot be read or written, or the user interrupted.
 pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let checked = check::accepted(&args.file, config)?;
+    let lines = check::accepted(&args.file, config)?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let (csv, plot) = (args.setpoints.as_deref(), args.plot.as_deref());
     let mut recording = Recording::create(config, csv, plot)?;
-    let progress = Progress::lines(checked.totals.lines.into());
+    let progress = Progress::lines(lines.into());
     progress.doing("planning");
     let mut pass = Pass::start(&args.file, config, clock::elapsed)?;
     while pass.turn(&mut recording)? {

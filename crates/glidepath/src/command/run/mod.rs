@@ -43,14 +43,14 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// # Errors
 /// The program is rejected, real time is not granted, a process failed, or the user interrupted.
 pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let checked = check::accepted(&args.file, config)?;
+    let lines = check::accepted(&args.file, config)?;
     let program = args.file.display().to_string();
     joints::check_plan(&args.file, config, config.home())
         .map_err(|refusal| Failure::refused(&program, refusal, false))?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let plot = plot_path(args);
     let recording = Recording::create(config, args.setpoints.as_deref(), plot.as_deref())?;
-    let progress = Progress::lines(checked.totals.lines.into());
+    let progress = Progress::lines(lines.into());
     let played = Desk {
         args,
         config,
