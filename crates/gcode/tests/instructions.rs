@@ -8,17 +8,20 @@
 //! ```
 #![allow(
     clippy::unwrap_used,
-    clippy::panic,
     clippy::print_stdout,
     reason = "a test, and a measurement"
 )]
 
-use std::hint::black_box;
-use std::process::Command;
+#[path = "../../../tests/counted/mod.rs"]
+mod counted;
 
+use counted::{cannot_count, counted, number};
 use glidepath_gcode::{Machine, Options, Program, Travel, check, findings};
 use glidepath_geometry::Axis;
+use std::hint::black_box;
 
+/// The test that is counted.
+const TEST: &str = "a_line_takes_few_instructions";
 /// In the environment of the process that is counted: the case, and how often the program is read.
 const CASE: &str = "GLIDEPATH_COUNTED_CASE";
 const TIMES: &str = "GLIDEPATH_COUNTED_TIMES";
@@ -137,42 +140,19 @@ fn work(case: &Case, lines: u32, times: u32) {
     (0..times).for_each(|_| (case.read)(&text));
 }
 
-/// Instructions of this test as another process, which reads the program so many times.
-fn counted(case: usize, times: u32) -> u64 {
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(std::env::current_exe().unwrap())
-        .args(["--exact", "a_line_takes_few_instructions", "--nocapture"])
-        .env(CASE, case.to_string())
-        .env(TIMES, times.to_string())
-        .output()
-        .unwrap();
-    assert!(output.status.success());
-    let text = String::from_utf8_lossy(&output.stderr);
-    let total = text
-        .lines()
-        .find_map(|line| line.split_once("Collected :"))
-        .and_then(|(_, count)| count.trim().parse().ok());
-    total.unwrap_or_else(|| panic!("no count: {text}"))
-}
-
 #[test]
 fn a_line_takes_few_instructions() {
-    let number = |name| std::env::var(name).ok()?.parse::<u32>().ok();
     if let (Some(case), Some(times)) = (number(CASE), number(TIMES)) {
         work(&CASES[case as usize], COUNTED, times);
         return;
     }
-    if cfg!(debug_assertions) {
-        println!("skipped: counts optimised code, use cargo test --release");
-        return;
-    }
-    if Command::new("valgrind").arg("--version").output().is_err() {
-        println!("skipped: valgrind is not installed");
+    if cannot_count() {
         return;
     }
     for (k, case) in CASES.iter().enumerate() {
-        let each = (counted(k, 2) - counted(k, 1)) / u64::from(COUNTED);
+        let case_number = u32::try_from(k).unwrap();
+        let total = |times| counted(TEST, &[(CASE, case_number), (TIMES, times)]);
+        let each = (total(2) - total(1)) / u64::from(COUNTED);
         println!("{}: {each} instructions", case.name);
         assert!(each <= case.most, "{}: {each} > {}", case.name, case.most);
     }

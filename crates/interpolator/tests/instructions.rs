@@ -19,8 +19,11 @@
     reason = "a test, with numbers that are small, and what it shares with others"
 )]
 
+#[path = "../../../tests/counted/mod.rs"]
+mod counted;
 mod synthetic;
 
+use counted::cannot_count;
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::{Config, Stepped, stepped};
 use glidepath_link::{Command, Setpoint};
@@ -168,19 +171,6 @@ fn counted(case: usize) -> Vec<u64> {
     assert!(ticks.len() >= TICKS, "{} ticks: {output:?}", ticks.len());
     ticks.sort_unstable();
     ticks
-}
-
-/// True, and says why, where instructions of optimised code cannot be counted.
-fn cannot_count() -> bool {
-    if cfg!(debug_assertions) {
-        println!("skipped: counts optimised code, use cargo test --release");
-        return true;
-    }
-    let is_missing = Process::new("valgrind").arg("--version").output().is_err();
-    if is_missing {
-        println!("skipped: valgrind is not installed");
-    }
-    is_missing
 }
 
 #[test]

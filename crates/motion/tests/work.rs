@@ -9,20 +9,23 @@
 //! ```
 #![allow(
     clippy::unwrap_used,
-    clippy::panic,
     clippy::print_stdout,
     reason = "a test, and a measurement"
 )]
 
+#[path = "../../../tests/counted/mod.rs"]
+mod counted;
 mod support;
 
+use counted::{cannot_count, counted, number};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_motion::audit::{Audit, AuditSettings};
 use glidepath_motion::{Item, ItemKind, Planner, Rate, Settings};
 use std::hint::black_box;
-use std::process::Command;
 use support::{FREE, at, mill, optimal};
 
+/// The test that is counted.
+const TEST: &str = "a_block_takes_few_instructions";
 /// In the environment of the process that is counted: the case, and the number of blocks.
 const CASE: &str = "GLIDEPATH_COUNTED_CASE";
 const BLOCKS: &str = "GLIDEPATH_COUNTED_BLOCKS";
@@ -146,42 +149,20 @@ fn plan(case: &Case, blocks: u32) {
     }
 }
 
-/// Instructions of this test as another process, with so many blocks.
-fn counted(case: usize, blocks: u32) -> u64 {
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(std::env::current_exe().unwrap())
-        .args(["--exact", "a_block_takes_few_instructions", "--nocapture"])
-        .env(CASE, case.to_string())
-        .env(BLOCKS, blocks.to_string())
-        .output()
-        .unwrap();
-    let text = String::from_utf8_lossy(&output.stderr);
-    let total = text
-        .lines()
-        .find_map(|line| line.split_once("Collected :"))
-        .and_then(|(_, count)| count.trim().parse().ok());
-    total.unwrap_or_else(|| panic!("no count: {text}"))
-}
-
 #[test]
 fn a_block_takes_few_instructions() {
-    let number = |name| std::env::var(name).ok()?.parse::<u32>().ok();
     if let (Some(case), Some(blocks)) = (number(CASE), number(BLOCKS)) {
         plan(&CASES[case as usize], blocks);
         return;
     }
-    if cfg!(debug_assertions) {
-        println!("skipped: counts optimised code, use cargo test --release");
-        return;
-    }
-    if Command::new("valgrind").arg("--version").output().is_err() {
-        println!("skipped: valgrind is not installed");
+    if cannot_count() {
         return;
     }
     for (k, case) in CASES.iter().enumerate() {
         let blocks = case.blocks;
-        let each = (counted(k, 2 * blocks) - counted(k, blocks)) / u64::from(blocks);
+        let case_number = u32::try_from(k).unwrap();
+        let total = |blocks| counted(TEST, &[(CASE, case_number), (BLOCKS, blocks)]);
+        let each = (total(2 * blocks) - total(blocks)) / u64::from(blocks);
         println!("{}: {each} instructions a block", case.name);
         assert!(each <= case.most, "{}: {each} > {}", case.name, case.most);
     }
