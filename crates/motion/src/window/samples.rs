@@ -32,6 +32,9 @@ pub(super) struct Samples {
     pub(super) shrink: Vec<f64>,
     /// What the motion bulges out of the chord of the period before a sample.
     bulge: Vec<f64>,
+    /// Whether the tube bounds middles of periods, too: where there are several knots in each. With one,
+    /// windows along short legs are refused for it more often than others gain.
+    bounds_middles: bool,
     /// Whether the middle of that period has come near the edge of the tube.
     is_middle_near: Vec<bool>,
     /// Largest distance from the path, in radii, found by the last projection.
@@ -79,9 +82,13 @@ impl Samples {
         self.is_middle_near[k] && self.is_on_one_piece(k)
     }
 
-    /// What the motion bulges, next to sample `k`, out of chords whose ends are bounded: of half periods
-    /// on one piece; of what a period has before or after a corner, where it comes near that.
+    /// What the motion bulges, next to sample `k`, out of chords whose ends are bounded. With middles of
+    /// half periods on one piece; of what a period has before or after a corner, where it comes near that.
     pub(super) fn sagitta<const D: usize>(&self, scene: &Scene<D>, k: usize) -> f64 {
+        let bulge_after = self.bulge.get(k + 1).copied().unwrap_or(0.0);
+        if !self.bounds_middles {
+            return f64::max(self.bulge[k], bulge_after);
+        }
         let part_of = |share: f64| (share * share).clamp(OF_HALVES, 1.0);
         let before = if self.is_on_one_piece(k) {
             OF_HALVES
@@ -93,7 +100,6 @@ impl Samples {
             Some(next) if *next == self.piece[k] => OF_HALVES,
             Some(_) => part_of(self.share_before(scene, self.piece[k] + 1, k + 1)),
         };
-        let bulge_after = self.bulge.get(k + 1).copied().unwrap_or(0.0);
         f64::max(before * self.bulge[k], after * bulge_after)
     }
 
@@ -139,6 +145,7 @@ impl Samples {
     ) {
         let mut at = (first, self.progress[0]);
         self.worst_r = 0.0;
+        self.bounds_middles = grid.knots > 1;
         let mut bend_before = 0.0;
         for k in 1..=self.count() {
             let y = sample(points, grid, k);
@@ -150,7 +157,8 @@ impl Samples {
             let bend = across(scene, piece, &combine(points, site, &weights)) / 8.0;
             self.bulge[k] = f64::max(bend, bend_before);
             bend_before = bend;
-            self.is_middle_near[k] |= middle_r(scene, piece, points, grid, k) > WORTH_R;
+            self.is_middle_near[k] |=
+                self.bounds_middles && middle_r(scene, piece, points, grid, k) > WORTH_R;
             let distance_r = distance / scene.chords[piece].radius;
             self.worst_r = self.worst_r.max(distance_r);
             if may_lead && leads(scene, &y, piece, s) {

@@ -36,7 +36,7 @@ const MOST_SAGITTA_R: f64 = 0.5;
 /// Most corners between two samples that get rows.
 const MOST_CORNERS: usize = 4;
 /// Share of the feed that is planned with at most.
-pub(super) const FEED_R: f64 = 0.999_99;
+pub(super) const FEED_R: f64 = 0.999_95;
 /// How the rows are to be made.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Style {
