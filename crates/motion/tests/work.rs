@@ -78,7 +78,7 @@ const CASES: [Case; 5] = [
         feed_v: 100.0,
         is_audited: false,
         blocks: 5000,
-        most: 810_000,
+        most: 930_000,
     },
     Case {
         name: "optimal, corners",
