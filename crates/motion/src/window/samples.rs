@@ -82,8 +82,9 @@ impl Samples {
         self.is_middle_near[k] && self.is_on_one_piece(k)
     }
 
-    /// What the motion bulges, next to sample `k`, out of chords whose ends are bounded. With middles of
-    /// half periods on one piece; of what a period has before or after a corner, where it comes near that.
+    /// What the motion bulges, next to sample `k`, out of chords whose ends are bounded: those of periods.
+    /// With their middles bounded those of half periods on one piece, and at a corner of the part of a
+    /// period that is on its side.
     pub(super) fn sagitta<const D: usize>(&self, scene: &Scene<D>, k: usize) -> f64 {
         let bulge_after = self.bulge.get(k + 1).copied().unwrap_or(0.0);
         if !self.bounds_middles {
