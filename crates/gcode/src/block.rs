@@ -11,9 +11,10 @@ use crate::cursor::Cursor;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::dialect::Dialect;
 use crate::expression::{Parameter, Scope, open_expression, parameter, value};
-use crate::letters::{AXIS_LETTERS, bit, slot};
+use crate::letters::{AXIS_LETTERS, Words, slot};
 pub(crate) use crate::letters::{AXIS_WORDS, Letters};
 use crate::modes::Motion;
+use crate::plain::{Sink, read_plain};
 
 /// What a line is, besides its words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -31,9 +32,8 @@ pub(crate) struct Block {
     pub(crate) dialect: Dialect,
     pub(crate) kind: LineKind,
     pub(crate) codes: Codes,
-    /// One bit per letter that has a value; G, M, N and O are not among them.
-    present: u32,
-    values: [f64; 26],
+    pub(crate) words: Words,
+    /// Where the words stand, by slot.
     spans: [Span; 26],
     /// Nothing but what [`Block::parse_plain`] reads was put into it since it was cleared: its codes have
     /// a motion at most.
@@ -72,16 +72,12 @@ impl Block {
 
     /// Value of a word.
     pub(crate) const fn get(&self, letter: u8) -> Option<f64> {
-        if self.present & bit(letter) == 0 {
-            None
-        } else {
-            Some(self.values[slot(letter)])
-        }
+        self.words.get(letter)
     }
 
     /// Where a word stands; an empty span if the block does not have it.
     pub(crate) const fn span(&self, letter: u8) -> Span {
-        if self.present & bit(letter) == 0 {
+        if self.words.get(letter).is_none() {
             Span {
                 start: 0,
                 length: 0,
@@ -99,18 +95,12 @@ impl Block {
 
     /// True if the block has any of these words.
     pub(crate) const fn has_any(&self, letters: Letters) -> bool {
-        self.present & letters.0 != 0
+        self.words.has_any(letters)
     }
 
     /// The axis words, in index order.
     pub(crate) fn axes(&self) -> impl Iterator<Item = (Axis, f64)> + '_ {
-        // The slots of the axes are their indices.
-        let mut left = self.present & AXIS_WORDS.0;
-        core::iter::from_fn(move || {
-            let axis = *Axis::ALL.get(left.trailing_zeros() as usize)?;
-            left &= left - 1;
-            Some((axis, self.values[axis.index()]))
-        })
+        self.words.axes()
     }
 
     /// Where an axis word stands.
@@ -120,12 +110,12 @@ impl Block {
 
     /// The first word, from the left, that is not among `used`.
     pub(crate) fn unused(&self, used: Letters) -> Option<(char, Span)> {
-        let left = self.present & !used.0;
-        if left == 0 {
+        let left = self.words.beside(used);
+        if left.is_empty() {
             return None;
         }
         (b'A'..=b'Z')
-            .filter(|&letter| left & bit(letter) != 0)
+            .filter(|&letter| left.has(letter))
             .map(|letter| (char::from(letter), self.span(letter)))
             .min_by_key(|(_, span)| span.start)
     }
@@ -141,7 +131,7 @@ impl Block {
     /// Makes the block an empty one.
     #[inline]
     pub(crate) fn clear(&mut self) {
-        self.present = 0;
+        self.words.clear();
         self.any = false;
         self.codes.motion = None;
         if !self.is_plain {
@@ -158,31 +148,12 @@ impl Block {
         self.is_plain
     }
 
-    /// Adds a word; `None` if the block has one of that letter.
+    /// Fills the block from a plain line, of which `text` has all and may have more: where the line ends.
+    /// `None` if the line is not plain: the block is then to be filled by [`Block::parse_any`].
     #[inline]
-    pub(crate) fn add_value(&mut self, letter: u8, value: f64, span: Span) -> Option<()> {
-        if self.present & bit(letter) != 0 {
-            return None;
-        }
-        self.any = true;
-        self.present |= bit(letter);
-        self.values[slot(letter)] = value;
-        self.spans[slot(letter)] = span;
-        Some(())
-    }
-
-    /// Adds a motion code; `None` if the block has one.
-    #[inline]
-    pub(crate) const fn add_motion(&mut self, motion: Motion, span: Span) -> Option<()> {
-        if self.codes.motion.is_some() {
-            return None;
-        }
-        self.any = true;
-        self.codes.motion = Some(Coded {
-            code: Some(motion),
-            span,
-        });
-        Some(())
+    pub(crate) fn parse_plain(&mut self, text: &[u8]) -> Option<usize> {
+        self.clear();
+        read_plain(text, self)
     }
 
     /// Fills the block from the text of a line.
@@ -325,6 +296,29 @@ impl Block {
                 .add_value(letter, value, span)
                 .ok_or_else(|| duplicate(char::from(letter), span)),
         }
+    }
+}
+
+impl Sink for Block {
+    #[inline]
+    fn add_motion(&mut self, motion: Motion, span: Span) -> Option<()> {
+        if self.codes.motion.is_some() {
+            return None;
+        }
+        self.any = true;
+        self.codes.motion = Some(Coded {
+            code: Some(motion),
+            span,
+        });
+        Some(())
+    }
+
+    #[inline]
+    fn add_value(&mut self, letter: u8, value: f64, span: Span) -> Option<()> {
+        self.words.add(letter, value)?;
+        self.any = true;
+        self.spans[slot(letter)] = span;
+        Some(())
     }
 }
 

@@ -23,6 +23,7 @@ use crate::modes::{Distance, Motion, Spline, Stop};
 use crate::moves::Reach;
 use crate::offsets::Offsets;
 use crate::options::Options;
+use crate::plain_move::Course;
 use crate::probe::ProbeResult;
 use crate::saved_state::SavedStates;
 use crate::spindle::Spindle;
@@ -99,6 +100,7 @@ pub(crate) struct Interpreter {
     pub(crate) only_judges: bool,
     /// The block executed last was one of them.
     pub(crate) has_judged: bool,
+    pub(crate) course: Course,
     /// Line of the block being executed.
     pub(crate) line: u32,
 }
@@ -139,8 +141,20 @@ impl Interpreter {
             zero_length: ZeroLength::default(),
             only_judges: false,
             has_judged: false,
+            course: Course::new(),
             line: 0,
         }
+    }
+
+    /// Begins a line: nothing was made of it yet.
+    #[inline]
+    pub(crate) const fn begin(&mut self, line: u32) {
+        self.line = line;
+        self.zero_length = ZeroLength {
+            feeds: 0,
+            rapids: 0,
+        };
+        self.has_judged = false;
     }
 
     /// Executes a block: appends what it does to `out`, which is empty when the block is refused.
@@ -150,11 +164,12 @@ impl Interpreter {
         line: u32,
         out: &mut Vec<Item>,
     ) -> Outcome<Flow> {
-        self.line = line;
-        self.zero_length = ZeroLength::default();
-        self.has_judged = false;
-        if block.is_plain() && self.go(block, out) {
-            return Ok(Flow::Continue);
+        self.begin(line);
+        if block.is_plain() {
+            let code = block.codes.motion.and_then(|motion| motion.code);
+            if self.go(code, &block.words, false, out) {
+                return Ok(Flow::Continue);
+            }
         }
         let state = self.state;
         let codes = &block.codes;

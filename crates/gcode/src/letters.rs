@@ -56,6 +56,10 @@ impl Letters {
         self.0 & bit(letter) != 0
     }
 
+    pub(crate) const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
     pub(crate) const fn and(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
@@ -63,3 +67,61 @@ impl Letters {
 
 /// All axis words.
 pub(crate) const AXIS_WORDS: Letters = Letters::of(&AXIS_LETTERS);
+
+/// Words with a value: the letters, and what stands behind them. G, M, N and O are not among them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Words {
+    /// One bit per letter that has a value.
+    present: u32,
+    /// By slot; what is left from another line where a letter has none.
+    values: [f64; 26],
+}
+
+impl Words {
+    /// Value of a word.
+    pub(crate) const fn get(&self, letter: u8) -> Option<f64> {
+        if self.present & bit(letter) == 0 {
+            None
+        } else {
+            Some(self.values[slot(letter)])
+        }
+    }
+
+    /// True if there is any of these words.
+    pub(crate) const fn has_any(&self, letters: Letters) -> bool {
+        self.present & letters.0 != 0
+    }
+
+    /// The letters that are not among `used`.
+    pub(crate) const fn beside(&self, used: Letters) -> Letters {
+        Letters(self.present & !used.0)
+    }
+
+    /// The axis words, in index order.
+    #[inline]
+    pub(crate) fn axes(&self) -> impl Iterator<Item = (Axis, f64)> + '_ {
+        // The slots of the axes are their indices.
+        let mut left = self.present & AXIS_WORDS.0;
+        core::iter::from_fn(move || {
+            let axis = *Axis::ALL.get(left.trailing_zeros() as usize)?;
+            left &= left - 1;
+            Some((axis, self.values[axis.index()]))
+        })
+    }
+
+    #[inline]
+    pub(crate) const fn clear(&mut self) {
+        self.present = 0;
+    }
+
+    /// Adds a word; `None` if there is one of that letter.
+    #[inline]
+    pub(crate) const fn add(&mut self, letter: u8, value: f64) -> Option<()> {
+        if self.present & bit(letter) != 0 {
+            return None;
+        }
+        self.present |= bit(letter);
+        self.values[slot(letter)] = value;
+        Some(())
+    }
+}

@@ -1,6 +1,6 @@
 //! Plain lines: a block number, G0 to G3, and words with numbers, as nearly all lines of a long program
 //! are. They are read without looking at a byte twice; every other line, and every finding, is the
-//! business of [`Block::parse_any`], with which this agrees.
+//! business of [`crate::block::Block::parse_any`], with which this agrees.
 //!
 //! Eight bytes are looked at together. A number of at most fifteen digits is a quotient of two exact
 //! doubles, so one division rounds it correctly:
@@ -11,7 +11,6 @@
 //!                                  (12 · 10⁴ + 3456) / 10⁴
 //! ```
 
-use crate::block::Block;
 use crate::cursor::POWERS;
 use crate::diagnostic::Span;
 use crate::modes::Motion;
@@ -25,52 +24,57 @@ const MOST_WHOLE: usize = 7;
 const ZEROS: u64 = 0x3030_3030_3030_3030;
 const POINT: u64 = (b'.' ^ b'0') as u64;
 
-impl Block {
-    /// Fills the block from a plain line, of which `text` has all and may have more: where the line ends,
-    /// at a CR, an LF, or the end of the text. `None` if the line is not plain: the block is then to be
-    /// filled by [`Block::parse_any`].
-    #[inline]
-    pub(crate) fn parse_plain(&mut self, text: &[u8]) -> Option<usize> {
-        self.clear();
-        let mut end = 0;
-        loop {
-            // Blanks may stand inside numbers: what is no letter behind them is not plain.
-            let mut at = end;
-            while matches!(text.get(at), Some(b' ' | b'\t')) {
-                at += 1;
+/// Takes what a plain line says, word by word, and `None` where it does not want it.
+pub(crate) trait Sink {
+    /// A motion code and where it stands; a second one is not wanted.
+    fn add_motion(&mut self, motion: Motion, span: Span) -> Option<()>;
+
+    /// A word, in capitals, and where it stands; a second one of that letter is not wanted.
+    fn add_value(&mut self, letter: u8, value: f64, span: Span) -> Option<()>;
+}
+
+/// Reads a plain line, of which `text` has all and may have more: where it ends, at a CR, an LF, or the
+/// end of the text. `None` if the line is not plain, or says what is not wanted.
+#[inline]
+pub(crate) fn read_plain(text: &[u8], into: &mut impl Sink) -> Option<usize> {
+    let mut end = 0;
+    loop {
+        // Blanks may stand inside numbers: what is no letter behind them is not plain.
+        let mut at = end;
+        while matches!(text.get(at), Some(b' ' | b'\t')) {
+            at += 1;
+        }
+        let Some(&byte) = text.get(at) else {
+            return Some(at);
+        };
+        match byte.to_ascii_uppercase() {
+            b'G' => {
+                let (digit, length) = match text.get(at + 1..)? {
+                    [b'0', digit @ b'0'..=b'3', ..] => (digit, 2),
+                    [digit @ b'0'..=b'3', ..] => (digit, 1),
+                    _ => return None,
+                };
+                let motion = *MOTIONS.get(usize::from(digit - b'0'))?;
+                end = at + 1 + length;
+                into.add_motion(motion, Span::new(at, end))?;
             }
-            let Some(&byte) = text.get(at) else {
-                return Some(at);
-            };
-            match byte.to_ascii_uppercase() {
-                b'G' => {
-                    let (digit, length) = match text.get(at + 1..)? {
-                        [b'0', digit @ b'0'..=b'3', ..] => (digit, 2),
-                        [digit @ b'0'..=b'3', ..] => (digit, 1),
-                        _ => return None,
-                    };
-                    let motion = *MOTIONS.get(usize::from(digit - b'0'))?;
-                    end = at + 1 + length;
-                    self.add_motion(motion, Span::new(at, end))?;
+            b'N' if end == 0 => {
+                let (_, digits) = digits(text, at + 1);
+                if digits == 0 || digits > MOST_WHOLE {
+                    return None;
                 }
-                b'N' if !self.any && end == 0 => {
-                    let (_, digits) = digits(text, at + 1);
-                    if digits == 0 || digits > MOST_WHOLE {
-                        return None;
-                    }
-                    end = at + 1 + digits;
-                }
-                // Next to a digit it would be an exponent.
-                b'E' if at == end && end > 0 => return None,
-                b'M' | b'N' | b'O' => return None,
-                letter @ b'A'..=b'Z' => {
-                    let value;
-                    (value, end) = number(text, at + 1)?;
-                    self.add_value(letter, value, Span::new(at, end))?;
-                }
-                b'\n' | b'\r' => return Some(at),
-                _ => return None,
+                end = at + 1 + digits;
             }
+            // Next to a digit it would be an exponent.
+            b'E' if at == end && end > 0 => return None,
+            b'M' | b'N' | b'O' => return None,
+            letter @ b'A'..=b'Z' => {
+                let value;
+                (value, end) = number(text, at + 1)?;
+                into.add_value(letter, value, Span::new(at, end))?;
+            }
+            b'\n' | b'\r' => return Some(at),
+            _ => return None,
         }
     }
 }
@@ -198,6 +202,7 @@ fn tail(rest: &[u8]) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::block::Block;
     use crate::expression::Scope;
     use proptest::prelude::*;
 

@@ -4,140 +4,208 @@
 //! a line cannot have, and without a copy of the state to go back to, since everything that may be refused
 //! is looked at before anything is changed. Where there is a doubt, that is left to `execute`, and with it
 //! every finding.
+//!
+//! Only the axes a line names are looked at. That the others are where they may be, and that nothing in
+//! force makes more of a move than its words say, is seen once, at the first of such lines in a row:
+//!
+//! ```text
+//!   G91             any line
+//!   G90 F1000       any line
+//!   G1 X1 Y2        begins a course: units, offsets and modes are looked at
+//!   X1.5            goes on with it
+//!   G0 Z5
+//!   M3              ends it, whatever it does
+//! ```
 
 use glidepath_geometry::{AXES, AxisVector, Line, Segment};
 use glidepath_motion::{Item, ItemKind, Rate};
 
 use crate::axis_words::axis_value;
-use crate::block::{AXIS_WORDS, Block, Letters};
+use crate::block::AXIS_WORDS;
 use crate::cycle::Cycles;
+use crate::diagnostic::Span;
 use crate::dialect::Dialect;
 use crate::interpreter::Interpreter;
+use crate::letters::{Letters, Words};
 use crate::modal::Feed;
 use crate::modes::{Distance, FeedMode, Motion};
 use crate::moves::{MIN_MOVE, Pace};
+use crate::plain::Sink;
 
 /// The words of a straight move.
 const WORDS: Letters = AXIS_WORDS.and(Letters::of(b"F"));
 
-/// What a plain block comes to.
-struct Straight {
-    motion: Motion,
-    feed: Option<Feed>,
-    rate: Rate,
-    /// Where the program goes, and where the segment ends: where an axis only rounds, it stays.
-    target: AxisVector,
-    end: AxisVector,
-    /// No axis moves.
-    is_zero: bool,
+/// What a line says that is nothing but a straight move.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct StraightLine {
+    /// Its own motion code.
+    pub(crate) motion: Option<Motion>,
+    pub(crate) words: Words,
+    /// The line says something else.
+    pub(crate) says_more: bool,
+}
+
+impl StraightLine {
+    #[inline]
+    pub(crate) const fn clear(&mut self) {
+        self.motion = None;
+        self.words.clear();
+        self.says_more = false;
+    }
+}
+
+impl Sink for StraightLine {
+    #[inline]
+    fn add_motion(&mut self, motion: Motion, _: Span) -> Option<()> {
+        self.says_more = self.motion.is_some() || !is_straight(motion);
+        self.motion = Some(motion);
+        (!self.says_more).then_some(())
+    }
+
+    #[inline]
+    fn add_value(&mut self, letter: u8, value: f64, _: Span) -> Option<()> {
+        let added = WORDS.has(letter).then(|| self.words.add(letter, value));
+        self.says_more = added.flatten().is_none();
+        (!self.says_more).then_some(())
+    }
+}
+
+const fn is_straight(motion: Motion) -> bool {
+    matches!(motion, Motion::Rapid | Motion::Linear)
+}
+
+/// What the straight moves of plain lines in a row have in common.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Course {
+    /// The unit of length in mm.
+    scale: f64,
+    /// Machine coordinates of the program's zero.
+    origin: AxisVector,
+}
+
+impl Course {
+    pub(crate) fn new() -> Self {
+        Self {
+            scale: 1.0,
+            origin: AxisVector::zeros(),
+        }
+    }
 }
 
 impl Interpreter {
-    /// Executes a plain block that is a straight move; false if it is none, or may have to be refused:
-    /// then nothing has changed.
-    pub(crate) fn go(&mut self, block: &Block, out: &mut Vec<Item>) -> bool {
-        let Some(straight) = self.foresee(block) else {
+    /// Makes the straight move of a plain line; false if it makes none, or one that may have to be
+    /// refused: then nothing has changed. `goes_on` if nothing else was executed since the last one.
+    #[inline]
+    pub(crate) fn go(
+        &mut self,
+        code: Option<Motion>,
+        words: &Words,
+        goes_on: bool,
+        out: &mut Vec<Item>,
+    ) -> bool {
+        let Some(motion) = code.or(self.state.modal.motion) else {
             return false;
         };
-        let state = &mut self.state;
-        state.modal.feed = straight.feed;
-        if block.codes.motion.is_some() {
-            state.modal.motion = Some(straight.motion);
+        let is_move = is_straight(motion)
+            && words.has_any(AXIS_WORDS)
+            && words.beside(WORDS).is_empty()
+            && !words.has_any(self.lacking);
+        is_move && (goes_on || self.begin_course()) && self.go_straight(code, motion, words, out)
+    }
+
+    #[inline]
+    fn go_straight(
+        &mut self,
+        code: Option<Motion>,
+        motion: Motion,
+        words: &Words,
+        out: &mut Vec<Item>,
+    ) -> bool {
+        let (state, course) = (&mut self.state, &self.course);
+        let feed = match words.get(b'F') {
+            None => state.modal.feed,
+            Some(feed) if feed > 0.0 => Some(Feed {
+                linear_v: feed * course.scale / 60.0,
+                rotary_v: feed / 60.0,
+            }),
+            Some(_) => return false,
+        };
+        if motion != Motion::Rapid && feed.is_none() {
+            return false;
+        }
+        let start = state.path_end;
+        let (mut target, mut end, mut is_zero) = (state.position, start, true);
+        for (axis, word) in words.axes() {
+            let i = axis.index();
+            target[i] = axis_value(axis, word, course.scale) + course.origin[i];
+            // As `settled` has it: where an axis only rounds, it stays.
+            if (target[i] - start[i]).abs() > MIN_MOVE {
+                if self.reach.is_left_at(i, target[i]) {
+                    return false;
+                }
+                end[i] = target[i];
+                is_zero = false;
+            }
+        }
+        state.modal.feed = feed;
+        if code.is_some() {
+            state.modal.motion = code;
             state.cycles = Cycles::default();
         }
         state.cubic_tail = None;
-        state.leaving_contour = false;
-        state.position = straight.target;
-        if straight.is_zero {
-            self.count_zero_length(match straight.motion {
+        state.position = target;
+        state.path_end = end;
+        if is_zero {
+            self.count_zero_length(match motion {
                 Motion::Rapid => Pace::Rapid,
                 _ => Pace::Feed,
             });
-            return true;
-        }
-        let (start, end) = (state.path_end, straight.end);
-        state.path_end = end;
-        if self.only_judges {
+        } else if self.only_judges {
             self.has_judged = true;
-            return true;
+        } else {
+            let rate = match feed {
+                Some(feed) if motion != Motion::Rapid => Rate::Feed(feed.of_line(&start, &end)),
+                _ => Rate::Rapid,
+            };
+            let item = Item {
+                line: self.line,
+                kind: ItemKind::Move {
+                    segment: Segment::Line(Line { start, end }),
+                    rate,
+                    mode: state.modal.path_mode,
+                },
+            };
+            // Not `push`, which copies twice.
+            out.extend_from_slice(core::slice::from_ref(&item));
         }
-        let item = Item {
-            line: self.line,
-            kind: ItemKind::Move {
-                segment: Segment::Line(Line { start, end }),
-                rate: straight.rate,
-                mode: state.modal.path_mode,
-            },
-        };
-        // Not `push`, which copies twice.
-        out.extend_from_slice(core::slice::from_ref(&item));
         true
     }
 
-    /// What a plain block comes to if it is a straight move that nothing is wrong with.
-    #[inline]
-    fn foresee(&self, block: &Block) -> Option<Straight> {
-        let modal = &self.state.modal;
-        let code = block.codes.motion.and_then(|motion| motion.code);
-        let motion = code.or(modal.motion)?;
-        let is_straight = matches!(motion, Motion::Rapid | Motion::Linear)
-            && block.has_any(AXIS_WORDS)
-            && block.unused(WORDS).is_none()
-            && !block.has_any(self.lacking);
-        if !is_straight || !self.is_plain(block.dialect) {
-            return None;
-        }
-        let scale = modal.units.mm();
-        let feed = match block.get(b'F') {
-            None => modal.feed,
-            Some(feed) if feed > 0.0 => Some(Feed {
-                linear_v: feed * scale / 60.0,
-                rotary_v: feed / 60.0,
-            }),
-            Some(_) => return None,
-        };
-        let start = &self.state.path_end;
-        let mut target = self.state.position;
-        for (axis, word) in block.axes() {
-            let i = axis.index();
-            target[i] = axis_value(axis, word, scale) + self.offsets.origin(i);
-        }
-        // As `settled` and `check_limits` have it, in one go.
-        let (mut end, mut is_zero, mut is_outside) = (target, true, false);
-        for i in 0..AXES {
-            let moves = (target[i] - start[i]).abs() > MIN_MOVE;
-            end[i] = if moves { target[i] } else { start[i] };
-            is_zero &= !moves;
-            is_outside |= self.reach.is_left_at(i, end[i]);
-        }
-        if is_outside && !is_zero {
-            return None;
-        }
-        let rate = match motion {
-            Motion::Rapid => Rate::Rapid,
-            _ => Rate::Feed(feed?.of_line(start, &end)),
-        };
-        Some(Straight {
-            motion,
-            feed,
-            rate,
-            target,
-            end,
-            is_zero,
-        })
-    }
-
-    /// True if nothing is in force that makes more of a straight move than its words say.
-    fn is_plain(&self, dialect: Dialect) -> bool {
-        let modal = &self.state.modal;
-        modal.distance == Distance::Absolute
+    /// Looks at what plain lines do not change; false if it makes more of a straight move than its words
+    /// say, or if an axis is not where it may be.
+    fn begin_course(&mut self) -> bool {
+        let (state, modal) = (&self.state, &self.state.modal);
+        let is_plain = modal.distance == Distance::Absolute
             && modal.feed_mode == FeedMode::PerMinute
             && !modal.diameter
-            && dialect != Dialect::Marlin
+            && self.options.dialect != Dialect::Marlin
             && !self.offsets.is_rotated()
             && self.compensation.is_none()
-            && !self.state.on_contour
+            && !state.on_contour
+            && !state.leaving_contour
             && self.open_spline.is_none()
-            && !self.state.spindle.follows_tool()
+            && !state.spindle.follows_tool();
+        let is_settled = |i: usize| {
+            (state.position[i] - state.path_end[i]).abs() <= MIN_MOVE
+                && !self.reach.is_left_at(i, state.path_end[i])
+        };
+        if !is_plain || !(0..AXES).all(is_settled) {
+            return false;
+        }
+        self.course = Course {
+            scale: modal.units.mm(),
+            origin: AxisVector::from_fn(|i, _| self.offsets.origin(i)),
+        };
+        true
     }
 }

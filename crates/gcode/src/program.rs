@@ -1,7 +1,7 @@
 //! A program as an iterator of items.
 
 use std::io::BufRead;
-use std::sync::Arc;
+use std::mem;
 
 use glidepath_geometry::AxisVector;
 use glidepath_motion::Item;
@@ -12,12 +12,12 @@ use crate::cursor::Cursor;
 use crate::diagnostic::{Code as FaultCode, Diagnostic, Fault, Outcome, Span};
 use crate::dialect::{Dialect, Tape};
 use crate::flow::Flow;
-use crate::flow_word::head;
 use crate::interpreter::{Flow as BlockFlow, Interpreter};
 use crate::modal::Modal;
 use crate::options::Options;
 use crate::parameters::{Parameters, ProgramScope};
 use crate::place::{Place, SourceLine};
+use crate::plain_move::StraightLine;
 use crate::source::LineSource;
 use crate::totals::Totals;
 
@@ -34,10 +34,14 @@ pub struct Program<R> {
     pub(crate) tape: Tape,
     pub(crate) place: Place,
     pub(crate) block: Block,
+    /// The line read last, if it was tried as a straight move.
+    pub(crate) straight: StraightLine,
+    /// The line executed last was one.
+    pub(crate) was_straight: bool,
     /// The lathe cycle whose profile is being read.
     pub(crate) contour: Option<Box<OpenContour>>,
     /// Items of the last block; the first `given` of them have been given out.
-    items: Vec<Item>,
+    pub(crate) items: Vec<Item>,
     given: usize,
     totals: Totals,
     /// Kept lines executed since the last item.
@@ -47,8 +51,8 @@ pub struct Program<R> {
     /// A percent line was read.
     percent: bool,
     /// A line with words was read.
-    begun: bool,
-    ended: bool,
+    pub(crate) begun: bool,
+    pub(crate) ended: bool,
 }
 
 impl<R: BufRead> Program<R> {
@@ -63,6 +67,8 @@ impl<R: BufRead> Program<R> {
             tape: Tape::default(),
             place: Place::Stream,
             block,
+            straight: StraightLine::default(),
+            was_straight: false,
             contour: None,
             items: Vec::new(),
             given: 0,
@@ -132,7 +138,8 @@ impl<R: BufRead> Program<R> {
         if self.ended {
             return None;
         }
-        let result = self.read_line();
+        let goes_on = mem::take(&mut self.was_straight);
+        let result = self.read_line(goes_on);
         self.totals.lines = self.source.number();
         match result {
             Ok(true) => Some(Ok(())),
@@ -177,57 +184,12 @@ impl<R: BufRead> Program<R> {
         }
     }
 
-    fn read_line(&mut self) -> Outcome<bool> {
+    fn read_line(&mut self, goes_on: bool) -> Outcome<bool> {
         match self.interpreter.options.dialect {
-            Dialect::LinuxCnc => self.read_linuxcnc(),
+            Dialect::LinuxCnc => self.read_linuxcnc(goes_on),
             Dialect::Fanuc => self.read_fanuc(),
             Dialect::Marlin | Dialect::Siemens => self.read_without_flow(),
         }
-    }
-
-    fn read_linuxcnc(&mut self) -> Outcome<bool> {
-        if let Some((code, index)) = self.flow.next_line() {
-            self.place = Place::Kept(Arc::clone(&code), index);
-            self.count_idle()?;
-            let has_head = code
-                .lines
-                .get(index)
-                .is_some_and(|line| line.head.is_some());
-            if has_head {
-                self.execute_flow(&code, index)?;
-                return self.close_contour().map(|()| true);
-            }
-            return self.execute_block();
-        }
-        if !matches!(self.place, Place::Stream) {
-            self.place = Place::Stream;
-        }
-        // A plain line has no slash and no O word, and its end is found on the way.
-        if self.flow.recorder.is_none()
-            && let Some(length) = self.block.parse_plain(self.source.ahead())
-            && self.source.pass(length)
-        {
-            return self.execute_parsed(self.source.number(), Ok(()));
-        }
-        if !self.source.advance()? {
-            return self.end_of_input();
-        }
-        if self.is_deleted() {
-            return Ok(true);
-        }
-        let head = head(self.source.text()).inspect_err(|_| self.ended = true)?;
-        if self.flow.recorder.is_none() && head.is_none() {
-            return self.execute_block();
-        }
-        if self.flow.recorder.is_some() && is_percent(self.source.text()) {
-            return self.end_of_input();
-        }
-        self.begun |= head.as_ref().is_some_and(|head| head.keyword.is_some());
-        let (number, text) = (self.source.number(), self.source.text().to_vec());
-        // What follows depends on every O word, so a finding in one ends the program.
-        self.read_flow(number, &text, head)
-            .inspect_err(|_| self.ended = true)?;
-        Ok(true)
     }
 
     /// Counts a line that may be executed again and again.
@@ -286,27 +248,20 @@ impl<R: BufRead> Program<R> {
         }
     }
 
+    /// Counts what a line came to.
+    #[inline]
+    pub(crate) fn end_of_line(&mut self) {
+        if !self.items.is_empty() || self.interpreter.has_judged {
+            self.idle_lines = 0;
+        }
+        self.count();
+        self.totals.zero_length_feeds += self.interpreter.zero_length.feeds;
+        self.totals.zero_length_rapids += self.interpreter.zero_length.rapids;
+    }
+
     pub(crate) fn is_deleted(&self) -> bool {
         self.interpreter.options.block_delete
             && Cursor::new(self.source.text()).next_visible() == Some(b'/')
-    }
-
-    /// Executes the line at the present place as a block.
-    fn execute_block(&mut self) -> Outcome<bool> {
-        let number = self.line_of_program();
-        let scope = ProgramScope {
-            parameters: &self.parameters,
-            interpreter: &self.interpreter,
-        };
-        let text = match &self.place {
-            Place::Kept(code, index) => match code.lines.get(*index) {
-                Some(line) => &*line.text,
-                None => return Ok(true),
-            },
-            _ => self.source.text(),
-        };
-        let parsed = self.block.parse(text, &scope);
-        self.execute_parsed(number, parsed)
     }
 
     /// Executes the block, once it has been read.
@@ -341,12 +296,7 @@ impl<R: BufRead> Program<R> {
         if let Some(asked) = asked {
             self.open_contour(&asked)?;
         }
-        if !self.items.is_empty() || self.interpreter.has_judged {
-            self.idle_lines = 0;
-        }
-        self.count();
-        self.totals.zero_length_feeds += self.interpreter.zero_length.feeds;
-        self.totals.zero_length_rapids += self.interpreter.zero_length.rapids;
+        self.end_of_line();
         // The items of the last block are still to be given out.
         self.ended = flow == BlockFlow::End;
         Ok(true)

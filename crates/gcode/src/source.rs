@@ -64,18 +64,20 @@ impl<R: BufRead> LineSource<R> {
         self.buffer.get(self.next..).unwrap_or_default()
     }
 
+    /// True if the end of the next line, of that length, is [`LineSource::ahead`] with a byte behind it.
+    #[inline]
+    pub(crate) fn is_complete(&self, length: usize) -> bool {
+        length <= MAX_LINE_BYTES && self.ahead().len() > length + 1
+    }
+
     /// Reads the next line, of that length, if its end is [`LineSource::ahead`] with a byte behind it;
     /// false if not.
     #[inline]
     pub(crate) fn pass(&mut self, length: usize) -> bool {
-        let ahead = self.ahead();
-        let Some(&behind) = ahead.get(length + 1) else {
-            return false;
-        };
-        let crlf = behind == b'\n' && ahead.get(length) == Some(&b'\r');
-        if length > MAX_LINE_BYTES {
+        if !self.is_complete(length) {
             return false;
         }
+        let crlf = self.ahead().get(length..length + 2) == Some(b"\r\n");
         self.line = self.next..self.next + length;
         self.next += length + 1 + usize::from(crlf);
         self.number = self.number.saturating_add(1);

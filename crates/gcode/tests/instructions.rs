@@ -42,25 +42,25 @@ const CASES: [Case; 6] = [
         name: "plain line, read",
         line: plain,
         read: run,
-        most: 1_700,
+        most: 1_450,
     },
     Case {
         name: "plain line, checked",
         line: plain,
         read: judge,
-        most: 1_780,
+        most: 1_520,
     },
     Case {
         name: "plain line, found right",
         line: plain,
         read: find,
-        most: 1_260,
+        most: 1_000,
     },
     Case {
         name: "two words, checked",
         line: short,
         read: judge,
-        most: 1_220,
+        most: 980,
     },
     Case {
         name: "arc, checked",
@@ -72,7 +72,7 @@ const CASES: [Case; 6] = [
         name: "line with a comment, checked",
         line: commented,
         read: judge,
-        most: 5_750,
+        most: 5_150,
     },
 ];
 

@@ -1,6 +1,7 @@
 //! What the languages of other controls have in the place of RS274/NGC's words.
 
 pub(crate) mod fanuc;
+mod linuxcnc;
 pub(crate) mod marlin;
 pub(crate) mod siemens;
 mod statement;
