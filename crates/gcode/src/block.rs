@@ -11,7 +11,7 @@ use crate::cursor::Cursor;
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::dialect::Dialect;
 use crate::expression::{Parameter, Scope, open_expression, parameter, value};
-use crate::letters::{AXIS_LETTERS, Words, slot};
+use crate::letters::{AXIS_LETTERS, Slot, Words};
 pub(crate) use crate::letters::{AXIS_WORDS, Letters};
 use crate::modes::Motion;
 use crate::plain::{Sink, read_plain};
@@ -83,7 +83,7 @@ impl Block {
                 length: 0,
             }
         } else {
-            self.spans[slot(letter)]
+            self.spans[Slot::of(letter).index()]
         }
     }
 
@@ -293,7 +293,7 @@ impl Block {
             b'M' if self.dialect == Dialect::Marlin => self.codes.add_printer_m(value, span),
             b'M' => self.codes.add_m(value, span),
             _ => self
-                .add_value(letter, value, span)
+                .add_value(Slot::of(letter), value, span)
                 .ok_or_else(|| duplicate(char::from(letter), span)),
         }
     }
@@ -314,10 +314,10 @@ impl Sink for Block {
     }
 
     #[inline]
-    fn add_value(&mut self, letter: u8, value: f64, span: Span) -> Option<()> {
-        self.words.add(letter, value)?;
+    fn add_value(&mut self, slot: Slot, value: f64, span: Span) -> Option<()> {
+        self.words.add(slot, value)?;
         self.any = true;
-        self.spans[slot(letter)] = span;
+        self.spans[slot.index()] = span;
         Some(())
     }
 }

@@ -21,14 +21,25 @@ const SLOTS: [usize; 26] = {
     slots
 };
 
-/// Where the value of a letter stands, in either case.
-pub(crate) const fn slot(letter: u8) -> usize {
-    SLOTS[(letter.to_ascii_uppercase().wrapping_sub(b'A') % 26) as usize]
-}
+/// Where what belongs to a letter stands, below 26.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Slot(u8);
 
-/// The letter in a set.
-pub(crate) const fn bit(letter: u8) -> u32 {
-    1 << slot(letter)
+impl Slot {
+    /// That of a letter, in either case.
+    #[expect(clippy::cast_possible_truncation, reason = "slots are below 26")]
+    pub(crate) const fn of(letter: u8) -> Self {
+        Self(SLOTS[(letter.to_ascii_uppercase().wrapping_sub(b'A') % 26) as usize] as u8)
+    }
+
+    pub(crate) const fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    /// The letter in a set.
+    const fn bit(self) -> u32 {
+        1 << (self.0 & 31)
+    }
 }
 
 /// A set of word letters, by their slots.
@@ -40,7 +51,7 @@ impl Letters {
         let mut bits = 0;
         let mut i = 0;
         while i < letters.len() {
-            bits |= bit(letters[i]);
+            bits |= Slot::of(letters[i]).bit();
             i += 1;
         }
         Self(bits)
@@ -49,11 +60,17 @@ impl Letters {
     /// The words of some axes.
     pub(crate) fn of_axes(wanted: impl Fn(Axis) -> bool) -> Self {
         let axes = Axis::ALL.into_iter().filter(|&axis| wanted(axis));
-        Self(axes.fold(0, |bits, axis| bits | bit(AXIS_LETTERS[axis.index()])))
+        Self(axes.fold(0, |bits, axis| {
+            bits | Slot::of(AXIS_LETTERS[axis.index()]).bit()
+        }))
     }
 
     pub(crate) const fn has(self, letter: u8) -> bool {
-        self.0 & bit(letter) != 0
+        self.holds(Slot::of(letter))
+    }
+
+    pub(crate) const fn holds(self, slot: Slot) -> bool {
+        self.0 & slot.bit() != 0
     }
 
     pub(crate) const fn is_empty(self) -> bool {
@@ -80,10 +97,11 @@ pub(crate) struct Words {
 impl Words {
     /// Value of a word.
     pub(crate) const fn get(&self, letter: u8) -> Option<f64> {
-        if self.present & bit(letter) == 0 {
+        let slot = Slot::of(letter);
+        if self.present & slot.bit() == 0 {
             None
         } else {
-            Some(self.values[slot(letter)])
+            Some(self.values[slot.index()])
         }
     }
 
@@ -116,12 +134,12 @@ impl Words {
 
     /// Adds a word; `None` if there is one of that letter.
     #[inline]
-    pub(crate) const fn add(&mut self, letter: u8, value: f64) -> Option<()> {
-        if self.present & bit(letter) != 0 {
+    pub(crate) const fn add(&mut self, slot: Slot, value: f64) -> Option<()> {
+        if self.present & slot.bit() != 0 {
             return None;
         }
-        self.present |= bit(letter);
-        self.values[slot(letter)] = value;
+        self.present |= slot.bit();
+        self.values[slot.index()] = value;
         Some(())
     }
 }

@@ -13,6 +13,7 @@
 
 use crate::cursor::POWERS;
 use crate::diagnostic::Span;
+use crate::letters::Slot;
 use crate::modes::Motion;
 
 /// Most digits of a number that is read here.
@@ -29,8 +30,8 @@ pub(crate) trait Sink {
     /// A motion code and where it stands; a second one is not wanted.
     fn add_motion(&mut self, motion: Motion, span: Span) -> Option<()>;
 
-    /// A word, in capitals, and where it stands; a second one of that letter is not wanted.
-    fn add_value(&mut self, letter: u8, value: f64, span: Span) -> Option<()>;
+    /// A word, by the slot of its letter, and where it stands; a second one of that letter is not wanted.
+    fn add_value(&mut self, slot: Slot, value: f64, span: Span) -> Option<()>;
 }
 
 /// Reads a plain line, of which `text` has all and may have more: where it ends, at a CR, an LF, or the
@@ -41,14 +42,25 @@ pub(crate) fn read_plain(text: &[u8], into: &mut impl Sink) -> Option<usize> {
     loop {
         // Blanks may stand inside numbers: what is no letter behind them is not plain.
         let mut at = end;
-        while matches!(text.get(at), Some(b' ' | b'\t')) {
-            at += 1;
-        }
-        let Some(&byte) = text.get(at) else {
-            return Some(at);
+        let kind = loop {
+            match text
+                .get(at)
+                .map_or(Kind::End, |&byte| KINDS[usize::from(byte)])
+            {
+                Kind::Blank => at += 1,
+                kind => break kind,
+            }
         };
-        match byte.to_ascii_uppercase() {
-            b'G' => {
+        match kind {
+            // Next to a digit it would be an exponent.
+            Kind::Exponent(_) if at == end && end > 0 => return None,
+            Kind::Word(slot) | Kind::Exponent(slot) => {
+                let value;
+                (value, end) = number(text, at + 1)?;
+                into.add_value(slot, value, Span::new(at, end))?;
+            }
+            Kind::End => return Some(at),
+            Kind::Code => {
                 let (digit, length) = match text.get(at + 1..)? {
                     [b'0', digit @ b'0'..=b'3', ..] => (digit, 2),
                     [digit @ b'0'..=b'3', ..] => (digit, 1),
@@ -58,26 +70,54 @@ pub(crate) fn read_plain(text: &[u8], into: &mut impl Sink) -> Option<usize> {
                 end = at + 1 + length;
                 into.add_motion(motion, Span::new(at, end))?;
             }
-            b'N' if end == 0 => {
+            Kind::Number if end == 0 => {
                 let (_, digits) = digits(text, at + 1);
                 if digits == 0 || digits > MOST_WHOLE {
                     return None;
                 }
                 end = at + 1 + digits;
             }
-            // Next to a digit it would be an exponent.
-            b'E' if at == end && end > 0 => return None,
-            b'M' | b'N' | b'O' => return None,
-            letter @ b'A'..=b'Z' => {
-                let value;
-                (value, end) = number(text, at + 1)?;
-                into.add_value(letter, value, Span::new(at, end))?;
-            }
-            b'\n' | b'\r' => return Some(at),
-            _ => return None,
+            Kind::Number | Kind::Blank | Kind::Odd => return None,
         }
     }
 }
+
+/// What a byte may begin.
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    Blank,
+    /// Of the line.
+    End,
+    /// G.
+    Code,
+    /// N.
+    Number,
+    /// E.
+    Exponent(Slot),
+    /// Any other word with a value.
+    Word(Slot),
+    /// Nothing in a plain line.
+    Odd,
+}
+
+const KINDS: [Kind; 256] = {
+    let mut kinds = [Kind::Odd; 256];
+    let mut byte = 0_u8;
+    while byte < 128 {
+        kinds[byte as usize] = match byte.to_ascii_uppercase() {
+            b' ' | b'\t' => Kind::Blank,
+            b'\n' | b'\r' => Kind::End,
+            b'G' => Kind::Code,
+            b'N' => Kind::Number,
+            b'E' => Kind::Exponent(Slot::of(b'E')),
+            b'M' | b'O' => Kind::Odd,
+            letter @ b'A'..=b'Z' => Kind::Word(Slot::of(letter)),
+            _ => Kind::Odd,
+        };
+        byte += 1;
+    }
+    kinds
+};
 
 /// The motion codes, by number.
 const MOTIONS: [Motion; 4] = [
@@ -88,7 +128,7 @@ const MOTIONS: [Motion; 4] = [
 ];
 
 /// A number, and where it ends.
-#[inline]
+#[inline(always)]
 fn number(text: &[u8], start: usize) -> Option<(f64, usize)> {
     let sign = text.get(start)?;
     let negative = *sign == b'-';
@@ -100,7 +140,7 @@ fn number(text: &[u8], start: usize) -> Option<(f64, usize)> {
 
 /// The digits of a number as one, how many of them are decimals, and where it ends; `None` if it does
 /// not end within eight bytes.
-#[inline]
+#[inline(always)]
 fn short(text: &[u8], start: usize) -> Option<(f64, usize, usize)> {
     let word = eight(text, start) ^ ZEROS;
     let odd = odd(word);

@@ -26,7 +26,7 @@ use crate::cycle::Cycles;
 use crate::diagnostic::Span;
 use crate::dialect::Dialect;
 use crate::interpreter::Interpreter;
-use crate::letters::{Letters, Words};
+use crate::letters::{Letters, Slot, Words};
 use crate::modal::Feed;
 use crate::modes::{Distance, FeedMode, Motion};
 use crate::moves::{MIN_MOVE, Pace};
@@ -63,9 +63,8 @@ impl Sink for StraightLine {
     }
 
     #[inline]
-    fn add_value(&mut self, letter: u8, value: f64, _: Span) -> Option<()> {
-        let added = WORDS.has(letter).then(|| self.words.add(letter, value));
-        self.says_more = added.flatten().is_none();
+    fn add_value(&mut self, slot: Slot, value: f64, _: Span) -> Option<()> {
+        self.says_more = !WORDS.holds(slot) || self.words.add(slot, value).is_none();
         (!self.says_more).then_some(())
     }
 }

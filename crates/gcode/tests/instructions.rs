@@ -42,25 +42,25 @@ const CASES: [Case; 6] = [
         name: "plain line, read",
         line: plain,
         read: run,
-        most: 1_450,
+        most: 1_320,
     },
     Case {
         name: "plain line, checked",
         line: plain,
         read: judge,
-        most: 1_520,
+        most: 1_390,
     },
     Case {
         name: "plain line, found right",
         line: plain,
         read: find,
-        most: 1_000,
+        most: 870,
     },
     Case {
         name: "two words, checked",
         line: short,
         read: judge,
-        most: 980,
+        most: 890,
     },
     Case {
         name: "arc, checked",
@@ -72,7 +72,7 @@ const CASES: [Case; 6] = [
         name: "line with a comment, checked",
         line: commented,
         read: judge,
-        most: 5_150,
+        most: 5_050,
     },
 ];
 
