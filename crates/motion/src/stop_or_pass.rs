@@ -5,7 +5,7 @@
 //! at rest, or as fast as both ways allow. A transition has to win in each case, so that replacing
 //! stops by transitions one after the other never makes a path slower.
 
-use crate::scurve::{PathLimits, Profile, reachable_speed};
+use crate::scurve::{PathLimits, fastest_duration, reachable_speed};
 
 /// True if a stop is faster in some case. The transition can be driven at up to `corner_v` and is
 /// `transition_s` long.
@@ -18,9 +18,18 @@ pub(crate) fn stop_is_faster(sides: &[Side; 2], corner_v: f64, transition_s: f64
     {
         return false;
     }
-    [[false, false], [true, false], [false, true], [true, true]]
-        .into_iter()
-        .any(|fast| stop_gain_t(sides, fast, corner_v, transition_s) > 0.0)
+    let [rest, next_rest] = sides.map(|side| Leg::new(side, 0.0, corner_v));
+    if stop_gain_t([&rest, &next_rest], transition_s) > 0.0 {
+        return true;
+    }
+    let [fast, next_fast] = sides.map(|side| Leg::new(side, side.fast_v(corner_v), corner_v));
+    [
+        [&fast, &next_rest],
+        [&rest, &next_fast],
+        [&fast, &next_fast],
+    ]
+    .into_iter()
+    .any(|legs| stop_gain_t(legs, transition_s) > 0.0)
 }
 
 /// A segment beside a corner.
@@ -33,40 +42,59 @@ pub(crate) struct Side {
     pub change: PathLimits,
 }
 
-/// What stopping at the corner gains over passing it at up to `corner_v`, s; with the far end of
-/// each side at rest, or fast.
-fn stop_gain_t(sides: &[Side; 2], fast: [bool; 2], corner_v: f64, transition_s: f64) -> f64 {
-    let far_v = [0, 1].map(|i| {
-        let Side {
-            length_s,
-            left_s,
-            top_v,
-            change,
-        } = sides[i];
-        let reach_v = reachable_speed(0.0, length_s, change)
-            .min(reachable_speed(corner_v, left_s, change))
-            .min(top_v);
-        if fast[i] { reach_v } else { 0.0 }
-    });
-    let corner_v = [0, 1]
-        .map(|i| reachable_speed(far_v[i], sides[i].left_s, sides[i].change))
-        .into_iter()
-        .fold(corner_v, f64::min);
-    let passing_t = transition_s / corner_v;
-    let mut gain_t = passing_t;
-    for (side, far_v) in sides.iter().zip(far_v) {
-        let Side {
-            length_s,
-            left_s,
-            top_v,
-            change,
-        } = *side;
-        let stopping = Profile::new(0.0, far_v, length_s, top_v, change);
-        let passing = Profile::new(corner_v, far_v, left_s, top_v, change);
-        let (Some(stopping), Some(passing)) = (stopping, passing) else {
-            return 0.0;
-        };
-        gain_t += passing.duration_t() - stopping.duration_t();
+impl Side {
+    /// The speed its far end can be passed at, from a stop and from the corner.
+    fn fast_v(&self, corner_v: f64) -> f64 {
+        reachable_speed(0.0, self.length_s, self.change)
+            .min(reachable_speed(corner_v, self.left_s, self.change))
+            .min(self.top_v)
     }
-    gain_t
+
+    /// How long what a transition leaves of it takes, s.
+    fn passing_t(&self, corner_v: f64, far_v: f64) -> Option<f64> {
+        fastest_duration(corner_v, far_v, self.left_s, self.top_v, self.change)
+    }
+}
+
+/// A side with a speed at its far end.
+struct Leg {
+    side: Side,
+    far_v: f64,
+    /// What the far end leaves of the speed of the corner.
+    corner_v: f64,
+    stopping_t: Option<f64>,
+    /// With that speed at the corner.
+    passing_t: Option<f64>,
+}
+
+impl Leg {
+    fn new(side: Side, far_v: f64, corner_v: f64) -> Self {
+        let corner_v = corner_v.min(reachable_speed(far_v, side.left_s, side.change));
+        Self {
+            side,
+            far_v,
+            corner_v,
+            stopping_t: fastest_duration(0.0, far_v, side.length_s, side.top_v, side.change),
+            passing_t: side.passing_t(corner_v, far_v),
+        }
+    }
+
+    /// What passing the corner takes longer than stopping there, s.
+    fn loss_t(&self, corner_v: f64) -> Option<f64> {
+        let passing_t = if corner_v < self.corner_v {
+            self.side.passing_t(corner_v, self.far_v)
+        } else {
+            self.passing_t
+        };
+        Some(passing_t? - self.stopping_t?)
+    }
+}
+
+/// What stopping at the corner gains over passing it by a transition of that length, s.
+fn stop_gain_t(legs: [&Leg; 2], transition_s: f64) -> f64 {
+    let corner_v = legs[0].corner_v.min(legs[1].corner_v);
+    match legs.map(|leg| leg.loss_t(corner_v)) {
+        [Some(first), Some(second)] => transition_s / corner_v + first + second,
+        _ => 0.0,
+    }
 }

@@ -25,8 +25,8 @@ mod speed_change;
 mod whole_ticks;
 
 pub use phase::PathState;
-pub(crate) use profile::Extremes;
 pub use profile::Profile;
+pub(crate) use profile::{Extremes, fastest_duration};
 pub use ramp::{PathLimits, ramp_fits, ramp_length, reachable_speed, slowing_horizon};
 pub use speed_change::SpeedChange;
 pub use whole_ticks::{WholeTicks, speed_up_in_whole_ticks};

@@ -25,36 +25,9 @@ impl Profile {
         top_v: f64,
         limits: PathLimits,
     ) -> Option<Self> {
-        if !ramp_fits(entry_v, exit_v, length_s, limits) {
-            return None;
-        }
-        let base_v = entry_v.max(exit_v);
-        let headroom_v = (top_v - base_v).max(0.0);
-        let rise_v = peak_rise(entry_v, exit_v, length_s, headroom_v, limits);
-        let peak_v = base_v + rise_v;
-        // From the differences, not from the rounded peak: they matter where the length is tiny.
-        let up = Ramp::new(base_v - entry_v + rise_v, limits);
-        let down = Ramp::new(base_v - exit_v + rise_v, limits);
-        let ramps_s = 0.5 * (entry_v + peak_v) * up.duration_t()
-            + 0.5 * (peak_v + exit_v) * down.duration_t();
-        let cruise_t = if peak_v > 0.0 {
-            ((length_s - ramps_s) / peak_v).max(0.0)
-        } else {
-            0.0
-        };
-        let mut profile = Self::from_phases(
-            entry_v,
-            [
-                (up.jerk_t, up.jerk_j),
-                (up.accel_t, 0.0),
-                (up.jerk_t, -up.jerk_j),
-                (cruise_t, 0.0),
-                (down.jerk_t, -down.jerk_j),
-                (down.accel_t, 0.0),
-                (down.jerk_t, down.jerk_j),
-            ],
-        );
-        profile.peak_v = peak_v;
+        let outline = Outline::new(entry_v, exit_v, length_s, top_v, limits)?;
+        let mut profile = Self::from_phases(entry_v, outline.phases());
+        profile.peak_v = outline.peak_v;
         profile.end = PathState {
             position_s: length_s,
             speed_v: exit_v,
@@ -235,6 +208,75 @@ impl Profile {
             state: self.phases[0].at(0.0),
         }
     }
+}
+
+/// The phases of a profile without their states.
+struct Outline {
+    up: Ramp,
+    cruise_t: f64,
+    down: Ramp,
+    peak_v: f64,
+}
+
+impl Outline {
+    /// As [`Profile::new`].
+    fn new(
+        entry_v: f64,
+        exit_v: f64,
+        length_s: f64,
+        top_v: f64,
+        limits: PathLimits,
+    ) -> Option<Self> {
+        if !ramp_fits(entry_v, exit_v, length_s, limits) {
+            return None;
+        }
+        let base_v = entry_v.max(exit_v);
+        let headroom_v = (top_v - base_v).max(0.0);
+        let rise_v = peak_rise(entry_v, exit_v, length_s, headroom_v, limits);
+        let peak_v = base_v + rise_v;
+        // From the differences, not from the rounded peak: they matter where the length is tiny.
+        let up = Ramp::new(base_v - entry_v + rise_v, limits);
+        let down = Ramp::new(base_v - exit_v + rise_v, limits);
+        let ramps_s = 0.5 * (entry_v + peak_v) * up.duration_t()
+            + 0.5 * (peak_v + exit_v) * down.duration_t();
+        let cruise_t = if peak_v > 0.0 {
+            ((length_s - ramps_s) / peak_v).max(0.0)
+        } else {
+            0.0
+        };
+        Some(Self {
+            up,
+            cruise_t,
+            down,
+            peak_v,
+        })
+    }
+
+    /// Duration and jerk of each.
+    const fn phases(&self) -> [(f64, f64); 7] {
+        let Self { up, down, .. } = self;
+        [
+            (up.jerk_t, up.jerk_j),
+            (up.accel_t, 0.0),
+            (up.jerk_t, -up.jerk_j),
+            (self.cruise_t, 0.0),
+            (down.jerk_t, -down.jerk_j),
+            (down.accel_t, 0.0),
+            (down.jerk_t, down.jerk_j),
+        ]
+    }
+}
+
+/// How long [`Profile::new`] takes with the same arguments, s.
+pub(crate) fn fastest_duration(
+    entry_v: f64,
+    exit_v: f64,
+    length_s: f64,
+    top_v: f64,
+    limits: PathLimits,
+) -> Option<f64> {
+    let outline = Outline::new(entry_v, exit_v, length_s, top_v, limits)?;
+    Some(outline.phases().into_iter().map(|(t, _)| t).sum())
 }
 
 /// A place on a profile.
