@@ -5,7 +5,7 @@
 //! at rest, or as fast as both ways allow. A transition has to win in each case, so that replacing
 //! stops by transitions one after the other never makes a path slower.
 
-use crate::scurve::{PathLimits, fastest_duration, reachable_speed};
+use crate::scurve::{Outline, PathLimits, reachable_speed};
 
 /// True if a stop is faster in some case. The transition can be driven at up to `corner_v` and is
 /// `transition_s` long.
@@ -50,9 +50,10 @@ impl Side {
             .min(self.top_v)
     }
 
-    /// How long what a transition leaves of it takes, s.
-    fn passing_t(&self, corner_v: f64, far_v: f64) -> Option<f64> {
-        fastest_duration(corner_v, far_v, self.left_s, self.top_v, self.change)
+    /// How long so much of it takes, s.
+    fn duration_t(&self, corner_v: f64, far_v: f64, length_s: f64) -> Option<f64> {
+        let outline = Outline::new(corner_v, far_v, length_s, self.top_v, self.change);
+        outline.map(|outline| outline.duration_t())
     }
 }
 
@@ -74,15 +75,15 @@ impl Leg {
             side,
             far_v,
             corner_v,
-            stopping_t: fastest_duration(0.0, far_v, side.length_s, side.top_v, side.change),
-            passing_t: side.passing_t(corner_v, far_v),
+            stopping_t: side.duration_t(0.0, far_v, side.length_s),
+            passing_t: side.duration_t(corner_v, far_v, side.left_s),
         }
     }
 
     /// What passing the corner takes longer than stopping there, s.
     fn loss_t(&self, corner_v: f64) -> Option<f64> {
         let passing_t = if corner_v < self.corner_v {
-            self.side.passing_t(corner_v, self.far_v)
+            self.side.duration_t(corner_v, self.far_v, self.side.left_s)
         } else {
             self.passing_t
         };

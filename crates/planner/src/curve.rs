@@ -14,7 +14,6 @@ use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_motion::{PathMode, Rate, Settings};
 
 use crate::file_moves::{FileMoves, Next, supply, survey};
-use crate::fingerprint::fingerprint;
 use crate::{ItemSource, Supply};
 
 /// Part of the tolerance that chords may take.
@@ -154,6 +153,6 @@ impl ItemSource for CurveSource {
     }
 
     fn fingerprint(&self) -> u64 {
-        fingerprint(self.moves.text())
+        self.moves.fingerprint()
     }
 }

@@ -4,6 +4,7 @@ use glidepath_gcode::{Code, Diagnostic, Options, Report, Survey, Totals};
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_motion::{Item, ItemKind, PathMode, Rate};
 
+use crate::fingerprint::fingerprint;
 use crate::{Refusal, Supply};
 
 /// An item, the end of the curve, or what is wrong with it.
@@ -13,6 +14,7 @@ pub(crate) type Next = Result<Option<Item>, Box<Diagnostic>>;
 #[derive(Debug)]
 pub(crate) struct FileMoves {
     text: String,
+    fingerprint: u64,
     place: core::ops::Range<usize>,
     line: u32,
     options: Options,
@@ -28,6 +30,7 @@ impl FileMoves {
             line: u32::try_from(before.matches('\n').count() + 1).unwrap_or(u32::MAX),
             position: options.start,
             totals: Totals::default(),
+            fingerprint: fingerprint(&text),
             text,
             place,
             options,
@@ -36,6 +39,11 @@ impl FileMoves {
 
     pub(crate) fn text(&self) -> &str {
         &self.text
+    }
+
+    /// That of the text: see [`crate::ItemSource::fingerprint`].
+    pub(crate) const fn fingerprint(&self) -> u64 {
+        self.fingerprint
     }
 
     /// Where the last move ends, mm and degrees.

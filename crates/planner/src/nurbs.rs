@@ -12,7 +12,6 @@ use glidepath_geometry::{AXES, Axis, AxisVector, Nurbs, NurbsPath, Segment};
 use glidepath_motion::{PathMode, Rate, Settings};
 
 use crate::file_moves::{FileMoves, Next, supply, survey};
-use crate::fingerprint::fingerprint;
 use crate::{ItemSource, Supply};
 
 /// Part of the tolerance that pieces may be away from the curve.
@@ -171,6 +170,6 @@ impl ItemSource for NurbsSource {
     }
 
     fn fingerprint(&self) -> u64 {
-        fingerprint(self.moves.text())
+        self.moves.fingerprint()
     }
 }

@@ -45,7 +45,7 @@ pub trait ItemSource {
     /// Lines of program text read so far; for a source without text, items received.
     fn lines_read(&self) -> u64;
 
-    /// Identifies the text of the program, 0 if it cannot be read again.
+    /// Identifies the text of the program, 0 if it cannot be read again. Every frame asks for it.
     fn fingerprint(&self) -> u64 {
         0
     }

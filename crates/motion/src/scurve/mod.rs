@@ -26,7 +26,7 @@ mod whole_ticks;
 
 pub use phase::PathState;
 pub use profile::Profile;
-pub(crate) use profile::{Extremes, fastest_duration};
+pub(crate) use profile::{Extremes, Outline};
 pub use ramp::{PathLimits, ramp_fits, ramp_length, reachable_speed, slowing_horizon};
 pub use speed_change::SpeedChange;
 pub use whole_ticks::{WholeTicks, speed_up_in_whole_ticks};

@@ -211,7 +211,7 @@ impl Profile {
 }
 
 /// The phases of a profile without their states.
-struct Outline {
+pub(crate) struct Outline {
     up: Ramp,
     cruise_t: f64,
     down: Ramp,
@@ -220,7 +220,7 @@ struct Outline {
 
 impl Outline {
     /// As [`Profile::new`].
-    fn new(
+    pub(crate) fn new(
         entry_v: f64,
         exit_v: f64,
         length_s: f64,
@@ -252,6 +252,11 @@ impl Outline {
         })
     }
 
+    /// How long the motion takes, s.
+    pub(crate) fn duration_t(&self) -> f64 {
+        self.phases().into_iter().map(|(phase_t, _)| phase_t).sum()
+    }
+
     /// Duration and jerk of each.
     const fn phases(&self) -> [(f64, f64); 7] {
         let Self { up, down, .. } = self;
@@ -265,18 +270,6 @@ impl Outline {
             (down.jerk_t, down.jerk_j),
         ]
     }
-}
-
-/// How long [`Profile::new`] takes with the same arguments, s.
-pub(crate) fn fastest_duration(
-    entry_v: f64,
-    exit_v: f64,
-    length_s: f64,
-    top_v: f64,
-    limits: PathLimits,
-) -> Option<f64> {
-    let outline = Outline::new(entry_v, exit_v, length_s, top_v, limits)?;
-    Some(outline.phases().into_iter().map(|(t, _)| t).sum())
 }
 
 /// A place on a profile.
