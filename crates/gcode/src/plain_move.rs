@@ -166,18 +166,24 @@ impl Interpreter {
                 Some(feed) if motion != Motion::Rapid => Rate::Feed(feed.of_line(&start, &end)),
                 _ => Rate::Rapid,
             };
-            let item = Item {
-                line: self.line,
-                kind: ItemKind::Move {
-                    segment: Segment::Line(Line { start, end }),
-                    rate,
-                    mode: state.modal.path_mode,
-                },
-            };
-            // Not `push`, which copies twice.
-            out.extend_from_slice(core::slice::from_ref(&item));
+            self.give_out(&start, &end, rate, out);
         }
         true
+    }
+
+    #[inline]
+    fn give_out(&self, start: &AxisVector, end: &AxisVector, rate: Rate, out: &mut Vec<Item>) {
+        let (start, end) = (*start, *end);
+        let item = Item {
+            line: self.line,
+            kind: ItemKind::Move {
+                segment: Segment::Line(Line { start, end }),
+                rate,
+                mode: self.state.modal.path_mode,
+            },
+        };
+        // Not `push`, which copies twice.
+        out.extend_from_slice(core::slice::from_ref(&item));
     }
 
     /// Looks at what plain lines do not change; false if it makes more of a straight move than its words
