@@ -16,7 +16,7 @@
 
 use super::band::{Band, Block};
 use super::problem::{DIFFERENCES, HARD, Problem, SPAN, combine, dot};
-use super::sides::Sides;
+use super::sides::{Sides, TwoSides};
 
 /// Share of the way to the boundary that a step may go.
 const BACK_OFF: f64 = 0.99;
@@ -56,7 +56,6 @@ pub(in crate::window) struct Interior<const D: usize> {
     sides: Sides,
     band: Band<D>,
     step: Vec<[f64; D]>,
-    d_rows: Vec<f64>,
     /// Coefficients of the differences, by order and first control point, folded at the end.
     stencils: [Vec<[f64; 4]>; 3],
     orders: [bool; 3],
@@ -76,7 +75,6 @@ impl<const D: usize> Interior<D> {
             sides: Sides::default(),
             band: Band::new(),
             step: Vec::new(),
-            d_rows: Vec::new(),
             stencils: [Vec::new(), Vec::new(), Vec::new()],
             orders: [true; 3],
             work: 0,
@@ -130,12 +128,10 @@ impl<const D: usize> Interior<D> {
             }
             self.work += work;
             self.sides.aim_at_zero();
-            self.sides.weigh();
             self.assemble(problem, goal.damping);
             self.band.factor(problem.free());
             self.direction(problem, x);
             self.sides.aim_at(mu, pairs);
-            self.sides.weigh();
             self.direction(problem, x);
             let step = (BACK_OFF * self.sides.room()).min(1.0);
             self.sides.advance(step);
@@ -164,10 +160,8 @@ impl<const D: usize> Interior<D> {
 
     /// How much the elastic rows of the last solution are violated at most.
     pub(in crate::window) fn violation(&self) -> f64 {
-        let sides = self.sides.g.iter().zip(&self.sides.price);
-        sides
-            .filter(|(_, price)| **price < HARD)
-            .fold(0.0, |most, (g, _)| g.max(most))
+        let violations = self.sides.rows.iter().filter_map(TwoSides::violation);
+        violations.fold(0.0, f64::max)
     }
 
     /// Sizes everything; the number of complementary pairs.
@@ -185,67 +179,58 @@ impl<const D: usize> Interior<D> {
                 axis_rows += D * self.stencils[order].len();
             }
         }
-        let rows = axis_rows + problem.rows.len();
-        self.sides.resize(2 * rows);
-        self.d_rows.clear();
-        self.d_rows.resize(rows, 0.0);
-        self.sides.price[..2 * axis_rows].fill(HARD);
-        let prices = self.sides.price[2 * axis_rows..].chunks_exact_mut(2);
-        for (price, row) in prices.zip(&problem.rows) {
-            price.fill(row.price);
-        }
+        let rows = &mut self.sides.rows;
+        rows.clear();
+        rows.resize(axis_rows, TwoSides::of(HARD));
+        rows.extend(problem.rows.iter().map(|row| TwoSides::of(row.price)));
         #[expect(clippy::cast_precision_loss, reason = "thousands")]
         let pairs = (2 * axis_rows + 4 * problem.rows.len()) as f64;
         pairs
     }
 
-    /// Values of all rows, of the control points or of a step of them, handed to `take`.
-    fn rows_of(
-        &self,
-        problem: &Problem<D>,
-        x: &[[f64; D]],
-        mut take: impl FnMut(usize, f64, [f64; 2]),
-    ) {
-        let mut index = 0;
+    /// Values of all rows in their order, of the control points or of a step of them, and their bounds,
+    /// handed to `take`.
+    fn rows_of(&self, problem: &Problem<D>, x: &[[f64; D]], mut take: impl FnMut(f64, [f64; 2])) {
         for order in 0..3 {
             let start = first_difference(order);
+            let bounds = &problem.bounds[order];
             for k in 0..self.stencils[order].len() {
                 let y = combine(x, start + k, &DIFFERENCES[order]);
-                for a in 0..D {
-                    take(index, y[a] / problem.bounds[order][a], [-1.0, 1.0]);
-                    index += 1;
+                for (value, bound) in y.iter().zip(bounds) {
+                    take(value / bound, [-1.0, 1.0]);
                 }
             }
         }
         for site in &problem.sites {
             let y = combine(x, site.first, &site.weights);
             for row in &problem.rows[site.rows.clone()] {
-                take(index, dot(&row.normal, &y), [row.low, row.high]);
-                index += 1;
+                take(dot(&row.normal, &y), [row.low, row.high]);
             }
         }
     }
 
     fn evaluate(&mut self, problem: &Problem<D>, x: &[[f64; D]]) {
-        let mut g = core::mem::take(&mut self.sides.g);
-        self.rows_of(problem, x, |row, value, [low, high]| {
-            g[2 * row] = value - high;
-            g[2 * row + 1] = low - value;
+        let mut sides = core::mem::take(&mut self.sides);
+        let mut rows = sides.rows.iter_mut();
+        self.rows_of(problem, x, |value, [low, high]| {
+            if let Some(row) = rows.next() {
+                row.g = [value - high, low - value];
+            }
         });
-        self.sides.g = g;
+        self.sides = sides;
     }
 
     /// The matrix of the normal equations.
     fn assemble(&mut self, problem: &Problem<D>, damping: f64) {
         self.band.clear(problem.intervals + 3);
-        let mut index = 0;
+        let mut weights = self.sides.rows.iter().map(TwoSides::weight);
+        let mut next_weight = || weights.next().unwrap_or(0.0);
         for order in 0..3 {
             let start = first_difference(order);
             for (k, stencil) in self.stencils[order].iter().enumerate() {
                 for a in 0..D {
-                    let weight = self.sides.weight[2 * index] + self.sides.weight[2 * index + 1];
                     let bound = problem.bounds[order][a];
-                    let weight = weight / (bound * bound);
+                    let weight = next_weight() / (bound * bound);
                     for i in 0..4 {
                         for j in 0..=i {
                             self.band.add_axis(
@@ -256,21 +241,19 @@ impl<const D: usize> Interior<D> {
                             );
                         }
                     }
-                    index += 1;
                 }
             }
         }
         for site in &problem.sites {
             let mut block: Block<D> = [[0.0; D]; D];
             for row in &problem.rows[site.rows.clone()] {
-                let weight = self.sides.weight[2 * index] + self.sides.weight[2 * index + 1];
+                let weight = next_weight();
                 for a in 0..D {
                     let scaled = weight * row.normal[a];
                     for b in 0..D {
                         block[a][b] += scaled * row.normal[b];
                     }
                 }
-                index += 1;
             }
             for a in 0..D {
                 block[a][a] += site.ridge;
@@ -307,28 +290,25 @@ impl<const D: usize> Interior<D> {
                 step[k][a] += aim[a];
             }
         }
-        let force = |index: usize| self.sides.force[2 * index] - self.sides.force[2 * index + 1];
-        let mut index = 0;
+        let mut forces = self.sides.rows.iter().map(TwoSides::force);
+        let mut next_force = || forces.next().unwrap_or(0.0);
         for order in 0..3 {
             let start = first_difference(order);
             for (k, stencil) in self.stencils[order].iter().enumerate() {
-                for a in 0..D {
-                    let pull = force(index) / problem.bounds[order][a];
-                    for i in 0..4 {
-                        step[start + k + i][a] -= stencil[i] * pull;
-                    }
-                    index += 1;
+                let mut pull = [0.0; D];
+                for (pull, bound) in pull.iter_mut().zip(&problem.bounds[order]) {
+                    *pull = next_force() / bound;
                 }
+                take_away(step, start + k, stencil, &pull);
             }
         }
         for site in &problem.sites {
             let mut pull = [0.0; D];
             for row in &problem.rows[site.rows.clone()] {
-                let force = force(index);
+                let force = next_force();
                 for a in 0..D {
                     pull[a] += force * row.normal[a];
                 }
-                index += 1;
             }
             if site.ridge > 0.0 {
                 let y = combine(x, site.first, &site.weights);
@@ -342,14 +322,7 @@ impl<const D: usize> Interior<D> {
                 }
             }
             let weights = fold(site.first, site.weights, problem);
-            for i in 0..SPAN {
-                if weights[i] == 0.0 {
-                    continue;
-                }
-                for a in 0..D {
-                    step[site.first + i][a] -= weights[i] * pull[a];
-                }
-            }
+            take_away(step, site.first, &weights, &pull);
         }
         self.band.solve(problem.free(), &mut self.step);
         for k in 0..3 {
@@ -363,16 +336,35 @@ impl<const D: usize> Interior<D> {
         for k in last..last + 3 {
             self.step[k] = end;
         }
-        let mut d_rows = core::mem::take(&mut self.d_rows);
-        self.rows_of(problem, &self.step, |row, value, _| d_rows[row] = value);
-        self.sides.follow(&d_rows);
-        self.d_rows = d_rows;
+        let mut sides = core::mem::take(&mut self.sides);
+        let mut rows = sides.rows.iter_mut();
+        self.rows_of(problem, &self.step, |change, _| {
+            if let Some(row) = rows.next() {
+                row.follow(change);
+            }
+        });
+        self.sides = sides;
     }
 }
 
 /// The first control point of the first difference that is not given by the start alone.
 const fn first_difference(order: usize) -> usize {
     2 - order
+}
+
+/// Takes a pull on a weighted sum of consecutive points from their steps.
+#[inline]
+fn take_away<const D: usize, const N: usize>(
+    step: &mut [[f64; D]],
+    first: usize,
+    weights: &[f64; N],
+    pull: &[f64; D],
+) {
+    for (point, weight) in step[first..].iter_mut().zip(weights) {
+        for a in 0..D {
+            point[a] -= weight * pull[a];
+        }
+    }
 }
 
 /// The last control points are one unknown: its coefficients add up.
@@ -382,8 +374,8 @@ fn fold<const D: usize, const N: usize>(
     problem: &Problem<D>,
 ) -> [f64; N] {
     let last = problem.intervals;
-    for i in 0..N {
-        if first + i > last && first <= last {
+    if first <= last && first + N > last + 1 {
+        for i in last - first + 1..N {
             weights[last - first] += weights[i];
             weights[i] = 0.0;
         }
