@@ -21,8 +21,9 @@
 //! rotary axis by itself.
 
 use super::bend::Bend;
+use super::beside::Beside;
 use super::track::{Piece, Track};
-use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+use glidepath_geometry::AxisVector;
 
 /// Part of a chord, as parameters 0…1; empty if `from` > `to`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,8 +33,8 @@ pub(super) struct Span {
 }
 
 impl Span {
-    const EMPTY: Self = Self { from: 1.0, to: 0.0 };
-    const WHOLE: Self = Self { from: 0.0, to: 1.0 };
+    pub(super) const EMPTY: Self = Self { from: 1.0, to: 0.0 };
+    pub(super) const WHOLE: Self = Self { from: 0.0, to: 1.0 };
 
     pub(super) fn is_empty(self) -> bool {
         // Not a number is nowhere.
@@ -50,7 +51,7 @@ impl Span {
         }
     }
 
-    fn cut(self, other: Self) -> Self {
+    pub(super) fn cut(self, other: Self) -> Self {
         Self {
             from: self.from.max(other.from),
             to: self.to.min(other.to),
@@ -290,10 +291,10 @@ const HALF_STEP: f64 = 0.0625;
 const MIDDLES: [f64; 3] = [0.5, 0.25, 0.0625];
 
 impl Shift {
-    /// The part of a chord from which the vertex at the end of a piece is within `corner_r`
+    /// The part of a chord from which the vertex at the end of a piece, beside it, is within `corner_r`
     /// tolerances, less what holds there. Distance and loss are convex, so it is a span, and the
     /// parts of it found are joined.
-    fn near_vertex(&self, piece: &Piece, corner_r: f64, [from, to]: [&AxisVector; 2]) -> Span {
+    fn near_vertex(&self, piece: &Piece, corner_r: f64, beside: &Beside) -> Span {
         let all = self.before.iter().chain(&self.now);
         let sagitta_r = all.fold(0.0_f64, |most, s| most.max(piece.distance_r(s)));
         let change_r = [self.before, self.now]
@@ -309,7 +310,7 @@ impl Shift {
                 to: 0.5 + half,
             };
             let share_r = (corner_r - loss_r).max(0.0);
-            let part = near(piece, share_r, from, to, &piece.end).cut(middle);
+            let part = beside.within(share_r).cut(middle);
             if !part.is_empty() {
                 joined = Span {
                     from: joined.from.min(part.from),
@@ -342,55 +343,17 @@ fn cell(
     if left.is_empty() && bottom.is_empty() {
         return (Span::EMPTY, Span::EMPTY);
     }
-    let mut right = near(piece, 1.0, &piece.start, &piece.end, to);
+    let mut right = Beside::new(piece, [&piece.start, &piece.end], to).within(1.0);
     if bottom.is_empty() {
         right = right.not_before(left.from);
     }
-    let mut top = near(piece, corner_r, from, to, &piece.end);
+    let beside = Beside::new(piece, [from, to], &piece.end);
+    let mut top = beside.within(corner_r);
     if let Some(shift) = shift.filter(|_| !top.is_empty()) {
-        top = shift.near_vertex(piece, corner_r, [from, to]);
+        top = shift.near_vertex(piece, corner_r, &beside);
     }
     if left.is_empty() {
         top = top.not_before(bottom.from);
     }
     (right, top)
-}
-
-/// The part of the chord from `a` to `b` that is near a point, within `share_r` tolerances.
-fn near(piece: &Piece, share_r: f64, a: &AxisVector, b: &AxisVector, point: &AxisVector) -> Span {
-    let along = b - a;
-    let offset = point - a;
-    let mut span = Span::WHOLE;
-    let groups = [LINEAR_XYZ, UVW]
-        .into_iter()
-        .map(|axes| (axes, piece.tolerance_mm))
-        .chain(ROTARY_ABC.map(|i| (i..i + 1, piece.tolerance_deg)));
-    for (axes, tolerance) in groups {
-        let threshold = tolerance * share_r;
-        let (mut along_2, mut dot) = (0.0, 0.0);
-        for i in axes.clone() {
-            along_2 += along[i] * along[i];
-            dot += along[i] * offset[i];
-        }
-        // A chord too short to have a direction is a point.
-        let has_direction = along_2 > 1e-20 * threshold * threshold;
-        let foot = if has_direction { dot / along_2 } else { 0.0 };
-        let mut across_2 = 0.0;
-        for i in axes {
-            let across = offset[i] - along[i] * foot;
-            across_2 += across * across;
-        }
-        let room_2 = threshold * threshold - across_2;
-        if room_2.is_nan() || room_2 < 0.0 {
-            return Span::EMPTY;
-        }
-        if has_direction {
-            let half = (room_2 / along_2).sqrt();
-            span = span.cut(Span {
-                from: foot - half,
-                to: foot + half,
-            });
-        }
-    }
-    span
 }

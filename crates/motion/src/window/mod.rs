@@ -26,6 +26,7 @@
 
 mod attempt;
 mod bend;
+mod beside;
 mod budget;
 mod cuts;
 mod follow;
