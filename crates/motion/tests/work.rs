@@ -78,7 +78,7 @@ const CASES: [Case; 5] = [
         feed_v: 100.0,
         is_audited: false,
         blocks: 5000,
-        most: 930_000,
+        most: 555_000,
     },
     Case {
         name: "optimal, corners",
@@ -87,7 +87,7 @@ const CASES: [Case; 5] = [
         feed_v: 100.0,
         is_audited: false,
         blocks: 40,
-        most: 90_000_000,
+        most: 52_500_000,
     },
 ];
 
