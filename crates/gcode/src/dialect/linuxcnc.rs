@@ -82,9 +82,10 @@ impl<R: BufRead> Program<R> {
     fn go_straight(&mut self, goes_on: bool) -> Tried {
         self.straight.clear();
         let Some(length) = read_plain(self.source.ahead(), &mut self.straight) else {
-            return match self.straight.says_more {
-                true => Tried::Plain,
-                false => Tried::Other,
+            return if self.straight.says_more {
+                Tried::Plain
+            } else {
+                Tried::Other
             };
         };
         if self.contour.is_some() || !self.source.is_complete(length) {
