@@ -54,7 +54,7 @@ impl TwoSides {
         self.force[0] - self.force[1]
     }
 
-    /// How much an elastic row is violated; below zero if it is not.
+    /// How much an elastic row is violated, below zero if it is not; `None` for a hard one.
     pub(super) const fn violation(&self) -> Option<f64> {
         if self.price[0] < HARD {
             Some(self.g[0].max(self.g[1]))
