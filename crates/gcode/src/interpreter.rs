@@ -100,6 +100,7 @@ pub(crate) struct Interpreter {
     pub(crate) only_judges: bool,
     /// The block executed last was one of them.
     pub(crate) has_judged: bool,
+    /// Of the straight move of a plain line made last; holds as long as nothing else is executed.
     pub(crate) course: Course,
     /// Line of the block being executed.
     pub(crate) line: u32,

@@ -21,12 +21,11 @@ use glidepath_geometry::{AXES, AxisVector, Line, Segment};
 use glidepath_motion::{Item, ItemKind, Rate};
 
 use crate::axis_words::axis_value;
-use crate::block::AXIS_WORDS;
 use crate::cycle::Cycles;
 use crate::diagnostic::Span;
 use crate::dialect::Dialect;
 use crate::interpreter::Interpreter;
-use crate::letters::{Letters, Slot, Words};
+use crate::letters::{AXIS_WORDS, Letters, Slot, Words};
 use crate::modal::Feed;
 use crate::modes::{Distance, FeedMode, Motion};
 use crate::moves::{MIN_MOVE, Pace};

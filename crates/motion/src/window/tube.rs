@@ -9,8 +9,8 @@
 //! ```
 //!
 //! Samples are bound to the tube and, with several knots in a period, the middles between samples of one
-//! piece where they are near its edge; less what the motion bulges out of the chords between them. A straight line between two samples
-//! of one piece is then in it too, and where the motion goes over to another piece, it must come near
+//! piece where they are near its edge; less what the motion bulges out of the chords between them. A
+//! straight line between two samples of one piece is then in it too, and where the motion goes over to another piece, it must come near
 //! every corner on the way: a point of it between the two samples must be inside the ball round the
 //! corner, and so must a chord that has its middle there. Half-way between both, which is linear in the
 //! control points, each plane that touches the ball is nearer by half the way. Together that is just what

@@ -203,7 +203,7 @@ impl Sides {
     }
 }
 
-/// The larger of two values; the first one if there is none.
+/// The larger of two values; the first one if the second is not a number.
 #[inline]
 const fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
