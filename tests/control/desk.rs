@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
+use glidepath_audit::{Audit, AuditSettings, Report, Sample};
 use glidepath_gcode::Options;
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::{Config, Stepped, stepped};
 use glidepath_link::{Command, MachineState, Setpoint, SetpointFrame};
-use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
-use glidepath_motion::{Effort, Item, Limits, Override, Settings, Smoothing};
 use glidepath_planner::{Output, Pipeline, ProgramSource};
+use glidepath_program::{Effort, Item, Limits, Override, Settings, Smoothing};
 use glidepath_tests::settings;
 
 use crate::times;

@@ -1,7 +1,7 @@
 //! An override in the middle of a program leads to the motion that a plan at that feed has.
 
 use glidepath_link::Command;
-use glidepath_motion::Override;
+use glidepath_program::Override;
 
 use crate::desk::{Desk, HORIZON, Job, assert_limits, jobs};
 

@@ -1,7 +1,7 @@
 //! Anything an operator may do, in any order, at any time.
 
 use glidepath_link::{Command, MachineState};
-use glidepath_motion::Effort;
+use glidepath_program::Effort;
 use proptest::prelude::*;
 
 use crate::desk::{BENCH, Desk, EFFORTS, Job, assert_limits};

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glidepath_link::{Command, MachineState, SetpointFrame};
-use glidepath_motion::Settings;
+use glidepath_program::Settings;
 use proptest::test_runner::{Config, TestRunner};
 
 use crate::desk::{Desk, Job, assert_limits, jobs};

@@ -4,11 +4,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use glidepath_audit::ViolationKind;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState, SetpointFrame};
-use glidepath_motion::Frame;
-use glidepath_motion::audit::ViolationKind;
 use glidepath_planner::{ItemSource, RunError, Supply};
+use glidepath_program::Frame;
 use glidepath_tests::{Instance, Machine, Recording, Watchdog, plan, program, program_from};
 
 const PATIENCE: Duration = Duration::from_secs(120);

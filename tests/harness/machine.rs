@@ -3,17 +3,17 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use glidepath_audit::{Audit, AuditSettings, Report, Sample};
 use glidepath_gcode::Options;
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::Config;
 use glidepath_link::{
     Command, CommandRequest, Ipc, LinkConfig, MachineState, Setpoint, Status, Subscriber, Transport,
 };
-use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
-use glidepath_motion::{Effort, Frame, Item, Limits, Settings, Smoothing};
 use glidepath_planner::{
     Control, ItemSource, Pace, Pipeline, ProgramSource, Publisher, RunError, Statistics,
 };
+use glidepath_program::{Effort, Frame, Item, Limits, Settings, Smoothing};
 
 const PERIOD_NS: u64 = 4_000_000;
 const POLL: Duration = Duration::from_millis(1);

@@ -12,7 +12,7 @@
 use core::f64::consts::{PI, TAU};
 
 use glidepath_geometry::{Arc, Axis, AxisVector, LINEAR_XYZ, Plane, Segment};
-use glidepath_motion::Item;
+use glidepath_program::Item;
 
 use crate::block::{Block, Letters};
 use crate::diagnostic::{Code, Fault, Outcome, Span};

@@ -1,6 +1,6 @@
 //! Words that act beside the motion: feed, speed, tool, M codes, dwell.
 
-use glidepath_motion::{Event, Item, ItemKind};
+use glidepath_program::{Event, Item, ItemKind};
 
 use crate::block::Block;
 use crate::codes::Coded;

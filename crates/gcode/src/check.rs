@@ -3,7 +3,7 @@
 use std::io::BufRead;
 
 use glidepath_geometry::AxisVector;
-use glidepath_motion::Item;
+use glidepath_program::Item;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::options::Options;

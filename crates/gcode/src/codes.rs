@@ -3,7 +3,7 @@
 //! A block may have one code of each group. G numbers are kept times ten, so that G59.3 is 593.
 
 use glidepath_geometry::Plane;
-use glidepath_motion::PathMode;
+use glidepath_program::PathMode;
 
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::dialect::marlin::is_function;

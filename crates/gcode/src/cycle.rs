@@ -29,7 +29,7 @@
 //! | G89 | feed | dwell P | feed |
 
 use glidepath_geometry::{AXES, Axis};
-use glidepath_motion::{Event, Item, ItemKind, PathMode};
+use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use crate::block::Block;
 use crate::diagnostic::{Code, Fault, Outcome, Span};

@@ -10,7 +10,7 @@
 //!
 //! They are refused unless the program is read with [`Connections::Simulated`].
 
-use glidepath_motion::{Event, Item, ItemKind};
+use glidepath_program::{Event, Item, ItemKind};
 
 use crate::block::Block;
 use crate::codes::Coded;

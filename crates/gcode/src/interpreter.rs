@@ -10,7 +10,7 @@
 use std::sync::Arc;
 
 use glidepath_geometry::AxisVector;
-use glidepath_motion::{Event, Item, ItemKind};
+use glidepath_program::{Event, Item, ItemKind};
 
 use crate::auxiliary::Coolant;
 use crate::block::{Block, Letters};

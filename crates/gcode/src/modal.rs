@@ -1,7 +1,7 @@
 //! Modal state: what stays in force from block to block.
 
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, Plane, UVW};
-use glidepath_motion::PathMode;
+use glidepath_program::PathMode;
 
 use crate::modes::{Distance, FeedMode, Motion, Retract, Units};
 

@@ -1,7 +1,7 @@
 //! Straight moves, reference moves, and what every move has in common.
 
 use glidepath_geometry::{AXES, Axis, AxisVector, Segment};
-use glidepath_motion::{Item, ItemKind, Rate};
+use glidepath_program::{Item, ItemKind, Rate};
 
 use crate::block::{AXIS_WORDS, Block};
 use crate::diagnostic::{Code, Fault, Outcome, Span};

@@ -1,7 +1,7 @@
 //! Codes that act once (group 0): coordinate systems, offsets, reference positions.
 
 use glidepath_geometry::AxisVector;
-use glidepath_motion::Item;
+use glidepath_program::Item;
 
 use crate::block::Block;
 use crate::codes::Coded;

@@ -18,7 +18,7 @@
 //! ```
 
 use glidepath_geometry::{AXES, AxisVector, Line, Segment};
-use glidepath_motion::{Item, ItemKind, Rate};
+use glidepath_program::{Item, ItemKind, Rate};
 
 use crate::axis_words::axis_value;
 use crate::cycle::Cycles;

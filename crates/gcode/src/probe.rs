@@ -5,7 +5,7 @@
 //! the move is a feed move that comes to rest, and `#5061` to `#5070` tell of it.
 
 use glidepath_geometry::{AXES, AxisVector};
-use glidepath_motion::{Item, PathMode};
+use glidepath_program::{Item, PathMode};
 
 use crate::block::Block;
 use crate::diagnostic::{Code, Fault, Outcome};

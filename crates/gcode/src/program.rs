@@ -4,7 +4,7 @@ use std::io::BufRead;
 use std::mem;
 
 use glidepath_geometry::AxisVector;
-use glidepath_motion::Item;
+use glidepath_program::Item;
 
 use crate::block::{Block, LineKind};
 use crate::contour::OpenContour;

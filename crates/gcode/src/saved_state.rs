@@ -16,7 +16,7 @@
 //! depends on a move that nobody wrote.
 
 use glidepath_geometry::AxisVector;
-use glidepath_motion::{Event, Item, ItemKind};
+use glidepath_program::{Event, Item, ItemKind};
 
 use crate::auxiliary::Coolant;
 use crate::block::Block;

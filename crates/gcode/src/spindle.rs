@@ -7,7 +7,7 @@
 
 use core::f64::consts::TAU;
 
-use glidepath_motion::{Event, Item, ItemKind};
+use glidepath_program::{Event, Item, ItemKind};
 
 use crate::block::Block;
 use crate::codes::Coded;

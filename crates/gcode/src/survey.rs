@@ -1,7 +1,7 @@
 //! What a program asks of a machine, beside its totals: where it turns most sharply.
 
 use glidepath_geometry::{AxisVector, Segment, feed_length};
-use glidepath_motion::{Item, ItemKind};
+use glidepath_program::{Item, ItemKind};
 
 /// A corner of the path: where two feed moves meet at an angle.
 #[derive(Debug, Clone, Copy, PartialEq)]

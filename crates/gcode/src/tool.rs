@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glidepath_geometry::AxisVector;
-use glidepath_motion::{Event, Item, ItemKind};
+use glidepath_program::{Event, Item, ItemKind};
 
 use crate::block::{AXIS_WORDS, Block};
 use crate::codes::Coded;

@@ -1,7 +1,7 @@
 //! What a program amounts to.
 
 use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, Line, Segment, UVW};
-use glidepath_motion::{Item, ItemKind, Rate};
+use glidepath_program::{Item, ItemKind, Rate};
 
 /// Counts and sums over everything read so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,6 +1,6 @@
 //! What the words of a block must be: used by one of its codes, whole, not negative.
 
-use glidepath_motion::PathMode;
+use glidepath_program::PathMode;
 
 use crate::block::{AXIS_WORDS, Block, Letters};
 use crate::diagnostic::{Code, Fault, Outcome, Span};

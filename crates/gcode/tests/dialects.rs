@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use glidepath_gcode::{Connections, Dialect, Options, Program, Report, check};
 use glidepath_geometry::Axis;
-use glidepath_motion::{ItemKind, PathMode, Rate};
+use glidepath_program::{ItemKind, PathMode, Rate};
 use support::findings;
 
 fn options(dialect: Dialect) -> Options {

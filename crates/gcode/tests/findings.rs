@@ -4,7 +4,7 @@ mod support;
 
 use glidepath_gcode::{Machine, Options, Program, Report, Travel, check};
 use glidepath_geometry::Axis;
-use glidepath_motion::{Item, ItemKind, Rate};
+use glidepath_program::{Item, ItemKind, Rate};
 use proptest::prelude::*;
 use support::findings;
 

@@ -5,7 +5,7 @@
 mod support;
 
 use glidepath_gcode::{Options, Program, check};
-use glidepath_motion::ItemKind;
+use glidepath_program::ItemKind;
 use support::findings;
 
 /// X of the end of every move.

@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 use glidepath_gcode::{Machine, Options, Program, Travel, check};
 use glidepath_geometry::{Axis, Segment};
-use glidepath_motion::{ItemKind, Rate};
+use glidepath_program::{ItemKind, Rate};
 use support::findings;
 
 /// A shaft: radius 5 from Z0 to Z-10, then a shoulder to radius 8.

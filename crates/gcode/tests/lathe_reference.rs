@@ -9,7 +9,7 @@ use std::fs;
 
 use glidepath_gcode::{Options, Program};
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_motion::{Item, ItemKind, Rate};
+use glidepath_program::{Item, ItemKind, Rate};
 use serde_json::Value;
 
 /// Programs moved otherwise than by LinuxCNC, each with the reason.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use glidepath_gcode::{Connections, Machine, Options, Program, ToolTable, Travel, check};
 use glidepath_geometry::{Axis, Segment};
-use glidepath_motion::{Event, ItemKind, Rate};
+use glidepath_program::{Event, ItemKind, Rate};
 use support::findings;
 
 fn options() -> Options {

@@ -10,7 +10,7 @@ use core::f64::consts::{PI, TAU};
 
 use glidepath_gcode::{Options, Program};
 use glidepath_geometry::{Arc, Axis, AxisVector, Plane, Segment};
-use glidepath_motion::{Event, Item, ItemKind, PathMode, Rate};
+use glidepath_program::{Event, Item, ItemKind, PathMode, Rate};
 
 fn items(text: &str) -> Vec<Item> {
     let program = Program::new(text.as_bytes(), Options::default());

@@ -8,7 +8,7 @@ use glidepath_gcode::{
     Connections, Diagnostic, LoopLimits, Machine, Options, Program, Report, Travel, check, findings,
 };
 use glidepath_geometry::Axis;
-use glidepath_motion::Item;
+use glidepath_program::Item;
 use proptest::prelude::*;
 
 /// A machine with some axes, some of them limited.

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use glidepath_gcode::{Options, Program, ToolTable};
 use glidepath_geometry::Segment;
-use glidepath_motion::{Item, ItemKind, Rate};
+use glidepath_program::{Item, ItemKind, Rate};
 use serde_json::Value;
 
 const INCH: f64 = 25.4;

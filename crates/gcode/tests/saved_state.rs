@@ -3,7 +3,7 @@
 mod support;
 
 use glidepath_gcode::{Dialect, Options, Program, check};
-use glidepath_motion::{Event, ItemKind, PathMode, Rate};
+use glidepath_program::{Event, ItemKind, PathMode, Rate};
 use support::findings;
 
 /// What a program does: ends of moves in X and Z with their feedrate in mm/min, and events.

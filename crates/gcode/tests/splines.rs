@@ -7,7 +7,7 @@
 
 use glidepath_gcode::{Options, Program, check};
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_motion::{ItemKind, Rate};
+use glidepath_program::{ItemKind, Rate};
 use serde_json::Value;
 use std::fmt::Write as _;
 

@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use glidepath_gcode::{
     MAX_SUBROUTINE_BYTES, NoSubroutineFile, Options, Program, SubroutineFile, Subroutines, check,
 };
-use glidepath_motion::ItemKind;
+use glidepath_program::ItemKind;
 
 /// Options with these files in a folder called `lib`.
 fn options(files: &[(&str, &str)]) -> Options {
@@ -40,7 +40,7 @@ fn options(files: &[(&str, &str)]) -> Options {
 fn path(text: &str, options: Options) -> Vec<(u32, f64)> {
     let program = Program::new(text.as_bytes(), options);
     let items = program.map(|item| item.unwrap_or_else(|finding| panic!("{text}\n{finding}")));
-    let end = |item: glidepath_motion::Item| match item.kind {
+    let end = |item: glidepath_program::Item| match item.kind {
         ItemKind::Move { segment, .. } => Some((item.line, segment.end()[0])),
         _ => None,
     };

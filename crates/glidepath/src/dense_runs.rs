@@ -2,7 +2,7 @@
 
 use glidepath_fit::Point;
 use glidepath_geometry::{LINEAR_XYZ, Segment};
-use glidepath_motion::{Item, ItemKind, PathMode, Rate};
+use glidepath_program::{Item, ItemKind, PathMode, Rate};
 
 /// Fewer lines than this are no run.
 const FEWEST: usize = 16;

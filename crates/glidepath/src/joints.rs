@@ -13,8 +13,8 @@ use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_kinematics::{
     JointFault, JointWatch, Kinematics as _, KinematicsError, Mechanism, Quantity,
 };
-use glidepath_motion::{Frame, ItemKind};
 use glidepath_planner::{FileSource, ItemSource, Pipeline, Refusal, Supply};
+use glidepath_program::{Frame, ItemKind};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};

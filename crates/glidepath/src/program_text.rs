@@ -4,7 +4,7 @@
 use core::f64::consts::TAU;
 use core::fmt::Write as _;
 use glidepath_geometry::{Arc, Axis, AxisVector, Nurbs, Plane, Quintic, Segment};
-use glidepath_motion::{Event, Item, ItemKind, PathMode, Rate};
+use glidepath_program::{Event, Item, ItemKind, PathMode, Rate};
 
 /// How far the chords of a curve that was read may be away from it, mm.
 const CHORD_MM: f64 = 1e-3;

@@ -1,11 +1,11 @@
 //! One setpoint as reports and plots see it, whether it was planned or received.
 
 use crate::report::state_name;
+use glidepath_audit::diagnosis::Binding;
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::JointVector;
 use glidepath_link::Setpoint;
-use glidepath_motion::diagnosis::Binding;
-use glidepath_motion::{Frame, FrameFlags};
+use glidepath_program::{Frame, FrameFlags};
 
 /// The machine at one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,7 +5,7 @@
 
 use glidepath::config::{self, Finding};
 use glidepath_geometry::Axis;
-use glidepath_motion::{Effort, Limits, Smoothing};
+use glidepath_program::{Effort, Limits, Smoothing};
 
 const AXIS: &str = "[axis.X]\nmin_position = -10\nmax_position = 10\nmax_velocity = 100\n\
                     max_acceleration = 1000\nmax_jerk = 10000\n";

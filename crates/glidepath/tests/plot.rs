@@ -2,7 +2,7 @@
 
 use glidepath::{plot::Plot, sample::Sample};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_motion::Limits;
+use glidepath_program::Limits;
 
 const PERIOD_T: f64 = 0.004;
 

@@ -18,9 +18,8 @@ mod synthetic;
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_interpolator::{Config, Stepped, stepped};
 use glidepath_link::{Command, SetpointFrame};
-use glidepath_motion::{
-    Effort, Frame, Item, ItemKind, PathMode, Planner, Rate, Settings, Smoothing,
-};
+use glidepath_motion::Planner;
+use glidepath_program::{Effort, Frame, Item, ItemKind, PathMode, Rate, Settings, Smoothing};
 use glidepath_realtime::{Clock as _, Histogram, Monotonic};
 use rustix::time::{ClockId, clock_gettime};
 use std::hint::black_box;

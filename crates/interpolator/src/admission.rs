@@ -13,7 +13,7 @@ use crate::track::is_at_rest;
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_kinematics::{JointFault, JointViolation, JointWatch, Quantity};
 use glidepath_link::{FaultCause, FrameRefusal, MachineState, Record, RecordError, SetpointFrame};
-use glidepath_motion::{FrameFlags, Limits};
+use glidepath_program::{FrameFlags, Limits};
 
 /// Part of a limit that may be exceeded: what an audit allows.
 const ALLOWANCE: f64 = 1e-6;

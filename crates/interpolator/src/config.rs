@@ -3,7 +3,7 @@
 use core::time::Duration;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{AxisList, JointLimits, JointWatch, Mechanism, Trivial};
-use glidepath_motion::Limits;
+use glidepath_program::Limits;
 use glidepath_realtime::{Mode, Request};
 
 /// Where the axes may be, mm or degrees.

@@ -7,7 +7,7 @@
 use crate::pairs::{self, PAIRS, Pair, larger, smaller, sub};
 use crate::quintic::Quintic;
 use glidepath_geometry::AxisVector;
-use glidepath_motion::Limits;
+use glidepath_program::Limits;
 
 /// Part of a limit that may be lost to rounding; half of what an audit allows.
 const ALLOWANCE: f64 = 5e-7;

@@ -6,7 +6,7 @@
 //! fewer pairs to look at.
 
 use glidepath_geometry::{AXES, AxisVector};
-use glidepath_motion::Limits;
+use glidepath_program::Limits;
 
 /// Pairs of all axes; the last has no second one.
 pub(crate) const PAIRS: usize = AXES.div_ceil(2);

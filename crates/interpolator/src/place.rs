@@ -1,7 +1,7 @@
 //! Where in the program the motion is: what of a frame outlasts it.
 
 use glidepath_link::SetpointFrame;
-use glidepath_motion::FrameFlags;
+use glidepath_program::FrameFlags;
 
 /// What setpoints at rest repeat of the last frame passed.
 #[derive(Debug, Clone, Copy)]

@@ -2,7 +2,7 @@
 
 use crate::pairs::{self, PAIRS, Pair, larger};
 use glidepath_link::SetpointFrame;
-use glidepath_motion::Limits;
+use glidepath_program::Limits;
 
 /// How many ticks it takes to lose the speed at a frame: at the acceleration limit, and, squared, at
 /// the jerk limit. The slowest axis counts.

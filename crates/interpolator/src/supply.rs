@@ -10,7 +10,7 @@ use crate::config::Config;
 use crate::differences::Differences;
 use crate::rate::Rate;
 use crate::track::Track;
-use glidepath_motion::Limits;
+use glidepath_program::Limits;
 
 /// Frames ahead to go on with, in stops.
 const STOPS_AHEAD: f64 = 3.0;

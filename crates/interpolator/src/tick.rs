@@ -27,7 +27,7 @@ use crate::track::{Track, is_at_rest};
 use crate::will::Will;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, MachineState, SetpointFrame};
-use glidepath_motion::FrameFlags;
+use glidepath_program::FrameFlags;
 use glidepath_realtime::{EventWriter, Wake};
 
 /// Frames taken from the ring in one tick. More than one, so that the track fills up; few, so that

@@ -17,7 +17,7 @@ use crate::quintic::{Kinematic, Quintic};
 use crate::stop_time::{StopLimits, StopTime};
 use glidepath_geometry::AxisVector;
 use glidepath_link::SetpointFrame;
-use glidepath_motion::{FrameFlags, Limits};
+use glidepath_program::{FrameFlags, Limits};
 
 /// Most frames that are owned at a time.
 pub(crate) const TRACK_CAPACITY: usize = 512;

@@ -30,7 +30,7 @@ const PERIOD_NS: u64 = 1_000_000;
 fn config() -> Config {
     // The frames are made for 4 ms; the clock may run faster, which does not matter to the motion
     // as long as limits scale with it.
-    let limits = glidepath_motion::Limits::uniform(200.0 * 4.0, 2_000.0 * 16.0, 40_000.0 * 64.0);
+    let limits = glidepath_program::Limits::uniform(200.0 * 4.0, 2_000.0 * 16.0, 40_000.0 * 64.0);
     Config::new(limits, PERIOD_NS)
 }
 

@@ -8,7 +8,7 @@ use glidepath_link::{
     Client, Ipc, LinkConfig, LinkError, SegmentRefusal, SegmentReply, SegmentRequest, StreamItem,
     Transport,
 };
-use glidepath_motion::{Item, ItemKind, PathMode, Rate};
+use glidepath_program::{Item, ItemKind, PathMode, Rate};
 use std::time::Duration;
 
 const PATIENCE: Duration = Duration::from_secs(5);

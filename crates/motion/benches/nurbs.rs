@@ -10,9 +10,10 @@
 mod curves;
 
 use glidepath_geometry::NurbsPath;
+use glidepath_motion::Planner;
 use glidepath_motion::preview::{AdvanceRetreat, Certified, Demand, Method, Traditional, preview};
-use glidepath_motion::{
-    Effort, Item, ItemKind, Limits, PathBounds, PathMode, Planner, Rate, Settings, Smoothing,
+use glidepath_program::{
+    Effort, Item, ItemKind, Limits, PathBounds, PathMode, Rate, Settings, Smoothing,
 };
 use std::hint::black_box;
 use std::time::Instant;

@@ -5,14 +5,15 @@
 //!                                                                  (on curves)
 //! ```
 
+use crate::PlanError;
 use crate::law::Refiner;
 use crate::path::PathFront;
 use crate::piece::{Element, Piece};
 use crate::sample::{Sampler, Step};
 use crate::schedule::{Scheduler, Settled};
 use crate::scurve::{PathLimits, slowing_horizon};
-use crate::{Frame, Item, ItemKind, Limits, Override, PlanError, Settings};
 use glidepath_geometry::{AxisVector, Segment};
+use glidepath_program::{Frame, Item, ItemKind, Limits, Override, Settings};
 use std::collections::VecDeque;
 
 /// The fast engine, as [`crate::Planner`] uses it.

@@ -8,8 +8,8 @@
 //! story whoever planned them.
 
 use crate::piece::{Rest, RestKind};
-use crate::{Event, Frame, FrameFlags};
 use glidepath_geometry::AxisVector;
+use glidepath_program::{Event, Frame, FrameFlags};
 use std::collections::VecDeque;
 
 /// Makes frames, one for each period.

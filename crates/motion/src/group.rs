@@ -1,11 +1,11 @@
 //! Runs whose junctions are given up where that is faster.
 
-use crate::Limits;
 use crate::haste::{drive_together, hasten};
 use crate::piece::{Piece, Shape};
 use crate::run::Run;
 use crate::schedule::Settled;
 use crate::valley::{Course, Leg};
+use glidepath_program::Limits;
 
 /// Runs that are driven together, and how.
 pub(crate) struct Group {

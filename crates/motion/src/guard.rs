@@ -4,8 +4,9 @@
 //! of path left out, a state that is not a number. Such a frame must never be published, whatever
 //! the cause; no motion at all is better.
 
-use crate::{Frame, Limits, PlanError, Settings};
+use crate::PlanError;
 use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ};
+use glidepath_program::{Frame, Limits, Settings};
 
 /// Follows the frames.
 #[derive(Debug)]
@@ -86,7 +87,7 @@ impl Guard {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Effort, Smoothing};
+    use glidepath_program::{Effort, Smoothing};
 
     fn guard() -> Guard {
         Guard::new(&Settings {

@@ -12,9 +12,10 @@
 //!   be passed without acceleration.
 
 use crate::piece::{Piece, Shape};
+use crate::run::weaker;
 use crate::scurve::{PathLimits, Profile};
 use crate::valley::{Course, Leg, Limiting, Span, ValleyFirst};
-use crate::{Limits, run::weaker};
+use glidepath_program::Limits;
 
 /// Shares of the way from what the pieces allow without a check to what they allow at most,
 /// strongest first.

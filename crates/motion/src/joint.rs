@@ -16,11 +16,10 @@
 
 use crate::speed_limit::{self, CurveRule, SpeedLimit};
 use crate::stop_or_pass::{Side, stop_is_faster};
-use crate::{PathMode, Settings, Smoothing};
 use glidepath_geometry::{
-    AXES, AxisVector, DerivativeBounds, LINEAR_XYZ, PairShape, ROTARY_ABC, Segment, Transition,
-    Turn, UVW, feed_length,
+    AXES, AxisVector, DerivativeBounds, PairShape, Segment, Transition, Turn, feed_length,
 };
+use glidepath_program::{PathMode, Settings, Smoothing, tolerance_norm};
 
 /// One of the two segments of a joint.
 #[derive(Debug, Clone, Copy)]
@@ -340,18 +339,6 @@ fn arc_share(segment: &Segment) -> f64 {
         Segment::Line(_) | Segment::Curve(_) => f64::INFINITY,
         Segment::Arc(arc) => ARC_SHARE_RAD / arc.sweep_rad.abs() * arc.length(),
     }
-}
-
-/// The distance that a tolerance bounds: the XYZ part, the UVW part, or a rotary axis, whichever is
-/// largest.
-pub(crate) fn tolerance_norm(difference: &AxisVector) -> f64 {
-    let norm = |axes: core::ops::Range<usize>| {
-        axes.map(|i| difference[i] * difference[i])
-            .sum::<f64>()
-            .sqrt()
-    };
-    let rotary = ROTARY_ABC.map(|i| difference[i].abs()).fold(0.0, f64::max);
-    norm(LINEAR_XYZ).max(norm(UVW)).max(rotary)
 }
 
 /// Largest distance between a curve and the chord of one period at a speed: |q″|·(v·T)²/8.

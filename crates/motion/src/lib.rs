@@ -15,34 +15,28 @@
 //! | `_u` | a curve's own parameter, 0…1 |
 //! | `_k` | curvature, 1/mm |
 
-pub mod audit;
 mod compress;
-pub mod diagnosis;
 mod error;
 mod fast;
-mod frame;
 mod grid;
 mod group;
 mod guard;
 mod haste;
-mod item;
 mod joint;
 mod law;
-mod limits;
 mod merge;
 mod optimal;
-mod override_;
 mod parts;
 mod path;
 mod pending;
 mod piece;
 mod planner;
 pub mod preview;
+mod programmed_rate;
 mod run;
 mod sample;
 mod schedule;
 pub mod scurve;
-mod settings;
 mod speed_limit;
 mod stop_or_pass;
 mod stops;
@@ -51,12 +45,7 @@ mod valley;
 mod window;
 
 pub use error::PlanError;
-pub use frame::{Frame, FrameFlags};
-pub use item::{Event, Item, ItemKind, PathMode, Rate};
-pub use limits::{Limits, PathBounds};
-pub use override_::Override;
 pub use planner::Planner;
-pub use settings::{Effort, Settings, Smoothing};
 pub use tolerance_split::{
     CornerLimits, ToleranceSplit, chord_acceleration, chord_error, chord_speed,
 };

@@ -15,9 +15,9 @@
 //! vertices holds everywhere, both ways: program and merged line are within ε of each other, in
 //! order, in every group of axes. What is left of the tolerance is for the transitions.
 
-use crate::joint::tolerance_norm;
 use core::ops::Range;
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+use glidepath_program::tolerance_norm;
 
 /// Most vertices dropped from one line.
 const MOST_DROPPED: usize = 64;

@@ -5,14 +5,14 @@
 
 use crate::compress::{Change, Compressor, Cut, Part, PartShape, feed_axes};
 use crate::joint::chord_error_mm;
-use crate::override_::ProgrammedRate;
 use crate::path::PathFront;
 use crate::pending::{Pending, axes_speed};
 use crate::piece::{Element, Rest, RestKind, Shape};
+use crate::programmed_rate::ProgrammedRate;
 use crate::speed_limit::{CurveRule, SpeedRule};
-use crate::{Event, PathMode, Rate, Smoothing};
 use core::ops::Range;
 use glidepath_geometry::{AxisVector, Cubic, Segment};
+use glidepath_program::{Event, PathMode, Rate, Smoothing};
 
 /// A run of blocks under compression.
 #[derive(Debug)]

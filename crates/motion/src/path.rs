@@ -5,15 +5,17 @@
 //! one, since the joint between the two tells where each ends. What comes out depends on the order of
 //! the items alone.
 
+use crate::PlanError;
 use crate::joint::{Joint, chord_error_mm, join};
-use crate::override_::{Override, ProgrammedRate};
 use crate::parts::DenseRun;
 use crate::pending::{Pending, axes_speed};
 use crate::piece::{Element, Piece, Rest, RestKind, Shape};
+use crate::programmed_rate::ProgrammedRate;
 use crate::speed_limit::{self, CurveRule, SpeedRule};
 use crate::stops::Blocks;
-use crate::{Event, Item, ItemKind, Limits, PathMode, PlanError, Rate, Settings};
 use glidepath_geometry::{AxisVector, Segment};
+use glidepath_program::Override;
+use glidepath_program::{Event, Item, ItemKind, Limits, PathMode, Rate, Settings};
 
 /// Moves shorter than this are carried into the next one: below the resolution of programs, where
 /// directions are rounding noise.

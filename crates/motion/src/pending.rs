@@ -1,10 +1,10 @@
 //! A segment that waits for what follows it.
 
 use crate::joint::Leg;
-use crate::override_::ProgrammedRate;
+use crate::programmed_rate::ProgrammedRate;
 use crate::speed_limit;
-use crate::{Event, PathMode, Settings};
 use glidepath_geometry::Segment;
+use glidepath_program::{Event, PathMode, Settings};
 
 /// A segment whose end is not decided yet.
 #[derive(Debug)]

@@ -1,9 +1,9 @@
 //! Pieces of smooth path, and the rests between them.
 
-use crate::override_::Override;
 use crate::speed_limit::{SpeedLimit, SpeedRule};
-use crate::{Event, Limits};
 use glidepath_geometry::{Cubic, Jet, Segment, Transition};
+use glidepath_program::Override;
+use glidepath_program::{Event, Limits};
 
 /// A smooth piece of path with one speed limit.
 #[derive(Debug, Clone)]

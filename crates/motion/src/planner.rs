@@ -1,10 +1,11 @@
 //! The planner: items in, frames out.
 
+use crate::PlanError;
 use crate::fast::FastEngine;
 use crate::guard::Guard;
 use crate::optimal::OptimalEngine;
-use crate::{Effort, Frame, Item, Override, PlanError, Settings, Smoothing};
 use glidepath_geometry::AxisVector;
+use glidepath_program::{Effort, Frame, Item, Override, Settings, Smoothing};
 
 /// Plans a program as it comes, in memory that does not grow with its length.
 ///

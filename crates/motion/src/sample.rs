@@ -4,7 +4,6 @@
 //! a period before its first frame, and that fraction is carried, never rounded. Times and positions
 //! are kept relative to the stretch, so a long program loses no digits.
 
-use crate::Frame;
 use crate::grid::{FrameGrid, Moving, Passing};
 use crate::law::Law;
 use crate::piece::{Piece, Shape};
@@ -12,6 +11,7 @@ use crate::schedule::Settled;
 use crate::scurve::PathState;
 use crate::valley::Leg;
 use glidepath_geometry::{AxisVector, Prepared};
+use glidepath_program::Frame;
 use std::collections::VecDeque;
 
 /// Makes frames of settled motion, one at a time.
@@ -312,10 +312,11 @@ fn is_whole(pieces: &[Piece], driven_s: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::override_::{Override, ProgrammedRate};
+    use crate::programmed_rate::ProgrammedRate;
     use crate::speed_limit::SpeedRule;
-    use crate::{Limits, Rate};
     use glidepath_geometry::Segment;
+    use glidepath_program::Override;
+    use glidepath_program::{Limits, Rate};
 
     #[test]
     fn a_stretch_without_a_motion_to_its_end_is_never_jumped_over() {

@@ -12,7 +12,6 @@
 //! from which one could stop, one may be unable to slow down just a little. Then the motion follows
 //! the plan that was made when its speed was settled, which ends at rest, until it meets the new one.
 
-use crate::Limits;
 use crate::group::Group;
 use crate::law::Law;
 use crate::piece::{Element, Piece, Rest, RestKind};
@@ -20,6 +19,7 @@ use crate::run::Run;
 use crate::scurve::{PathLimits, slowing_horizon};
 use crate::stops::drive_each;
 use crate::valley::Leg;
+use glidepath_program::Limits;
 use std::collections::VecDeque;
 
 /// A part of the motion that nothing later changes.

@@ -11,12 +11,13 @@
 //! share is fixed here, so that a piece has one top speed, one acceleration and one jerk, all of
 //! which may be used at once anywhere on it.
 
-use crate::joint::tolerance_norm;
-use crate::override_::{Override, ProgrammedRate};
+use crate::programmed_rate::ProgrammedRate;
 use crate::run::weaker;
 use crate::scurve::{Extremes, PathLimits};
-use crate::{Limits, PathBounds};
 use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds, feed_length, limit_along};
+use glidepath_program::Override;
+use glidepath_program::tolerance_norm;
+use glidepath_program::{Limits, PathBounds};
 
 /// What a piece of path allows.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,10 +11,11 @@
 mod curves;
 mod support;
 
+use glidepath_audit::{Audit, AuditSettings, Report};
 use glidepath_geometry::{Nurbs, NurbsPath, Segment};
-use glidepath_motion::audit::{Audit, AuditSettings, Report};
-use glidepath_motion::{
-    Effort, Frame, Item, ItemKind, Limits, Override, PathBounds, Planner, Rate, Settings, Smoothing,
+use glidepath_motion::Planner;
+use glidepath_program::{
+    Effort, Frame, Item, ItemKind, Limits, Override, PathBounds, Rate, Settings, Smoothing,
 };
 use proptest::prelude::*;
 

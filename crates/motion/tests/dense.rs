@@ -10,9 +10,10 @@
 
 mod support;
 
+use glidepath_audit::{Audit, AuditSettings, Report, Sample};
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
-use glidepath_motion::{Item, ItemKind, Planner, Rate, Settings, Smoothing};
+use glidepath_motion::Planner;
+use glidepath_program::{Item, ItemKind, Rate, Settings, Smoothing};
 use proptest::prelude::*;
 use support::{FREE, at, cases, mill};
 

@@ -9,10 +9,11 @@
 mod support;
 
 use core::f64::consts::TAU;
+use glidepath_audit::AuditSettings;
+use glidepath_audit::diagnosis::{Binding, Diagnosis, Summary};
 use glidepath_geometry::{Arc, Axis, AxisVector, Plane, Segment};
-use glidepath_motion::audit::AuditSettings;
-use glidepath_motion::diagnosis::{Binding, Diagnosis, Summary};
-use glidepath_motion::{Frame, Item, ItemKind, Limits, PathMode, Planner, Rate, Settings};
+use glidepath_motion::Planner;
+use glidepath_program::{Frame, Item, ItemKind, Limits, PathMode, Rate, Settings};
 use support::{FREE, at, mill};
 
 fn line(number: u32, from: AxisVector, to: AxisVector, rate: Rate, mode: PathMode) -> Item {

@@ -6,10 +6,11 @@
     reason = "a test that fails may panic"
 )]
 
+use glidepath_audit::{Audit, AuditSettings};
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
-use glidepath_motion::audit::{Audit, AuditSettings};
-use glidepath_motion::{
-    Effort, Frame, Item, ItemKind, Limits, PathMode, Planner, Rate, Settings, Smoothing,
+use glidepath_motion::Planner;
+use glidepath_program::{
+    Effort, Frame, Item, ItemKind, Limits, PathMode, Rate, Settings, Smoothing,
 };
 
 const FEED_V: f64 = 7.5;

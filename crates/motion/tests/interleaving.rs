@@ -5,7 +5,8 @@
 mod support;
 
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_motion::{Event, Frame, Item, ItemKind, PathMode, Planner, Rate, Settings};
+use glidepath_motion::Planner;
+use glidepath_program::{Event, Frame, Item, ItemKind, PathMode, Rate, Settings};
 use proptest::prelude::*;
 use support::{FREE, at, cases, efforts};
 

@@ -8,10 +8,11 @@
 
 mod support;
 
+use glidepath_audit::{Audit, AuditSettings, Report, Sample};
 use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Segment};
-use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
-use glidepath_motion::{
-    Effort, Frame, Item, ItemKind, Limits, PathBounds, PathMode, Planner, Rate, Settings, Smoothing,
+use glidepath_motion::Planner;
+use glidepath_program::{
+    Effort, Frame, Item, ItemKind, Limits, PathBounds, PathMode, Rate, Settings, Smoothing,
 };
 use proptest::prelude::*;
 use support::cases;

@@ -8,9 +8,10 @@
 
 mod support;
 
+use glidepath_audit::{Audit, AuditSettings, Sample, ViolationKind};
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
-use glidepath_motion::audit::{Audit, AuditSettings, Sample, ViolationKind};
-use glidepath_motion::{Frame, Item, ItemKind, Override, PlanError, Planner, Rate, Settings};
+use glidepath_motion::{PlanError, Planner};
+use glidepath_program::{Frame, Item, ItemKind, Override, Rate, Settings};
 use proptest::prelude::*;
 use support::{FREE, at, cases, efforts, mill, optimal};
 

@@ -9,8 +9,9 @@
 mod support;
 
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_motion::{
-    Event, Frame, FrameFlags, Item, ItemKind, Limits, PathMode, Planner, Rate, Settings, Smoothing,
+use glidepath_motion::Planner;
+use glidepath_program::{
+    Event, Frame, FrameFlags, Item, ItemKind, Limits, PathMode, Rate, Settings, Smoothing,
 };
 use proptest::prelude::*;
 use support::{FREE, at, cases, efforts, mill, optimal};

@@ -5,7 +5,8 @@
 mod support;
 
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_motion::{Item, ItemKind, PathMode, PlanError, Planner, Rate};
+use glidepath_motion::{PlanError, Planner};
+use glidepath_program::{Item, ItemKind, PathMode, Rate};
 use support::{FREE, at, efforts};
 
 #[test]

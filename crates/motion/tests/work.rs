@@ -18,9 +18,10 @@ mod counted;
 mod support;
 
 use counted::{cannot_count, counted, number};
+use glidepath_audit::{Audit, AuditSettings};
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_motion::audit::{Audit, AuditSettings};
-use glidepath_motion::{Item, ItemKind, Planner, Rate, Settings};
+use glidepath_motion::Planner;
+use glidepath_program::{Item, ItemKind, Rate, Settings};
 use std::hint::black_box;
 use support::{FREE, at, mill, optimal};
 

@@ -17,10 +17,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use glidepath_audit::{Audit, AuditSettings, Report};
 use glidepath_gcode::{Dialect, Options, Program, ToolTable};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_motion::audit::{Audit, AuditSettings, Report};
-use glidepath_motion::{Effort, ItemKind, Limits, Planner, Settings, Smoothing};
+use glidepath_motion::Planner;
+use glidepath_program::{Effort, ItemKind, Limits, Settings, Smoothing};
 
 /// Segments planned of a program.
 const MOST_SEGMENTS: usize = 3000;

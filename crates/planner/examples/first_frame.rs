@@ -14,8 +14,8 @@ use std::time::{Duration, Instant};
 
 use glidepath_gcode::{Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_motion::{Effort, Limits, Settings, Smoothing};
 use glidepath_planner::{Pipeline, ProgramSource};
+use glidepath_program::{Effort, Limits, Settings, Smoothing};
 
 /// Times each is measured; the median counts.
 const TURNS: usize = 9;

@@ -7,7 +7,8 @@
 
 use std::collections::VecDeque;
 
-use glidepath_motion::{Frame, PlanError};
+use glidepath_motion::PlanError;
+use glidepath_program::Frame;
 
 /// The blocks between the planner's input and its output.
 #[derive(Debug)]

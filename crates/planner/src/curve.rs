@@ -11,7 +11,7 @@
 use glidepath_curve::{ChordRule, Chords, CurveError, CurveFile, ShapeKey};
 use glidepath_gcode::{Code, Diagnostic, Options, Report};
 use glidepath_geometry::{Axis, AxisVector, Segment};
-use glidepath_motion::{PathMode, Rate, Settings};
+use glidepath_program::{PathMode, Rate, Settings};
 
 use crate::file_moves::{FileMoves, Next, supply, survey};
 use crate::{ItemSource, Supply};

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use glidepath_curve::NurbsFile;
 use glidepath_gcode::{Findings, Options, Report, check, findings};
-use glidepath_motion::Settings;
+use glidepath_program::Settings;
 
 use crate::{CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Supply};
 

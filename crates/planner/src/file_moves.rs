@@ -2,7 +2,7 @@
 
 use glidepath_gcode::{Code, Diagnostic, Options, Report, Survey, Totals};
 use glidepath_geometry::{Axis, AxisVector, Segment};
-use glidepath_motion::{Item, ItemKind, PathMode, Rate};
+use glidepath_program::{Item, ItemKind, PathMode, Rate};
 
 use crate::fingerprint::fingerprint;
 use crate::{Refusal, Supply};

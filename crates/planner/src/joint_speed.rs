@@ -13,7 +13,7 @@
 
 use glidepath_geometry::{Axis, AxisVector, ROTARY_ABC, Segment, limit_along};
 use glidepath_kinematics::{Heading, PathCaps, PlaceCaps};
-use glidepath_motion::{Item, ItemKind, PathMode, Settings};
+use glidepath_program::{Item, ItemKind, PathMode, Settings};
 
 /// Largest change of any axis between two places that are looked at, mm or degrees.
 const STEP: f64 = 1.0;

@@ -13,7 +13,8 @@ use std::time::Duration;
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::PathCaps;
 use glidepath_link::{LinkError, SegmentRefusal, SegmentReply, SegmentRequest, Server, Transport};
-use glidepath_motion::{PlanError, Settings};
+use glidepath_motion::PlanError;
+use glidepath_program::Settings;
 
 use crate::stream::refuse;
 use crate::{

@@ -7,7 +7,7 @@ use glidepath_link::{
     Client, Command, CommandReply, CommandRequest, EndOfEpoch, LinkError, MachineState, Record,
     Status, Subscriber, Transport,
 };
-use glidepath_motion::Override;
+use glidepath_program::Override;
 
 use crate::{Control, RunError};
 

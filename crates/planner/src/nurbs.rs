@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 use glidepath_curve::NurbsFile;
 use glidepath_gcode::{Code, Diagnostic, Options, Report};
 use glidepath_geometry::{AXES, Axis, AxisVector, Nurbs, NurbsPath, Segment};
-use glidepath_motion::{PathMode, Rate, Settings};
+use glidepath_program::{PathMode, Rate, Settings};
 
 use crate::file_moves::{FileMoves, Next, supply, survey};
 use crate::{ItemSource, Supply};

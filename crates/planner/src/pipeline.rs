@@ -16,7 +16,8 @@ use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::PathCaps;
-use glidepath_motion::{Frame, Item, ItemKind, Override, Planner, Settings};
+use glidepath_motion::Planner;
+use glidepath_program::{Frame, Item, ItemKind, Override, Settings};
 
 use crate::blocks::Blocks;
 use crate::joint_speed::JointSpeed;

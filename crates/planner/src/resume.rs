@@ -28,7 +28,8 @@ use std::time::Duration;
 
 use glidepath_geometry::{Arc, AxisVector, Segment};
 use glidepath_link::{EndOfEpoch, LinkError, Status};
-use glidepath_motion::{Item, ItemKind, PathMode, PlanError};
+use glidepath_motion::PlanError;
+use glidepath_program::{Item, ItemKind, PathMode};
 use thiserror::Error;
 
 use crate::{ItemSource, RunError, Supply};

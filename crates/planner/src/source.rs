@@ -7,7 +7,8 @@
 
 use std::time::Duration;
 
-use glidepath_motion::{Item, PlanError};
+use glidepath_motion::PlanError;
+use glidepath_program::Item;
 
 use crate::Refusal;
 

@@ -21,7 +21,7 @@ use std::collections::VecDeque;
 
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_link::{SegmentRefusal, SegmentReply, SegmentRequest, StreamItem, Text};
-use glidepath_motion::{Item, ItemKind};
+use glidepath_program::{Item, ItemKind};
 
 #[cfg(test)]
 mod tests;

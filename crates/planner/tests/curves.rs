@@ -8,12 +8,12 @@
 
 mod support;
 
+use glidepath_audit::{Audit, AuditSettings};
 use glidepath_curve::{ImplicitCurve, ParametricCurve};
 use glidepath_gcode::{Code, Diagnostic, Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_motion::Frame;
-use glidepath_motion::audit::{Audit, AuditSettings};
 use glidepath_planner::{CurveSource, Output, Pipeline};
+use glidepath_program::Frame;
 use nalgebra::Vector3;
 use support::items::settings;
 

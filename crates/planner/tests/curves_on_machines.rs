@@ -7,15 +7,15 @@
 mod support;
 
 use core::f64::consts::TAU;
+use glidepath_audit::{Audit, AuditSettings};
 use glidepath_curve::ParametricCurve;
 use glidepath_gcode::Options;
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_kinematics::{
     AxisRates, AxisShare, Hexapod, JointLimit, JointLimits, JointWatch, Mechanism, PathCaps,
 };
-use glidepath_motion::audit::{Audit, AuditSettings};
-use glidepath_motion::{ItemKind, Settings};
 use glidepath_planner::{CurveSource, Output, Pipeline};
+use glidepath_program::{ItemKind, Settings};
 use nalgebra::Vector3;
 use support::items::settings;
 

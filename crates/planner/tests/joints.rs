@@ -13,8 +13,8 @@ use glidepath_kinematics::{
     AxisRates, AxisShare, FiveAxis, Hexapod, JointLimit, JointLimits, JointVector, Kinematics as _,
     LinearDelta, Mechanism, PathCaps, Rotaries, Tilt,
 };
-use glidepath_motion::{Effort, Limits, Override, PathBounds, Settings, Smoothing};
 use glidepath_planner::{Output, Pipeline, ProgramSource};
+use glidepath_program::{Effort, Limits, Override, PathBounds, Settings, Smoothing};
 use proptest::prelude::*;
 
 const PERIOD_T: f64 = 0.004;

@@ -16,10 +16,10 @@ use glidepath_link::{
     Client, EndOfEpoch, InProcess, SegmentRefusal, SegmentReply, SegmentRequest, SetpointFrame,
     StreamItem, Transport,
 };
-use glidepath_motion::Item;
 use glidepath_planner::{
     Control, FeedError, Listening, Pace, Refusal, RunError, SoftLimits, feed, listen,
 };
+use glidepath_program::Item;
 use support::attended;
 use support::interpolator::Interpolator;
 use support::items::{Listed, PERIOD_NS, point, records, settings, staircase};

@@ -8,11 +8,12 @@
 
 mod support;
 
+use glidepath_audit::{Audit, AuditSettings};
 use glidepath_gcode::{Code, Diagnostic, Machine, Options, Program, Travel};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_motion::audit::{Audit, AuditSettings};
-use glidepath_motion::{Frame, Item, ItemKind, Planner};
+use glidepath_motion::Planner;
 use glidepath_planner::{ItemSource, NurbsSource, Output, Pipeline, Supply};
+use glidepath_program::{Frame, Item, ItemKind};
 use support::items::settings;
 
 const ARCH: &str = "\

@@ -13,10 +13,11 @@ use std::time::Duration;
 
 use glidepath_gcode::{Code, Options};
 use glidepath_geometry::AxisVector;
-use glidepath_motion::{Frame, FrameFlags, Item, PlanError};
+use glidepath_motion::PlanError;
 use glidepath_planner::{
     FileSource, ItemSource, Output, PipeSource, Pipeline, Refusal, Statistics,
 };
+use glidepath_program::{Frame, FrameFlags, Item};
 use proptest::prelude::*;
 use support::items::{Listed, frames_of, point, polyline, settings, staircase};
 
@@ -175,7 +176,7 @@ proptest! {
         delays in prop::collection::vec(0_u32..3, 20),
     ) {
         let start = match items[0].kind {
-            glidepath_motion::ItemKind::Move { segment, .. } => segment.start(),
+            glidepath_program::ItemKind::Move { segment, .. } => segment.start(),
             _ => unreachable!(),
         };
         let mut pipeline = Pipeline::new(Listed::delayed(&items, &delays), settings(), start);

@@ -12,10 +12,11 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
+use glidepath_audit::{Audit, AuditSettings, Report, Sample};
 use glidepath_gcode::{Options, Program};
 use glidepath_geometry::AxisVector;
-use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample};
-use glidepath_motion::{Effort, Frame, Limits, Planner, Settings, Smoothing};
+use glidepath_motion::Planner;
+use glidepath_program::{Effort, Frame, Limits, Settings, Smoothing};
 use serde_json::Value;
 
 const PERIOD_T: f64 = 0.004;

@@ -11,13 +11,13 @@ mod support;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use glidepath_audit::{Audit, AuditSettings, Sample};
 use glidepath_gcode::Options;
 use glidepath_geometry::AxisVector;
-use glidepath_motion::audit::{Audit, AuditSettings, Sample};
-use glidepath_motion::{Frame, Item, Limits};
 use glidepath_planner::{
     ItemSource, Output, Pipeline, ProgramSource, Rest, ResumeError, ResumePoint, RunError, Supply,
 };
+use glidepath_program::{Frame, Item, Limits};
 use support::items::settings;
 
 /// Circles that end where they begin, one of them in three turns, a way there and back, dense
@@ -124,8 +124,7 @@ fn deviation(items: &[Item], positions: impl Iterator<Item = AxisVector>) -> f64
         });
     }
     let report = audit.finish();
-    let is_of_path =
-        |v: &&glidepath_motion::audit::Violation| !format!("{:?}", v.kind).contains("Feed");
+    let is_of_path = |v: &&glidepath_audit::Violation| !format!("{:?}", v.kind).contains("Feed");
     let bad: Vec<_> = report.violations.iter().filter(is_of_path).collect();
     assert!(bad.is_empty(), "{bad:#?}");
     report.max_deviation_mm

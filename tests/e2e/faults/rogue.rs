@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use glidepath_link::{Delivery, FrameSink, MachineState, SetpointFrame, Transport};
-use glidepath_motion::Frame;
+use glidepath_program::Frame;
 
 use super::bench::{Bench, Checked, Heard};
 use super::case::{Chance, Fault};

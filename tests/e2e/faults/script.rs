@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState};
-use glidepath_motion::{Frame, Item};
+use glidepath_program::{Frame, Item};
 use glidepath_tests::Process;
 use rustix::process::Signal;
 

@@ -1,9 +1,9 @@
 //! What subscribers got, judged by the auditor.
 
+use glidepath_audit::{Audit, AuditSettings, Report, Sample, Violation, ViolationKind};
 use glidepath_geometry::AxisVector;
 use glidepath_link::Setpoint;
-use glidepath_motion::Item;
-use glidepath_motion::audit::{Audit, AuditSettings, Report, Sample, Violation, ViolationKind};
+use glidepath_program::Item;
 use glidepath_tests::{plan, settings};
 
 use super::bench::Bench;

@@ -7,7 +7,7 @@ use glidepath_gcode::{
     Connections, Dialect, LoopLimits, Machine, Options, Program, Tool, ToolTable, Travel, check,
 };
 use glidepath_geometry::Axis;
-use glidepath_motion::{ItemKind, Rate};
+use glidepath_program::{ItemKind, Rate};
 use libfuzzer_sys::fuzz_target;
 
 fn options() -> Options {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use glidepath_gcode::{Options, Program, check};
 use glidepath_geometry::Segment;
-use glidepath_motion::ItemKind;
+use glidepath_program::ItemKind;
 use libfuzzer_sys::fuzz_target;
 
 const CYCLES: [&str; 7] = ["70", "71", "71.1", "71.2", "72", "72.1", "72.2"];

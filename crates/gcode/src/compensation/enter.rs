@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
-use glidepath_motion::{Item, ItemKind};
+use glidepath_program::{Item, ItemKind};
 
 use super::element::{along, direction, distance, minus};
 use super::{Compensation, ContourMove, Element, Pending};

@@ -36,7 +36,7 @@ mod element;
 mod enter;
 
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
-use glidepath_motion::{Item, ItemKind, PathMode};
+use glidepath_program::{Item, ItemKind, PathMode};
 
 use crate::diagnostic::{Code, Fault, Outcome, Span};
 use crate::modes::Side;

@@ -39,7 +39,7 @@ mod run;
 mod tests;
 
 use glidepath_geometry::{Axis, Plane};
-use glidepath_motion::Item;
+use glidepath_program::Item;
 
 use crate::block::Block;
 use crate::diagnostic::{Code, Fault, Outcome, Span};

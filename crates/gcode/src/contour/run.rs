@@ -4,7 +4,7 @@ use std::io::BufRead;
 use std::sync::Arc;
 
 use glidepath_geometry::{AXES, Arc as ArcSegment, Axis, AxisVector, Plane, Segment};
-use glidepath_motion::Item;
+use glidepath_program::Item;
 
 use super::frame::{Frame, Point, ROUNDING_MM, pieces};
 use super::offset::offset;

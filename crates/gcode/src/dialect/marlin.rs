@@ -1,6 +1,6 @@
 //! Programs of printers: checksums, the extruder, machine functions.
 
-use glidepath_motion::{Event, Item, ItemKind};
+use glidepath_program::{Event, Item, ItemKind};
 
 use super::body;
 use crate::block::Block;

@@ -16,7 +16,7 @@
 mod open;
 
 use glidepath_geometry::{Axis, AxisVector, Nurbs, NurbsPath, Plane, Segment};
-use glidepath_motion::{Item, PathMode};
+use glidepath_program::{Item, PathMode};
 
 use crate::block::{AXIS_WORDS, Block, Letters};
 use crate::diagnostic::{Code, Fault, Outcome, Span};

@@ -1,7 +1,7 @@
 //! NURBS whose control points come block by block.
 
 use glidepath_geometry::{AxisVector, Nurbs, NurbsError};
-use glidepath_motion::Item;
+use glidepath_program::Item;
 
 use crate::block::Block;
 use crate::diagnostic::{Code, Fault, Outcome, Span};

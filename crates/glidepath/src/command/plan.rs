@@ -13,11 +13,11 @@ use crate::progress::Progress;
 use crate::recording::Recording;
 use crate::report::{MotionReport, Planning, peak_rss_bytes};
 use crate::sample::Sample;
+use glidepath_audit::diagnosis::Diagnosis;
+use glidepath_audit::{Audit, AuditSettings};
 use glidepath_kinematics::{Kinematics as _, Mechanism};
-use glidepath_motion::audit::{Audit, AuditSettings};
-use glidepath_motion::diagnosis::Diagnosis;
-use glidepath_motion::{Frame, Item};
 use glidepath_planner::{FileSource, Pipeline, Refusal, Step};
+use glidepath_program::{Frame, Item};
 use std::path::Path;
 use std::time::Duration;
 

@@ -2,7 +2,7 @@
 
 use super::judge::{Judge, Range};
 use super::raw::{Optional, RawPath};
-use glidepath_motion::{Limits, PathBounds};
+use glidepath_program::{Limits, PathBounds};
 
 impl Judge {
     pub(super) fn bounds(&mut self, raw: &RawPath) -> PathBounds {

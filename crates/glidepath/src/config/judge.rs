@@ -6,7 +6,7 @@ use super::machine::{AxisConfig, InterpolatorConfig, MachineConfig, PathConfig, 
 use super::program::ProgramConfig;
 use super::raw::{Optional, RawAxis, RawConfig, RawInterpolator, RawLink, RawPath};
 use glidepath_geometry::Axis;
-use glidepath_motion::{Effort, Smoothing};
+use glidepath_program::{Effort, Smoothing};
 use toml::Spanned;
 
 /// Judges every value.

@@ -7,7 +7,7 @@ use glidepath_kinematics::{
     AxisRates, AxisShare, JointLimits, JointWatch, Kinematics as _, Mechanism, PathCaps,
 };
 use glidepath_motion::preview::AdvanceRetreat;
-use glidepath_motion::{Effort, Limits, PathBounds, Settings, Smoothing};
+use glidepath_program::{Effort, Limits, PathBounds, Settings, Smoothing};
 
 /// One axis: mm, or degrees for A, B and C.
 #[derive(Debug, Clone, Copy, PartialEq)]

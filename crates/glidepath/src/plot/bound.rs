@@ -4,7 +4,7 @@ use super::colour::QUIET;
 use super::svg::{Anchor, Area, Svg};
 use super::track::Track;
 use super::view::rapid_legend;
-use glidepath_motion::diagnosis::Binding;
+use glidepath_audit::diagnosis::Binding;
 
 /// The kind of a limit; the axis does not show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -24,7 +24,7 @@ use colour::{INK, QUIET};
 use envelope::Envelope;
 use glidepath_geometry::Axis;
 use glidepath_kinematics::JointLimits;
-use glidepath_motion::Limits;
+use glidepath_program::Limits;
 pub use lateness::{Series, lateness};
 use quantities::{Quantities, Row};
 use strip::{Strip, TimeAxis};

@@ -2,7 +2,7 @@
 
 use super::quantity::seconds;
 use core::fmt::Write as _;
-use glidepath_motion::diagnosis::{Place, Summary};
+use glidepath_audit::diagnosis::{Place, Summary};
 use serde::Serialize;
 use std::collections::BTreeMap;
 

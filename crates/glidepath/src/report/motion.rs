@@ -5,7 +5,7 @@ use super::quantity::{grouped, seconds};
 use crate::config::{AxisConfig, MachineConfig};
 use crate::exit::Exit;
 use core::fmt::Write as _;
-use glidepath_motion::audit::Report;
+use glidepath_audit::Report;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;

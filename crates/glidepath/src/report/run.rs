@@ -3,9 +3,9 @@
 use super::motion::{MotionReport, Planning};
 use super::status::{quantiles_object, realtime_object, timing_text};
 use crate::config::MachineConfig;
+use glidepath_audit::{Report, ViolationKind};
 use glidepath_link::Status;
 use glidepath_link::servo::ServoCounts;
-use glidepath_motion::audit::{Report, ViolationKind};
 use serde::Serialize;
 use serde_json::Value;
 

@@ -16,7 +16,7 @@ use crate::testing::{audit, mill, plan, records};
 use crate::track::{TRACK_CAPACITY, is_at_rest};
 use glidepath_geometry::AxisVector;
 use glidepath_link::SetpointFrame;
-use glidepath_motion::Limits;
+use glidepath_program::Limits;
 use proptest::prelude::*;
 
 const PERIOD_T: f64 = 0.004;

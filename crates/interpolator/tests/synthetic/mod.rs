@@ -16,7 +16,7 @@
 use glidepath_geometry::{AXES, AxisVector};
 use glidepath_kinematics::{Hexapod, Mechanism};
 use glidepath_link::SetpointFrame;
-use glidepath_motion::{Frame, FrameFlags, Limits};
+use glidepath_program::{Frame, FrameFlags, Limits};
 
 /// The default machine: 200 mm/s, 2000 mm/s², 40000 mm/s³ on every axis.
 pub fn mill() -> Limits {

@@ -5,7 +5,7 @@
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
-use glidepath_motion::Event;
+use glidepath_program::Event;
 
 coded! {
     /// What the lowest byte of `event_kind` says; `event_value` is the speed, tool, M code or value.

@@ -3,7 +3,7 @@
 use super::check::{Fields, RecordError};
 use super::{OVERRIDE_MAX, Record, event};
 use glidepath_geometry::{AXES, AxisVector};
-use glidepath_motion::{Event, Frame, FrameFlags};
+use glidepath_program::{Event, Frame, FrameFlags};
 use iceoryx2::prelude::ZeroCopySend;
 
 /// Longest interpolation period, ns.

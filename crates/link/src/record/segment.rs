@@ -4,7 +4,7 @@ use super::check::{Fields, RecordError};
 use super::code::coded;
 use super::{Record, event};
 use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Quintic, Segment};
-use glidepath_motion::{Item, ItemKind, PathMode, Rate};
+use glidepath_program::{Item, ItemKind, PathMode, Rate};
 use iceoryx2::prelude::ZeroCopySend;
 
 coded! {

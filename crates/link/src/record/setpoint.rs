@@ -3,7 +3,7 @@
 use super::check::{Fields, RecordError};
 use super::{MachineState, OVERRIDE_MAX, Record, event, frame::FRAME_FLAGS};
 use glidepath_geometry::AXES;
-use glidepath_motion::{Event, FrameFlags};
+use glidepath_program::{Event, FrameFlags};
 use iceoryx2::prelude::ZeroCopySend;
 
 /// Properties of a setpoint, one bit each.

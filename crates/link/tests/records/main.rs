@@ -9,7 +9,7 @@ use glidepath_link::{
     RequestKind, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status,
     StreamItem, Text, decode,
 };
-use glidepath_motion::{Item, ItemKind, PathMode, Rate};
+use glidepath_program::{Item, ItemKind, PathMode, Rate};
 use proptest::prelude::*;
 use strategies::{command, frame, item};
 

@@ -2,7 +2,7 @@
 
 use glidepath_geometry::{Arc, AxisVector, Plane, Quintic, Segment};
 use glidepath_link::{Command, OVERRIDE_MAX, StreamItem};
-use glidepath_motion::{Event, Frame, FrameFlags, Item, ItemKind, PathMode, Rate};
+use glidepath_program::{Event, Frame, FrameFlags, Item, ItemKind, PathMode, Rate};
 use proptest::prelude::*;
 
 pub(crate) fn finite() -> impl Strategy<Value = f64> {

@@ -3,8 +3,8 @@
 //! Places are lengths along the merged chords of a run of blocks. Line numbers are kept for every
 //! block; rates and events only where they change, for blocks are merged only where they do not.
 
-use crate::Event;
-use crate::override_::ProgrammedRate;
+use crate::programmed_rate::ProgrammedRate;
+use glidepath_program::Event;
 use std::collections::VecDeque;
 
 /// What a block changes when it is entered.

@@ -36,10 +36,10 @@ mod window;
 pub(crate) use marks::{Change, Cut};
 pub(crate) use output::{Part, PartShape};
 
-use crate::Settings;
 use chords::Chords;
 use core::ops::Range;
 use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+use glidepath_program::Settings;
 use output::Output;
 use thinning::{Thinning, Vertex};
 

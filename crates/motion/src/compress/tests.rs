@@ -10,9 +10,9 @@
 )]
 
 use super::*;
-use crate::override_::ProgrammedRate;
-use crate::{Effort, Limits, Rate, Smoothing};
+use crate::programmed_rate::ProgrammedRate;
 use glidepath_geometry::{Cubic, Segment, feed_length};
+use glidepath_program::{Effort, Limits, Rate, Smoothing};
 use proptest::prelude::*;
 
 const TOLERANCE_MM: f64 = 0.02;
@@ -99,7 +99,7 @@ fn sampled(parts: &[Part]) -> Vec<AxisVector> {
 fn distance(point: &AxisVector, a: &AxisVector, b: &AxisVector) -> f64 {
     let (ab, ap) = (b - a, point - a);
     let u = (ap.dot(&ab) / ab.dot(&ab).max(1e-300)).clamp(0.0, 1.0);
-    crate::joint::tolerance_norm(&(ap - ab * u))
+    glidepath_program::tolerance_norm(&(ap - ab * u))
 }
 
 /// Largest distance of points from a polyline, by trying all of it near the same share of length.

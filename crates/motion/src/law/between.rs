@@ -7,8 +7,8 @@
 
 use super::track::Interval;
 use super::{Law, Span};
-use crate::Limits;
 use crate::valley::Course;
+use glidepath_program::Limits;
 
 /// Places on an interval that are looked at, besides its start.
 const PLACES: u32 = 8;

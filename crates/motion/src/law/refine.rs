@@ -2,10 +2,10 @@
 
 use super::Law;
 use super::track::Track;
-use crate::Limits;
 use crate::piece::{Element, Piece};
 use crate::schedule::Settled;
 use crate::valley::{Course, Leg};
+use glidepath_program::Limits;
 use std::collections::VecDeque;
 
 /// Motion that is optimised together, s, as the S-curves drive it, and its most pieces: little enough

@@ -2,8 +2,8 @@
 //! coefficients.
 
 use super::track::{Interval, Track};
-use crate::Limits;
 use glidepath_geometry::{AXES, Jet, feed_length};
+use glidepath_program::Limits;
 
 /// A limit: `of`·x ≤ limit, or ≤ limit/√(`root_of`·x), x three neighbouring coefficients.
 #[derive(Debug, Clone, Copy)]

@@ -2,10 +2,10 @@
 
 use super::rows::{Parabola, Problem};
 use super::{Builder, Law, between, solver};
-use crate::Limits;
 use crate::scurve::PathState;
 use crate::valley::{Course, Leg};
 use glidepath_geometry::Jet;
+use glidepath_program::Limits;
 
 /// Time from knot to knot on the S-curves, s.
 const KNOT_T: f64 = 0.002;

@@ -12,15 +12,15 @@
 
 use super::intake::{Intake, Move, Work};
 use super::ledger::Part;
-use crate::joint::tolerance_norm;
 use crate::merge::Dropped;
-use crate::override_::ProgrammedRate;
 use crate::path::SHORTEST_MOVE_MM;
 use crate::pending::axes_speed;
 use crate::piece::Rest;
+use crate::programmed_rate::ProgrammedRate;
 use crate::window::Reference;
-use crate::{Event, Item, Rate, Settings};
 use glidepath_geometry::{Arc, AxisVector, Segment, feed_length};
+use glidepath_program::tolerance_norm;
+use glidepath_program::{Event, Item, Rate, Settings};
 use std::collections::VecDeque;
 
 /// Share of the tolerance that chords of an arc may be away from it.

@@ -1,9 +1,10 @@
 //! Items in, checked; what there is to do out, in order: moves, exact moves, rests.
 
+use crate::PlanError;
 use crate::path::{SHORTEST_MOVE_MM, check, starting_at};
 use crate::piece::{Rest, RestKind};
-use crate::{Event, Item, ItemKind, PathMode, PlanError, Rate, Settings};
 use glidepath_geometry::{AxisVector, Segment};
+use glidepath_program::{Event, Item, ItemKind, PathMode, Rate, Settings};
 use std::collections::VecDeque;
 
 /// One thing to do.

@@ -1,8 +1,9 @@
 //! What the pieces of a stretch have to do with the program: their lines, rates and events, by tag.
 
-use crate::Event;
 use crate::grid::Passing;
-use crate::override_::{Override, ProgrammedRate};
+use crate::programmed_rate::ProgrammedRate;
+use glidepath_program::Event;
+use glidepath_program::Override;
 use std::collections::VecDeque;
 
 /// A piece as the program sees it.

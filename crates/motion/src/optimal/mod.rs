@@ -25,14 +25,15 @@ mod chords;
 mod intake;
 mod ledger;
 
+use crate::PlanError;
 use crate::fast::FastEngine;
 use crate::grid::{FrameGrid, Moving};
-use crate::override_::Override;
 use crate::piece::Rest;
 use crate::window::{Period, Reference, WindowPlanner};
-use crate::{Frame, FrameFlags, Item, PlanError, Settings};
 use chords::{Chords, Product};
 use glidepath_geometry::AxisVector;
+use glidepath_program::Override;
+use glidepath_program::{Frame, FrameFlags, Item, Settings};
 use intake::Intake;
 use ledger::{Ledger, Part};
 

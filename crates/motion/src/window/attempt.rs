@@ -8,8 +8,8 @@ use super::scene::{Scene, moving_axes};
 use super::spline::Grid;
 use super::stop_leg::directional;
 use super::track::Track;
-use crate::Limits;
 use glidepath_geometry::{AXES, AxisVector};
+use glidepath_program::Limits;
 
 /// Most pieces a window looks at.
 const MOST_PIECES: usize = 4096;

@@ -7,8 +7,8 @@ use super::bend::{Bend, State};
 use super::follow::Follower;
 use super::stop_leg::counted_length;
 use super::track::Track;
-use crate::Limits;
 use glidepath_geometry::{AXES, AxisVector, feed_length};
+use glidepath_program::Limits;
 
 /// A limit counts as kept up to this factor.
 const SLACK: f64 = 1.0 + 5e-7;

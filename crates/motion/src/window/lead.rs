@@ -15,9 +15,9 @@
 use super::bend::State;
 use super::stop_leg::{Bounds, StopLeg, directional, top_v};
 use super::track::{Piece, Track};
-use crate::Limits;
 use crate::scurve::Profile;
 use glidepath_geometry::feed_length;
+use glidepath_program::Limits;
 use std::collections::VecDeque;
 
 /// What a motion on knots may lose against an S-curve to the same rest, periods.

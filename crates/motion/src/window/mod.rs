@@ -48,10 +48,10 @@ mod tests;
 mod track;
 mod tube;
 
-use crate::Limits;
 use attempt::Optimisers;
 use follow::{Follower, Place};
 use glidepath_geometry::AxisVector;
+use glidepath_program::Limits;
 use judge::History;
 use lead::Rival;
 use spline::Grid;

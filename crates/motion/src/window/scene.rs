@@ -8,9 +8,9 @@
 use super::solver::dot;
 use super::stop_leg::directional;
 use super::track::{Piece, Track};
-use crate::Limits;
 use crate::scurve::PathLimits;
 use glidepath_geometry::{AXES, Axis, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW, feed_length};
+use glidepath_program::Limits;
 
 /// A piece of the path in the space of the window.
 #[derive(Debug, Clone)]

@@ -8,9 +8,9 @@
 use super::Period;
 use super::scene::feed_group;
 use super::track::Piece;
-use crate::Limits;
 use crate::scurve::{PathLimits, Profile};
 use glidepath_geometry::{AXES, AxisVector, feed_length};
+use glidepath_program::Limits;
 
 /// A straight motion from rest to rest.
 #[derive(Debug, Clone)]

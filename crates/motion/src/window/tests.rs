@@ -12,9 +12,9 @@ mod extremes;
 
 use super::budget::PLAN_WORK;
 use super::*;
-use crate::audit::{Audit, AuditSettings, Report, Sample};
-use crate::{Item, ItemKind, PathMode, Rate};
+use glidepath_audit::{Audit, AuditSettings, Report, Sample};
 use glidepath_geometry::Segment;
+use glidepath_program::{Item, ItemKind, PathMode, Rate};
 use proptest::prelude::{ProptestConfig, proptest};
 
 /// A path with everything needed to plan and to judge it.

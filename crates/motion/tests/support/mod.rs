@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each test binary uses a part of it")]
 
 use glidepath_geometry::AxisVector;
-use glidepath_motion::{Effort, Limits, PathMode, Settings, Smoothing};
+use glidepath_program::{Effort, Limits, PathMode, Settings, Smoothing};
 use proptest::prelude::ProptestConfig;
 
 /// G64 without P.

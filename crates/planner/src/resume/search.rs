@@ -1,7 +1,7 @@
 //! The search for the machine along a program.
 
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, Segment, UVW};
-use glidepath_motion::{Event, Item, ItemKind, PathMode};
+use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use super::{ROUNDING_MM, ResumePoint};
 

@@ -1,7 +1,7 @@
 //! The rules of a stream, request by request.
 
 use glidepath_geometry::{Arc, Plane};
-use glidepath_motion::{PathMode, Rate};
+use glidepath_program::{PathMode, Rate};
 
 use super::*;
 

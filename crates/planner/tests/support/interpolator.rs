@@ -9,7 +9,7 @@ use glidepath_link::{
     Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, MachineState, Publisher, Server,
     SetpointFrame, Status, Subscriber, Text, Transport,
 };
-use glidepath_motion::FrameFlags;
+use glidepath_program::FrameFlags;
 
 use super::items::PERIOD_NS;
 

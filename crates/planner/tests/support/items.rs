@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_link::SetpointFrame;
-use glidepath_motion::{Frame, Item, ItemKind, Limits, PathMode, Rate, Settings};
 use glidepath_planner::{ItemSource, Pipeline, Refusal, Supply};
+use glidepath_program::{Frame, Item, ItemKind, Limits, PathMode, Rate, Settings};
 
 pub(crate) const PERIOD_NS: u64 = 4_000_000;
 
@@ -13,9 +13,9 @@ pub(crate) fn settings() -> Settings {
     Settings {
         limits: Limits::uniform(200.0, 2000.0, 40_000.0),
         tolerance_mm: 0.02,
-        smoothing: glidepath_motion::Smoothing::Sextic,
+        smoothing: glidepath_program::Smoothing::Sextic,
         period_t: 0.004,
-        effort: glidepath_motion::Effort::Fast,
+        effort: glidepath_program::Effort::Fast,
     }
 }
 

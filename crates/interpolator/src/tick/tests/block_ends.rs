@@ -3,7 +3,7 @@
 use super::planned::{planned, program};
 use super::*;
 use glidepath_geometry::{Arc, Plane, Segment};
-use glidepath_motion::{Effort, Item, ItemKind, PathMode, Rate as Speed};
+use glidepath_program::{Effort, Item, ItemKind, PathMode, Rate as Speed};
 
 /// Plays a program in single-block mode, going on by `order` wherever it has stood for some ticks;
 /// returns where.

@@ -3,9 +3,8 @@
 
 use super::*;
 use glidepath_geometry::Segment;
-use glidepath_motion::{
-    Effort, Item, ItemKind, PathMode, Planner, Rate as Speed, Settings, Smoothing,
-};
+use glidepath_motion::Planner;
+use glidepath_program::{Effort, Item, ItemKind, PathMode, Rate as Speed, Settings, Smoothing};
 
 /// Frames of a random program of up to three axes.
 pub(super) fn program(seed: u64, moves: usize, effort: Effort) -> Vec<SetpointFrame> {

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::optimal::intake::Intake;
-use crate::{Effort, ItemKind, Limits, PathMode, Smoothing};
 use glidepath_geometry::Plane;
+use glidepath_program::{Effort, ItemKind, Limits, PathMode, Smoothing};
 
 fn settings() -> Settings {
     Settings {

@@ -2,7 +2,7 @@
 
 use super::bend::State;
 use super::*;
-use crate::audit::{Violation, ViolationKind};
+use glidepath_audit::{Violation, ViolationKind};
 
 /// Pushes as late as possible.
 fn plan_lazily(case: &Case) -> Vec<Period> {

@@ -1,0 +1,175 @@
+//! An audit under way: samples and items in, verdict out.
+
+use crate::along::AlongAudit;
+use crate::limits::LimitAudit;
+use crate::matching::Matching;
+use crate::report::Report;
+use crate::sample::{Sample, Seen};
+use crate::settings::AuditSettings;
+use glidepath_program::{Frame, Item};
+
+/// An audit under way.
+///
+/// Program items and samples may be fed in any interleaving that keeps each in order; what is
+/// fed first waits for the other.
+#[derive(Debug)]
+pub struct Audit {
+    limits: LimitAudit,
+    along: AlongAudit,
+    matching: Matching,
+}
+
+impl Audit {
+    /// An audit with nothing seen yet.
+    #[must_use]
+    pub fn new(settings: &AuditSettings) -> Self {
+        Self {
+            limits: LimitAudit::new(settings),
+            along: AlongAudit::new(settings),
+            matching: Matching::new(settings),
+        }
+    }
+
+    /// Allows the feed times a factor > 0: the largest override at which the motion was run.
+    #[must_use]
+    pub const fn with_override(mut self, factor: f64) -> Self {
+        self.matching.feed_factor = factor;
+        self
+    }
+
+    /// The next item of the program.
+    pub fn program(&mut self, item: &Item) {
+        self.matching.program(item);
+    }
+
+    /// The next sample of the motion.
+    pub fn sample(&mut self, sample: &Sample) {
+        self.see(&sample.into());
+    }
+
+    /// The next sample of the motion and its path position, whose limits are judged too.
+    pub fn sample_at(&mut self, sample: &Sample, path_s: f64) {
+        let seen = sample.into();
+        self.along.sample(&seen, path_s);
+        self.see(&seen);
+    }
+
+    /// The next sample of the motion: a frame, its path position and all.
+    pub fn frame(&mut self, frame: &Frame) {
+        let seen = frame.into();
+        self.along.sample(&seen, frame.path_s);
+        self.see(&seen);
+    }
+
+    fn see(&mut self, seen: &Seen<'_>) {
+        self.limits.sample(seen);
+        self.matching.sample(seen);
+    }
+
+    /// The verdict, after the last sample: the machine rests there from now on.
+    #[must_use]
+    pub fn finish(mut self) -> Report {
+        self.matching.finish();
+        self.limits.finish();
+        Report::new(&self.limits, &self.along, &self.matching)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
+    use glidepath_program::{ItemKind, Limits, PathMode, Rate};
+
+    fn settings() -> AuditSettings {
+        let limits = Limits::uniform(1e9, 1e9, 1e12);
+        AuditSettings {
+            limits,
+            period_t: 0.004,
+            tolerance_mm: 0.02,
+        }
+    }
+
+    fn item(segment: Segment) -> Item {
+        let mode = PathMode::Continuous { tolerance_mm: None };
+        Item {
+            line: 1,
+            kind: ItemKind::Move {
+                segment,
+                rate: Rate::Rapid,
+                mode,
+            },
+        }
+    }
+
+    fn spiral(k: u32) -> AxisVector {
+        let angle = 0.002 * f64::from(k);
+        let mut point = AxisVector::zeros();
+        (point[0], point[1]) = (angle * angle.cos(), angle * angle.sin());
+        point
+    }
+
+    #[test]
+    fn a_long_program_is_audited_in_little_memory() {
+        let mut audit = Audit::new(&settings());
+        let mut most = 0;
+        for k in 0..100_000 {
+            audit.program(&item(Segment::line(spiral(k), spiral(k + 1))));
+            let position = spiral(k);
+            audit.sample(&Sample {
+                tick: u64::from(k),
+                line: 1,
+                position,
+                reported: None,
+            });
+            most = most.max(audit.matching.kept());
+        }
+        audit.sample(&Sample {
+            tick: 100_000,
+            line: 1,
+            position: spiral(100_000),
+            reported: None,
+        });
+        assert!(audit.finish().is_clean());
+        assert!(most < 5000, "{most}");
+    }
+
+    #[test]
+    fn an_arc_of_many_turns_is_audited_in_little_memory() {
+        let start = spiral(10_000);
+        let arc = Arc {
+            start,
+            end: start,
+            plane: Plane::Xy,
+            center: [0.0, 0.0],
+            sweep_rad: core::f64::consts::TAU * 100.0,
+        };
+        let mut audit = Audit::new(&settings());
+        audit.program(&item(Segment::Arc(arc)));
+        let mut most = 0;
+        for k in 0..=20_000_u32 {
+            let position = arc.jet(arc.length() * f64::from(k) / 2e4).position;
+            audit.sample(&Sample {
+                tick: u64::from(k),
+                line: 1,
+                position,
+                reported: None,
+            });
+            most = most.max(audit.matching.kept());
+        }
+        assert!(most < 5000, "{most}");
+        let report = audit.finish();
+        // Two hundred chords a turn.
+        let sagitta = 20.0 * (1.0 - (core::f64::consts::PI / 200.0).cos());
+        assert!(
+            report.is_clean() && report.is_complete,
+            "{:?}",
+            report.violations
+        );
+        assert!(
+            (report.max_deviation_mm - sagitta).abs() < 2e-6,
+            "{}",
+            report.max_deviation_mm
+        );
+    }
+}

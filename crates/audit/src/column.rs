@@ -1,0 +1,175 @@
+//! One column of the free-space diagram: a chord of the motion against the chords of the program.
+
+use crate::free_space::{Chord, Interval, distance};
+use crate::matching::EXACT_MM;
+use crate::program::{Presence, Row, Rows};
+
+/// Intervals on the program that a matching can have reached at a sample.
+#[derive(Debug, Default)]
+pub(super) struct Reach {
+    /// Chord of the first interval.
+    pub(super) low: usize,
+    pub(super) intervals: Vec<Interval>,
+}
+
+impl Clone for Reach {
+    fn clone(&self) -> Self {
+        Self {
+            low: self.low,
+            intervals: self.intervals.clone(),
+        }
+    }
+
+    /// Once for every sample: memory is used again.
+    fn clone_from(&mut self, source: &Self) {
+        self.low = source.low;
+        self.intervals.clone_from(&source.intervals);
+    }
+}
+
+impl Reach {
+    pub(super) fn get(&self, index: usize) -> Interval {
+        let here = index
+            .checked_sub(self.low)
+            .and_then(|i| self.intervals.get(i));
+        here.copied().unwrap_or(Interval::EMPTY)
+    }
+
+    /// One past the last chord.
+    pub(super) fn end(&self) -> usize {
+        self.low + self.intervals.len()
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.intervals.is_empty()
+    }
+
+    /// Drops empty intervals at both ends.
+    pub(super) fn trim(&mut self) {
+        while self
+            .intervals
+            .last()
+            .is_some_and(|interval| interval.is_empty())
+        {
+            self.intervals.pop();
+        }
+        let empty = self
+            .intervals
+            .iter()
+            .take_while(|interval| interval.is_empty())
+            .count();
+        self.intervals.drain(..empty);
+        self.low += empty;
+    }
+}
+
+/// What counts as near.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Level {
+    /// No more than this, whatever the tolerance.
+    pub(super) lambda_mm: f64,
+    /// At exact stops.
+    pub(super) exact_mm: f64,
+    /// At least this, whatever the tolerance: 0 but for a motion that is out of tolerance.
+    pub(super) floor_mm: f64,
+}
+
+impl Level {
+    /// Tolerances, but no more than this.
+    pub(super) const fn up_to(lambda_mm: f64) -> Self {
+        Self {
+            lambda_mm,
+            exact_mm: EXACT_MM,
+            floor_mm: 0.0,
+        }
+    }
+
+    pub(super) fn along(&self, row: &Row) -> f64 {
+        row.tolerance_mm.min(self.lambda_mm).max(self.floor_mm)
+    }
+
+    /// At the end of a row, for a chord of the motion.
+    fn at_end(&self, row: &Row, chord: &Chord) -> f64 {
+        let tolerance = row.exact_end.map_or(row.end_tolerance_mm, |exact| {
+            let cut_mm = exact.cut(distance(&chord.displacement()));
+            (self.exact_mm + cut_mm).min(row.end_tolerance_mm)
+        });
+        tolerance.min(self.lambda_mm).max(self.floor_mm)
+    }
+}
+
+/// A chord of the motion.
+#[derive(Debug, Clone)]
+pub(super) struct Column {
+    pub(super) chord: Chord,
+    /// Its length over all axes.
+    pub(super) travel_mm: f64,
+    pub(super) tick: u64,
+    pub(super) line: u32,
+    /// What could be reached at its start.
+    pub(super) reach: Reach,
+}
+
+/// What became of a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Passage {
+    Passed,
+    Blocked,
+    /// The program has not been fed far enough to tell.
+    NotYet,
+}
+
+/// Carries what can be reached at the start of a chord of the motion over to its end, `next`.
+pub(super) fn step(
+    rows: &mut Rows,
+    now: &Reach,
+    chord: &Chord,
+    level: &Level,
+    next: &mut Reach,
+) -> Passage {
+    next.intervals.clear();
+    next.low = now.low;
+    // What can be reached on the lower edge of the present cell.
+    let mut bottom = Interval::EMPTY;
+    let mut index = now.low;
+    while index < now.end() || !bottom.is_empty() {
+        // Along a long chord the motion mostly goes on; short ones it mostly leaves behind.
+        let left_is_last = index + 1 == now.end();
+        match rows.reach(index) {
+            Presence::Here => {}
+            Presence::NotYet => return Passage::NotYet,
+            Presence::Never => break,
+        }
+        let left = now.get(index);
+        let Some(row) = rows.get(index) else { break };
+        let mut right = Interval::EMPTY;
+        let mut top = Interval::EMPTY;
+        if !(left.is_empty() && bottom.is_empty()) {
+            // From below every place on the right is above; from the left every place on top is
+            // to the right.
+            let along_mm = level.along(row);
+            if left_is_last || !row.chord.is_far(&chord.to, along_mm) {
+                right = row.chord.near(&chord.to, along_mm);
+            }
+            if bottom.is_empty() {
+                right = right.from(left.low);
+            }
+            let end_mm = level.at_end(row, chord);
+            if !chord.is_far(&row.chord.to, end_mm) {
+                top = chord.near(&row.chord.to, end_mm);
+            }
+            if left.is_empty() {
+                top = top.from(bottom.low);
+            }
+        }
+        next.intervals.push(right);
+        bottom = top;
+        index += 1;
+    }
+    next.trim();
+    if next.is_empty() {
+        Passage::Blocked
+    } else {
+        Passage::Passed
+    }
+}

@@ -1,0 +1,147 @@
+//! Diagnosis: which limit keeps a motion from being faster, where, and what that costs.
+//!
+//! Fed with the program and the frames, each in order, like the [auditor](crate::Audit), it tells for
+//! every period which limit is used fully ([`Binding`]), and in the end the share of time of each and
+//! the places where most time is lost against the programmed feed. It judges what it sees, whoever
+//! planned it: positions by finite differences, the deviation from the program, the speed told.
+//!
+//! Work is linear in frames and items; memory is bounded by how far the program is fed ahead.
+
+mod binding;
+mod differences;
+mod follow;
+mod places;
+
+pub use binding::Binding;
+pub use places::Place;
+
+use crate::AuditSettings;
+use binding::COUNT;
+use differences::Differences;
+use follow::{Follow, Nearby};
+use glidepath_program::{Frame, FrameFlags, Item};
+use places::{Places, Visit};
+
+/// A limit counts as used fully from this share on. Plans keep some parts in a thousand below.
+const FULLY_R: f64 = 0.98;
+
+/// A diagnosis under way.
+#[derive(Debug)]
+pub struct Diagnosis {
+    differences: Differences,
+    follow: Follow,
+    counts: [u64; COUNT],
+    places: Places,
+}
+
+/// What came of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Summary {
+    /// Share of the time for which each limit binds, largest first; those that never do left out.
+    pub shares: Vec<(Binding, f64)>,
+    /// The places where most time is lost against the programmed feed, the worst first, at most ten.
+    pub slowest: Vec<Place>,
+}
+
+impl Diagnosis {
+    /// A diagnosis with nothing seen yet.
+    #[must_use]
+    pub fn new(settings: &AuditSettings) -> Self {
+        Self {
+            differences: Differences::new(&settings.limits, settings.period_t),
+            follow: Follow::new(settings),
+            counts: [0; COUNT],
+            places: Places::new(settings.period_t),
+        }
+    }
+
+    /// The next item of the program.
+    pub fn program(&mut self, item: &Item) {
+        self.follow.program(item);
+    }
+
+    /// The next frame; tells what binds in the period that it ends. The program must have been fed
+    /// as far as the frame is.
+    pub fn frame(&mut self, frame: &Frame) -> Binding {
+        let is_first = frame.flags.contains(FrameFlags::FIRST);
+        self.differences.next(&frame.position, is_first);
+        let is_at_rest = self.differences.is_at_rest();
+        let nearby = self.follow.to(frame);
+        let binding = if is_at_rest {
+            Binding::Rest
+        } else {
+            classify(frame.path_v, &self.differences, (&nearby, &self.follow))
+        };
+        if let Some(count) = self.counts.get_mut(binding.index())
+            && !is_first
+        {
+            *count += 1;
+        }
+        let waits = [
+            FrameFlags::DWELL,
+            FrameFlags::PROGRAM_STOP,
+            FrameFlags::LAST,
+        ];
+        let is_wait = is_first || waits.iter().any(|&flag| frame.flags.contains(flag));
+        self.places.next(&Visit {
+            sequence: frame.sequence,
+            line: frame.line,
+            speed_v: if is_at_rest { 0.0 } else { frame.path_v },
+            feed_v: nearby.feed_v,
+            binding,
+            is_wait,
+        });
+        binding
+    }
+
+    /// The summary, after the last frame.
+    #[must_use]
+    pub fn finish(self) -> Summary {
+        let total: u64 = self.counts.iter().sum();
+        #[allow(clippy::cast_precision_loss, reason = "shares, for people")]
+        let share = |count: u64| count as f64 / total.max(1) as f64;
+        let mut shares: Vec<_> = Binding::all()
+            .zip(self.counts)
+            .filter(|&(_, count)| count > 0)
+            .map(|(binding, count)| (binding, share(count)))
+            .collect();
+        // Stable: equal shares keep their order.
+        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+        Summary {
+            shares,
+            slowest: self.places.finish(),
+        }
+    }
+}
+
+/// What binds in a period: of the limits that are used fully, the one whose change would help first.
+/// The feed and the velocity of an axis bind whatever else does; acceleration and jerk bind only
+/// until a speed is reached; the tolerance binds where none of them does.
+fn classify(path_v: f64, used: &Differences, (nearby, follow): (&Nearby, &Follow)) -> Binding {
+    if path_v >= FULLY_R * nearby.feed_v {
+        return Binding::Feed;
+    }
+    let [velocity, acceleration, jerk] = used.ratios();
+    for (ratio, binding) in [
+        (velocity, Binding::Velocity as fn(_) -> _),
+        (acceleration, Binding::Acceleration as fn(_) -> _),
+        (jerk, Binding::Jerk as fn(_) -> _),
+    ] {
+        if let Some((axis, ratio)) = ratio
+            && ratio >= FULLY_R
+        {
+            return binding(axis);
+        }
+    }
+    let chord_mm = used.chord_mm();
+    let deviation_mm = follow.deviation_mm();
+    let both_mm = deviation_mm + chord_mm;
+    // The middle of a chord is off the path by up to both together.
+    if both_mm < FULLY_R * nearby.tolerance_mm {
+        Binding::None
+    } else if chord_mm > deviation_mm {
+        Binding::ChordError
+    } else {
+        Binding::Tolerance
+    }
+}

@@ -1,0 +1,217 @@
+//! Verdicts that come with the matching: start, end, and feed.
+
+use crate::column::{Level, Passage, Reach};
+use crate::free_space::{Interval, distance};
+use crate::matching::{EXACT_MM, Goal, Matching, Spot};
+use crate::program::Presence;
+use crate::report::{ViolationKind, Worst};
+use glidepath_geometry::{AxisVector, feed_length};
+
+/// The programmed feed counts as kept up to this factor.
+const FEED_SLACK: f64 = 1.0 + 1e-3;
+/// Latest rests kept in mind.
+const RESTS: usize = 64;
+
+impl Matching {
+    /// The first sample must be where the program starts; false if that is not known yet.
+    pub(super) fn judge_start(&mut self, spot: &Spot) -> bool {
+        if self.rows.reach(0) != Presence::Here {
+            return false;
+        }
+        if let Some(row) = self.rows.get(0) {
+            let deviation_mm = distance(&(spot.position - row.chord.from));
+            if deviation_mm > EXACT_MM {
+                let kind = ViolationKind::ExactStop { deviation_mm };
+                self.violations.push(spot.tick, spot.line, kind);
+            }
+        }
+        true
+    }
+
+    /// The end of the program must have been reached, exactly.
+    pub(super) fn judge_end(&mut self) {
+        let Some(at) = self.at else {
+            self.is_complete = self.rows.reach(0) == Presence::Never;
+            if !self.is_complete {
+                self.violations.push(0, 0, ViolationKind::Incomplete);
+            }
+            return;
+        };
+        let Some(end) = self.rows.end_position() else {
+            self.is_complete = true;
+            return;
+        };
+        let (tick, line) = self
+            .history
+            .back()
+            .map_or((0, 0), |column| (column.tick, column.line));
+        let is_reached = self.trouble.is_none() && self.includes_end(&self.reach.clone(), &at);
+        // Where the motion ends at the right place it is a question of deviation.
+        let is_there = distance(&(at - end)) <= EXACT_MM;
+        self.is_complete = is_reached || (is_there && self.widen(Goal::End) == Passage::Passed);
+        if self.trouble.is_some() {
+            self.settle(if self.is_complete {
+                Goal::End
+            } else {
+                Goal::Anything
+            });
+        } else if self.is_complete {
+            self.note_deviation(self.lambda_mm, tick, line);
+        }
+        if let Some(spot) = self.last_fed {
+            self.note_rest(at, spot.tick.saturating_sub(self.since_tick));
+            if self.is_complete {
+                self.judge_dwell(self.reach.end().saturating_sub(1), &spot);
+            }
+        }
+        if self.is_complete {
+            return;
+        }
+        let last = self.reach.end().saturating_sub(1);
+        let is_last = self.rows.reach(self.reach.end()) == Presence::Never;
+        let row = self.rows.get(last);
+        let line = row.map_or(line, |row| row.line);
+        let missed = row.map(|row| (distance(&(at - row.chord.to)), row.tolerance_mm));
+        let kind = match missed {
+            Some((deviation_mm, tolerance_mm))
+                if is_last && !is_there && deviation_mm <= tolerance_mm =>
+            {
+                self.is_complete = true;
+                ViolationKind::ExactStop { deviation_mm }
+            }
+            _ => ViolationKind::Incomplete,
+        };
+        self.violations.push(tick, line, kind);
+    }
+
+    /// Path speed against the feed of the chords the motion may be on.
+    ///
+    /// At the level the motion is matched at, those are fewer than the tolerance allows: next to a vertex
+    /// it may be on the chord behind it already, or still on the one before it. So what seems too fast is
+    /// judged at the tolerance: by the chords from where the period may have begun to where it may have
+    /// ended.
+    pub(super) fn judge_feed(&mut self, spot: &Spot, ticks: u64, first: usize) {
+        let Some(column) = self.history.back() else {
+            return;
+        };
+        #[expect(clippy::cast_precision_loss, reason = "a few")]
+        let elapsed_t = self.period_t * ticks as f64;
+        let speed_v = feed_length(&column.chord.displacement()) / elapsed_t;
+        let mut feed_v = self.most_feed_v(first, self.reach.end());
+        if feed_v <= 0.0 {
+            return;
+        }
+        if speed_v > FEED_SLACK * feed_v * self.feed_factor {
+            let widest = Level::up_to(self.cap());
+            if self.replay(0, &widest, Goal::Anything) == Passage::Passed {
+                let [after, before] = &self.scratch;
+                let (first, end) = (first.min(before.low), after.end());
+                feed_v = feed_v.max(self.most_feed_v(first, end));
+            }
+        }
+        let ratio = speed_v / (feed_v * self.feed_factor);
+        if ratio > self.max_feed.ratio {
+            self.max_feed = Worst {
+                ratio,
+                axis: None,
+                tick: spot.tick,
+                line: spot.line,
+            };
+        }
+        if ratio > FEED_SLACK {
+            let kind = ViolationKind::Feed { ratio };
+            self.violations.push(spot.tick, spot.line, kind);
+        }
+    }
+
+    /// The fastest feed of some chords, mm/s; 0 if there are none.
+    fn most_feed_v(&self, first: usize, end: usize) -> f64 {
+        let rows = (first..end).filter_map(|index| self.rows.get(index));
+        rows.fold(0.0, |most, row| row.feed_v.max(most))
+    }
+
+    pub(super) fn is_reached(&mut self, goal: Goal, reach: &Reach) -> bool {
+        let Some(at) = self.history.back().map(|column| column.chord.to) else {
+            return true;
+        };
+        match goal {
+            Goal::Anything => true,
+            Goal::WithinTolerance => self.count_within_tolerance(reach, &at) > 0,
+            Goal::End => self.includes_end(reach, &at),
+        }
+    }
+
+    fn includes_end(&mut self, reach: &Reach, at: &AxisVector) -> bool {
+        let last = reach.end().saturating_sub(1);
+        let is_last = self.rows.reach(reach.end()) == Presence::Never;
+        let Some(row) = self.rows.get(last) else {
+            return false;
+        };
+        is_last && reach.get(last).high >= 1.0 && distance(&(at - row.chord.to)) <= EXACT_MM
+    }
+
+    /// Keeps in mind that the motion rested somewhere.
+    pub(super) fn note_rest(&mut self, at: AxisVector, rest_ticks: u64) {
+        if rest_ticks > 0 {
+            self.rests.push_back((at, rest_ticks));
+        }
+        if self.rests.len() > RESTS {
+            self.rests.pop_front();
+        }
+    }
+
+    /// Dwells at the ends of the chords from `first` on that have been left behind.
+    pub(super) fn judge_dwells(&mut self, first: usize, spot: &Spot) {
+        for index in first..self.reach.low {
+            self.judge_dwell(index, spot);
+        }
+    }
+
+    /// The dwell at the end of a chord.
+    pub(super) fn judge_dwell(&mut self, index: usize, spot: &Spot) {
+        let Some(row) = self.rows.get(index).filter(|row| row.dwell_t > 0.0) else {
+            return;
+        };
+        let is_here = |at: &AxisVector| distance(&(at - row.chord.to)) <= EXACT_MM;
+        let ticks = self
+            .rests
+            .iter()
+            .filter(|(at, _)| is_here(at))
+            .map(|&(_, ticks)| ticks)
+            .max();
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "exact for two million years of ticks"
+        )]
+        let rested_t = ticks.unwrap_or(0) as f64 * self.period_t;
+        // A dwell need not begin or end on the grid.
+        let missing_t = row.dwell_t - rested_t;
+        if missing_t > self.period_t {
+            let line = row.line;
+            self.violations
+                .push(spot.tick, line, ViolationKind::Dwell { missing_t });
+        }
+    }
+
+    /// Number of intervals of `reach` that are within tolerance at a position.
+    pub(super) fn count_within_tolerance(&self, reach: &Reach, at: &AxisVector) -> usize {
+        (reach.low..reach.end())
+            .filter(|&i| !self.within_tolerance(reach, i, at).is_empty())
+            .count()
+    }
+
+    pub(super) fn within_tolerance(
+        &self,
+        reach: &Reach,
+        index: usize,
+        at: &AxisVector,
+    ) -> Interval {
+        let Some(row) = self.rows.get(index) else {
+            return Interval::EMPTY;
+        };
+        let level = Level::up_to(f64::INFINITY);
+        reach
+            .get(index)
+            .intersect(row.chord.near(at, level.along(row)))
+    }
+}

@@ -1,0 +1,55 @@
+//! The auditor: judges a motion against its program and the machine's limits.
+//!
+//! It stands beside the planner, not behind it: Cargo itself keeps it from using anything of the
+//! planner, for it depends on the vocabulary and on the evaluation of programmed segments alone. It
+//! trusts nothing but positions. Fed with the program and the samples, each in order, an [`Audit`]
+//! checks
+//!
+//! * every axis' velocity, acceleration and jerk by finite differences (`limits`), with the machine
+//!   at rest before the first and after the last sample;
+//! * the reported velocity and acceleration against those differences, and the sequence for gaps;
+//! * the deviation, both ways and in order (`matching`): each sample and the straight line between
+//!   two samples is within tolerance of the programmed path, each programmed point within tolerance
+//!   of the motion, and both are passed in the same order;
+//! * exact stops, dwells, the programmed feed, and that the path was run to its end.
+//!
+//! Memory is bounded by how far the program is fed ahead of the samples; work is linear in both.
+//! What keeps a motion from being faster is told by [`diagnosis`], fed in the same way.
+//!
+//! ```
+//! use glidepath_audit::{Audit, AuditSettings, Sample, ViolationKind};
+//! use glidepath_geometry::AxisVector;
+//! use glidepath_program::Limits;
+//!
+//! let mut audit = Audit::new(&AuditSettings {
+//!     limits: Limits::uniform(200.0, 2000.0, 40_000.0), // mm/s, mm/s², mm/s³
+//!     period_t: 0.004,
+//!     tolerance_mm: 0.02,
+//! });
+//! for (tick, x_mm) in [0.0, 0.0, 1.0, 1.0].into_iter().enumerate() {
+//!     let mut position = AxisVector::zeros();
+//!     position[0] = x_mm; // 1 mm in 4 ms: 250 mm/s
+//!     audit.sample(&Sample { tick: tick as u64, line: 1, position, reported: None });
+//! }
+//! let report = audit.finish();
+//! assert!(report.violations.iter().any(|found| matches!(found.kind, ViolationKind::Velocity { .. })));
+//! ```
+
+mod along;
+mod audit;
+mod column;
+pub mod diagnosis;
+mod free_space;
+mod judge;
+mod limits;
+mod matching;
+mod program;
+mod report;
+mod sample;
+mod settings;
+mod widen;
+
+pub use audit::Audit;
+pub use report::{Inconsistency, Report, Violation, ViolationKind, Worst};
+pub use sample::Sample;
+pub use settings::AuditSettings;

@@ -1,0 +1,396 @@
+//! Deviation both ways and in order: a monotone matching of the motion with the program.
+//!
+//! Motion and program are polygons. A *matching* runs along both, never backwards, from the two
+//! starts to the two ends; its width is the largest distance between the two points on the way, and
+//! the deviation is the width of the narrowest matching (the Fréchet distance). A skipped spike, a
+//! reversed or swapped move, a second pass over the same place cannot hide from it.
+//!
+//! ```text
+//!   program                      The free-space diagram: a point (x, y) is a place on the motion and
+//!    y ▲ ┌────┬────┬────┐        one on the program; it is free if they are near. There is a matching
+//!      │ │    │  ╭─┼──· │        if a path through free space leads from corner to corner without
+//!      │ ├────┼─╱──┼────┤        turning left or down. In a cell (a chord against a chord) free space
+//!      │ │ ╭──┼╯   │    │        is convex, so what can be reached on its right and upper edge follows
+//!      │ ├─╱──┼────┼────┤        from what can be reached on its left and lower one.
+//!      │ │·   │    │    │
+//!      └─┴────┴────┴────┴─▶ x motion
+//! ```
+//!
+//! The diagram is run through column by column, one sample at a time, keeping only the intervals that
+//! can be reached at the present sample. "Near" means the tolerance of the place, but not more than
+//! the level λ, the width needed so far. Where a column cannot be passed the last columns are tried
+//! again with a larger λ, found by search; so at the end λ is the deviation. If even the tolerance is
+//! not enough, exact stops are relaxed, then everything, until the motion is back on the path: that is
+//! reported, with the width that was needed.
+
+use crate::column::{Column, Level, Passage, Reach, step};
+use crate::free_space::{Chord, Interval};
+use crate::program::{Presence, Rows, SMALLEST_TOLERANCE_MM};
+use crate::report::{ViolationKind, ViolationList, Worst};
+use crate::sample::Seen;
+use crate::settings::AuditSettings;
+use crate::widen::SHORT;
+use glidepath_geometry::AxisVector;
+use glidepath_program::Item;
+use std::collections::VecDeque;
+
+/// How near an exact stop must be met, mm.
+pub(super) const EXACT_MM: f64 = 1e-6;
+/// Most columns kept.
+const MAX_HISTORY: usize = 4096;
+/// Travel of the motion over which columns are kept, in tolerances.
+const HISTORY_TOLERANCES: f64 = 8.0;
+
+/// What must hold after the last column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Goal {
+    /// Something can be reached.
+    Anything,
+    /// Something within tolerance can be reached.
+    WithinTolerance,
+    /// The end of the program can be reached.
+    End,
+}
+
+/// A motion that is out of tolerance.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Trouble {
+    /// Width at which it is followed, mm.
+    pub(super) floor_mm: f64,
+    /// Where it began.
+    pub(super) tick: u64,
+    pub(super) line: u32,
+}
+
+/// A sample, as far as it is matched.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spot {
+    pub(super) tick: u64,
+    pub(super) line: u32,
+    pub(super) position: AxisVector,
+}
+
+/// A sample that waits for the program.
+#[derive(Debug, Clone, Copy)]
+struct Waiting {
+    spot: Spot,
+    /// Periods since the sample before.
+    ticks: u64,
+    /// Periods for which the position before it was kept.
+    rest_ticks: u64,
+}
+
+/// The matching under way.
+#[derive(Debug)]
+pub(super) struct Matching {
+    pub(super) rows: Rows,
+    pub(super) violations: ViolationList,
+    /// The deviation in mm, as `ratio`, and where it was met.
+    pub(super) max_deviation: Worst,
+    pub(super) max_feed: Worst,
+    pub(super) is_complete: bool,
+    pub(super) period_t: f64,
+    /// Largest override the feed may have been run at.
+    pub(super) feed_factor: f64,
+    /// Samples that wait for the program.
+    queue: VecDeque<Waiting>,
+    /// The last sample fed.
+    pub(super) last_fed: Option<Spot>,
+    /// Tick at which the last position fed was taken up.
+    pub(super) since_tick: u64,
+    /// The latest rests: where, and for how many periods.
+    pub(super) rests: VecDeque<(AxisVector, u64)>,
+    /// Position of the last sample matched.
+    pub(super) at: Option<AxisVector>,
+    pub(super) reach: Reach,
+    pub(super) history: VecDeque<Column>,
+    /// Those of columns that were dropped.
+    spare: Vec<Reach>,
+    /// Travel of the motion over the history, mm.
+    travel_mm: f64,
+    pub(super) lambda_mm: f64,
+    /// The level up to which the full history has been searched for something better, in vain.
+    pub(super) searched_mm: f64,
+    pub(super) trouble: Option<Trouble>,
+    /// Cells looked at for a motion out of tolerance.
+    pub(super) trouble_cells: usize,
+    /// The history must not be gone back to.
+    pub(super) is_history_void: bool,
+    is_lost: bool,
+    pub(super) scratch: [Reach; 2],
+}
+
+impl Matching {
+    pub(super) fn new(settings: &AuditSettings) -> Self {
+        Self {
+            rows: Rows::new(settings.tolerance_mm),
+            violations: ViolationList::default(),
+            max_deviation: Worst::default(),
+            max_feed: Worst::default(),
+            is_complete: false,
+            period_t: settings.period_t,
+            feed_factor: 1.0,
+            queue: VecDeque::new(),
+            last_fed: None,
+            since_tick: 0,
+            rests: VecDeque::new(),
+            at: None,
+            reach: Reach {
+                low: 0,
+                intervals: vec![Interval {
+                    low: 0.0,
+                    high: 0.0,
+                }],
+            },
+            history: VecDeque::new(),
+            spare: Vec::new(),
+            travel_mm: 0.0,
+            lambda_mm: SMALLEST_TOLERANCE_MM,
+            searched_mm: 0.0,
+            trouble: None,
+            trouble_cells: 0,
+            is_history_void: false,
+            is_lost: false,
+            scratch: [Reach::default(), Reach::default()],
+        }
+    }
+
+    pub(super) fn program(&mut self, item: &Item) {
+        self.rows.feed(item);
+        if self.is_lost {
+            self.rows.discard();
+        }
+        self.advance();
+    }
+
+    pub(super) fn sample(&mut self, sample: &Seen<'_>) {
+        if self.is_lost || !sample.position.iter().all(|p| p.is_finite()) {
+            return;
+        }
+        let spot = Spot {
+            tick: sample.tick,
+            line: sample.line,
+            position: *sample.position,
+        };
+        let (mut ticks, mut rest_ticks) = (1, 0);
+        if let Some(previous) = &mut self.last_fed {
+            let is_at_rest = previous.position == spot.position;
+            ticks = spot.tick.saturating_sub(previous.tick).max(1);
+            rest_ticks = previous.tick.saturating_sub(self.since_tick);
+            *previous = spot;
+            // A motion at rest stays where it is in the diagram.
+            if is_at_rest {
+                return;
+            }
+        } else {
+            self.last_fed = Some(spot);
+        }
+        self.since_tick = spot.tick;
+        let waiting = Waiting {
+            spot,
+            ticks,
+            rest_ticks,
+        };
+        // Where another one waits, the program has not been fed far enough.
+        if !self.queue.is_empty() || !self.take(&waiting) {
+            self.queue.push_back(waiting);
+        }
+    }
+
+    pub(super) fn finish(&mut self) {
+        self.rows.end();
+        self.advance();
+        if !self.is_lost {
+            self.judge_end();
+        }
+    }
+
+    /// Matches as many waiting samples as the program allows.
+    fn advance(&mut self) {
+        while let Some(&waiting) = self.queue.front() {
+            if !self.take(&waiting) {
+                return;
+            }
+            self.queue.pop_front();
+        }
+    }
+
+    /// Matches a sample; false if the program has not been fed far enough to tell.
+    fn take(&mut self, waiting: &Waiting) -> bool {
+        let spot = &waiting.spot;
+        if self.rows.reach(0) == Presence::Never {
+            // Nothing moves in the program: the motion has to stay where it is.
+            if self.at.is_some() {
+                self.lose(spot);
+            }
+            self.at = Some(spot.position);
+            return true;
+        }
+        if self.at.is_none() && !self.judge_start(spot) {
+            return false;
+        }
+        let chord = Chord::new(self.at.unwrap_or(spot.position), spot.position);
+        let first = self.reach.low;
+        let passage = match self.trouble {
+            None => {
+                let [next, _] = &mut self.scratch;
+                let level = Level::up_to(self.lambda_mm);
+                step(&mut self.rows, &self.reach, &chord, &level, next)
+            }
+            Some(_) => Passage::Blocked,
+        };
+        let mut reach = self.spare.pop().unwrap_or_default();
+        let passage = match passage {
+            Passage::Passed => {
+                core::mem::swap(&mut reach, &mut self.scratch[0]);
+                core::mem::swap(&mut reach, &mut self.reach);
+                self.put_column(chord, spot, reach);
+                Passage::Passed
+            }
+            Passage::Blocked => {
+                reach.clone_from(&self.reach);
+                self.put_column(chord, spot, reach);
+                let passage = self.pass_somehow();
+                if passage == Passage::Passed {
+                    core::mem::swap(&mut self.reach, &mut self.scratch[0]);
+                }
+                passage
+            }
+            Passage::NotYet => {
+                self.spare.push(reach);
+                return false;
+            }
+        };
+        match passage {
+            Passage::Passed => self.commit(waiting, first),
+            Passage::Blocked => self.lose(spot),
+            Passage::NotYet => {
+                self.drop_column(VecDeque::pop_back);
+                return false;
+            }
+        }
+        true
+    }
+
+    /// The last column does not pass at the present level, or the motion is out of tolerance. What can
+    /// be reached is left in the scratch.
+    fn pass_somehow(&mut self) -> Passage {
+        if let Some(Trouble { floor_mm, .. }) = self.trouble {
+            let level = Level {
+                floor_mm,
+                ..Level::up_to(self.cap())
+            };
+            let passage = self.replay(self.history.len() - 1, &level, Goal::Anything);
+            if passage != Passage::Blocked {
+                return passage;
+            }
+        }
+        self.widen(Goal::Anything)
+    }
+
+    /// What follows from a sample that was matched; `first` is the first chord it may have been on.
+    fn commit(&mut self, waiting: &Waiting, first: usize) {
+        let spot = &waiting.spot;
+        if let Some(at) = self.at.replace(spot.position) {
+            self.note_rest(at, waiting.rest_ticks);
+        }
+        self.judge_dwells(first, spot);
+        if self.trouble.is_some() {
+            if self.count_within_tolerance(&self.reach, &spot.position) > 0 {
+                self.settle(Goal::WithinTolerance);
+            }
+        } else {
+            self.judge_feed(spot, waiting.ticks, first);
+            self.note_deviation(self.lambda_mm, spot.tick, spot.line);
+        }
+        if core::mem::take(&mut self.is_history_void) {
+            self.restart_history(spot.position);
+        }
+        self.forget();
+    }
+
+    fn put_column(&mut self, chord: Chord, spot: &Spot, reach: Reach) {
+        let travel_mm = chord.travel_mm();
+        self.travel_mm += travel_mm;
+        self.history.push_back(Column {
+            chord,
+            travel_mm,
+            tick: spot.tick,
+            line: spot.line,
+            reach,
+        });
+    }
+
+    /// The history starts anew: the motion is here, and no retry goes back.
+    pub(super) fn restart_history(&mut self, at: AxisVector) {
+        let last = self.history.back();
+        let (tick, line) = last.map_or((0, 0), |column| (column.tick, column.line));
+        self.history.clear();
+        self.travel_mm = 0.0;
+        let reach = self.reach.clone();
+        self.history.push_back(Column {
+            chord: Chord::new(at, at),
+            travel_mm: 0.0,
+            tick,
+            line,
+            reach,
+        });
+    }
+
+    /// Gives up following the motion.
+    fn lose(&mut self, spot: &Spot) {
+        self.violations
+            .push(spot.tick, spot.line, ViolationKind::Lost);
+        self.is_lost = true;
+        self.queue.clear();
+        self.history.clear();
+        self.rows.discard();
+    }
+
+    pub(super) fn note_deviation(&mut self, deviation_mm: f64, tick: u64, line: u32) {
+        if deviation_mm > self.max_deviation.ratio {
+            self.max_deviation = Worst {
+                ratio: deviation_mm,
+                axis: None,
+                tick,
+                line,
+            };
+        }
+    }
+
+    /// Drops the column that `take` takes from the history; its memory is used again.
+    fn drop_column(&mut self, take: fn(&mut VecDeque<Column>) -> Option<Column>) {
+        if let Some(column) = take(&mut self.history) {
+            self.travel_mm -= column.travel_mm;
+            self.spare.push(column.reach);
+        }
+    }
+
+    /// Drops history that can no longer matter, and chords no matching can go back to.
+    fn forget(&mut self) {
+        let keep_mm = HISTORY_TOLERANCES * self.cap();
+        while self.history.len() > SHORT {
+            let is_far = self.trouble.is_none() && self.travel_mm > keep_mm;
+            if !is_far && self.history.len() <= MAX_HISTORY {
+                break;
+            }
+            self.drop_column(VecDeque::pop_front);
+        }
+        let oldest = self
+            .history
+            .front()
+            .map_or(self.reach.low, |column| column.reach.low);
+        self.rows.forget_before(oldest.min(self.reach.low));
+    }
+
+    /// The level above which a larger λ changes nothing.
+    pub(super) fn cap(&self) -> f64 {
+        self.rows.max_tolerance_mm() * 1.001
+    }
+
+    /// What is kept, in chords, columns and samples.
+    #[cfg(test)]
+    pub(super) fn kept(&self) -> usize {
+        self.rows.kept() + self.history.len() + self.queue.len() + self.reach.intervals.len()
+    }
+}

@@ -1,0 +1,395 @@
+//! The programmed path as chords, made when they are needed.
+//!
+//! A line is one chord, an arc many. Inner points of an arc lie slightly outside it, so that the
+//! polygon is as far outside at its corners as it is inside between them: the distance from the arc
+//! is half the sagitta.
+
+use crate::free_space::Chord;
+use glidepath_geometry::{Arc, AxisVector, Prepared, Segment, feed_length};
+use glidepath_program::{Item, ItemKind, PathMode, Rate};
+use std::collections::VecDeque;
+
+/// Distance between an arc and its chords, as a part of the tolerance.
+pub(super) const FLATTENING: f64 = 1e-5;
+/// The same for other curves.
+pub(super) const CURVE_FLATTENING: f64 = 1e-3;
+/// A tolerance of zero would leave no room for rounding, mm.
+pub(super) const SMALLEST_TOLERANCE_MM: f64 = 1e-6;
+/// A tolerance counts as kept up to this factor; on arcs the chords come in addition.
+const SLACK: f64 = 1.0 + 1e-6;
+
+/// A place the motion must pass exactly. Where it passes without a rest (G61), a chord between two
+/// samples on the path cuts it off by what follows from the turn and the curvature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ExactEnd {
+    /// Sine of half the turn.
+    sb: f64,
+    /// Largest curvature on either side, 1/mm.
+    max_k: f64,
+}
+
+impl ExactEnd {
+    /// At rest.
+    const STOP: Self = Self {
+        sb: 0.0,
+        max_k: 0.0,
+    };
+
+    fn passing(from: &Segment, to: &Segment) -> Self {
+        let (before, after) = (from.jet(from.length()), to.jet(0.0));
+        Self {
+            sb: 0.5 * feed_length(&(after.d1 - before.d1)),
+            max_k: before.d2.norm().max(after.d2.norm()),
+        }
+    }
+
+    /// What a chord of some length may cut off, mm.
+    pub(super) fn cut(&self, chord_mm: f64) -> f64 {
+        0.5 * chord_mm * self.sb + chord_mm * chord_mm * self.max_k / 8.0
+    }
+}
+
+/// A chord of the programmed path.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Row {
+    pub(super) chord: Chord,
+    /// Tolerance along it, mm.
+    pub(super) tolerance_mm: f64,
+    /// Tolerance at its end, mm.
+    pub(super) end_tolerance_mm: f64,
+    /// Its end must be met.
+    pub(super) exact_end: Option<ExactEnd>,
+    /// Time to rest at its end, s.
+    pub(super) dwell_t: f64,
+    /// Feedrate, mm/s; infinite for a rapid.
+    pub(super) feed_v: f64,
+    pub(super) line: u32,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Move {
+    segment: Segment,
+    length: f64,
+    line: u32,
+    feed_v: f64,
+    /// Larger of the tolerances at its start and end.
+    tolerance_mm: f64,
+    end_tolerance_mm: f64,
+    exact_end: Option<ExactEnd>,
+    dwell_t: f64,
+    is_exact_path: bool,
+    /// Chords it is made of.
+    chords: u32,
+    /// The next move has not been fed yet.
+    is_open: bool,
+}
+
+/// Whether a chord is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Presence {
+    /// It can be had with [`Rows::get`].
+    Here,
+    /// The program has not been fed that far.
+    NotYet,
+    /// The program ends before it.
+    Never,
+}
+
+/// A window on the chords of the program.
+#[derive(Debug)]
+pub(super) struct Rows {
+    window: VecDeque<Row>,
+    /// Index of the first chord of the window.
+    base: usize,
+    /// Moves fed whose chords have not all been made, and the last one as long as it is open.
+    fed: VecDeque<Move>,
+    /// Chords already made of the first of them.
+    done: u32,
+    /// Its segment, once it has an inner point.
+    prepared: Option<Prepared>,
+    is_ended: bool,
+    end_position: Option<AxisVector>,
+    default_tolerance_mm: f64,
+    corner_tolerance_mm: f64,
+    max_tolerance_mm: f64,
+    moves: u64,
+    path_length_mm: f64,
+}
+
+impl Rows {
+    pub(super) fn new(tolerance_mm: f64) -> Self {
+        let tolerance_mm = tolerance_mm.max(SMALLEST_TOLERANCE_MM);
+        Self {
+            window: VecDeque::new(),
+            base: 0,
+            fed: VecDeque::new(),
+            done: 0,
+            prepared: None,
+            is_ended: false,
+            end_position: None,
+            default_tolerance_mm: tolerance_mm,
+            corner_tolerance_mm: 0.0,
+            max_tolerance_mm: tolerance_mm,
+            moves: 0,
+            path_length_mm: 0.0,
+        }
+    }
+
+    /// Largest tolerance so far, mm.
+    pub(super) const fn max_tolerance_mm(&self) -> f64 {
+        self.max_tolerance_mm
+    }
+
+    /// Moves fed.
+    pub(super) const fn moves(&self) -> u64 {
+        self.moves
+    }
+
+    /// Where the program fed so far ends, if it moves at all.
+    pub(super) const fn end_position(&self) -> Option<AxisVector> {
+        self.end_position
+    }
+
+    /// Feed length fed, mm.
+    pub(super) const fn path_length_mm(&self) -> f64 {
+        self.path_length_mm
+    }
+
+    pub(super) fn feed(&mut self, item: &Item) {
+        match &item.kind {
+            ItemKind::Move {
+                segment,
+                rate,
+                mode,
+            } => self.feed_move(item.line, segment, *rate, *mode),
+            ItemKind::Dwell(dwell_t) => {
+                self.stop();
+                self.dwell(*dwell_t);
+            }
+            ItemKind::Event(event) if event.is_at_rest() => self.stop(),
+            ItemKind::Event(_) => {}
+        }
+    }
+
+    /// The machine rests here.
+    fn stop(&mut self) {
+        if let Some(last) = self.fed.back_mut().filter(|last| last.is_open) {
+            last.exact_end = Some(ExactEnd::STOP);
+        }
+    }
+
+    /// The machine rests here for a time; before the first move there is nothing to attach that to.
+    fn dwell(&mut self, dwell_t: f64) {
+        if let Some(last) = self.fed.back_mut().filter(|last| last.is_open) {
+            last.dwell_t += dwell_t;
+        }
+    }
+
+    /// What follows the last move is known.
+    fn close(&mut self) {
+        let is_only = self.fed.len() == 1;
+        let Some(last) = self.fed.back_mut() else {
+            return;
+        };
+        last.is_open = false;
+        if is_only && self.done >= last.chords {
+            // Its chords have been made already; none was passed, as the next one was not there.
+            if let Some(row) = self.window.back_mut() {
+                row.exact_end = last.exact_end;
+                row.dwell_t = last.dwell_t;
+            }
+            self.fed.pop_back();
+            self.done = 0;
+        }
+    }
+
+    /// The motion has to bridge a gap in the program (there should be none).
+    fn bridge(&mut self, from: &Move, to: &Segment) {
+        let (start, end) = (from.segment.end(), to.start());
+        if start != end {
+            let segment = Segment::line(start, end);
+            self.fed.push_back(Move {
+                segment,
+                length: segment.length(),
+                chords: 1,
+                exact_end: None,
+                dwell_t: 0.0,
+                is_open: false,
+                ..*from
+            });
+        }
+    }
+
+    fn feed_move(&mut self, line: u32, segment: &Segment, rate: Rate, mode: PathMode) {
+        self.moves += 1;
+        let length = segment.length();
+        self.path_length_mm += length;
+        let is_stop = mode == PathMode::ExactStop;
+        let end_tolerance_mm = match mode {
+            PathMode::Continuous {
+                tolerance_mm: Some(tolerance),
+            } => tolerance,
+            _ => self.default_tolerance_mm,
+        };
+        let end_tolerance_mm = (end_tolerance_mm - segment.error_mm()).max(SMALLEST_TOLERANCE_MM);
+        self.max_tolerance_mm = self.max_tolerance_mm.max(end_tolerance_mm);
+        let slack = match segment {
+            Segment::Line(_) => SLACK,
+            Segment::Arc(_) => SLACK + 3.0 * FLATTENING,
+            Segment::Curve(_) => SLACK + CURVE_FLATTENING,
+        };
+        if length <= 0.0 {
+            if is_stop {
+                self.stop();
+            }
+            return;
+        }
+        if let Some(previous) = self.fed.back_mut() {
+            if previous.is_exact_path && previous.exact_end.is_none() {
+                previous.exact_end = Some(ExactEnd::passing(&previous.segment, segment));
+            }
+            let previous = *previous;
+            self.close();
+            self.bridge(&previous, segment);
+        }
+        self.end_position = Some(segment.end());
+        let tolerance_mm = end_tolerance_mm.max(self.corner_tolerance_mm) * slack;
+        self.fed.push_back(Move {
+            segment: *segment,
+            length,
+            line,
+            feed_v: rate.feed_v().unwrap_or(f64::INFINITY).min(rate.most_v()),
+            tolerance_mm,
+            end_tolerance_mm: end_tolerance_mm * slack,
+            exact_end: is_stop.then_some(ExactEnd::STOP),
+            dwell_t: 0.0,
+            is_exact_path: mode == PathMode::ExactPath,
+            chords: chords(segment, tolerance_mm),
+            is_open: true,
+        });
+        self.corner_tolerance_mm = end_tolerance_mm;
+    }
+
+    /// Nothing more will be fed: the end of the program is an exact stop.
+    pub(super) fn end(&mut self) {
+        self.stop();
+        self.close();
+        self.is_ended = true;
+    }
+
+    /// Drops what has been fed: nothing will be matched any more.
+    pub(super) fn discard(&mut self) {
+        self.fed.clear();
+        self.done = 0;
+        self.prepared = None;
+        self.window.clear();
+    }
+
+    /// Makes chord `index` if the program has been fed that far.
+    pub(super) fn reach(&mut self, index: usize) -> Presence {
+        while self.base + self.window.len() <= index {
+            let next = match self.fed.front() {
+                Some(next) if self.done < next.chords => next,
+                _ if self.is_ended => return Presence::Never,
+                _ => return Presence::NotYet,
+            };
+            let start = match self.window.back() {
+                Some(row) if self.done > 0 => row.chord.to,
+                _ => next.segment.start(),
+            };
+            self.done += 1;
+            let is_last = self.done >= next.chords;
+            let end = if is_last {
+                next.segment.end()
+            } else {
+                let prepared = self.prepared.get_or_insert_with(|| next.segment.prepared());
+                inner_point(next, prepared, self.done)
+            };
+            self.window.push_back(Row {
+                chord: Chord::new(start, end),
+                tolerance_mm: next.tolerance_mm,
+                end_tolerance_mm: if is_last {
+                    next.end_tolerance_mm
+                } else {
+                    next.tolerance_mm
+                },
+                exact_end: next.exact_end.filter(|_| is_last),
+                dwell_t: if is_last { next.dwell_t } else { 0.0 },
+                feed_v: next.feed_v,
+                line: next.line,
+            });
+            if is_last {
+                self.prepared = None;
+            }
+            if is_last && !next.is_open {
+                self.fed.pop_front();
+                self.done = 0;
+            }
+        }
+        Presence::Here
+    }
+
+    /// Chords and moves kept.
+    #[cfg(test)]
+    pub(super) fn kept(&self) -> usize {
+        self.window.len() + self.fed.len()
+    }
+
+    /// Chord `index`, if it is in the window.
+    pub(super) fn get(&self, index: usize) -> Option<&Row> {
+        self.window.get(index.checked_sub(self.base)?)
+    }
+
+    /// Forgets the chords before `index`, except the last one made.
+    pub(super) fn forget_before(&mut self, index: usize) {
+        while self.base < index && self.window.len() > 1 {
+            self.window.pop_front();
+            self.base += 1;
+        }
+    }
+}
+
+/// Number of chords of a segment.
+fn chords(of: &Segment, tolerance_mm: f64) -> u32 {
+    let count = match of {
+        Segment::Line(_) => return 1,
+        Segment::Arc(arc) => {
+            let radius = arc.start_radius().max(arc.end_radius());
+            // A chord over the angle α has sagitta R·α²/8, twice the distance that is allowed.
+            let angle = (16.0 * FLATTENING * tolerance_mm / radius).sqrt().min(0.5);
+            arc.sweep_rad.abs() / angle
+        }
+        Segment::Curve(curve) => {
+            let max_k = curve.bounds().d2.norm();
+            curve.length * (max_k / (8.0 * CURVE_FLATTENING * tolerance_mm)).sqrt()
+        }
+    };
+    let count = count.ceil().clamp(1.0, 1e9);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped"
+    )]
+    let count = count as u32;
+    count
+}
+
+/// Point `k` of the chords of an arc, moved outwards by half the sagitta.
+fn inner_point(of: &Move, prepared: &Prepared, k: u32) -> AxisVector {
+    let count = f64::from(of.chords);
+    let mut point = prepared.position(of.length * f64::from(k) / count);
+    if let Segment::Arc(arc) = &of.segment {
+        push_outwards(arc, &mut point, count);
+    }
+    point
+}
+
+fn push_outwards(arc: &Arc, point: &mut AxisVector, count: f64) {
+    let (first, second) = arc.plane.axes();
+    let angle = arc.sweep_rad / count;
+    let factor = 1.0 + angle * angle / 16.0;
+    for (axis, center) in [first, second].into_iter().zip(arc.center) {
+        let i = axis.index();
+        point[i] = center + (point[i] - center) * factor;
+    }
+}

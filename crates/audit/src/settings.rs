@@ -1,0 +1,15 @@
+//! What a motion is judged by.
+
+use glidepath_program::Limits;
+
+/// What a motion is judged by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AuditSettings {
+    /// What each axis can do.
+    pub limits: Limits,
+    /// Interpolation period in seconds, > 0.
+    pub period_t: f64,
+    /// Tolerance in mm where the program gives none (G64 P), > 0: for XYZ together, for UVW
+    /// together, and in degrees for each rotary axis.
+    pub tolerance_mm: f64,
+}

@@ -1,0 +1,162 @@
+//! Feed and dwells.
+
+use crate::{PERIOD, audit, kinds, point, polygon, sample, settings, walk};
+use glidepath_audit::{Audit, Report, ViolationKind};
+use glidepath_geometry::AxisVector;
+use glidepath_program::{Item, ItemKind, Limits, Rate};
+
+fn at_speed(program: &[Item], v: f64) -> Report {
+    let mut audit = Audit::new(&settings(Limits::UNLIMITED));
+    for item in program {
+        audit.program(item);
+    }
+    let ticks = (10.0 / v / PERIOD).ceil();
+    let mut k = 0.0;
+    let mut tick = 0;
+    while k <= ticks {
+        audit.sample(&sample(tick, point((k * v * PERIOD).min(10.0), 0.0)));
+        k += 1.0;
+        tick += 1;
+    }
+    audit.finish()
+}
+
+#[test]
+fn too_fast_for_the_feed_is_found() {
+    let mut program = polygon(&[point(0.0, 0.0), point(5.0, 0.0), point(10.0, 0.0)]);
+    assert!(at_speed(&program, 50.0).is_clean());
+    for item in &mut program {
+        if let ItemKind::Move { rate, .. } = &mut item.kind {
+            *rate = Rate::Feed(50.0);
+        }
+    }
+    let at_feed = at_speed(&program, 50.0);
+    assert!(at_feed.is_clean() && (at_feed.max_feed_ratio.ratio - 1.0).abs() < 1e-9);
+    let above = at_speed(&program, 50.2);
+    assert!(
+        above
+            .violations
+            .iter()
+            .all(|v| matches!(v.kind, ViolationKind::Feed { .. }))
+    );
+    assert!(!above.is_clean() && (above.max_feed_ratio.ratio - 1.004).abs() < 1e-9);
+    // A slower second half: only that is at fault.
+    if let ItemKind::Move { rate, .. } = &mut program[1].kind {
+        *rate = Rate::Feed(25.0);
+    }
+    let half = at_speed(&program, 50.0);
+    assert_eq!(half.violation_count, 24, "{:?}", half.violations);
+}
+
+#[test]
+fn an_override_scales_the_feed() {
+    let mut program = polygon(&[point(0.0, 0.0), point(10.0, 0.0)]);
+    if let ItemKind::Move { rate, .. } = &mut program[0].kind {
+        *rate = Rate::Feed(50.0);
+    }
+    for (factor, clean) in [(1.0, false), (1.2, true)] {
+        let mut audit = Audit::new(&settings(Limits::UNLIMITED)).with_override(factor);
+        audit.program(&program[0]);
+        for (tick, position) in (0..).zip(walk(&[point(0.0, 0.0), point(10.0, 0.0)], 0.24)) {
+            audit.sample(&sample(tick, position));
+        }
+        assert_eq!(audit.finish().is_clean(), clean);
+    }
+}
+
+/// Samples lost on the way are a gap, not a motion at a multiple of the feed.
+#[test]
+fn a_gap_is_not_too_fast() {
+    let mut program = polygon(&[point(0.0, 0.0), point(10.0, 0.0)]);
+    if let ItemKind::Move { rate, .. } = &mut program[0].kind {
+        *rate = Rate::Feed(50.0);
+    }
+    let mut audit = Audit::new(&settings(Limits::UNLIMITED));
+    audit.program(&program[0]);
+    for (tick, position) in (0..).zip(walk(&[point(0.0, 0.0), point(10.0, 0.0)], 0.2)) {
+        if !(20..23).contains(&tick) {
+            audit.sample(&sample(tick, position));
+        }
+    }
+    assert_eq!(kinds(&audit.finish()), [ViolationKind::Gap { after: 19 }]);
+}
+
+#[test]
+fn a_dwell_cut_short_is_found() {
+    let path = [point(0.0, 0.0), point(5.0, 0.0), point(5.0, 5.0)];
+    let dwell = |dwell_t| Item {
+        line: 1,
+        kind: ItemKind::Dwell(dwell_t),
+    };
+    // 25 periods in the middle, 10 at the end.
+    let mut motion = walk(&path[..2], 0.1);
+    motion.extend([path[1]; 25]);
+    motion.extend(&walk(&path[1..], 0.1)[1..]);
+    motion.extend([path[2]; 10]);
+    for (middle_t, end_t, missing) in [
+        (0.1, 0.04, vec![]),
+        (0.12, 0.04, vec![0.02]),
+        (0.1, 0.05, vec![0.01]),
+        (0.2, 0.2, vec![0.1, 0.16]),
+    ] {
+        let mut program = polygon(&path);
+        program.insert(1, dwell(middle_t));
+        program.push(dwell(0.5 * end_t));
+        program.push(dwell(0.5 * end_t));
+        let found: Vec<_> = kinds(&audit(&program, &motion))
+            .into_iter()
+            .map(|kind| match kind {
+                ViolationKind::Dwell { missing_t } => (missing_t * 1e6).round() / 1e6,
+                other => unreachable!("{other:?}"),
+            })
+            .collect();
+        assert_eq!(found, missing);
+    }
+}
+
+/// The verdict on a motion along two chords with feeds of 1 mm/s and 50 mm/s, in this order or the other.
+fn is_clean_past_a_vertex(chords: [&[AxisVector]; 2], feeds_v: [f64; 2]) -> bool {
+    let mut program = polygon(&[point(0.0, 0.0), point(1.0, 0.0), point(1.0, 1.0)]);
+    for (item, feed_v) in program.iter_mut().zip(feeds_v) {
+        if let ItemKind::Move { rate, .. } = &mut item.kind {
+            *rate = Rate::Feed(feed_v);
+        }
+    }
+    let mut audit = Audit::new(&settings(Limits::UNLIMITED));
+    for item in &program {
+        audit.program(item);
+    }
+    for (tick, position) in (0..).zip(chords.concat()) {
+        audit.sample(&sample(tick, position));
+    }
+    audit.finish().is_clean()
+}
+
+/// Next to a vertex the motion may be on the chord behind it, with its feed; farther away it may not.
+#[test]
+fn within_tolerance_of_a_vertex_the_next_feed_holds() {
+    let fast = walk(&[point(1.0, 0.0), point(1.0, 1.0)], 0.1);
+    for (hurried_x, is_clean) in [(0.995, true), (0.97, false)] {
+        // The last step of the slow chord at five times its feed.
+        let mut slow = walk(&[point(0.0, 0.0), point(hurried_x - 0.02, 0.0)], 0.004);
+        slow.push(point(hurried_x, 0.0));
+        let found = is_clean_past_a_vertex([&slow, &fast], [1.0, 50.0]);
+        assert_eq!(found, is_clean, "{hurried_x}");
+    }
+}
+
+/// A period that begins next to a vertex may be one of the chord before it.
+#[test]
+fn within_tolerance_of_a_vertex_the_last_feed_holds() {
+    let fast = walk(&[point(0.0, 0.0), point(1.0, 0.0)], 0.1);
+    for (hurried_y, is_clean) in [(0.015, true), (0.03, false)] {
+        // One step of the slow chord at five times its feed, out of the tolerance of the fast one.
+        let mut slow = walk(&[point(1.0, 0.0), point(1.0, hurried_y)], 0.0039);
+        slow.extend(walk(
+            &[point(1.0, hurried_y + 0.02), point(1.0, 1.0)],
+            0.0039,
+        ));
+        let found = is_clean_past_a_vertex([&fast, &slow[1..]], [50.0, 1.0]);
+        assert_eq!(found, is_clean, "{hurried_y}");
+    }
+}

@@ -1,0 +1,22 @@
+//! The rate a program asks for, before and after the operator's override.
+
+use glidepath_program::{Override, Rate};
+
+/// The rate of a segment before any override.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ProgrammedRate {
+    pub rate: Rate,
+    /// The speed at which some axis reaches its velocity limit, mm/s: what a rapid is driven at.
+    pub axes_v: f64,
+}
+
+impl ProgrammedRate {
+    /// The rate under an override, mm/s.
+    pub(crate) fn under(&self, wanted: Override) -> f64 {
+        let programmed_v = match self.rate.feed_v() {
+            Some(feed_v) => feed_v * wanted.feed_r,
+            None => self.axes_v * wanted.rapid_r,
+        };
+        programmed_v.min(self.rate.most_v())
+    }
+}

@@ -1,0 +1,158 @@
+//! What a planner is fed: segments, dwells and events, in program order.
+
+use crate::Settings;
+use glidepath_geometry::Segment;
+
+/// How a segment's speed is given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rate {
+    /// As fast as the axes allow (G0).
+    Rapid,
+    /// Feedrate: the rate of path position, mm/s (°/s for a move of rotary axes alone), > 0.
+    Feed(f64),
+    /// As [`Rate::Rapid`], but never above a speed, > 0, that no override lifts: that of joints, where
+    /// they are not axes.
+    RapidUpTo(f64),
+    /// As [`Rate::Feed`] with `feed_v`, but never above `most_v`, > 0, that no override lifts.
+    FeedUpTo {
+        /// Feedrate.
+        feed_v: f64,
+        /// The speed that is not exceeded.
+        most_v: f64,
+    },
+}
+
+impl Rate {
+    /// True for a rapid, up to a speed or not.
+    #[must_use]
+    pub const fn is_rapid(self) -> bool {
+        matches!(self, Self::Rapid | Self::RapidUpTo(_))
+    }
+
+    /// The programmed feedrate; `None` for a rapid.
+    #[must_use]
+    pub const fn feed_v(self) -> Option<f64> {
+        match self {
+            Self::Rapid | Self::RapidUpTo(_) => None,
+            Self::Feed(feed_v) | Self::FeedUpTo { feed_v, .. } => Some(feed_v),
+        }
+    }
+
+    /// The speed that no override lifts, infinite where there is none.
+    #[must_use]
+    pub const fn most_v(self) -> f64 {
+        match self {
+            Self::Rapid | Self::Feed(_) => f64::INFINITY,
+            Self::RapidUpTo(most_v) | Self::FeedUpTo { most_v, .. } => most_v,
+        }
+    }
+
+    /// The same rate, never above a speed.
+    #[must_use]
+    pub const fn up_to(self, most_v: f64) -> Self {
+        match self.feed_v() {
+            None => Self::RapidUpTo(most_v),
+            Some(feed_v) => Self::FeedUpTo { feed_v, most_v },
+        }
+    }
+}
+
+/// How the path goes through the corner at the *end* of a segment (G61, G61.1, G64).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PathMode {
+    /// Comes to rest at the corner (G61.1).
+    ExactStop,
+    /// Passes exactly through the corner; rests there unless the path goes straight on (G61).
+    ExactPath,
+    /// May leave the programmed path by a tolerance (G64).
+    Continuous {
+        /// Tolerance in mm for everything together: smoothing and chord error. `None` means the
+        /// configured tolerance.
+        tolerance_mm: Option<f64>,
+    },
+}
+
+/// Something that happens in order with the motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Event {
+    /// Spindle speed (S), rev/min. Does not stop the motion.
+    SpindleSpeed(f64),
+    /// Tool selection (T). Does not stop the motion.
+    SelectTool(u32),
+    /// An M code other than the program stops. The machine is at rest when it happens.
+    MCode(u32),
+    /// M0 or M60: the machine rests until the operator resumes.
+    ProgramStop(u32),
+    /// M1: like [`Event::ProgramStop`] if the operator asked for optional stops.
+    OptionalStop,
+    /// A digital output. Does not stop the motion.
+    DigitalOutput {
+        /// Its number, below 2²⁴.
+        number: u32,
+        /// On or off.
+        on: bool,
+    },
+    /// An analog output. Does not stop the motion.
+    AnalogOutput {
+        /// Its number, below 2²⁴.
+        number: u32,
+        /// Its value, in the output's unit.
+        value: f64,
+    },
+}
+
+impl Event {
+    /// True if the machine rests while it happens.
+    #[must_use]
+    pub const fn is_at_rest(&self) -> bool {
+        match self {
+            Self::SpindleSpeed(_)
+            | Self::SelectTool(_)
+            | Self::DigitalOutput { .. }
+            | Self::AnalogOutput { .. } => false,
+            Self::MCode(_) | Self::ProgramStop(_) | Self::OptionalStop => true,
+        }
+    }
+}
+
+/// One thing to do, and where the program says so.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Item {
+    /// Source line, from 1.
+    pub line: u32,
+    /// What to do.
+    pub kind: ItemKind,
+}
+
+/// The kinds of [`Item`].
+#[allow(clippy::large_enum_variant, reason = "nearly every item is a move")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ItemKind {
+    /// Move along a segment. It starts where the segment before it ended.
+    Move {
+        /// The curve.
+        segment: Segment,
+        /// Its speed.
+        rate: Rate,
+        /// How the path leaves it.
+        mode: PathMode,
+    },
+    /// Rest for a time in seconds, ≥ 0 (G4).
+    Dwell(f64),
+    /// An event.
+    Event(Event),
+}
+
+impl PathMode {
+    /// The tolerance in force, mm: of the mode, or that of the settings.
+    #[inline]
+    #[must_use]
+    pub fn tolerance_mm(self, settings: &Settings) -> f64 {
+        match self {
+            Self::Continuous {
+                tolerance_mm: Some(tolerance_mm),
+            } => tolerance_mm,
+            _ => settings.tolerance_mm,
+        }
+    }
+}

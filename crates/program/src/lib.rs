@@ -1,0 +1,52 @@
+//! The vocabulary of the pipeline: what a program says, what a motion is, what bounds both.
+//!
+//! ```text
+//! gcode, link ── Item ──► motion ── Frame ──► link ── Frame ──► interpolator
+//!                            ▲                                      ▲
+//!                     Settings, Override                         Limits
+//! ```
+//!
+//! The crates above speak to each other in these words and know nothing else of one another: a reader
+//! of programs does not compile against a planner, nor does an interpolator. That is why nothing here
+//! computes a motion. It holds
+//!
+//! * [`Item`]: a segment with its rate and [`PathMode`], a dwell, or an [`Event`], in program order;
+//! * [`Frame`]: position, velocity and acceleration of every axis at one instant of program time;
+//! * [`Limits`] of the axes and [`PathBounds`] of the motion along the path;
+//! * [`Settings`], all that a plan depends on besides the program, and the operator's [`Override`];
+//! * [`tolerance_norm`], the distance that a tolerance bounds, so that all who judge a deviation
+//!   measure the same.
+//!
+//! Everything is in mm, degrees and seconds, in machine coordinates. Values are plain: whoever takes
+//! them from outside checks them (the planner its items, the interpolator its frames).
+//!
+//! ```
+//! use glidepath_geometry::{AxisVector, Line, Segment};
+//! use glidepath_program::{Item, ItemKind, PathMode, Rate};
+//!
+//! let (start, mut end) = (AxisVector::zeros(), AxisVector::zeros());
+//! end[0] = 10.0;
+//! let item = Item {
+//!     line: 3,
+//!     kind: ItemKind::Move {
+//!         segment: Segment::Line(Line::new(start, end)),
+//!         rate: Rate::Feed(50.0), // mm/s
+//!         mode: PathMode::Continuous { tolerance_mm: Some(0.02) },
+//!     },
+//! };
+//! assert!(matches!(item.kind, ItemKind::Move { rate, .. } if rate.feed_v() == Some(50.0)));
+//! ```
+
+mod frame;
+mod item;
+mod limits;
+mod override_;
+mod settings;
+mod tolerance;
+
+pub use frame::{Frame, FrameFlags};
+pub use item::{Event, Item, ItemKind, PathMode, Rate};
+pub use limits::{Limits, PathBounds};
+pub use override_::Override;
+pub use settings::{Effort, Settings, Smoothing};
+pub use tolerance::tolerance_norm;
