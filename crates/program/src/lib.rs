@@ -21,7 +21,7 @@
 //! them from outside checks them (the planner its items, the interpolator its frames).
 //!
 //! ```
-//! use glidepath_geometry::{AxisVector, Line, Segment};
+//! use glidepath_geometry::{AxisVector, Segment};
 //! use glidepath_program::{Item, ItemKind, PathMode, Rate};
 //!
 //! let (start, mut end) = (AxisVector::zeros(), AxisVector::zeros());
@@ -29,7 +29,7 @@
 //! let item = Item {
 //!     line: 3,
 //!     kind: ItemKind::Move {
-//!         segment: Segment::Line(Line::new(start, end)),
+//!         segment: Segment::line(start, end),
 //!         rate: Rate::Feed(50.0), // mm/s
 //!         mode: PathMode::Continuous { tolerance_mm: Some(0.02) },
 //!     },
