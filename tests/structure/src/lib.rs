@@ -1,0 +1,33 @@
+//! The plan of the house, held against the code: which crate may know which, and that the files of a
+//! crate do not import each other in circles.
+//!
+//! * `arrows`: the dependencies between crates are those that `crates/README.md` draws, and what it
+//!   says must never know each other does not, directly or by way of others.
+//! * `circles`: inside a crate, no file imports by way of others what imports it (`modules` reads
+//!   the imports). The few circles that stand are named there, each with its reason.
+
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that fails may panic"
+)]
+
+#[cfg(test)]
+mod arrows;
+#[cfg(test)]
+mod circles;
+#[cfg(test)]
+mod modules;
+
+#[cfg(test)]
+use std::path::{Path, PathBuf};
+
+/// The top level of the project.
+#[cfg(test)]
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .ancestors()
+        .nth(2)
+        .expect("the tests stand two folders below the top level")
+        .to_path_buf()
+}
