@@ -1,9 +1,9 @@
 //! Limits along the path: acceleration and jerk of path position by finite differences, acceleration
 //! across the path from the reported state.
 
-use crate::report::{ViolationKind, ViolationList, Worst};
 use crate::sample::Seen;
 use crate::settings::AuditSettings;
+use crate::violation::{ViolationKind, ViolationList, Worst};
 use glidepath_geometry::feed_length;
 use glidepath_program::PathBounds;
 
@@ -12,7 +12,7 @@ const SLACK: f64 = 1.0 + 1e-6;
 
 /// State of the check.
 #[derive(Debug)]
-pub(super) struct AlongAudit {
+pub(crate) struct AlongAudit {
     bounds: PathBounds,
     period_t: f64,
     /// The last path positions, newest first; only the first `known` count.
@@ -20,12 +20,12 @@ pub(super) struct AlongAudit {
     known: usize,
     tick: u64,
     /// Acceleration along and across the path, jerk.
-    pub(super) worst: [Worst; 3],
-    pub(super) violations: ViolationList,
+    pub(crate) worst: [Worst; 3],
+    pub(crate) violations: ViolationList,
 }
 
 impl AlongAudit {
-    pub(super) fn new(settings: &AuditSettings) -> Self {
+    pub(crate) fn new(settings: &AuditSettings) -> Self {
         Self {
             bounds: settings.limits.path,
             period_t: settings.period_t,
@@ -37,7 +37,7 @@ impl AlongAudit {
         }
     }
 
-    pub(super) fn sample(&mut self, sample: &Seen<'_>, path_s: f64) {
+    pub(crate) fn sample(&mut self, sample: &Seen<'_>, path_s: f64) {
         if self.known > 0 && sample.tick != self.tick + 1 {
             // Differences across the gap would mean nothing; it is reported elsewhere.
             self.known = 0;

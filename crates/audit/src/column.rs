@@ -1,15 +1,17 @@
 //! One column of the free-space diagram: a chord of the motion against the chords of the program.
 
 use crate::free_space::{Chord, Interval, distance};
-use crate::matching::EXACT_MM;
 use crate::program::{Presence, Row, Rows};
+
+/// How near an exact stop must be met, mm.
+pub(crate) const EXACT_MM: f64 = 1e-6;
 
 /// Intervals on the program that a matching can have reached at a sample.
 #[derive(Debug, Default)]
-pub(super) struct Reach {
+pub(crate) struct Reach {
     /// Chord of the first interval.
-    pub(super) low: usize,
-    pub(super) intervals: Vec<Interval>,
+    pub(crate) low: usize,
+    pub(crate) intervals: Vec<Interval>,
 }
 
 impl Clone for Reach {
@@ -28,7 +30,7 @@ impl Clone for Reach {
 }
 
 impl Reach {
-    pub(super) fn get(&self, index: usize) -> Interval {
+    pub(crate) fn get(&self, index: usize) -> Interval {
         let here = index
             .checked_sub(self.low)
             .and_then(|i| self.intervals.get(i));
@@ -36,16 +38,16 @@ impl Reach {
     }
 
     /// One past the last chord.
-    pub(super) fn end(&self) -> usize {
+    pub(crate) fn end(&self) -> usize {
         self.low + self.intervals.len()
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.intervals.is_empty()
     }
 
     /// Drops empty intervals at both ends.
-    pub(super) fn trim(&mut self) {
+    pub(crate) fn trim(&mut self) {
         while self
             .intervals
             .last()
@@ -65,18 +67,18 @@ impl Reach {
 
 /// What counts as near.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Level {
+pub(crate) struct Level {
     /// No more than this, whatever the tolerance.
-    pub(super) lambda_mm: f64,
+    pub(crate) lambda_mm: f64,
     /// At exact stops.
-    pub(super) exact_mm: f64,
+    pub(crate) exact_mm: f64,
     /// At least this, whatever the tolerance: 0 but for a motion that is out of tolerance.
-    pub(super) floor_mm: f64,
+    pub(crate) floor_mm: f64,
 }
 
 impl Level {
     /// Tolerances, but no more than this.
-    pub(super) const fn up_to(lambda_mm: f64) -> Self {
+    pub(crate) const fn up_to(lambda_mm: f64) -> Self {
         Self {
             lambda_mm,
             exact_mm: EXACT_MM,
@@ -84,7 +86,7 @@ impl Level {
         }
     }
 
-    pub(super) fn along(&self, row: &Row) -> f64 {
+    pub(crate) fn along(&self, row: &Row) -> f64 {
         row.tolerance_mm.min(self.lambda_mm).max(self.floor_mm)
     }
 
@@ -100,19 +102,19 @@ impl Level {
 
 /// A chord of the motion.
 #[derive(Debug, Clone)]
-pub(super) struct Column {
-    pub(super) chord: Chord,
+pub(crate) struct Column {
+    pub(crate) chord: Chord,
     /// Its length over all axes.
-    pub(super) travel_mm: f64,
-    pub(super) tick: u64,
-    pub(super) line: u32,
+    pub(crate) travel_mm: f64,
+    pub(crate) tick: u64,
+    pub(crate) line: u32,
     /// What could be reached at its start.
-    pub(super) reach: Reach,
+    pub(crate) reach: Reach,
 }
 
 /// What became of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Passage {
+pub(crate) enum Passage {
     Passed,
     Blocked,
     /// The program has not been fed far enough to tell.
@@ -120,7 +122,7 @@ pub(super) enum Passage {
 }
 
 /// Carries what can be reached at the start of a chord of the motion over to its end, `next`.
-pub(super) fn step(
+pub(crate) fn step(
     rows: &mut Rows,
     now: &Reach,
     chord: &Chord,

@@ -12,26 +12,26 @@ const OTHERS: core::ops::Range<usize> = LINEAR_XYZ.end..AXES;
 
 /// An interval [low, high]; empty if low > high.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Interval {
-    pub(super) low: f64,
-    pub(super) high: f64,
+pub(crate) struct Interval {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
 }
 
 impl Interval {
-    pub(super) const EMPTY: Self = Self {
+    pub(crate) const EMPTY: Self = Self {
         low: 1.0,
         high: 0.0,
     };
-    pub(super) const FULL: Self = Self {
+    pub(crate) const FULL: Self = Self {
         low: 0.0,
         high: 1.0,
     };
 
-    pub(super) fn is_empty(self) -> bool {
+    pub(crate) fn is_empty(self) -> bool {
         self.low > self.high
     }
 
-    pub(super) fn intersect(self, other: Self) -> Self {
+    pub(crate) fn intersect(self, other: Self) -> Self {
         Self {
             low: self.low.max(other.low),
             high: self.high.min(other.high),
@@ -39,7 +39,7 @@ impl Interval {
     }
 
     /// The part at or above a value.
-    pub(super) fn from(self, low: f64) -> Self {
+    pub(crate) fn from(self, low: f64) -> Self {
         Self {
             low: self.low.max(low),
             high: self.high,
@@ -49,9 +49,9 @@ impl Interval {
 
 /// A chord, with what is asked of it again and again.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Chord {
-    pub(super) from: AxisVector,
-    pub(super) to: AxisVector,
+pub(crate) struct Chord {
+    pub(crate) from: AxisVector,
+    pub(crate) to: AxisVector,
     /// Its length in XYZ, squared.
     linear_2: f64,
     /// It moves in XYZ alone.
@@ -59,7 +59,7 @@ pub(super) struct Chord {
 }
 
 impl Chord {
-    pub(super) fn new(from: AxisVector, to: AxisVector) -> Self {
+    pub(crate) fn new(from: AxisVector, to: AxisVector) -> Self {
         let along = to - from;
         Self {
             from,
@@ -69,12 +69,12 @@ impl Chord {
         }
     }
 
-    pub(super) fn displacement(&self) -> AxisVector {
+    pub(crate) fn displacement(&self) -> AxisVector {
         self.to - self.from
     }
 
     /// Its length over all axes.
-    pub(super) fn travel_mm(&self) -> f64 {
+    pub(crate) fn travel_mm(&self) -> f64 {
         if self.is_linear {
             self.linear_2.sqrt()
         } else {
@@ -85,7 +85,7 @@ impl Chord {
     /// True only if no part is within `threshold` of `point`, told by X, Y and Z one by one: mostly the
     /// answer, and without a division.
     #[inline]
-    pub(super) fn is_far(&self, point: &AxisVector, threshold: f64) -> bool {
+    pub(crate) fn is_far(&self, point: &AxisVector, threshold: f64) -> bool {
         let room = threshold * (1.0 + 1e-9) + 1e-9;
         LINEAR_XYZ.into_iter().any(|i| {
             let (a, b, x) = (self.from[i], self.to[i], point[i]);
@@ -95,7 +95,7 @@ impl Chord {
 
     /// The part that is within `threshold` of `point`.
     #[inline]
-    pub(super) fn near(&self, point: &AxisVector, threshold: f64) -> Interval {
+    pub(crate) fn near(&self, point: &AxisVector, threshold: f64) -> Interval {
         let offset = LINEAR_XYZ.map(|i| point[i] - self.from[i]);
         let along = LINEAR_XYZ.map(|i| self.to[i] - self.from[i]);
         let part = near_group(along.zip(offset), self.linear_2, threshold, Interval::FULL);
@@ -172,7 +172,7 @@ fn near_group(
 }
 
 /// Length of a displacement in the sense of the tolerance: the largest over the groups.
-pub(super) fn distance(displacement: &AxisVector) -> f64 {
+pub(crate) fn distance(displacement: &AxisVector) -> f64 {
     let norm = |axes: core::ops::Range<usize>| {
         axes.map(|i| displacement[i] * displacement[i])
             .sum::<f64>()

@@ -1,10 +1,10 @@
 //! Verdicts that come with the matching: start, end, and feed.
 
-use crate::column::{Level, Passage, Reach};
+use crate::column::{EXACT_MM, Level, Passage, Reach};
 use crate::free_space::{Interval, distance};
-use crate::matching::{EXACT_MM, Goal, Matching, Spot};
+use crate::matching::{Goal, Matching, Spot};
 use crate::program::Presence;
-use crate::report::{ViolationKind, Worst};
+use crate::violation::{ViolationKind, Worst};
 use glidepath_geometry::{AxisVector, feed_length};
 
 /// The programmed feed counts as kept up to this factor.
@@ -14,7 +14,7 @@ const RESTS: usize = 64;
 
 impl Matching {
     /// The first sample must be where the program starts; false if that is not known yet.
-    pub(super) fn judge_start(&mut self, spot: &Spot) -> bool {
+    pub(crate) fn judge_start(&mut self, spot: &Spot) -> bool {
         if self.rows.reach(0) != Presence::Here {
             return false;
         }
@@ -29,7 +29,7 @@ impl Matching {
     }
 
     /// The end of the program must have been reached, exactly.
-    pub(super) fn judge_end(&mut self) {
+    pub(crate) fn judge_end(&mut self) {
         let Some(at) = self.at else {
             self.is_complete = self.rows.reach(0) == Presence::Never;
             if !self.is_complete {
@@ -90,7 +90,7 @@ impl Matching {
     /// it may be on the chord behind it already, or still on the one before it. So what seems too fast is
     /// judged at the tolerance: by the chords from where the period may have begun to where it may have
     /// ended.
-    pub(super) fn judge_feed(&mut self, spot: &Spot, ticks: u64, first: usize) {
+    pub(crate) fn judge_feed(&mut self, spot: &Spot, ticks: u64, first: usize) {
         let Some(column) = self.history.back() else {
             return;
         };
@@ -130,7 +130,7 @@ impl Matching {
         rows.fold(0.0, |most, row| row.feed_v.max(most))
     }
 
-    pub(super) fn is_reached(&mut self, goal: Goal, reach: &Reach) -> bool {
+    pub(crate) fn is_reached(&mut self, goal: Goal, reach: &Reach) -> bool {
         let Some(at) = self.history.back().map(|column| column.chord.to) else {
             return true;
         };
@@ -151,7 +151,7 @@ impl Matching {
     }
 
     /// Keeps in mind that the motion rested somewhere.
-    pub(super) fn note_rest(&mut self, at: AxisVector, rest_ticks: u64) {
+    pub(crate) fn note_rest(&mut self, at: AxisVector, rest_ticks: u64) {
         if rest_ticks > 0 {
             self.rests.push_back((at, rest_ticks));
         }
@@ -161,14 +161,14 @@ impl Matching {
     }
 
     /// Dwells at the ends of the chords from `first` on that have been left behind.
-    pub(super) fn judge_dwells(&mut self, first: usize, spot: &Spot) {
+    pub(crate) fn judge_dwells(&mut self, first: usize, spot: &Spot) {
         for index in first..self.reach.low {
             self.judge_dwell(index, spot);
         }
     }
 
     /// The dwell at the end of a chord.
-    pub(super) fn judge_dwell(&mut self, index: usize, spot: &Spot) {
+    pub(crate) fn judge_dwell(&mut self, index: usize, spot: &Spot) {
         let Some(row) = self.rows.get(index).filter(|row| row.dwell_t > 0.0) else {
             return;
         };
@@ -194,13 +194,13 @@ impl Matching {
     }
 
     /// Number of intervals of `reach` that are within tolerance at a position.
-    pub(super) fn count_within_tolerance(&self, reach: &Reach, at: &AxisVector) -> usize {
+    pub(crate) fn count_within_tolerance(&self, reach: &Reach, at: &AxisVector) -> usize {
         (reach.low..reach.end())
             .filter(|&i| !self.within_tolerance(reach, i, at).is_empty())
             .count()
     }
 
-    pub(super) fn within_tolerance(
+    pub(crate) fn within_tolerance(
         &self,
         reach: &Reach,
         index: usize,

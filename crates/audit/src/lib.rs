@@ -47,9 +47,11 @@ mod program;
 mod report;
 mod sample;
 mod settings;
+mod violation;
 mod widen;
 
 pub use audit::Audit;
-pub use report::{Inconsistency, Report, Violation, ViolationKind, Worst};
+pub use report::Report;
 pub use sample::Sample;
 pub use settings::AuditSettings;
+pub use violation::{Inconsistency, Violation, ViolationKind, Worst};

@@ -1,8 +1,8 @@
 //! Limits of the axes by finite differences, consistency of reports, gaps, and times of motion.
 
-use crate::report::{Inconsistency, ViolationKind, ViolationList, Worst};
 use crate::sample::Seen;
 use crate::settings::AuditSettings;
+use crate::violation::{Inconsistency, ViolationKind, ViolationList, Worst};
 use glidepath_geometry::{AXES, Axis, AxisVector, LINEAR_XYZ};
 use glidepath_program::Limits;
 
@@ -15,7 +15,7 @@ const SLACK: f64 = 1.0 + 1e-6;
 /// division: per axis and order a threshold for the bare difference is kept, the smaller of the largest
 /// so far and the limit. Only where a difference is above its threshold is everything computed.
 #[derive(Debug)]
-pub(super) struct LimitAudit {
+pub(crate) struct LimitAudit {
     limits: Limits,
     period_t: f64,
     /// The last positions, newest first; only the first `known` count.
@@ -34,12 +34,12 @@ pub(super) struct LimitAudit {
     limit_thresholds: [AxisVector; 3],
     /// What a period with the full jerk makes of position, velocity and acceleration.
     by_jerk: [AxisVector; 3],
-    pub(super) samples: u64,
-    pub(super) worst: [Worst; 3],
-    pub(super) maxima: [AxisVector; 3],
-    pub(super) first_motion_tick: Option<u64>,
-    pub(super) last_motion_tick: u64,
-    pub(super) violations: ViolationList,
+    pub(crate) samples: u64,
+    pub(crate) worst: [Worst; 3],
+    pub(crate) maxima: [AxisVector; 3],
+    pub(crate) first_motion_tick: Option<u64>,
+    pub(crate) last_motion_tick: u64,
+    pub(crate) violations: ViolationList,
 }
 
 /// The last sample, but for its position.
@@ -51,7 +51,7 @@ struct Previous {
 }
 
 impl LimitAudit {
-    pub(super) fn new(settings: &AuditSettings) -> Self {
+    pub(crate) fn new(settings: &AuditSettings) -> Self {
         let (limits, t) = (settings.limits, settings.period_t);
         // A little below what counts as broken: rounding must not hide anything.
         let kept = 0.5 * (1.0 + SLACK);
@@ -82,7 +82,7 @@ impl LimitAudit {
         }
     }
 
-    pub(super) fn sample(&mut self, sample: &Seen<'_>) {
+    pub(crate) fn sample(&mut self, sample: &Seen<'_>) {
         self.samples += 1;
         if self.previous.is_none() {
             // At rest before the first sample.
@@ -150,7 +150,7 @@ impl LimitAudit {
     }
 
     /// At rest after the last sample.
-    pub(super) fn finish(&mut self) {
+    pub(crate) fn finish(&mut self) {
         if let Some(last) = self.previous {
             let [position, ..] = self.recent;
             for k in 1..=3 {
@@ -160,7 +160,7 @@ impl LimitAudit {
     }
 
     /// Seconds from the first to the last motion.
-    pub(super) fn cycle_time_s(&self) -> f64 {
+    pub(crate) fn cycle_time_s(&self) -> f64 {
         let ticks = self
             .first_motion_tick
             .map_or(0, |first| self.last_motion_tick - first);
@@ -172,7 +172,7 @@ impl LimitAudit {
         ticks * self.period_t
     }
 
-    pub(super) fn last_position(&self) -> AxisVector {
+    pub(crate) fn last_position(&self) -> AxisVector {
         let [last, ..] = self.recent;
         self.previous.map_or_else(AxisVector::zeros, |_| last)
     }

@@ -26,16 +26,16 @@
 use crate::column::{Column, Level, Passage, Reach, step};
 use crate::free_space::{Chord, Interval};
 use crate::program::{Presence, Rows, SMALLEST_TOLERANCE_MM};
-use crate::report::{ViolationKind, ViolationList, Worst};
 use crate::sample::Seen;
 use crate::settings::AuditSettings;
-use crate::widen::SHORT;
+use crate::violation::{ViolationKind, ViolationList, Worst};
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
 use std::collections::VecDeque;
 
-/// How near an exact stop must be met, mm.
-pub(super) const EXACT_MM: f64 = 1e-6;
+/// Columns that are tried again first where one cannot be passed; a retry over the full history
+/// costs more.
+pub(crate) const SHORT: usize = 8;
 /// Most columns kept.
 const MAX_HISTORY: usize = 4096;
 /// Travel of the motion over which columns are kept, in tolerances.
@@ -43,7 +43,7 @@ const HISTORY_TOLERANCES: f64 = 8.0;
 
 /// What must hold after the last column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Goal {
+pub(crate) enum Goal {
     /// Something can be reached.
     Anything,
     /// Something within tolerance can be reached.
@@ -54,20 +54,20 @@ pub(super) enum Goal {
 
 /// A motion that is out of tolerance.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Trouble {
+pub(crate) struct Trouble {
     /// Width at which it is followed, mm.
-    pub(super) floor_mm: f64,
+    pub(crate) floor_mm: f64,
     /// Where it began.
-    pub(super) tick: u64,
-    pub(super) line: u32,
+    pub(crate) tick: u64,
+    pub(crate) line: u32,
 }
 
 /// A sample, as far as it is matched.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Spot {
-    pub(super) tick: u64,
-    pub(super) line: u32,
-    pub(super) position: AxisVector,
+pub(crate) struct Spot {
+    pub(crate) tick: u64,
+    pub(crate) line: u32,
+    pub(crate) position: AxisVector,
 }
 
 /// A sample that waits for the program.
@@ -82,46 +82,46 @@ struct Waiting {
 
 /// The matching under way.
 #[derive(Debug)]
-pub(super) struct Matching {
-    pub(super) rows: Rows,
-    pub(super) violations: ViolationList,
+pub(crate) struct Matching {
+    pub(crate) rows: Rows,
+    pub(crate) violations: ViolationList,
     /// The deviation in mm, as `ratio`, and where it was met.
-    pub(super) max_deviation: Worst,
-    pub(super) max_feed: Worst,
-    pub(super) is_complete: bool,
-    pub(super) period_t: f64,
+    pub(crate) max_deviation: Worst,
+    pub(crate) max_feed: Worst,
+    pub(crate) is_complete: bool,
+    pub(crate) period_t: f64,
     /// Largest override the feed may have been run at.
-    pub(super) feed_factor: f64,
+    pub(crate) feed_factor: f64,
     /// Samples that wait for the program.
     queue: VecDeque<Waiting>,
     /// The last sample fed.
-    pub(super) last_fed: Option<Spot>,
+    pub(crate) last_fed: Option<Spot>,
     /// Tick at which the last position fed was taken up.
-    pub(super) since_tick: u64,
+    pub(crate) since_tick: u64,
     /// The latest rests: where, and for how many periods.
-    pub(super) rests: VecDeque<(AxisVector, u64)>,
+    pub(crate) rests: VecDeque<(AxisVector, u64)>,
     /// Position of the last sample matched.
-    pub(super) at: Option<AxisVector>,
-    pub(super) reach: Reach,
-    pub(super) history: VecDeque<Column>,
+    pub(crate) at: Option<AxisVector>,
+    pub(crate) reach: Reach,
+    pub(crate) history: VecDeque<Column>,
     /// Those of columns that were dropped.
     spare: Vec<Reach>,
     /// Travel of the motion over the history, mm.
     travel_mm: f64,
-    pub(super) lambda_mm: f64,
+    pub(crate) lambda_mm: f64,
     /// The level up to which the full history has been searched for something better, in vain.
-    pub(super) searched_mm: f64,
-    pub(super) trouble: Option<Trouble>,
+    pub(crate) searched_mm: f64,
+    pub(crate) trouble: Option<Trouble>,
     /// Cells looked at for a motion out of tolerance.
-    pub(super) trouble_cells: usize,
+    pub(crate) trouble_cells: usize,
     /// The history must not be gone back to.
-    pub(super) is_history_void: bool,
+    pub(crate) is_history_void: bool,
     is_lost: bool,
-    pub(super) scratch: [Reach; 2],
+    pub(crate) scratch: [Reach; 2],
 }
 
 impl Matching {
-    pub(super) fn new(settings: &AuditSettings) -> Self {
+    pub(crate) fn new(settings: &AuditSettings) -> Self {
         Self {
             rows: Rows::new(settings.tolerance_mm),
             violations: ViolationList::default(),
@@ -155,7 +155,7 @@ impl Matching {
         }
     }
 
-    pub(super) fn program(&mut self, item: &Item) {
+    pub(crate) fn program(&mut self, item: &Item) {
         self.rows.feed(item);
         if self.is_lost {
             self.rows.discard();
@@ -163,7 +163,7 @@ impl Matching {
         self.advance();
     }
 
-    pub(super) fn sample(&mut self, sample: &Seen<'_>) {
+    pub(crate) fn sample(&mut self, sample: &Seen<'_>) {
         if self.is_lost || !sample.position.iter().all(|p| p.is_finite()) {
             return;
         }
@@ -197,7 +197,7 @@ impl Matching {
         }
     }
 
-    pub(super) fn finish(&mut self) {
+    pub(crate) fn finish(&mut self) {
         self.rows.end();
         self.advance();
         if !self.is_lost {
@@ -322,7 +322,7 @@ impl Matching {
     }
 
     /// The history starts anew: the motion is here, and no retry goes back.
-    pub(super) fn restart_history(&mut self, at: AxisVector) {
+    pub(crate) fn restart_history(&mut self, at: AxisVector) {
         let last = self.history.back();
         let (tick, line) = last.map_or((0, 0), |column| (column.tick, column.line));
         self.history.clear();
@@ -347,7 +347,7 @@ impl Matching {
         self.rows.discard();
     }
 
-    pub(super) fn note_deviation(&mut self, deviation_mm: f64, tick: u64, line: u32) {
+    pub(crate) fn note_deviation(&mut self, deviation_mm: f64, tick: u64, line: u32) {
         if deviation_mm > self.max_deviation.ratio {
             self.max_deviation = Worst {
                 ratio: deviation_mm,
@@ -384,13 +384,13 @@ impl Matching {
     }
 
     /// The level above which a larger λ changes nothing.
-    pub(super) fn cap(&self) -> f64 {
+    pub(crate) fn cap(&self) -> f64 {
         self.rows.max_tolerance_mm() * 1.001
     }
 
     /// What is kept, in chords, columns and samples.
     #[cfg(test)]
-    pub(super) fn kept(&self) -> usize {
+    pub(crate) fn kept(&self) -> usize {
         self.rows.kept() + self.history.len() + self.queue.len() + self.reach.intervals.len()
     }
 }

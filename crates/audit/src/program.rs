@@ -10,18 +10,18 @@ use glidepath_program::{Item, ItemKind, PathMode, Rate};
 use std::collections::VecDeque;
 
 /// Distance between an arc and its chords, as a part of the tolerance.
-pub(super) const FLATTENING: f64 = 1e-5;
+pub(crate) const FLATTENING: f64 = 1e-5;
 /// The same for other curves.
-pub(super) const CURVE_FLATTENING: f64 = 1e-3;
+pub(crate) const CURVE_FLATTENING: f64 = 1e-3;
 /// A tolerance of zero would leave no room for rounding, mm.
-pub(super) const SMALLEST_TOLERANCE_MM: f64 = 1e-6;
+pub(crate) const SMALLEST_TOLERANCE_MM: f64 = 1e-6;
 /// A tolerance counts as kept up to this factor; on arcs the chords come in addition.
 const SLACK: f64 = 1.0 + 1e-6;
 
 /// A place the motion must pass exactly. Where it passes without a rest (G61), a chord between two
 /// samples on the path cuts it off by what follows from the turn and the curvature.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ExactEnd {
+pub(crate) struct ExactEnd {
     /// Sine of half the turn.
     sb: f64,
     /// Largest curvature on either side, 1/mm.
@@ -44,26 +44,26 @@ impl ExactEnd {
     }
 
     /// What a chord of some length may cut off, mm.
-    pub(super) fn cut(&self, chord_mm: f64) -> f64 {
+    pub(crate) fn cut(&self, chord_mm: f64) -> f64 {
         0.5 * chord_mm * self.sb + chord_mm * chord_mm * self.max_k / 8.0
     }
 }
 
 /// A chord of the programmed path.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Row {
-    pub(super) chord: Chord,
+pub(crate) struct Row {
+    pub(crate) chord: Chord,
     /// Tolerance along it, mm.
-    pub(super) tolerance_mm: f64,
+    pub(crate) tolerance_mm: f64,
     /// Tolerance at its end, mm.
-    pub(super) end_tolerance_mm: f64,
+    pub(crate) end_tolerance_mm: f64,
     /// Its end must be met.
-    pub(super) exact_end: Option<ExactEnd>,
+    pub(crate) exact_end: Option<ExactEnd>,
     /// Time to rest at its end, s.
-    pub(super) dwell_t: f64,
+    pub(crate) dwell_t: f64,
     /// Feedrate, mm/s; infinite for a rapid.
-    pub(super) feed_v: f64,
-    pub(super) line: u32,
+    pub(crate) feed_v: f64,
+    pub(crate) line: u32,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -86,7 +86,7 @@ struct Move {
 
 /// Whether a chord is there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Presence {
+pub(crate) enum Presence {
     /// It can be had with [`Rows::get`].
     Here,
     /// The program has not been fed that far.
@@ -97,7 +97,7 @@ pub(super) enum Presence {
 
 /// A window on the chords of the program.
 #[derive(Debug)]
-pub(super) struct Rows {
+pub(crate) struct Rows {
     window: VecDeque<Row>,
     /// Index of the first chord of the window.
     base: usize,
@@ -117,7 +117,7 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    pub(super) fn new(tolerance_mm: f64) -> Self {
+    pub(crate) fn new(tolerance_mm: f64) -> Self {
         let tolerance_mm = tolerance_mm.max(SMALLEST_TOLERANCE_MM);
         Self {
             window: VecDeque::new(),
@@ -136,26 +136,26 @@ impl Rows {
     }
 
     /// Largest tolerance so far, mm.
-    pub(super) const fn max_tolerance_mm(&self) -> f64 {
+    pub(crate) const fn max_tolerance_mm(&self) -> f64 {
         self.max_tolerance_mm
     }
 
     /// Moves fed.
-    pub(super) const fn moves(&self) -> u64 {
+    pub(crate) const fn moves(&self) -> u64 {
         self.moves
     }
 
     /// Where the program fed so far ends, if it moves at all.
-    pub(super) const fn end_position(&self) -> Option<AxisVector> {
+    pub(crate) const fn end_position(&self) -> Option<AxisVector> {
         self.end_position
     }
 
     /// Feed length fed, mm.
-    pub(super) const fn path_length_mm(&self) -> f64 {
+    pub(crate) const fn path_length_mm(&self) -> f64 {
         self.path_length_mm
     }
 
-    pub(super) fn feed(&mut self, item: &Item) {
+    pub(crate) fn feed(&mut self, item: &Item) {
         match &item.kind {
             ItemKind::Move {
                 segment,
@@ -271,14 +271,14 @@ impl Rows {
     }
 
     /// Nothing more will be fed: the end of the program is an exact stop.
-    pub(super) fn end(&mut self) {
+    pub(crate) fn end(&mut self) {
         self.stop();
         self.close();
         self.is_ended = true;
     }
 
     /// Drops what has been fed: nothing will be matched any more.
-    pub(super) fn discard(&mut self) {
+    pub(crate) fn discard(&mut self) {
         self.fed.clear();
         self.done = 0;
         self.prepared = None;
@@ -286,7 +286,7 @@ impl Rows {
     }
 
     /// Makes chord `index` if the program has been fed that far.
-    pub(super) fn reach(&mut self, index: usize) -> Presence {
+    pub(crate) fn reach(&mut self, index: usize) -> Presence {
         while self.base + self.window.len() <= index {
             let next = match self.fed.front() {
                 Some(next) if self.done < next.chords => next,
@@ -331,17 +331,17 @@ impl Rows {
 
     /// Chords and moves kept.
     #[cfg(test)]
-    pub(super) fn kept(&self) -> usize {
+    pub(crate) fn kept(&self) -> usize {
         self.window.len() + self.fed.len()
     }
 
     /// Chord `index`, if it is in the window.
-    pub(super) fn get(&self, index: usize) -> Option<&Row> {
+    pub(crate) fn get(&self, index: usize) -> Option<&Row> {
         self.window.get(index.checked_sub(self.base)?)
     }
 
     /// Forgets the chords before `index`, except the last one made.
-    pub(super) fn forget_before(&mut self, index: usize) {
+    pub(crate) fn forget_before(&mut self, index: usize) {
         while self.base < index && self.window.len() > 1 {
             self.window.pop_front();
             self.base += 1;

@@ -1,12 +1,10 @@
 //! What is done where the motion cannot be matched at the present level: searches over the last
 //! columns for the level that it takes.
 
-use crate::column::{Level, Passage, step};
-use crate::matching::{EXACT_MM, Goal, Matching, Trouble};
-use crate::report::ViolationKind;
+use crate::column::{EXACT_MM, Level, Passage, step};
+use crate::matching::{Goal, Matching, SHORT, Trouble};
+use crate::violation::ViolationKind;
 
-/// Columns tried again first; a retry over the full history costs more.
-pub(super) const SHORT: usize = 8;
 /// Most chords the motion may be near to while it is out of tolerance.
 const MAX_REACH: usize = 20_000;
 /// Out of tolerance by more than this, the motion is lost, mm.
@@ -31,7 +29,7 @@ fn resolution(level_mm: f64) -> f64 {
 impl Matching {
     /// Runs through the history from column `from` on; what can be reached in the end is left in
     /// `scratch[0]`, and what could be at the start of the last column in `scratch[1]`.
-    pub(super) fn replay(&mut self, from: usize, level: &Level, goal: Goal) -> Passage {
+    pub(crate) fn replay(&mut self, from: usize, level: &Level, goal: Goal) -> Passage {
         let [mut now, mut next] = core::mem::take(&mut self.scratch);
         let start = self.history.get(from).map(|column| &column.reach);
         now.clone_from(start.unwrap_or(&self.reach));
@@ -77,7 +75,7 @@ impl Matching {
 
     /// The last column is blocked: finds what it takes to pass. On success the new state is in
     /// `scratch[0]`.
-    pub(super) fn widen(&mut self, goal: Goal) -> Passage {
+    pub(crate) fn widen(&mut self, goal: Goal) -> Passage {
         if let Some(trouble) = self.trouble {
             return self.widen_floor(trouble.floor_mm, goal);
         }
@@ -207,7 +205,7 @@ impl Matching {
     }
 
     /// The motion is back within tolerance, or at its end: reports how far off it was.
-    pub(super) fn settle(&mut self, goal: Goal) {
+    pub(crate) fn settle(&mut self, goal: Goal) {
         let Some(Trouble {
             floor_mm,
             tick,

@@ -1,6 +1,6 @@
 //! The kernel as a whole.
 
-use super::Check;
+use super::check::Check;
 use crate::{Host, ProcessorTime};
 
 /// Fully preemptible or not: only then has latency a bound.

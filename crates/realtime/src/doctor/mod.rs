@@ -4,76 +4,16 @@
 //! it. What [`enter`](crate::enter) would be refused is *missing*; what only makes the thread late is
 //! a *warning*. Nothing is changed and nothing is tried out: the checks read files of a [`Host`].
 
+mod check;
 mod kernel;
 mod privileges;
 mod processor;
 #[cfg(test)]
 mod tests;
 
+pub use check::{Check, Verdict};
+
 use crate::Host;
-
-/// What a check found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verdict {
-    /// As it should be, or of no effect here.
-    Ok,
-    /// Real time works, but later or less surely than it could.
-    Warning,
-    /// Required, and not there: a strict start is refused.
-    Missing,
-}
-
-impl Verdict {
-    /// The verdict in one word.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Ok => "ok",
-            Self::Warning => "warning",
-            Self::Missing => "missing",
-        }
-    }
-}
-
-/// The finding of one check.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Check {
-    /// What was looked at, in a word or two.
-    pub name: &'static str,
-    /// How good it is.
-    pub verdict: Verdict,
-    /// What was found.
-    pub found: String,
-    /// How to mend it; `None` if it is [`Verdict::Ok`].
-    pub remedy: Option<String>,
-}
-
-impl Check {
-    fn ok(name: &'static str, found: impl Into<String>) -> Self {
-        Self {
-            name,
-            verdict: Verdict::Ok,
-            found: found.into(),
-            remedy: None,
-        }
-    }
-
-    fn warning(name: &'static str, found: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self {
-            name,
-            verdict: Verdict::Warning,
-            found: found.into(),
-            remedy: Some(remedy.into()),
-        }
-    }
-
-    fn missing(name: &'static str, found: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self {
-            verdict: Verdict::Missing,
-            ..Self::warning(name, found, remedy)
-        }
-    }
-}
 
 /// What the real-time thread is going to ask for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

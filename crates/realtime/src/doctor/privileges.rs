@@ -1,6 +1,6 @@
 //! What this process may do.
 
-use super::Check;
+use super::check::Check;
 use crate::Host;
 use crate::host::{field, field_kib};
 use rustix::fs::{Access, access};

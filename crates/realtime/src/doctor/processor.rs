@@ -1,6 +1,6 @@
 //! The processor the real-time thread is pinned to.
 
-use super::Check;
+use super::check::Check;
 use crate::Host;
 use crate::host::{CpuList, field};
 use std::fs;

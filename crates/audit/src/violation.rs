@@ -1,0 +1,182 @@
+//! What an audit finds wrong.
+
+use core::fmt;
+use glidepath_geometry::Axis;
+
+/// The largest of a quantity, and where it was met.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Worst {
+    /// The quantity over what is allowed; above 1 is too much.
+    pub ratio: f64,
+    /// Index of the axis, where the quantity is one of an axis.
+    pub axis: Option<Axis>,
+    /// Tick of the sample.
+    pub tick: u64,
+    /// Source line of the sample.
+    pub line: u32,
+}
+
+/// A rule that was broken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ViolationKind {
+    /// An axis was faster than its velocity limit.
+    Velocity {
+        /// The axis.
+        axis: Axis,
+        /// Velocity over limit.
+        ratio: f64,
+    },
+    /// An axis accelerated more than its limit.
+    Acceleration {
+        /// The axis.
+        axis: Axis,
+        /// Acceleration over limit.
+        ratio: f64,
+    },
+    /// An axis had more jerk than its limit.
+    Jerk {
+        /// The axis.
+        axis: Axis,
+        /// Jerk over limit.
+        ratio: f64,
+    },
+    /// Acceleration along the path beyond its limit.
+    AlongPath {
+        /// Acceleration over limit.
+        ratio: f64,
+    },
+    /// Acceleration across the path beyond its limit.
+    AcrossPath {
+        /// Acceleration over limit.
+        ratio: f64,
+    },
+    /// Jerk along the path beyond its limit.
+    PathJerk {
+        /// Jerk over limit.
+        ratio: f64,
+    },
+    /// The path was run faster than the programmed feed.
+    Feed {
+        /// Path speed over feed.
+        ratio: f64,
+    },
+    /// Reported velocity or acceleration do not fit the positions.
+    Inconsistent {
+        /// The axis.
+        axis: Axis,
+        /// What was found wrong.
+        what: Inconsistency,
+    },
+    /// The tick does not follow the one before.
+    Gap {
+        /// The tick before.
+        after: u64,
+    },
+    /// A coordinate is not a number.
+    NotFinite,
+    /// Farther from the programmed path, or the path from the motion, than the tolerance.
+    Deviation {
+        /// The distance a monotone matching needs, mm or degrees.
+        deviation_mm: f64,
+    },
+    /// An exact stop, or the start or end of the program, was not met.
+    ExactStop {
+        /// The distance by which it was missed, mm or degrees.
+        deviation_mm: f64,
+    },
+    /// A dwell was cut short by more than a period.
+    Dwell {
+        /// By how much, s.
+        missing_t: f64,
+    },
+    /// The motion left the path by so much that it could not be followed any more; what comes
+    /// after is not checked for deviation.
+    Lost,
+    /// The motion ended before the program did.
+    Incomplete,
+}
+
+/// Which report of a sample does not fit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Inconsistency {
+    /// Position after a period does not follow from velocity and acceleration.
+    Position,
+    /// Velocity after a period does not follow from acceleration.
+    Velocity,
+    /// Acceleration steps.
+    Acceleration,
+}
+
+/// A broken rule, and where.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Violation {
+    /// Tick of the sample.
+    pub tick: u64,
+    /// Source line.
+    pub line: u32,
+    /// The rule.
+    pub kind: ViolationKind,
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}, tick {}: ", self.line, self.tick)?;
+        match self.kind {
+            ViolationKind::Velocity { axis, ratio } => {
+                write!(f, "{axis} moves at {ratio:.6} of its velocity limit")
+            }
+            ViolationKind::Acceleration { axis, ratio } => {
+                write!(f, "{axis} accelerates at {ratio:.6} of its limit")
+            }
+            ViolationKind::Jerk { axis, ratio } => {
+                write!(f, "{axis} has {ratio:.6} of its jerk limit")
+            }
+            ViolationKind::AlongPath { ratio } => {
+                write!(f, "{ratio:.6} of the acceleration allowed along the path")
+            }
+            ViolationKind::AcrossPath { ratio } => {
+                write!(f, "{ratio:.6} of the acceleration allowed across the path")
+            }
+            ViolationKind::PathJerk { ratio } => {
+                write!(f, "{ratio:.6} of the jerk allowed along the path")
+            }
+            ViolationKind::Feed { ratio } => write!(f, "{ratio:.6} of the programmed feed"),
+            ViolationKind::Inconsistent { axis, what } => {
+                write!(
+                    f,
+                    "{axis}: reported state does not fit the positions ({what:?})"
+                )
+            }
+            ViolationKind::Gap { after } => write!(f, "no samples since tick {after}"),
+            ViolationKind::NotFinite => write!(f, "a coordinate is not a number"),
+            ViolationKind::Deviation { deviation_mm } => {
+                write!(f, "{deviation_mm:.6} mm off the programmed path")
+            }
+            ViolationKind::ExactStop { deviation_mm } => {
+                write!(f, "exact stop missed by {deviation_mm:.6} mm")
+            }
+            ViolationKind::Dwell { missing_t } => write!(f, "dwell cut short by {missing_t:.6} s"),
+            ViolationKind::Lost => write!(f, "the motion does not follow the program any more"),
+            ViolationKind::Incomplete => write!(f, "the motion ends before the program does"),
+        }
+    }
+}
+
+/// Violations kept in full; the others are counted.
+pub(crate) const KEPT_VIOLATIONS: usize = 100;
+
+/// The first violations, and how many there were.
+#[derive(Debug, Default)]
+pub(crate) struct ViolationList {
+    pub(crate) kept: Vec<Violation>,
+    pub(crate) count: u64,
+}
+
+impl ViolationList {
+    pub(crate) fn push(&mut self, tick: u64, line: u32, kind: ViolationKind) {
+        self.count += 1;
+        if self.kept.len() < KEPT_VIOLATIONS {
+            self.kept.push(Violation { tick, line, kind });
+        }
+    }
+}
