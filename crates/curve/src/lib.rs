@@ -32,7 +32,7 @@ mod rule;
 mod sagitta;
 
 pub use expression::{Expression, ExpressionError};
-pub use file::{CurveFile, FileFinding, Shape, ShapeKey};
+pub use file::{CurveFile, FileDiagnostic, Shape, ShapeKey};
 pub use implicit::ImplicitCurve;
 pub use laps::Chords;
 pub use nurbs_file::NurbsFile;

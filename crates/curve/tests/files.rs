@@ -28,9 +28,9 @@ chord = 0.4
 laps = 10
 ";
 
-fn finding(text: &str) -> (String, String, String) {
-    let findings = CurveFile::parse(text).unwrap_err();
-    let first = &findings[0];
+fn diagnostic(text: &str) -> (String, String, String) {
+    let diagnostics = CurveFile::parse(text).unwrap_err();
+    let first = &diagnostics[0];
     let at = text.get(first.at.clone()).unwrap_or("?");
     (first.message.clone(), at.to_owned(), first.help.clone())
 }
@@ -66,27 +66,27 @@ fn both_kinds_give_the_same_laps() {
 
 #[test]
 fn findings_have_a_place_and_a_remedy() {
-    let (message, at, _) = finding(&PARAMETRIC.replace("sin(t/2)", "sin(u/2)"));
+    let (message, at, _) = diagnostic(&PARAMETRIC.replace("sin(t/2)", "sin(u/2)"));
     assert_eq!((message.as_str(), at.as_str()), ("`u` is not known", "u"));
-    let (message, at, _) = finding(&PARAMETRIC.replace("feed = 3000.0", "feed = -1.0"));
+    let (message, at, _) = diagnostic(&PARAMETRIC.replace("feed = 3000.0", "feed = -1.0"));
     assert_eq!(at, "-1.0");
     assert!(message.contains("feed"));
-    let (message, _, _) = finding(&PARAMETRIC.replace("to = \"4*pi\"\n", ""));
+    let (message, _, _) = diagnostic(&PARAMETRIC.replace("to = \"4*pi\"\n", ""));
     assert_eq!(message, "the key `to` is missing");
-    let (_, at, _) = finding(&PARAMETRIC.replace("4*pi", "pi"));
+    let (_, at, _) = diagnostic(&PARAMETRIC.replace("4*pi", "pi"));
     assert_eq!(at, "10");
-    let (_, at, _) = finding(&PARAMETRIC.replace("4*pi", "4*py"));
+    let (_, at, _) = diagnostic(&PARAMETRIC.replace("4*pi", "4*py"));
     assert_eq!(at, "py");
-    let (message, _, _) = finding(&PARAMETRIC.replace("feed", "fead"));
+    let (message, _, _) = diagnostic(&PARAMETRIC.replace("feed", "fead"));
     assert!(message.contains("fead"), "{message}");
-    let (message, at, _) = finding(&PARAMETRIC.replace("\"parametric\"", "\"spiral\""));
+    let (message, at, _) = diagnostic(&PARAMETRIC.replace("\"parametric\"", "\"spiral\""));
     assert!(message.contains("spiral") && at == "\"spiral\"");
     let (message, _, _) =
-        finding(&IMPLICIT.replace("kind = \"implicit\"", "kind = \"parametric\""));
+        diagnostic(&IMPLICIT.replace("kind = \"implicit\"", "kind = \"parametric\""));
     assert!(message.contains('f'), "{message}");
-    let (message, at, help) = finding(&IMPLICIT.replace("\"closed\"", "\"close\""));
+    let (message, at, help) = diagnostic(&IMPLICIT.replace("\"closed\"", "\"close\""));
     assert!(message.contains("end") && at == "\"close\"" && help.contains("closed"));
-    let (_, at, _) = finding(&IMPLICIT.replace("\"closed\"", "100.0"));
+    let (_, at, _) = diagnostic(&IMPLICIT.replace("\"closed\"", "100.0"));
     assert_eq!(at, "10");
     assert_eq!(
         CurveFile::parse(&PARAMETRIC.replace("20*", "20 "))

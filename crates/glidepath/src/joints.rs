@@ -7,7 +7,6 @@
 //! the same, it is refused before anything moves.
 
 use crate::config::MachineConfig;
-use crate::failure::Failure;
 use glidepath_gcode::{Code, Diagnostic};
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_kinematics::{
@@ -30,7 +29,7 @@ const STEP: f64 = 0.25;
 pub(crate) fn check_path(
     path: &Path,
     config: &MachineConfig,
-) -> Result<Option<Diagnostic>, Failure> {
+) -> Result<Option<Diagnostic>, Refusal> {
     let Some(watch) = config.joint_watch() else {
         return Ok(None);
     };
@@ -38,7 +37,7 @@ pub(crate) fn check_path(
     let mut source = FileSource::unchecked(path, options, &config.settings())?;
     let home = config.home();
     if let Err(fault) = watch.stand(&home) {
-        return Ok(Some(finding(
+        return Ok(Some(diagnostic(
             path,
             1,
             &fault,
@@ -51,7 +50,7 @@ pub(crate) fn check_path(
             continue;
         };
         if let Err((fault, place)) = walk(segment, &watch) {
-            return Ok(Some(finding(
+            return Ok(Some(diagnostic(
                 path,
                 item.line,
                 &fault,
@@ -112,11 +111,10 @@ impl PlanWatch {
     ///
     /// # Errors
     /// The joints cannot do it.
-    pub(crate) fn take(&mut self, frame: &Frame) -> Result<(), Failure> {
+    pub(crate) fn take(&mut self, frame: &Frame) -> Result<(), Refusal> {
         self.watch.take(&frame.position).map_err(|fault| {
             let place = (&frame.position, self.axes.as_slice());
-            let finding = finding(&self.path, frame.line, &fault, place);
-            Failure::refused(&self.path.display().to_string(), refusal(finding), false)
+            refusal(diagnostic(&self.path, frame.line, &fault, place))
         })?;
         if let Some(last) = self.last.replace(frame.position) {
             let middle = (last + frame.position) / 2.0;
@@ -153,21 +151,26 @@ pub(crate) fn check_plan(
     while let Some(frame) = pipeline.next_frame()? {
         watch.take(&frame.position).map_err(|fault| {
             let axes = config.axis_names();
-            refusal(finding(path, frame.line, &fault, (&frame.position, &axes)))
+            refusal(diagnostic(
+                path,
+                frame.line,
+                &fault,
+                (&frame.position, &axes),
+            ))
         })?;
     }
     Ok(())
 }
 
-fn refusal(finding: Diagnostic) -> Refusal {
+fn refusal(diagnostic: Diagnostic) -> Refusal {
     Refusal::Program {
-        findings: vec![finding],
+        diagnostics: vec![diagnostic],
         unlisted: 0,
     }
 }
 
-/// A finding at a place of the machine.
-fn finding(
+/// What is wrong at a position of the machine.
+fn diagnostic(
     path: &Path,
     line: u32,
     fault: &JointFault,

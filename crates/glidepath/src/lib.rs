@@ -9,7 +9,7 @@ pub mod config;
 pub mod curve_file;
 pub mod dense_runs;
 pub mod exit;
-pub mod failure;
+pub mod file_error;
 pub mod interrupt;
 pub mod jitter;
 mod joints;

@@ -1,14 +1,8 @@
-//! Everything the process prints: results to standard output, findings and progress to standard
+//! Everything the process prints: results to standard output, diagnostics and progress to standard
 //! error, so that a result can be piped.
 
-use crate::command::check::print_findings;
-use crate::config::ConfigError;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::report::finding_object;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
-use serde_json::{Value, json};
 use std::io::{IsTerminal as _, Write as _};
 
 /// Writes text to standard output. A reader that went away (`| head`) is no fault of ours.
@@ -59,67 +53,4 @@ pub fn diagnostics<'a>(diagnostics: impl IntoIterator<Item = &'a dyn Diagnostic>
     for diagnostic in diagnostics {
         note(render(diagnostic, colour).trim_end());
     }
-}
-
-/// Reports a failure in the form asked for and gives the exit code.
-#[must_use]
-pub fn failure(failure: &Failure, as_json: bool) -> Exit {
-    if as_json {
-        object(&failure_object(failure));
-    } else if let Failure::Configuration(error) = failure {
-        let reports = error.reports();
-        diagnostics(reports.iter().map(|report| report as &dyn Diagnostic));
-        note(&format!("error: {error}"));
-    } else if let Failure::Rejected {
-        program,
-        findings,
-        more,
-        ..
-    } = failure
-    {
-        print_findings(program, findings, *more);
-        note(&format!("error: {failure}"));
-    } else {
-        if let Failure::Curve(error) = failure {
-            diagnostics([error.as_ref() as &dyn Diagnostic]);
-        }
-        note(&format!("error: {failure}"));
-    }
-    failure.exit()
-}
-
-fn failure_object(failure: &Failure) -> Value {
-    let findings: Vec<Value> = match failure {
-        Failure::Configuration(error) => configuration_findings(error),
-        Failure::Rejected {
-            program, findings, ..
-        } => findings
-            .iter()
-            .map(|finding| finding_object(program, finding))
-            .collect(),
-        Failure::Curve(error) => vec![error.object()],
-        _ => Vec::new(),
-    };
-    json!({
-        "error": failure.to_string(),
-        "exit_code": failure.exit() as u8,
-        "findings": findings,
-    })
-}
-
-fn configuration_findings(error: &ConfigError) -> Vec<Value> {
-    error
-        .findings()
-        .iter()
-        .map(|finding| {
-            let place = error.place(finding);
-            json!({
-                "key": finding.key,
-                "message": finding.message,
-                "help": finding.help,
-                "line": place.map(|(line, _)| line),
-                "column": place.map(|(_, column)| column),
-            })
-        })
-        .collect()
 }

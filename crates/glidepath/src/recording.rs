@@ -1,7 +1,7 @@
 //! What is kept of a motion while it passes by: CSV and plot.
 
 use crate::config::MachineConfig;
-use crate::failure::Failure;
+use crate::file_error::FileError;
 use crate::plot::Plot;
 use crate::report::state_name;
 use crate::sample::Sample;
@@ -27,27 +27,27 @@ impl Recording {
         config: &MachineConfig,
         csv: Option<&Path>,
         plot: Option<&Path>,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, FileError> {
         let axes = config.axis_names();
         let csv = csv
             .map(|path| {
-                let file = File::create(path).map_err(Failure::open(path))?;
+                let file = File::create(path).map_err(FileError::open(path))?;
                 let writer = CsvWriter::new(
                     BufWriter::with_capacity(1 << 16, file),
                     &axes,
                     config.joints(),
                 )
-                .map_err(Failure::file("write", path))?;
-                Ok::<_, Failure>((path.to_owned(), writer))
+                .map_err(FileError::file("write", path))?;
+                Ok::<_, FileError>((path.to_owned(), writer))
             })
             .transpose()?;
         let plot = plot
             .map(|path| {
                 // Now, so that a path that cannot be written is known before an hour of motion.
-                File::create(path).map_err(Failure::open(path))?;
+                File::create(path).map_err(FileError::open(path))?;
                 let plot = Plot::new(&axes, config.limits(), config.period_t())
                     .with_joints(&config.joint_limits, config.joints());
-                Ok::<_, Failure>((path.to_owned(), plot))
+                Ok::<_, FileError>((path.to_owned(), plot))
             })
             .transpose()?;
         Ok(Self { csv, plot })
@@ -63,9 +63,9 @@ impl Recording {
     ///
     /// # Errors
     /// The CSV cannot be written.
-    pub fn push(&mut self, sample: &Sample) -> Result<(), Failure> {
+    pub fn push(&mut self, sample: &Sample) -> Result<(), FileError> {
         if let Some((path, csv)) = &mut self.csv {
-            csv.row(sample).map_err(Failure::file("write", path))?;
+            csv.row(sample).map_err(FileError::file("write", path))?;
         }
         // Waiting before and after the program is no part of the picture.
         let shown = sample.state != state_name(MachineState::Idle);
@@ -79,13 +79,13 @@ impl Recording {
     ///
     /// # Errors
     /// A file cannot be written.
-    pub fn finish(self, title: &str, caption: &str) -> Result<(), Failure> {
+    pub fn finish(self, title: &str, caption: &str) -> Result<(), FileError> {
         if let Some((path, csv)) = self.csv {
-            csv.finish().map_err(Failure::file("write", &path))?;
+            csv.finish().map_err(FileError::file("write", &path))?;
         }
         if let Some((path, plot)) = self.plot {
             std::fs::write(&path, plot.render(title, caption))
-                .map_err(Failure::file("write", &path))?;
+                .map_err(FileError::file("write", &path))?;
         }
         Ok(())
     }

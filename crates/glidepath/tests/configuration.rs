@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 #![allow(clippy::float_cmp, reason = "values are read, not computed")]
 
-use glidepath::config::{self, Finding};
+use glidepath::config::{self, ConfigDiagnostic};
 use glidepath_geometry::Axis;
 use glidepath_program::{Effort, Limits, Smoothing};
 
@@ -15,8 +15,9 @@ type Told = (String, Option<(usize, usize)>, Option<String>);
 
 fn findings(text: &str) -> Vec<Told> {
     let error = config::parse("m.toml", text).expect_err("the text has to be refused");
-    let describe = |f: &Finding| (f.message.clone(), error.place(f), f.help.clone());
-    error.findings().iter().map(describe).collect()
+    let describe =
+        |f: &ConfigDiagnostic| (f.message.clone(), error.line_and_column(f), f.help.clone());
+    error.diagnostics().iter().map(describe).collect()
 }
 
 fn only(text: &str) -> (String, Option<(usize, usize)>, String) {

@@ -236,7 +236,11 @@ fn a_plot_shows_joints_beside_their_limits() {
 
 fn findings(text: &str) -> Vec<String> {
     let error = config::parse("m.toml", text).expect_err("refused");
-    error.findings().iter().map(|f| f.message.clone()).collect()
+    error
+        .diagnostics()
+        .iter()
+        .map(|f| f.message.clone())
+        .collect()
 }
 
 #[test]

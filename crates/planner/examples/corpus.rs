@@ -83,7 +83,8 @@ fn plan(path: &Path, settings: Settings) -> Result<Plan, Box<dyn Error>> {
     let options = options(path)?;
     let (mut segments, mut feed_t, mut is_whole) = (0, 0.0, true);
     for item in Program::new(BufReader::new(File::open(path)?), options) {
-        let item = item.map_err(|finding| format!("{}: {}", finding.line, finding.message))?;
+        let item =
+            item.map_err(|diagnostic| format!("{}: {}", diagnostic.line, diagnostic.message))?;
         if let ItemKind::Move { segment, rate, .. } = &item.kind {
             if segments == MOST_SEGMENTS {
                 is_whole = false;

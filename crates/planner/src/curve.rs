@@ -37,7 +37,7 @@ impl CurveSource {
     /// The curve of a file's text, for a machine that stands at the start of the options.
     ///
     /// # Errors
-    /// All findings.
+    /// All diagnostics.
     pub fn new(
         text: String,
         options: Options,
@@ -46,8 +46,8 @@ impl CurveSource {
         let find = |at, code, message, help: &str| {
             Diagnostic::in_text(&text, at, code, message, help.to_owned())
         };
-        let file = CurveFile::parse(&text).map_err(|findings| {
-            findings
+        let file = CurveFile::parse(&text).map_err(|diagnostics| {
+            diagnostics
                 .into_iter()
                 .map(|f| Diagnostic::in_text(&text, f.at, Code::CurveFile, f.message, f.help))
                 .collect::<Vec<_>>()

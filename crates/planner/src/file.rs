@@ -43,7 +43,7 @@ impl FileSource {
     /// Opens a file after a pass over the whole of it.
     ///
     /// # Errors
-    /// All findings, if there is any; or why the file cannot be read.
+    /// All diagnostics, if there is any; or why the file cannot be read.
     pub fn open(path: &Path, options: Options, settings: &Settings) -> Result<Self, Refusal> {
         if !is_curve(path) {
             return Ok(Self::Program(Box::new(ProgramSource::open(path, options)?)));
@@ -51,7 +51,7 @@ impl FileSource {
         let report = check_file(path, options.clone(), settings)?;
         if !report.diagnostics.is_empty() {
             return Err(Refusal::Program {
-                findings: report.diagnostics,
+                diagnostics: report.diagnostics,
                 unlisted: report.more,
             });
         }
@@ -66,13 +66,13 @@ impl FileSource {
             let message = "a curve file has at most 64 MiB";
             return Err(io::Error::new(io::ErrorKind::InvalidData, message).into());
         }
-        let refuse = |findings| Refusal::Program {
-            findings,
+        let refuse = |diagnostics| Refusal::Program {
+            diagnostics,
             unlisted: 0,
         };
         if NurbsFile::is_meant(&text) {
             let source = NurbsSource::new(text, options, settings);
-            let source = source.map_err(|finding| refuse(vec![*finding]))?;
+            let source = source.map_err(|diagnostic| refuse(vec![*diagnostic]))?;
             return Ok(Self::Nurbs(Box::new(source)));
         }
         let source = CurveSource::new(text, options, settings).map_err(refuse)?;
@@ -101,8 +101,8 @@ pub fn check_file(path: &Path, options: Options, settings: &Settings) -> io::Res
         Ok(FileSource::Nurbs(source)) => Ok(source.check()),
         Ok(FileSource::Program(_)) => Err(io::Error::other("a curve is no program")),
         Err(Refusal::Read(error)) => Err(error),
-        Err(Refusal::Program { findings, .. }) => Ok(Report {
-            diagnostics: findings,
+        Err(Refusal::Program { diagnostics, .. }) => Ok(Report {
+            diagnostics,
             more: 0,
             complete: true,
             totals: glidepath_gcode::Totals::default(),
@@ -113,7 +113,7 @@ pub fn check_file(path: &Path, options: Options, settings: &Settings) -> io::Res
     }
 }
 
-/// The same findings without all else, for a file that is only to be accepted or refused.
+/// The same diagnostics without all else, for a file that is only to be accepted or refused.
 ///
 /// # Errors
 /// The file cannot be read.

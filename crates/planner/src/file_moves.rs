@@ -113,14 +113,14 @@ impl FileMoves {
     }
 }
 
-/// Goes through a whole curve without motion, up to its first finding.
+/// Goes through a whole curve without motion, up to its first diagnostic.
 pub(crate) fn survey(mut next: impl FnMut() -> Next) -> (Survey, Vec<Diagnostic>) {
     let mut survey = Survey::default();
     loop {
         match next() {
             Ok(Some(item)) => survey.add(&item),
             Ok(None) => return (survey, Vec::new()),
-            Err(finding) => return (survey, vec![*finding]),
+            Err(diagnostic) => return (survey, vec![*diagnostic]),
         }
     }
 }
@@ -130,8 +130,8 @@ pub(crate) fn supply(next: Next) -> Supply {
     match next {
         Ok(Some(item)) => Supply::Item(item),
         Ok(None) => Supply::End,
-        Err(finding) => Supply::Refused(Refusal::Program {
-            findings: vec![*finding],
+        Err(diagnostic) => Supply::Refused(Refusal::Program {
+            diagnostics: vec![*diagnostic],
             unlisted: 0,
         }),
     }

@@ -42,7 +42,7 @@ impl ProgramSource<BufReader<File>> {
     /// the execution, an error then ends the motion as it does with a pipe.
     ///
     /// # Errors
-    /// All findings, if there is any; or why the file cannot be read.
+    /// All diagnostics, if there is any; or why the file cannot be read.
     pub fn open(path: &Path, options: Options) -> Result<Self, Refusal> {
         let mut file = File::open(path)?;
         let mut reader = Fingerprinting::new(&mut file);
@@ -58,7 +58,7 @@ impl ProgramSource<BufReader<File>> {
         let fingerprint = reader.fingerprint();
         if !found.diagnostics.is_empty() {
             return Err(Refusal::Program {
-                findings: found.diagnostics,
+                diagnostics: found.diagnostics,
                 unlisted: found.more,
             });
         }
@@ -74,8 +74,8 @@ impl<R: BufRead> ItemSource for ProgramSource<R> {
     fn next_item(&mut self) -> Supply {
         match self.program.next() {
             Some(Ok(item)) => Supply::Item(item),
-            Some(Err(finding)) => Supply::Refused(Refusal::Program {
-                findings: vec![finding],
+            Some(Err(diagnostic)) => Supply::Refused(Refusal::Program {
+                diagnostics: vec![diagnostic],
                 unlisted: 0,
             }),
             None => Supply::End,

@@ -11,11 +11,11 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum Refusal {
     /// The text has errors: all of them if the whole file was checked before motion, else the first.
-    #[error("the program has {} error(s), the first in {}", .findings.len(), place(.findings.first()))]
+    #[error("the program has {} error(s), the first in {}", .diagnostics.len(), place(.diagnostics.first()))]
     Program {
         /// In the order of the text, at least one.
-        findings: Vec<Diagnostic>,
-        /// Further findings that are not listed.
+        diagnostics: Vec<Diagnostic>,
+        /// Further diagnostics that are not listed.
         unlisted: u32,
     },
     /// An item cannot be planned.
@@ -38,10 +38,10 @@ pub enum Refusal {
     StreamFailed(#[source] LinkError),
 }
 
-/// The line of a finding, and its file if that is not the program.
-fn place(finding: Option<&Diagnostic>) -> String {
-    let line = finding.map_or(0, |finding| finding.line);
-    match finding.and_then(|finding| finding.file.as_deref()) {
+/// The line of a diagnostic, and its file if that is not the program.
+fn place(diagnostic: Option<&Diagnostic>) -> String {
+    let line = diagnostic.map_or(0, |diagnostic| diagnostic.line);
+    match diagnostic.and_then(|diagnostic| diagnostic.file.as_deref()) {
         Some(file) => format!("line {line} of {file}"),
         None => format!("line {line}"),
     }

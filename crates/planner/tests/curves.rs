@@ -154,7 +154,7 @@ fn the_machine_goes_to_the_start_and_rests_there() {
 fn refused(text: &str, options: Options) -> Diagnostic {
     match CurveSource::new(text.to_owned(), options, &settings()) {
         Ok(source) => source.check().diagnostics.remove(0),
-        Err(mut findings) => findings.remove(0),
+        Err(mut diagnostics) => diagnostics.remove(0),
     }
 }
 

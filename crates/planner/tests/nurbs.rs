@@ -39,7 +39,7 @@ K1
 
 fn refused(text: &str, options: Options) -> Diagnostic {
     match NurbsSource::new(text.to_owned(), options, &settings()) {
-        Err(finding) => *finding,
+        Err(diagnostic) => *diagnostic,
         Ok(source) => source.check().diagnostics.into_iter().next().unwrap(),
     }
 }
@@ -148,9 +148,14 @@ fn rotary_axes_go_along_within_the_tolerance() {
 #[test]
 fn findings_have_a_place_and_a_remedy() {
     let place = |text: &str| {
-        let finding = refused(text, Options::default());
-        assert!(!finding.help.is_empty());
-        (finding.line, finding.column, finding.code, finding.message)
+        let diagnostic = refused(text, Options::default());
+        assert!(!diagnostic.help.is_empty());
+        (
+            diagnostic.line,
+            diagnostic.column,
+            diagnostic.code,
+            diagnostic.message,
+        )
     };
     let (line, column, code, message) = place(&ARCH.replace("0.5", "-0.5"));
     assert_eq!((line, column, code), (5, 17, Code::CurveFile));
@@ -179,24 +184,28 @@ fn the_machine_must_have_the_axes_and_the_travel() {
             max: 10.0,
         },
     );
-    let finding = refused(
+    let diagnostic = refused(
         ARCH,
         Options {
             machine: narrow,
             ..Options::default()
         },
     );
-    assert_eq!((finding.code, finding.line), (Code::SoftLimit, 4));
+    assert_eq!((diagnostic.code, diagnostic.line), (Code::SoftLimit, 4));
     let flat = Machine::new(&[Axis::X]);
-    let finding = refused(
+    let diagnostic = refused(
         ARCH,
         Options {
             machine: flat,
             ..Options::default()
         },
     );
-    assert_eq!(finding.code, Code::Curve);
-    assert!(finding.message.contains("no axis Y"), "{}", finding.message);
+    assert_eq!(diagnostic.code, Code::Curve);
+    assert!(
+        diagnostic.message.contains("no axis Y"),
+        "{}",
+        diagnostic.message
+    );
 }
 
 #[test]

@@ -109,10 +109,10 @@ fn a_file_with_errors_is_refused_with_all_of_them() {
     let file = file("G1 X1 F100\nG1 X1 X2\nG1 Y2\nG777\nM2\n");
     match FileSource::open(file.path(), Options::default(), &settings()) {
         Err(Refusal::Program {
-            findings,
+            diagnostics,
             unlisted: 0,
         }) => {
-            let found: Vec<_> = findings.iter().map(|f| (f.line, f.code)).collect();
+            let found: Vec<_> = diagnostics.iter().map(|f| (f.line, f.code)).collect();
             assert_eq!(found, [(2, Code::DuplicateWord), (4, Code::UnknownGCode)]);
         }
         other => panic!("{other:?}"),
@@ -136,8 +136,8 @@ fn a_pipe_with_an_error_is_planned_to_a_stop_before_it() {
     };
     let (frames, _, refusal) = read(&bad);
     match refusal {
-        Some(Refusal::Program { findings, .. }) => {
-            assert_eq!((findings.len(), findings[0].line), (1, 4));
+        Some(Refusal::Program { diagnostics, .. }) => {
+            assert_eq!((diagnostics.len(), diagnostics[0].line), (1, 4));
         }
         other => panic!("{other:?}"),
     }

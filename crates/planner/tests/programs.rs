@@ -76,7 +76,7 @@ fn data(path: &str) -> PathBuf {
         .join(path)
 }
 
-/// Plans a program and audits it; `each` sees every frame. The error is the first finding's code.
+/// Plans a program and audits it; `each` sees every frame. The error is the first diagnostic's code.
 fn plan(
     path: &Path,
     settings: Settings,
@@ -103,7 +103,8 @@ fn plan(
         }
     };
     for item in Program::new(BufReader::new(file), options) {
-        let item = item.map_err(|finding| format!("{}: {}", finding.line, finding.message))?;
+        let item =
+            item.map_err(|diagnostic| format!("{}: {}", diagnostic.line, diagnostic.message))?;
         planner.push(&item).map_err(|error| error.to_string())?;
         audit.program(&item);
         take(&mut planner, &mut audit);
@@ -129,7 +130,7 @@ fn bench_programs_keep_limits_and_tolerance_and_beat_stopping() {
                 Options::default(),
                 |_| (),
             )
-            .unwrap_or_else(|finding| panic!("{name}: {finding}"));
+            .unwrap_or_else(|diagnostic| panic!("{name}: {diagnostic}"));
             assert!(
                 report.is_clean() && report.is_complete,
                 "{name} {smoothing:?}: {report:#?}"
@@ -180,7 +181,7 @@ fn plans_are_those_kept() {
                 .expect("text");
             }
         })
-        .unwrap_or_else(|finding| panic!("{name}: {finding}"));
+        .unwrap_or_else(|diagnostic| panic!("{name}: {diagnostic}"));
         let kept_path = data(&format!("golden/{name}.csv"));
         if bless {
             std::fs::write(&kept_path, &plan_text).expect("writable");
@@ -239,7 +240,7 @@ fn motion_in_unit(
     let report = plan(file.path(), settings, Options::default(), |frame| {
         positions.push(frame.position);
     })
-    .unwrap_or_else(|finding| panic!("{name}: {finding}"));
+    .unwrap_or_else(|diagnostic| panic!("{name}: {diagnostic}"));
     assert!(report.is_clean(), "{name} x {factor}: {report:#?}");
     positions
 }
@@ -302,8 +303,8 @@ fn corpus_programs_keep_limits_and_tolerance() {
         };
         let report = match plan(&corpus.join(name), settings, options, |_| ()) {
             Ok(report) => report,
-            Err(finding) => {
-                eprintln!("{name}: refused, {finding}");
+            Err(diagnostic) => {
+                eprintln!("{name}: refused, {diagnostic}");
                 continue;
             }
         };

@@ -1,7 +1,7 @@
 //! Any text is a curve file or is refused with a place; a curve that is accepted can be followed.
 #![no_main]
 
-use glidepath_curve::{ChordRule, CurveFile, FileFinding, NurbsFile};
+use glidepath_curve::{ChordRule, CurveFile, FileDiagnostic, NurbsFile};
 use libfuzzer_sys::fuzz_target;
 
 /// Chords followed along a curve, and their rule.
@@ -11,9 +11,9 @@ const RULE: ChordRule = ChordRule {
     error_mm: 0.01,
 };
 
-fn is_in(text: &str, finding: &FileFinding) {
-    assert!(!finding.message.is_empty());
-    assert!(finding.at.start <= finding.at.end && finding.at.end <= text.len());
+fn is_in(text: &str, diagnostic: &FileDiagnostic) {
+    assert!(!diagnostic.message.is_empty());
+    assert!(diagnostic.at.start <= diagnostic.at.end && diagnostic.at.end <= text.len());
 }
 
 fuzz_target!(|bytes: &[u8]| {
@@ -28,7 +28,7 @@ fuzz_target!(|bytes: &[u8]| {
                     assert!(file.curve.jet(u).position.iter().all(|p| p.is_finite()));
                 }
             }
-            Err(finding) => is_in(text, &finding),
+            Err(diagnostic) => is_in(text, &diagnostic),
         }
         return;
     }
@@ -46,9 +46,9 @@ fuzz_target!(|bytes: &[u8]| {
                 assert!(chord.error_mm <= RULE.error_mm);
             }
         }
-        Err(findings) => {
-            assert!(!findings.is_empty());
-            findings.iter().for_each(|finding| is_in(text, finding));
+        Err(diagnostics) => {
+            assert!(!diagnostics.is_empty());
+            diagnostics.iter().for_each(|diagnostic| is_in(text, diagnostic));
         }
     }
 });

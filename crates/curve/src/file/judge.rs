@@ -1,6 +1,6 @@
-//! Every value in its range, every key with its kind, all findings at once.
+//! Every value in its range, every key with its kind, all diagnostics at once.
 
-use super::{CurveFile, FileFinding, Key, Number, Raw, RawEnd, Shape};
+use super::{CurveFile, FileDiagnostic, Key, Number, Raw, RawEnd, Shape};
 use crate::implicit::End;
 use crate::{Expression, ExpressionError, ImplicitCurve, ParametricCurve};
 use core::ops::Range;
@@ -10,15 +10,15 @@ use toml::Spanned;
 /// How far the ends of a curve that is run for several laps may be apart, mm.
 const CLOSED_MM: f64 = 1e-6;
 
-/// Findings so far, and where the file says what it is, for what is missing.
+/// Diagnostics so far, and where the file says what it is, for what is missing.
 struct Judge {
-    findings: Vec<FileFinding>,
+    diagnostics: Vec<FileDiagnostic>,
     kind_at: Range<usize>,
 }
 
-pub(super) fn judge(raw: Raw) -> Result<CurveFile, Vec<FileFinding>> {
+pub(super) fn judge(raw: Raw) -> Result<CurveFile, Vec<FileDiagnostic>> {
     let mut judge = Judge {
-        findings: Vec::new(),
+        diagnostics: Vec::new(),
         kind_at: raw.kind.span(),
     };
     let positive = |judge: &mut Judge, key: &str, value: &Key<f64>, unit: &str| {
@@ -56,7 +56,7 @@ pub(super) fn judge(raw: Raw) -> Result<CurveFile, Vec<FileFinding>> {
         judge.closed(shape, at);
     }
     match shape {
-        Some((shape, places)) if judge.findings.is_empty() => Ok(CurveFile {
+        Some((shape, places)) if judge.diagnostics.is_empty() => Ok(CurveFile {
             name,
             feed_mm_min,
             tolerance_mm,
@@ -65,7 +65,7 @@ pub(super) fn judge(raw: Raw) -> Result<CurveFile, Vec<FileFinding>> {
             shape,
             places,
         }),
-        _ => Err(judge.findings),
+        _ => Err(judge.diagnostics),
     }
 }
 
@@ -73,7 +73,7 @@ type Placed = Option<(Shape, [Range<usize>; 3])>;
 
 impl Judge {
     fn find(&mut self, at: Range<usize>, message: String, help: &str) {
-        self.findings.push(FileFinding {
+        self.diagnostics.push(FileDiagnostic {
             message,
             help: help.to_owned(),
             at,

@@ -73,7 +73,7 @@ enum RawEnd {
 
 /// What is wrong with a curve file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FileFinding {
+pub struct FileDiagnostic {
     /// What is wrong.
     pub message: String,
     /// How to mend it.
@@ -105,7 +105,7 @@ pub enum Shape {
     },
 }
 
-/// Keys that say where a curve is, for findings about the curve itself.
+/// Keys that say where a curve is, for diagnostics about the curve itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ShapeKey {
     /// The formulas.
@@ -138,10 +138,10 @@ impl CurveFile {
     /// Reads the text of a curve file.
     ///
     /// # Errors
-    /// All findings, at least one.
-    pub fn parse(text: &str) -> Result<Self, Vec<FileFinding>> {
+    /// All diagnostics, at least one.
+    pub fn parse(text: &str) -> Result<Self, Vec<FileDiagnostic>> {
         let raw: Raw = toml::from_str(text).map_err(|error| {
-            vec![FileFinding {
+            vec![FileDiagnostic {
                 message: error.message().lines().next().unwrap_or("").to_owned(),
                 help: "a curve file is TOML with the keys of its kind".to_owned(),
                 at: error.span().unwrap_or(0..0),

@@ -18,7 +18,7 @@
 mod place;
 mod raw;
 
-use crate::FileFinding;
+use crate::FileDiagnostic;
 use core::ops::Range;
 use glidepath_geometry::{AXES, AxisVector, Nurbs, NurbsError};
 use place::place;
@@ -57,15 +57,15 @@ impl NurbsFile {
     ///
     /// # Errors
     /// The first thing that has to be mended.
-    pub fn parse(text: &str) -> Result<Self, Box<FileFinding>> {
+    pub fn parse(text: &str) -> Result<Self, Box<FileDiagnostic>> {
         judge(text)
     }
 }
 
-fn judge(text: &str) -> Result<NurbsFile, Box<FileFinding>> {
+fn judge(text: &str) -> Result<NurbsFile, Box<FileDiagnostic>> {
     let raw = raw::parse(text)?;
     let fault = |key: &str, index: Option<usize>, message: String, help: &str| {
-        Box::new(FileFinding {
+        Box::new(FileDiagnostic {
             message,
             help: help.to_owned(),
             at: place(text, key, index),

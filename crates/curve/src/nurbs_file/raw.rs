@@ -1,6 +1,6 @@
 //! A curve file as it is written, before any value is judged.
 
-use crate::FileFinding;
+use crate::FileDiagnostic;
 use core::ops::Range;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -37,7 +37,7 @@ enum Kind {
 ///
 /// # Errors
 /// The first thing that is not the format, not a known key, or not of the key's type.
-pub(super) fn parse(text: &str) -> Result<RawCurve, Box<FileFinding>> {
+pub(super) fn parse(text: &str) -> Result<RawCurve, Box<FileDiagnostic>> {
     let (message, at) = if text.trim_start().starts_with('{') {
         match serde_json::from_str(text) {
             Ok(raw) => return Ok(raw),
@@ -58,7 +58,7 @@ pub(super) fn parse(text: &str) -> Result<RawCurve, Box<FileFinding>> {
         }
     };
     let help = help(&message);
-    Err(Box::new(FileFinding { message, help, at }))
+    Err(Box::new(FileDiagnostic { message, help, at }))
 }
 
 /// The known name that looks most like an unknown one, if any does.

@@ -1,6 +1,6 @@
 //! Arguments of the commands about curves.
 
-use super::BasicArgs;
+use super::basic::BasicArgs;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 

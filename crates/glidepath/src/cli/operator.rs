@@ -1,6 +1,6 @@
 //! What an operator gives with a command.
 
-use super::{BasicArgs, InstanceArgs};
+use super::basic::{BasicArgs, InstanceArgs};
 use clap::{Args, ValueEnum};
 
 /// Arguments of the commands that talk to a running interpolator.

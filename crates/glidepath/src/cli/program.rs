@@ -1,6 +1,5 @@
 //! Arguments of the commands that read programs.
 
-use super::Command;
 use clap::Args;
 use glidepath_gcode::Dialect;
 use std::path::PathBuf;
@@ -30,20 +29,4 @@ fn dialect(name: &str) -> Result<Dialect, &'static str> {
     all.into_iter()
         .find(|dialect| dialect.name() == name)
         .ok_or("give linuxcnc, marlin, fanuc or siemens")
-}
-
-impl Command {
-    /// The program the command reads, if it does, and how.
-    #[must_use]
-    pub const fn program(&self) -> Option<(Option<&PathBuf>, &ProgramArgs)> {
-        match self {
-            Self::Run(args) => Some((Some(&args.file), &args.program)),
-            Self::Plan(args) => Some((Some(&args.file), &args.program)),
-            Self::Feed(args) => Some((Some(&args.file), &args.program)),
-            Self::Planner(args) => Some((args.file.as_ref(), &args.program)),
-            // Each file of a check may be in a dialect of its own.
-            Self::Check(args) => Some((None, &args.program)),
-            _ => None,
-        }
-    }
 }

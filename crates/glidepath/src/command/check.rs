@@ -1,14 +1,16 @@
 //! `glidepath check`: everything wrong with programs.
 
+use super::program_diagnostics::print_diagnostics;
 use super::reading::for_program;
 use crate::cli::CheckArgs;
+use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::file_error::FileError;
 use crate::joints;
 use crate::output;
-use crate::report::{ProgramFinding, finding_object, grouped};
-use glidepath_gcode::{Diagnostic, Report};
+use crate::report::{diagnostic_object, grouped};
+use glidepath_gcode::Report;
 use glidepath_geometry::Axis;
 use glidepath_planner::{check_file, find_in_file};
 use serde_json::{Value, json};
@@ -18,7 +20,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// A file cannot be opened.
-pub fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+pub(super) fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let mut reports = Vec::new();
     for path in &args.files {
         reports.push((path.display().to_string(), read(path, config)?));
@@ -38,10 +40,10 @@ pub fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Failure> 
 ///
 /// # Errors
 /// The file cannot be opened.
-pub fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
+pub(super) fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
     let config = &for_program(path, config);
     let options = config.program_options(config.home());
-    let report = check_file(path, options, &config.settings()).map_err(Failure::open(path))?;
+    let report = check_file(path, options, &config.settings()).map_err(FileError::open(path))?;
     if !report.is_accepted() {
         return Ok(report);
     }
@@ -55,11 +57,12 @@ pub fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
 /// Checks a program that is to be run; the number of its lines.
 ///
 /// # Errors
-/// The file cannot be opened, or the program has findings.
-pub fn accepted(path: &Path, config: &MachineConfig) -> Result<u32, Failure> {
+/// The file cannot be opened, or the program has something to mend.
+pub(super) fn accepted(path: &Path, config: &MachineConfig) -> Result<u32, Failure> {
     let config = &for_program(path, config);
     let options = config.program_options(config.home());
-    let mut found = find_in_file(path, options, &config.settings()).map_err(Failure::open(path))?;
+    let mut found =
+        find_in_file(path, options, &config.settings()).map_err(FileError::open(path))?;
     if found.diagnostics.is_empty() {
         found.diagnostics = joints::check_path(path, config)?.into_iter().collect();
     }
@@ -68,30 +71,14 @@ pub fn accepted(path: &Path, config: &MachineConfig) -> Result<u32, Failure> {
     }
     Err(Failure::Rejected {
         program: path.display().to_string(),
-        findings: found.diagnostics,
+        diagnostics: found.diagnostics,
         more: found.more,
         moved: false,
     })
 }
 
-/// Prints a program's findings to standard error.
-pub fn print_findings(name: &str, findings: &[Diagnostic], more: u32) {
-    let findings: Vec<ProgramFinding<'_>> = findings
-        .iter()
-        .map(|finding| ProgramFinding::new(name, finding))
-        .collect();
-    output::diagnostics(
-        findings
-            .iter()
-            .map(|finding| finding as &dyn miette::Diagnostic),
-    );
-    if more > 0 {
-        output::note(&format!("{name}: {more} more findings are not shown"));
-    }
-}
-
 fn print(name: &str, report: &Report) {
-    print_findings(name, &report.diagnostics, report.more);
+    print_diagnostics(name, &report.diagnostics, report.more);
     let totals = &report.totals;
     let verdict = match report.diagnostics.len() + usize::try_from(report.more).unwrap_or(0) {
         0 => "no findings".to_owned(),
@@ -156,13 +143,13 @@ fn object(reports: &[(String, Report)]) -> Value {
     json!({ "findings": findings, "programs": programs })
 }
 
-/// A program as an object: its totals and its findings.
-pub fn program(name: &str, report: &Report) -> Value {
+/// A program as an object: its totals and what is wrong with it.
+pub(super) fn program(name: &str, report: &Report) -> Value {
     let totals = &report.totals;
     let findings: Vec<Value> = report
         .diagnostics
         .iter()
-        .map(|finding| finding_object(name, finding))
+        .map(|diagnostic| diagnostic_object(name, diagnostic))
         .collect();
     json!({
         "program": name,

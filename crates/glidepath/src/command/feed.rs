@@ -2,9 +2,10 @@
 
 use super::session;
 use crate::cli::FeedArgs;
+use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::report::grouped;
@@ -16,7 +17,7 @@ use serde_json::json;
 /// # Errors
 /// The program is rejected, nobody listens, or the motion ended before the program did.
 pub(super) fn feed(args: &FeedArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    std::fs::File::open(&args.file).map_err(Failure::open(&args.file))?;
+    std::fs::File::open(&args.file).map_err(FileError::open(&args.file))?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let transport = session::join(&args.instance, config)?;
     let mut notify = |_: &Notice<'_>| {};

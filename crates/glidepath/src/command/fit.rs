@@ -5,11 +5,12 @@ use super::plan::title;
 use super::reading::for_program;
 use crate::cli::{FitArgs, FitMethod};
 use crate::clock;
+use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::curve_file;
 use crate::dense_runs::{Piece, Run, Runs};
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::file_error::FileError;
 use crate::output;
 use crate::plot::curve::{CurvePlot, Mark};
 use crate::program_text::ProgramText;
@@ -47,11 +48,11 @@ pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failur
     let wall_s = (clock::elapsed() - start).as_secs_f64();
     if let Some(path) = &args.output {
         let text = written(path, &pieces, &runs, &results, config, args.tolerance)?;
-        std::fs::write(path, text).map_err(Failure::file("write", path))?;
+        std::fs::write(path, text).map_err(FileError::file("write", path))?;
     }
     if let Some(path) = &args.plot {
         let text = plot(&title(&args.file), &runs, &results);
-        std::fs::write(path, text).map_err(Failure::file("write", path))?;
+        std::fs::write(path, text).map_err(FileError::file("write", path))?;
     }
     let fitted = runs.iter().zip(&results);
     let report = FitReport {
@@ -73,13 +74,13 @@ pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failur
 }
 
 fn read(path: &Path, config: &MachineConfig) -> Result<Vec<Piece>, Failure> {
-    let file = File::open(path).map_err(Failure::open(path))?;
+    let file = File::open(path).map_err(FileError::open(path))?;
     let options = config.program_options(config.home());
     let mut runs = Runs::default();
     for item in Program::new(BufReader::with_capacity(1 << 16, file), options) {
-        let item = item.map_err(|finding| Failure::Rejected {
+        let item = item.map_err(|diagnostic| Failure::Rejected {
             program: path.display().to_string(),
-            findings: vec![finding],
+            diagnostics: vec![diagnostic],
             more: 0,
             moved: false,
         })?;

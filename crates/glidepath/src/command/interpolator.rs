@@ -2,9 +2,9 @@
 
 use super::session;
 use crate::cli::InterpolatorArgs;
+use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::interrupt::{Interrupt, end_with};
 use crate::output;
 use crate::report::{status_object, status_text};

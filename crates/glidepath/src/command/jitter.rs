@@ -2,9 +2,10 @@
 
 use super::interpolator;
 use crate::cli::JitterArgs;
+use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::jitter::{JitterReport, Motion, Setup, measure};
 use crate::output;
@@ -45,7 +46,7 @@ pub(super) fn jitter(args: &JitterArgs, config: &MachineConfig) -> Result<Exit, 
 }
 
 fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    std::fs::write(path, text).map_err(Failure::file("write", path))
+    Ok(std::fs::write(path, text).map_err(FileError::file("write", path))?)
 }
 
 fn setup(args: &JitterArgs, config: &MachineConfig) -> Result<Setup, Failure> {

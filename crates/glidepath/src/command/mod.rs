@@ -1,8 +1,10 @@
 //! The subcommands, one file each.
 
 mod bench;
-pub mod check;
+mod check;
 mod doctor;
+mod failure;
+mod failure_report;
 mod feed;
 mod fit;
 mod interpolator;
@@ -11,6 +13,7 @@ mod operator;
 mod plan;
 mod planner;
 mod preview;
+mod program_diagnostics;
 mod reading;
 mod run;
 mod servo;
@@ -20,15 +23,14 @@ mod subroutines;
 use crate::cli::{Cli, Command, Switch};
 use crate::config;
 use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::output;
+use failure::Failure;
 use glidepath_link as link;
 
 /// Does what the command line asks for, and prints its result.
 #[must_use]
 pub fn main(cli: &Cli) -> Exit {
     let basic = cli.command.basic();
-    dispatch(&cli.command).unwrap_or_else(|failure| output::failure(&failure, basic.json))
+    dispatch(&cli.command).unwrap_or_else(|failure| failure_report::report(&failure, basic.json))
 }
 
 fn dispatch(command: &Command) -> Result<Exit, Failure> {

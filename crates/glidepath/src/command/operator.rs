@@ -3,9 +3,9 @@
 
 use super::session;
 use crate::cli::{OperatorArgs, OverrideArgs};
+use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::output;
 use crate::report::{state_name, status_object, status_text};
 use glidepath_link::{

@@ -3,9 +3,10 @@
 use super::check;
 use crate::cli::PlanArgs;
 use crate::clock;
+use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::joints::PlanWatch;
 use crate::output;
@@ -67,6 +68,7 @@ pub(super) fn title(path: &Path) -> String {
 
 /// One pass of the planner over a program.
 pub(super) struct Pass {
+    program: String,
     pipeline: Pipeline<FileSource>,
     clock: fn() -> Duration,
     planning: Duration,
@@ -92,8 +94,8 @@ impl Pass {
         let settings = config.settings();
         let source = FileSource::unchecked(path, config.program_options(home), &settings).map_err(
             |refusal| match refusal {
-                Refusal::Read(error) => Failure::open(path)(error),
-                refusal => refusal.into(),
+                Refusal::Read(error) => Failure::File(FileError::open(path)(error)),
+                refusal => Failure::Refused(refusal),
             },
         )?;
         let judged = AuditSettings {
@@ -102,6 +104,7 @@ impl Pass {
             tolerance_mm: settings.tolerance_mm,
         };
         Ok(Self {
+            program: path.display().to_string(),
             pipeline: Pipeline::new(source, settings, home).with_joints(config.path_caps()),
             clock,
             planning: Duration::ZERO,
@@ -132,7 +135,9 @@ impl Pass {
                 self.audit.frame(frame);
                 let binding = self.diagnosis.frame(frame);
                 if let Some(joints) = &mut self.joints {
-                    joints.take(frame)?;
+                    joints
+                        .take(frame)
+                        .map_err(|refusal| Failure::refused(&self.program, refusal, false))?;
                 }
                 if recording.is_wanted() {
                     // Out of reach is told by the watch; machines without one reach everything.

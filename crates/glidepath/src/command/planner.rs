@@ -3,9 +3,10 @@
 use super::session;
 use crate::cli::PlannerArgs;
 use crate::clock;
+use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::file_error::FileError;
 use crate::interrupt::{Interrupt, end_with};
 use crate::joints;
 use crate::output;
@@ -47,7 +48,7 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
         })
     } else {
         // A file that does not exist is told at once, not when the machine is ready.
-        std::fs::File::open(file).map_err(Failure::open(file))?;
+        std::fs::File::open(file).map_err(FileError::open(file))?;
         let open = |start| {
             joints::check_plan(file, config, start)?;
             FileSource::open(file, config.program_options(start), &config.settings())

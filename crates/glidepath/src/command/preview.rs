@@ -2,10 +2,11 @@
 
 use crate::cli::{PreviewArgs, PreviewMethod};
 use crate::clock;
+use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::curve_file;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::file_error::FileError;
 use crate::output;
 use crate::plot::curve::{CurvePlot, Mark};
 use crate::report::seconds;
@@ -46,7 +47,7 @@ pub(super) fn preview(args: &PreviewArgs, config: &MachineConfig) -> Result<Exit
         wall_s,
     };
     if let Some(plot) = &args.plot {
-        std::fs::write(plot, report.plot()).map_err(Failure::file("write", plot))?;
+        std::fs::write(plot, report.plot()).map_err(FileError::file("write", plot))?;
     }
     if args.basic.json {
         output::object(&report.object());

@@ -2,8 +2,9 @@
 
 use super::subroutines::subroutines;
 use crate::cli::Command;
+use crate::command::failure::Failure;
 use crate::config::{MachineConfig, ProgramConfig};
-use crate::failure::Failure;
+use crate::file_error::FileError;
 use crate::output;
 use glidepath_gcode::{Dialect, ToolTable};
 use glidepath_kinematics::AxisShare;
@@ -20,7 +21,7 @@ const LARGEST_TABLE: u64 = 4 * 1024 * 1024;
 /// Takes up what the command line says about programs, and reads the tool table.
 ///
 /// # Errors
-/// The tool table cannot be read, or has findings.
+/// The tool table cannot be read, or has something to mend.
 pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<(), Failure> {
     let Some((file, args)) = command.program() else {
         return Ok(());
@@ -80,14 +81,14 @@ fn tell_share(share: &AxisShare) {
 }
 
 fn tool_table(path: &Path) -> Result<ToolTable, Failure> {
-    let file = File::open(path).map_err(Failure::open(path))?;
+    let file = File::open(path).map_err(FileError::open(path))?;
     let mut text = Vec::new();
     file.take(LARGEST_TABLE)
         .read_to_end(&mut text)
-        .map_err(Failure::file("read", path))?;
-    ToolTable::parse(&text).map_err(|findings| Failure::Rejected {
+        .map_err(FileError::file("read", path))?;
+    ToolTable::parse(&text).map_err(|diagnostics| Failure::Rejected {
         program: path.display().to_string(),
-        findings,
+        diagnostics,
         more: 0,
         moved: false,
     })

@@ -3,9 +3,9 @@
 
 use super::session;
 use crate::cli::ServoArgs;
+use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::interrupt::{Interrupt, end_with};
 use crate::output;
 use crate::recording::Recording;
@@ -38,9 +38,8 @@ pub(super) fn servo(args: &ServoArgs, config: &MachineConfig) -> Result<Exit, Fa
     let mut recording = Recording::create(config, args.setpoints.as_deref(), None)?;
     let period_t = config.period_t();
     let counts = play(args, config, &interrupt, |setpoint| {
-        recording
-            .push(&Sample::received(setpoint, period_t))
-            .map(|()| true)
+        recording.push(&Sample::received(setpoint, period_t))?;
+        Ok(true)
     })?;
     recording.finish("", "")?;
     if args.basic.json {

@@ -1,8 +1,8 @@
 //! Which instance a process takes part in.
 
 use crate::cli::InstanceArgs;
+use crate::command::failure::Failure;
 use crate::config::{MAX_FRAMES_AHEAD, MachineConfig};
-use crate::failure::Failure;
 use glidepath_link::{Ipc, LinkConfig};
 use glidepath_planner::Pace;
 

@@ -1,21 +1,24 @@
 //! The machine's configuration: TOML text to [`MachineConfig`] in two stages, the first of which
-//! knows only syntax and names, the second only values. Nothing is guessed: a key that is not known
-//! or a value out of range refuses the file, with the place and the remedy.
+//! knows only syntax and names, the second only values.
+//!
+//! ```text
+//! text ──parse──▶ raw: the shapes of the file ──judge──▶ machine, program: plain values that are right
+//! ```
+//!
+//! Nothing is guessed: a key that is not known or a value out of range refuses the file, with the
+//! line, the column and the remedy.
 
-mod bounds;
-mod finding;
-mod horizon;
+mod diagnostic;
+mod instance;
 mod judge;
-mod kinematics;
 mod machine;
 mod parse;
-mod preview;
 mod program;
 mod raw;
 
-pub use finding::{ConfigError, Finding, FindingReport};
-pub use horizon::MAX_FRAMES_AHEAD;
-pub use judge::{INSTANCE_RULE, is_instance_name};
+pub use diagnostic::{ConfigDiagnostic, ConfigError, DiagnosticReport};
+pub use instance::{INSTANCE_RULE, is_instance_name};
+pub use judge::MAX_FRAMES_AHEAD;
 pub use machine::{AxisConfig, InterpolatorConfig, MachineConfig, PathConfig};
 pub use program::ProgramConfig;
 
@@ -58,11 +61,11 @@ pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
 /// Everything in the text that has to be mended.
 pub fn parse(path: &str, text: &str) -> Result<MachineConfig, ConfigError> {
     parse::parse(text)
-        .map_err(|finding| vec![finding])
+        .map_err(|diagnostic| vec![diagnostic])
         .and_then(judge::judge)
-        .map_err(|findings| ConfigError::Refused {
+        .map_err(|diagnostics| ConfigError::Refused {
             path: path.to_owned(),
             text: text.to_owned(),
-            findings,
+            diagnostics,
         })
 }

@@ -1,13 +1,13 @@
 //! Text to [`RawConfig`]: the syntax and the names of keys.
 
-use super::finding::Finding;
+use super::diagnostic::ConfigDiagnostic;
 use super::raw::RawConfig;
 
 /// Reads the text.
 ///
 /// # Errors
 /// The first thing that is not TOML, not a known key, or not of the key's type.
-pub(super) fn parse(text: &str) -> Result<RawConfig, Finding> {
+pub(super) fn parse(text: &str) -> Result<RawConfig, ConfigDiagnostic> {
     toml::from_str(text).map_err(|error| {
         let message = error
             .message()
@@ -16,7 +16,7 @@ pub(super) fn parse(text: &str) -> Result<RawConfig, Finding> {
             .unwrap_or_default()
             .to_owned();
         let (message, help) = explain(&message);
-        Finding {
+        ConfigDiagnostic {
             key: String::new(),
             message,
             help,

@@ -1,7 +1,5 @@
 //! How programs are read.
 
-use super::judge::Judge;
-use super::raw::RawProgram;
 use glidepath_gcode::{Connections, Dialect, Subroutines, ToolTable};
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
@@ -25,36 +23,4 @@ pub struct ProgramConfig {
     pub connections: Connections,
     /// The axis E words move.
     pub extruder: Option<Axis>,
-}
-
-impl ProgramConfig {
-    /// Judges the table.
-    pub(super) fn judge(judge: &mut Judge, raw: RawProgram) -> Self {
-        let dialects = [
-            ("auto", None),
-            ("linuxcnc", Some(Dialect::LinuxCnc)),
-            ("marlin", Some(Dialect::Marlin)),
-            ("fanuc", Some(Dialect::Fanuc)),
-            ("siemens", Some(Dialect::Siemens)),
-        ];
-        let connections = [
-            ("none", Connections::None),
-            ("simulated", Connections::Simulated),
-        ];
-        let extruders = [
-            ("none", None),
-            ("U", Some(Axis::U)),
-            ("V", Some(Axis::V)),
-            ("W", Some(Axis::W)),
-        ];
-        Self {
-            dialect: judge.choice("program.dialect", raw.dialect, &dialects),
-            tool_table: raw.tool_table.map(|path| path.into_inner().into()),
-            tools: None,
-            subroutine_path: raw.subroutine_path.into_iter().map(PathBuf::from).collect(),
-            subroutines: None,
-            connections: judge.choice("program.inputs_outputs", raw.inputs_outputs, &connections),
-            extruder: judge.choice("program.extruder", raw.extruder, &extruders),
-        }
-    }
 }

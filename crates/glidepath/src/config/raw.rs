@@ -2,7 +2,6 @@
 //!
 //! Every value keeps its place in the text, so that a later stage can point at it.
 
-use super::kinematics::{RawJoint, RawMachine};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -106,4 +105,94 @@ pub(super) struct RawLink {
 pub(super) struct RawPreview {
     pub(super) growth: Optional<f64>,
     pub(super) max_growth: Optional<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default, rename_all = "kebab-case")]
+pub(super) struct RawMachine {
+    pub(super) kinematics: Optional<String>,
+    pub(super) hexapod: Optional<RawHexapod>,
+    pub(super) translational_hexapod: Optional<RawTranslational>,
+    pub(super) linear_delta: Optional<RawLinearDelta>,
+    pub(super) rotary_delta: Optional<RawRotaryDelta>,
+    pub(super) scara: Optional<RawScara>,
+    pub(super) five_axis: Optional<RawFiveAxis>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawHexapod {
+    pub(super) base_radius: Spanned<f64>,
+    pub(super) platform_radius: Spanned<f64>,
+    pub(super) half_angle: Spanned<f64>,
+    pub(super) base_z: Optional<f64>,
+    pub(super) tool: Optional<[f64; 3]>,
+    pub(super) max_base_angle: Optional<f64>,
+    pub(super) max_platform_angle: Optional<f64>,
+    pub(super) min_strut_distance: Optional<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawTranslational {
+    pub(super) radius_difference: Spanned<f64>,
+    pub(super) base_z: Optional<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawLinearDelta {
+    pub(super) rod: Spanned<f64>,
+    pub(super) radius: Spanned<f64>,
+    pub(super) tower_angles: Optional<[f64; 3]>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawRotaryDelta {
+    pub(super) base_radius: Spanned<f64>,
+    pub(super) platform_radius: Spanned<f64>,
+    pub(super) upper_arm: Spanned<f64>,
+    pub(super) forearm: Spanned<f64>,
+    pub(super) arm_angles: Optional<[f64; 3]>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawScara {
+    pub(super) upper_arm: Spanned<f64>,
+    pub(super) forearm: Spanned<f64>,
+    pub(super) tool: Optional<f64>,
+    pub(super) height: Optional<f64>,
+    pub(super) elbow: Optional<String>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawFiveAxis {
+    pub(super) layout: Spanned<String>,
+    pub(super) tilt: Spanned<String>,
+    #[serde(default)]
+    pub(super) tilt_reversed: bool,
+    #[serde(default)]
+    pub(super) rotary_reversed: bool,
+    pub(super) tool: Spanned<f64>,
+    #[serde(default)]
+    pub(super) tilt_point: [f64; 3],
+    #[serde(default)]
+    pub(super) rotary_point: [f64; 3],
+    #[serde(default)]
+    pub(super) rotary_to_tilt: [f64; 3],
+    #[serde(default)]
+    pub(super) tilt_to_spindle: [f64; 3],
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawJoint {
+    pub(super) min_position: Optional<f64>,
+    pub(super) max_position: Optional<f64>,
+    pub(super) max_velocity: Spanned<f64>,
+    pub(super) max_acceleration: Spanned<f64>,
+    pub(super) max_jerk: Spanned<f64>,
 }

@@ -1,4 +1,5 @@
 use super::*;
+use std::path::Path;
 
 const ARCH: &str = "\
 degree = 3
@@ -9,7 +10,11 @@ knots = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0]
 
 fn refused(text: &str) -> (String, (usize, usize), String) {
     let error = parse("arch.toml", text).expect_err("refused");
-    (error.to_string(), error.place(), error.help.clone())
+    (
+        error.to_string(),
+        error.line_and_column(),
+        error.help.clone(),
+    )
 }
 
 #[test]
@@ -78,12 +83,12 @@ fn json_errors_have_places_too() {
     let json =
         "{\"degree\": 1,\n \"control_points\": [[0, 0], [1, 0]],\n \"knots\": [0, 0, 1, oops]}";
     let error = parse("line.json", json).expect_err("no JSON");
-    assert_eq!(error.place(), (3, 21));
+    assert_eq!(error.line_and_column(), (3, 21));
     let json = json.replace("oops", "0.5");
     let error = parse("line.json", &json).expect_err("knots descend");
     assert_eq!(
         error.to_string(),
         "knot 3 is 0.5: knots are finite and never descend"
     );
-    assert_eq!(error.place(), (3, 21));
+    assert_eq!(error.line_and_column(), (3, 21));
 }

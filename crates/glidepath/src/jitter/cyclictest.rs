@@ -1,10 +1,10 @@
 //! cyclictest of the rt-tests, the usual measure of a host's latency, run beside the loop.
 //!
 //! Both threads have the same priority on the same processor and the same period, and run in the same
-//! time, but never wake together: see `phase`.
+//! time, but never wake together: see `section`.
 
-use super::Setup;
-use super::phase::Part;
+use super::section::Section;
+use super::setup::Setup;
 use glidepath_realtime::{Grants, Item};
 use std::collections::BTreeMap;
 use std::io;
@@ -47,11 +47,11 @@ impl Cyclictest {
     /// less than 0.1 s away.
     pub(super) fn start(
         setup: &Setup,
-        part: &Part,
+        section: &Section,
         grants: &Grants,
     ) -> Result<Self, CyclictestError> {
         Command::new("cyclictest")
-            .args(arguments(setup, part, grants))
+            .args(arguments(setup, section, grants))
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -88,12 +88,12 @@ impl Drop for Cyclictest {
     }
 }
 
-fn arguments(setup: &Setup, part: &Part, grants: &Grants) -> Vec<String> {
+fn arguments(setup: &Setup, section: &Section, grants: &Grants) -> Vec<String> {
     let mut arguments = vec![
         "--quiet".to_owned(),
-        format!("--secaligned={}", part.cyclictest_offset_ns / 1_000),
+        format!("--secaligned={}", section.cyclictest_offset_ns / 1_000),
         format!("--interval={}", setup.period_ns / 1_000),
-        format!("--duration={}", part.seconds),
+        format!("--duration={}", section.seconds),
         format!("--histogram={LONGEST_US}"),
     ];
     if let Some(priority) = setup
@@ -251,12 +251,12 @@ mod tests {
             motion: None,
             against_cyclictest: true,
         };
-        let part = Part {
+        let section = Section {
             seconds: 10,
             offset_ns: 3_000_000,
             cyclictest_offset_ns: 1_000_000,
         };
-        let arguments = arguments(&setup, &part, &Grants::NONE).join(" ");
+        let arguments = arguments(&setup, &section, &Grants::NONE).join(" ");
         assert_eq!(
             arguments,
             "--quiet --secaligned=1000 --interval=4000 --duration=10 --histogram=100000"

@@ -2,13 +2,12 @@
 
 use super::beat::Load;
 use crate::config::MachineConfig;
-use crate::failure::Failure;
 use core::f64::consts::TAU;
 use core::fmt::Write as _;
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::{Config, Stepped};
 use glidepath_link::{MachineState, SetpointFrame};
-use glidepath_planner::{Output, Pipeline, ProgramSource};
+use glidepath_planner::{Output, Pipeline, ProgramSource, Refusal};
 
 /// Half the way an axis goes, mm or degrees, where its travel allows.
 const AMPLITUDE: f64 = 10.0;
@@ -31,7 +30,7 @@ impl Motion {
     ///
     /// # Errors
     /// The planner refuses the program.
-    pub fn plan(machine: &MachineConfig, interpolator: Config) -> Result<Self, Failure> {
+    pub fn plan(machine: &MachineConfig, interpolator: Config) -> Result<Self, Refusal> {
         let home = machine.home();
         let program = program(machine);
         let source = ProgramSource::new(program.as_bytes(), machine.program_options(home));

@@ -1,6 +1,9 @@
 //! What `jitter` reports.
 
-use super::{Bin, COARSE, FINE, Latencies, Measurement, Setup, rebin};
+use super::bins::{Bin, COARSE, FINE, rebin};
+use super::cyclictest::Latencies;
+use super::measure::Measurement;
+use super::setup::Setup;
 use crate::plot::{Series, lateness};
 use crate::report::grouped;
 use core::fmt::Write as _;

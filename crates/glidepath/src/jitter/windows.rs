@@ -1,6 +1,6 @@
 //! The beats, gathered in windows of a second.
 
-use super::Beat;
+use super::beat::Beat;
 use glidepath_realtime::Histogram;
 
 /// What the windows held.

@@ -1,9 +1,5 @@
 //! Colours for the limits that bind.
 
-use super::colour::QUIET;
-use super::svg::{Anchor, Area, Svg};
-use super::track::Track;
-use super::view::rapid_legend;
 use glidepath_audit::diagnosis::Binding;
 
 /// The kind of a limit; the axis does not show.
@@ -60,7 +56,7 @@ impl Bound {
         }
     }
 
-    const fn label(self) -> &'static str {
+    pub(super) const fn label(self) -> &'static str {
         match self {
             Self::Feed => "feed",
             Self::Velocity => "velocity",
@@ -70,31 +66,5 @@ impl Bound {
             Self::ChordError => "chord error",
             Self::None => "none",
         }
-    }
-}
-
-/// Names the colours that a track has.
-pub(super) fn legend(svg: &mut Svg, track: &Track, area: &Area) {
-    let text = format!("fill=\"{QUIET}\" font-size=\"10\"");
-    let below = area.bottom() - 1.0;
-    svg.text(area.x - 8.0, below, Anchor::End, &text, "bound by");
-    let mut x = area.x;
-    for bound in Bound::ALL {
-        let is_there =
-            |point: &super::track::TrackPoint| !point.rapid && point.bound == Some(bound);
-        if !track.points().iter().any(is_there) {
-            continue;
-        }
-        let swatch = Area {
-            x,
-            width: 18.0,
-            ..*area
-        };
-        svg.rect(&swatch, &format!("fill=\"{}\"", bound.colour()));
-        svg.text(x + 23.0, below, Anchor::Start, &text, bound.label());
-        x += 100.0;
-    }
-    if track.points().iter().any(|point| point.rapid) {
-        rapid_legend(svg, x, area);
     }
 }

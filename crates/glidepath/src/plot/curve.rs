@@ -1,6 +1,7 @@
 //! A curve by itself: coloured by a speed, with marked points.
 
 use super::colour::{INK, LIMIT, QUIET};
+use super::legend;
 use super::svg::{Anchor, Area, Svg};
 use super::track::{Track, TrackPoint};
 use super::view::{self, View};
@@ -61,7 +62,7 @@ impl CurvePlot {
             width: WIDTH - 90.0,
             height: HEIGHT - 170.0,
         };
-        let (low, high) = self.track.bounds();
+        let (low, high) = self.track.extent();
         let (x, y, z) = (high[0] - low[0], high[1] - low[1], high[2] - low[2]);
         let seen = if z <= 0.0 {
             View::Top
@@ -85,13 +86,13 @@ impl CurvePlot {
             };
             svg.rect(&dot, &style);
         }
-        let legend = Area {
+        let below = Area {
             x: 128.0,
             y: HEIGHT - 44.0,
             width: 420.0,
             height: 10.0,
         };
-        view::legend(&mut svg, self.track.max_feed_v(), &legend);
+        legend::of_feed(&mut svg, self.track.max_feed_v(), &below);
         svg.finish()
     }
 }

@@ -11,6 +11,7 @@ mod colour;
 pub mod curve;
 mod envelope;
 mod lateness;
+mod legend;
 mod quantities;
 mod strip;
 mod svg;
@@ -26,7 +27,7 @@ use glidepath_geometry::Axis;
 use glidepath_kinematics::JointLimits;
 use glidepath_program::Limits;
 pub use lateness::{Series, lateness};
-use quantities::{Quantities, Row};
+use quantities::{PositionCurves, Quantities};
 use strip::{Strip, TimeAxis};
 use svg::{Anchor, Area, Svg};
 use track::{Track, TrackPoint};
@@ -62,7 +63,7 @@ impl Plot {
             } else {
                 ["mm/s", "mm/s²", "mm/s³"]
             };
-            Row::new(axis.to_string(), i, limits, units)
+            PositionCurves::new(axis.to_string(), i, limits, units)
         });
         Self {
             axes: Quantities::new(rows.collect()),
@@ -86,7 +87,7 @@ impl Plot {
             .map(|(joint, limit)| {
                 let limits = [limit.velocity, limit.acceleration, limit.jerk];
                 // Joints are lengths or angles, as the mechanism has it.
-                Row::new(format!("J{joint}"), joint, limits, ["/s", "/s²", "/s³"])
+                PositionCurves::new(format!("J{joint}"), joint, limits, ["/s", "/s²", "/s³"])
             });
         Self {
             joints: Quantities::new(rows.collect()),
@@ -152,7 +153,7 @@ impl Plot {
     }
 
     fn draw_views(&self, svg: &mut Svg, bottom: f64) {
-        let (low, high) = self.track.bounds();
+        let (low, high) = self.track.extent();
         let right = WIDTH - 24.0;
         let top = Area {
             x: LEFT,
@@ -187,16 +188,16 @@ impl Plot {
         } else {
             view::draw(svg, View::Top, &self.track, &top);
         }
-        let legend = Area {
+        let area = Area {
             x: LEFT + 62.0,
             y: bottom - 30.0,
             width: 420.0,
             height: 10.0,
         };
         if self.track.has_bounds() {
-            bound::legend(svg, &self.track, &legend);
+            legend::of_bounds(svg, &self.track, &area);
         } else {
-            view::legend(svg, self.track.max_feed_v(), &legend);
+            legend::of_feed(svg, self.track.max_feed_v(), &area);
         }
     }
 

@@ -7,7 +7,7 @@ use glidepath_kinematics::JointVector;
 
 /// One position, of an axis or a joint, and what is drawn of it.
 #[derive(Debug)]
-pub(super) struct Row {
+pub(super) struct PositionCurves {
     name: String,
     index: usize,
     limits: [f64; 3],
@@ -15,7 +15,7 @@ pub(super) struct Row {
     curves: [Envelope; 3],
 }
 
-impl Row {
+impl PositionCurves {
     /// The position with an index, and limits and units of its three derivatives.
     pub(super) fn new(
         name: String,
@@ -36,26 +36,26 @@ impl Row {
 /// Positions of one kind.
 #[derive(Debug)]
 pub(super) struct Quantities {
-    rows: Vec<Row>,
+    drawn: Vec<PositionCurves>,
     recent: Recent,
 }
 
 impl Quantities {
-    pub(super) fn new(rows: Vec<Row>) -> Self {
+    pub(super) fn new(drawn: Vec<PositionCurves>) -> Self {
         Self {
-            rows,
+            drawn,
             recent: Recent::default(),
         }
     }
 
     pub(super) fn push(&mut self, tick: u64, period_t: f64, positions: &JointVector) {
         let differences = self.recent.differences(tick, positions);
-        for row in &mut self.rows {
+        for position in &mut self.drawn {
             let mut scale = 1.0;
-            for (curve, difference) in row.curves.iter_mut().zip(&differences) {
+            for (curve, difference) in position.curves.iter_mut().zip(&differences) {
                 scale /= period_t;
                 if let Some(difference) = difference {
-                    curve.push(tick, difference[row.index] * scale);
+                    curve.push(tick, difference[position.index] * scale);
                 }
             }
         }
@@ -63,17 +63,22 @@ impl Quantities {
 
     /// What is drawn of those that move.
     pub(super) fn strips(&self) -> impl Iterator<Item = Strip<'_>> {
-        let moving = |row: &&Row| row.curves.iter().any(|curve| curve.peak() > 0.0);
-        self.rows.iter().filter(moving).flat_map(|row| {
+        let moving =
+            |position: &&PositionCurves| position.curves.iter().any(|curve| curve.peak() > 0.0);
+        self.drawn.iter().filter(moving).flat_map(|position| {
             let names = ["velocity", "acceleration", "jerk"];
-            row.curves.iter().enumerate().map(move |(k, curve)| Strip {
-                title: format!("{} {}", row.name, names[k]),
-                unit: row.units[k],
-                colour: CURVES[k],
-                curve,
-                limit: Some(row.limits[k]),
-                signed: true,
-            })
+            position
+                .curves
+                .iter()
+                .enumerate()
+                .map(move |(k, curve)| Strip {
+                    title: format!("{} {}", position.name, names[k]),
+                    unit: position.units[k],
+                    colour: CURVES[k],
+                    curve,
+                    limit: Some(position.limits[k]),
+                    signed: true,
+                })
         })
     }
 }

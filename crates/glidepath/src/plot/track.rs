@@ -69,7 +69,7 @@ impl Track {
     }
 
     /// Smallest and largest X, Y, Z.
-    pub(super) const fn bounds(&self) -> ([f64; 3], [f64; 3]) {
+    pub(super) const fn extent(&self) -> ([f64; 3], [f64; 3]) {
         (self.low, self.high)
     }
 
@@ -160,7 +160,7 @@ mod tests {
         assert!(track.points().contains(&point(40.0, 0.0)), "the corner");
         assert_eq!(track.points().first(), Some(&point(0.0, 0.0)));
         assert_eq!(track.points().last(), Some(&point(40.0, 40.0)));
-        assert_eq!(track.bounds(), ([0.0; 3], [40.0, 40.0, 0.0]));
+        assert_eq!(track.extent(), ([0.0; 3], [40.0, 40.0, 0.0]));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What commands report, as text and as JSON.
 
 mod diagnosis;
-mod finding;
+mod diagnostic;
 mod fit;
 mod memory;
 mod motion;
@@ -10,7 +10,7 @@ mod run;
 mod status;
 
 pub use diagnosis::{DiagnosisReport, PlaceReport};
-pub use finding::{ProgramFinding, finding_object};
+pub use diagnostic::{ProgramDiagnostic, diagnostic_object};
 pub use fit::{FitReport, FittedRun};
 pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};

@@ -1,7 +1,7 @@
 //! The processes `run` starts: this program again, with another subcommand.
 
+use crate::command::failure::Failure;
 use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::report::Planning;
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;

@@ -15,9 +15,9 @@ mod relay;
 
 use super::{check, plan::title, session};
 use crate::cli::RunArgs;
+use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::joints;
 use crate::output;

@@ -1,7 +1,7 @@
 //! The interpolator as `run` sees it: its status, and the few commands `run` gives.
 
+use crate::command::failure::Failure;
 use crate::command::operator;
-use crate::failure::Failure;
 use glidepath_link::{
     Command, LinkError, MachineState, Record as _, Status, Subscriber, Transport,
 };

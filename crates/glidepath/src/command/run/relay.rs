@@ -1,7 +1,7 @@
 //! What the mock servo receives, on its way through this process: counted, audited, recorded.
 
+use crate::command::failure::Failure;
 use crate::config::MachineConfig;
-use crate::failure::Failure;
 use crate::recording::Recording;
 use crate::sample::Sample;
 use glidepath_audit as audit;

@@ -18,35 +18,38 @@
 
 const NS_PER_S: u64 = 1_000_000_000;
 
-/// A stretch of the measurement.
+/// A section of the measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Part {
+pub(super) struct Section {
     pub(super) seconds: u32,
     /// When the loop wakes and when cyclictest does, from a whole second.
     pub(super) offset_ns: u64,
     pub(super) cyclictest_offset_ns: u64,
 }
 
-/// The whole measurement: two halves with cyclictest, one stretch without.
-pub(super) fn parts(seconds: u32, period_ns: u64, against_cyclictest: bool) -> Vec<Part> {
+/// The whole measurement: two halves with cyclictest, one section without.
+pub(super) fn sections(seconds: u32, period_ns: u64, against_cyclictest: bool) -> Vec<Section> {
     // cyclictest takes whole µs.
     let quarter_ns = period_ns / 4 / 1_000 * 1_000;
     let (early, late) = (quarter_ns, quarter_ns + period_ns / 2);
-    let part = |seconds, offset_ns, cyclictest_offset_ns| Part {
+    let section = |seconds, offset_ns, cyclictest_offset_ns| Section {
         seconds,
         offset_ns,
         cyclictest_offset_ns,
     };
     if against_cyclictest {
         let half = seconds / 2;
-        let halves = [part(seconds - half, late, early), part(half, early, late)];
+        let halves = [
+            section(seconds - half, late, early),
+            section(half, early, late),
+        ];
         halves.into_iter().filter(|p| p.seconds > 0).collect()
     } else {
-        vec![part(seconds, late, early)]
+        vec![section(seconds, late, early)]
     }
 }
 
-impl Part {
+impl Section {
     /// The first whole second after a time.
     pub(super) const fn whole_second_after(now_ns: u64) -> u64 {
         (now_ns / NS_PER_S + 1) * NS_PER_S
@@ -68,7 +71,7 @@ mod tests {
 
     #[test]
     fn both_wake_half_a_period_apart_and_change_places() {
-        let [first, second] = parts(9, 4_000_000, true)[..] else {
+        let [first, second] = sections(9, 4_000_000, true)[..] else {
             panic!("two halves")
         };
         assert_eq!((first.seconds, second.seconds), (5, 4));
@@ -78,13 +81,13 @@ mod tests {
             (second.offset_ns, second.cyclictest_offset_ns),
             (first.cyclictest_offset_ns, first.offset_ns)
         );
-        assert_eq!(parts(1, 4_000_000, true).len(), 1);
-        assert_eq!(parts(9, 4_000_000, false).len(), 1);
+        assert_eq!(sections(1, 4_000_000, true).len(), 1);
+        assert_eq!(sections(9, 4_000_000, false).len(), 1);
     }
 
     #[test]
     fn the_loop_rises_at_its_place() {
-        let part = Part {
+        let section = Section {
             seconds: 1,
             offset_ns: 3_000,
             cyclictest_offset_ns: 1_000,
@@ -94,7 +97,7 @@ mod tests {
             5 * NS_PER_S + 2_345,
             5 * NS_PER_S + 999_999_999,
         ] {
-            let origin_ns = part.origin_ns(earliest_ns, 4_000, 100);
+            let origin_ns = section.origin_ns(earliest_ns, 4_000, 100);
             assert_eq!((origin_ns - 100) % 4_000, 3_000);
             assert!((earliest_ns..=earliest_ns + 8_000).contains(&origin_ns));
         }

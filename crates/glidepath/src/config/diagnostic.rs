@@ -7,7 +7,7 @@ use thiserror::Error;
 
 /// One thing to mend in a configuration file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Finding {
+pub struct ConfigDiagnostic {
     /// Dotted name of the key, for example `axis.X.max_velocity`; empty if the file is not TOML.
     pub key: String,
     /// What is wrong.
@@ -18,7 +18,7 @@ pub struct Finding {
     pub span: Option<Range<usize>>,
 }
 
-/// Why a configuration was refused. Never empty of findings.
+/// Why a configuration was refused. Never empty of diagnostics.
 #[derive(Debug, Error)]
 pub enum ConfigError {
     /// The file could not be read.
@@ -30,40 +30,40 @@ pub enum ConfigError {
         source: std::io::Error,
     },
     /// The file was read and something in it has to be mended.
-    #[error("the configuration {path} has {} to mend", counted(findings.len()))]
+    #[error("the configuration {path} has {} to mend", counted(diagnostics.len()))]
     Refused {
         /// The file.
         path: String,
         /// Its text.
         text: String,
         /// Everything found, in the order of the file's tables.
-        findings: Vec<Finding>,
+        diagnostics: Vec<ConfigDiagnostic>,
     },
 }
 
-fn counted(findings: usize) -> String {
-    if findings == 1 {
+fn counted(diagnostics: usize) -> String {
+    if diagnostics == 1 {
         "one thing".to_owned()
     } else {
-        format!("{findings} things")
+        format!("{diagnostics} things")
     }
 }
 
 impl ConfigError {
-    /// The findings, none if the file was unreadable.
+    /// The diagnostics, none if the file was unreadable.
     #[must_use]
-    pub fn findings(&self) -> &[Finding] {
+    pub fn diagnostics(&self) -> &[ConfigDiagnostic] {
         match self {
             Self::Unreadable { .. } => &[],
-            Self::Refused { findings, .. } => findings,
+            Self::Refused { diagnostics, .. } => diagnostics,
         }
     }
 
-    /// One printable report for each finding.
+    /// One printable report for each diagnostic.
     #[must_use]
-    pub fn reports(&self) -> Vec<FindingReport> {
+    pub fn reports(&self) -> Vec<DiagnosticReport> {
         match self {
-            Self::Unreadable { path, .. } => vec![FindingReport {
+            Self::Unreadable { path, .. } => vec![DiagnosticReport {
                 message: self.to_string(),
                 help: Some(format!(
                     "give an existing file to --config, or leave --config out to use the built-in \
@@ -75,50 +75,50 @@ impl ConfigError {
             Self::Refused {
                 path,
                 text,
-                findings,
-            } => findings
+                diagnostics,
+            } => diagnostics
                 .iter()
-                .map(|finding| FindingReport {
-                    message: finding.message.clone(),
-                    help: finding.help.clone(),
-                    span: finding.span.clone(),
+                .map(|diagnostic| DiagnosticReport {
+                    message: diagnostic.message.clone(),
+                    help: diagnostic.help.clone(),
+                    span: diagnostic.span.clone(),
                     source: Some(NamedSource::new(path, text.clone()).with_language("toml")),
                 })
                 .collect(),
         }
     }
 
-    /// Line and column, both from 1, of a finding's place; the column counts characters.
+    /// Line and column of a diagnostic, both from 1; the column counts characters.
     #[must_use]
-    pub fn place(&self, finding: &Finding) -> Option<(usize, usize)> {
+    pub fn line_and_column(&self, diagnostic: &ConfigDiagnostic) -> Option<(usize, usize)> {
         let Self::Refused { text, .. } = self else {
             return None;
         };
-        let before = text.get(..finding.span.as_ref()?.start)?;
+        let before = text.get(..diagnostic.span.as_ref()?.start)?;
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         let line = 1 + before.matches('\n').count();
         Some((line, 1 + before.get(line_start..)?.chars().count()))
     }
 }
 
-/// A finding as miette prints it.
+/// A diagnostic as miette prints it.
 #[derive(Debug)]
-pub struct FindingReport {
+pub struct DiagnosticReport {
     message: String,
     help: Option<String>,
     span: Option<Range<usize>>,
     source: Option<NamedSource<String>>,
 }
 
-impl fmt::Display for FindingReport {
+impl fmt::Display for DiagnosticReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)
     }
 }
 
-impl std::error::Error for FindingReport {}
+impl std::error::Error for DiagnosticReport {}
 
-impl Diagnostic for FindingReport {
+impl Diagnostic for DiagnosticReport {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         self.help
             .as_ref()

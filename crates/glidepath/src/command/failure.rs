@@ -2,59 +2,44 @@
 
 use crate::bench::CatalogueError;
 use crate::config::ConfigError;
-use crate::curve_file::CurveError;
+use crate::curve_file::{CurveDiagnostic, CurveFileError};
 use crate::exit::Exit;
-use crate::jitter::CyclictestError;
+use crate::file_error::FileError;
+use crate::jitter::{CyclictestError, JitterError};
 use crate::program_text::UnknownEvent;
 use glidepath_gcode::Diagnostic;
 use glidepath_interpolator as interpolator;
 use glidepath_link::{LinkError, RecordingError};
 use glidepath_planner::{self as planner, FeedError, Refusal};
-use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// A command's failure, with its exit code.
 #[derive(Debug, Error)]
-pub enum Failure {
+pub(super) enum Failure {
     /// The configuration was refused.
     #[error(transparent)]
     Configuration(#[from] ConfigError),
     /// The benchmark programs cannot be found.
     #[error(transparent)]
     Catalogue(#[from] CatalogueError),
-    /// A file of the command line cannot be opened.
-    #[error("cannot open {path}: {source}", path = path.display())]
-    Open {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// A file cannot be read further or written.
-    #[error("cannot {action} {path}: {source}", path = path.display())]
-    File {
-        /// What was tried: "read", "write".
-        action: &'static str,
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// A program has findings.
+    /// A file cannot be opened, read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A program has something to mend.
     #[error("{program} is rejected; {}", if *moved { "the motion stopped at the last good block" } else { "nothing moved" })]
     Rejected {
         /// The program.
         program: String,
         /// What was found.
-        findings: Vec<Diagnostic>,
-        /// Findings that are not listed.
+        diagnostics: Vec<Diagnostic>,
+        /// Diagnostics that are not listed.
         more: u32,
-        /// Whether the part before the finding was run.
+        /// Whether the part in front of the first of them was run.
         moved: bool,
     },
-    /// A curve file has a finding.
+    /// A curve file has something to mend.
     #[error("the curve is rejected: {0}")]
-    Curve(#[from] Box<CurveError>),
+    Curve(Box<CurveDiagnostic>),
     /// A curve file holds one curve.
     #[error("{runs} runs cannot be written as one curve; write a program: --output FILE.ngc")]
     NotOneCurve {
@@ -127,15 +112,24 @@ pub enum Failure {
         /// What its end means.
         exit: Exit,
     },
-    /// The tool to compare with does not run.
+    /// The timing of this host cannot be measured.
     #[error(transparent)]
-    Cyclictest(#[from] CyclictestError),
+    Jitter(#[from] JitterError),
     /// A part of this process does not work.
     #[error("{0} failed")]
     Thread(&'static str),
     /// The command was interrupted.
     #[error("interrupted")]
     Interrupted,
+}
+
+impl From<CurveFileError> for Failure {
+    fn from(error: CurveFileError) -> Self {
+        match error {
+            CurveFileError::Unreadable(error) => Self::File(error),
+            CurveFileError::Rejected(diagnostic) => Self::Curve(diagnostic),
+        }
+    }
 }
 
 impl From<UnknownEvent> for Failure {
@@ -145,30 +139,16 @@ impl From<UnknownEvent> for Failure {
 }
 
 impl Failure {
-    /// For `map_err` of opening a file.
-    pub fn open(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
-        |source| Self::Open {
-            path: path.to_owned(),
-            source,
-        }
-    }
-
-    /// For `map_err` of reading or writing a file.
-    pub fn file(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
-        move |source| Self::File {
-            action,
-            path: path.to_owned(),
-            source,
-        }
-    }
-
     /// A refusal of a program, as the failure to run it.
     #[must_use]
-    pub fn refused(program: &str, refusal: Refusal, moved: bool) -> Self {
+    pub(super) fn refused(program: &str, refusal: Refusal, moved: bool) -> Self {
         match refusal {
-            Refusal::Program { findings, unlisted } => Self::Rejected {
+            Refusal::Program {
+                diagnostics,
+                unlisted,
+            } => Self::Rejected {
                 program: program.to_owned(),
-                findings,
+                diagnostics,
                 more: unlisted,
                 moved,
             },
@@ -178,16 +158,16 @@ impl Failure {
 
     /// The exit code.
     #[must_use]
-    pub const fn exit(&self) -> Exit {
+    pub(super) const fn exit(&self) -> Exit {
         match self {
             Self::Configuration(_) => Exit::Configuration,
             Self::ResumePipe
-            | Self::Open { .. }
+            | Self::File(FileError::Open { .. })
             | Self::Catalogue(_)
             | Self::NoFeed
             | Self::NotOneCurve { .. }
             | Self::UnknownEvent(_)
-            | Self::Cyclictest(CyclictestError::Absent) => Exit::Usage,
+            | Self::Jitter(JitterError::Cyclictest(CyclictestError::Absent)) => Exit::Usage,
             Self::Rejected { .. }
             | Self::Curve(_)
             | Self::Refused(_)
@@ -199,7 +179,7 @@ impl Failure {
             Self::Planner(planner::RunError::Interrupted)
             | Self::Feed(FeedError::Interrupted)
             | Self::Interrupted => Exit::Interrupted,
-            Self::File { .. }
+            Self::File(_)
             | Self::Signals(_)
             | Self::NoInterpolator { .. }
             | Self::CommandRefused { .. }
@@ -209,7 +189,7 @@ impl Failure {
             | Self::Link(_)
             | Self::Recording(_)
             | Self::Process(_)
-            | Self::Cyclictest(_)
+            | Self::Jitter(_)
             | Self::Thread(_) => Exit::Fault,
             Self::ProcessEnded { exit, .. } => *exit,
         }

@@ -1,7 +1,7 @@
 //! The parameters of the preview by advance and retreat.
 
-use super::judge::{Judge, Range};
-use super::raw::RawPreview;
+use super::values::{Judge, Range};
+use crate::config::raw::RawPreview;
 use glidepath_motion::preview::AdvanceRetreat;
 
 impl Judge {

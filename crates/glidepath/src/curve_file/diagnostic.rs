@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 /// One thing to mend in a curve file.
 #[derive(Debug)]
-pub struct CurveError {
+pub struct CurveDiagnostic {
     file: String,
     message: String,
     pub(super) help: String,
@@ -15,8 +15,8 @@ pub struct CurveError {
     source: NamedSource<String>,
 }
 
-impl CurveError {
-    /// A finding at some bytes of the text.
+impl CurveDiagnostic {
+    /// What is wrong with some bytes of the text.
     pub(super) fn new(
         file: &str,
         text: &str,
@@ -35,7 +35,7 @@ impl CurveError {
 
     /// Line and column, both from 1; the column counts characters.
     #[must_use]
-    pub fn place(&self) -> (usize, usize) {
+    pub fn line_and_column(&self) -> (usize, usize) {
         let text = self.source.inner();
         let before = text.get(..self.span.start).unwrap_or_default();
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
@@ -46,7 +46,7 @@ impl CurveError {
     /// As an object among the findings of a `--json` report.
     #[must_use]
     pub fn object(&self) -> Value {
-        let (line, column) = self.place();
+        let (line, column) = self.line_and_column();
         json!({
             "program": self.file,
             "line": line,
@@ -57,15 +57,15 @@ impl CurveError {
     }
 }
 
-impl fmt::Display for CurveError {
+impl fmt::Display for CurveDiagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)
     }
 }
 
-impl std::error::Error for CurveError {}
+impl std::error::Error for CurveDiagnostic {}
 
-impl Diagnostic for CurveError {
+impl Diagnostic for CurveDiagnostic {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         Some(Box::new(&self.help))
     }

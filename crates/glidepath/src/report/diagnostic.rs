@@ -5,18 +5,18 @@ use glidepath_gcode::Diagnostic;
 use miette::{LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 use serde_json::{Value, json};
 
-/// A finding as miette prints it: file:line:column, the source line with a mark under the word, the
+/// A diagnostic as miette prints it: file:line:column, the source line with a mark under the word, the
 /// reason and the remedy.
 #[derive(Debug)]
-pub struct ProgramFinding<'a> {
+pub struct ProgramDiagnostic<'a> {
     name: &'a str,
     diagnostic: &'a Diagnostic,
     /// Bytes of the excerpt to mark.
     mark: SourceSpan,
 }
 
-impl<'a> ProgramFinding<'a> {
-    /// A finding in the program called `name`, or in a file of a subroutine it calls.
+impl<'a> ProgramDiagnostic<'a> {
+    /// A diagnostic in the program called `name`, or in a file of a subroutine it calls.
     #[must_use]
     pub fn new(name: &'a str, diagnostic: &'a Diagnostic) -> Self {
         Self {
@@ -42,15 +42,15 @@ fn mark(diagnostic: &Diagnostic) -> SourceSpan {
     (start, end.saturating_sub(start)).into()
 }
 
-impl fmt::Display for ProgramFinding<'_> {
+impl fmt::Display for ProgramDiagnostic<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.diagnostic.message)
     }
 }
 
-impl std::error::Error for ProgramFinding<'_> {}
+impl std::error::Error for ProgramDiagnostic<'_> {}
 
-impl miette::Diagnostic for ProgramFinding<'_> {
+impl miette::Diagnostic for ProgramDiagnostic<'_> {
     fn code<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
         Some(Box::new(self.diagnostic.code))
     }
@@ -76,7 +76,7 @@ impl miette::Diagnostic for ProgramFinding<'_> {
 }
 
 /// The one line of the program that is at hand, at its place in the program.
-impl SourceCode for ProgramFinding<'_> {
+impl SourceCode for ProgramDiagnostic<'_> {
     fn read_span<'b>(
         &'b self,
         _span: &SourceSpan,
@@ -100,9 +100,9 @@ impl SourceCode for ProgramFinding<'_> {
     }
 }
 
-/// A finding as a JSON object.
+/// A diagnostic as a JSON object.
 #[must_use]
-pub fn finding_object(program: &str, diagnostic: &Diagnostic) -> Value {
+pub fn diagnostic_object(program: &str, diagnostic: &Diagnostic) -> Value {
     json!({
         "program": program,
         "file": diagnostic.file.as_deref().unwrap_or(program),

@@ -5,8 +5,8 @@
 //! from full speed takes V/A + A/J on the slowest axis; the horizon is to be three of them: one to
 //! stop on, one for what comes in while it stops, one to go on with.
 
-use super::finding::Finding;
-use super::machine::{AxisConfig, InterpolatorConfig};
+use crate::config::diagnostic::ConfigDiagnostic;
+use crate::config::machine::{AxisConfig, InterpolatorConfig};
 
 /// Most frames published ahead of the machine: fewer than the interpolator can hold.
 pub const MAX_FRAMES_AHEAD: u32 = 512;
@@ -31,12 +31,15 @@ pub(super) fn default_t(axes: &[AxisConfig]) -> f64 {
 }
 
 /// What is wrong with a horizon, without a place in the file.
-pub(super) fn finding(interpolator: &InterpolatorConfig, axes: &[AxisConfig]) -> Option<Finding> {
+pub(super) fn diagnostic(
+    interpolator: &InterpolatorConfig,
+    axes: &[AxisConfig],
+) -> Option<ConfigDiagnostic> {
     let shortest_t = shortest_t(axes);
     let period_us = f64::from(interpolator.period_us);
     let reach_t = f64::from(MAX_FRAMES_AHEAD) * period_us / 1e6;
     if interpolator.horizon_t < shortest_t {
-        return Some(Finding {
+        return Some(ConfigDiagnostic {
             key: "interpolator.horizon_s".to_owned(),
             message: format!(
                 "interpolator.horizon_s = {} s is too short for this machine",
@@ -48,7 +51,7 @@ pub(super) fn finding(interpolator: &InterpolatorConfig, axes: &[AxisConfig]) ->
             span: None,
         });
     }
-    (reach_t < shortest_t).then(|| Finding {
+    (reach_t < shortest_t).then(|| ConfigDiagnostic {
         key: "interpolator.period_us".to_owned(),
         message: format!("interpolator.period_us = {period_us} is too short for this machine"),
         help: Some(format!(

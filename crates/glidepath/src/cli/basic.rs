@@ -1,0 +1,32 @@
+//! What many commands are told: the machine, the form of the report, the shared memory.
+
+use crate::config::{INSTANCE_RULE, is_instance_name};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Configuration and form of the report: the same for every command.
+#[derive(Debug, Clone, Args)]
+pub struct BasicArgs {
+    /// Machine configuration (TOML); without it the built-in 3-axis mill
+    #[arg(long, short, value_name = "TOML")]
+    pub config: Option<PathBuf>,
+    /// Print one JSON object instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Which shared memory.
+#[derive(Debug, Clone, Args)]
+pub struct InstanceArgs {
+    /// Name of the machine's shared memory; overrides `link.instance` of the configuration
+    #[arg(long, value_name = "NAME", value_parser = instance_name)]
+    pub instance: Option<String>,
+}
+
+fn instance_name(name: &str) -> Result<String, &'static str> {
+    if is_instance_name(name) {
+        Ok(name.to_owned())
+    } else {
+        Err(INSTANCE_RULE)
+    }
+}

@@ -1,0 +1,132 @@
+//! The subcommands.
+
+use super::basic::BasicArgs;
+use super::curves::{FitArgs, PreviewArgs};
+use super::host::{BenchArgs, DoctorArgs, JitterArgs};
+use super::motion::{
+    CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
+};
+use super::operator::{OperatorArgs, OverrideArgs, SingleBlockArgs};
+use super::program::ProgramArgs;
+use clap::Subcommand;
+use std::path::PathBuf;
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Plan a program, play it with a mock servo, and report
+    #[command(after_help = "Example: glidepath run part.ngc --best-effort --plot part.svg")]
+    Run(RunArgs),
+    /// Compute the same motion without waiting for the clock
+    #[command(after_help = "Example: glidepath plan part.ngc --setpoints part.csv --plot part.svg")]
+    Plan(PlanArgs),
+    /// List everything wrong with programs; no motion
+    #[command(after_help = "Example: glidepath check part.ngc relief.ngc --json")]
+    Check(CheckArgs),
+    /// The real-time process: frames in, setpoints out
+    #[command(after_help = "Example: glidepath interpolator --config mill.toml --instance mill-1")]
+    Interpolator(InterpolatorArgs),
+    /// The planner process: a program, standard input, or segments of other processes to frames
+    #[command(
+        after_help = "Examples: glidepath planner part.ngc · glidepath planner - < part.ngc · \
+                            glidepath planner --listen · glidepath planner part.ngc --resume"
+    )]
+    Planner(PlannerArgs),
+    /// A mock servo: receives setpoints and reports what it saw
+    #[command(after_help = "Example: glidepath servo --setpoints received.csv")]
+    Servo(ServoArgs),
+    /// Stream a program's segments to a listening planner, as another program would
+    #[command(after_help = "Example: glidepath feed part.ngc --instance mill-1")]
+    Feed(FeedArgs),
+    /// Show the state of a running interpolator
+    #[command(after_help = "Example: glidepath status --json")]
+    Status(OperatorArgs),
+    /// Feed hold: come to rest on the path
+    #[command(after_help = "Example: glidepath hold")]
+    Hold(OperatorArgs),
+    /// Go on after a hold, a program stop or the end of a block
+    #[command(after_help = "Example: glidepath resume")]
+    Resume(OperatorArgs),
+    /// Go on to the end of the block, and rest there
+    #[command(after_help = "Example: glidepath stop-at-block-end && glidepath step")]
+    Step(OperatorArgs),
+    /// Come to rest at the end of the present block, or of the first at which that is possible
+    #[command(after_help = "Example: glidepath stop-at-block-end")]
+    StopAtBlockEnd(OperatorArgs),
+    /// Rest at the end of every block, or do so no longer; `resume` or `step` goes on
+    #[command(after_help = "Example: glidepath single-block on")]
+    SingleBlock(SingleBlockArgs),
+    /// Set the override of the feed, or of rapids
+    #[command(after_help = "Examples: glidepath override 80 · glidepath override --rapid 25")]
+    Override(OverrideArgs),
+    /// Come to rest on the path and drop the rest of the program
+    #[command(after_help = "Example: glidepath abort")]
+    Abort(OperatorArgs),
+    /// Find where a NURBS is too sharp for its feedrate
+    #[command(
+        after_help = "Example: glidepath preview butterfly.json --method certified --feed 6000 \
+                            --period-us 1000 --chord-error 0.001 --json"
+    )]
+    Preview(PreviewArgs),
+    /// Plan the benchmark programs, and compare with what is known of them
+    #[command(after_help = "Example: glidepath bench tests/data/bench --config-dir config --json")]
+    Bench(BenchArgs),
+    /// Fit NURBS to the dense runs of short lines of a program
+    #[command(
+        after_help = "Examples: glidepath fit part.ngc --tolerance 0.01 --output smooth.ngc · \
+                            glidepath fit part.ngc --tolerance 0.01 --method hybrid --seed 7 --json"
+    )]
+    Fit(FitArgs),
+    /// Is this host fit for real time? With the fix for each no
+    #[command(after_help = "Example: glidepath doctor --config mill.toml")]
+    Doctor(DoctorArgs),
+    /// Measure how late the real-time loop wakes on this host
+    #[command(
+        after_help = "Example: glidepath jitter --seconds 60 --full-tick --against-cyclictest \
+                            --plot jitter.svg"
+    )]
+    Jitter(JitterArgs),
+}
+
+impl Command {
+    /// What every command is told.
+    #[must_use]
+    pub const fn basic(&self) -> &BasicArgs {
+        match self {
+            Self::Run(args) => &args.basic,
+            Self::Plan(args) => &args.basic,
+            Self::Check(args) => &args.basic,
+            Self::Interpolator(args) => &args.basic,
+            Self::Planner(args) => &args.basic,
+            Self::Servo(args) => &args.basic,
+            Self::Feed(args) => &args.basic,
+            Self::Status(args)
+            | Self::Hold(args)
+            | Self::Resume(args)
+            | Self::Step(args)
+            | Self::StopAtBlockEnd(args)
+            | Self::Abort(args) => &args.basic,
+            Self::SingleBlock(args) => &args.operator.basic,
+            Self::Override(args) => &args.operator.basic,
+            Self::Fit(args) => &args.basic,
+            Self::Preview(args) => &args.basic,
+            Self::Bench(args) => &args.basic,
+            Self::Doctor(args) => &args.basic,
+            Self::Jitter(args) => &args.basic,
+        }
+    }
+
+    /// The program the command reads, if it does, and how.
+    #[must_use]
+    pub const fn program(&self) -> Option<(Option<&PathBuf>, &ProgramArgs)> {
+        match self {
+            Self::Run(args) => Some((Some(&args.file), &args.program)),
+            Self::Plan(args) => Some((Some(&args.file), &args.program)),
+            Self::Feed(args) => Some((Some(&args.file), &args.program)),
+            Self::Planner(args) => Some((args.file.as_ref(), &args.program)),
+            // Each file of a check may be in a dialect of its own.
+            Self::Check(args) => Some((None, &args.program)),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! The command line.
+
+mod basic;
+mod command;
+mod curves;
+mod host;
+mod motion;
+mod operator;
+mod program;
+
+pub use basic::{BasicArgs, InstanceArgs};
+pub use command::Command;
+pub use curves::{FitArgs, FitMethod, PreviewArgs, PreviewMethod};
+pub use host::{BenchArgs, DoctorArgs, JitterArgs};
+pub use motion::{
+    CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
+};
+pub use operator::{OperatorArgs, OverrideArgs, SingleBlockArgs, Switch};
+pub use program::ProgramArgs;
+
+use clap::Parser;
+
+/// Plans G-code under velocity, acceleration and jerk limits, and plays it in hard real time.
+#[derive(Debug, Parser)]
+#[command(name = "glidepath", version, arg_required_else_help = true, after_help = EXIT_CODES)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 done, 1 program rejected, 2 usage, 3 configuration, \
+                          4 not real-time capable, 5 fault while running, 130 interrupted.";

@@ -1,0 +1,146 @@
+//! Arguments of the commands that check, plan and run programs, and of the processes by themselves.
+
+use super::basic::{BasicArgs, InstanceArgs};
+use super::program::ProgramArgs;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Arguments of `run`.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// The G-code program
+    pub file: PathBuf,
+    /// How the program is read.
+    #[command(flatten)]
+    pub program: ProgramArgs,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Which shared memory.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+    /// Run without real-time privileges too; the report says what was granted
+    #[arg(long)]
+    pub best_effort: bool,
+    /// Write the setpoints the mock servo received as CSV
+    #[arg(long, value_name = "CSV")]
+    pub setpoints: Option<PathBuf>,
+    /// Write a plot of the motion (SVG); without it the plot goes to the temporary folder
+    #[arg(long, value_name = "SVG")]
+    pub plot: Option<PathBuf>,
+}
+
+/// Arguments of `plan`.
+#[derive(Debug, Args)]
+pub struct PlanArgs {
+    /// The G-code program
+    pub file: PathBuf,
+    /// How the program is read.
+    #[command(flatten)]
+    pub program: ProgramArgs,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Write every setpoint as CSV
+    #[arg(long, value_name = "CSV")]
+    pub setpoints: Option<PathBuf>,
+    /// Write a plot of the motion (SVG)
+    #[arg(long, value_name = "SVG")]
+    pub plot: Option<PathBuf>,
+}
+
+/// Arguments of `check`.
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    /// The G-code programs
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// How the program is read.
+    #[command(flatten)]
+    pub program: ProgramArgs,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+}
+
+/// Arguments of `interpolator`.
+#[derive(Debug, Args)]
+pub struct InterpolatorArgs {
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Which shared memory.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+    /// Move without real-time privileges too
+    #[arg(long)]
+    pub best_effort: bool,
+    /// End when the process with this number, which started this one, ends
+    #[arg(long, hide = true, value_name = "PID")]
+    pub end_with: Option<u32>,
+}
+
+/// Arguments of `planner`.
+#[derive(Debug, Args)]
+pub struct PlannerArgs {
+    /// The G-code program, or `-` for standard input
+    #[arg(required_unless_present = "listen", conflicts_with = "listen")]
+    pub file: Option<PathBuf>,
+    /// Take segments from other processes instead of a program
+    #[arg(long)]
+    pub listen: bool,
+    /// Go on with the program from where the machine stands on its path
+    ///
+    /// For a program whose planner died, or that was aborted. Motion starts at once. Refused if the
+    /// machine does not stand on the path, or the text is not that of the program that was under way.
+    #[arg(long, conflicts_with = "listen")]
+    pub resume: bool,
+    /// How the program is read.
+    #[command(flatten)]
+    pub program: ProgramArgs,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Which shared memory.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+    /// End when the process with this number, which started this one, ends
+    #[arg(long, hide = true, value_name = "PID")]
+    pub end_with: Option<u32>,
+}
+
+/// Arguments of `servo`.
+#[derive(Debug, Args)]
+pub struct ServoArgs {
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Which shared memory.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+    /// Write the setpoints received as CSV
+    #[arg(long, value_name = "CSV")]
+    pub setpoints: Option<PathBuf>,
+    /// Write every record received to standard output, for the process that started this one
+    #[arg(long, hide = true, conflicts_with_all = ["setpoints", "json"])]
+    pub relay: bool,
+    /// End when the process with this number, which started this one, ends
+    #[arg(long, hide = true, value_name = "PID")]
+    pub end_with: Option<u32>,
+}
+
+/// Arguments of `feed`.
+#[derive(Debug, Args)]
+pub struct FeedArgs {
+    /// The G-code program
+    pub file: PathBuf,
+    /// How the program is read.
+    #[command(flatten)]
+    pub program: ProgramArgs,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// Which shared memory.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+}

@@ -1,0 +1,75 @@
+//! A failure as it is told: on standard error, or as the one JSON object of a `--json` command.
+
+use super::failure::Failure;
+use super::program_diagnostics::print_diagnostics;
+use crate::config::ConfigError;
+use crate::exit::Exit;
+use crate::output;
+use crate::report::diagnostic_object;
+use miette::Diagnostic;
+use serde_json::{Value, json};
+
+/// Reports a failure in the form asked for and gives the exit code.
+#[must_use]
+pub(super) fn report(failure: &Failure, as_json: bool) -> Exit {
+    if as_json {
+        output::object(&failure_object(failure));
+    } else if let Failure::Configuration(error) = failure {
+        let reports = error.reports();
+        output::diagnostics(reports.iter().map(|report| report as &dyn Diagnostic));
+        output::note(&format!("error: {error}"));
+    } else if let Failure::Rejected {
+        program,
+        diagnostics,
+        more,
+        ..
+    } = failure
+    {
+        print_diagnostics(program, diagnostics, *more);
+        output::note(&format!("error: {failure}"));
+    } else {
+        if let Failure::Curve(error) = failure {
+            output::diagnostics([error.as_ref() as &dyn Diagnostic]);
+        }
+        output::note(&format!("error: {failure}"));
+    }
+    failure.exit()
+}
+
+fn failure_object(failure: &Failure) -> Value {
+    let found: Vec<Value> = match failure {
+        Failure::Configuration(error) => configuration_objects(error),
+        Failure::Rejected {
+            program,
+            diagnostics,
+            ..
+        } => diagnostics
+            .iter()
+            .map(|diagnostic| diagnostic_object(program, diagnostic))
+            .collect(),
+        Failure::Curve(error) => vec![error.object()],
+        _ => Vec::new(),
+    };
+    json!({
+        "error": failure.to_string(),
+        "exit_code": failure.exit() as u8,
+        "findings": found,
+    })
+}
+
+fn configuration_objects(error: &ConfigError) -> Vec<Value> {
+    error
+        .diagnostics()
+        .iter()
+        .map(|diagnostic| {
+            let place = error.line_and_column(diagnostic);
+            json!({
+                "key": diagnostic.key,
+                "message": diagnostic.message,
+                "help": diagnostic.help,
+                "line": place.map(|(line, _)| line),
+                "column": place.map(|(_, column)| column),
+            })
+        })
+        .collect()
+}

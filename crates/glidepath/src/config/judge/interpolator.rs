@@ -1,0 +1,72 @@
+//! `[interpolator]`: the real-time side.
+
+use super::horizon;
+use super::values::{Judge, Range};
+use crate::config::machine::{AxisConfig, InterpolatorConfig};
+use crate::config::raw::RawInterpolator;
+use toml::Spanned;
+
+impl Judge {
+    pub(super) fn interpolator(
+        &mut self,
+        raw: &RawInterpolator,
+        axes: &[AxisConfig],
+    ) -> InterpolatorConfig {
+        let range = Range {
+            min: 0.05,
+            max: 60.0,
+            unit: "s",
+            help: "longer outlasts slower input, shorter answers an override sooner",
+        };
+        let period_us = raw.period_us.as_ref().map_or(Some(4000), |value| {
+            self.whole(
+                "interpolator.period_us",
+                value,
+                (250, 20_000),
+                "µs between two setpoints",
+            )
+        });
+        let priority = raw.priority.as_ref().map_or(Some(80), |value| {
+            self.whole(
+                "interpolator.priority",
+                value,
+                (1, 99),
+                "the SCHED_FIFO priority",
+            )
+        });
+        let cpu = raw.cpu.as_ref().and_then(|value| {
+            self.whole(
+                "interpolator.cpu",
+                value,
+                (0, 1023),
+                "the number of a CPU of this host",
+            )
+        });
+        let missed = raw.max_missed_ticks.as_ref().map_or(Some(10), |value| {
+            let help = "ticks missed within a second before the motion stops with a fault";
+            self.whole("interpolator.max_missed_ticks", value, (0, 1_000_000), help)
+        });
+        let horizon_t = horizon::default_t(axes);
+        let horizon_t = self.number_or("interpolator.horizon_s", &raw.horizon_s, &range, horizon_t);
+        let config = InterpolatorConfig {
+            // A value that does not fit was found already: the configuration is refused.
+            period_us: period_us.unwrap_or(4000),
+            priority: priority.unwrap_or(80),
+            cpu,
+            max_missed_ticks: missed.unwrap_or(10),
+            horizon_t,
+        };
+        // Only numbers that are good by themselves can be judged together.
+        if self.diagnostics.is_empty()
+            && let Some(mut diagnostic) = horizon::diagnostic(&config, axes)
+        {
+            let (horizon, period) = (raw.horizon_s.as_ref(), raw.period_us.as_ref());
+            let span = horizon
+                .map(Spanned::span)
+                .filter(|_| diagnostic.key.ends_with("horizon_s"));
+            diagnostic.span = span.or_else(|| period.map(Spanned::span));
+            self.diagnostics.push(diagnostic);
+        }
+        config
+    }
+}

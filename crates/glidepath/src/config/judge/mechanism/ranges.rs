@@ -1,0 +1,22 @@
+//! Ranges of what a mechanism is described by.
+
+use crate::config::judge::values::Range;
+
+pub(super) const LENGTH: Range = Range {
+    min: 1e-3,
+    max: 1e5,
+    unit: "mm",
+    help: "a length of the mechanism",
+};
+pub(super) const OFFSET: Range = Range {
+    min: -1e5,
+    max: 1e5,
+    unit: "mm",
+    help: "an offset of the mechanism",
+};
+pub(super) const ANGLE: Range = Range {
+    min: 0.0,
+    max: 180.0,
+    unit: "°",
+    help: "an angle of the mechanism",
+};

@@ -1,0 +1,77 @@
+//! [`RawConfig`] to [`MachineConfig`]: every value is judged by its range, and all that has to be
+//! mended is told at once. One file for each table of the configuration.
+
+mod axes;
+mod axis_share;
+mod horizon;
+mod interpolator;
+mod joints;
+mod link;
+mod mechanism;
+mod path;
+mod preview;
+mod program;
+mod values;
+
+pub use horizon::MAX_FRAMES_AHEAD;
+
+use super::diagnostic::ConfigDiagnostic;
+use super::machine::{AxisConfig, MachineConfig};
+use super::raw::RawConfig;
+use axis_share::axis_share;
+use glidepath_geometry::Axis;
+use values::Judge;
+
+/// Judges every value.
+///
+/// # Errors
+/// All diagnostics, in the order of the tables.
+pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<ConfigDiagnostic>> {
+    let mut judge = Judge {
+        diagnostics: Vec::new(),
+    };
+    let axes_span = raw.axis.span();
+    let axes: Vec<AxisConfig> = Axis::ALL
+        .into_iter()
+        .zip(raw.axis.into_inner().in_order())
+        .filter_map(|(axis, raw)| Some(judge.axis(axis, &raw?)))
+        .collect();
+    if axes.is_empty() {
+        judge.diagnostics.push(ConfigDiagnostic {
+            key: "axis".to_owned(),
+            message: "the machine has no axis".to_owned(),
+            help: Some("add a table such as [axis.X]".to_owned()),
+            span: Some(axes_span),
+        });
+    }
+    let names: Vec<Axis> = axes.iter().map(|axis| axis.axis).collect();
+    let mechanism = judge.mechanism(&raw.machine, &names);
+    let joint_limits = judge.joints(&raw.joint, &mechanism);
+    let axis_share = axis_share(&mechanism, &joint_limits, &axes);
+    // Stops take as long as joints let them.
+    let braking: Vec<AxisConfig> = axes
+        .iter()
+        .map(|axis| AxisConfig {
+            max_acceleration: axis.max_acceleration * axis_share.acceleration,
+            max_jerk: axis.max_jerk * axis_share.jerk,
+            ..*axis
+        })
+        .collect();
+    let interpolator = judge.interpolator(&raw.interpolator, &braking);
+    let config = MachineConfig {
+        mechanism,
+        joint_limits,
+        axis_share,
+        axes,
+        path: judge.path(raw.path),
+        interpolator,
+        preview: judge.preview(&raw.preview),
+        instance: judge.instance(raw.link),
+        program: judge.program(raw.program),
+    };
+    if judge.diagnostics.is_empty() {
+        Ok(config)
+    } else {
+        Err(judge.diagnostics)
+    }
+}

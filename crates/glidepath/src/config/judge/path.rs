@@ -1,0 +1,78 @@
+//! `[path]`: the tolerance, how it is used, and limits along the path, which a machine may have
+//! beside those of its axes.
+
+use super::values::{Judge, Range};
+use crate::config::machine::PathConfig;
+use crate::config::raw::{Optional, RawPath};
+use glidepath_motion::{Effort, Limits, PathBounds, Smoothing};
+
+impl Judge {
+    pub(super) fn path(&mut self, raw: RawPath) -> PathConfig {
+        let tolerance = Range {
+            min: 1e-5,
+            max: 10.0,
+            unit: "mm",
+            help: "how far the motion may leave the programmed path",
+        };
+        let feed = Range {
+            min: 1e-3,
+            max: 1e7,
+            unit: "mm/min",
+            help: "the feedrate where the program has no F",
+        };
+        PathConfig {
+            bounds: self.bounds(&raw),
+            tolerance_mm: self.number_or("path.tolerance", &raw.tolerance, &tolerance, 0.02),
+            smoothing: self.choice(
+                "path.smoothing",
+                raw.smoothing,
+                &[
+                    ("auto", Smoothing::default()),
+                    ("sextic", Smoothing::Sextic),
+                    ("bezier-pair", Smoothing::BezierPair),
+                    ("exact-stop", Smoothing::ExactStop),
+                ],
+            ),
+            effort: self.choice(
+                "path.effort",
+                raw.effort,
+                &[("optimal", Effort::Optimal), ("fast", Effort::Fast)],
+            ),
+            default_feed: raw
+                .default_feed
+                .map(|value| self.number("path.default_feed", &value, &feed)),
+        }
+    }
+
+    fn bounds(&mut self, raw: &RawPath) -> PathBounds {
+        let mut limit = |key, value: &Optional<f64>, unit, help| {
+            let range = Range {
+                min: 1e-3,
+                max: 1e9,
+                unit,
+                help,
+            };
+            self.number_or(key, value, &range, Limits::UNLIMITED)
+        };
+        PathBounds {
+            tangential_a: limit(
+                "path.max_tangential_acceleration",
+                &raw.max_tangential_acceleration,
+                "mm/s²",
+                "how fast the speed along the path may change; leave it out for no such limit",
+            ),
+            normal_a: limit(
+                "path.max_normal_acceleration",
+                &raw.max_normal_acceleration,
+                "mm/s²",
+                "the acceleration across the path in curves; leave it out for no such limit",
+            ),
+            jerk_j: limit(
+                "path.max_jerk",
+                &raw.max_jerk,
+                "mm/s³",
+                "how fast the acceleration may change; leave it out for no such limit",
+            ),
+        }
+    }
+}

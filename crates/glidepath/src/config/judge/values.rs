@@ -1,0 +1,103 @@
+//! One value at a time: a number in its range, one of several names.
+
+use crate::config::diagnostic::ConfigDiagnostic;
+use crate::config::raw::Optional;
+use toml::Spanned;
+
+/// What a number may be.
+pub(super) struct Range {
+    pub(super) min: f64,
+    pub(super) max: f64,
+    pub(super) unit: &'static str,
+    /// How to choose a value.
+    pub(super) help: &'static str,
+}
+
+pub(super) struct Judge {
+    pub(super) diagnostics: Vec<ConfigDiagnostic>,
+}
+
+impl Judge {
+    pub(super) fn number(&mut self, key: &str, value: &Spanned<f64>, range: &Range) -> f64 {
+        let number = *value.as_ref();
+        // Not a number is in no range.
+        if !(range.min..=range.max).contains(&number) {
+            let Range {
+                min,
+                max,
+                unit,
+                help,
+            } = range;
+            self.diagnostics.push(ConfigDiagnostic {
+                key: key.to_owned(),
+                message: format!("{key} = {number} {unit} is out of range"),
+                help: Some(format!("give {min} to {max} {unit}: {help}")),
+                span: Some(value.span()),
+            });
+        }
+        number
+    }
+
+    pub(super) fn number_or(
+        &mut self,
+        key: &str,
+        value: &Optional<f64>,
+        range: &Range,
+        default: f64,
+    ) -> f64 {
+        value
+            .as_ref()
+            .map_or(default, |value| self.number(key, value, range))
+    }
+
+    /// A whole number of any type that holds the range.
+    pub(super) fn whole<T: TryFrom<i64>>(
+        &mut self,
+        key: &str,
+        value: &Spanned<i64>,
+        (min, max): (i64, i64),
+        help: &str,
+    ) -> Option<T> {
+        let number = *value.as_ref();
+        let fitting = (min..=max)
+            .contains(&number)
+            .then(|| T::try_from(number).ok())
+            .flatten();
+        if fitting.is_none() {
+            self.diagnostics.push(ConfigDiagnostic {
+                key: key.to_owned(),
+                message: format!("{key} = {number} is out of range"),
+                help: Some(format!("give {min} to {max}: {help}")),
+                span: Some(value.span()),
+            });
+        }
+        fitting
+    }
+
+    /// One of the named values; the first is the default.
+    pub(super) fn choice<T: Copy>(
+        &mut self,
+        key: &str,
+        value: Optional<String>,
+        known: &[(&str, T)],
+    ) -> T {
+        let default = known[0].1;
+        let Some(value) = value else { return default };
+        let found = known
+            .iter()
+            .find(|(name, _)| *name == value.as_ref().as_str());
+        if found.is_none() {
+            let list: Vec<String> = known
+                .iter()
+                .map(|(name, _)| format!("\"{name}\""))
+                .collect();
+            self.diagnostics.push(ConfigDiagnostic {
+                key: key.to_owned(),
+                message: format!("{key} = \"{}\" is not known", value.as_ref()),
+                help: Some(format!("give {}", list.join(" or "))),
+                span: Some(value.span()),
+            });
+        }
+        found.map_or(default, |(_, value)| *value)
+    }
+}

@@ -1,0 +1,38 @@
+//! Reads curve files of NURBS.
+
+use super::diagnostic::CurveDiagnostic;
+use crate::file_error::FileError;
+use glidepath_curve::NurbsFile;
+use std::path::Path;
+use thiserror::Error;
+
+/// Why a curve file cannot be used.
+#[derive(Debug, Error)]
+pub enum CurveFileError {
+    /// It cannot be read.
+    #[error(transparent)]
+    Unreadable(#[from] FileError),
+    /// Something in it has to be mended.
+    #[error(transparent)]
+    Rejected(#[from] Box<CurveDiagnostic>),
+}
+
+/// Reads a curve file.
+///
+/// # Errors
+/// The file cannot be read, or something in it has to be mended.
+pub fn read(path: &Path) -> Result<NurbsFile, CurveFileError> {
+    let text = std::fs::read_to_string(path).map_err(FileError::open(path))?;
+    Ok(parse(&path.display().to_string(), &text)?)
+}
+
+/// Judges the text of a curve file; `name` is the file's, for reports and for a curve without a name.
+///
+/// # Errors
+/// The first thing that has to be mended.
+pub fn parse(name: &str, text: &str) -> Result<NurbsFile, Box<CurveDiagnostic>> {
+    let mut file = NurbsFile::parse(text)
+        .map_err(|fault| CurveDiagnostic::new(name, text, fault.at, fault.message, &fault.help))?;
+    file.name.get_or_insert_with(|| name.to_owned());
+    Ok(file)
+}

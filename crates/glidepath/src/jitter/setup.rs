@@ -1,0 +1,19 @@
+//! What to measure.
+
+use super::motion::Motion;
+use glidepath_realtime::Request;
+
+/// What to measure.
+#[derive(Debug)]
+pub struct Setup {
+    /// Period, ns.
+    pub period_ns: u64,
+    /// How long.
+    pub seconds: u32,
+    /// What the thread asks for; it goes on without what it is not granted.
+    pub request: Request,
+    /// The motion whose ticks are the work of each period; nothing without.
+    pub motion: Option<Motion>,
+    /// Run cyclictest beside.
+    pub against_cyclictest: bool,
+}
