@@ -40,7 +40,7 @@ pub(super) fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Fa
 ///
 /// # Errors
 /// The file cannot be opened.
-pub(super) fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
+fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
     let config = &for_program(path, config);
     let options = config.program_options(config.home());
     let report = check_file(path, options, &config.settings()).map_err(FileError::open(path))?;
@@ -144,7 +144,7 @@ fn object(reports: &[(String, Report)]) -> Value {
 }
 
 /// A program as an object: its totals and what is wrong with it.
-pub(super) fn program(name: &str, report: &Report) -> Value {
+fn program(name: &str, report: &Report) -> Value {
     let totals = &report.totals;
     let findings: Vec<Value> = report
         .diagnostics
