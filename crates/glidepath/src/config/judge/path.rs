@@ -4,7 +4,7 @@
 use super::values::{Judge, Range};
 use crate::config::machine::PathConfig;
 use crate::config::raw::{Optional, RawPath};
-use glidepath_motion::{Effort, Limits, PathBounds, Smoothing};
+use glidepath_program::{Effort, Limits, PathBounds, Smoothing};
 
 impl Judge {
     pub(super) fn path(&mut self, raw: RawPath) -> PathConfig {
