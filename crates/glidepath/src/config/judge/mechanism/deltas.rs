@@ -73,9 +73,9 @@ impl Judge {
             let turn = (a - b).rem_euclid(360.0);
             turn.min(360.0 - turn)
         };
-        let least_deg = apart_deg(a, b).min(apart_deg(b, c)).min(apart_deg(c, a));
         // A direction that is not a number is apart from none.
-        if !(least_deg >= LEAST_APART_DEG) {
+        let is_apart = |(a, b)| apart_deg(a, b) >= LEAST_APART_DEG;
+        if ![(a, b), (b, c), (c, a)].into_iter().all(is_apart) {
             self.diagnostics.push(ConfigDiagnostic {
                 key: "machine.rotary-delta.arm_angles".to_owned(),
                 message: format!(
