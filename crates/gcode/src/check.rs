@@ -5,30 +5,28 @@ use std::io::BufRead;
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
 
-use crate::diagnostic::{Code, Diagnostic};
-use crate::options::Options;
-use crate::program::Program;
-use crate::survey::Survey;
-use crate::totals::Totals;
-
-/// Most findings listed in a [`Report`].
-pub const MAX_FINDINGS: usize = 20;
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS};
+use crate::execute::program::Program;
+use crate::setup::options::Options;
+use crate::summary::survey::Survey;
+use crate::summary::totals::Totals;
 
 /// What [`check`] found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// The findings, in the order of the lines, at most [`MAX_FINDINGS`].
+    /// The diagnostics, in the order of the lines, at most [`MAX_DIAGNOSTICS`].
     pub diagnostics: Vec<Diagnostic>,
-    /// Findings beyond those listed.
+    /// Diagnostics beyond those listed.
     pub more: u32,
     /// False if the program was not read to its end, because its loops go on for longer than
     /// [`crate::LoopLimits`] allow; the part that was read is judged.
     pub complete: bool,
-    /// Counts and sums over the blocks without findings.
+    /// Counts and sums over the blocks without diagnostics.
     pub totals: Totals,
     /// What was seen along the path.
     pub survey: Survey,
-    /// Machine position at the end, over the blocks without findings.
+    /// Machine position at the end, over the blocks without diagnostics.
     pub final_position: AxisVector,
 }
 
@@ -39,17 +37,17 @@ impl Report {
         self.diagnostics.is_empty()
     }
 
-    /// Moves, among the findings listed, that leave the travel of an axis.
+    /// Moves, among the diagnostics listed, that leave the travel of an axis.
     #[must_use]
     pub fn soft_limit_violations(&self) -> usize {
-        let beyond = |finding: &&Diagnostic| finding.code == Code::SoftLimit;
+        let beyond = |diagnostic: &&Diagnostic| diagnostic.code == DiagnosticCode::SoftLimit;
         self.diagnostics.iter().filter(beyond).count()
     }
 }
 
-/// What [`findings`] found.
+/// What [`diagnostics`] found.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Findings {
+pub struct Diagnostics {
     /// As [`Report::diagnostics`].
     pub diagnostics: Vec<Diagnostic>,
     /// As [`Report::more`].
@@ -60,9 +58,9 @@ pub struct Findings {
 
 /// Checks a program.
 ///
-/// A block with a finding is left out, and reading goes on behind it, so a later finding may be a
-/// consequence of an earlier one. A finding in an O word, a subroutine or a loop ends the check, as
-/// does one that leaves nothing to understand (the input cannot be read).
+/// A block with a diagnostic is left out, and reading goes on behind it, so a later diagnostic may
+/// be a consequence of an earlier one. A diagnostic in an O word, a subroutine or a loop ends the
+/// check, as does one that leaves nothing to understand (the input cannot be read).
 pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
     let mut survey = Survey::default();
     let mut program = Program::new(reader, options);
@@ -77,19 +75,19 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
     }
 }
 
-/// The same findings without all else, for a program that is only to be accepted or refused.
-pub fn findings<R: BufRead>(reader: R, options: Options) -> Findings {
+/// The same diagnostics without all else, for a program that is only to be accepted or refused.
+pub fn diagnostics<R: BufRead>(reader: R, options: Options) -> Diagnostics {
     read(&mut Program::new(reader, options).only_judged(), |_| {}).0
 }
 
-/// Reads a program to its end; false beside the findings if its loops go on for too long.
-fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> (Findings, bool) {
+/// Reads a program to its end; false beside the diagnostics if its loops go on for too long.
+fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> (Diagnostics, bool) {
     let most = program.interpreter.options.loops.checked_lines;
-    let mut found = Findings::default();
+    let mut found = Diagnostics::default();
     while program.kept_lines() < most {
         match program.next_line() {
             Some(Ok(())) => program.items().iter().for_each(&mut see),
-            Some(Err(diagnostic)) if found.diagnostics.len() < MAX_FINDINGS => {
+            Some(Err(diagnostic)) if found.diagnostics.len() < MAX_DIAGNOSTICS => {
                 found.diagnostics.push(diagnostic);
             }
             Some(Err(_)) => found.more = found.more.saturating_add(1),

@@ -1,81 +1,44 @@
 //! RS274/NGC text to canonical machining moves, with diagnostics.
 //!
+//! This crate is the first stage of the pipeline: it turns the text of a program into
+//! [`Item`](glidepath_program::Item)s, which the motion planner then joins and times.
+//!
 //! ```text
-//! bytes ─ LineSource ─► line ─ Block::parse ─► block ─ Interpreter ─► Compensation ─► items
-//!                        ▲          ▲ parameters         │ modal state,  (cutter radius)
-//!                  Flow (O words)   └────────────────────┘ offsets, tools
+//! bytes ─► syntax ─► blocks ─► execute ─► items ─► (planner, motion, interpolator)
+//!            ▲                    │  modal state, offsets, tools,
+//!            └── parameters ◄─────┘  cycles, compensation, flow
 //! ```
 //!
-//! A program is read line by line in constant memory; subroutines and loops are kept, to a bound. Everything given out is in machine
-//! coordinates, in mm, degrees and mm/s, whatever the program's units and offsets. What is not
-//! understood is never skipped: it is a [`Diagnostic`] with line, column, reason and remedy.
+//! * `syntax` reads the text of a line into the words of a block. It knows no machine, no modal state
+//!   and no offset.
+//! * `execute` gives blocks their meaning: modes, offsets, tools, canned and lathe cycles, cutter
+//!   radius compensation, subroutines and loops, in each of the dialects.
+//! * `setup` is what a program is read for: the machine, its tools, the folder of its subroutines.
+//! * `diagnostic` tells what is wrong with a program; `summary` counts what it comes to.
 //!
-//! # The language
+//! # Entry points
 //!
-//! RS274/NGC as LinuxCNC reads it, and what other controls have in its place ([`Dialect`]). A program starts in G8 G17 G21 G40 G49 G54 G64 G80 G90 G91.1 G94
-//! G97 G98.
-//!
-//! | words | what they do |
+//! | to | use |
 //! |---|---|
-//! | G0 G1 G2 G3 G80 | moves; arcs with I J K or R, P turns, helices, in every plane |
-//! | G4 P | dwell, seconds |
-//! | G5, G5.1, G5.2 … G5.3, G6.2 | splines: cubic, quadratic, NURBS with weights, with weights and knots |
-//! | G7 G8 | X words are diameters, radii |
-//! | G10 L2, L20 (P, R); G54 … G59.3; G52; G92 … G92.3; G53 | coordinate systems |
-//! | G10 L1, L10, L11 (P, R, Q) | tool table, until the program ends |
-//! | G17 G18 G19, G17.1 G18.1 G19.1 | plane of arcs and cycles |
-//! | G20 G21 | inch, millimetre |
-//! | G28 G30, G28.1 G30.1 | reference positions, machine zero until they are set |
-//! | G38.2 … G38.5 | probing, only with simulated connections |
-//! | G40 G41 G42 D, G41.1 G42.1 D L | cutter radius compensation, in G17 and G18 |
-//! | G43 H, G43.1, G43.2 H, G49 | tool length offsets, on every axis |
-//! | G61 G61.1 G64 P Q | path mode; Q is checked and not used |
-//! | G70, G71 G71.1 G71.2, G72 G72.1 G72.2 Q | lathe cycles along the profile in subroutine Q: finishing, turning, facing |
-//! | G73 G74 G81 … G86 G89, G98 G99 | canned cycles, L holes each |
-//! | G90 G91, G90.1 G91.1 | absolute, incremental; of I J K |
-//! | G93 G94 G95 F | inverse time, per minute, per revolution |
-//! | G96 S D, G97 S | cutting speed, revolutions |
-//! | `@` `^` | polar words for X and Y |
-//! | S T M0 M1 M3–M9 M48 M49 M60 M61 Q | events, in order with the motion |
-//! | M50 M51 P1, M52 M53 P0 | no effect: so it is; what they would change is refused |
-//! | M70 M71 M72 M73 | save and restore the modal state, by subroutine |
-//! | M19, M62 … M68 | events, only with simulated connections |
-//! | M2 M30, `%` | end of the program; the end of the input is one too |
-//! | N, `/`, `( )`, `;`, `O1234` alone | no effect (`/`: [`Options::block_delete`]) |
-//! | `#1`, `#<name>`, `[ ]`, functions | parameters and expressions |
-//! | O words | `sub` `call` `return`, `if`, `while`, `do`, `repeat`, `break`, `continue` |
-//! | `o<name> call`, `o100 call` of what the program does not define | the subroutine in `name.ngc`, `100.ngc` ([`Subroutines`]) |
+//! | execute a program | [`Program`]: an iterator of items, which ends at the first diagnostic |
+//! | judge a program | [`check`]: reads on behind diagnostics, and gives a [`Report`] with counts and sums |
+//! | accept or refuse a program, fast | [`diagnostics`]: as [`check`], without the counts and sums |
+//! | say for which machine, and how | [`Options`] with [`Machine`], [`ToolTable`], [`Subroutines`], [`Dialect`] |
+//! | know which words there are | the module [`language`] |
 //!
-//! Not supported, and refused by name: threading (G33, G76), G87, G88, and to take overrides from the
-//! operator (M50, M51), adaptive feed (M52) and feed stop (M53).
+//! # What always holds
 //!
-//! # Where it differs from LinuxCNC
+//! * Items are in machine coordinates, in mm, degrees and mm/s, whatever the program's units and
+//!   offsets. Each move starts exactly where the one before it ended.
+//! * A line that is not understood is never skipped: it is a [`Diagnostic`] with line, column,
+//!   reason and remedy. A block that is refused has no effect at all.
+//! * Memory is bounded, whatever the program: lines are read as a stream, and what is kept for
+//!   subroutines, loops and open curves has a limit each.
+//! * No program makes this crate panic, and no program goes on for ever without a move
+//!   ([`LoopLimits`]).
+//! * The same text and the same options give the same items, bit for bit.
 //!
-//! LinuxCNC's own interpreter has judged a collection of programs; verdict, line of the first error,
-//! counts, lengths, times, corners and end points agree in 99.05 % of 1267 figures. The others, each on
-//! purpose:
-//!
-//! | what | LinuxCNC | here |
-//! |---|---|---|
-//! | G33, G33.1, G76 | follow the spindle's encoder | refused: none is read, and passes that begin at any angle of the spindle would cut the thread away |
-//! | a byte order mark; NUL bytes | refused; the block behind them is lost | no effect; refused |
-//! | a coordinate of 1e24 | accepted | refused: above [`MAX_NUMBER`] |
-//! | moves of a picometre | executed | merged with the next |
-//! | a weight of zero in G5.2 | accepted | refused: it has no meaning |
-//! | G71, G72 beside arcs in each other's way; from the wrong side | come nearer to the profile than D; cut there | keep the distance; refused |
-//! | recursion without end | blamed on the first call | on the call that is one too many |
-//! | a corner that the tool's radius cannot reach | blamed on the move behind it | on the move that is too short |
-//! | a loop without end and without motion | never ends | refused after [`LoopLimits`] |
-//! | end point and corners after G92, G92.1 | shift with the offset | stay where the machine is |
-//! | a file without M2, M30 or `%` | refused | the end of the file is the end |
-//! | a subroutine behind its call in the same file | found there | refused, if no file has its name |
-//! | the folder of subroutines in other files | of the configuration | the program's, then those of the search path; names with `/` are refused |
-//! | M72, M73 with another G41 or G42 in force than was saved | begin it anew, with the tool's diameter | refused |
-//! | M72, M73 with G43.1, G43.2 or G64 P saved | G43 of the tool in the spindle; P in the units in force | as they were |
-//! | lines above 252 characters | refused | up to [`MAX_LINE_BYTES`] |
-//!
-//! [`Program`] gives the items of a program for motion, and ends at the first finding. [`check`]
-//! reads a program to its end and lists all findings.
+//! # Example
 //!
 //! ```
 //! use glidepath_gcode::{Options, Program, check};
@@ -85,71 +48,37 @@
 //! assert_eq!(items?.len(), 2);
 //!
 //! let report = check("G1 X1.2.3 F100\n".as_bytes(), Options::default());
-//! let finding = &report.diagnostics[0];
-//! assert_eq!((finding.line, finding.column, finding.code.as_str()), (1, 5, "malformed-number"));
+//! let first = &report.diagnostics[0];
+//! assert_eq!((first.line, first.column), (1, 5));
+//! assert_eq!(first.code.as_str(), "malformed-number");
 //! # Ok::<(), glidepath_gcode::Diagnostic>(())
 //! ```
 
-mod arc;
-mod auxiliary;
-mod axis_words;
-mod bad_byte;
-mod block;
 mod check;
-mod codes;
-mod compensation;
-mod contour;
-mod cursor;
-mod cycle;
 mod diagnostic;
-mod dialect;
-mod expression;
-mod finding_code;
-mod flow;
-mod flow_run;
-mod flow_word;
-mod input_output;
-mod interpreter;
-mod letters;
-mod load;
-mod modal;
-mod modes;
-mod moves;
-mod offsets;
-mod once;
-mod operation;
-mod options;
-mod parameters;
-mod place;
-mod plain;
-mod plain_move;
-mod polar;
-mod probe;
-mod program;
-mod refused;
-mod saved_state;
-mod source;
-mod spindle;
-mod spline;
-mod subroutine_file;
-mod survey;
-mod tool;
-mod tool_table;
-mod totals;
-mod words;
+mod execute;
+pub mod language;
+mod setup;
+mod summary;
+mod syntax;
 
-pub use check::{Findings, MAX_FINDINGS, Report, check, findings};
-pub use cursor::MAX_NUMBER;
-pub use diagnostic::{Code, Diagnostic, Excerpt};
-pub use dialect::Dialect;
-pub use modal::{Feed, Modal};
-pub use modes::{
-    Contour, Cycle, Distance, FeedMode, Motion, Pockets, Probe, Retract, Spline, Units,
+pub use check::{Diagnostics, Report, check, diagnostics};
+pub use diagnostic::code::DiagnosticCode;
+pub use diagnostic::excerpt::Excerpt;
+pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS};
+pub use execute::program::Program;
+pub use execute::state::modal::{Feed, Modal};
+pub use setup::machine::{Machine, Travel};
+pub use setup::options::{Connections, LoopLimits, Options};
+pub use setup::subroutine_file::{
+    MAX_SUBROUTINE_BYTES, NoSubroutineFile, SubroutineFile, Subroutines,
 };
-pub use options::{Connections, LoopLimits, Machine, Options, Travel};
-pub use program::Program;
-pub use source::MAX_LINE_BYTES;
-pub use subroutine_file::{MAX_SUBROUTINE_BYTES, NoSubroutineFile, SubroutineFile, Subroutines};
-pub use survey::{Corner, Survey};
-pub use tool_table::{MAX_TOOLS, Tool, ToolTable};
-pub use totals::Totals;
+pub use setup::tool_table::{MAX_TOOLS, Tool, ToolTable};
+pub use summary::survey::{Corner, Survey};
+pub use summary::totals::Totals;
+pub use syntax::cursor::MAX_NUMBER;
+pub use syntax::dialect::Dialect;
+pub use syntax::line_source::MAX_LINE_BYTES;
+pub use syntax::modes::{
+    CannedCycle, Distance, FeedMode, LatheCycle, Motion, Pockets, Probe, Retract, Spline, Units,
+};

@@ -34,8 +34,8 @@ const OTHER_VERDICT: [(&str, bool, &str); 5] = [
     ("macro/mmount.ngc", false, SYNCHRONISED),
 ];
 
-/// What the makers of the expectations call no example to follow: a block that is lost, a byte order
-/// mark that is refused, a line that is too long for a buffer. Left out of what agrees.
+/// What the makers of the expectations call no example to follow: a block that is lost, a byte
+/// order mark that is refused, a line that is too long for a buffer. Left out of what agrees.
 const FAULTS: [&str; 3] = [
     "malformed/bom-crlf.nc",
     "malformed/nul-bytes.nc",
@@ -44,7 +44,7 @@ const FAULTS: [&str; 3] = [
 
 const SYNCHRONISED: &str = "G33.1 and G76 need the encoder of a spindle, which nothing reads here";
 
-/// First findings in another line than the reference's, each with the reason.
+/// First diagnostics in another line than the reference's, each with the reason.
 const OTHER_LINE: [(&str, u32, &str); 4] = [
     (
         "malformed/linuxcnc-bad-ccomp-gouging.ngc",
@@ -267,11 +267,11 @@ fn judge(name: &str, report: &Report, expected: &Value) -> Judged {
         let wanted = other.map_or(theirs, |(_, line, _)| Some(u64::from(*line)));
         *figures += u32::from(theirs.is_some());
         if other.is_some() {
-            found.push(format!("finding in {wanted:?}, expected {theirs:?}"));
+            found.push(format!("diagnostic in {wanted:?}, expected {theirs:?}"));
         }
         if wanted.is_some() && ours != wanted {
             failures.push(format!(
-                "{name}: first finding in {ours:?}, expected {wanted:?}"
+                "{name}: first diagnostic in {ours:?}, expected {wanted:?}"
             ));
         }
     } else if verdict && other.is_none() {

@@ -1,4 +1,4 @@
-//! Damaged programs, each with the findings it deserves.
+//! Damaged programs, each with the diagnostics it deserves.
 //!
 //! Runs where the environment variable `GLIDEPATH_CORPUS` names the directory of the programs; says
 //! so and passes where it does not.
@@ -19,12 +19,12 @@ fn corpus() -> Option<PathBuf> {
     directory
 }
 
-/// A finding: its line, its kind, and the text it points at, as the n-th such text of the line.
-type Finding = (u32, &'static str, &'static str, usize);
+/// A diagnostic: its line, its kind, and the text it points at, as the n-th such text of the line.
+type Diagnostic = (u32, &'static str, &'static str, usize);
 
-/// Every finding in the damaged programs. Text and number say where a reader of the file would point:
-/// the column is looked up in the file, not taken from a report.
-const FINDINGS: [(&str, &[Finding]); 30] = [
+/// Every diagnostic in the damaged programs. Text and number say where a reader of the file would
+/// point: the column is looked up in the file, not taken from a report.
+const FINDINGS: [(&str, &[Diagnostic]); 30] = [
     (
         "arcs-bad.nc",
         &[
@@ -207,7 +207,7 @@ fn column(bytes: &[u8], line: u32, text: &str, n: usize) -> u32 {
 }
 
 #[test]
-fn damaged_programs_get_the_findings_they_deserve() {
+fn damaged_programs_get_the_diagnostics_they_deserve() {
     let Some(directory) = corpus() else { return };
     let mut wrong = Vec::new();
     for (name, expected) in FINDINGS {
@@ -235,7 +235,7 @@ fn damaged_programs_get_the_findings_they_deserve() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Two findings that no text stands for: where the line is cut, and the first byte of the file.
+/// Two diagnostics that no text stands for: where the line is cut, and the first byte of the file.
 #[test]
 fn a_line_too_long_and_a_wrong_encoding_are_told_where_they_begin() {
     let Some(directory) = corpus() else { return };
@@ -243,8 +243,8 @@ fn a_line_too_long_and_a_wrong_encoding_are_told_where_they_begin() {
         let bytes = fs::read(directory.join("malformed").join(name)).expect("a damaged program");
         let report = check(bytes.as_slice(), Options::default());
         assert_eq!(report.diagnostics.len(), 1, "{name}");
-        let finding = report.diagnostics.first().expect("a finding");
-        (finding.line, finding.column, finding.code.as_str())
+        let diagnostic = report.diagnostics.first().expect("a diagnostic");
+        (diagnostic.line, diagnostic.column, diagnostic.code.as_str())
     };
     let beyond = u32::try_from(MAX_LINE_BYTES + 1).expect("a column");
     assert_eq!(first("long-line-100k.nc"), (4, beyond, "line-too-long"));

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use glidepath_gcode::{Connections, Dialect, Options, Program, Report, check};
 use glidepath_geometry::Axis;
 use glidepath_program::{ItemKind, PathMode, Rate};
-use support::findings;
+use support::listed;
 
 fn options(dialect: Dialect) -> Options {
     Options {
@@ -44,7 +44,7 @@ fn path(dialect: Dialect, text: &str) -> Vec<String> {
 #[track_caller]
 fn finds(dialect: Dialect, text: &str, expected: &[&str]) {
     let report = check(text.as_bytes(), options(dialect));
-    assert_eq!(findings(&report), expected, "{text}");
+    assert_eq!(listed(&report), expected, "{text}");
 }
 
 #[test]
@@ -228,7 +228,7 @@ fn programs_of_other_controls_are_read_or_refused_by_name() {
     ] {
         let (found, report) = judge(&directory, name);
         assert_eq!(found, dialect, "{name}");
-        let first = report.diagnostics.first().expect("a finding");
+        let first = report.diagnostics.first().expect("a diagnostic");
         if (first.line, first.code.as_str()) != (line, code) {
             others.push(format!("{name}: {first}"));
         }

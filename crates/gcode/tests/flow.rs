@@ -6,12 +6,13 @@ mod support;
 
 use glidepath_gcode::{Options, Program, check};
 use glidepath_program::ItemKind;
-use support::findings;
+use support::listed;
 
 /// X of the end of every move.
 fn path(text: &str) -> Vec<f64> {
     let program = Program::new(text.as_bytes(), Options::default());
-    let items = program.map(|item| item.unwrap_or_else(|finding| panic!("{text}\n{finding}")));
+    let items =
+        program.map(|item| item.unwrap_or_else(|diagnostic| panic!("{text}\n{diagnostic}")));
     let end = |kind: ItemKind| match kind {
         ItemKind::Move { segment, .. } => Some((segment.end()[0] * 1e9).round() / 1e9),
         _ => None,
@@ -27,7 +28,7 @@ fn goes(text: &str, expected: &[f64]) {
 #[track_caller]
 fn refuses(text: &str, expected: &str) {
     let report = check(text.as_bytes(), Options::default());
-    assert_eq!(findings(&report), [expected], "{text}");
+    assert_eq!(listed(&report), [expected], "{text}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! How many instructions a line takes: figures that other load on the host does not change.
 //!
-//! The test runs itself under callgrind, reading a program once and twice; the difference is what its
-//! lines took. It counts optimised code only, and is skipped without valgrind:
+//! The test runs itself under callgrind, reading a program once and twice; the difference is what
+//! its lines took. It counts optimised code only, and is skipped without valgrind:
 //!
 //! ```text
 //! cargo test --release -p glidepath-gcode --test instructions -- --nocapture
@@ -16,7 +16,7 @@
 mod counted;
 
 use counted::{cannot_count, counted, number};
-use glidepath_gcode::{Machine, Options, Program, Travel, check, findings};
+use glidepath_gcode::{Machine, Options, Program, Travel, check, diagnostics};
 use glidepath_geometry::Axis;
 use std::hint::black_box;
 
@@ -28,8 +28,8 @@ const TIMES: &str = "GLIDEPATH_COUNTED_TIMES";
 /// Lines of the program.
 const COUNTED: u32 = 10_000;
 
-/// What is counted: a line by its number, what is done with the program, and the most instructions of
-/// a line on average.
+/// What is counted: a line by its number, what is done with the program, and the most instructions
+/// of a line on average.
 struct Case {
     name: &'static str,
     line: fn(u32) -> String,
@@ -128,7 +128,7 @@ fn judge(text: &str) {
 
 fn find(text: &str) {
     assert_eq!(
-        black_box(findings(text.as_bytes(), options())).diagnostics,
+        black_box(diagnostics(text.as_bytes(), options())).diagnostics,
         []
     );
 }

@@ -1,4 +1,4 @@
-//! Lathe cycles (G70 to G72.2): passes by hand, and findings.
+//! Lathe cycles (G70 to G72.2): passes by hand, and diagnostics.
 
 #![allow(clippy::expect_used, reason = "a test")]
 
@@ -9,7 +9,7 @@ use std::fmt::Write;
 use glidepath_gcode::{Machine, Options, Program, Travel, check};
 use glidepath_geometry::{Axis, Segment};
 use glidepath_program::{ItemKind, Rate};
-use support::findings;
+use support::listed;
 
 /// A shaft: radius 5 from Z0 to Z-10, then a shoulder to radius 8.
 const SHAFT: &str = "G18 G21 G90 F100\nO100 sub\nG0 X5 Z0\nG1 Z-10\nX8\nO100 endsub\n";
@@ -22,7 +22,8 @@ fn program(head: &str, text: &str) -> String {
     format!("{head}G0 X20 Z2\n{text}\nM2\n")
 }
 
-/// Moves as short text: `r` rapid, `f` feed, `a` arc, with X and Z of the end; the first one left out.
+/// Moves as short text: `r` rapid, `f` feed, `a` arc, with X and Z of the end; the first one left
+/// out.
 fn moves(text: &str) -> String {
     let mut all = String::new();
     for item in Program::new(text.as_bytes(), Options::default()).skip(1) {
@@ -43,13 +44,13 @@ fn moves(text: &str) -> String {
 #[track_caller]
 fn finds(text: &str, place_and_code: &str) {
     let report = check(text.as_bytes(), Options::default());
-    assert_eq!(findings(&report), [place_and_code], "{text}");
+    assert_eq!(listed(&report), [place_and_code], "{text}");
 }
 
 #[test]
 fn turning_goes_layer_by_layer_and_ends_along_the_contour() {
-    // From X9, 2 at a time: 9, 7; 5.5 is the contour. The wall at Z-10 keeps 0.5. The way down is that
-    // from X9 Z2 to X5.5 Z0: at X7 it is at Z 2 - 2 · 2/3.5.
+    // From X9, 2 at a time: 9, 7; 5.5 is the contour. The wall at Z-10 keeps 0.5. The way down is
+    // that from X9 Z2 to X5.5 Z0: at X7 it is at Z 2 - 2 · 2/3.5.
     assert_eq!(
         moves(&program(SHAFT, "G71 Q100 X9 Z2 D.5 I2 R.5")),
         "r(9,2) f(9,-9.5) r(9.5,-9) r(9.5,1.5) r(9,2) \
@@ -78,8 +79,8 @@ fn pockets_are_cut_left_out_or_all_that_is_cut() {
         bar.trim_end(),
         "r(9,2) f(9,-12) r(9.2,-11.8) r(9.2,1.8) r(9,2) r(8,1)"
     );
-    // At X8 the groove is at its top, so the pass there is the last one over it; then 7. Its bottom is
-    // the contour itself.
+    // At X8 the groove is at its top, so the pass there is the last one over it; then 7. Its bottom
+    // is the contour itself.
     assert_eq!(
         groove,
         "f(8,-4) f(8,-8) r(8.2,-7.8) r(8.2,-4.2) f(8,-4) f(7,-4) f(7,-8) r(7.2,-7.8) r(7.2,-4.2) \

@@ -1,7 +1,7 @@
 //! Lathe cycles, move by move, against what an independent interpreter made of them.
 //!
-//! `tests/data/gcode/lathe_reference.json` holds random profiles with the moves LinuxCNC 2.9 made of
-//! them, X and Z with four decimals: kind, end, and of arcs the centre and the sense.
+//! `tests/data/gcode/lathe_reference.json` holds random profiles with the moves LinuxCNC 2.9 made
+//! of them, X and Z with four decimals: kind, end, and of arcs the centre and the sense.
 
 #![allow(clippy::expect_used, reason = "a test")]
 
@@ -96,8 +96,8 @@ fn theirs(program: &Value) -> Vec<Move> {
     moves.iter().map(to_move).collect()
 }
 
-/// Without moves too short to be seen, and with moves that go on along one line or circle joined: the
-/// interpreters cut them at different places.
+/// Without moves too short to be seen, and with moves that go on along one line or circle joined:
+/// the interpreters cut them at different places.
 fn joined(moves: &[Move]) -> Vec<Move> {
     const SEEN_MM: f64 = 3e-4;
     let mut found: Vec<Move> = Vec::new();

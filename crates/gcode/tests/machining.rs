@@ -10,7 +10,7 @@ use std::sync::Arc;
 use glidepath_gcode::{Connections, Machine, Options, Program, ToolTable, Travel, check};
 use glidepath_geometry::{Axis, Segment};
 use glidepath_program::{Event, ItemKind, Rate};
-use support::findings;
+use support::listed;
 
 fn options() -> Options {
     let table = b"T1 D2 Z10\nT2 D4 Z5 Q2\nT3 D-2\n";
@@ -52,9 +52,9 @@ fn items(text: &str) -> String {
 #[track_caller]
 fn finds(text: &str, place_and_code: &str) {
     let report = check(text.as_bytes(), options());
-    assert_eq!(findings(&report), [place_and_code], "{text}");
-    let finding = &report.diagnostics[0];
-    assert!(!finding.reason.is_empty(), "{finding}");
+    assert_eq!(listed(&report), [place_and_code], "{text}");
+    let diagnostic = &report.diagnostics[0];
+    assert!(!diagnostic.reason.is_empty(), "{diagnostic}");
 }
 
 #[test]

@@ -15,7 +15,7 @@ use glidepath_program::{Event, Item, ItemKind, PathMode, Rate};
 fn items(text: &str) -> Vec<Item> {
     let program = Program::new(text.as_bytes(), Options::default());
     program
-        .map(|item| item.unwrap_or_else(|finding| panic!("{text}: {finding}")))
+        .map(|item| item.unwrap_or_else(|diagnostic| panic!("{text}: {diagnostic}")))
         .collect()
 }
 
@@ -129,7 +129,7 @@ fn feedrates() {
         ..Options::default()
     };
     let mut program = Program::new("G1 X1".as_bytes(), options);
-    let item = program.next().expect("a move").expect("no finding");
+    let item = program.next().expect("a move").expect("no diagnostic");
     assert!(
         matches!(
             item.kind,

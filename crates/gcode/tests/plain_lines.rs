@@ -1,11 +1,12 @@
-//! Plain lines are read and executed in a way of their own: with the same outcome as any other line. An
-//! empty comment makes a line one that is not plain.
+//! Plain lines are read and executed in a way of their own: with the same outcome as any other
+//! line. An empty comment makes a line one that is not plain.
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use glidepath_gcode::{
-    Connections, Diagnostic, LoopLimits, Machine, Options, Program, Report, Travel, check, findings,
+    Connections, Diagnostic, LoopLimits, Machine, Options, Program, Report, Travel, check,
+    diagnostics,
 };
 use glidepath_geometry::Axis;
 use glidepath_program::Item;
@@ -42,21 +43,21 @@ fn commented(text: &str) -> String {
         .collect()
 }
 
-/// A finding without the text it is in: line, column, length, what it says.
+/// A diagnostic without the text it is in: line, column, length, what it says.
 type Place = (u32, u32, u32, String);
 
-fn place(finding: &Diagnostic) -> Place {
+fn place(diagnostic: &Diagnostic) -> Place {
     let Diagnostic {
         line,
         column,
         length,
         ..
-    } = *finding;
+    } = *diagnostic;
     (
         line,
         column,
         length,
-        format!("{} {}", finding.code, finding.message),
+        format!("{} {}", diagnostic.code, diagnostic.message),
     )
 }
 
@@ -65,7 +66,7 @@ fn items(text: &[u8]) -> (Vec<Item>, Option<Place>) {
     for item in Program::new(text, options()) {
         match item {
             Ok(item) => items.push(item),
-            Err(finding) => end = Some(place(&finding)),
+            Err(diagnostic) => end = Some(place(&diagnostic)),
         }
     }
     (items, end)
@@ -89,7 +90,7 @@ fn compare(text: &str) {
         )
     };
     assert_eq!(rest(&plain), rest(&general));
-    let found = findings(text.as_bytes(), options());
+    let found = diagnostics(text.as_bytes(), options());
     assert_eq!(
         (found.diagnostics, found.more),
         (plain.diagnostics, plain.more)
@@ -184,7 +185,7 @@ fn moves_that_are_only_judged_are_moves_of_a_loop() {
     let options = Options { loops, ..options() };
     let report = check(text.as_bytes(), options.clone());
     assert!(report.is_accepted() && !report.complete);
-    let found = findings(text.as_bytes(), options);
+    let found = diagnostics(text.as_bytes(), options);
     assert_eq!(found.diagnostics, []);
 }
 

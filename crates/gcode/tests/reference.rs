@@ -47,7 +47,7 @@ fn ours(text: &str) -> (Option<String>, Vec<Move>) {
     for item in Program::new(text.as_bytes(), options) {
         let Item { kind, .. } = match item {
             Ok(item) => item,
-            Err(finding) => return (Some(finding.to_string()), moves),
+            Err(diagnostic) => return (Some(diagnostic.to_string()), moves),
         };
         let ItemKind::Move { segment, rate, .. } = kind else {
             continue;
@@ -187,11 +187,11 @@ fn moves_are_those_of_the_reference() {
         if OTHER.iter().any(|(other, _)| *other == name) {
             continue;
         }
-        let (finding, moves) = ours(text);
+        let (diagnostic, moves) = ours(text);
         let accepted = program["accepted"] == true;
-        if finding.is_none() != accepted {
+        if diagnostic.is_none() != accepted {
             failures.push(format!(
-                "{name}: {finding:?}, expected {}\n{text}",
+                "{name}: {diagnostic:?}, expected {}\n{text}",
                 program["error"]
             ));
         } else if accepted {

@@ -4,13 +4,13 @@ mod support;
 
 use glidepath_gcode::{Dialect, Options, Program, check};
 use glidepath_program::{Event, ItemKind, PathMode, Rate};
-use support::findings;
+use support::listed;
 
 /// What a program does: ends of moves in X and Z with their feedrate in mm/min, and events.
 fn items(text: &str) -> String {
     let program = Program::new(text.as_bytes(), Options::default());
     let shown = program.map(|item| match item {
-        Err(finding) => finding.to_string(),
+        Err(diagnostic) => diagnostic.to_string(),
         Ok(item) => match item.kind {
             ItemKind::Move { segment, rate, .. } => {
                 let end = segment.end();
@@ -32,7 +32,7 @@ fn items(text: &str) -> String {
 #[track_caller]
 fn finds(text: &str, expected: &str) {
     let report = check(text.as_bytes(), Options::default());
-    let found = findings(&report);
+    let found = listed(&report);
     assert_eq!(found.first().map(String::as_str), Some(expected), "{text}");
 }
 
@@ -197,7 +197,7 @@ fn other_controls_have_other_meanings() {
         let found = report
             .diagnostics
             .first()
-            .map(|finding| finding.code.as_str());
+            .map(|diagnostic| diagnostic.code.as_str());
         assert_eq!(found, Some("not-supported"), "{text}");
     }
 }

@@ -18,7 +18,7 @@ const SAMPLES: u32 = 32;
 fn path(text: &str) -> (Vec<AxisVector>, Vec<f64>) {
     let (mut points, mut feeds) = (Vec::new(), Vec::new());
     for item in Program::new(text.as_bytes(), Options::default()) {
-        let item = item.unwrap_or_else(|finding| panic!("{finding:?}\n{text}"));
+        let item = item.unwrap_or_else(|diagnostic| panic!("{diagnostic:?}\n{text}"));
         if let ItemKind::Move {
             segment,
             rate: Rate::Feed(feed_v),
@@ -40,9 +40,9 @@ fn path(text: &str) -> (Vec<AxisVector>, Vec<f64>) {
     (points, feeds)
 }
 
-fn finding(text: &str) -> String {
+fn diagnostic(text: &str) -> String {
     let report = check(text.as_bytes(), Options::default());
-    let first = report.diagnostics.first().expect("a finding");
+    let first = report.diagnostics.first().expect("a diagnostic");
     format!(
         "{}:{} {} {}",
         first.line,
@@ -231,7 +231,7 @@ fn what_is_no_spline_is_refused() {
         ),
     ];
     for (text, expected) in refused {
-        let actual = finding(text);
+        let actual = diagnostic(text);
         assert!(actual.starts_with(expected), "{text}\n{actual}\n{expected}");
     }
 }
@@ -239,7 +239,7 @@ fn what_is_no_spline_is_refused() {
 #[test]
 fn a_program_that_ends_inside_a_nurbs_is_refused() {
     let report = check("F9\nG5.2 X1 Y1\nX2 Y2\n".as_bytes(), Options::default());
-    let last = report.diagnostics.last().expect("a finding");
+    let last = report.diagnostics.last().expect("a diagnostic");
     assert_eq!(last.message, "the NURBS begun in line 2 is not complete");
     assert!(report.totals.straight_feeds == 0);
 }

@@ -39,7 +39,8 @@ fn options(files: &[(&str, &str)]) -> Options {
 /// Line and X of the end of every move.
 fn path(text: &str, options: Options) -> Vec<(u32, f64)> {
     let program = Program::new(text.as_bytes(), options);
-    let items = program.map(|item| item.unwrap_or_else(|finding| panic!("{text}\n{finding}")));
+    let items =
+        program.map(|item| item.unwrap_or_else(|diagnostic| panic!("{text}\n{diagnostic}")));
     let end = |item: glidepath_program::Item| match item.kind {
         ItemKind::Move { segment, .. } => Some((item.line, segment.end()[0])),
         _ => None,
@@ -138,11 +139,11 @@ fn a_file_is_read_once() {
 }
 
 #[test]
-fn findings_name_the_file_they_are_in() {
+fn diagnostics_name_the_file_they_are_in() {
     let with = |text| options(&[("a.ngc", text)]);
     let block = "G21\no<a> sub\nG0 X1.2.3\no<a> endsub";
-    let finding = finds("\no<a> call", with(block), "lib/a.ngc:3:5 malformed-number");
-    assert!(finding.to_string().starts_with("lib/a.ngc:3:5: error["));
+    let diagnostic = finds("\no<a> call", with(block), "lib/a.ngc:3:5 malformed-number");
+    assert!(diagnostic.to_string().starts_with("lib/a.ngc:3:5: error["));
     let cycle = "o<a> sub\no5 sub\no<a> endsub";
     finds("o<a> call", with(cycle), "lib/a.ngc:2:1 flow-structure");
     let open = "o<a> sub\no2 if [1]\no<a> endsub";
@@ -183,11 +184,11 @@ fn what_cannot_be_called_is_refused_at_the_call() {
     for name in ["../a", "sub/a", "/etc/a", "..", ".a", "a\\b", ""] {
         let climbing = options(&[("../a.ngc", "o<../a> sub\no<../a> endsub")]);
         let text = format!("o<{name}> call");
-        let finding = finds(&text, climbing, "-:1:1 unknown-subroutine");
+        let diagnostic = finds(&text, climbing, "-:1:1 unknown-subroutine");
         assert!(
-            finding.message.contains("file's name"),
+            diagnostic.message.contains("file's name"),
             "{}",
-            finding.message
+            diagnostic.message
         );
     }
     let huge = "\n".repeat(MAX_SUBROUTINE_BYTES + 1);
@@ -223,9 +224,9 @@ fn the_depth_of_calls_and_the_length_of_loops_are_bounded() {
     )]);
     endless.loops.idle_lines = 1000;
     let report = check("o<a> call".as_bytes(), endless);
-    let finding = report.diagnostics.first().unwrap();
-    assert_eq!(finding.code.as_str(), "endless-loop");
-    assert_eq!(finding.file.as_deref(), Some("lib/a.ngc"));
+    let diagnostic = report.diagnostics.first().unwrap();
+    assert_eq!(diagnostic.code.as_str(), "endless-loop");
+    assert_eq!(diagnostic.file.as_deref(), Some("lib/a.ngc"));
 }
 
 #[test]

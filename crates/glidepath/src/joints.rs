@@ -7,7 +7,7 @@
 //! the same, it is refused before anything moves.
 
 use crate::config::MachineConfig;
-use glidepath_gcode::{Code, Diagnostic};
+use glidepath_gcode::{Diagnostic, DiagnosticCode};
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_kinematics::{
     JointFault, JointWatch, Kinematics as _, KinematicsError, Mechanism, Quantity,
@@ -201,7 +201,7 @@ fn diagnostic(
         ..Diagnostic::in_text(
             &text,
             whole,
-            Code::Joint,
+            DiagnosticCode::Joint,
             format!("{fault}, at {}", at.join(" ")),
             help.to_owned(),
         )

@@ -9,7 +9,7 @@
 //! where it rests.
 
 use glidepath_curve::{ChordRule, Chords, CurveError, CurveFile, ShapeKey};
-use glidepath_gcode::{Code, Diagnostic, Options, Report};
+use glidepath_gcode::{Diagnostic, DiagnosticCode, Options, Report};
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_program::{PathMode, Rate, Settings};
 
@@ -49,7 +49,9 @@ impl CurveSource {
         let file = CurveFile::parse(&text).map_err(|diagnostics| {
             diagnostics
                 .into_iter()
-                .map(|f| Diagnostic::in_text(&text, f.at, Code::CurveFile, f.message, f.help))
+                .map(|f| {
+                    Diagnostic::in_text(&text, f.at, DiagnosticCode::CurveFile, f.message, f.help)
+                })
                 .collect::<Vec<_>>()
         })?;
         let missing = [Axis::X, Axis::Y, Axis::Z].map(|axis| (!options.machine.has(axis), axis));
@@ -57,7 +59,7 @@ impl CurveSource {
             let message = format!("the machine has no axis {axis}, along which a curve runs");
             return Err(vec![find(
                 0..0,
-                Code::Curve,
+                DiagnosticCode::Curve,
                 message,
                 "choose another machine",
             )]);
@@ -65,7 +67,7 @@ impl CurveSource {
         let Some(feed_mm_min) = file.feed_mm_min.or(options.default_feed_mm_min) else {
             let message = "the curve has no feedrate".to_owned();
             let help = "add `feed = …` (mm/min)";
-            return Err(vec![find(0..0, Code::MissingFeed, message, help)]);
+            return Err(vec![find(0..0, DiagnosticCode::MissingFeed, message, help)]);
         };
         let tolerance_mm = file.tolerance_mm.unwrap_or(settings.tolerance_mm);
         let error_mm = CHORD_SHARE * tolerance_mm;
@@ -137,7 +139,7 @@ fn cannot_follow(text: &str, file: &CurveFile, error: &CurveError) -> Diagnostic
     Diagnostic::in_text(
         text,
         file.place(key),
-        Code::Curve,
+        DiagnosticCode::Curve,
         error.to_string(),
         help.to_owned(),
     )

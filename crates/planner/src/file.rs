@@ -5,7 +5,7 @@ use std::io::{self, BufReader, Read as _};
 use std::path::Path;
 
 use glidepath_curve::NurbsFile;
-use glidepath_gcode::{Findings, Options, Report, check, findings};
+use glidepath_gcode::{Diagnostics, Options, Report, check, diagnostics};
 use glidepath_program::Settings;
 
 use crate::{CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Supply};
@@ -117,13 +117,13 @@ pub fn check_file(path: &Path, options: Options, settings: &Settings) -> io::Res
 ///
 /// # Errors
 /// The file cannot be read.
-pub fn find_in_file(path: &Path, options: Options, settings: &Settings) -> io::Result<Findings> {
+pub fn find_in_file(path: &Path, options: Options, settings: &Settings) -> io::Result<Diagnostics> {
     if !is_curve(path) {
         let file = File::open(path)?;
-        return Ok(findings(BufReader::with_capacity(BUFFER, file), options));
+        return Ok(diagnostics(BufReader::with_capacity(BUFFER, file), options));
     }
     let report = check_file(path, options, settings)?;
-    Ok(Findings {
+    Ok(Diagnostics {
         diagnostics: report.diagnostics,
         more: report.more,
         lines: report.totals.lines,

@@ -1,6 +1,6 @@
 //! What the moves of all curve files have in common, whatever kind of curve makes them.
 
-use glidepath_gcode::{Code, Diagnostic, Options, Report, Survey, Totals};
+use glidepath_gcode::{Diagnostic, DiagnosticCode, Options, Report, Survey, Totals};
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_program::{Item, ItemKind, PathMode, Rate};
 
@@ -76,7 +76,7 @@ impl FileMoves {
                 return Err(Box::new(Diagnostic::in_text(
                     &self.text,
                     self.place.clone(),
-                    Code::SoftLimit,
+                    DiagnosticCode::SoftLimit,
                     format!("the curve goes to {axis}{value:.3}, outside the axis' travel"),
                     format!(
                         "keep the curve between {axis}{} and {axis}{}",

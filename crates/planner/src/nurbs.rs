@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 
 use glidepath_curve::NurbsFile;
-use glidepath_gcode::{Code, Diagnostic, Options, Report};
+use glidepath_gcode::{Diagnostic, DiagnosticCode, Options, Report};
 use glidepath_geometry::{AXES, Axis, AxisVector, Nurbs, NurbsPath, Segment};
 use glidepath_program::{PathMode, Rate, Settings};
 
@@ -46,7 +46,7 @@ impl NurbsSource {
             Box::new(Diagnostic::in_text(
                 &text,
                 f.at,
-                Code::CurveFile,
+                DiagnosticCode::CurveFile,
                 f.message,
                 f.help,
             ))
@@ -71,19 +71,23 @@ impl NurbsSource {
             moves && !options.machine.has(*axis)
         }) {
             let message = format!("the machine has no axis {axis}, along which the curve runs");
-            return Err(fault(Code::Curve, message, "choose another machine"));
+            return Err(fault(
+                DiagnosticCode::Curve,
+                message,
+                "choose another machine",
+            ));
         }
         let Some(feed_mm_min) = file.feed_mm_min.or(options.default_feed_mm_min) else {
             let help = "add `feed`, in mm/min, or configure a default";
             return Err(fault(
-                Code::MissingFeed,
+                DiagnosticCode::MissingFeed,
                 "the curve has no feedrate".to_owned(),
                 help,
             ));
         };
         let curve = with_others(&file, &options.start).map_err(|error| {
             fault(
-                Code::Curve,
+                DiagnosticCode::Curve,
                 error.to_string(),
                 "keep the curve near the machine",
             )

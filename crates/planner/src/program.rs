@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 
-use glidepath_gcode::{Options, Program, Subroutines, findings};
+use glidepath_gcode::{Options, Program, Subroutines, diagnostics};
 
 use crate::fingerprint::Fingerprinting;
 use crate::{ItemSource, Refusal, Supply};
@@ -46,7 +46,7 @@ impl ProgramSource<BufReader<File>> {
     pub fn open(path: &Path, options: Options) -> Result<Self, Refusal> {
         let mut file = File::open(path)?;
         let mut reader = Fingerprinting::new(&mut file);
-        let found = findings(
+        let found = diagnostics(
             BufReader::with_capacity(BUFFER, &mut reader),
             options.clone(),
         );

@@ -10,7 +10,7 @@ mod support;
 
 use glidepath_audit::{Audit, AuditSettings};
 use glidepath_curve::{ImplicitCurve, ParametricCurve};
-use glidepath_gcode::{Code, Diagnostic, Machine, Options, Travel};
+use glidepath_gcode::{Diagnostic, DiagnosticCode, Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_planner::{CurveSource, Output, Pipeline};
 use glidepath_program::Frame;
@@ -163,16 +163,16 @@ fn findings_have_line_and_column() {
     let wrong = refused(&VIVIANI.replace("x - 20", "x - a"), Options::default());
     assert_eq!(
         (wrong.code, wrong.line, wrong.column),
-        (Code::CurveFile, 3, 11)
+        (DiagnosticCode::CurveFile, 3, 11)
     );
     assert_eq!(wrong.excerpt.text, "g = \"(x - a)^2 + y^2 - 400\"");
     let off = refused(&VIVIANI.replace("28.2843", "29.0"), Options::default());
-    assert_eq!((off.code, off.line), (Code::Curve, 4));
+    assert_eq!((off.code, off.line), (DiagnosticCode::Curve, 4));
     let no_feed = refused(&VIVIANI.replace("feed = 3000.0\n", ""), Options::default());
-    assert_eq!(no_feed.code, Code::MissingFeed);
+    assert_eq!(no_feed.code, DiagnosticCode::MissingFeed);
     // sqrt becomes undefined in the middle of the curve.
     let half = refused(&CYLINDERS.replace("400 -", "200 -"), Options::default());
-    assert_eq!((half.code, half.line), (Code::Curve, 2));
+    assert_eq!((half.code, half.line), (DiagnosticCode::Curve, 2));
     let machine = Machine::new(&[Axis::X, Axis::Y]);
     let flat = refused(
         CYLINDERS,
@@ -196,7 +196,7 @@ fn findings_have_line_and_column() {
             ..Options::default()
         },
     );
-    assert_eq!(outside.code, Code::SoftLimit);
+    assert_eq!(outside.code, DiagnosticCode::SoftLimit);
     assert!(outside.message.contains("Y-10"), "{}", outside.message);
 }
 

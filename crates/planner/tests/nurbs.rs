@@ -9,7 +9,7 @@
 mod support;
 
 use glidepath_audit::{Audit, AuditSettings};
-use glidepath_gcode::{Code, Diagnostic, Machine, Options, Program, Travel};
+use glidepath_gcode::{Diagnostic, DiagnosticCode, Machine, Options, Program, Travel};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_motion::Planner;
 use glidepath_planner::{ItemSource, NurbsSource, Output, Pipeline, Supply};
@@ -158,21 +158,21 @@ fn findings_have_a_place_and_a_remedy() {
         )
     };
     let (line, column, code, message) = place(&ARCH.replace("0.5", "-0.5"));
-    assert_eq!((line, column, code), (5, 17, Code::CurveFile));
+    assert_eq!((line, column, code), (5, 17, DiagnosticCode::CurveFile));
     assert_eq!(message, "weight 1 is -0.5: weights are greater than zero");
     let (line, _, code, _) =
         place(&ARCH.replace("0.0, 1.0, 1.0, 1.0, 1.0", "0.0, 1.0, 0.5, 1.0, 1.0"));
-    assert_eq!((line, code), (6, Code::CurveFile));
+    assert_eq!((line, code), (6, DiagnosticCode::CurveFile));
     let (line, _, code, message) = place(&ARCH.replace("degree = 3", "degree = 7"));
-    assert_eq!((line, code), (4, Code::CurveFile), "{message}");
+    assert_eq!((line, code), (4, DiagnosticCode::CurveFile), "{message}");
     let (line, _, code, _) = place(&ARCH.replace("feed = 3000.0\n", ""));
-    assert_eq!((line, code), (3, Code::MissingFeed));
+    assert_eq!((line, code), (3, DiagnosticCode::MissingFeed));
     let (line, _, code, _) = place(&ARCH.replace("\"nurbs\"", "\"spiral\""));
-    assert_eq!((line, code), (1, Code::CurveFile));
+    assert_eq!((line, code), (1, DiagnosticCode::CurveFile));
     let (line, _, code, _) = place(
         "{\"degree\": 1,\n \"control_points\": [[0, 0], [1, 0]],\n \"knots\": [0, 0, 1, 0.5]}",
     );
-    assert_eq!((line, code), (3, Code::CurveFile));
+    assert_eq!((line, code), (3, DiagnosticCode::CurveFile));
 }
 
 #[test]
@@ -191,7 +191,10 @@ fn the_machine_must_have_the_axes_and_the_travel() {
             ..Options::default()
         },
     );
-    assert_eq!((diagnostic.code, diagnostic.line), (Code::SoftLimit, 4));
+    assert_eq!(
+        (diagnostic.code, diagnostic.line),
+        (DiagnosticCode::SoftLimit, 4)
+    );
     let flat = Machine::new(&[Axis::X]);
     let diagnostic = refused(
         ARCH,
@@ -200,7 +203,7 @@ fn the_machine_must_have_the_axes_and_the_travel() {
             ..Options::default()
         },
     );
-    assert_eq!(diagnostic.code, Code::Curve);
+    assert_eq!(diagnostic.code, DiagnosticCode::Curve);
     assert!(
         diagnostic.message.contains("no axis Y"),
         "{}",

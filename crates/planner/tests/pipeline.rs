@@ -11,7 +11,7 @@ mod support;
 use std::io::Write;
 use std::time::Duration;
 
-use glidepath_gcode::{Code, Options};
+use glidepath_gcode::{DiagnosticCode, Options};
 use glidepath_geometry::AxisVector;
 use glidepath_motion::PlanError;
 use glidepath_planner::{
@@ -113,7 +113,13 @@ fn a_file_with_errors_is_refused_with_all_of_them() {
             unlisted: 0,
         }) => {
             let found: Vec<_> = diagnostics.iter().map(|f| (f.line, f.code)).collect();
-            assert_eq!(found, [(2, Code::DuplicateWord), (4, Code::UnknownGCode)]);
+            assert_eq!(
+                found,
+                [
+                    (2, DiagnosticCode::DuplicateWord),
+                    (4, DiagnosticCode::UnknownGCode)
+                ]
+            );
         }
         other => panic!("{other:?}"),
     }

@@ -1,4 +1,4 @@
-//! Any line is read in every language, and findings lie in it.
+//! Any line is read in every language, and diagnostics lie in it.
 #![no_main]
 
 use glidepath_gcode::{Connections, Dialect, MAX_NUMBER, Options, check};
@@ -25,12 +25,12 @@ fuzz_target!(|bytes: &[u8]| {
         };
         let report = check(program.as_slice(), options);
         assert!(report.final_position.iter().all(|p| p.abs() <= MAX_NUMBER));
-        for finding in &report.diagnostics {
-            assert!((1..=4).contains(&finding.line), "{finding:?}");
-            let length = if finding.line == 2 { line.len() } else { 13 };
-            assert!(finding.column as usize <= length + 1, "{finding:?}");
-            let shown = finding.excerpt.text.chars().count();
-            assert!(finding.excerpt.caret <= shown.max(1), "{finding:?}");
+        for diagnostic in &report.diagnostics {
+            assert!((1..=4).contains(&diagnostic.line), "{finding:?}");
+            let length = if diagnostic.line == 2 { line.len() } else { 13 };
+            assert!(diagnostic.column as usize <= length + 1, "{finding:?}");
+            let shown = diagnostic.excerpt.text.chars().count();
+            assert!(diagnostic.excerpt.caret <= shown.max(1), "{finding:?}");
         }
     }
 });

@@ -62,8 +62,8 @@ fuzz_target!(|bytes: &[u8]| {
                 ItemKind::Dwell(seconds) => assert!(seconds >= 0.0),
                 ItemKind::Event(_) => {}
             },
-            Err(finding) if report.complete => {
-                assert_eq!(report.diagnostics.first(), Some(&finding));
+            Err(diagnostic) if report.complete => {
+                assert_eq!(report.diagnostics.first(), Some(&diagnostic));
             }
             Err(_) => {}
         }

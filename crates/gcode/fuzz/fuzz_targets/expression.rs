@@ -14,10 +14,10 @@ fuzz_target!(|bytes: &[u8]| {
         program.extend_from_slice(b"\nG0 Y#1\n");
         let report = check(program.as_slice(), Options::default());
         assert!(report.final_position.iter().all(|p| p.abs() <= MAX_NUMBER));
-        for finding in &report.diagnostics {
-            assert!(finding.line >= 1 && finding.line <= 4);
-            let shown = finding.excerpt.text.chars().count();
-            assert!(finding.excerpt.caret <= shown.max(1), "{finding:?}");
+        for diagnostic in &report.diagnostics {
+            assert!(diagnostic.line >= 1 && diagnostic.line <= 4);
+            let shown = diagnostic.excerpt.text.chars().count();
+            assert!(diagnostic.excerpt.caret <= shown.max(1), "{finding:?}");
         }
     }
 });

@@ -7,6 +7,6 @@ use libfuzzer_sys::fuzz_target;
 fuzz_target!(|bytes: &[u8]| {
     match ToolTable::parse(bytes) {
         Ok(table) => assert!(table.len() <= MAX_TOOLS),
-        Err(findings) => assert!(!findings.is_empty()),
+        Err(diagnostics) => assert!(!diagnostics.is_empty()),
     }
 });

@@ -2,8 +2,8 @@
 
 use glidepath_gcode::Report;
 
-/// `line:column code` of every finding.
-pub(crate) fn findings(report: &Report) -> Vec<String> {
+/// `line:column code` of every diagnostic.
+pub(crate) fn listed(report: &Report) -> Vec<String> {
     report
         .diagnostics
         .iter()

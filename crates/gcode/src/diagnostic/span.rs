@@ -1,0 +1,17 @@
+//! Where in a line something stands.
+
+/// A stretch of a line, in bytes from its start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Span {
+    pub(crate) start: usize,
+    pub(crate) length: usize,
+}
+
+impl Span {
+    pub(crate) const fn new(start: usize, end: usize) -> Self {
+        Self {
+            start,
+            length: end.saturating_sub(start),
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! What a block does beside its motion: feed, spindle, tools, overrides, inputs and outputs,
+//! offsets.
+
+mod feed;
+mod input_output;
+mod non_modal;
+mod order;
+mod overrides;
+mod saved_state;
+mod spindle;
+mod tool;

@@ -1,0 +1,113 @@
+//! Codes that act once (group 0): coordinate systems, offsets, reference positions.
+
+use glidepath_geometry::AxisVector;
+use glidepath_program::Item;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+use crate::execute::block_words::require_axes;
+use crate::execute::interpreter::Interpreter;
+use crate::execute::state::offsets::overlay;
+use crate::syntax::block::Block;
+use crate::syntax::codes::Coded;
+use crate::syntax::modes::{Distance, Motion, NonModal};
+use crate::syntax::word_check::{missing, unused, whole};
+
+impl Interpreter {
+    pub(crate) fn act_non_modal(
+        &mut self,
+        block: &Block,
+        non_modal: Coded<NonModal>,
+        motion: Option<Motion>,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let position = self.state.position;
+        match non_modal.code {
+            // The dwell comes earlier, the machine coordinates with the motion.
+            NonModal::Dwell => {}
+            NonModal::MachineCoordinates => {
+                self.check_machine_coordinates(non_modal.span, motion)?;
+            }
+            NonModal::SetData => self.set_data(block, non_modal.span)?,
+            NonModal::GoToReference(index) => self.go_to_reference(block, index, out)?,
+            NonModal::SetReference(index) => {
+                if let Some(reference) = self.offsets.reference.get_mut(index) {
+                    *reference = position;
+                }
+            }
+            NonModal::LocalOffset => {
+                let values = self.axis_values(block)?;
+                require_axes(block, non_modal.span, "G52")?;
+                self.offsets.shift = overlay(self.offsets.shift, &values);
+                self.offsets.saved_shift = self.offsets.shift;
+            }
+            NonModal::SetOffset => {
+                let values = self.axis_values(block)?;
+                require_axes(block, non_modal.span, "G92")?;
+                self.offsets.set_shift(position, &values);
+            }
+            NonModal::ClearOffset => {
+                self.offsets.shift = AxisVector::zeros();
+                self.offsets.saved_shift = AxisVector::zeros();
+            }
+            NonModal::SuspendOffset => self.offsets.shift = AxisVector::zeros(),
+            NonModal::RestoreOffset => self.offsets.shift = self.offsets.saved_shift,
+        }
+        Ok(())
+    }
+
+    fn check_machine_coordinates(&self, span: Span, motion: Option<Motion>) -> Outcome<()> {
+        let fault = |message: &str| Fault::new(DiagnosticCode::MachineCoordinates, span, message);
+        match motion {
+            Some(Motion::Rapid | Motion::Linear) => {}
+            _ => {
+                return Err(fault("G53 without a straight move")
+                    .because("machine coordinates hold for one G0 or G1 block")
+                    .help("write G0 or G1 and the axis words into this block"));
+            }
+        }
+        if self.state.modal.distance == Distance::Incremental {
+            return Err(fault("G53 with incremental distances (G91)")
+                .because("machine coordinates are absolute")
+                .help("write G90 into this block"));
+        }
+        Ok(())
+    }
+
+    /// G10.
+    fn set_data(&mut self, block: &Block, span: Span) -> Outcome<()> {
+        let kind = whole(block, b'L', 99)?.ok_or_else(|| {
+            let meaning = "2 or 20 for a coordinate system, 1, 10 or 11 for a tool";
+            missing(span, "G10", "L", meaning)
+        })?;
+        match kind {
+            2 | 20 => {}
+            1 | 10 | 11 => return self.set_tool(block, kind, span),
+            _ => {
+                let message = format!("G10 L{kind} is not supported");
+                return Err(
+                    Fault::new(DiagnosticCode::NotSupported, block.span(b'L'), message).because(
+                        "coordinate systems (L2, L20) and tools (L1, L10, L11) can be set",
+                    ),
+                );
+            }
+        }
+        let system = whole(block, b'P', 9)?
+            .ok_or_else(|| missing(span, "G10", "P", "the coordinate system, 1 for G54"))?;
+        let index = usize::try_from(system).unwrap_or_default();
+        let index = index.checked_sub(1).unwrap_or(self.offsets.active);
+        let values = self.axis_values(block)?;
+        if kind == 20 {
+            if block.get(b'R').is_some() {
+                return Err(unused('R', block.span(b'R')));
+            }
+            self.offsets
+                .set_current(index, self.state.position, &values);
+        } else if let Some(slot) = self.offsets.systems.get_mut(index) {
+            slot.origin = overlay(slot.origin, &values);
+            slot.rotation_deg = block.get(b'R').unwrap_or(slot.rotation_deg);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,66 @@
+//! What a block does beside its motion, in order: speed, tool, M codes, dwell.
+
+use glidepath_program::{Event, Item, ItemKind};
+
+use crate::diagnostic::fault::Outcome;
+use crate::execute::interpreter::Interpreter;
+use crate::execute::state::coolant::Coolant;
+use crate::execute::state::spindle::SpindleDirection;
+use crate::syntax::block::Block;
+use crate::syntax::codes::Coded;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::modes::NonModal;
+use crate::syntax::word_check::{missing, negative};
+
+impl Interpreter {
+    /// S, T, tool change, spindle, coolant, overrides, inputs and outputs, dwell.
+    pub(crate) fn auxiliary(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        self.spindle_speed(block, out)?;
+        self.select_tool(block, out)?;
+        let codes = &block.codes;
+        if let Some(Coded { code, .. }) = codes.spindle {
+            self.state.spindle.turning = match code {
+                3 => Some(SpindleDirection::Clockwise),
+                4 => Some(SpindleDirection::Counterclockwise),
+                _ => None,
+            };
+        }
+        if let Some(Coded { code, .. }) = codes.coolant {
+            let coolant = &mut self.state.coolant;
+            match code {
+                7 => coolant.mist = true,
+                8 => coolant.flood = true,
+                _ => *coolant = Coolant::default(),
+            }
+        }
+        for Coded { code, .. } in [codes.spindle, codes.coolant].into_iter().flatten() {
+            self.push(out, ItemKind::Event(Event::MCode(code)));
+        }
+        self.overrides(block, out)?;
+        self.saved_state(block, out)?;
+        self.input_output(block, out)?;
+        if let Some(Coded {
+            code: NonModal::Dwell,
+            span,
+        }) = codes.non_modal
+        {
+            let seconds =
+                dwell_seconds(block).ok_or_else(|| missing(span, "G4", "P", "how long"))?;
+            if seconds < 0.0 {
+                return Err(negative(block, b'P', "the dwell"));
+            }
+            self.push(out, ItemKind::Dwell(seconds));
+        }
+        Ok(())
+    }
+}
+
+/// Seconds of a G4: milliseconds in the P word of printers and FANUC, seconds in their S and X.
+fn dwell_seconds(block: &Block) -> Option<f64> {
+    let milliseconds = || block.get(b'P').map(|p| 1e-3 * p);
+    match block.dialect {
+        Dialect::LinuxCnc | Dialect::Siemens => block.get(b'P'),
+        Dialect::Marlin => block.get(b'S').or_else(milliseconds),
+        Dialect::Fanuc => block.get(b'X').or_else(milliseconds),
+    }
+}

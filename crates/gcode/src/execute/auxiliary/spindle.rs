@@ -1,0 +1,115 @@
+//! The spindle as the program commands it: direction, speed, and what S means.
+//!
+//! With G96 the S word is a cutting speed (m/min, or ft/min in inches) and the revolutions follow
+//! from the distance of the tool from the X axis' zero: n = 1000 S / (2 π |x|), at most D. The
+//! event with the speed is given out with the S word and after every move that changes it by more
+//! than 1 %.
+
+use core::f64::consts::TAU;
+
+use glidepath_program::{Event, Item, ItemKind};
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::execute::interpreter::Interpreter;
+use crate::execute::state::spindle::{Spindle, Surface};
+use crate::syntax::block::Block;
+use crate::syntax::codes::Coded;
+use crate::syntax::cursor::MAX_NUMBER;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::modes::{NonModal, SpindleMode, Units};
+use crate::syntax::word_check::{missing, negative};
+
+/// Relative change of the speed of G96 that is worth an event.
+const WORTH_TELLING: f64 = 0.01;
+/// Millimetres of a foot.
+const FOOT_MM: f64 = 304.8;
+
+impl Interpreter {
+    /// G96, G97 and S.
+    pub(crate) fn spindle_speed(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        if let Some(Coded { code, span }) = block.codes.spindle_mode {
+            let most = block.get(b'D').unwrap_or(f64::INFINITY);
+            if most <= 0.0 {
+                let message = "the largest spindle speed is not above zero";
+                return Err(
+                    Fault::new(DiagnosticCode::InvalidValue, block.span(b'D'), message)
+                        .help("write a D above zero, or leave it out"),
+                );
+            }
+            let spindle = &mut self.state.spindle;
+            spindle.surface = match code {
+                SpindleMode::Revolutions => None,
+                SpindleMode::SurfaceSpeed if block.get(b'S').is_none() => {
+                    return Err(missing(span, "G96", "S", "the cutting speed"));
+                }
+                SpindleMode::SurfaceSpeed => Some(Surface { speed: 0.0, most }),
+            };
+        }
+        let Some(speed) = block.get(b'S') else {
+            return Ok(());
+        };
+        let dwell = block
+            .codes
+            .non_modal
+            .is_some_and(|non_modal| non_modal.code == NonModal::Dwell);
+        if dwell && block.dialect == Dialect::Marlin {
+            // The seconds of the dwell.
+            return Ok(());
+        }
+        if speed < 0.0 {
+            return Err(negative(block, b'S', "the spindle speed"));
+        }
+        let unit = match self.state.modal.units {
+            Units::Inch => FOOT_MM,
+            Units::Millimetre => 1000.0,
+        };
+        if let Some(surface) = &mut self.state.spindle.surface {
+            surface.speed = speed * unit;
+            let speed = self.surface_revolutions().unwrap_or_default();
+            self.tell_speed(speed, out);
+        } else {
+            self.tell_speed(speed, out);
+        }
+        Ok(())
+    }
+
+    fn tell_speed(&mut self, speed: f64, out: &mut Vec<Item>) {
+        self.state.spindle.speed = speed;
+        self.push(out, ItemKind::Event(Event::SpindleSpeed(speed)));
+    }
+
+    /// Brings back what S means, and the speed.
+    pub(crate) fn restore_speed(&mut self, saved: Spindle, out: &mut Vec<Item>) {
+        let present = self.state.spindle;
+        self.state.spindle.surface = saved.surface;
+        let speed = match self.surface_revolutions() {
+            // The speed follows the tool.
+            Some(_) if present.surface == saved.surface => return,
+            Some(speed) => speed,
+            None => saved.speed,
+        };
+        if (speed - present.speed).abs() > 0.0 {
+            self.tell_speed(speed, out);
+        }
+    }
+
+    /// Revolutions a minute for the cutting speed of G96 where the tool is; `None` in G97.
+    fn surface_revolutions(&self) -> Option<f64> {
+        let surface = self.state.spindle.surface?;
+        let program = self.offsets.to_program(self.state.position);
+        let round_mm = TAU * program[0].abs();
+        let speed = surface.speed / round_mm.max(1e-6);
+        Some(speed.min(surface.most).min(MAX_NUMBER))
+    }
+
+    /// After a move in G96: tells the spindle's speed if it has changed.
+    pub(crate) fn follow_surface(&mut self, out: &mut Vec<Item>) {
+        let told = self.state.spindle.speed;
+        if let Some(speed) = self.surface_revolutions()
+            && (speed - told).abs() > WORTH_TELLING * told
+        {
+            self.tell_speed(speed, out);
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! The modal interpreter: one block at a time, in the order RS274/NGC prescribes.
+//!
+//! Whatever stands where in a line, a block acts in this order: feed mode, F, S, T, tool change,
+//! spindle, coolant, overrides, saved state, inputs and outputs, dwell, plane, units, diameter
+//! mode, cutter radius, tool length, coordinate system, path mode, distance modes, retract mode,
+//! then G10, G28, G30, G52 or G92, then the motion, and last the stop.
+//!
+//! A block that is refused has no effect at all: the state from before it is put back.
+
+use glidepath_program::{Event, Item, ItemKind};
+
+use crate::diagnostic::fault::Outcome;
+use crate::execute::block_words::{check_words, path_mode};
+use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::speed::Pace;
+use crate::execute::state::open_spline::{OpenSpline, goes_on, interrupted};
+use crate::execute::state::sticky_words::CycleSeries;
+use crate::syntax::block::Block;
+use crate::syntax::codes::Coded;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::letters::Letters;
+use crate::syntax::modes::{Distance, Motion, Spline, Stop};
+
+/// What follows a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum AfterBlock {
+    Continue,
+    /// M2 or M30: nothing after it is read.
+    End,
+}
+
+impl Interpreter {
+    /// Executes a block: appends what it does to `out`, which is empty when the block is refused.
+    pub(crate) fn execute(
+        &mut self,
+        block: &Block,
+        line: u32,
+        out: &mut Vec<Item>,
+    ) -> Outcome<AfterBlock> {
+        self.begin(line);
+        if block.is_plain() {
+            let code = block.codes.motion.and_then(|motion| motion.code);
+            if self.go(code, &block.words, false, out) {
+                return Ok(AfterBlock::Continue);
+            }
+        }
+        let state = self.state;
+        let codes = &block.codes;
+        let saved_states = codes.saved_state.map(|_| self.saved_states.clone());
+        let changes_offsets = codes.non_modal.is_some()
+            || codes.system.is_some()
+            || codes.tool_length.is_some()
+            || codes.saved_state.is_some();
+        let offsets = changes_offsets.then(|| (self.offsets.clone(), self.tools.clone()));
+        let compensation = self.compensation.clone();
+        let mark = OpenSpline::mark(self.open_spline.as_ref());
+        let result = self.run(block, out);
+        if result.is_err() {
+            out.clear();
+            self.state = state;
+            self.compensation = compensation;
+            OpenSpline::rewind(&mut self.open_spline, mark);
+            if let Some(saved_states) = saved_states {
+                self.saved_states = saved_states;
+            }
+            if let Some((offsets, tools)) = offsets {
+                self.offsets = offsets;
+                self.tools = tools;
+            }
+        }
+        result
+    }
+
+    fn run(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<AfterBlock> {
+        if let Some(Coded { code, span }) = block.codes.function {
+            self.machine_function(block, code, span, out)?;
+            return Ok(AfterBlock::Continue);
+        }
+        let motion = self.motion_of(block)?;
+        if let Some(open) = &self.open_spline
+            && !goes_on(block, open, motion)
+        {
+            let fault = interrupted(open, block.first_span());
+            self.open_spline = None;
+            return Err(fault);
+        }
+        check_words(block, motion)?;
+        self.check_axes(block)?;
+        self.check_compensated(block)?;
+        self.feed(block)?;
+        if !block.is_plain() || block.has_any(Letters::of(b"ST")) {
+            self.auxiliary(block, out)?;
+            self.modes(block, out)?;
+        }
+        if let Some(non_modal) = block.codes.non_modal {
+            self.act_non_modal(block, non_modal, motion, out)?;
+        }
+        if let Some(Coded { code, .. }) = block.codes.motion {
+            self.state.modal.motion = code;
+            if !matches!(code, Some(Motion::Cycle(_))) {
+                self.state.cycles = CycleSeries::default();
+            }
+        }
+        if !matches!(motion, None | Some(Motion::Spline(Spline::Cubic))) {
+            self.state.cubic_tail = None;
+        }
+        if let Some(motion) = motion {
+            self.motion(block, motion, out)?;
+        }
+        let stop = block.codes.stop.map(|stop| stop.code);
+        Ok(match stop {
+            Some(Stop::End) => {
+                self.end_compensation(out)?;
+                AfterBlock::End
+            }
+            Some(Stop::Program(number)) => {
+                self.push(out, ItemKind::Event(Event::ProgramStop(number)));
+                AfterBlock::Continue
+            }
+            Some(Stop::Optional) => {
+                self.push(out, ItemKind::Event(Event::OptionalStop));
+                AfterBlock::Continue
+            }
+            None => AfterBlock::Continue,
+        })
+    }
+
+    /// Plane, units, diameter mode, cutter radius, tool length, coordinate system, path mode,
+    /// distance modes, retract mode.
+    fn modes(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        let (modal, codes) = (&mut self.state.modal, &block.codes);
+        if let Some(Coded { code, .. }) = codes.plane {
+            modal.plane = code;
+        }
+        if let Some(Coded { code, .. }) = codes.units {
+            modal.units = code;
+        }
+        if let Some(Coded { code, .. }) = codes.diameter {
+            modal.diameter = code;
+        }
+        if let Some(coded) = codes.cutter_radius {
+            self.cutter_radius(block, coded, out)?;
+        }
+        if let Some(coded) = codes.tool_length {
+            self.tool_length(block, coded)?;
+        }
+        let modal = &mut self.state.modal;
+        if let Some(Coded { code, .. }) = codes.system {
+            self.offsets.active = code;
+        }
+        if let Some(Coded { code, .. }) = codes.path_mode {
+            modal.path_mode = path_mode(block, code, modal.units.mm())?;
+        }
+        if let Some(Coded { code, .. }) = codes.distance {
+            modal.distance = code;
+            self.state.extruder_relative = code == Distance::Incremental;
+        }
+        if let Some(Coded { code, .. }) = codes.extruder {
+            self.state.extruder_relative = code;
+        }
+        if let Some(Coded { code, .. }) = codes.arc_distance {
+            modal.arc_distance = code;
+        }
+        if let Some(Coded { code, .. }) = codes.retract {
+            modal.retract = code;
+        }
+        Ok(())
+    }
+
+    /// Makes the motion of a block.
+    pub(crate) fn motion(
+        &mut self,
+        block: &Block,
+        motion: Motion,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        match motion {
+            Motion::Rapid | Motion::Linear => {
+                let target = self.target(block)?;
+                // Printers move at the feedrate in G0 too.
+                let printer = block.dialect == Dialect::Marlin && self.state.modal.feed.is_some();
+                let pace = if motion == Motion::Rapid && !printer {
+                    Pace::Rapid
+                } else {
+                    Pace::Feed
+                };
+                self.straight(block, target, pace, out)?;
+            }
+            Motion::ArcClockwise | Motion::ArcCounterclockwise => self.arc(block, motion, out)?,
+            Motion::Cycle(cycle) => self.cycle(block, cycle, out)?,
+            Motion::Lathe(cycle) => self.begin_lathe_cycle(block, cycle, out)?,
+            Motion::Probe(_) => self.probe(block, out)?,
+            Motion::Spline(spline) => self.spline(block, spline, out)?,
+        }
+        self.follow_surface(out);
+        Ok(())
+    }
+}

@@ -1,0 +1,172 @@
+//! Which words the codes of a block take, and that each word is taken by one of them.
+
+use glidepath_program::PathMode;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+use crate::syntax::block::Block;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::letters::{AXIS_WORDS, Letters};
+use crate::syntax::modes::{
+    CannedCycle, CutterRadius, LatheCycle, Motion, NonModal, SpindleMode, Spline, ToolLength,
+};
+use crate::syntax::word_check::{missing, negative, unused};
+
+/// The words each code of a block takes besides F, S and T.
+fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 10] {
+    let codes = &block.codes;
+    let none = Letters::of(b"");
+    let non_modal = codes.non_modal.map(|non_modal| non_modal.code);
+    let axes_non_modal = non_modal.is_some_and(NonModal::takes_axes);
+    [
+        match motion {
+            Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Letters::of(b"IJKRP"),
+            Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQK"),
+            Some(Motion::Lathe(LatheCycle::Finish)) => Letters::of(b"QDEP"),
+            Some(Motion::Lathe(_)) => Letters::of(b"QDIR"),
+            Some(Motion::Spline(spline)) => match spline {
+                Spline::Cubic => Letters::of(b"IJPQ"),
+                Spline::Quadratic => Letters::of(b"IJ"),
+                Spline::Weighted => Letters::of(b"PL"),
+                Spline::EndWeighted => none,
+                Spline::Knotted => Letters::of(b"KRPQ"),
+            },
+            Some(Motion::Cycle(cycle)) => match cycle {
+                CannedCycle::Drill | CannedCycle::Bore => Letters::of(b"RL"),
+                CannedCycle::ChipBreak | CannedCycle::Peck => Letters::of(b"RLQ"),
+                _ => Letters::of(b"RLP"),
+            },
+            _ => none,
+        },
+        match codes.tool_length.map(|length| length.code) {
+            Some(ToolLength::FromTable) => Letters::of(b"H"),
+            Some(ToolLength::Add) => Letters::of(b"H").and(AXIS_WORDS),
+            Some(ToolLength::FromWords) => AXIS_WORDS,
+            _ => none,
+        },
+        match codes.cutter_radius.map(|radius| radius.code) {
+            Some(CutterRadius::FromTable(_)) => Letters::of(b"D"),
+            Some(CutterRadius::FromWord(_)) => Letters::of(b"DL"),
+            _ => none,
+        },
+        match non_modal {
+            Some(NonModal::Dwell) if block.dialect == Dialect::Fanuc => Letters::of(b"PX"),
+            Some(NonModal::Dwell) => Letters::of(b"P"),
+            Some(NonModal::SetData) => match block.get(b'L') {
+                Some(2.0 | 20.0) => Letters::of(b"LPR"),
+                _ => Letters::of(b"LPRQIJ"),
+            },
+            _ => none,
+        },
+        match codes.path_mode.map(|mode| mode.code) {
+            Some(PathMode::Continuous { .. }) => Letters::of(b"PQ"),
+            _ => none,
+        },
+        match codes.spindle_mode.map(|mode| mode.code) {
+            Some(SpindleMode::SurfaceSpeed) => Letters::of(b"D"),
+            _ => none,
+        },
+        match codes.input_output.map(|code| code.code) {
+            Some(62..=65) => Letters::of(b"P"),
+            Some(66) => Letters::of(b"PELQ"),
+            Some(_) => Letters::of(b"EQ"),
+            None => none,
+        },
+        match codes.overrides.map(|code| code.code) {
+            Some(50..=53) => Letters::of(b"P"),
+            _ => none,
+        },
+        match (codes.tool_change.map(|code| code.code), codes.orient) {
+            (Some(61), _) => Letters::of(b"Q"),
+            (_, Some(_)) => Letters::of(b"RPQ"),
+            _ => none,
+        },
+        if motion.is_some() || axes_non_modal {
+            match block.dialect {
+                Dialect::Marlin => AXIS_WORDS.and(Letters::of(b"E")),
+                _ => AXIS_WORDS,
+            }
+        } else {
+            none
+        },
+    ]
+}
+
+/// Words of a block whose only code is a motion, or which has none: as [`taken`], for straight
+/// moves and arcs.
+const fn taken_by_move(motion: Option<Motion>) -> Option<Letters> {
+    const STRAIGHT: Letters = AXIS_WORDS.and(Letters::of(b"FST"));
+    const ARC: Letters = STRAIGHT.and(Letters::of(b"IJKRP"));
+    match motion {
+        Some(Motion::Rapid | Motion::Linear) => Some(STRAIGHT),
+        Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Some(ARC),
+        _ => None,
+    }
+}
+
+/// Refuses words that nothing in the block uses, and words that two codes want.
+pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> {
+    if block.is_plain()
+        && let Some(taken) = taken_by_move(motion)
+        && block.unused(taken).is_none()
+    {
+        return Ok(());
+    }
+    let taken = taken(block, motion);
+    let always = Letters::of(b"FST");
+    let used = taken.iter().fold(always, |used, one| used.and(*one));
+    if let Some((letter, span)) = block.unused(used) {
+        return Err(unused(letter, span));
+    }
+    // The axes are settled already: by which code takes them.
+    for letter in *b"PQLRDHE" {
+        if block.get(letter).is_none() {
+            continue;
+        }
+        let wants = taken.iter().filter(|one| one.has(letter)).count();
+        if wants > 1 {
+            let letter_name = char::from(letter);
+            let message = format!("it is not clear which code the {letter_name} word belongs to");
+            return Err(
+                Fault::new(DiagnosticCode::AmbiguousWord, block.span(letter), message)
+                    .because(format!("two codes of the block take {letter_name}"))
+                    .help("write two blocks"),
+            );
+        }
+    }
+    Ok(())
+}
+
+pub(crate) fn require_axes(block: &Block, span: Span, code: &str) -> Outcome<()> {
+    if block.has_axes() {
+        return Ok(());
+    }
+    Err(missing(
+        span,
+        code,
+        "an axis",
+        "the axes whose offsets it sets",
+    ))
+}
+
+/// The path mode of a block, with the tolerance of G64 in mm.
+///
+/// G64 P0 allows no deviation at all, which is what G61 means.
+pub(crate) fn path_mode(block: &Block, code: PathMode, scale: f64) -> Outcome<PathMode> {
+    if !matches!(code, PathMode::Continuous { .. }) {
+        return Ok(code);
+    }
+    for letter in [b'P', b'Q'] {
+        if block.get(letter).is_some_and(|value| value < 0.0) {
+            return Err(negative(block, letter, "the tolerance"));
+        }
+    }
+    Ok(match block.get(b'P').map(|tolerance| tolerance * scale) {
+        None => PathMode::Continuous { tolerance_mm: None },
+        Some(tolerance) if tolerance > 0.0 => PathMode::Continuous {
+            tolerance_mm: Some(tolerance),
+        },
+        Some(_) => PathMode::ExactPath,
+    })
+}

@@ -1,0 +1,165 @@
+//! Turning compensation on and off, and what is not possible while it is on.
+
+use glidepath_geometry::Plane;
+use glidepath_program::Item;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+use crate::execute::compensation::path::{Compensated, Compensation, MAX_HELD};
+use crate::execute::interpreter::Interpreter;
+use crate::syntax::block::Block;
+use crate::syntax::codes::Coded;
+use crate::syntax::modes::{CutterRadius, LatheCycle, Motion, NonModal, Side};
+use crate::syntax::word_check::{missing, whole};
+
+impl Interpreter {
+    /// G40, G41, G42, G41.1, G42.1.
+    pub(crate) fn cutter_radius(
+        &mut self,
+        block: &Block,
+        coded: Coded<CutterRadius>,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let span = coded.span;
+        let (side, diameter, orientation) = match coded.code {
+            CutterRadius::Off => {
+                self.end_compensation(out)?;
+                self.state.on_contour = false;
+                return Ok(());
+            }
+            CutterRadius::FromTable(side) => {
+                let tool = self.named_tool(block, b'D', span)?;
+                (side, tool.diameter_mm, tool.orientation)
+            }
+            CutterRadius::FromWord(side) => {
+                let diameter = block
+                    .get(b'D')
+                    .ok_or_else(|| missing(span, "G41.1", "D", "the tool's diameter"))?;
+                let orientation = whole(block, b'L', 9)?.unwrap_or(0);
+                let orientation = u8::try_from(orientation).unwrap_or_default();
+                (side, diameter * self.state.modal.units.mm(), orientation)
+            }
+        };
+        self.begin_compensation(block, span, side, 0.5 * diameter, orientation)
+    }
+
+    fn begin_compensation(
+        &mut self,
+        block: &Block,
+        span: Span,
+        side: Side,
+        radius: f64,
+        orientation: u8,
+    ) -> Outcome<()> {
+        if self.state.on_contour {
+            let message = "cutter radius compensation is on already";
+            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
+                .because("where the tool is would not be clear if its side or radius changed")
+                .help("write G40 and a move in between"));
+        }
+        let plane = self.state.modal.plane;
+        if !matches!(plane, Plane::Xy | Plane::Zx) {
+            let message = "cutter radius compensation outside G17 and G18";
+            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
+                .because("it is made in the XY and the ZX plane")
+                .help("write G17 or G18"));
+        }
+        if plane != Plane::Zx && block.get(b'L').is_some_and(|l| l != 0.0) {
+            let message = "a tool orientation outside G18";
+            return Err(
+                Fault::new(DiagnosticCode::CutterRadius, block.span(b'L'), message)
+                    .because("only turning tools have one")
+                    .help("remove L, or write G18"),
+            );
+        }
+        if plane == Plane::Zx && self.offsets.is_rotated() {
+            let message = "cutter radius compensation in G18 in a rotated coordinate system";
+            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
+                .because("the plane of the contour would be no plane of the machine")
+                .help("set the rotation to zero (G10 L2 R0)"));
+        }
+        self.state.on_contour = true;
+        if radius != 0.0 {
+            let tool = self.state.path_end;
+            self.compensation = Some(Compensation::new(plane, side, radius, orientation, tool));
+        }
+        Ok(())
+    }
+
+    /// Gives out the moves held back; the tool stays where it is.
+    pub(crate) fn end_compensation(&mut self, out: &mut Vec<Item>) -> Outcome<()> {
+        let Some(mut compensation) = self.compensation.take() else {
+            return Ok(());
+        };
+        let from = out.len();
+        compensation.flush(out);
+        self.state.leaving_contour = compensation.is_entered();
+        self.check_given(None, out.get(from..).unwrap_or_default())?;
+        self.state.path_end = compensation.tool();
+        Ok(())
+    }
+
+    /// What is in force, if any.
+    pub(crate) fn compensated(&self) -> Option<Compensated> {
+        self.state.on_contour.then(|| Compensated {
+            of: self.compensation.as_ref().map(Compensation::side_and_tip),
+        })
+    }
+
+    /// Refuses what is not possible while compensation is on.
+    pub(crate) fn check_compensated(&self, block: &Block) -> Outcome<()> {
+        if !self.state.on_contour
+            || matches!(
+                block.codes.cutter_radius,
+                Some(Coded {
+                    code: CutterRadius::Off,
+                    ..
+                })
+            )
+        {
+            return Ok(());
+        }
+        let codes = &block.codes;
+        let non_modal = codes.non_modal.filter(|non_modal| {
+            !matches!(non_modal.code, NonModal::Dwell | NonModal::SetReference(_))
+        });
+        let motion = codes.motion.filter(|motion| match motion.code {
+            Some(Motion::Lathe(cycle)) => cycle != LatheCycle::Finish,
+            code => matches!(code, Some(Motion::Cycle(_) | Motion::Probe(_))),
+        });
+        let plane = codes
+            .plane
+            .filter(|plane| plane.code != self.state.modal.plane);
+        let refused = [
+            non_modal.map(|c| (c.span, "changing coordinates or going to references")),
+            motion.map(|c| (c.span, "a cycle or a probing move")),
+            plane.map(|c| (c.span, "another plane")),
+            codes.system.map(|c| (c.span, "another coordinate system")),
+            codes.tool_length.map(|c| (c.span, "another tool length")),
+            codes.tool_change.map(|c| (c.span, "a tool change")),
+            codes
+                .diameter
+                .map(|c| (c.span, "changing the diameter mode")),
+        ];
+        if let Some((span, what)) = refused.into_iter().flatten().next() {
+            let message = format!("{what} with cutter radius compensation on");
+            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
+                .because("the tool stands beside the programmed point, at a place that depends on the next move")
+                .help("write G40 and a move before it"));
+        }
+        if self
+            .compensation
+            .as_ref()
+            .is_some_and(Compensation::is_overfull)
+        {
+            let message = format!("more than {} blocks without a move in the plane", MAX_HELD);
+            return Err(Fault::new(DiagnosticCode::CutterRadius, Span::default(), message)
+                .because(
+                    "with cutter radius compensation on they wait for the next move in the plane",
+                )
+                .help("write G40 before them"));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,7 @@
+//! The lines of each dialect, and in which order they are executed.
+
+mod fanuc;
+mod linuxcnc;
+mod marlin;
+pub(crate) mod tape;
+mod without_flow;

@@ -1,0 +1,60 @@
+//! Executes the block of a line, with what belongs to it beside the interpreter: assignments, the
+//! ends of the tape, the profiles of lathe cycles.
+
+use std::io::BufRead;
+
+use crate::diagnostic::fault::Outcome;
+use crate::execute::block_order::AfterBlock;
+use crate::execute::program::Program;
+use crate::execute::scope::ProgramScope;
+use crate::syntax::block::LineKind;
+
+impl<R: BufRead> Program<R> {
+    /// Executes a text as a block.
+    pub(crate) fn execute_text(&mut self, number: u32, text: &[u8]) -> Outcome<bool> {
+        let scope = ProgramScope {
+            parameters: &self.parameters,
+            interpreter: &self.interpreter,
+        };
+        let parsed = self.block.parse(text, &scope);
+        self.execute_parsed(number, parsed)
+    }
+
+    /// Executes the block, once it has been read.
+    pub(crate) fn execute_parsed(&mut self, number: u32, parsed: Outcome<()>) -> Outcome<bool> {
+        self.begun |= self.block.any || parsed.is_err();
+        parsed?;
+        match self.block.kind {
+            LineKind::Block if self.block.any => {}
+            LineKind::Block => return Ok(true),
+            LineKind::Percent if self.percent || self.begun => return self.end_of_input(),
+            LineKind::Percent => {
+                self.percent = true;
+                return Ok(true);
+            }
+        }
+        for assignment in &self.block.assignments {
+            self.parameters
+                .check_assignable(&assignment.parameter, assignment.span)?;
+        }
+        let asked = self.asked_lathe_cycle(&self.block)?;
+        let flow = if self.lathe_cycle.is_some() {
+            self.draw_block()?;
+            AfterBlock::Continue
+        } else {
+            self.interpreter
+                .execute(&self.block, number, &mut self.items)?
+        };
+        for assignment in &self.block.assignments {
+            self.parameters
+                .assign(&assignment.parameter, assignment.value);
+        }
+        if let Some(asked) = asked {
+            self.open_lathe_cycle(&asked)?;
+        }
+        self.end_of_line();
+        // The items of the last block are still to be given out.
+        self.ended = flow == AfterBlock::End;
+        Ok(true)
+    }
+}

@@ -1,0 +1,163 @@
+//! The interpreter: all that is in force from block to block.
+
+use std::sync::Arc;
+
+use glidepath_geometry::AxisVector;
+use glidepath_program::{Item, ItemKind};
+
+use crate::execute::compensation::path::Compensation;
+use crate::execute::motion::speed::Pace;
+use crate::execute::state::coolant::Coolant;
+use crate::execute::state::course::Course;
+use crate::execute::state::modal::Modal;
+use crate::execute::state::offsets::Offsets;
+use crate::execute::state::open_spline::OpenSpline;
+use crate::execute::state::probe_result::ProbeResult;
+use crate::execute::state::saved_states::SavedStates;
+use crate::execute::state::soft_limits::SoftLimits;
+use crate::execute::state::spindle::Spindle;
+use crate::execute::state::sticky_words::CycleSeries;
+use crate::setup::options::Options;
+use crate::setup::tool_table::ToolTable;
+use crate::syntax::letters::Letters;
+
+/// Moves that were left out because they go nowhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct ZeroLength {
+    pub(crate) feeds: u32,
+    pub(crate) rapids: u32,
+}
+
+/// The part of the state a block may change, offsets apart.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct State {
+    pub(crate) modal: Modal,
+    /// Where the program has brought the machine, machine coordinates. With cutter radius
+    /// compensation that is the programmed contour, not the tool.
+    pub(crate) position: AxisVector,
+    /// End of the last segment made. Within [`crate::execute::motion::settled::MIN_MOVE`] of `position`, unless cutter
+    /// radius compensation is on or was just turned off.
+    pub(crate) path_end: AxisVector,
+    pub(crate) spindle: Spindle,
+    pub(crate) coolant: Coolant,
+    /// M49: the operator is to have no overrides.
+    pub(crate) overrides_off: bool,
+    /// Tool number of the last T word.
+    pub(crate) selected_tool: u32,
+    /// Tool number in the spindle; 0: none.
+    pub(crate) tool: u32,
+    pub(crate) cycles: CycleSeries,
+    pub(crate) probe: ProbeResult,
+    /// Value of the input M66 read last.
+    pub(crate) input: f64,
+    /// E words of printers are relative.
+    pub(crate) extruder_relative: bool,
+    /// G41 or G42 is in force, be it with a radius of zero.
+    pub(crate) on_contour: bool,
+    /// Cutter radius compensation was turned off and no move has been made since.
+    pub(crate) leaving_contour: bool,
+    /// From its end to the control point that continues the last move smoothly, if that was a G5,
+    /// mm.
+    pub(crate) cubic_tail: Option<[f64; 2]>,
+}
+
+/// Turns blocks into items.
+#[derive(Debug)]
+pub(crate) struct Interpreter {
+    pub(crate) options: Options,
+    pub(crate) state: State,
+    pub(crate) offsets: Offsets,
+    /// Words of the axes the machine does not have.
+    pub(crate) lacking: Letters,
+    /// Where moves may end.
+    pub(crate) soft_limits: SoftLimits,
+    pub(crate) compensation: Option<Compensation>,
+    /// The NURBS whose control points are being read.
+    pub(crate) open_spline: Option<OpenSpline>,
+    /// The tool table, with what G10 has made of it.
+    pub(crate) tools: Option<Arc<ToolTable>>,
+    pub(crate) saved_states: SavedStates,
+    /// Of the block executed last.
+    pub(crate) zero_length: ZeroLength,
+    /// Straight moves of plain lines are judged, and not given out.
+    pub(crate) only_judges: bool,
+    /// The block executed last was one of them.
+    pub(crate) has_judged: bool,
+    /// Of the straight move of a plain line made last; holds as long as nothing else is executed.
+    pub(crate) course: Course,
+    /// Line of the block being executed.
+    pub(crate) line: u32,
+}
+
+impl Interpreter {
+    pub(crate) fn new(options: Options) -> Self {
+        let start = options.start;
+        let soft_limits = SoftLimits::of(&options.machine);
+        let lacking = Letters::of_axes(|axis| !options.machine.has(axis));
+        let modal = Modal::new(options.default_feed_mm_min);
+        let tools = options.tools.clone();
+        Self {
+            options,
+            state: State {
+                modal,
+                position: start,
+                path_end: start,
+                spindle: Spindle::default(),
+                coolant: Coolant::default(),
+                overrides_off: false,
+                selected_tool: 0,
+                tool: 0,
+                cycles: CycleSeries::default(),
+                probe: ProbeResult::default(),
+                input: 0.0,
+                extruder_relative: false,
+                on_contour: false,
+                leaving_contour: false,
+                cubic_tail: None,
+            },
+            open_spline: None,
+            offsets: Offsets::new(),
+            lacking,
+            soft_limits,
+            compensation: None,
+            tools,
+            saved_states: SavedStates::default(),
+            zero_length: ZeroLength::default(),
+            only_judges: false,
+            has_judged: false,
+            course: Course::new(),
+            line: 0,
+        }
+    }
+
+    /// Begins a line: nothing was made of it yet.
+    #[inline]
+    pub(crate) const fn begin(&mut self, line: u32) {
+        self.line = line;
+        self.zero_length = ZeroLength {
+            feeds: 0,
+            rapids: 0,
+        };
+        self.has_judged = false;
+    }
+
+    /// Gives out an item, in order with the moves cutter radius compensation still holds back.
+    #[inline]
+    pub(crate) fn push(&mut self, out: &mut Vec<Item>, kind: ItemKind) {
+        let item = Item {
+            line: self.line,
+            kind,
+        };
+        match &mut self.compensation {
+            Some(compensation) => compensation.push_item(item, out),
+            None => out.push(item),
+        }
+    }
+
+    pub(crate) const fn count_zero_length(&mut self, pace: Pace) {
+        match pace {
+            Pace::Rapid => self.zero_length.rapids += 1,
+            Pace::Feed => self.zero_length.feeds += 1,
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! A lathe cycle whose profile is being read.
+
+use crate::execute::interpreter::State;
+use crate::execute::lathe_cycle::profile::LatheProfile;
+use crate::execute::line_origin::SourceLine;
+use crate::syntax::block::Block;
+use crate::syntax::modes::LatheCycle;
+
+/// A cycle whose profile is being read.
+#[derive(Debug)]
+pub(crate) struct OpenLatheCycle {
+    /// The block of the cycle: its line, the line of the program it is executed by, and what was
+    /// read.
+    pub(super) source: SourceLine,
+    pub(super) line: u32,
+    pub(super) block: Block,
+    /// Calls in progress around it.
+    pub(super) level: usize,
+    pub(super) words: LatheCycleWords,
+    pub(super) profile: LatheProfile,
+    /// From before the profile.
+    pub(super) state: State,
+}
+
+/// The words of a cycle, mm.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LatheCycleWords {
+    pub(super) cycle: LatheCycle,
+    /// Distance from the profile, of the first finishing pass or of all roughing.
+    pub(super) distance_mm: f64,
+    /// Distance of the last finishing pass.
+    pub(super) end_mm: f64,
+    pub(super) finishing: u32,
+    pub(super) increment_mm: f64,
+    pub(super) retract_mm: f64,
+}

@@ -1,0 +1,33 @@
+//! The meaning: from blocks to moves and events in machine coordinates.
+//!
+//! ```text
+//! Program ── line by line, with jumps and calls (flow, dialect) ──► Block
+//!    │                                                                │
+//!    └── Interpreter ◄── block_order: in the order RS274/NGC prescribes
+//!           │   auxiliary: feed, spindle, tools, inputs and outputs, offsets
+//!           │   motion: axis words, straight moves, arcs, splines, probing
+//!           │   canned_cycle, lathe_cycle: one block, many moves
+//!           └── compensation: beside the contour, by the tool's radius ──► items
+//! ```
+//!
+//! What is in force from block to block is in [`state`], which knows nothing of the interpreter;
+//! [`interpreter::Interpreter`] has all of it, and every other module adds to it what one kind of
+//! code does.
+
+pub(crate) mod auxiliary;
+pub(crate) mod block_order;
+pub(crate) mod block_words;
+pub(crate) mod canned_cycle;
+pub(crate) mod compensation;
+pub(crate) mod dialect;
+mod execute_line;
+pub(crate) mod flow;
+pub(crate) mod interpreter;
+pub(crate) mod lathe_cycle;
+pub(crate) mod line_origin;
+pub(crate) mod motion;
+pub(crate) mod parameters;
+pub(crate) mod program;
+mod reading;
+pub(crate) mod scope;
+pub(crate) mod state;

@@ -1,0 +1,409 @@
+//! Arcs: from end point and centre, or end point and radius, to a swept angle.
+//!
+//! *Centre format* gives the centre by I, J, K (of the two axes of the plane). Programs round
+//! their coordinates, so start and end are never at exactly the same distance from it. As
+//! LinuxCNC does, an arc is accepted if the two radii differ by at most 0.0127 mm (0.0005 in), or
+//! by at most 0.1 % and 1.27 mm.
+//!
+//! *Radius format* gives R: of the two circles through both ends, a positive R means the arc of
+//! at most half a turn, a negative R the other. An R that is too small by no more than rounding
+//! (0.00127 mm) makes a half circle.
+
+use core::f64::consts::{PI, TAU};
+
+use glidepath_geometry::{Arc, Axis, AxisVector, LINEAR_XYZ, Plane, Segment};
+use glidepath_program::Item;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::settled::{MIN_MOVE, settled};
+use crate::execute::motion::speed::Pace;
+use crate::execute::state::offsets::Offsets;
+use crate::syntax::block::Block;
+use crate::syntax::letters::Letters;
+use crate::syntax::modes::{Distance, Motion};
+use crate::syntax::word_check::whole;
+
+/// Difference of the radii that is always accepted, mm.
+const RADIUS_TOLERANCE_MM: f64 = 0.0127;
+/// Relative difference of the radii that is accepted below [`RADIUS_TOLERANCE_MAX_MM`].
+const RADIUS_TOLERANCE_RELATIVE: f64 = 0.001;
+/// Difference of the radii that is never accepted, mm.
+const RADIUS_TOLERANCE_MAX_MM: f64 = 100.0 * RADIUS_TOLERANCE_MM;
+/// By how much an R may fall short of half the distance of the end points, mm.
+const SHORT_RADIUS_MM: f64 = 0.00127;
+/// Ends closer than this make a full turn, mm.
+const SAME_POINT_MM: f64 = 1e-6;
+/// Most turns of one arc.
+const MAX_TURNS: u32 = 10_000;
+
+/// The two in-plane coordinates of an arc's ends, mm.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ends {
+    pub(crate) start: [f64; 2],
+    pub(crate) end: [f64; 2],
+}
+
+impl Interpreter {
+    pub(crate) fn arc(
+        &mut self,
+        block: &Block,
+        motion: Motion,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let plane = self.state.modal.plane;
+        let (first, second) = plane.axes();
+        if self.state.leaving_contour {
+            return Err(arc_off_contour(block.motion_span()));
+        }
+        let compensated = self.compensation.is_some();
+        let start = if compensated {
+            self.state.position
+        } else {
+            self.state.path_end
+        };
+        let target = self.target(block)?;
+        let end = settled(start, target, [Some(first), Some(second)]);
+        self.check_plane(block, plane, &start, &end)?;
+        check_center_words(block, plane)?;
+
+        let ends = Ends {
+            start: [start[first.index()], start[second.index()]],
+            end: [end[first.index()], end[second.index()]],
+        };
+        let counterclockwise = motion == Motion::ArcCounterclockwise;
+        let center = match block.get(b'R') {
+            Some(radius) => {
+                let radius = radius * self.state.modal.units.mm();
+                center_from_radius(block, ends, radius, counterclockwise)?
+            }
+            None => self.center_from_words(block, plane, ends)?,
+        };
+        let turns = turns(block)?;
+        let sweep_rad = sweep(ends, center, counterclockwise, turns);
+        let arc = Arc {
+            start,
+            end,
+            plane,
+            center,
+            sweep_rad,
+        };
+        let segment = Segment::Arc(arc);
+        let speed = self.speed(block, &segment, Pace::Feed)?;
+        if compensated {
+            self.state.position = target;
+            return self.contour_move(block, segment, speed, out);
+        }
+        let (low, high) = arc.bounding_box();
+        self.check_limits(block, &low, &high, "a point")?;
+        self.state.position = target;
+        self.push_move(segment, speed, out);
+        Ok(())
+    }
+
+    /// Refuses arcs that are no arcs in the machine's coordinates.
+    fn check_plane(
+        &self,
+        block: &Block,
+        plane: Plane,
+        start: &AxisVector,
+        end: &AxisVector,
+    ) -> Outcome<()> {
+        let span = block.motion_span();
+        if self.offsets.is_rotated() && matches!(plane, Plane::Zx | Plane::Yz) {
+            let message = "an arc outside the XY plane in a rotated coordinate system";
+            return Err(Fault::new(DiagnosticCode::ArcPlane, span, message)
+                .because("its plane would be no coordinate plane of the machine")
+                .help("set the rotation to zero (G10 L2 R0), or use G17"));
+        }
+        let of_uvw = matches!(plane, Plane::Uv | Plane::Wu | Plane::Vw);
+        if of_uvw
+            && LINEAR_XYZ
+                .into_iter()
+                .any(|axis| (end[axis] - start[axis]).abs() > 0.0)
+        {
+            let message = "X, Y or Z moves along with an arc of U, V, W";
+            return Err(Fault::new(DiagnosticCode::ArcPlane, span, message)
+                .because("the feedrate would be that of X, Y, Z, which go straight")
+                .help("write two blocks"));
+        }
+        Ok(())
+    }
+
+    fn center_from_words(&self, block: &Block, plane: Plane, ends: Ends) -> Outcome<[f64; 2]> {
+        let (first, second) = plane.axes();
+        let letters = [center_letter(first), center_letter(second)];
+        let scale = self.state.modal.units.mm();
+        let words = letters.map(|letter| block.get(letter).map(|value| value * scale));
+        let names = letters.map(char::from);
+        let [a, b] = match (words, self.state.modal.arc_distance) {
+            ([None, None], _) => {
+                let message = "an arc without centre or radius";
+                return Err(Fault::new(
+                    DiagnosticCode::ArcWithoutCenter,
+                    block.motion_span(),
+                    message,
+                )
+                .because("the end point alone leaves every radius possible")
+                .help(format!("add {} and {}, or R", names[0], names[1])));
+            }
+            ([a, b], Distance::Incremental) => [a.unwrap_or(0.0), b.unwrap_or(0.0)],
+            ([Some(a), Some(b)], Distance::Absolute) => [a, b],
+            ([a, _], Distance::Absolute) => {
+                let absent = if a.is_none() { names[0] } else { names[1] };
+                let message = format!("an absolute arc centre without {absent}");
+                return Err(Fault::new(
+                    DiagnosticCode::ArcWithoutCenter,
+                    block.motion_span(),
+                    message,
+                )
+                .because("with G90.1 both coordinates of the centre must be given")
+                .help(format!("add {absent}, or use G91.1")));
+            }
+        };
+        let mut point = AxisVector::zeros();
+        point[first.index()] = a;
+        point[second.index()] = b;
+        let center = match self.state.modal.arc_distance {
+            Distance::Incremental => {
+                let turned = self.offsets.system().rotate(point, 1.0);
+                let position = &self.state.position;
+                [first, second].map(|axis| position[axis.index()] + turned[axis.index()])
+            }
+            Distance::Absolute => machine_point(&self.offsets, point, first, second),
+        };
+        check_radii(block, ends, center)?;
+        Ok(center)
+    }
+}
+
+/// Turns of an arc: P.
+fn turns(block: &Block) -> Outcome<f64> {
+    match whole(block, b'P', MAX_TURNS)? {
+        Some(0) => {
+            let message = "an arc of no turns";
+            Err(
+                Fault::new(DiagnosticCode::InvalidValue, block.span(b'P'), message)
+                    .help("write P1 or more, or leave P out"),
+            )
+        }
+        turns => Ok(f64::from(turns.unwrap_or(1))),
+    }
+}
+
+#[cold]
+fn arc_off_contour(span: Span) -> Box<Fault> {
+    let message = "an arc as the first move after cutter radius compensation";
+    Fault::new(DiagnosticCode::CutterRadius, span, message)
+        .because("the tool stands beside the programmed point, where the arc does not begin")
+        .help("make a straight move first")
+}
+
+/// In-plane machine coordinates of a program point.
+fn machine_point(offsets: &Offsets, point: AxisVector, first: Axis, second: Axis) -> [f64; 2] {
+    let machine = offsets.to_machine(point);
+    [machine[first.index()], machine[second.index()]]
+}
+
+const fn center_letter(axis: Axis) -> u8 {
+    match axis {
+        Axis::Y | Axis::V => b'J',
+        Axis::Z | Axis::W => b'K',
+        _ => b'I',
+    }
+}
+
+fn check_center_words(block: &Block, plane: Plane) -> Outcome<()> {
+    let normal = center_letter(plane.normal());
+    if block.get(normal).is_some() {
+        let message = format!("{} is not in the plane of the arc", char::from(normal));
+        return Err(Fault::new(
+            DiagnosticCode::ArcOffsetOutsidePlane,
+            block.span(normal),
+            message,
+        )
+        .because("the centre has a coordinate on each of the two axes of the plane")
+        .help("remove the word, or select the plane it belongs to (G17, G18, G19)"));
+    }
+    if block.get(b'R').is_some() && block.has_any(Letters::of(b"IJK")) {
+        let message = "an arc with both a radius and a centre";
+        return Err(
+            Fault::new(DiagnosticCode::ArcOverdetermined, block.span(b'R'), message)
+                .because("one of them determines the arc; the other could contradict it")
+                .help("remove R, or I, J and K"),
+        );
+    }
+    Ok(())
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+pub(crate) fn check_radii(block: &Block, ends: Ends, center: [f64; 2]) -> Outcome<()> {
+    let (start, end) = (distance(ends.start, center), distance(ends.end, center));
+    let span = center_span(block);
+    if start <= MIN_MOVE || end <= MIN_MOVE {
+        let which = if start <= MIN_MOVE { "start" } else { "end" };
+        let message = format!("the centre of the arc is its {which} point");
+        return Err(Fault::new(DiagnosticCode::ArcZeroRadius, span, message)
+            .because("a circle of radius zero has no direction")
+            .help("write the centre relative to the start (G91.1), or use G90.1"));
+    }
+    let difference = (start - end).abs();
+    let relative = difference / start.max(end);
+    if difference > RADIUS_TOLERANCE_MAX_MM
+        || (difference > RADIUS_TOLERANCE_MM && relative > RADIUS_TOLERANCE_RELATIVE)
+    {
+        let message = format!(
+            "the arc does not close: its radius is {start:.4} mm at the start, {end:.4} mm at the end"
+        );
+        return Err(Fault::new(DiagnosticCode::ArcRadiusMismatch, span, message)
+            .because("both ends must lie on one circle about the centre")
+            .help("check that the centre is meant as G91.1 (relative) or G90.1 (absolute)"));
+    }
+    Ok(())
+}
+
+/// Where a diagnostic about the centre points.
+fn center_span(block: &Block) -> Span {
+    let words = [b'I', b'J', b'K'].map(|letter| block.span(letter));
+    let present = words.into_iter().filter(|span| span.length > 0);
+    present
+        .min_by_key(|span| span.start)
+        .unwrap_or_else(|| block.motion_span())
+}
+
+/// Centre of the arc with the given radius in mm; negative: the longer one.
+pub(crate) fn center_from_radius(
+    block: &Block,
+    ends: Ends,
+    radius: f64,
+    counterclockwise: bool,
+) -> Outcome<[f64; 2]> {
+    let span = block.span(b'R');
+    let chord = distance(ends.start, ends.end);
+    let half = 0.5 * chord;
+    if radius.abs() <= MIN_MOVE {
+        return Err(Fault::new(
+            DiagnosticCode::ArcZeroRadius,
+            span,
+            "the radius of the arc is zero",
+        )
+        .because("a circle of radius zero has no direction"));
+    }
+    if chord <= SAME_POINT_MM {
+        let message = "a radius, and an end point that is the start point";
+        return Err(
+            Fault::new(DiagnosticCode::ArcFullCircleWithRadius, span, message)
+                .because("every circle of that radius through the point would do")
+                .help("give the centre by I, J or K"),
+        );
+    }
+    if half - radius.abs() > SHORT_RADIUS_MM {
+        let message = format!(
+            "the radius {:.4} mm is too small: the ends are {chord:.4} mm apart",
+            radius.abs()
+        );
+        return Err(Fault::new(DiagnosticCode::ArcRadiusTooSmall, span, message)
+            .because("the radius must be at least half the distance of the ends")
+            .help("correct R or the end point"));
+    }
+    let rise = (radius * radius - half * half).max(0.0).sqrt();
+    // The centre is left of the chord for a short counterclockwise arc.
+    let side = if counterclockwise == (radius > 0.0) {
+        rise
+    } else {
+        -rise
+    };
+    let along = [
+        (ends.end[0] - ends.start[0]) / chord,
+        (ends.end[1] - ends.start[1]) / chord,
+    ];
+    Ok([
+        0.5 * (ends.start[0] + ends.end[0]) - side * along[1],
+        0.5 * (ends.start[1] + ends.end[1]) + side * along[0],
+    ])
+}
+
+/// Signed sweep in radians: up to one turn, and the further turns.
+pub(crate) fn sweep(ends: Ends, center: [f64; 2], counterclockwise: bool, turns: f64) -> f64 {
+    let angle = |p: [f64; 2]| (p[1] - center[1]).atan2(p[0] - center[0]);
+    let turn = if counterclockwise { TAU } else { -TAU };
+    let mut swept = angle(ends.end) - angle(ends.start);
+    if distance(ends.start, ends.end) <= SAME_POINT_MM {
+        // A full turn: what differs is rounding, on either side.
+        if swept.abs() > PI {
+            swept -= TAU.copysign(swept);
+        }
+        swept += turn;
+    } else if (swept > 0.0) != counterclockwise || swept == 0.0 {
+        swept += turn;
+    }
+    swept + (turns - 1.0) * turn
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DOT: [f64; 2] = [0.0, 0.0];
+
+    fn swept(start: [f64; 2], end: [f64; 2], counterclockwise: bool) -> f64 {
+        sweep(Ends { start, end }, DOT, counterclockwise, 1.0)
+    }
+
+    #[test]
+    fn sweeps_go_the_asked_way() {
+        let (east, north, west) = ([1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]);
+        assert!((swept(east, north, true) - PI / 2.0).abs() < 1e-15);
+        assert!((swept(east, north, false) + 1.5 * PI).abs() < 1e-15);
+        assert!((swept(north, east, false) + PI / 2.0).abs() < 1e-15);
+        assert!((swept(west, north, true) - 1.5 * PI).abs() < 1e-15);
+        assert!((swept(east, east, true) - TAU).abs() < 1e-15);
+        assert!((swept(west, west, false) + TAU).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_full_turn_survives_rounding_on_both_sides_of_the_cut() {
+        for offset in [1e-13, -1e-13] {
+            assert!((swept([-1.0, 0.0], [-1.0, offset], true) - TAU).abs() < 1e-12);
+            assert!((swept([-1.0, offset], [-1.0, -offset], false) + TAU).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn more_turns_add_whole_turns() {
+        let ends = Ends {
+            start: [1.0, 0.0],
+            end: [0.0, 1.0],
+        };
+        assert!((sweep(ends, DOT, true, 3.0) - (PI / 2.0 + 2.0 * TAU)).abs() < 1e-14);
+        assert!((sweep(ends, DOT, false, 2.0) + (1.5 * PI + TAU)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_radius_is_met_at_both_ends() {
+        let ends = Ends {
+            start: [1.0, 2.0],
+            end: [4.0, -3.0],
+        };
+        for radius in [3.0, -3.0, 100.0, -2.92] {
+            for counterclockwise in [true, false] {
+                let c = center_from_radius(&Block::default(), ends, radius, counterclockwise)
+                    .expect("reachable");
+                assert!((distance(ends.start, c) - radius.abs()).abs() < 1e-9);
+                assert!((distance(ends.end, c) - radius.abs()).abs() < 1e-9);
+                let swept = sweep(ends, c, counterclockwise, 1.0);
+                assert_eq!(swept > 0.0, counterclockwise);
+                assert_eq!(
+                    swept.abs() > PI,
+                    radius < 0.0,
+                    "{radius} {counterclockwise}"
+                );
+            }
+        }
+    }
+}

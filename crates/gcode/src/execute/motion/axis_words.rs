@@ -1,0 +1,179 @@
+//! What takes the axis words of a block: a code that acts once, or a motion mode.
+
+use glidepath_geometry::{AXES, Axis};
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+use crate::execute::interpreter::Interpreter;
+use crate::syntax::block::Block;
+use crate::syntax::codes::Coded;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::letters::Letters;
+use crate::syntax::modes::{Distance, Motion, NonModal, ToolLength};
+use crate::syntax::word_check::missing;
+
+impl Interpreter {
+    /// The motion the block makes, if any: its own code, or the modal one if it has axis words
+    /// that nothing else takes.
+    pub(crate) fn motion_of(&self, block: &Block) -> Outcome<Option<Motion>> {
+        let non_modal = block
+            .codes
+            .non_modal
+            .filter(|non_modal| non_modal.code.takes_axes());
+        let length = block.codes.tool_length.filter(|length| match length.code {
+            ToolLength::FromWords => true,
+            ToolLength::Add => block.get(b'H').is_none(),
+            _ => false,
+        });
+        // On a FANUC X may be the time of a dwell, and a motion code beside G28 is only the next
+        // mode.
+        let fanuc = block.dialect == Dialect::Fanuc;
+        let code = block.codes.non_modal.map(|non_modal| non_modal.code);
+        if fanuc && matches!(code, Some(NonModal::Dwell | NonModal::GoToReference(_))) {
+            return Ok(None);
+        }
+        let taken = non_modal.is_some() || length.is_some();
+        let has_axes = block.has_axes();
+        if let (Some(_), Some(Coded { span, .. })) = (non_modal, length) {
+            return Err(conflict(span));
+        }
+        match (block.codes.motion, taken) {
+            (
+                Some(Coded {
+                    code: Some(_),
+                    span,
+                }),
+                true,
+            ) => Err(conflict(span)),
+            (Some(Coded { code: None, span }), false) if has_axes => Err(Fault::new(
+                DiagnosticCode::NoMotionMode,
+                span,
+                "axis words in a block with G80",
+            )
+            .because("G80 ends the motion mode, so nothing uses them")
+            .help("remove G80 or the axis words")),
+            (
+                Some(Coded {
+                    code: Some(motion),
+                    span,
+                }),
+                false,
+            ) => {
+                let needs = matches!(motion, Motion::Cycle(_) | Motion::Probe(_));
+                if needs && !has_axes {
+                    let meaning = "where to go";
+                    return Err(missing(span, "a cycle or probing move", "an axis", meaning));
+                }
+                Ok((has_axes || motion.may_lack_axes()).then_some(motion))
+            }
+            (_, true) => Ok(None),
+            (_, false) => self.modal_motion(block, has_axes),
+        }
+    }
+
+    fn modal_motion(&self, block: &Block, has_axes: bool) -> Outcome<Option<Motion>> {
+        let modal = self.state.modal.motion;
+        if has_axes {
+            return modal.map(Some).ok_or_else(|| {
+                let span = block.motion_span();
+                Fault::new(
+                    DiagnosticCode::NoMotionMode,
+                    span,
+                    "axis words without a motion mode",
+                )
+                .because("no G0, G1, G2, G3 or cycle is in force")
+                .help("write the motion code in front of them")
+            });
+        }
+        let center = block.has_any(Letters::of(b"IJK"));
+        Ok(modal.filter(|motion| center && motion.may_lack_axes()))
+    }
+
+    pub(crate) fn check_axes(&self, block: &Block) -> Outcome<()> {
+        if !block.has_any(self.lacking) {
+            return Ok(());
+        }
+        match block
+            .axes()
+            .find(|(axis, _)| !self.options.machine.has(*axis))
+        {
+            None => Ok(()),
+            Some((axis, _)) => {
+                let message = format!("the machine has no {axis} axis");
+                let names: String = Axis::ALL
+                    .into_iter()
+                    .filter(|a| self.options.machine.has(*a))
+                    .flat_map(|a| [' ', a.letter()])
+                    .collect();
+                Err(Fault::new(
+                    DiagnosticCode::AxisNotConfigured,
+                    block.axis_span(axis),
+                    message,
+                )
+                .because(format!("its configuration has:{names}"))
+                .help("remove the word, or configure the axis"))
+            }
+        }
+    }
+
+    /// Axis words in mm and degrees, X and Y in the place of polar words, X halved in diameter
+    /// mode.
+    pub(crate) fn axis_values(&self, block: &Block) -> Outcome<[Option<f64>; AXES]> {
+        let scale = self.state.modal.units.mm();
+        let mut values = [None; AXES];
+        for (axis, value) in block.axes() {
+            values[axis.index()] = Some(axis_value(axis, value, scale));
+        }
+        if self.state.modal.diameter {
+            values[0] = values[0].map(|x| 0.5 * x);
+        }
+        self.resolve_polar(block, &mut values)?;
+        if block.dialect == Dialect::Marlin {
+            self.extruder_value(block, &mut values)?;
+        }
+        Ok(values)
+    }
+
+    /// Puts the E word of a printer's program into the place of its axis.
+    fn extruder_value(&self, block: &Block, values: &mut [Option<f64>; AXES]) -> Outcome<()> {
+        let Some(word) = block.get(b'E') else {
+            return Ok(());
+        };
+        let Some(axis) = self.options.extruder else {
+            let message = "no axis is the extruder";
+            return Err(
+                Fault::new(DiagnosticCode::AxisNotConfigured, block.span(b'E'), message)
+                    .because("E words move an axis of the machine")
+                    .help("name the axis: `extruder` of [program] in the configuration"),
+            );
+        };
+        let value = word * self.state.modal.units.mm();
+        let program = self.offsets.to_program(self.state.position)[axis.index()];
+        let incremental = self.state.modal.distance == Distance::Incremental;
+        let names = block.codes.non_modal.is_some();
+        values[axis.index()] = Some(match (self.state.extruder_relative, incremental) {
+            _ if names => value,
+            (true, false) => program + value,
+            (false, true) => value - program,
+            _ => value,
+        });
+        Ok(())
+    }
+}
+
+/// An axis word in mm or degrees; `scale` is the unit of length in mm.
+pub(crate) fn axis_value(axis: Axis, word: f64, scale: f64) -> f64 {
+    if axis.is_rotary() { word } else { word * scale }
+}
+
+#[cold]
+fn conflict(span: Span) -> Box<Fault> {
+    Fault::new(
+        DiagnosticCode::AxisWordsConflict,
+        span,
+        "two codes want the axis words",
+    )
+    .because("G10, G28, G30, G52, G92 and G43.1 take them for themselves")
+    .help("write two blocks")
+}

@@ -1,0 +1,16 @@
+//! The moves of a block: where its axis words lead, along which segments, and how fast.
+
+pub(crate) mod arc;
+mod axis_words;
+mod curve;
+mod feedrate;
+mod limits;
+mod nurbs;
+mod plain_move;
+mod polar;
+mod probe;
+pub(crate) mod settled;
+pub(crate) mod speed;
+mod spline;
+mod straight;
+mod target;

@@ -1,0 +1,159 @@
+//! Straight moves of plain lines, which nearly all lines of a long program are.
+//!
+//! What [`Interpreter::execute`] does with any block is done here for those alone: without the
+//! codes such a line cannot have, and without a copy of the state to go back to, since everything
+//! that may be refused is looked at before anything is changed. Where there is a doubt, that is
+//! left to `execute`, and with it every diagnostic.
+//!
+//! Only the axes a line names are looked at. That the others are where they may be, and that
+//! nothing in force makes more of a move than its words say, is seen once, at the first of such
+//! lines in a row:
+//!
+//! ```text
+//!   G91             any line
+//!   G90 F1000       any line
+//!   G1 X1 Y2        begins a course: units, offsets and modes are looked at
+//!   X1.5            goes on with it
+//!   G0 Z5
+//!   M3              ends it, whatever it does
+//! ```
+
+use glidepath_geometry::{AXES, AxisVector, Line, Segment};
+use glidepath_program::{Item, ItemKind, Rate};
+
+use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::axis_words::axis_value;
+use crate::execute::motion::settled::MIN_MOVE;
+use crate::execute::motion::speed::Pace;
+use crate::execute::state::course::Course;
+use crate::execute::state::modal::Feed;
+use crate::execute::state::sticky_words::CycleSeries;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::letters::{AXIS_WORDS, WordValues};
+use crate::syntax::modes::{Distance, FeedMode, Motion};
+use crate::syntax::straight_line::{WORDS, is_straight};
+
+impl Interpreter {
+    /// Makes the straight move of a plain line; false if it makes none, or one that may have to be
+    /// refused: then nothing has changed. `goes_on` if nothing else was executed since the last
+    /// one.
+    #[inline]
+    pub(crate) fn go(
+        &mut self,
+        code: Option<Motion>,
+        words: &WordValues,
+        goes_on: bool,
+        out: &mut Vec<Item>,
+    ) -> bool {
+        let Some(motion) = code.or(self.state.modal.motion) else {
+            return false;
+        };
+        let is_move = is_straight(motion)
+            && words.has_any(AXIS_WORDS)
+            && words.beside(WORDS).is_empty()
+            && !words.has_any(self.lacking);
+        is_move && (goes_on || self.begin_course()) && self.go_straight(code, motion, words, out)
+    }
+
+    #[inline]
+    fn go_straight(
+        &mut self,
+        code: Option<Motion>,
+        motion: Motion,
+        words: &WordValues,
+        out: &mut Vec<Item>,
+    ) -> bool {
+        let (state, course) = (&mut self.state, &self.course);
+        let feed = match words.get(b'F') {
+            None => state.modal.feed,
+            Some(feed) if feed > 0.0 => Some(Feed {
+                linear_v: feed * course.scale / 60.0,
+                rotary_v: feed / 60.0,
+            }),
+            Some(_) => return false,
+        };
+        if motion != Motion::Rapid && feed.is_none() {
+            return false;
+        }
+        let start = state.path_end;
+        let (mut target, mut end, mut is_zero) = (state.position, start, true);
+        for (axis, word) in words.axes() {
+            let i = axis.index();
+            target[i] = axis_value(axis, word, course.scale) + course.origin[i];
+            // As `settled` has it: where an axis only rounds, it stays.
+            if (target[i] - start[i]).abs() > MIN_MOVE {
+                if self.soft_limits.is_beyond(i, target[i]) {
+                    return false;
+                }
+                end[i] = target[i];
+                is_zero = false;
+            }
+        }
+        state.modal.feed = feed;
+        if code.is_some() {
+            state.modal.motion = code;
+            state.cycles = CycleSeries::default();
+        }
+        state.cubic_tail = None;
+        state.position = target;
+        state.path_end = end;
+        if is_zero {
+            self.count_zero_length(match motion {
+                Motion::Rapid => Pace::Rapid,
+                _ => Pace::Feed,
+            });
+        } else if self.only_judges {
+            self.has_judged = true;
+        } else {
+            let rate = match feed {
+                Some(feed) if motion != Motion::Rapid => Rate::Feed(feed.of_line(&start, &end)),
+                _ => Rate::Rapid,
+            };
+            self.give_out(&start, &end, rate, out);
+        }
+        true
+    }
+
+    #[inline]
+    fn give_out(&self, start: &AxisVector, end: &AxisVector, rate: Rate, out: &mut Vec<Item>) {
+        let (start, end) = (*start, *end);
+        let item = Item {
+            line: self.line,
+            kind: ItemKind::Move {
+                segment: Segment::Line(Line { start, end }),
+                rate,
+                mode: self.state.modal.path_mode,
+            },
+        };
+        // Not `push`, which copies twice.
+        out.extend_from_slice(core::slice::from_ref(&item));
+    }
+
+    /// Looks at what plain lines do not change; false if it makes more of a straight move than its
+    /// words say, or if an axis is not where it may be.
+    fn begin_course(&mut self) -> bool {
+        let (state, modal) = (&self.state, &self.state.modal);
+        let is_plain = modal.distance == Distance::Absolute
+            && modal.feed_mode == FeedMode::PerMinute
+            && !modal.diameter
+            && self.options.dialect != Dialect::Marlin
+            && !self.offsets.is_rotated()
+            && self.compensation.is_none()
+            && !state.on_contour
+            && !state.leaving_contour
+            && self.open_spline.is_none()
+            && !state.spindle.follows_tool();
+        let is_settled = |i: usize| {
+            (state.position[i] - state.path_end[i]).abs() <= MIN_MOVE
+                && !self.soft_limits.is_beyond(i, state.path_end[i])
+        };
+        if !is_plain || !(0..AXES).all(is_settled) {
+            return false;
+        }
+        self.course = Course {
+            scale: modal.units.mm(),
+            origin: AxisVector::from_fn(|i, _| self.offsets.origin(i)),
+        };
+        true
+    }
+}

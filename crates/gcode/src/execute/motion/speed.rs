@@ -1,0 +1,31 @@
+//! Speeds of moves.
+
+use glidepath_geometry::Segment;
+use glidepath_program::Rate;
+
+/// At which speed a block moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pace {
+    Rapid,
+    Feed,
+}
+
+/// Speed of a move whose segment is not known yet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Speed {
+    Rapid,
+    /// mm/s or °/s.
+    Feed(f64),
+    /// G93: moves of this length per minute.
+    Moves(f64),
+}
+
+impl Speed {
+    pub(crate) fn rate(self, segment: &Segment) -> Rate {
+        match self {
+            Self::Rapid => Rate::Rapid,
+            Self::Feed(feed_v) => Rate::Feed(feed_v),
+            Self::Moves(per_minute) => Rate::Feed(segment.length() * per_minute / 60.0),
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Straight moves, reference moves, and which motion a block makes.
+
+use glidepath_geometry::{Axis, AxisVector, Segment};
+use glidepath_program::{Item, ItemKind};
+
+use crate::diagnostic::fault::Outcome;
+use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::settled::settled;
+use crate::execute::motion::speed::{Pace, Speed};
+use crate::syntax::block::Block;
+use crate::syntax::letters::AXIS_WORDS;
+
+impl Interpreter {
+    /// A straight move to a machine position.
+    pub(crate) fn straight(
+        &mut self,
+        block: &Block,
+        target: AxisVector,
+        pace: Pace,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        self.state.leaving_contour = false;
+        if self.compensation.is_some() {
+            return self.compensated_straight(block, target, pace, out);
+        }
+        let start = self.state.path_end;
+        let end = settled(start, target, [None, None]);
+        self.state.position = target;
+        if end == start {
+            self.count_zero_length(pace);
+            return Ok(());
+        }
+        self.check_limits(block, &end, &end, "the end")?;
+        let segment = Segment::line(start, end);
+        let speed = self.speed(block, &segment, pace)?;
+        self.push_move(segment, speed, out);
+        Ok(())
+    }
+
+    pub(crate) fn push_move(&mut self, segment: Segment, speed: Speed, out: &mut Vec<Item>) {
+        self.state.path_end = segment.end();
+        let kind = ItemKind::Move {
+            segment,
+            rate: speed.rate(&segment),
+            mode: self.state.modal.path_mode,
+        };
+        self.push(out, kind);
+    }
+
+    /// G28 and G30: by way of the programmed point to the reference position, at rapid speed. With
+    /// axis words, only those axes move.
+    pub(crate) fn go_to_reference(
+        &mut self,
+        block: &Block,
+        index: usize,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let all = !block.has_any(AXIS_WORDS);
+        if !all {
+            let target = self.target(block)?;
+            self.straight(block, target, Pace::Rapid, out)?;
+        }
+        let reference = self
+            .offsets
+            .reference
+            .get(index)
+            .copied()
+            .unwrap_or_default();
+        let mut target = self.state.position;
+        let values = self.axis_values(block)?;
+        for axis in Axis::ALL {
+            let i = axis.index();
+            let goes = self.options.machine.has(axis) && self.options.extruder != Some(axis);
+            if values[i].is_some() || (all && goes) {
+                target[i] = reference[i];
+            }
+        }
+        self.straight(block, target, Pace::Rapid, out)
+    }
+}

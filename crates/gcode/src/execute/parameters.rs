@@ -1,0 +1,190 @@
+//! Numbered and named parameters.
+//!
+//! | parameter | meaning |
+//! |---|---|
+//! | `#1` … `#30` | local to a subroutine call; its arguments at first |
+//! | `#31` … `#5000` | global, zero at first |
+//! | `#5061` … `#5070` | program coordinates of the last probing move's end; 1: contact was made |
+//! | `#5161` …, `#5181` … | positions of G28 and G30, machine coordinates |
+//! | `#5210`, `#5211` … | is G92 in force, and its offsets |
+//! | `#5220` | active coordinate system, 1 for G54 |
+//! | `#5221` …, `#5241` … | origins of G54, G55 …; the tenth of each is its rotation |
+//! | `#5399` | input read by M66 last |
+//! | `#5400` … `#5413` | tool in the spindle: number, offsets in force, diameter, –, –, orientation |
+//! | `#5420` … `#5428` | program coordinates of the position, in the units in force |
+//! | other numbers to `#5602` | read as zero |
+//! | `#<name>` | local to a subroutine call |
+//! | `#<_name>` | global |
+//!
+//! What describes the machine (from `#5001` on, and the names in [`READ_ONLY`]) cannot be assigned.
+
+use std::collections::BTreeMap;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+use crate::syntax::expression::scope::{LOCALS, Parameter, no_parameter};
+
+/// Largest number that can be assigned.
+pub(crate) const MAX_ASSIGNED: u32 = 5000;
+/// Largest number that exists.
+pub(crate) const MAX_NUMBERED: u32 = 5602;
+/// Most named parameters at a time.
+const MAX_NAMES: usize = 10_000;
+
+/// What a subroutine call has for itself.
+#[derive(Debug, Clone, Default)]
+struct Locals {
+    numbered: [f64; LOCALS],
+    named: BTreeMap<String, f64>,
+}
+
+/// All parameters a program can assign.
+#[derive(Debug, Clone)]
+pub(crate) struct Parameters {
+    /// `#31` and up, by number; empty until one is assigned.
+    global: Vec<f64>,
+    named: BTreeMap<String, f64>,
+    /// One per call level; the first is that of the program itself.
+    levels: Vec<Locals>,
+    names: usize,
+}
+
+impl Parameters {
+    pub(crate) fn new() -> Self {
+        Self {
+            global: Vec::new(),
+            named: BTreeMap::new(),
+            levels: vec![Locals::default()],
+            names: 0,
+        }
+    }
+
+    /// Subroutine calls in progress.
+    pub(crate) fn call_level(&self) -> usize {
+        self.levels.len().saturating_sub(1)
+    }
+
+    /// Starts a call with these arguments.
+    pub(crate) fn enter(&mut self, arguments: &[f64]) {
+        let mut locals = Locals::default();
+        for (slot, value) in locals.numbered.iter_mut().zip(arguments) {
+            *slot = *value;
+        }
+        self.levels.push(locals);
+    }
+
+    /// Ends a call, with the value it returned.
+    pub(crate) fn leave(&mut self, value: Option<f64>) {
+        if self.levels.len() > 1
+            && let Some(locals) = self.levels.pop()
+        {
+            self.names = self.names.saturating_sub(locals.named.len());
+        }
+        self.named.insert("_value".to_owned(), value.unwrap_or(0.0));
+        self.named.insert(
+            "_value_returned".to_owned(),
+            f64::from(u8::from(value.is_some())),
+        );
+    }
+
+    /// Refuses an assignment that is not possible.
+    pub(crate) fn check_assignable(&self, parameter: &Parameter, span: Span) -> Outcome<()> {
+        match parameter {
+            Parameter::Numbered(number) if *number > MAX_NUMBERED => {
+                Err(no_parameter(span, f64::from(*number)))
+            }
+            Parameter::Numbered(number) if *number > MAX_ASSIGNED => Err(read_only(span)),
+            Parameter::Named(name) if READ_ONLY.contains(&name.as_str()) => Err(read_only(span)),
+            Parameter::Named(_) if self.names >= MAX_NAMES => {
+                let message = format!("more than {MAX_NAMES} named parameters");
+                Err(Fault::new(DiagnosticCode::Parameter, span, message)
+                    .because("the memory of a program is bounded")
+                    .help("use numbered parameters"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Assigns; the parameter has been found assignable.
+    pub(crate) fn assign(&mut self, parameter: &Parameter, value: f64) {
+        match parameter {
+            Parameter::Numbered(number) => {
+                let index = usize::try_from(*number).unwrap_or(usize::MAX);
+                if (1..=LOCALS).contains(&index) {
+                    if let Some(locals) = self.levels.last_mut() {
+                        locals.numbered[index - 1] = value;
+                    }
+                } else if *number <= MAX_ASSIGNED {
+                    if self.global.len() <= index {
+                        self.global.resize(index + 1, 0.0);
+                    }
+                    self.global[index] = value;
+                }
+            }
+            Parameter::Named(name) => {
+                let names = if name.starts_with('_') {
+                    &mut self.named
+                } else if let Some(locals) = self.levels.last_mut() {
+                    &mut locals.named
+                } else {
+                    return;
+                };
+                if names.insert(name.clone(), value).is_none() {
+                    self.names += 1;
+                }
+            }
+        }
+    }
+
+    pub(crate) fn numbered(&self, number: u32) -> f64 {
+        let index = usize::try_from(number).unwrap_or(usize::MAX);
+        if (1..=LOCALS).contains(&index) {
+            return self
+                .levels
+                .last()
+                .map_or(0.0, |locals| locals.numbered[index - 1]);
+        }
+        self.global.get(index).copied().unwrap_or(0.0)
+    }
+
+    pub(crate) fn named(&self, name: &str) -> Option<f64> {
+        let names = if name.starts_with('_') {
+            &self.named
+        } else {
+            &self.levels.last()?.named
+        };
+        names.get(name).copied()
+    }
+}
+
+fn read_only(span: Span) -> Box<Fault> {
+    Fault::new(
+        DiagnosticCode::Parameter,
+        span,
+        "the parameter cannot be assigned",
+    )
+    .because("it shows the state of the machine")
+    .help("use G10, G28.1, G92 and the like, or another parameter")
+}
+
+/// Names that show the state and cannot be assigned.
+pub(crate) const READ_ONLY: [&str; 17] = [
+    "_x",
+    "_y",
+    "_z",
+    "_a",
+    "_b",
+    "_c",
+    "_u",
+    "_v",
+    "_w",
+    "_metric",
+    "_imperial",
+    "_absolute",
+    "_incremental",
+    "_feed",
+    "_call_level",
+    "_current_tool",
+    "_selected_tool",
+];

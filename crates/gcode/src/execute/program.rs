@@ -1,0 +1,244 @@
+//! A program as an iterator of items.
+
+use std::io::BufRead;
+
+use glidepath_geometry::AxisVector;
+use glidepath_program::Item;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+use crate::execute::dialect::tape::Tape;
+use crate::execute::flow::activation::Flow;
+use crate::execute::interpreter::Interpreter;
+use crate::execute::lathe_cycle::open::OpenLatheCycle;
+use crate::execute::line_origin::{LineOrigin, SourceLine};
+use crate::execute::parameters::Parameters;
+use crate::execute::scope::ProgramScope;
+use crate::execute::state::modal::Modal;
+use crate::setup::options::Options;
+use crate::summary::totals::Totals;
+use crate::syntax::block::Block;
+use crate::syntax::cursor::Cursor;
+use crate::syntax::line_source::LineSource;
+use crate::syntax::straight_line::StraightLine;
+
+/// A program being read: an iterator of [`Item`]s in constant memory.
+///
+/// It ends at M2, M30, the second percent line, the end of the input, or after the first
+/// diagnostic.
+#[derive(Debug)]
+pub struct Program<R> {
+    pub(crate) source: LineSource<R>,
+    pub(crate) interpreter: Interpreter,
+    pub(crate) parameters: Parameters,
+    pub(crate) flow: Flow,
+    /// Lines of a program in a dialect whose flow is not that of O words.
+    pub(crate) tape: Tape,
+    pub(crate) origin: LineOrigin,
+    pub(crate) block: Block,
+    /// The line read last, if it was tried as a straight move.
+    pub(crate) straight: StraightLine,
+    /// The line executed last was one.
+    pub(crate) was_straight: bool,
+    /// The lathe cycle whose profile is being read.
+    pub(crate) lathe_cycle: Option<Box<OpenLatheCycle>>,
+    /// Items of the last block; the first `given` of them have been given out.
+    pub(crate) items: Vec<Item>,
+    pub(crate) given: usize,
+    pub(crate) totals: Totals,
+    /// Kept lines executed since the last item.
+    pub(crate) idle_lines: u32,
+    /// Kept lines executed.
+    pub(crate) kept_lines: u64,
+    /// A percent line was read.
+    pub(crate) percent: bool,
+    /// A line with words was read.
+    pub(crate) begun: bool,
+    pub(crate) ended: bool,
+}
+
+impl<R: BufRead> Program<R> {
+    /// Starts to read a program. Nothing is read before the first item is asked for.
+    pub fn new(reader: R, options: Options) -> Self {
+        let block = Block::of(options.dialect);
+        Self {
+            source: LineSource::new(reader),
+            interpreter: Interpreter::new(options),
+            parameters: Parameters::new(),
+            flow: Flow::default(),
+            tape: Tape::default(),
+            origin: LineOrigin::Stream,
+            block,
+            straight: StraightLine::default(),
+            was_straight: false,
+            lathe_cycle: None,
+            items: Vec::new(),
+            given: 0,
+            totals: Totals::default(),
+            idle_lines: 0,
+            kept_lines: 0,
+            percent: false,
+            begun: false,
+            ended: false,
+        }
+    }
+
+    /// The same program to be judged alone: its items and totals leave out most moves.
+    pub(crate) const fn only_judged(mut self) -> Self {
+        self.interpreter.only_judges = true;
+        self
+    }
+
+    /// Modal state after the last block read.
+    #[must_use]
+    pub const fn modal(&self) -> &Modal {
+        &self.interpreter.state.modal
+    }
+
+    /// Machine position after the last block read.
+    #[must_use]
+    pub const fn position(&self) -> &AxisVector {
+        &self.interpreter.state.position
+    }
+
+    /// Items of the line read last.
+    pub(crate) fn items(&self) -> &[Item] {
+        &self.items
+    }
+
+    /// Gives out the items of a lathe cycle.
+    pub(crate) fn give(&mut self, items: Vec<Item>) {
+        self.items = items;
+        self.idle_lines = 0;
+        self.count();
+    }
+
+    /// The block read last.
+    pub(crate) const fn block(&self) -> &Block {
+        &self.block
+    }
+
+    /// Counts and sums over the blocks read so far.
+    #[must_use]
+    pub const fn totals(&self) -> &Totals {
+        &self.totals
+    }
+
+    /// Lines of subroutines and structures executed so far, each as often as it was.
+    pub(crate) const fn kept_lines(&self) -> u64 {
+        self.kept_lines
+    }
+
+    /// The line being executed.
+    pub(crate) fn here(&self) -> SourceLine {
+        match &self.origin {
+            LineOrigin::Stream => SourceLine::new(self.source.number(), self.source.text()),
+            LineOrigin::Past(line) | LineOrigin::Tape(line) => line.clone(),
+            LineOrigin::Kept(part, index) => match part.lines.get(*index) {
+                Some(line) => SourceLine {
+                    file: part.file.clone(),
+                    ..SourceLine::new(line.number, &line.text)
+                },
+                None => SourceLine::default(),
+            },
+        }
+    }
+
+    /// The line of the program that a move now comes from: in the file of a subroutine, the line
+    /// that calls it.
+    pub(crate) fn line_of_program(&self) -> u32 {
+        match &self.origin {
+            LineOrigin::Stream => self.source.number(),
+            LineOrigin::Past(line) | LineOrigin::Tape(line) => line.number,
+            LineOrigin::Kept(part, index) if part.file.is_none() => {
+                part.lines.get(*index).map_or(0, |line| line.number)
+            }
+            LineOrigin::Kept(..) => self
+                .flow
+                .activations
+                .last()
+                .map_or(0, |activation| activation.called_from),
+        }
+    }
+
+    /// Counts a line that may be executed again and again.
+    pub(crate) fn count_idle(&mut self) -> Outcome<()> {
+        self.kept_lines += 1;
+        self.idle_lines += 1;
+        let most = self.interpreter.options.loops.idle_lines;
+        if self.idle_lines > most {
+            return Err(endless(most));
+        }
+        Ok(())
+    }
+
+    /// Nothing more is read.
+    pub(crate) const fn end(&mut self) {
+        self.ended = true;
+    }
+
+    pub(crate) fn set_tape_origin(&mut self, number: u32, text: &[u8]) {
+        self.origin = LineOrigin::Tape(SourceLine::new(number, text));
+    }
+
+    /// The end of the input, or of the tape: false, or a diagnostic if a part is not complete.
+    pub(crate) fn end_of_input(&mut self) -> Outcome<bool> {
+        self.ended = true;
+        match self.flow.recorder.take() {
+            None => {
+                self.interpreter.check_spline_complete()?;
+                self.interpreter.end_compensation(&mut self.items)?;
+                self.count();
+                Ok(false)
+            }
+            Some(recorder) => {
+                let fault = recorder.unfinished();
+                let (number, text, _) = recorder.first;
+                self.origin = LineOrigin::Past(SourceLine::new(number, &text));
+                Err(fault)
+            }
+        }
+    }
+
+    /// Adds the items of a line to the totals.
+    pub(crate) fn count(&mut self) {
+        for item in &self.items {
+            self.totals.add(item);
+        }
+    }
+
+    /// Counts what a line came to.
+    #[inline]
+    pub(crate) fn end_of_line(&mut self) {
+        if !self.items.is_empty() || self.interpreter.has_judged {
+            self.idle_lines = 0;
+        }
+        self.count();
+        self.totals.zero_length_feeds += self.interpreter.zero_length.feeds;
+        self.totals.zero_length_rapids += self.interpreter.zero_length.rapids;
+    }
+
+    pub(crate) fn is_deleted(&self) -> bool {
+        self.interpreter.options.block_delete
+            && Cursor::new(self.source.text()).next_visible() == Some(b'/')
+    }
+
+    pub(crate) const fn scope(&self) -> ProgramScope<'_> {
+        ProgramScope {
+            parameters: &self.parameters,
+            interpreter: &self.interpreter,
+        }
+    }
+}
+
+pub(crate) fn is_percent(text: &[u8]) -> bool {
+    Cursor::new(text).next_visible() == Some(b'%')
+}
+
+fn endless(lines: u32) -> Box<Fault> {
+    let message = format!("{lines} lines of a loop without a move");
+    Fault::new(DiagnosticCode::EndlessLoop, Span::default(), message)
+        .because("a loop that moves nothing for so long would hold up the machine for ever")
+        .help("check the condition that should end it")
+}

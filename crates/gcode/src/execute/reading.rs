@@ -1,0 +1,68 @@
+//! Reads a program line by line, and gives out its items.
+
+use std::io::BufRead;
+use std::mem;
+
+use glidepath_program::Item;
+
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::fault::Outcome;
+use crate::execute::line_origin::LineOrigin;
+use crate::execute::program::Program;
+use crate::syntax::dialect::Dialect;
+
+impl<R: BufRead> Program<R> {
+    /// Reads the next line and executes it; its items replace those of the line before.
+    ///
+    /// `None` after the end. A line with a diagnostic has no effect on the state, and the next line
+    /// can be read, unless what follows depends on it: a diagnostic that is fatal, or in an O word,
+    /// a subroutine or a loop ends the program.
+    pub(crate) fn next_line(&mut self) -> Option<Result<(), Diagnostic>> {
+        self.items.clear();
+        self.given = 0;
+        if self.ended {
+            return None;
+        }
+        let goes_on = mem::take(&mut self.was_straight);
+        let result = self.read_line(goes_on);
+        self.totals.lines = self.source.number();
+        match result {
+            Ok(true) => Some(Ok(())),
+            Ok(false) => {
+                self.ended = true;
+                // What cutter radius compensation still held back is given out now.
+                (!self.items.is_empty()).then_some(Ok(()))
+            }
+            Err(fault) => {
+                let kept = matches!(self.origin, LineOrigin::Kept(..) | LineOrigin::Past(..));
+                self.ended |= kept || fault.code.is_fatal();
+                Some(Err(self.here().diagnostic(*fault)))
+            }
+        }
+    }
+
+    fn read_line(&mut self, goes_on: bool) -> Outcome<bool> {
+        match self.interpreter.options.dialect {
+            Dialect::LinuxCnc => self.read_linuxcnc(goes_on),
+            Dialect::Fanuc => self.read_fanuc(),
+            Dialect::Marlin | Dialect::Siemens => self.read_without_flow(),
+        }
+    }
+}
+
+impl<R: BufRead> Iterator for Program<R> {
+    type Item = Result<Item, Diagnostic>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            if let Some(item) = self.items.get(self.given) {
+                self.given += 1;
+                return Some(Ok(*item));
+            }
+            if let Err(diagnostic) = self.next_line()? {
+                self.ended = true;
+                return Some(Err(diagnostic));
+            }
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! What is in force from block to block, part by part.
+
+pub(crate) mod coolant;
+pub(crate) mod course;
+pub(crate) mod modal;
+pub(crate) mod offsets;
+pub(crate) mod open_spline;
+pub(crate) mod probe_result;
+pub(crate) mod saved_states;
+pub(crate) mod soft_limits;
+pub(crate) mod spindle;
+pub(crate) mod sticky_words;

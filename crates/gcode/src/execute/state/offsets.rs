@@ -1,0 +1,205 @@
+//! Coordinate systems: from program to machine coordinates and back.
+//!
+//! ```text
+//! machine = tool offset(G43) + origin(G54 …) + R(θ) · (program + offset(G92, G52))
+//! ```
+//!
+//! R turns X and Y about the Z axis by the angle of the coordinate system (G10 L2 R). Everything
+//! is in mm and degrees, and the machine coordinates are the truth: a change of offsets moves
+//! nothing, it gives the same place another name.
+
+use glidepath_geometry::{AXES, AxisVector};
+
+/// Number of coordinate systems: G54 … G59, G59.1 … G59.3.
+pub(crate) const SYSTEMS: usize = 9;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CoordinateSystem {
+    pub(crate) origin: AxisVector,
+    pub(crate) rotation_deg: f64,
+}
+
+impl CoordinateSystem {
+    /// Turns X and Y by the rotation of the system, times `sign`.
+    pub(crate) fn rotate(&self, mut v: AxisVector, sign: f64) -> AxisVector {
+        if self.rotation_deg != 0.0 {
+            let (sin, cos) = (sign * self.rotation_deg.to_radians()).sin_cos();
+            (v[0], v[1]) = (v[0] * cos - v[1] * sin, v[0] * sin + v[1] * cos);
+        }
+        v
+    }
+}
+
+/// Every offset a program can set.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Offsets {
+    pub(crate) systems: [CoordinateSystem; SYSTEMS],
+    /// Index of the active system.
+    pub(crate) active: usize,
+    /// Tool offset in force (G43), machine axes.
+    pub(crate) tool: AxisVector,
+    /// Offset of G92 or G52 in force.
+    pub(crate) shift: AxisVector,
+    /// The offset G92.3 brings back.
+    pub(crate) saved_shift: AxisVector,
+    /// Machine positions of G28 and G30.
+    pub(crate) reference: [AxisVector; 2],
+}
+
+impl Offsets {
+    pub(crate) fn new() -> Self {
+        let system = CoordinateSystem {
+            origin: AxisVector::zeros(),
+            rotation_deg: 0.0,
+        };
+        Self {
+            systems: [system; SYSTEMS],
+            active: 0,
+            tool: AxisVector::zeros(),
+            shift: AxisVector::zeros(),
+            saved_shift: AxisVector::zeros(),
+            reference: [AxisVector::zeros(); 2],
+        }
+    }
+
+    /// The coordinate system in force.
+    pub(crate) const fn system(&self) -> &CoordinateSystem {
+        // `active` is only ever set from a G5x code, so it is below SYSTEMS.
+        &self.systems[if self.active < SYSTEMS {
+            self.active
+        } else {
+            0
+        }]
+    }
+
+    pub(crate) fn is_rotated(&self) -> bool {
+        self.system().rotation_deg != 0.0
+    }
+
+    /// Machine coordinate of the program's zero on an axis, where nothing is turned.
+    pub(crate) fn origin(&self, axis: usize) -> f64 {
+        self.shift[axis] + self.system().origin[axis] + self.tool[axis]
+    }
+
+    pub(crate) fn to_machine(&self, program: AxisVector) -> AxisVector {
+        let system = self.system();
+        system.rotate(program + self.shift, 1.0) + (system.origin + self.tool)
+    }
+
+    pub(crate) fn to_program(&self, machine: AxisVector) -> AxisVector {
+        self.to_program_in(self.system(), machine)
+    }
+
+    /// Coordinates in the coordinate system of that index, without the offset of G92.
+    pub(crate) fn in_fixture(&self, index: usize, machine: AxisVector) -> AxisVector {
+        let system = self.systems.get(index).unwrap_or_else(|| self.system());
+        self.to_program_in(system, machine) + self.shift
+    }
+
+    fn to_program_in(&self, system: &CoordinateSystem, machine: AxisVector) -> AxisVector {
+        system.rotate(machine - (system.origin + self.tool), -1.0) - self.shift
+    }
+
+    /// G10 L20: moves the origin of a system so that the machine position has the given program
+    /// coordinates in it; axes without a value keep theirs.
+    pub(crate) fn set_current(
+        &mut self,
+        index: usize,
+        machine: AxisVector,
+        wanted: &[Option<f64>; AXES],
+    ) {
+        let Some(mut system) = self.systems.get(index).copied() else {
+            return;
+        };
+        let program = overlay(self.to_program_in(&system, machine), wanted);
+        let origin = machine - self.tool - system.rotate(program + self.shift, 1.0);
+        // An axis that was not named, and is not turned along with one that was, stays exact.
+        let turned = system.rotation_deg != 0.0 && (wanted[0].is_some() || wanted[1].is_some());
+        for axis in 0..AXES {
+            if wanted[axis].is_some() || (turned && axis < 2) {
+                system.origin[axis] = origin[axis];
+            }
+        }
+        if let Some(slot) = self.systems.get_mut(index) {
+            *slot = system;
+        }
+    }
+
+    /// G92: shifts the coordinates so that the machine position has the given ones.
+    pub(crate) fn set_shift(&mut self, machine: AxisVector, wanted: &[Option<f64>; AXES]) {
+        let program = self.to_program(machine);
+        for axis in 0..AXES {
+            if let Some(value) = wanted[axis] {
+                self.shift[axis] += program[axis] - value;
+            }
+        }
+        self.saved_shift = self.shift;
+    }
+}
+
+/// `base` with the given values written over it.
+pub(crate) fn overlay(mut base: AxisVector, values: &[Option<f64>; AXES]) -> AxisVector {
+    for (slot, value) in base.iter_mut().zip(values) {
+        if let Some(value) = value {
+            *slot = *value;
+        }
+    }
+    base
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(x: f64, y: f64, z: f64) -> AxisVector {
+        let mut p = AxisVector::zeros();
+        (p[0], p[1], p[2]) = (x, y, z);
+        p
+    }
+
+    fn wanted(x: Option<f64>, y: Option<f64>) -> [Option<f64>; AXES] {
+        let mut all = [None; AXES];
+        (all[0], all[1]) = (x, y);
+        all
+    }
+
+    fn rotated() -> Offsets {
+        let mut offsets = Offsets::new();
+        offsets.systems[0].origin = point(10.0, 20.0, 30.0);
+        offsets.systems[0].rotation_deg = 90.0;
+        offsets.shift = point(1.0, 2.0, 3.0);
+        offsets.tool = point(0.0, 0.0, 0.5);
+        offsets
+    }
+
+    #[test]
+    fn a_quarter_turn_by_hand() {
+        // (4, 5) + (1, 2) = (5, 7), turned to (-7, 5), moved to (3, 25).
+        let machine = rotated().to_machine(point(4.0, 5.0, 6.0));
+        assert!((machine - point(3.0, 25.0, 39.5)).norm() < 1e-12);
+        assert!((rotated().to_program(machine) - point(4.0, 5.0, 6.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn l20_gives_the_position_its_name() {
+        for (x, y) in [(Some(7.0), None), (None, Some(8.0)), (Some(7.0), Some(8.0))] {
+            let mut offsets = rotated();
+            let machine = point(100.0, 200.0, 300.0);
+            let before = offsets.to_program(machine);
+            offsets.set_current(0, machine, &wanted(x, y));
+            let after = offsets.to_program(machine);
+            assert!((after[0] - x.unwrap_or(before[0])).abs() < 1e-9);
+            assert!((after[1] - y.unwrap_or(before[1])).abs() < 1e-9);
+            assert!((after[2] - before[2]).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn g92_gives_the_position_its_name() {
+        let mut offsets = rotated();
+        let machine = point(100.0, 200.0, 300.0);
+        offsets.set_shift(machine, &wanted(Some(-1.0), None));
+        assert!((offsets.to_program(machine)[0] + 1.0).abs() < 1e-9);
+        assert!((offsets.saved_shift - offsets.shift).norm() < 1e-15);
+    }
+}

@@ -1,0 +1,52 @@
+//! The spindle as the program has commanded it: direction, speed, and what S means.
+
+/// Which way the spindle turns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum SpindleDirection {
+    /// M3.
+    Clockwise,
+    /// M4.
+    Counterclockwise,
+}
+
+impl SpindleDirection {
+    /// The M code that turns it this way.
+    pub(crate) const fn code(self) -> u32 {
+        match self {
+            Self::Clockwise => 3,
+            Self::Counterclockwise => 4,
+        }
+    }
+
+    pub(crate) const fn reversed(self) -> Self {
+        match self {
+            Self::Clockwise => Self::Counterclockwise,
+            Self::Counterclockwise => Self::Clockwise,
+        }
+    }
+}
+
+/// State of the spindle.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Spindle {
+    pub(crate) turning: Option<SpindleDirection>,
+    /// Speed told last, rev/min; zero until there is an S word.
+    pub(crate) speed: f64,
+    pub(crate) surface: Option<Surface>,
+}
+
+/// G96.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Surface {
+    /// Cutting speed, mm/min; zero until there is an S word.
+    pub(crate) speed: f64,
+    /// Most revolutions a minute.
+    pub(crate) most: f64,
+}
+
+impl Spindle {
+    /// G96 is in force: the speed depends on where the tool is.
+    pub(crate) const fn follows_tool(&self) -> bool {
+        self.surface.is_some()
+    }
+}

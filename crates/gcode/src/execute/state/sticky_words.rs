@@ -1,0 +1,21 @@
+//! What canned cycles keep from block to block.
+
+use crate::syntax::modes::CannedCycle;
+
+/// What cycles keep from block to block.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct CycleSeries {
+    /// Program coordinate, along the normal axis, from before the series, mm.
+    pub(crate) initial: Option<f64>,
+    pub(crate) last: Option<StickyWords>,
+}
+
+/// Words of a cycle that later blocks keep, mm and s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct StickyWords {
+    pub(crate) cycle: CannedCycle,
+    pub(crate) r: f64,
+    pub(crate) depth: f64,
+    pub(crate) dwell_s: f64,
+    pub(crate) peck: f64,
+}

@@ -1,0 +1,90 @@
+//! How a program is to be read.
+
+use std::sync::Arc;
+
+use glidepath_geometry::{Axis, AxisVector};
+
+use crate::setup::machine::Machine;
+use crate::setup::subroutine_file::Subroutines;
+use crate::setup::tool_table::ToolTable;
+use crate::syntax::dialect::Dialect;
+
+/// How a program is to be read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// The machine it is for.
+    pub machine: Machine,
+    /// Feedrate in mm/min (°/min for a move of rotary axes alone), > 0, for feed moves before the
+    /// first F word. `None`: such moves are errors.
+    pub default_feed_mm_min: Option<f64>,
+    /// Skips lines that start with a slash.
+    pub block_delete: bool,
+    /// Where the machine stands, in machine coordinates.
+    pub start: AxisVector,
+    /// Lengths and diameters of the tools. `None`: blocks that need them are errors.
+    pub tools: Option<Arc<ToolTable>>,
+    /// Where subroutines come from that the program does not define. `None`: they are errors.
+    pub subroutines: Option<Subroutines>,
+    /// The language of the program.
+    pub dialect: Dialect,
+    /// The axis that E words of [`Dialect::Marlin`] move. `None`: they are errors.
+    pub extruder: Option<Axis>,
+    /// What inputs, outputs and the probe are.
+    pub connections: Connections,
+    /// How far the pieces a spline is made of may be away from it, mm, > 0. G64 P overrides it with
+    /// a thousandth of P.
+    pub spline_tolerance_mm: f64,
+    /// How long loops may go on.
+    pub loops: LoopLimits,
+}
+
+/// What inputs, outputs (M62 to M68), spindle orientation (M19) and the probe (G38) are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Connections {
+    /// Nothing: blocks that need them are errors.
+    #[default]
+    None,
+    /// Simulated: outputs are events, inputs read zero and never keep waiting, and the probe makes
+    /// contact at the end of its move.
+    Simulated,
+}
+
+/// How long subroutines and loops may go on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LoopLimits {
+    /// Most of their lines executed in a row without anything coming of them; more is an error.
+    pub idle_lines: u32,
+    /// Most of their lines executed by [`crate::check`], each as often as it is.
+    pub checked_lines: u64,
+}
+
+impl Default for LoopLimits {
+    /// A million idle lines, twenty million checked ones.
+    fn default() -> Self {
+        Self {
+            idle_lines: 1_000_000,
+            checked_lines: 20_000_000,
+        }
+    }
+}
+
+impl Default for Options {
+    /// All nine axes without soft limits, no default feedrate, block delete off, at machine zero,
+    /// no tool table, no subroutines in other files, LinuxCNC's language, nothing connected,
+    /// splines to a micrometre.
+    fn default() -> Self {
+        Self {
+            machine: Machine::unlimited(),
+            default_feed_mm_min: None,
+            block_delete: false,
+            start: AxisVector::zeros(),
+            tools: None,
+            subroutines: None,
+            dialect: Dialect::LinuxCnc,
+            extruder: None,
+            connections: Connections::None,
+            spline_tolerance_mm: 1e-5,
+            loops: LoopLimits::default(),
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! What a program comes to: counts and sums, and what is seen along its path.
+
+pub(crate) mod survey;
+pub(crate) mod totals;

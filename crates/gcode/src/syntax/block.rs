@@ -1,0 +1,396 @@
+//! One line of text, read into the words of one block.
+//!
+//! Nothing here depends on the modal state but the parameters a line reads. A block is filled again
+//! for every line, so that none is allocated.
+
+use glidepath_geometry::Axis;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+use crate::syntax::bad_byte::bad_byte;
+use crate::syntax::codes::{Coded, Codes};
+use crate::syntax::cursor::Cursor;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::expression::scope::{Parameter, Scope};
+use crate::syntax::expression::value::{open_expression, parameter, value};
+use crate::syntax::letters::{AXIS_LETTERS, AXIS_WORDS, Letters, Slot, WordValues};
+use crate::syntax::modes::Motion;
+use crate::syntax::plain_line::{WordSink, read_plain};
+
+/// What a line is, besides its words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum LineKind {
+    /// Words, perhaps none.
+    #[default]
+    Block,
+    /// A percent sign by itself: start or end of the tape.
+    Percent,
+}
+
+/// The words of a line.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Block {
+    pub(crate) dialect: Dialect,
+    pub(crate) kind: LineKind,
+    pub(crate) codes: Codes,
+    pub(crate) words: WordValues,
+    /// Where the words stand, by slot.
+    spans: [Span; 26],
+    /// Nothing but what [`Block::parse_plain`] reads was put into it since it was cleared: its
+    /// codes have a motion at most.
+    is_plain: bool,
+    /// `@` and `^`.
+    pub(crate) polar: [Option<PolarWord>; 2],
+    /// Parameters to assign after the block, in order.
+    pub(crate) assignments: Vec<Assignment>,
+    /// True if the line has any word or code.
+    pub(crate) any: bool,
+}
+
+/// A polar word: distance or angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PolarWord {
+    pub(crate) value: f64,
+    pub(crate) span: Span,
+}
+
+/// `#1=2`: takes effect after everything else of its block.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Assignment {
+    pub(crate) parameter: Parameter,
+    pub(crate) value: f64,
+    pub(crate) span: Span,
+}
+
+impl Block {
+    /// A block to be filled with lines of a dialect.
+    pub(crate) fn of(dialect: Dialect) -> Self {
+        Self {
+            dialect,
+            ..Self::default()
+        }
+    }
+
+    /// Value of a word.
+    pub(crate) const fn get(&self, letter: u8) -> Option<f64> {
+        self.words.get(letter)
+    }
+
+    /// Where a word stands; an empty span if the block does not have it.
+    pub(crate) const fn span(&self, letter: u8) -> Span {
+        if self.words.get(letter).is_none() {
+            Span {
+                start: 0,
+                length: 0,
+            }
+        } else {
+            self.spans[Slot::of(letter).index()]
+        }
+    }
+
+    /// True if the block has an axis word or a polar one.
+    pub(crate) const fn has_axes(&self) -> bool {
+        let extruder = matches!(self.dialect, Dialect::Marlin) && self.get(b'E').is_some();
+        extruder || self.has_any(AXIS_WORDS) || self.polar[0].is_some() || self.polar[1].is_some()
+    }
+
+    /// True if the block has any of these words.
+    pub(crate) const fn has_any(&self, letters: Letters) -> bool {
+        self.words.has_any(letters)
+    }
+
+    /// The axis words, in index order.
+    pub(crate) fn axes(&self) -> impl Iterator<Item = (Axis, f64)> + '_ {
+        self.words.axes()
+    }
+
+    /// Where an axis word stands.
+    pub(crate) const fn axis_span(&self, axis: Axis) -> Span {
+        self.span(AXIS_LETTERS[axis.index()])
+    }
+
+    /// The first word, from the left, that is not among `used`.
+    pub(crate) fn unused(&self, used: Letters) -> Option<(char, Span)> {
+        let left = self.words.beside(used);
+        if left.is_empty() {
+            return None;
+        }
+        (b'A'..=b'Z')
+            .filter(|&letter| left.has(letter))
+            .map(|letter| (char::from(letter), self.span(letter)))
+            .min_by_key(|(_, span)| span.start)
+    }
+
+    /// Where the first word with a value stands.
+    pub(crate) fn first_span(&self) -> Span {
+        let code = self.codes.motion.map(|motion| motion.span);
+        let word = self.unused(Letters::of(b"")).map(|(_, span)| span);
+        let first = code.into_iter().chain(word).min_by_key(|span| span.start);
+        first.unwrap_or_default()
+    }
+
+    /// Where a diagnostic about the motion of the block points.
+    pub(crate) fn motion_span(&self) -> Span {
+        let code = self.codes.motion.map(|motion| motion.span);
+        let axes = self.axes().map(|(axis, _)| self.axis_span(axis));
+        let polar = self.polar.into_iter().flatten().map(|word| word.span);
+        code.into_iter()
+            .chain(axes)
+            .chain(polar)
+            .min_by_key(|span| span.start)
+            .unwrap_or_default()
+    }
+
+    /// Makes the block an empty one.
+    #[inline]
+    pub(crate) fn clear(&mut self) {
+        self.words.clear();
+        self.any = false;
+        self.codes.motion = None;
+        if !self.is_plain {
+            self.assignments.clear();
+            self.polar = [None, None];
+            self.codes = Codes::default();
+            self.kind = LineKind::Block;
+            self.is_plain = true;
+        }
+    }
+
+    /// True if the block is of a plain line: words with values, and of codes a motion at most.
+    pub(crate) const fn is_plain(&self) -> bool {
+        self.is_plain
+    }
+
+    /// Fills the block from a plain line, of which `text` has all and may have more: where the line
+    /// ends. `None` if the line is not plain: the block is then to be filled by
+    /// [`Block::parse_any`].
+    #[inline]
+    pub(crate) fn parse_plain(&mut self, text: &[u8]) -> Option<usize> {
+        self.clear();
+        read_plain(text, self)
+    }
+
+    /// Fills the block from the text of a line.
+    pub(crate) fn parse(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
+        if self.parse_plain(text) == Some(text.len()) {
+            return Ok(());
+        }
+        self.parse_any(text, scope)
+    }
+
+    /// The same for a line that is not plain, or not known to be.
+    pub(crate) fn parse_any(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
+        self.clear();
+        self.is_plain = false;
+        let mut cursor = Cursor::new(text);
+        match cursor.next_visible() {
+            Some(b'%') => return self.percent(cursor),
+            Some(b'/') => cursor.advance(),
+            _ => {}
+        }
+        let mut start_of_block = true;
+        while let Some(byte) = cursor.next_visible() {
+            match byte {
+                b'(' => cursor.skip_comment()?,
+                b';' => break,
+                b'A'..=b'Z' | b'a'..=b'z' => {
+                    let letter = byte.to_ascii_uppercase();
+                    self.word(&mut cursor, letter, start_of_block, scope)?;
+                    start_of_block = false;
+                    if self.codes.function.is_some() {
+                        // The rest of the line belongs to the function.
+                        break;
+                    }
+                }
+                b'@' | b'^' => {
+                    self.polar_word(&mut cursor, usize::from(byte == b'^'), scope)?;
+                    start_of_block = false;
+                }
+                b'#' => {
+                    self.assignment(&mut cursor, scope)?;
+                    start_of_block = false;
+                }
+                _ => return Err(odd_character(text, cursor.at(), byte)),
+            }
+        }
+        Ok(())
+    }
+
+    fn percent(&mut self, mut cursor: Cursor<'_>) -> Outcome<()> {
+        self.kind = LineKind::Percent;
+        cursor.advance();
+        match cursor.next_visible() {
+            None => Ok(()),
+            Some(_) => {
+                let span = Span::new(cursor.at(), cursor.at() + 1);
+                Err(Fault::new(
+                    DiagnosticCode::StrayPercent,
+                    span,
+                    "text behind a percent sign",
+                )
+                .because("a percent sign by itself marks the start or the end of the program")
+                .help("give the percent sign a line of its own"))
+            }
+        }
+    }
+
+    fn assignment(&mut self, cursor: &mut Cursor<'_>, scope: &dyn Scope) -> Outcome<()> {
+        let start = cursor.at();
+        let parameter = parameter(cursor, scope)?;
+        let span = Span::new(start, cursor.end_of_word());
+        if cursor.next_visible() != Some(b'=') {
+            return Err(Fault::new(
+                DiagnosticCode::Expression,
+                span,
+                "a parameter that nothing uses",
+            )
+            .because("a parameter stands behind a letter, or before `=`")
+            .help("write the letter of the word in front, or assign a value"));
+        }
+        cursor.advance();
+        let value = match self.dialect {
+            Dialect::Fanuc => open_expression(cursor, scope)?,
+            _ => value(cursor, start, scope)?,
+        };
+        self.any = true;
+        self.assignments.push(Assignment {
+            parameter,
+            value,
+            span,
+        });
+        Ok(())
+    }
+
+    fn polar_word(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        which: usize,
+        scope: &dyn Scope,
+    ) -> Outcome<()> {
+        let start = cursor.at();
+        cursor.advance();
+        let value = value(cursor, start, scope)?;
+        let span = Span::new(start, cursor.end_of_word());
+        if self.polar[which].is_some() {
+            return Err(duplicate(if which == 0 { '@' } else { '^' }, span));
+        }
+        self.any = true;
+        self.polar[which] = Some(PolarWord { value, span });
+        Ok(())
+    }
+
+    fn word(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        letter: u8,
+        first: bool,
+        scope: &dyn Scope,
+    ) -> Outcome<()> {
+        let start = cursor.at();
+        cursor.advance();
+        match letter {
+            b'N' => return block_number(cursor, start, first),
+            b'O' => {
+                return Err(Fault::new(
+                    DiagnosticCode::FlowStructure,
+                    Span::new(start, start + 1),
+                    "an O word inside a block",
+                )
+                .because("an O word has a line of its own")
+                .help("put it into a line of its own"));
+            }
+            _ => {}
+        }
+        let value = value(cursor, start, scope)?;
+        let span = Span::new(start, cursor.end_of_word());
+        self.any = true;
+        match letter {
+            b'G' => self.codes.add_g(value, span),
+            b'M' if self.dialect == Dialect::Marlin => self.codes.add_printer_m(value, span),
+            b'M' => self.codes.add_m(value, span),
+            _ => self
+                .add_value(Slot::of(letter), value, span)
+                .ok_or_else(|| duplicate(char::from(letter), span)),
+        }
+    }
+}
+
+impl WordSink for Block {
+    #[inline]
+    fn add_motion(&mut self, motion: Motion, span: Span) -> Option<()> {
+        if self.codes.motion.is_some() {
+            return None;
+        }
+        self.any = true;
+        self.codes.motion = Some(Coded {
+            code: Some(motion),
+            span,
+        });
+        Some(())
+    }
+
+    #[inline]
+    fn add_value(&mut self, slot: Slot, value: f64, span: Span) -> Option<()> {
+        self.words.add(slot, value)?;
+        self.any = true;
+        self.spans[slot.index()] = span;
+        Some(())
+    }
+}
+
+#[cold]
+fn duplicate(letter: char, span: Span) -> Box<Fault> {
+    Fault::new(
+        DiagnosticCode::DuplicateWord,
+        span,
+        format!("a second {letter} in the block"),
+    )
+    .because("a block has each word once")
+    .help("remove one of them, or write two blocks")
+}
+
+fn block_number(cursor: &mut Cursor<'_>, start: usize, first: bool) -> Outcome<()> {
+    let value = cursor.number(start)?;
+    let span = Span::new(start, cursor.end_of_word());
+    if !first {
+        let message = "a block number that is not at the start of the line";
+        return Err(
+            Fault::new(DiagnosticCode::MisplacedBlockNumber, span, message)
+                .because("N numbers the block it starts")
+                .help("put it first, or remove it"),
+        );
+    }
+    if value < 0.0 || value.fract() > 0.0 {
+        return Err(Fault::new(
+            DiagnosticCode::NotAnInteger,
+            span,
+            "the block number is not a whole number",
+        ));
+    }
+    Ok(())
+}
+
+#[cold]
+fn odd_character(text: &[u8], at: usize, byte: u8) -> Box<Fault> {
+    let span = Span::new(at, at + 1);
+    match byte {
+        b')' => Fault::new(DiagnosticCode::BadCharacter, span, "`)` closes no comment")
+            .because("no comment is open here")
+            .help("remove it"),
+        b'/' => Fault::new(DiagnosticCode::BadCharacter, span, "`/` inside a block")
+            .because("block delete marks a whole line")
+            .help("move it to the start of the line"),
+        b'%' => Fault::new(
+            DiagnosticCode::StrayPercent,
+            span,
+            "a percent sign inside a line",
+        )
+        .because("a percent sign by itself marks the start or the end of the program")
+        .help("give the percent sign a line of its own"),
+        b'$' => Fault::new(DiagnosticCode::NotSupported, span, "`$` (spindle number)")
+            .because("there is one spindle; commands of a controller are no part of a program")
+            .help("remove it"),
+        _ => bad_byte(text, at),
+    }
+}

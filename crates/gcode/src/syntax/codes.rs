@@ -1,0 +1,304 @@
+//! The G and M numbers, sorted into their modal groups.
+//!
+//! A block may have one code of each group. G numbers are kept times ten, so that G59.3 is 593.
+
+use glidepath_geometry::Plane;
+use glidepath_program::PathMode;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+use crate::syntax::dialect::marlin::is_function;
+use crate::syntax::modes::{
+    CannedCycle, CutterRadius, Distance, FeedMode, LatheCycle, Motion, NonModal, Pockets, Probe,
+    Retract, Side, SpindleMode, Spline, Stop, ToolLength, Units,
+};
+use crate::syntax::refused::{refused_g, refused_m, unknown_g, unknown_m};
+
+/// A code and where it stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Coded<T> {
+    pub(crate) code: T,
+    pub(crate) span: Span,
+}
+
+/// The codes of one block, by modal group.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Codes {
+    pub(crate) non_modal: Option<Coded<NonModal>>,
+    /// `None` inside is G80.
+    pub(crate) motion: Option<Coded<Option<Motion>>>,
+    pub(crate) plane: Option<Coded<Plane>>,
+    pub(crate) distance: Option<Coded<Distance>>,
+    pub(crate) arc_distance: Option<Coded<Distance>>,
+    pub(crate) feed_mode: Option<Coded<FeedMode>>,
+    pub(crate) units: Option<Coded<Units>>,
+    pub(crate) cutter_radius: Option<Coded<CutterRadius>>,
+    pub(crate) tool_length: Option<Coded<ToolLength>>,
+    pub(crate) retract: Option<Coded<Retract>>,
+    pub(crate) spindle_mode: Option<Coded<SpindleMode>>,
+    /// True for G7: X words are diameters.
+    pub(crate) diameter: Option<Coded<bool>>,
+    /// Index of the coordinate system, from 0 for G54.
+    pub(crate) system: Option<Coded<usize>>,
+    /// The tolerance of G64 comes from its P word.
+    pub(crate) path_mode: Option<Coded<PathMode>>,
+    pub(crate) tool_change: Option<Coded<u32>>,
+    pub(crate) spindle: Option<Coded<u32>>,
+    pub(crate) coolant: Option<Coded<u32>>,
+    pub(crate) overrides: Option<Coded<u32>>,
+    /// M70 to M73.
+    pub(crate) saved_state: Option<Coded<u32>>,
+    pub(crate) stop: Option<Coded<Stop>>,
+    /// M19.
+    pub(crate) orient: Option<Coded<u32>>,
+    /// M62 to M68.
+    pub(crate) input_output: Option<Coded<u32>>,
+    /// M82 and M83 of printers; true: E words are relative.
+    pub(crate) extruder: Option<Coded<bool>>,
+    /// An M code of printers that takes the words of its block.
+    pub(crate) function: Option<Coded<u32>>,
+}
+
+impl Codes {
+    /// Adds a G word; `value` is its number.
+    pub(crate) fn add_g(&mut self, value: f64, span: Span) -> Outcome<()> {
+        let tenths = code_number(value * 10.0).ok_or_else(|| unknown_g(value, span))?;
+        match tenths {
+            0 => self.set_motion(Some(Motion::Rapid), span),
+            10 => self.set_motion(Some(Motion::Linear), span),
+            20 => self.set_motion(Some(Motion::ArcClockwise), span),
+            30 => self.set_motion(Some(Motion::ArcCounterclockwise), span),
+            50..=53 | 62 => self.set_motion(Some(Motion::Spline(spline(tenths))), span),
+            800 => self.set_motion(None, span),
+            40 | 100 | 280 | 281 | 300 | 301 | 520 | 530 | 920..=923 => {
+                set(&mut self.non_modal, non_modal(tenths), span)
+            }
+            170 => set(&mut self.plane, Plane::Xy, span),
+            180 => set(&mut self.plane, Plane::Zx, span),
+            190 => set(&mut self.plane, Plane::Yz, span),
+            171 => set(&mut self.plane, Plane::Uv, span),
+            181 => set(&mut self.plane, Plane::Wu, span),
+            191 => set(&mut self.plane, Plane::Vw, span),
+            200 => set(&mut self.units, Units::Inch, span),
+            210 => set(&mut self.units, Units::Millimetre, span),
+            382..=385 => self.set_motion(Some(Motion::Probe(probe(tenths))), span),
+            400 | 410 | 411 | 420 | 421 => {
+                set(&mut self.cutter_radius, cutter_radius(tenths), span)
+            }
+            430 => set(&mut self.tool_length, ToolLength::FromTable, span),
+            431 => set(&mut self.tool_length, ToolLength::FromWords, span),
+            432 => set(&mut self.tool_length, ToolLength::Add, span),
+            490 => set(&mut self.tool_length, ToolLength::Cancel, span),
+            540 | 550 | 560 | 570 | 580 | 590 | 591..=593 => {
+                set(&mut self.system, system_index(tenths), span)
+            }
+            610 => set(&mut self.path_mode, PathMode::ExactPath, span),
+            611 => set(&mut self.path_mode, PathMode::ExactStop, span),
+            640 => set(
+                &mut self.path_mode,
+                PathMode::Continuous { tolerance_mm: None },
+                span,
+            ),
+            70 | 80 => set(&mut self.diameter, tenths == 70, span),
+            730 | 740 | 810..=860 | 890 if tenths % 10 == 0 => {
+                self.set_motion(Some(Motion::Cycle(cycle(tenths))), span)
+            }
+            700 | 710..=712 | 720..=722 => {
+                self.set_motion(Some(Motion::Lathe(lathe_cycle(tenths))), span)
+            }
+            900 => set(&mut self.distance, Distance::Absolute, span),
+            910 => set(&mut self.distance, Distance::Incremental, span),
+            901 => set(&mut self.arc_distance, Distance::Absolute, span),
+            911 => set(&mut self.arc_distance, Distance::Incremental, span),
+            930 => set(&mut self.feed_mode, FeedMode::InverseTime, span),
+            940 => set(&mut self.feed_mode, FeedMode::PerMinute, span),
+            950 => set(&mut self.feed_mode, FeedMode::PerRevolution, span),
+            960 => set(&mut self.spindle_mode, SpindleMode::SurfaceSpeed, span),
+            970 => set(&mut self.spindle_mode, SpindleMode::Revolutions, span),
+            980 => set(&mut self.retract, Retract::Initial, span),
+            990 => set(&mut self.retract, Retract::RPlane, span),
+            _ => Err(refused_g(tenths, value, span)),
+        }
+    }
+
+    /// True if the block has any code.
+    pub(crate) const fn any(&self) -> bool {
+        self.non_modal.is_some()
+            || self.motion.is_some()
+            || self.plane.is_some()
+            || self.distance.is_some()
+            || self.arc_distance.is_some()
+            || self.feed_mode.is_some()
+            || self.units.is_some()
+            || self.cutter_radius.is_some()
+            || self.tool_length.is_some()
+            || self.retract.is_some()
+            || self.spindle_mode.is_some()
+            || self.diameter.is_some()
+            || self.system.is_some()
+            || self.path_mode.is_some()
+            || self.tool_change.is_some()
+            || self.spindle.is_some()
+            || self.coolant.is_some()
+            || self.overrides.is_some()
+            || self.stop.is_some()
+            || self.orient.is_some()
+            || self.input_output.is_some()
+            || self.saved_state.is_some()
+    }
+
+    /// G80 may stand beside another motion code, as in the first line of many programs; that
+    /// code then is the mode.
+    fn set_motion(&mut self, motion: Option<Motion>, span: Span) -> Outcome<()> {
+        match (self.motion, motion) {
+            (Some(Coded { code: Some(_), .. }), None) => Ok(()),
+            (Some(Coded { code: None, .. }), Some(_)) => {
+                self.motion = Some(Coded { code: motion, span });
+                Ok(())
+            }
+            _ => set(&mut self.motion, motion, span),
+        }
+    }
+
+    /// Adds an M word of a printer's program.
+    pub(crate) fn add_printer_m(&mut self, value: f64, span: Span) -> Outcome<()> {
+        match code_number(value) {
+            Some(number @ (82 | 83)) => set(&mut self.extruder, number == 83, span),
+            Some(number) if is_function(number) => set(&mut self.function, number, span),
+            _ => self.add_m(value, span),
+        }
+    }
+
+    /// Adds an M word.
+    pub(crate) fn add_m(&mut self, value: f64, span: Span) -> Outcome<()> {
+        let Some(number) = code_number(value) else {
+            return Err(unknown_m(value, span));
+        };
+        match number {
+            0 | 60 => set(&mut self.stop, Stop::Program(number), span),
+            1 => set(&mut self.stop, Stop::Optional, span),
+            2 | 30 => set(&mut self.stop, Stop::End, span),
+            3..=5 => set(&mut self.spindle, number, span),
+            6 | 61 => set(&mut self.tool_change, number, span),
+            7..=9 => set(&mut self.coolant, number, span),
+            48..=53 => set(&mut self.overrides, number, span),
+            70..=73 => set(&mut self.saved_state, number, span),
+            19 => set(&mut self.orient, number, span),
+            62..=68 => set(&mut self.input_output, number, span),
+            _ => Err(refused_m(number, value, span)),
+        }
+    }
+}
+
+const fn cycle(tenths: u32) -> CannedCycle {
+    match tenths {
+        730 => CannedCycle::ChipBreak,
+        740 => CannedCycle::TapLeft,
+        820 => CannedCycle::DrillDwell,
+        830 => CannedCycle::Peck,
+        840 => CannedCycle::TapRight,
+        850 => CannedCycle::Bore,
+        860 => CannedCycle::BoreStop,
+        890 => CannedCycle::BoreDwell,
+        _ => CannedCycle::Drill,
+    }
+}
+
+const fn lathe_cycle(tenths: u32) -> LatheCycle {
+    let pockets = match tenths % 10 {
+        0 => Pockets::Cut,
+        1 => Pockets::LeftOut,
+        _ => Pockets::Only,
+    };
+    match tenths / 10 {
+        70 => LatheCycle::Finish,
+        71 => LatheCycle::Turn(pockets),
+        _ => LatheCycle::Face(pockets),
+    }
+}
+
+const fn spline(tenths: u32) -> Spline {
+    match tenths {
+        50 => Spline::Cubic,
+        51 => Spline::Quadratic,
+        52 => Spline::Weighted,
+        53 => Spline::EndWeighted,
+        _ => Spline::Knotted,
+    }
+}
+
+const fn probe(tenths: u32) -> Probe {
+    Probe {
+        toward: matches!(tenths, 382 | 383),
+        must: matches!(tenths, 382 | 384),
+    }
+}
+
+const fn cutter_radius(tenths: u32) -> CutterRadius {
+    match tenths {
+        410 => CutterRadius::FromTable(Side::Left),
+        411 => CutterRadius::FromWord(Side::Left),
+        420 => CutterRadius::FromTable(Side::Right),
+        421 => CutterRadius::FromWord(Side::Right),
+        _ => CutterRadius::Off,
+    }
+}
+
+const fn non_modal(tenths: u32) -> NonModal {
+    match tenths {
+        40 => NonModal::Dwell,
+        100 => NonModal::SetData,
+        280 => NonModal::GoToReference(0),
+        281 => NonModal::SetReference(0),
+        300 => NonModal::GoToReference(1),
+        301 => NonModal::SetReference(1),
+        520 => NonModal::LocalOffset,
+        530 => NonModal::MachineCoordinates,
+        920 => NonModal::SetOffset,
+        921 => NonModal::ClearOffset,
+        922 => NonModal::SuspendOffset,
+        _ => NonModal::RestoreOffset,
+    }
+}
+
+/// Index of G54 … G59, G59.1 … G59.3.
+const fn system_index(tenths: u32) -> usize {
+    match tenths {
+        540 => 0,
+        550 => 1,
+        560 => 2,
+        570 => 3,
+        580 => 4,
+        590 => 5,
+        591 => 6,
+        592 => 7,
+        _ => 8,
+    }
+}
+
+/// The whole number a code's value stands for; a computed value may be off by rounding.
+fn code_number(value: f64) -> Option<u32> {
+    let nearest = value.round();
+    let whole = (value - nearest).abs() < 1e-4 && (0.0..10_000.0).contains(&nearest);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "range checked"
+    )]
+    whole.then_some(nearest as u32)
+}
+
+fn set<T>(slot: &mut Option<Coded<T>>, code: T, span: Span) -> Outcome<()> {
+    if let Some(first) = slot {
+        let column = first.span.start + 1;
+        let message = format!("a second code of the modal group of the one at column {column}");
+        return Err(
+            Fault::new(DiagnosticCode::ModalGroupConflict, span, message)
+                .because("codes of one modal group exclude each other, so a block has one at most")
+                .help("remove one of them, or write two blocks"),
+        );
+    }
+    *slot = Some(Coded { code, span });
+    Ok(())
+}

@@ -1,0 +1,81 @@
+//! Programs of printers: checksums of lines, and the M codes that take the rest of their line.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+use crate::syntax::dialect::line_body::body;
+
+/// True if a line, without blanks and in upper case, is of a printer's program.
+pub(super) fn marks(bare: &[u8]) -> bool {
+    let text = bare.get(body(bare)..).unwrap_or_default();
+    let code = |word: &[u8]| {
+        text.starts_with(word) && !text.get(word.len()).is_some_and(u8::is_ascii_digit)
+    };
+    let codes: [&[u8]; 12] = [
+        b"M82", b"M83", b"M84", b"M104", b"M105", b"M106", b"M107", b"M109", b"M140", b"M190",
+        b"M201", b"G92E",
+    ];
+    let numbered = matches!(bare.first(), Some(b'N')) && split_checksum(bare).is_some();
+    codes.iter().any(|word| code(word)) || numbered || text.starts_with(b"G92E0")
+}
+
+/// Splits `N1 G1 X1*57` at its star: the text in front, and what the checksum says.
+fn split_checksum(text: &[u8]) -> Option<(usize, &[u8])> {
+    let semicolon = text.iter().position(|byte| *byte == b';');
+    let code = text.get(..semicolon.unwrap_or(text.len()))?;
+    let star = code.iter().rposition(|byte| *byte == b'*')?;
+    let digits = code.get(star + 1..)?.trim_ascii();
+    let number = !digits.is_empty() && digits.iter().all(u8::is_ascii_digit);
+    number.then_some((star, digits))
+}
+
+/// The text without its checksum, which has been verified; the length of the text to read.
+///
+/// The checksum of a line is the exclusive or of all bytes in front of its star.
+pub(crate) fn verified(text: &[u8]) -> Outcome<&[u8]> {
+    let Some((star, digits)) = split_checksum(text) else {
+        return Ok(text);
+    };
+    let line = text.get(..star).unwrap_or_default();
+    let sum = line.iter().fold(0, |sum, byte| sum ^ byte);
+    let said: Option<u8> = core::str::from_utf8(digits)
+        .ok()
+        .and_then(|t| t.parse().ok());
+    if said == Some(sum) {
+        return Ok(line);
+    }
+    let span = Span::new(star, star + 1 + digits.len());
+    let message = format!("the checksum of the line is {sum}");
+    Err(Fault::new(DiagnosticCode::Checksum, span, message)
+        .because("the line was damaged on its way, or changed by hand")
+        .help("write the program again, or remove the checksum"))
+}
+
+/// M codes of printers; the rest of the line belongs to them.
+const FUNCTIONS: [u32; 37] = [
+    17, 18, 20, 21, 73, 84, 92, 104, 105, 106, 107, 108, 109, 110, 111, 115, 117, 118, 140, 141,
+    149, 150, 155, 190, 191, 201, 203, 204, 205, 206, 220, 221, 280, 300, 400, 500, 900,
+];
+
+/// True for an M code that is a function of the machine.
+pub(crate) fn is_function(number: u32) -> bool {
+    FUNCTIONS.contains(&number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checksums_are_verified() {
+        assert_eq!(verified(b"N3 T0*57"), Ok(b"N3 T0".as_slice()));
+        assert_eq!(verified(b"N3 T0*57 ; *9"), Ok(b"N3 T0".as_slice()));
+        assert_eq!(verified(b"G1 X1"), Ok(b"G1 X1".as_slice()));
+        let fault = verified(b"N3 T1*57").expect_err("it was changed");
+        assert_eq!(
+            (fault.code, fault.span.start),
+            (DiagnosticCode::Checksum, 5)
+        );
+        assert!(verified(b"N3 T0*570").is_err());
+    }
+}

@@ -1,0 +1,64 @@
+//! What the languages of other controls have in the place of RS274/NGC's words.
+
+pub(crate) mod detect;
+pub(crate) mod fanuc;
+pub(crate) mod line_body;
+pub(crate) mod marlin;
+pub(crate) mod siemens;
+
+/// The language a program is written in.
+///
+/// The words all of them share are read as LinuxCNC reads them. What differs:
+///
+/// | | LinuxCNC | Marlin | FANUC | SIEMENS |
+/// |---|---|---|---|---|
+/// | program number | `O1` | – | `O1`, `:1` | `%_N_…`, `;$PATH` |
+/// | comments | `( )` `;` | `( )` `;` | `( )` | `;`, `MSG( )` |
+/// | line check | – | `N… *…` verified | – | – |
+/// | parameters | `#1`, `#<name>` | – | `#1` | `R1` |
+/// | expressions | `X[#1+2]` | – | `X[#1+2]`, `X#1` | `X=R1+2` |
+/// | flow | O words | – | `IF` `GOTO` `THEN`, `WHILE` `DO` `END`, `G65`, `M98`, `M99` | refused |
+/// | dwell | `G4 P` s | `G4 P` ms, `S` s | `G4 P` ms, `X` s | `G4 F` s |
+/// | G0 | rapid | at feed | rapid | rapid |
+/// | extruder | – | E: the axis [`Options::extruder`](crate::Options); `M82`, `M83`, `G92 E` | – | – |
+/// | tolerance | `G64 P` | – | – | `CYCLE832( )`, `G641 ADIS=`, `G642` … `G645` |
+/// | exact stop | `G61`, `G61.1` | – | `G61` | `G60` |
+/// | radius of an arc | `R` | `R` | `R` | `CR=`, `TURN=` |
+/// | lathe cycles along a profile | `G70` … `G72.2`, in subroutine `Q` | – | refused | refused |
+/// | repetitions of a cycle | `L` | – | `K`, `L` | – |
+/// | look-ahead on, off | – | – | `G05.1 Q`, `G05 P`, `G08 P`: always on | `FFWON`, `SOFT`, `COMPCAD` …: always on |
+/// | machine functions (heaters, fans) | – | refused, or events where simulated | – | – |
+///
+/// Programs of grbl are LinuxCNC's; its `$` commands are no part of a program. Everything else a
+/// dialect has is refused with the word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Dialect {
+    /// RS274/NGC as LinuxCNC reads it; grbl too.
+    #[default]
+    LinuxCnc,
+    /// Programs of printers.
+    Marlin,
+    /// FANUC and HAAS, with macro B.
+    Fanuc,
+    /// SINUMERIK.
+    Siemens,
+}
+
+impl Dialect {
+    /// Its name in configurations.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::LinuxCnc => "linuxcnc",
+            Self::Marlin => "marlin",
+            Self::Fanuc => "fanuc",
+            Self::Siemens => "siemens",
+        }
+    }
+}
+
+impl core::fmt::Display for Dialect {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(self.name())
+    }
+}

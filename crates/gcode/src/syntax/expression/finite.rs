@@ -1,0 +1,18 @@
+//! Refuses results that are no finite numbers.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+
+pub(crate) fn finite(value: f64, span: Span) -> Outcome<f64> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(Fault::new(
+        DiagnosticCode::Arithmetic,
+        span,
+        "the result is not a number",
+    )
+    .because("the operation has no value for these operands, or one that is too large")
+    .help("check the values it is computed from"))
+}

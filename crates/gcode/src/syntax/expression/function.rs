@@ -1,0 +1,78 @@
+//! Functions of expressions.
+
+use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::span::Span;
+use crate::syntax::cursor::Cursor;
+use crate::syntax::expression::finite::finite;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Function {
+    Abs,
+    Acos,
+    Asin,
+    Atan,
+    Cos,
+    Exists,
+    Exp,
+    Fix,
+    Fup,
+    Ln,
+    Round,
+    Sin,
+    Sqrt,
+    Tan,
+}
+
+pub(crate) const FUNCTIONS: [(&[u8], Function); 14] = [
+    (b"ABS", Function::Abs),
+    (b"ACOS", Function::Acos),
+    (b"ASIN", Function::Asin),
+    (b"ATAN", Function::Atan),
+    (b"COS", Function::Cos),
+    (b"EXISTS", Function::Exists),
+    (b"EXP", Function::Exp),
+    (b"FIX", Function::Fix),
+    (b"FUP", Function::Fup),
+    (b"LN", Function::Ln),
+    (b"ROUND", Function::Round),
+    (b"SIN", Function::Sin),
+    (b"SQRT", Function::Sqrt),
+    (b"TAN", Function::Tan),
+];
+
+/// Value of a function; `second` is the second argument of ATAN. EXISTS is not computed here.
+pub(crate) fn evaluate(
+    function: Function,
+    x: f64,
+    second: Option<f64>,
+    span: Span,
+) -> Outcome<f64> {
+    let value = match function {
+        Function::Abs => x.abs(),
+        Function::Acos => x.acos().to_degrees(),
+        Function::Asin => x.asin().to_degrees(),
+        Function::Atan => x.atan2(second.unwrap_or(1.0)).to_degrees(),
+        Function::Cos => x.to_radians().cos(),
+        Function::Exists => x,
+        Function::Exp => x.exp(),
+        Function::Fix => x.floor(),
+        Function::Fup => x.ceil(),
+        Function::Ln => x.ln(),
+        Function::Round => x.round(),
+        Function::Sin => x.to_radians().sin(),
+        Function::Sqrt => x.sqrt(),
+        Function::Tan => x.to_radians().tan(),
+    };
+    finite(value, span)
+}
+
+/// Skips a function name, if its bracket follows.
+pub(crate) fn function(cursor: &mut Cursor<'_>) -> Option<Function> {
+    FUNCTIONS.into_iter().find_map(|(name, function)| {
+        let mut ahead = *cursor;
+        (ahead.eat_word(name) && ahead.next_visible() == Some(b'[')).then(|| {
+            *cursor = ahead;
+            function
+        })
+    })
+}

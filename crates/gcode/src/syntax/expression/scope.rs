@@ -1,0 +1,34 @@
+//! Parameters, and where an expression gets their values from.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::Fault;
+use crate::diagnostic::span::Span;
+
+/// Parameters local to a subroutine call, `#1` to `#30`: its arguments at first.
+pub(crate) const LOCALS: usize = 30;
+
+/// Where the values of parameters come from.
+pub(crate) trait Scope {
+    /// Value of a numbered parameter; `None`: there is no such number.
+    fn numbered(&self, number: u32) -> Option<f64>;
+    /// Value of a named parameter; `None`: it has none.
+    fn named(&self, name: &str) -> Option<f64>;
+}
+
+/// Which parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Parameter {
+    Numbered(u32),
+    Named(String),
+}
+
+#[cold]
+pub(crate) fn no_parameter(span: Span, number: f64) -> Box<Fault> {
+    Fault::new(
+        DiagnosticCode::Parameter,
+        span,
+        format!("there is no parameter #{number}"),
+    )
+    .because("parameters have the whole numbers from 1 to 5602")
+    .help("use a number from 1 to 5000, or a name: #<name>")
+}

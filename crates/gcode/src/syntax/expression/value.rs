@@ -1,0 +1,76 @@
+//! Reads the value of a word, of an assignment, or of a condition.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+use crate::syntax::cursor::{Cursor, MAX_NUMBER};
+use crate::syntax::expression::function::function;
+use crate::syntax::expression::reader::Reader;
+use crate::syntax::expression::scope::{Parameter, Scope};
+
+/// Reads the value of the word whose letter is at `word`.
+pub(crate) fn value(cursor: &mut Cursor<'_>, word: usize, scope: &dyn Scope) -> Outcome<f64> {
+    if matches!(cursor.next_visible(), Some(b'0'..=b'9' | b'.')) {
+        return cursor.number(word);
+    }
+    if !starts_computed(*cursor) {
+        return cursor.number(word);
+    }
+    let start = cursor.at();
+    let value = Reader {
+        cursor,
+        scope,
+        depth: 0,
+    }
+    .primary(word)?;
+    in_range(value, start, cursor)
+}
+
+/// Reads an expression without brackets around it.
+pub(crate) fn open_expression(cursor: &mut Cursor<'_>, scope: &dyn Scope) -> Outcome<f64> {
+    cursor.next_visible();
+    let start = cursor.at();
+    let value = Reader {
+        cursor,
+        scope,
+        depth: 0,
+    }
+    .level(1)?;
+    in_range(value, start, cursor)
+}
+
+fn in_range(value: f64, start: usize, cursor: &Cursor<'_>) -> Outcome<f64> {
+    if value.abs() > MAX_NUMBER {
+        let span = Span::new(start, cursor.end_of_word());
+        let message = format!("the value is {value}, which is too large");
+        return Err(Fault::new(DiagnosticCode::NumberOutOfRange, span, message)
+            .because(format!(
+                "no word or parameter takes a value beyond ±{}",
+                MAX_NUMBER
+            ))
+            .help("check the values it is computed from"));
+    }
+    Ok(value)
+}
+
+/// True if what comes next, a sign apart, is a parameter, a bracket or a function.
+fn starts_computed(mut cursor: Cursor<'_>) -> bool {
+    while matches!(cursor.next_visible(), Some(b'+' | b'-')) {
+        cursor.advance();
+    }
+    match cursor.next_visible() {
+        Some(b'#' | b'[') => true,
+        Some(letter) if letter.is_ascii_alphabetic() => function(&mut cursor).is_some(),
+        _ => false,
+    }
+}
+
+/// Reads a parameter whose `#` comes next.
+pub(crate) fn parameter(cursor: &mut Cursor<'_>, scope: &dyn Scope) -> Outcome<Parameter> {
+    Reader {
+        cursor,
+        scope,
+        depth: 0,
+    }
+    .parameter()
+}

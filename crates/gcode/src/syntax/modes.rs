@@ -1,0 +1,240 @@
+//! What the codes of each modal group mean.
+
+/// Motion modes (group 1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// G0.
+    Rapid,
+    /// G1.
+    Linear,
+    /// G2.
+    ArcClockwise,
+    /// G3.
+    ArcCounterclockwise,
+    /// G73, G74, G81 to G89.
+    Cycle(CannedCycle),
+    /// G70 to G72.2.
+    Lathe(LatheCycle),
+    /// G38.2 to G38.5.
+    Probe(Probe),
+    /// G5, G5.1, G5.2, G5.3, G6.2.
+    Spline(Spline),
+}
+
+impl Motion {
+    /// True if a block of this mode may do without axis words: arcs, splines, lathe cycles.
+    #[must_use]
+    pub const fn may_lack_axes(self) -> bool {
+        self.is_arc() || matches!(self, Self::Spline(_) | Self::Lathe(_))
+    }
+
+    /// True for G2 and G3.
+    #[must_use]
+    pub const fn is_arc(self) -> bool {
+        matches!(self, Self::ArcClockwise | Self::ArcCounterclockwise)
+    }
+}
+
+/// Splines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spline {
+    /// G5.
+    Cubic,
+    /// G5.1.
+    Quadratic,
+    /// G5.2: a control point with its weight.
+    Weighted,
+    /// G5.3: the control points of G5.2 are complete.
+    EndWeighted,
+    /// G6.2: a control point with its weight and a knot, or a knot alone.
+    Knotted,
+}
+
+/// Canned cycles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CannedCycle {
+    /// G73: drilling that breaks the chip.
+    ChipBreak,
+    /// G74: tapping, left-hand.
+    TapLeft,
+    /// G81: drilling.
+    Drill,
+    /// G82: drilling with a dwell.
+    DrillDwell,
+    /// G83: drilling that clears the chips.
+    Peck,
+    /// G84: tapping, right-hand.
+    TapRight,
+    /// G85: boring, feed out.
+    Bore,
+    /// G86: boring, spindle stop, rapid out.
+    BoreStop,
+    /// G89: boring with a dwell, feed out.
+    BoreDwell,
+}
+
+/// Lathe cycles along a profile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LatheCycle {
+    /// G70: finishing.
+    Finish,
+    /// G71, G71.1, G71.2: roughing by passes along Z.
+    Turn(Pockets),
+    /// G72, G72.1, G72.2: roughing by passes along X.
+    Face(Pockets),
+}
+
+/// What a roughing cycle does about the pockets of a profile: places where it leads back inwards.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pockets {
+    /// G71, G72: cut like the rest.
+    Cut,
+    /// G71.1, G72.1: left out.
+    LeftOut,
+    /// G71.2, G72.2: nothing else is cut.
+    Only,
+}
+
+/// Probing moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Probe {
+    /// True for G38.2 and G38.3: until contact. False: until contact is lost.
+    pub toward: bool,
+    /// True for G38.2 and G38.4: an error if the end is reached without it.
+    pub must: bool,
+}
+
+/// Codes that act once (group 0).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NonModal {
+    /// G4.
+    Dwell,
+    /// G10.
+    SetData,
+    /// G28, G30: go by way of the given point to the reference position of that index.
+    GoToReference(usize),
+    /// G28.1, G30.1.
+    SetReference(usize),
+    /// G52.
+    LocalOffset,
+    /// G53.
+    MachineCoordinates,
+    /// G92.
+    SetOffset,
+    /// G92.1.
+    ClearOffset,
+    /// G92.2.
+    SuspendOffset,
+    /// G92.3.
+    RestoreOffset,
+}
+
+impl NonModal {
+    /// True if the code takes the axis words of its block for itself.
+    pub(crate) const fn takes_axes(self) -> bool {
+        matches!(
+            self,
+            Self::SetData | Self::GoToReference(_) | Self::LocalOffset | Self::SetOffset
+        )
+    }
+}
+
+/// Meaning of axis words (group 3) or of I, J, K (group 4).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Distance {
+    /// G90, G90.1.
+    Absolute,
+    /// G91, G91.1.
+    Incremental,
+}
+
+/// Meaning of F (group 5).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FeedMode {
+    /// G93: one over the minutes the move takes.
+    InverseTime,
+    /// G94: per minute.
+    PerMinute,
+    /// G95: per revolution of the spindle.
+    PerRevolution,
+}
+
+/// Cutter radius compensation (group 7).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CutterRadius {
+    /// G40.
+    Off,
+    /// G41, G42: the radius comes from the tool table.
+    FromTable(Side),
+    /// G41.1, G42.1: the diameter is the D word.
+    FromWord(Side),
+}
+
+/// Which side of the path the tool is on, seen in the direction of motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Side {
+    Left,
+    Right,
+}
+
+/// Tool length offset (group 8).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ToolLength {
+    /// G43.
+    FromTable,
+    /// G43.1: the offset is given by the axis words.
+    FromWords,
+    /// G43.2: one more tool of the table on top.
+    Add,
+    /// G49.
+    Cancel,
+}
+
+/// Where a canned cycle retracts to (group 10).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Retract {
+    /// G98: where the axis was before the cycles began.
+    Initial,
+    /// G99: the R plane.
+    RPlane,
+}
+
+/// Meaning of S (group 14).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum SpindleMode {
+    /// G96: cutting speed.
+    SurfaceSpeed,
+    /// G97: revolutions.
+    Revolutions,
+}
+
+/// Length units (group 6).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Units {
+    /// G20.
+    Inch,
+    /// G21.
+    Millimetre,
+}
+
+impl Units {
+    /// Millimetres in one unit.
+    #[must_use]
+    pub const fn mm(self) -> f64 {
+        match self {
+            Self::Inch => 25.4,
+            Self::Millimetre => 1.0,
+        }
+    }
+}
+
+/// How M codes stop (group 4 of the M codes).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Stop {
+    /// M0 or M60.
+    Program(u32),
+    /// M1.
+    Optional,
+    /// M2 or M30.
+    End,
+}

@@ -1,0 +1,82 @@
+//! Codes that are refused: those that do not exist, and those that are not supported.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::Fault;
+use crate::diagnostic::span::Span;
+
+#[cold]
+pub(crate) fn unknown_g(value: f64, span: Span) -> Box<Fault> {
+    Fault::new(
+        DiagnosticCode::UnknownGCode,
+        span,
+        format!("there is no G{value}"),
+    )
+    .because("skipping it could change what the machine does")
+    .help("remove it, or put it into a comment")
+}
+
+#[cold]
+pub(crate) fn unknown_m(value: f64, span: Span) -> Box<Fault> {
+    Fault::new(
+        DiagnosticCode::UnknownMCode,
+        span,
+        format!("there is no M{value}"),
+    )
+    .because("an unknown M code could have been meant to stop something")
+    .help("remove it, or put it into a comment")
+}
+
+/// G codes that exist and are not supported, each with what it is.
+#[cold]
+pub(crate) fn refused_g(tenths: u32, value: f64, span: Span) -> Box<Fault> {
+    let (what, help) = match tenths {
+        330 | 331 | 760 => (
+            "motion synchronised with the spindle",
+            "it follows an encoder of the spindle, and none is read here; cut the thread with a tap \
+             (G84) or with a mill on a helix (G2, G3)",
+        ),
+        870 => (
+            "back boring",
+            "write the moves out; the spindle has to stop in a known position for them",
+        ),
+        880 => (
+            "boring with retraction by hand",
+            "use G86 or G89, which retract by themselves",
+        ),
+        434 | 435 => (
+            "tool centre point control",
+            "let the CAM system write the positions of the axes",
+        ),
+        _ => return unknown_g(value, span),
+    };
+    Fault::new(
+        DiagnosticCode::NotSupported,
+        span,
+        format!("G{value} ({what}) is not supported"),
+    )
+    .because("skipping it would make another motion than the program's")
+    .help(help)
+}
+
+/// M codes that exist and are not supported, each with what it is.
+#[cold]
+pub(crate) fn refused_m(number: u32, value: f64, span: Span) -> Box<Fault> {
+    let what = match number {
+        50..=53 => "overrides switched by the program",
+        70..=73 => "saved modal state",
+        98 | 99 => "subprogram call of another dialect",
+        _ => return unknown_m(value, span),
+    };
+    let help = match number {
+        50..=53 => "remove it; the operator sets the overrides",
+        98 | 99 => "write O words (sub, call), or select the dialect it is from",
+        _ => "set the modes again by their codes",
+    };
+    Fault::new(
+        DiagnosticCode::NotSupported,
+        span,
+        format!("M{number} ({what}) is not supported"),
+    )
+    .because("skipping it could change what the machine does")
+    .help(help)
+}

@@ -1,0 +1,76 @@
+//! What the words of a block must be: used by one of its codes, whole, not negative.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::Span;
+use crate::syntax::block::Block;
+
+#[cold]
+pub(crate) fn unused(letter: char, span: Span) -> Box<Fault> {
+    if letter == 'E' {
+        return Fault::new(
+            DiagnosticCode::UnknownWord,
+            span,
+            "nothing in the block uses E",
+        )
+        .because("E is a word of G70, M66, M67 and M68 here; printers have it for their extruder")
+        .help("remove it; read programs of printers with the dialect `marlin`");
+    }
+    Fault::new(
+        DiagnosticCode::UnusedWord,
+        span,
+        format!("nothing in the block uses {letter}"),
+    )
+    .because("a word without effect is a mistake in the program")
+    .help("remove it, or add the code it belongs to")
+}
+
+#[cold]
+pub(crate) fn missing(span: Span, code: &str, word: &str, meaning: &str) -> Box<Fault> {
+    Fault::new(
+        DiagnosticCode::MissingWord,
+        span,
+        format!("{code} without {word}"),
+    )
+    .because(format!("{code} needs {word}: {meaning}"))
+    .help(format!("add the {} word", word.trim_start_matches("an ")))
+}
+
+#[cold]
+pub(crate) fn negative(block: &Block, letter: u8, what: &str) -> Box<Fault> {
+    Fault::new(
+        DiagnosticCode::InvalidValue,
+        block.span(letter),
+        format!("{what} is negative"),
+    )
+    .help("write zero or more")
+}
+
+/// Value of a word that must be a whole number from 0 to `max`.
+pub(crate) fn whole(block: &Block, letter: u8, max: u32) -> Outcome<Option<u32>> {
+    let Some(value) = block.get(letter) else {
+        return Ok(None);
+    };
+    let nearest = value.round();
+    let name = char::from(letter);
+    if (value - nearest).abs() > 1e-4 {
+        let message = format!("{name}{value} is not a whole number");
+        return Err(
+            Fault::new(DiagnosticCode::NotAnInteger, block.span(letter), message)
+                .because(format!("{name} counts or numbers something here")),
+        );
+    }
+    if !(0.0..=f64::from(max)).contains(&nearest) {
+        let message = format!("{name}{value} is out of range");
+        return Err(
+            Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
+                .help(format!("write a number from 0 to {max}")),
+        );
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "range checked"
+    )]
+    Ok(Some(nearest as u32))
+}
