@@ -8,8 +8,7 @@
 
 use crate::config::{Config, SoftLimits};
 use crate::message::Fault;
-use crate::tick::SAME_PLACE;
-use crate::track::is_at_rest;
+use crate::rest::{SAME_POSITION, is_at_rest};
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_kinematics::{JointFault, JointViolation, JointWatch, Quantity};
 use glidepath_link::{FaultCause, FrameRefusal, MachineState, Record, RecordError, SetpointFrame};
@@ -161,7 +160,7 @@ impl Admission {
         if !is_at_rest(frame) {
             return Verdict::Refused(FrameRefusal::NotAtRest);
         }
-        if (AxisVector::from(frame.position) - machine.position).amax() > SAME_PLACE {
+        if (AxisVector::from(frame.position) - machine.position).amax() > SAME_POSITION {
             return Verdict::Refused(FrameRefusal::Elsewhere);
         }
         if self.outside(frame).is_some() {
@@ -277,7 +276,11 @@ impl Admission {
             .zip(lowest.iter().zip(highest))
             .find_map(|((&axis, position), (&low, &high))| {
                 let nearest = position.max(low).min(high);
-                ((position - nearest).abs() > SAME_PLACE).then_some((Some(axis), position, nearest))
+                ((position - nearest).abs() > SAME_POSITION).then_some((
+                    Some(axis),
+                    position,
+                    nearest,
+                ))
             })
     }
 

@@ -12,7 +12,8 @@
 //! ```
 
 use crate::program_time::ProgramTime;
-use crate::track::{Track, is_at_rest};
+use crate::rest::is_at_rest;
+use crate::track::Track;
 
 /// Frames looked at in one tick.
 const FRAMES_PER_TICK: u64 = 64;

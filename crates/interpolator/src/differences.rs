@@ -60,7 +60,7 @@ struct Past {
 
 impl Past {
     /// Adds one more position. What is inside keeps its 1, what is not gets 0.
-    fn take(&mut self, position: Pair, most: &[Pair; 3], inside: Pair) -> Pair {
+    fn append(&mut self, position: Pair, most: &[Pair; 3], inside: Pair) -> Pair {
         let [velocity, acceleration, jerk] = *most;
         let first = sub(position, self.position);
         let second = sub(first, self.first);
@@ -134,31 +134,31 @@ impl Differences {
     }
 
     /// Whether one more position is within the limits.
-    pub(crate) fn allow(&self, position: &AxisVector, allowed: &Allowed) -> bool {
+    pub(crate) fn allows(&self, position: &AxisVector, allowed: &Allowed) -> bool {
         let positions = pairs::pairs(position.as_slice());
         let mut inside = INSIDE;
         for ((past, position), most) in self.0.iter().zip(positions).zip(allowed.used()) {
-            inside = { *past }.take(position, most, inside);
+            inside = { *past }.append(position, most, inside);
         }
         inside == INSIDE
     }
 
     /// Adds one more position; returns whether it is within the limits. Of axes without limits nothing
     /// is kept.
-    pub(crate) fn take(&mut self, position: &AxisVector, allowed: &Allowed) -> bool {
+    pub(crate) fn append(&mut self, position: &AxisVector, allowed: &Allowed) -> bool {
         let positions = pairs::pairs(position.as_slice());
         let mut inside = INSIDE;
         for ((past, position), most) in self.0.iter_mut().zip(positions).zip(allowed.used()) {
-            inside = past.take(position, most, inside);
+            inside = past.append(position, most, inside);
         }
         inside == INSIDE
     }
 
     /// The same with a position between two frames: most of the work of a tick that looks for a stop.
-    pub(crate) fn take_at(&mut self, quintic: &Quintic, u: f64, allowed: &Allowed) -> bool {
+    pub(crate) fn append_at(&mut self, quintic: &Quintic, u: f64, allowed: &Allowed) -> bool {
         let mut inside = INSIDE;
         for ((past, pair), most) in self.0.iter_mut().zip(quintic.pairs()).zip(allowed.used()) {
-            inside = past.take(pair.position(u), most, inside);
+            inside = past.append(pair.position(u), most, inside);
         }
         inside == INSIDE
     }

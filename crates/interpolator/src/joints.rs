@@ -56,10 +56,9 @@ mod tests {
 
     use super::*;
     use crate::config::Config;
-    use crate::message::Order;
     use crate::testing::{Rig, hexapod, lines, mill, records};
     use glidepath_kinematics::{AxisList, LinearDelta};
-    use glidepath_link::{FaultCause, MachineState};
+    use glidepath_link::{Command, FaultCause, MachineState};
 
     #[test]
     fn a_setpoint_leaves_the_tick_with_joints() {
@@ -70,9 +69,9 @@ mod tests {
         });
         rig.feed = records(&lines(4, 3, 900, &mill(), 0.004), 1, 4_000_000).into();
         rig.run(100);
-        rig.order(Order::FeedOverride(0.37));
+        rig.command(Command::FeedOverride(0.37));
         rig.run(100);
-        rig.order(Order::Hold);
+        rig.command(Command::Hold);
         assert!(rig.run_until(2_000, |s| s.state() == Ok(MachineState::Held)));
         for s in &rig.setpoints {
             let joints = mechanism.inverse(&s.position.into()).unwrap();

@@ -26,30 +26,33 @@
 
 mod admission;
 mod block_end;
+mod block_stop;
 mod commands;
 mod config;
+mod counters;
 mod differences;
+mod frame_summary;
 mod joints;
 mod loops;
 mod message;
 mod pairs;
-mod place;
 mod ports;
 mod program_time;
 mod quintic;
 mod ramp;
 mod rate;
+mod rest;
 mod run;
 mod setpoint;
 mod status;
 mod stepped;
+mod stop_requests;
 mod stop_time;
 mod supply;
 #[cfg(test)]
 mod testing;
 mod tick;
 mod track;
-mod will;
 
 /// Unit tests prove that the real-time thread does not allocate.
 #[cfg(test)]

@@ -14,7 +14,7 @@ use crate::config::Config;
 use crate::message::{Inputs, Report, Timing};
 use crate::tick::Interpolator;
 use core::sync::atomic::{AtomicBool, Ordering};
-use glidepath_link::{FaultCause, LinkError};
+use glidepath_link::LinkError;
 use glidepath_realtime::{
     Clock, DeadlineTimer, Mode, NotRealTime, Request, SentinelError, enter, forbid_system_calls,
 };
@@ -105,15 +105,14 @@ pub(crate) fn real_time<C: Clock>(
         interpolator.stamp(&mut report, &wake);
         if reports.enqueue(report).is_err() {
             // Nobody has taken a report for a second: the drives get nothing either.
-            interpolator.counters.reports_lost += 1;
-            interpolator.fail(FaultCause::Ports);
+            interpolator.lose_report();
         }
         let done_ns = timer.clock().now_ns();
-        interpolator.counters.timing = Timing {
+        interpolator.keep_timing(Timing {
             latency_ns: rise.latency_ns(),
             work_ns: (prepared_ns - rise.woke_ns) + (done_ns - wake.woke_ns),
             response_ns: done_ns - wake.scheduled_ns,
-        };
+        });
     }
 }
 

@@ -7,7 +7,9 @@
 
 use core::fmt;
 use glidepath_geometry::Axis;
-use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, MachineState, Setpoint, SetpointFrame};
+use glidepath_link::{
+    Command, EndOfEpoch, FaultCause, FrameRefusal, MachineState, Setpoint, SetpointFrame,
+};
 use heapless::spsc::{Consumer, Producer, Queue};
 
 /// Frames under way between the threads, one less.
@@ -122,27 +124,16 @@ const fn describe(refusal: FrameRefusal) -> &'static str {
 /// Ports thread to real-time thread.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Order {
-    Hold,
-    Resume,
-    /// Go on to the end of the block.
-    Step,
-    StopAtEndOfBlock,
-    /// Rest at the end of every block, or no longer.
-    SingleBlock(bool),
-    /// As a ratio, ≥ 0.
-    FeedOverride(f64),
-    /// As a ratio, ≥ 0.
-    RapidOverride(f64),
-    Abort,
-    /// Clears a latched fault; aborts if there is none.
-    Reset,
+    /// What the operator wants. The ports thread has judged it by the state it knew; what the state
+    /// does not allow any more is without effect. Never [`Command::Ping`].
+    Command(Command),
     /// A frame was refused, or the ports failed.
     Fault(Fault),
     /// The planner has no new frames, but is there.
     PlannerLives,
 }
 
-/// How long the steps of a tick took, ns; all 0 before the first.
+/// How long a tick took, ns; all 0 before the first.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Timing {
     /// From the time at which the thread was to rise to its waking.
@@ -164,7 +155,7 @@ pub(crate) struct Report {
     pub(crate) frames_executed: u64,
     /// Frames the real-time thread owns and has not reached.
     pub(crate) queue_depth: u64,
-    /// Of the tick before this one.
+    /// The timing of the tick before this one.
     pub(crate) timing: Timing,
     pub(crate) late_ticks: u64,
     pub(crate) reports_lost: u64,
@@ -175,7 +166,7 @@ pub(crate) struct Report {
 }
 
 impl Report {
-    /// Of no tick yet.
+    /// The report before the first tick.
     pub(crate) fn blank() -> Self {
         Self {
             setpoint: bytemuck::Zeroable::zeroed(),

@@ -12,8 +12,8 @@ use crate::message::{Fault, Happening, Order, PortsEnds, Report};
 use crate::status::{StatusBook, grants_of};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    CommandReply, CommandRequest, EndOfEpoch, FaultCause, LinkError, MachineState, Publisher,
-    Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
+    Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, LinkError, MachineState,
+    Publisher, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
 };
 use glidepath_realtime::{EventReader, Grants, Mode};
 
@@ -104,7 +104,10 @@ impl<'a> Ports<'a> {
 
     /// Asks the motion to end.
     pub(crate) fn abort(&mut self) {
-        self.ends.orders.enqueue(Order::Abort).ok();
+        self.ends
+            .orders
+            .enqueue(Order::Command(Command::Abort))
+            .ok();
     }
 
     pub(crate) const fn status(&self) -> &Status {

@@ -41,10 +41,10 @@ impl Quintic {
     }
 
     /// Becomes the one between two frames.
-    pub(crate) fn lead(&mut self, from: &SetpointFrame, to: &SetpointFrame, period_t: f64) {
+    pub(crate) fn set_between(&mut self, from: &SetpointFrame, to: &SetpointFrame, period_t: f64) {
         let ends = states(from).zip(states(to));
         for (pair, (from, to)) in self.0.iter_mut().zip(ends) {
-            pair.lead(from, to, period_t);
+            pair.set_between(from, to, period_t);
         }
     }
 
@@ -81,7 +81,7 @@ impl Quintic {
 impl Coefficients {
     /// Not in line, so that its code is fetched once for all pairs.
     #[inline(never)]
-    fn lead(&mut self, from: State, to: State, period_t: f64) {
+    fn set_between(&mut self, from: State, to: State, period_t: f64) {
         let (t, tt) = (period_t, period_t * period_t);
         let ([p0, v0, a0], [p1, v1, a1]) = (from, to);
         let [c0, c1, c2, c3, c4, c5] = &mut self.0;
@@ -117,7 +117,7 @@ impl Coefficients {
         (next(p1, c0), next(v1, p1))
     }
 
-    /// Positions and their first two derivatives. Not in line, like [`lead`](Self::lead).
+    /// Positions and their first two derivatives. Not in line, like [`set_between`](Self::set_between).
     #[inline(never)]
     fn kinematic(&self, u: f64) -> [Pair; 3] {
         let [_, c1, c2, c3, c4, c5] = self.0;

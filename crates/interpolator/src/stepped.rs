@@ -51,19 +51,7 @@ impl Stepped<'_> {
 
     /// Gives it a command; false if there are too many, or it is not one of the motion.
     pub fn command(&mut self, command: Command) -> bool {
-        let order = match command {
-            Command::Hold => Order::Hold,
-            Command::Resume => Order::Resume,
-            Command::FeedOverride(ratio) => Order::FeedOverride(ratio),
-            Command::RapidOverride(ratio) => Order::RapidOverride(ratio),
-            Command::Abort => Order::Abort,
-            Command::Reset => Order::Reset,
-            Command::StopAtEndOfBlock => Order::StopAtEndOfBlock,
-            Command::SingleBlock(on) => Order::SingleBlock(on),
-            Command::Step => Order::Step,
-            Command::Ping => return false,
-        };
-        self.ends.orders.enqueue(order).is_ok()
+        command != Command::Ping && self.ends.orders.enqueue(Order::Command(command)).is_ok()
     }
 
     /// One period, on time.

@@ -99,13 +99,14 @@ impl Supply {
     }
 
     /// An epoch begins: it starts when there are frames enough.
-    pub(crate) const fn begin(&mut self) {
+    pub(crate) const fn begin_epoch(&mut self) {
         self.short = true;
         self.out = false;
         self.starved_ticks = 0;
     }
 
-    pub(crate) const fn end(&mut self) {
+    /// An epoch ends: nothing is waited for.
+    pub(crate) const fn end_epoch(&mut self) {
         self.short = false;
         self.out = false;
         self.starved_ticks = 0;

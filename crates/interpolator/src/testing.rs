@@ -46,7 +46,7 @@ use crate::config::Config;
 use crate::message::{HAPPENINGS, Happening, Inputs, Order, PortsEnds, Report, Rings};
 use crate::tick::Interpolator;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{MachineState, Setpoint};
+use glidepath_link::{Command, MachineState, Setpoint};
 use glidepath_realtime::{Events, Wake, event_ring};
 use heapless::spsc::Producer;
 use std::collections::VecDeque;
@@ -101,8 +101,8 @@ impl Rig {
         rig
     }
 
-    pub(crate) fn order(&mut self, order: Order) {
-        self.ends.orders.enqueue(order).unwrap();
+    pub(crate) fn command(&mut self, command: Command) {
+        self.ends.orders.enqueue(Order::Command(command)).unwrap();
     }
 
     /// Moves up to `count` frames into the ring.
@@ -121,7 +121,7 @@ impl Rig {
 
     /// Publishes as a planner does: half a second ahead of what was executed.
     pub(crate) fn publish_horizon(&mut self) {
-        let executed = self.interpolator.rate.now().time.sequence;
+        let executed = self.setpoints.last().map_or(0, |s| s.sequence);
         while self.sent < executed + self.config.horizon_frames && !self.feed.is_empty() {
             self.publish(1);
         }
@@ -182,7 +182,7 @@ impl Rig {
     }
 
     pub(crate) fn state(&self) -> MachineState {
-        self.interpolator.state
+        self.last.map_or(MachineState::Idle, |report| report.state)
     }
 
     /// Everything that was published, with the rest before it.

@@ -1,10 +1,10 @@
 //! One period of the real-time thread: a function of what it owns, the wake-up, and the rings.
 //!
 //! ```text
-//! orders ─► will ─┐
-//! frames ─► track ┼─► supply ─► steer ─► advance ─► setpoint ─► joints ─► settle ─► report ─┊─► stamp
-//!                 └─ enough to go on?  rate  program time   check           end of epoch,  deadline
-//!                                                                           program stop
+//! orders ─► stop requests ─┐
+//! frames ─► track ─────────┼─► supply ──► rate ──► program ──► setpoint ──► joints ──► end of ──► report ─┊─► stamp
+//!                          └── enough to  chosen   time        written,               epoch, or           deadline
+//!                              go on?              advanced    checked                program stop
 //! ```
 //!
 //! Everything but the stamp is done shortly before the deadline: how long it takes, and how cold the
@@ -13,20 +13,22 @@
 //! No step allocates, locks, waits or calls the system. Work is bounded: so many orders and frames a
 //! tick, and a budget for the choice of a ramp.
 
-use crate::block_end::BlockEnd;
+use crate::block_stop::BlockStop;
 use crate::config::Config;
+use crate::counters::Counters;
 use crate::differences::{Allowed, Differences};
+use crate::frame_summary::FrameSummary;
 use crate::joints::Joints;
-use crate::message::{Fault, Happening, Inputs, Order, Report};
-use crate::place::Place;
+use crate::message::{Fault, Happening, Inputs, Order, Report, Timing};
 use crate::program_time::ProgramTime;
-use crate::rate::{BESIDE_FULL, Rate, Scene};
-use crate::setpoint::Counters;
+use crate::rate::{BESIDE_FULL, Rate, Situation};
+use crate::rest::SAME_POSITION;
+use crate::setpoint::SetpointWriter;
+use crate::stop_requests::StopRequests;
 use crate::supply::Supply;
-use crate::track::{Track, is_at_rest};
-use crate::will::Will;
+use crate::track::Track;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, MachineState, SetpointFrame};
+use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, MachineState, Setpoint, SetpointFrame};
 use glidepath_program::FrameFlags;
 use glidepath_realtime::{EventWriter, Wake};
 
@@ -35,35 +37,27 @@ use glidepath_realtime::{EventWriter, Wake};
 const FRAMES_PER_TICK: usize = 8;
 /// Orders taken in one tick.
 const ORDERS_PER_TICK: usize = 4;
-/// How far the first frame of an epoch may be from where the machine stands, mm or degrees.
-pub(crate) const SAME_PLACE: f64 = 1e-9;
-/// Part of a limit by which a setpoint may exceed it before the motion is stopped for that.
+/// Share of a limit by which a setpoint may exceed it before the motion is stopped for that.
 const EXCESS_FAULT: f64 = 0.05;
 
 /// The real-time thread's state.
 pub(crate) struct Interpolator<'a> {
-    pub(crate) period_t: f64,
-    pub(crate) boot_id: u64,
-    pub(crate) track: Track,
-    pub(crate) rate: Rate,
-    pub(crate) will: Will,
-    pub(crate) supply: Supply,
-    block_end: BlockEnd,
-    /// The rate at which motion sets out from a rest of the plan: less than the goal where the block
-    /// would be too short to come to rest at its end.
-    sets_out_at: f64,
-    pub(crate) published: Differences,
+    track: Track,
+    rate: Rate,
+    requests: StopRequests,
+    supply: Supply,
+    block_stop: BlockStop,
+    published: Differences,
     allowed: Allowed,
+    setpoints: SetpointWriter,
     joints: Joints,
+    counters: Counters,
     /// The open or last epoch, 0 before the first.
-    pub(crate) epoch: u64,
-    pub(crate) end_of_epoch: EndOfEpoch,
-    pub(crate) counters: Counters,
-    /// The frame whose event was published last.
-    pub(crate) announced: Option<u64>,
-    /// Of the last frame passed.
-    pub(crate) passed: Place,
-    pub(crate) state: MachineState,
+    epoch: u64,
+    end_of_epoch: EndOfEpoch,
+    /// What is kept of the last frame passed.
+    passed: FrameSummary,
+    state: MachineState,
     happenings: EventWriter<'a, Happening>,
 }
 
@@ -75,22 +69,19 @@ impl<'a> Interpolator<'a> {
     ) -> Self {
         let period_t = config.period_t();
         Self {
-            period_t,
-            boot_id,
             track: Track::new(period_t, config.limits),
             rate: Rate::new(ProgramTime::at(0), 0.0),
-            will: Will::default(),
+            requests: StopRequests::default(),
             supply: Supply::new(config),
-            block_end: BlockEnd::Unwanted,
-            sets_out_at: 1.0,
+            block_stop: BlockStop::none(),
             published: Differences::at_rest(config.start_position),
             allowed: Allowed::new(&config.limits, period_t),
+            setpoints: SetpointWriter::new(period_t, boot_id),
             joints: Joints::new(config.mechanism),
+            counters: Counters::new(config),
             epoch: 0,
             end_of_epoch: EndOfEpoch::None,
-            counters: Counters::new(config),
-            announced: None,
-            passed: Place::NONE,
+            passed: FrameSummary::NONE,
             state: MachineState::Idle,
             happenings,
         }
@@ -101,24 +92,24 @@ impl<'a> Interpolator<'a> {
     /// the stamp, in its place: every copy of it would be a dozen more cache lines to wait for.
     #[cfg_attr(glidepath_rtsan, sanitize(realtime = "nonblocking"))]
     pub(crate) fn prepare(&mut self, tick: u64, inputs: &mut Inputs<'_>, report: &mut Report) {
-        self.obey(inputs);
+        self.carry_out_orders(inputs);
         self.take_frames(inputs);
         self.watch_supply();
         if self.is_open() {
             self.look_for_block_end();
-            self.steer();
-            self.advance(tick);
-            self.evaluate(tick, &mut report.setpoint);
+            self.choose_rate();
+            self.advance_program_time(tick);
+            self.write_moving(tick, &mut report.setpoint);
         } else {
-            self.stand(&mut report.setpoint);
+            self.write_standing(&mut report.setpoint);
         }
         if self.joints.follow(&mut report.setpoint).is_err() {
             // Every frame passed a judge of the joints, so this cannot be; if it were, the motion ends.
             self.fail(FaultCause::Output);
         }
-        self.settle();
-        self.change_state(tick);
-        self.report(report);
+        self.end_epoch_or_wait();
+        self.update_state(tick);
+        self.fill(report);
     }
 
     /// What is left to do at the deadline: the time it really was.
@@ -136,12 +127,24 @@ impl<'a> Interpolator<'a> {
         self.counters.stamp(report, wake);
     }
 
+    /// A report found no room in its ring: nobody has taken one for a second, and the drives get
+    /// nothing either.
+    pub(crate) fn lose_report(&mut self) {
+        self.counters.count_lost_report();
+        self.fail(FaultCause::Ports);
+    }
+
+    /// Keeps how long the tick took, for the next report.
+    pub(crate) const fn keep_timing(&mut self, timing: Timing) {
+        self.counters.keep_timing(timing);
+    }
+
     /// True while an epoch is being executed.
-    pub(crate) fn is_open(&self) -> bool {
+    fn is_open(&self) -> bool {
         !self.track.is_empty()
     }
 
-    fn obey(&mut self, inputs: &mut Inputs<'_>) {
+    fn carry_out_orders(&mut self, inputs: &mut Inputs<'_>) {
         for _ in 0..ORDERS_PER_TICK {
             let Some(order) = inputs.orders.dequeue() else {
                 return;
@@ -149,14 +152,13 @@ impl<'a> Interpolator<'a> {
             if order == Order::PlannerLives {
                 self.supply.planner_lives();
             }
-            let passed = self.will.obey(order, self.is_open());
-            if passed.program_stop {
+            let released = self.requests.carry_out(order, self.is_open());
+            if released.program_stop {
                 self.track.pass_stop();
             }
-            if passed.block_end {
-                self.block_end.skip();
-                self.track.stand_at(None);
-                self.sets_out_at = 1.0;
+            if released.block_end {
+                self.block_stop.skip();
+                self.track.hold_at_block_end(None);
             }
         }
     }
@@ -173,13 +175,14 @@ impl<'a> Interpolator<'a> {
                 return;
             };
             let is_first = next.has(FrameFlags::FIRST) && next.epoch > self.epoch;
-            if is_first && self.is_open() && self.will.is_stopping() {
-                return; // The open epoch is about to end; then this one can begin.
+            if is_first && self.is_open() && self.requests.is_stopping() {
+                // The open epoch is about to end; then this one can begin.
+                return;
             }
-            // Straight from the ring, and only then is its place there given back.
+            // Straight from the ring, and only then is its room there given back.
             if self.is_open() && next.epoch == self.epoch {
                 self.track.push(next);
-            } else if is_first && self.will.fault().is_none() {
+            } else if is_first && self.requests.fault().is_none() {
                 self.open(next);
             }
             let _taken = inputs.frames.dequeue();
@@ -189,9 +192,9 @@ impl<'a> Interpolator<'a> {
     /// Starts an epoch, in place of one that stands in the middle of its way.
     fn open(&mut self, frame: &SetpointFrame) {
         let away = AxisVector::from(frame.position) - self.published.position();
-        if away.amax() > SAME_PLACE || !self.published.is_at_rest() {
+        if away.amax() > SAME_POSITION || !self.published.is_at_rest() {
             let cause = FaultCause::Frame(FrameRefusal::Elsewhere);
-            self.will
+            self.requests
                 .fail(Fault::new(cause, frame.line, frame.sequence));
             return;
         }
@@ -200,65 +203,72 @@ impl<'a> Interpolator<'a> {
         self.rate.begin_at(ProgramTime::at(frame.sequence));
         self.epoch = frame.epoch;
         self.end_of_epoch = EndOfEpoch::Open;
-        self.announced = None;
-        self.block_end = BlockEnd::Unwanted;
-        self.sets_out_at = 1.0;
-        self.supply.begin();
-        self.will.turn_over();
+        self.setpoints.begin_epoch();
+        self.block_stop = BlockStop::none();
+        self.supply.begin_epoch();
+        self.requests.forget_epoch();
     }
 
+    /// Looks whether there are frames enough, and stops for good if the planner is lost.
     fn watch_supply(&mut self) {
-        let holds = self.will.holds(self.is_rapid());
+        let holds = self.requests.holds(self.is_rapid());
         let (track, rate) = (&self.track, &self.rate);
         if self.is_open() && self.supply.watch(track, rate, &self.published, holds) {
             self.fail(FaultCause::PlannerLost);
         }
     }
 
+    /// Keeps in mind where the present block ends, if the motion is to rest there.
+    fn look_for_block_end(&mut self) {
+        let (track, rate) = (&mut self.track, &mut self.rate);
+        self.block_stop
+            .look_ahead(&self.requests, rate, track, &self.published);
+    }
+
     /// Chooses the rate, and how to stop if no more frames come. Where the plan itself rests, any
     /// rate is at rest, but it takes a new reserve to go on from there.
     #[allow(clippy::float_cmp, reason = "a steady rate is a copy of the goal")]
-    fn steer(&mut self) {
+    fn choose_rate(&mut self) {
         let mut goal = self.goal();
         let now = self.rate.now();
         let rests = self.published.is_at_rest() && self.plan_rests();
         if rests {
-            if self.rate.take_finds_no_stop() {
-                self.set_out_slower();
+            if self.rate.take_found_no_stop() {
+                self.block_stop.set_out_slower();
             }
-            goal = goal.min(self.sets_out_at);
+            goal = goal.min(self.block_stop.sets_out_at());
         }
         if rests && now.rate != goal {
             self.track.bar(now.time.sequence);
             self.rate.rest_at(now.time, goal);
         }
-        let scene = Scene {
+        let program_stop = self.track.program_stop();
+        let situation = Situation {
             track: &self.track,
             published: &self.published,
             allowed: &self.allowed,
             reach: self.supply.reach(),
             is_fully_supplied: self.supply.is_fully_supplied(),
-            block_end: self.block_end.in_motion().filter(|end| {
-                let stop = self.track.program_stop();
-                stop.is_none_or(|stop| *end < stop)
-            }),
+            block_end: self
+                .block_stop
+                .in_motion()
+                .filter(|end| program_stop.is_none_or(|stop| *end < stop)),
         };
         if !rests {
-            self.rate.steer(goal, &scene);
+            self.rate.choose_ramp(goal, &situation);
         }
-        let arrives_at = scene.block_end;
-        if self.rate.secure(goal, &scene) {
+        let arrives_at = situation.block_end;
+        if self.rate.ensure_stop(goal, &situation) {
             self.track.unbar();
         }
         if arrives_at.is_some_and(|frame| self.rate.is_to_arrive_at(frame)) {
-            self.track.stand_at(None);
+            self.track.hold_at_block_end(None);
         }
     }
 
     /// True where the plan itself is at rest.
     fn plan_rests(&self) -> bool {
-        let now = self.rate.now().time;
-        now.fraction <= 0.0 && self.track.frame(now.sequence).is_some_and(is_at_rest)
+        self.track.rests_at(self.rate.now().time)
     }
 
     /// True if the machine stands, because program time does or because the plan rests.
@@ -272,7 +282,7 @@ impl<'a> Interpolator<'a> {
             return 0.0;
         }
         let planned_override = self.present().planned_override;
-        let rate = self.will.rate(self.is_rapid(), planned_override);
+        let rate = self.requests.wanted_rate(self.is_rapid(), planned_override);
         if rate < 1.0 {
             rate.min(BESIDE_FULL)
         } else {
@@ -280,10 +290,10 @@ impl<'a> Interpolator<'a> {
         }
     }
 
-    /// The frame at or before the present program time.
-    fn present(&self) -> Place {
+    /// What is known of the frame at or before the present program time.
+    fn present(&self) -> FrameSummary {
         let frame = self.track.frame(self.rate.now().time.sequence);
-        frame.map_or(self.passed, Place::of)
+        frame.map_or(self.passed, FrameSummary::of)
     }
 
     fn is_rapid(&self) -> bool {
@@ -291,22 +301,48 @@ impl<'a> Interpolator<'a> {
     }
 
     /// Advances program time, not past a frame that holds the motion.
-    fn advance(&mut self, tick: u64) {
+    fn advance_program_time(&mut self, tick: u64) {
         let before = self.rate.has_taken_reserve();
         let time = self.rate.advance().time;
         if self.rate.has_taken_reserve() && !before {
-            self.counters.reserve_stops += 1;
+            self.counters.count_reserve_stop();
             self.happenings.write(Happening::ReserveStop { tick });
         }
-        let held = time.held_at(self.track.stop());
+        let held = time.held_at(self.track.holding_frame());
         if held != time {
             self.rate.rest_at(held, self.rate.now().rate);
         }
     }
 
+    /// Writes the setpoint at the present program time, and checks it.
+    fn write_moving(&mut self, tick: u64, setpoint: &mut Setpoint) {
+        let now = self.rate.now();
+        let writer = &mut self.setpoints;
+        if writer
+            .write_moving(self.epoch, &now, &self.track, setpoint)
+            .is_some()
+        {
+            self.check(&setpoint.position.into(), tick);
+        } else {
+            // Every committed ramp ends on frames at hand, so this cannot be; if it were, standing
+            // still is all that is left.
+            self.fail(FaultCause::Output);
+            self.rate.rest_at(now.time, 0.0);
+            self.write_standing(setpoint);
+        }
+    }
+
+    /// Writes the setpoint of a machine that stays where it is.
+    fn write_standing(&mut self, setpoint: &mut Setpoint) {
+        let position = self.published.position();
+        self.published.go_to(&position);
+        let (writer, passed) = (&mut self.setpoints, &self.passed);
+        writer.write_standing(self.epoch, passed, &position, setpoint);
+    }
+
     /// Compares the next position with the limits, and remembers it as published.
-    pub(crate) fn check(&mut self, position: &AxisVector, tick: u64) {
-        if !self.published.allow(position, &self.allowed) {
+    fn check(&mut self, position: &AxisVector, tick: u64) {
+        if !self.published.allows(position, &self.allowed) {
             let part = self.published.ratio(position, &self.allowed) - 1.0;
             self.happenings.write(Happening::Excess { tick, part });
             if part.is_nan() || part > EXCESS_FAULT {
@@ -317,28 +353,27 @@ impl<'a> Interpolator<'a> {
     }
 
     /// What follows when program time stands: the end of the epoch, or a program stop.
-    fn settle(&mut self) {
+    fn end_epoch_or_wait(&mut self) {
         if !self.is_open() {
             return;
         }
         let now = self.rate.now().time;
-        let place = self.present();
-        self.passed = place;
-        if self.will.is_stopping() && self.is_standing() {
-            self.close(if self.will.fault().is_some() {
+        let present = self.present();
+        self.passed = present;
+        if self.requests.is_stopping() && self.is_standing() {
+            self.close(if self.requests.fault().is_some() {
                 EndOfEpoch::Faulted
             } else {
                 EndOfEpoch::Aborted
             });
-        } else if place.has(FrameFlags::LAST) && self.is_standing() {
+        } else if present.has(FrameFlags::LAST) && self.is_standing() {
             self.close(EndOfEpoch::Completed);
         } else {
             if self.track.program_stop() == Some(now.sequence) {
-                self.will.wait_for_operator();
+                self.requests.wait_for_operator();
             }
-            let is_there = Some(now) == self.block_end.frame().map(ProgramTime::at);
-            if is_there && (self.rate.now().rate <= 0.0 || self.plan_rests()) {
-                self.will.stand_at_block_end();
+            if self.block_stop.is_at(now) && (self.rate.now().rate <= 0.0 || self.plan_rests()) {
+                self.requests.stand_at_block_end();
             }
         }
     }
@@ -352,20 +387,20 @@ impl<'a> Interpolator<'a> {
         self.rate.rest_at(self.rate.now().time, 0.0);
         self.published = Differences::at_rest(self.published.position());
         self.end_of_epoch = end;
-        self.supply.end();
-        self.will.turn_over();
+        self.supply.end_epoch();
+        self.requests.forget_epoch();
     }
 
     /// Latches a fault; the motion stops on the path.
-    pub(crate) fn fail(&mut self, cause: FaultCause) {
-        self.will
+    fn fail(&mut self, cause: FaultCause) {
+        self.requests
             .fail(Fault::new(cause, self.passed.line, self.passed.sequence));
     }
 
-    fn change_state(&mut self, tick: u64) {
+    fn update_state(&mut self, tick: u64) {
         let (is_open, stands) = (self.is_open(), self.is_standing());
         let is_rapid = self.is_rapid();
-        let to = self.will.state(is_open, stands, is_rapid, &self.supply);
+        let to = self.requests.state(is_open, stands, is_rapid, &self.supply);
         if to != self.state {
             let (from, line) = (self.state, self.passed.line);
             self.happenings.write(Happening::State {
@@ -377,8 +412,26 @@ impl<'a> Interpolator<'a> {
             self.state = to;
         }
     }
+
+    /// Writes the state after this tick, and what the ports thread must know.
+    fn fill(&self, report: &mut Report) {
+        let now = self.rate.now().time.sequence;
+        let (feed_override, rapid_override) = self.requests.overrides();
+        report.setpoint.state = self.state.code();
+        report.state = self.state;
+        report.end_of_epoch = self.end_of_epoch;
+        report.fault = self.requests.fault().copied();
+        report.frames_executed = if self.epoch == 0 { 0 } else { now + 1 };
+        report.queue_depth = if self.is_open() {
+            self.track.end().saturating_sub(now + 1)
+        } else {
+            0
+        };
+        (report.feed_override, report.rapid_override) = (feed_override, rapid_override);
+        report.single_block = self.requests.is_single_block();
+        report.reserve_stops = self.counters.reserve_stops();
+    }
 }
 
-mod block_stops;
 #[cfg(test)]
 mod tests;

@@ -14,6 +14,7 @@
 use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
 use crate::quintic::{Kinematic, Quintic};
+use crate::rest::is_at_rest;
 use crate::stop_time::{StopLimits, StopTime};
 use glidepath_geometry::AxisVector;
 use glidepath_link::SetpointFrame;
@@ -33,7 +34,7 @@ pub(crate) struct PathState {
 #[derive(Debug)]
 pub(crate) struct Track {
     frames: Box<[SetpointFrame]>,
-    /// At the place of a frame: the motion from it to the next.
+    /// In the slot of a frame: the motion from it to the next.
     quintics: Box<[Quintic]>,
     stop_times: Box<[StopTime]>,
     oldest: u64,
@@ -68,7 +69,7 @@ impl Track {
     }
 
     #[allow(clippy::cast_possible_truncation, reason = "the capacity is small")]
-    const fn place(sequence: u64) -> usize {
+    const fn slot(sequence: u64) -> usize {
         (sequence % TRACK_CAPACITY as u64) as usize
     }
 
@@ -93,18 +94,18 @@ impl Track {
         if self.is_empty() {
             self.oldest = frame.sequence;
         } else {
-            let before = Self::place(self.end().wrapping_sub(1));
+            let before = Self::slot(self.end().wrapping_sub(1));
             if let (Some(previous), Some(quintic)) =
                 (self.frames.get(before), self.quintics.get_mut(before))
             {
-                quintic.lead(previous, frame, self.period_t);
+                quintic.set_between(previous, frame, self.period_t);
             }
         }
-        if let Some(slot) = self.frames.get_mut(Self::place(frame.sequence)) {
+        if let Some(slot) = self.frames.get_mut(Self::slot(frame.sequence)) {
             *slot = *frame;
             self.len += 1;
         }
-        if let Some(slot) = self.stop_times.get_mut(Self::place(frame.sequence)) {
+        if let Some(slot) = self.stop_times.get_mut(Self::slot(frame.sequence)) {
             *slot = self.limits.stop_time(frame, self.period_t);
         }
         if is_at_rest(frame) {
@@ -115,7 +116,7 @@ impl Track {
         }
     }
 
-    /// Gives the place of all frames before one back.
+    /// Gives the slots of all frames before one back.
     pub(crate) fn release_before(&mut self, sequence: u64) {
         while self.len > 1 && self.oldest < sequence {
             self.oldest += 1;
@@ -126,7 +127,7 @@ impl Track {
     pub(crate) fn frame(&self, sequence: u64) -> Option<&SetpointFrame> {
         let offset = sequence.checked_sub(self.oldest)?;
         if offset < self.len as u64 {
-            self.frames.get(Self::place(sequence))
+            self.frames.get(Self::slot(sequence))
         } else {
             None
         }
@@ -161,17 +162,22 @@ impl Track {
         self.barrier = None;
     }
 
-    /// The frame at which program time stands by itself.
-    pub(crate) fn stop(&self) -> Option<u64> {
+    /// The first frame that holds the motion: program time stands there by itself.
+    pub(crate) fn holding_frame(&self) -> Option<u64> {
         [self.program_stop, self.barrier, self.block_end]
             .into_iter()
             .flatten()
             .min()
     }
 
-    /// Motion stands at a frame at rest because a block ends there, or nowhere for that.
-    pub(crate) const fn stand_at(&mut self, block_end: Option<u64>) {
+    /// Holds the motion at a frame at rest because a block ends there, or nowhere for that.
+    pub(crate) const fn hold_at_block_end(&mut self, block_end: Option<u64>) {
         self.block_end = block_end;
+    }
+
+    /// True where the plan itself is at rest.
+    pub(crate) fn rests_at(&self, time: ProgramTime) -> bool {
+        time.fraction <= 0.0 && self.frame(time.sequence).is_some_and(is_at_rest)
     }
 
     /// True if the motion comes to rest by itself on the frames at hand.
@@ -202,7 +208,7 @@ impl Track {
     /// The longest of the stop times of up to `count` frames from one on.
     pub(crate) fn longest_stop(&self, from: u64, count: u64) -> StopTime {
         (from.max(self.oldest)..self.end().min(from + count))
-            .filter_map(|sequence| self.stop_times.get(Self::place(sequence)))
+            .filter_map(|sequence| self.stop_times.get(Self::slot(sequence)))
             .fold(StopTime::default(), |longest, at| StopTime {
                 by_acceleration: longest.by_acceleration.max(at.by_acceleration),
                 by_jerk_squared: longest.by_jerk_squared.max(at.by_jerk_squared),
@@ -222,25 +228,25 @@ impl Track {
     fn quintic(&self, sequence: u64) -> Option<&Quintic> {
         let offset = sequence.checked_sub(self.oldest)?;
         if offset + 1 < self.len as u64 {
-            self.quintics.get(Self::place(sequence))
+            self.quintics.get(Self::slot(sequence))
         } else {
             None
         }
     }
 
-    /// Adds the planned position at a time to others; returns whether it is within the limits, and
+    /// Appends the planned position at a time to others; returns whether it is within the limits, and
     /// within the owned frames.
-    pub(crate) fn take(
+    pub(crate) fn append_to(
         &self,
-        time: ProgramTime,
         published: &mut Differences,
+        time: ProgramTime,
         allowed: &Allowed,
     ) -> bool {
         if let Some(quintic) = self.quintic(time.sequence) {
-            return published.take_at(quintic, time.fraction, allowed);
+            return published.append_at(quintic, time.fraction, allowed);
         }
         let position = self.position(time);
-        position.is_some_and(|position| published.take(&position, allowed))
+        position.is_some_and(|position| published.append(&position, allowed))
     }
 
     /// By how much the planned position at a time may be moved along the path: see [`Differences::room`].
@@ -290,17 +296,6 @@ impl Track {
     }
 }
 
-/// True if the motion is at rest at a frame.
-pub(crate) fn is_at_rest(frame: &SetpointFrame) -> bool {
-    /// mm/s and mm/s²; what is left of a planned stop after rounding.
-    const REST: f64 = 1e-6;
-    frame
-        .velocity
-        .iter()
-        .chain(&frame.acceleration)
-        .all(|value| value.abs() <= REST)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -336,17 +331,17 @@ mod tests {
         for k in 0..TRACK_CAPACITY as u64 {
             track.push(&frame_of(k, [0.1], [1.0], [0.0]));
         }
-        assert!(track.is_full() && track.stop().is_none() && !track.ends_at_rest());
+        assert!(track.is_full() && track.holding_frame().is_none() && !track.ends_at_rest());
         track.release_before(10);
         assert!(track.frame(9).is_none() && track.frame(10).is_some());
         track.push(&frame_of(TRACK_CAPACITY as u64, [0.1], [0.0], [0.0]));
-        assert_eq!(track.stop(), Some(512));
+        assert_eq!(track.holding_frame(), Some(512));
         assert_eq!(track.end(), 513);
         let beyond = ProgramTime {
             sequence: 600,
             fraction: 0.5,
         };
-        assert_eq!(beyond.held_at(track.stop()), ProgramTime::at(512));
+        assert_eq!(beyond.held_at(track.holding_frame()), ProgramTime::at(512));
         assert!(track.position(beyond).is_none());
         track.clear();
         assert!(track.position(ProgramTime::at(512)).is_none());

@@ -4,7 +4,7 @@
 use super::*;
 use crate::message::{Fault, Order, PortsEnds};
 use crate::testing::{Rig, hexapod, lines, mill, records};
-use glidepath_link::{MachineState, SetpointFrame};
+use glidepath_link::{Command, FaultCause, MachineState, SetpointFrame};
 use glidepath_realtime::CountingAllocator;
 use std::collections::VecDeque;
 use std::sync::atomic::AtomicU64;
@@ -13,8 +13,9 @@ use std::sync::atomic::AtomicU64;
 const PATIENCE: u64 = 20_000;
 
 #[derive(Debug, Clone, Copy)]
-enum Step {
-    Order(Order),
+enum Act {
+    Command(Command),
+    Fault(Fault),
     /// Waits for a state.
     Until(MachineState),
     /// Waits some ticks.
@@ -66,26 +67,31 @@ struct Script<'a> {
 }
 
 impl Script<'_> {
-    fn play(&mut self, steps: &[Step]) {
-        for step in steps {
+    fn play(&mut self, acts: &[Act]) {
+        for act in acts {
             let began = self.number;
-            match *step {
-                Step::Order(order) => self.ends.orders.enqueue(order).unwrap(),
-                Step::Frames(flows) => self.flows = flows,
-                Step::Ticks(ticks) => {
+            match *act {
+                Act::Command(command) => self.give(Order::Command(command)),
+                Act::Fault(fault) => self.give(Order::Fault(fault)),
+                Act::Frames(flows) => self.flows = flows,
+                Act::Ticks(ticks) => {
                     while self.number < began + ticks {
                         self.turn();
                     }
                 }
-                Step::Until(state) => {
+                Act::Until(state) => {
                     while self.state != state {
                         self.turn();
                         let waited = self.number - began;
-                        assert!(waited < PATIENCE, "{:?}, not {step:?}", self.state);
+                        assert!(waited < PATIENCE, "{:?}, not {act:?}", self.state);
                     }
                 }
             }
         }
+    }
+
+    fn give(&mut self, order: Order) {
+        self.ends.orders.enqueue(order).unwrap();
     }
 
     /// One tick: what there is goes in, and its report comes out.
@@ -109,7 +115,7 @@ impl Script<'_> {
 }
 
 /// Runs the loop while a script is played; returns the calls of the allocator.
-fn allocations(steps: &[Step]) -> u64 {
+fn allocations(acts: &[Act]) -> u64 {
     let Rig {
         mut interpolator,
         mut inputs,
@@ -152,7 +158,7 @@ fn allocations(steps: &[Step]) -> u64 {
             state: MachineState::Idle,
         };
         // Also if the script panics: the scope waits for the thread.
-        let played = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| script.play(steps)));
+        let played = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| script.play(acts)));
         stop.store(true, Ordering::Relaxed);
         let calls = thread.join().unwrap();
         if let Err(panic) = played {
@@ -165,48 +171,48 @@ fn allocations(steps: &[Step]) -> u64 {
 #[test]
 fn hold_resume_override_starvation_and_abort_do_not_allocate() {
     use MachineState::{Held, Idle, Running, Starved};
-    let steps = [
-        Step::Until(Running),
-        Step::Order(Order::Hold),
-        Step::Until(Held),
-        Step::Order(Order::Resume),
-        Step::Until(Running),
-        Step::Order(Order::FeedOverride(0.3)),
-        Step::Ticks(300),
-        Step::Order(Order::RapidOverride(0.5)),
-        Step::Order(Order::FeedOverride(1.0)),
-        Step::Ticks(300),
-        Step::Frames(false),
-        Step::Until(Starved),
-        Step::Frames(true),
-        Step::Until(Running),
-        Step::Order(Order::Abort),
-        Step::Until(Idle),
+    let acts = [
+        Act::Until(Running),
+        Act::Command(Command::Hold),
+        Act::Until(Held),
+        Act::Command(Command::Resume),
+        Act::Until(Running),
+        Act::Command(Command::FeedOverride(0.3)),
+        Act::Ticks(300),
+        Act::Command(Command::RapidOverride(0.5)),
+        Act::Command(Command::FeedOverride(1.0)),
+        Act::Ticks(300),
+        Act::Frames(false),
+        Act::Until(Starved),
+        Act::Frames(true),
+        Act::Until(Running),
+        Act::Command(Command::Abort),
+        Act::Until(Idle),
     ];
-    assert_eq!(allocations(&steps), 0);
+    assert_eq!(allocations(&acts), 0);
 }
 
 #[test]
 fn steps_faults_and_reset_do_not_allocate() {
     use MachineState::{Faulted, Idle, ProgramStop, Running};
-    let steps = [
-        Step::Until(Running),
-        Step::Order(Order::SingleBlock(true)),
-        Step::Until(ProgramStop),
-        Step::Order(Order::Step),
-        Step::Until(Running),
-        Step::Until(ProgramStop),
-        Step::Order(Order::SingleBlock(false)),
-        Step::Order(Order::Resume),
-        Step::Until(Running),
-        Step::Order(Order::StopAtEndOfBlock),
-        Step::Until(ProgramStop),
-        Step::Order(Order::Resume),
-        Step::Until(Running),
-        Step::Order(Order::Fault(Fault::new(FaultCause::Ports, 0, 0))),
-        Step::Until(Faulted),
-        Step::Order(Order::Reset),
-        Step::Until(Idle),
+    let acts = [
+        Act::Until(Running),
+        Act::Command(Command::SingleBlock(true)),
+        Act::Until(ProgramStop),
+        Act::Command(Command::Step),
+        Act::Until(Running),
+        Act::Until(ProgramStop),
+        Act::Command(Command::SingleBlock(false)),
+        Act::Command(Command::Resume),
+        Act::Until(Running),
+        Act::Command(Command::StopAtEndOfBlock),
+        Act::Until(ProgramStop),
+        Act::Command(Command::Resume),
+        Act::Until(Running),
+        Act::Fault(Fault::new(FaultCause::Ports, 0, 0)),
+        Act::Until(Faulted),
+        Act::Command(Command::Reset),
+        Act::Until(Idle),
     ];
-    assert_eq!(allocations(&steps), 0);
+    assert_eq!(allocations(&acts), 0);
 }

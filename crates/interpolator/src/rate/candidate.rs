@@ -1,22 +1,25 @@
 //! The ramps that are tried, and how one is made to end on the grid of the frames.
 
-use super::{BESIDE_FULL, Rate, Scene};
+use super::progress::Progress;
 use crate::ramp::{Bounds, Ramp};
 
 /// Stretching of the candidates, fast to slow.
 pub(super) const PACES: [f64; 6] = [1.0, 0.8, 0.63, 0.5, 0.36, 0.22];
 
-/// A ramp to try: how much of the way to the goal, and how fast.
+/// The highest steady rate below 1.
+pub(crate) const BESIDE_FULL: f64 = 0.998;
+
+/// A ramp to try: which share of the way to the goal, and how fast.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Candidate {
-    pub(super) part: f64,
+    pub(super) share: f64,
     pub(super) pace: f64,
 }
 
 /// Everything that is tried, best first.
 pub(super) const CANDIDATES: [Candidate; 18] = {
     let mut all = [Candidate {
-        part: 1.0,
+        share: 1.0,
         pace: PACES[0],
     }; 18];
     let mut i = 0;
@@ -24,9 +27,9 @@ pub(super) const CANDIDATES: [Candidate; 18] = {
         all[i].pace = PACES[i];
         i += 1;
     }
-    let parts = [0.6, 0.3, 0.12, 0.04];
+    let shares = [0.6, 0.3, 0.12, 0.04];
     while i < all.len() {
-        all[i].part = parts[(i - PACES.len()) / 3];
+        all[i].share = shares[(i - PACES.len()) / 3];
         all[i].pace = PACES[(i - PACES.len()) % 3 * 2];
         i += 1;
     }
@@ -35,9 +38,9 @@ pub(super) const CANDIDATES: [Candidate; 18] = {
 
 /// What it costs to set up a candidate, and to stretch one from a slope, in samples.
 const SET_UP: u32 = 4;
-const SEARCH: u32 = 6;
-/// Most steps of the search for the grid.
-const SEARCH_STEPS: u32 = 16;
+const STRETCHING: u32 = 6;
+/// Most refinements of a stretching.
+const REFINEMENTS: u32 = 16;
 /// The first guess of how much slower a ramp has to be, how fast that grows, and the most of it.
 const SLOWER: f64 = 1.25;
 const SLOWEST: f64 = 50.0;
@@ -47,79 +50,53 @@ const PARTIAL_MOST: f64 = 0.985;
 /// How near to the grid a ramp must end, periods.
 const ON_GRID: f64 = 1e-10;
 
-impl Rate {
-    /// The rate that is committed; none if a ramp is followed that leads past the end of the block.
-    pub(super) fn heading(&self, goal: f64, scene: &Scene<'_>) -> Option<f64> {
-        let Some(ramp) = self.ramp else {
-            return Some(self.rate);
-        };
-        let arrives = scene
-            .block_end
-            .is_none_or(|frame| self.is_to_arrive_at(frame));
-        (arrives || goal <= 0.0).then(|| ramp.target())
+/// The rate at which a ramp ends that leads from `rate` a share of the way to a goal.
+pub(super) fn partial_target(rate: f64, share: f64, goal: f64) -> f64 {
+    if share >= 1.0 {
+        return goal;
     }
+    let most = PARTIAL_MOST.max(rate.min(BESIDE_FULL));
+    (rate + share * (goal - rate)).min(most)
+}
 
-    /// Where a ramp part of the way to a goal ends.
-    pub(super) fn target(&self, part: f64, goal: f64) -> f64 {
-        if part >= 1.0 {
-            return goal;
-        }
-        let most = PARTIAL_MOST.max(self.rate.min(BESIDE_FULL));
-        (self.rate + part * (goal - self.rate)).min(most)
+/// A ramp from the present, if there is one of less than so many ticks; one to rate 1 ends on the
+/// grid of the frames.
+pub(super) fn ramp_to(
+    now: &Progress,
+    target: f64,
+    bounds: Bounds,
+    within: f64,
+    budget: &mut u32,
+) -> Option<Ramp> {
+    let plan = |pace| Ramp::plan(now.rate, now.slope, target, bounds.paced(pace));
+    *budget = budget.saturating_sub(SET_UP);
+    let ramp = plan(1.0).filter(|ramp| ramp.duration() < within)?;
+    if target < 1.0 {
+        return Some(ramp);
     }
-
-    /// Whether a candidate, if it passes, is better than what is committed.
-    #[allow(clippy::float_cmp, reason = "targets are copies of goals")]
-    pub(super) fn is_better(&self, part: f64, pace: f64, goal: f64, heading: Option<f64>) -> bool {
-        let Some(heading) = heading else {
-            return true;
-        };
-        if heading == goal {
-            return part >= 1.0 && pace > self.pace;
-        }
-        let already = (heading - self.rate) / (goal - self.rate);
-        !already.is_finite() || part > already
-    }
-
-    /// A ramp from the present, if there is one of less than so many ticks; one to rate 1 ends on the
-    /// grid of the frames.
-    pub(super) fn ramp_to(
-        &self,
-        target: f64,
-        bounds: Bounds,
-        within: f64,
-        budget: &mut u32,
-    ) -> Option<Ramp> {
-        let plan = |pace| Ramp::plan(self.rate, self.slope, target, bounds.paced(pace));
-        *budget = budget.saturating_sub(SET_UP);
-        let ramp = plan(1.0).filter(|ramp| ramp.duration() < within)?;
-        if target < 1.0 {
-            return Some(ramp);
-        }
-        // The frame reached at rate 1 is behind the grid by what was lost, so lose a whole number.
-        let over = (self.now.fraction - ramp.loss()).rem_euclid(1.0);
-        let wanted = ramp.loss() + if over > 1.0 - ON_GRID { 0.0 } else { over };
-        let on_grid = if self.slope == 0.0 {
-            // The same curve, stretched: so is the loss.
-            plan(if wanted > 0.0 {
-                ramp.loss() / wanted
-            } else {
-                1.0
-            })?
+    // The frame reached at rate 1 is behind the grid by what was lost, so lose a whole number.
+    let over = (now.time.fraction - ramp.loss()).rem_euclid(1.0);
+    let wanted = ramp.loss() + if over > 1.0 - ON_GRID { 0.0 } else { over };
+    let on_grid = if now.slope == 0.0 {
+        // The same curve, stretched: so is the loss.
+        plan(if wanted > 0.0 {
+            ramp.loss() / wanted
         } else {
-            *budget = budget.saturating_sub(SEARCH);
-            stretched(&ramp, wanted, plan)?
-        };
-        // If there is too little time left to lose, another tick will be nearer to the grid.
-        let is_on_grid = (on_grid.loss() - wanted).abs() < ON_GRID;
-        (is_on_grid && on_grid.duration() < within).then_some(on_grid)
-    }
+            1.0
+        })?
+    } else {
+        *budget = budget.saturating_sub(STRETCHING);
+        stretched(&ramp, wanted, plan)?
+    };
+    // If there is too little time left to lose, another tick will be nearer to the grid.
+    let is_on_grid = (on_grid.loss() - wanted).abs() < ON_GRID;
+    (is_on_grid && on_grid.duration() < within).then_some(on_grid)
 }
 
 /// The ramp, among those of all paces, that loses so much program time, no less than the one of pace 1.
 ///
 /// From a slope the curve is not just stretched, but the loss still grows nearly in proportion to the
-/// stretching: a chord finds it in a few steps.
+/// stretching: the secant finds it in a few steps.
 fn stretched(ramp: &Ramp, wanted: f64, plan: impl Fn(f64) -> Option<Ramp>) -> Option<Ramp> {
     let beyond = |stretching: f64| {
         let ramp = plan(1.0 / stretching)?;
@@ -140,7 +117,7 @@ fn stretched(ramp: &Ramp, wanted: f64, plan: impl Fn(f64) -> Option<Ramp>) -> Op
         (found, high_by) = beyond(high)?;
     }
     let mut kept_low = false;
-    for _ in 0..SEARCH_STEPS {
+    for _ in 0..REFINEMENTS {
         let between = (low * high_by - high * low_by) / (high_by - low_by);
         let by;
         (found, by) = beyond(between)?;

@@ -1,13 +1,9 @@
 //! Playing a ramp through: what it would publish, tick by tick.
 
-use super::Scene;
 use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
 use crate::ramp::Ramp;
 use crate::track::Track;
-
-/// What it costs to set up a stop, in samples.
-pub(super) const SET_UP: u32 = 6;
 
 /// What playing a ramp through has shown.
 #[derive(Debug, Clone, Copy)]
@@ -15,25 +11,28 @@ pub(super) const SET_UP: u32 = 6;
     clippy::large_enum_variant,
     reason = "it lives on the stack for a moment; no boxes here"
 )]
-pub(super) enum Played {
-    /// Where the ramp ends, at a whole tick.
+pub(super) enum PlaythroughOutcome {
+    /// The ramp keeps the limits. It ends here, at a whole tick.
     Passed(Cue),
+    /// A limit would be broken, or a frame is missing.
     Barred,
+    /// There was no time to play it to its end.
     OutOfBudget,
 }
 
-/// Where a ramp is played from.
+/// What a ramp is played from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cue {
     pub(super) time: ProgramTime,
     /// The positions published before it.
     pub(super) published: Differences,
-    /// Whether motion stands at what holds it now. A reserve is for after that.
+    /// Whether the frame that holds the motion now holds the ramp, too. A stop in reserve is for the
+    /// time after that, and is not held.
     pub(super) is_held: bool,
 }
 
 impl Cue {
-    /// Nowhere yet.
+    /// The cue of a search that has not begun.
     pub(super) const NONE: Self = Self {
         time: ProgramTime::at(0),
         published: Differences::NONE,
@@ -44,18 +43,18 @@ impl Cue {
 /// A ramp that is being played through, to three ticks past its end. It can pause between any two
 /// samples.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Playing {
+pub(super) struct Playthrough {
     ramp: Ramp,
     from: ProgramTime,
     is_held: bool,
     /// Ticks played, and the positions up to there.
     t: f64,
     published: Differences,
-    /// Where the ramp ends, once it was played so far.
+    /// The end of the ramp, once it was played so far.
     after: Cue,
 }
 
-impl Playing {
+impl Playthrough {
     pub(super) const fn new(ramp: Ramp, cue: Cue) -> Self {
         Self {
             ramp,
@@ -72,37 +71,29 @@ impl Playing {
     }
 
     #[allow(clippy::float_cmp, reason = "both are whole numbers")]
-    pub(super) fn go_on(&mut self, track: &Track, allowed: &Allowed, budget: &mut u32) -> Played {
-        let stop = track.stop().filter(|_| self.is_held);
+    pub(super) fn go_on(
+        &mut self,
+        track: &Track,
+        allowed: &Allowed,
+        budget: &mut u32,
+    ) -> PlaythroughOutcome {
+        let holding_frame = track.holding_frame().filter(|_| self.is_held);
         let (whole, end) = (self.ramp.duration().ceil(), self.ramp.duration() + 3.0);
         while self.t < end {
             if *budget == 0 {
-                return Played::OutOfBudget;
+                return PlaythroughOutcome::OutOfBudget;
             }
             *budget -= 1;
             self.t += 1.0;
             let elapsed = self.ramp.elapsed_at(self.t);
-            let time = self.from.after(elapsed).held_at(stop);
-            if !track.take(time, &mut self.published, allowed) {
-                return Played::Barred;
+            let time = self.from.after(elapsed).held_at(holding_frame);
+            if !track.append_to(&mut self.published, time, allowed) {
+                return PlaythroughOutcome::Barred;
             }
             if self.t == whole {
                 (self.after.time, self.after.published) = (time, self.published);
             }
         }
-        Played::Passed(self.after)
-    }
-}
-
-/// Most samples of a tick: what it takes where three stops fill the track, which is the shortest period
-/// a configuration may have.
-const MOST: u32 = 360;
-
-impl Scene<'_> {
-    /// Samples a tick may spend on what has to be done within it: so many, or what it takes to play a
-    /// stop from full speed through twice. With less, at a short period, no stop would ever pass.
-    pub(super) fn budget(&self, least: u32) -> u32 {
-        let stop = u32::try_from(2 * self.reach).unwrap_or(u32::MAX / 4);
-        least.max(2 * (stop + 3 + SET_UP)).min(MOST)
+        PlaythroughOutcome::Passed(self.after)
     }
 }

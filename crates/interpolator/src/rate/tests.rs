@@ -11,9 +11,15 @@
     reason = "a test: numbers are small, bits are compared on purpose, failures are panics"
 )]
 
+use super::greedy_descent::{DescentOutcome, GreedyDescent};
+use super::kept_stop::KeptStop;
+use super::steady_rate::SteadyRate;
 use super::*;
+use crate::differences::{Allowed, Differences};
+use crate::program_time::ProgramTime;
+use crate::rest::is_at_rest;
 use crate::testing::{audit, mill, plan, records};
-use crate::track::{TRACK_CAPACITY, is_at_rest};
+use crate::track::{TRACK_CAPACITY, Track};
 use glidepath_geometry::AxisVector;
 use glidepath_link::SetpointFrame;
 use glidepath_program::Limits;
@@ -58,7 +64,7 @@ impl Player {
         {
             self.track.push(frame);
         }
-        let scene = Scene {
+        let situation = Situation {
             track: &self.track,
             published: &self.published,
             allowed: &self.allowed,
@@ -69,17 +75,17 @@ impl Player {
         let now = self.rate.now().time;
         let rests = now.fraction <= 0.0 && self.track.frame(now.sequence).is_some_and(is_at_rest);
         if rests && self.published.is_at_rest() {
-            if self.rate.take_finds_no_stop() {
+            if self.rate.take_found_no_stop() {
                 self.sets_out_at *= 0.4;
             }
             self.rate.rest_at(now, goal.min(self.sets_out_at));
         } else {
-            self.rate.steer(goal, &scene);
+            self.rate.choose_ramp(goal, &situation);
         }
-        if self.rate.secure(goal, &scene) {
+        if self.rate.ensure_stop(goal, &situation) {
             self.track.unbar();
         }
-        let time = self.rate.advance().time.held_at(self.track.stop());
+        let time = self.rate.advance().time.held_at(self.track.holding_frame());
         if time != self.rate.now().time {
             self.rate.rest_at(time, self.rate.now().rate);
         }
@@ -130,18 +136,18 @@ proptest! {
             p.tick(1.0);
             left -= 1;
         }
-        prop_assert!(p.at_end(), "stuck at {:?} rate {}", p.rate.now(), p.rate.rate);
+        prop_assert!(p.at_end(), "stuck at {:?} rate {}", p.rate.now(), p.rate.now().rate);
         let ratios = audit(&p.positions, &mill(), PERIOD_T);
         prop_assert!(ratios.iter().all(|r| *r <= 1.0 + 1e-6), "{ratios:?}");
     }
 }
 
-/// From anywhere on a plan that is at its limits on two axes all the time, a fall leads to a lower
+/// From anywhere on a plan that is at its limits on two axes all the time, a greedy descent leads to a lower
 /// steady rate, and what it is kept as repeats it within the limits, bit for bit.
 #[test]
-fn a_fall_leads_down_within_the_limits() {
-    let (p, mut fallen) = (player(5, 2, 400), 0);
-    let scene = Scene {
+fn a_greedy_descent_leads_down_within_the_limits() {
+    let (p, mut found) = (player(5, 2, 400), 0);
+    let situation = Situation {
         track: &p.track,
         published: &p.published,
         allowed: &p.allowed,
@@ -150,28 +156,29 @@ fn a_fall_leads_down_within_the_limits() {
         block_end: None,
     };
     for sequence in (5..250).step_by(7) {
-        let steady = reserve::Steady {
+        let steady = SteadyRate {
             time: ProgramTime::at(sequence),
             rate: 1.0,
         };
-        let mut at = steady.cue(3.0, &scene).unwrap();
-        let steepest = scene.fastest_from(sequence).alpha;
-        let mut search = fall::Fall::new(at, 1.0, steepest);
-        let fall::Fallen::Lower(end, rate, slopes) = search.go_on(&scene, &mut 100_000) else {
+        let mut at = steady.cue(3.0, &p.track).unwrap();
+        let steepest = situation.fastest_from(sequence).alpha;
+        let mut search = GreedyDescent::new(at, 1.0, steepest);
+        let DescentOutcome::Lower(end, rate, slopes) = search.go_on(&situation, &mut 100_000)
+        else {
             continue;
         };
-        fallen += 1;
+        found += 1;
         assert!(rate < 0.96);
-        let mut steps = steps::Steps::after(slopes);
+        let mut stop = KeptStop::after(slopes);
         let (mut now, mut slope) = (1.0, 0.0);
-        while !steps.is_empty() {
-            let ramp = steps.count_down(now, slope);
+        while !stop.is_empty() {
+            let ramp = stop.count_down(now, slope);
             let elapsed = ramp.map_or(now, |ramp| ramp.elapsed_at(1.0));
             (now, slope) = ramp.map_or((now, 0.0), |ramp| (ramp.target(), ramp.end_slope()));
             at.time = at.time.after(elapsed);
-            assert!(p.track.take(at.time, &mut at.published, &p.allowed));
+            assert!(p.track.append_to(&mut at.published, at.time, &p.allowed));
         }
         assert_eq!((now, slope, at.time), (rate, 0.0, end.time));
     }
-    assert!(fallen > 25, "{fallen}");
+    assert!(found > 25, "{found}");
 }

@@ -17,9 +17,8 @@ mod planned;
 mod supply;
 
 use super::*;
-use crate::message::Order;
 use crate::testing::{Numbers, Rig, lines, mill, plan, records};
-use glidepath_link::{Setpoint, SetpointMarks};
+use glidepath_link::{Command, Setpoint, SetpointMarks};
 use proptest::prelude::*;
 
 const INSIDE: f64 = 1.0 + 1e-6;

@@ -5,20 +5,20 @@ use super::*;
 use glidepath_geometry::{Arc, Plane, Segment};
 use glidepath_program::{Effort, Item, ItemKind, PathMode, Rate as Speed};
 
-/// Plays a program in single-block mode, going on by `order` wherever it has stood for some ticks;
+/// Plays a program in single-block mode, going on by `command` wherever it has stood for some ticks;
 /// returns where.
-fn stands(rig: &mut Rig, order: Order, waits: u64) -> Vec<u64> {
+fn stands(rig: &mut Rig, command: Command, waits: u64) -> Vec<u64> {
     let mut stands = vec![];
     for _ in 0..60_000 {
         rig.publish_horizon();
         let setpoint = rig.tick();
         match setpoint.state() {
             Ok(MachineState::ProgramStop) => {
-                let place = setpoint.sequence;
-                if stands.last() != Some(&place) {
-                    stands.push(place);
+                let sequence = setpoint.sequence;
+                if stands.last() != Some(&sequence) {
+                    stands.push(sequence);
                     play(rig, waits);
-                    rig.order(order);
+                    rig.command(command);
                 }
             }
             Ok(MachineState::Idle) if setpoint.epoch > 0 => return stands,
@@ -81,10 +81,10 @@ fn play(rig: &mut Rig, ticks: u64) {
 fn single_block_rests_at_the_end_of_every_block() {
     for seed in 0..20 {
         let frames = program(seed, 30, Effort::Fast);
-        for order in [Order::Resume, Order::Step] {
+        for command in [Command::Resume, Command::Step] {
             let mut rig = Rig::playing(&frames);
-            rig.order(Order::SingleBlock(true));
-            let stands = stands(&mut rig, order, 0);
+            rig.command(Command::SingleBlock(true));
+            let stands = stands(&mut rig, command, 0);
             assert_eq!(stands, ends(&frames), "seed {seed}");
             assert_bits(&rig, &frames, &stands);
             let ratio = rig.worst_ratio();
@@ -130,10 +130,10 @@ fn single_block_rests_where_the_plan_rests() {
     let items: Vec<_> = items.collect();
     for effort in [Effort::Fast, Effort::Optimal] {
         let frames = planned(&items, effort);
-        for order in [Order::Resume, Order::Step] {
+        for command in [Command::Resume, Command::Step] {
             let mut rig = Rig::playing(&frames);
-            rig.order(Order::SingleBlock(true));
-            let stands = stands(&mut rig, order, 100);
+            rig.command(Command::SingleBlock(true));
+            let stands = stands(&mut rig, command, 100);
             assert_eq!(stands, ends(&frames), "{effort:?}");
             assert_bits(&rig, &frames, &stands);
         }
@@ -151,7 +151,7 @@ fn a_stop_at_the_end_of_the_block_is_made_once_and_anywhere() {
             Numbers::new(seed).whole(20, frames.len() as u64 / 2),
         );
         let ordered_at = rig.setpoints.last().unwrap().sequence;
-        rig.order(Order::StopAtEndOfBlock);
+        rig.command(Command::StopAtEndOfBlock);
         play_until(&mut rig, MachineState::ProgramStop);
         let place = rig.setpoints.last().unwrap().sequence;
         assert!(
@@ -166,7 +166,7 @@ fn a_stop_at_the_end_of_the_block_is_made_once_and_anywhere() {
             Ok(MachineState::ProgramStop),
             "no fault while it waits"
         );
-        rig.order(Order::Resume);
+        rig.command(Command::Resume);
         play_on(&mut rig);
         assert_bits(&rig, &frames, &[place]);
         assert!(
@@ -186,21 +186,21 @@ fn a_step_from_a_hold_goes_to_the_end_of_the_block_and_single_block_can_be_left(
         let frames = program(seed, 30, Effort::Fast);
         let mut rig = Rig::playing(&frames);
         play(&mut rig, 60);
-        rig.order(Order::Hold);
+        rig.command(Command::Hold);
         play_until(&mut rig, MachineState::Held);
         let held_at = rig.setpoints.last().unwrap().sequence;
-        rig.order(Order::Step);
+        rig.command(Command::Step);
         play_until(&mut rig, MachineState::ProgramStop);
         // From a few frames before the end of a block there may be no way to rest just there.
         let end = rig.setpoints.last().unwrap().sequence;
         let mut ends = ends(&frames).into_iter().filter(|end| *end > held_at);
         let passed = ends.find(|passed| *passed >= end || *passed > held_at + NEAR);
         assert_eq!(passed, Some(end), "seed {seed}: held at {held_at}");
-        rig.order(Order::SingleBlock(true));
-        rig.order(Order::Resume);
+        rig.command(Command::SingleBlock(true));
+        rig.command(Command::Resume);
         play(&mut rig, 3);
         // Also where it is on its way to rest already.
-        rig.order(Order::SingleBlock(false));
+        rig.command(Command::SingleBlock(false));
         play_on(&mut rig);
         assert_bits(&rig, &frames, &[end]);
         assert!(
@@ -216,11 +216,11 @@ fn a_hold_comes_before_the_end_of_the_block() {
     let frames = records(&lines(8, 3, 600, &mill(), 0.004), 1, 4_000_000);
     let mut rig = Rig::playing(&frames);
     play(&mut rig, 100);
-    rig.order(Order::StopAtEndOfBlock);
+    rig.command(Command::StopAtEndOfBlock);
     play(&mut rig, 1);
-    rig.order(Order::Hold);
+    rig.command(Command::Hold);
     play_until(&mut rig, MachineState::Held);
-    rig.order(Order::Abort);
+    rig.command(Command::Abort);
     play_on(&mut rig);
     assert_eq!(rig.last.unwrap().end_of_epoch, EndOfEpoch::Aborted);
     assert!(rig.worst_ratio() <= INSIDE);

@@ -7,7 +7,7 @@ fn hold_stops_on_the_path_and_resume_goes_on_from_the_same_bits() {
     let frames = records(&lines(8, 3, 600, &mill(), 0.004), 1, 4_000_000);
     let mut rig = Rig::playing(&frames);
     rig.run(100);
-    rig.order(Order::Hold);
+    rig.command(Command::Hold);
     assert!(rig.run_until(400, |s| s.state() == Ok(MachineState::Held)));
     let held = *rig.setpoints.last().unwrap();
     assert_eq!((held.velocity, held.acceleration), ([0.0; 9], [0.0; 9]));
@@ -21,7 +21,7 @@ fn hold_stops_on_the_path_and_resume_goes_on_from_the_same_bits() {
         (before.sequence, before.fraction),
         (held.sequence, held.fraction)
     );
-    rig.order(Order::Resume);
+    rig.command(Command::Resume);
     assert!(rig.run_until(3_000, is_idle));
     // Back at full rate it is back on the grid: the last setpoints are frames again.
     let end = rig
@@ -45,16 +45,16 @@ fn hold_stops_on_the_path_and_resume_goes_on_from_the_same_bits() {
 fn an_override_scales_time_and_zero_holds() {
     let (mut rig, _) = rig(2, 2, 600);
     rig.run(60);
-    rig.order(Order::FeedOverride(0.5));
+    rig.command(Command::FeedOverride(0.5));
     assert!(rig.run_until(500, |s| (s.effective_override - 0.5).abs() < 1e-12));
     rig.run(20);
     let pair: Vec<_> = rig.setpoints.iter().rev().take(2).collect();
     let advanced =
         (pair[0].sequence - pair[1].sequence) as f64 + pair[0].fraction - pair[1].fraction;
     assert!((advanced - 0.5).abs() < 1e-9);
-    rig.order(Order::FeedOverride(0.0));
+    rig.command(Command::FeedOverride(0.0));
     assert!(rig.run_until(500, |s| s.state() == Ok(MachineState::Held)));
-    rig.order(Order::FeedOverride(1.5));
+    rig.command(Command::FeedOverride(1.5));
     assert!(rig.run_until(3_000, is_idle));
     assert!(rig.setpoints.iter().all(|s| s.effective_override <= 1.0));
     assert!(rig.worst_ratio() <= INSIDE);
@@ -82,7 +82,7 @@ fn a_program_stop_rests_until_resume() {
     rig.run(30);
     let waiting = *rig.setpoints.last().unwrap();
     assert_eq!((waiting.sequence, waiting.position), (stop, here.into()));
-    rig.order(Order::Resume);
+    rig.command(Command::Resume);
     assert!(rig.run_until(1_000, is_idle));
     assert_eq!(
         rig.setpoints.last().unwrap().position,
@@ -95,7 +95,7 @@ fn a_program_stop_rests_until_resume() {
 fn abort_ends_the_epoch_at_rest_and_drops_what_was_under_way() {
     let (mut rig, _) = rig(3, 3, 600);
     rig.run(120);
-    rig.order(Order::Abort);
+    rig.command(Command::Abort);
     assert!(rig.run_until(600, is_idle));
     assert_eq!(rig.last.unwrap().end_of_epoch, EndOfEpoch::Aborted);
     let here = rig.setpoints.last().unwrap().position;
@@ -113,9 +113,9 @@ fn each_event_is_published_once() {
         frame.event_kind = 1;
     }
     rig.run(40);
-    rig.order(Order::Hold);
+    rig.command(Command::Hold);
     rig.run(150);
-    rig.order(Order::Resume);
+    rig.command(Command::Resume);
     assert!(rig.run_until(3_000, is_idle));
     let events: Vec<_> = rig
         .setpoints
@@ -140,7 +140,7 @@ fn holds_begin_soon() {
                 rig.publish_horizon();
                 rig.tick();
             }
-            rig.order(Order::Hold);
+            rig.command(Command::Hold);
             let (mut wait, mut stop) = (0, 0);
             while rig.state() != MachineState::Held && rig.setpoints.len() < 3_000 {
                 rig.publish_horizon();
@@ -179,20 +179,20 @@ fn command_all(
     let mut numbers = Numbers::new(seed);
     for &(command, ticks) in commands {
         match command {
-            0 | 1 => rig.order(Order::Hold),
-            2 => rig.order(Order::Resume),
-            3 => rig.order(Order::FeedOverride(numbers.unit() * 1.2)),
-            4 => rig.order(Order::FeedOverride(1.0)),
+            0 | 1 => rig.command(Command::Hold),
+            2 => rig.command(Command::Resume),
+            3 => rig.command(Command::FeedOverride(numbers.unit() * 1.2)),
+            4 => rig.command(Command::FeedOverride(1.0)),
             _ => {
                 if numbers.unit() < 0.2 {
-                    rig.order(Order::Abort);
+                    rig.command(Command::Abort);
                 }
             }
         }
         rig.run(ticks);
     }
-    rig.order(Order::Resume);
-    rig.order(Order::FeedOverride(1.0));
+    rig.command(Command::Resume);
+    rig.command(Command::FeedOverride(1.0));
     // If it died where the plan rests, the machine waits there for more.
     let mut standing = 0;
     let ended = |s: &Setpoint| {

@@ -91,7 +91,7 @@ fn planned_time_is_run_time() {
         }
         let last = frames.len() - 1;
         let ticks = rig.ticks_from(1, last as u64);
-        let reserve_stops = rig.interpolator.counters.reserve_stops;
+        let reserve_stops = rig.interpolator.counters.reserve_stops();
         if ticks != last - 1 || reserve_stops > 0 {
             late.push((seed, effort, ticks + 1 - last, last, reserve_stops));
         }
@@ -145,29 +145,29 @@ fn command_planned(
     let mut numbers = Numbers::new(seed);
     for &(command, ticks) in commands {
         match command {
-            0 | 1 => rig.order(Order::Hold),
-            2 => rig.order(Order::Resume),
-            3 => rig.order(Order::FeedOverride(numbers.unit())),
-            4 => rig.order(Order::RapidOverride(numbers.unit())),
-            5 => rig.order(Order::StopAtEndOfBlock),
-            6 => rig.order(Order::SingleBlock(true)),
-            7 => rig.order(Order::SingleBlock(false)),
-            8 => rig.order(Order::Step),
-            _ => rig.order(Order::FeedOverride(1.0)),
+            0 | 1 => rig.command(Command::Hold),
+            2 => rig.command(Command::Resume),
+            3 => rig.command(Command::FeedOverride(numbers.unit())),
+            4 => rig.command(Command::RapidOverride(numbers.unit())),
+            5 => rig.command(Command::StopAtEndOfBlock),
+            6 => rig.command(Command::SingleBlock(true)),
+            7 => rig.command(Command::SingleBlock(false)),
+            8 => rig.command(Command::Step),
+            _ => rig.command(Command::FeedOverride(1.0)),
         }
         for _ in 0..ticks {
             rig.publish_horizon();
             rig.tick();
         }
     }
-    rig.order(Order::SingleBlock(false));
-    rig.order(Order::Resume);
-    rig.order(Order::FeedOverride(1.0));
-    rig.order(Order::RapidOverride(1.0));
+    rig.command(Command::SingleBlock(false));
+    rig.command(Command::Resume);
+    rig.command(Command::FeedOverride(1.0));
+    rig.command(Command::RapidOverride(1.0));
     for _ in 0..frames.len() * 2 + 1_500 {
         rig.publish_horizon();
         if rig.tick().state() == Ok(MachineState::ProgramStop) {
-            rig.order(Order::Resume);
+            rig.command(Command::Resume);
         }
     }
     let has_ended = matches!(rig.state(), MachineState::Idle | MachineState::Faulted);

@@ -1,11 +1,11 @@
-//! Where in the program the motion is: what of a frame outlasts it.
+//! Where in the program the motion is: what is kept of a frame when it is gone.
 
 use glidepath_link::SetpointFrame;
 use glidepath_program::FrameFlags;
 
 /// What setpoints at rest repeat of the last frame passed.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct FrameSummary {
     pub(crate) sequence: u64,
     pub(crate) path_s: f64,
     pub(crate) planned_override: f64,
@@ -14,7 +14,7 @@ pub(crate) struct Place {
     pub(crate) flags: u32,
 }
 
-impl Place {
+impl FrameSummary {
     /// Before the first frame.
     pub(crate) const NONE: Self = Self {
         sequence: 0,

@@ -1,31 +1,31 @@
-//! A stop as it is kept: a fall, then ramps.
+//! A stop as it is kept: a greedy descent, then ramps; mostly one of the two is empty.
 
 use crate::ramp::Ramp;
 
 /// Most ramps of a stop.
 const RAMPS: usize = 8;
-/// Most ticks of a fall.
+/// Most ticks of a greedy descent.
 const TICKS: usize = 48;
 
 /// A ramp that begins some ticks from now, or from the end of the one before.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Later {
+pub(super) struct DelayedRamp {
     pub(super) in_ticks: u32,
     pub(super) ramp: Ramp,
 }
 
-/// A fall: the slope after each of its ticks (see [`super::fall`]). In single precision, so that a
-/// stop stays small; what is tried is what is kept.
+/// A greedy descent: the slope after each of its ticks (see [`super::greedy_descent`]). In single
+/// precision, so that a stop stays small; what is tried is what is kept.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Slopes {
+pub(super) struct DescentSlopes {
     pub(super) in_ticks: u32,
     taken: u8,
     len: u8,
     values: [f32; TICKS],
 }
 
-impl Slopes {
-    /// A fall that begins so many ticks from now, without a tick so far.
+impl DescentSlopes {
+    /// A descent that begins so many ticks from now, without a tick so far.
     pub(super) const fn new(in_ticks: u32) -> Self {
         Self {
             in_ticks,
@@ -51,87 +51,88 @@ impl Slopes {
     }
 }
 
-/// A stop.
+/// A stop: how the rate gets to 0, played through and within the limits.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Steps {
-    fall: Slopes,
-    ramps: [Later; RAMPS],
-    /// Ramps that have begun, and all of them.
+pub(super) struct KeptStop {
+    descent: DescentSlopes,
+    ramps: [DelayedRamp; RAMPS],
+    /// How many of the ramps have begun, and how many there are.
     begun: usize,
     len: usize,
 }
 
-impl Steps {
+impl KeptStop {
+    /// A stop with nothing in it.
     pub(super) const fn new() -> Self {
-        Self::after(Slopes::new(0))
+        Self::after(DescentSlopes::new(0))
     }
 
-    /// What begins with a fall.
-    pub(super) const fn after(fall: Slopes) -> Self {
-        let none = Later {
+    /// A stop that begins with a descent, without ramps so far.
+    pub(super) const fn after(descent: DescentSlopes) -> Self {
+        let none = DelayedRamp {
             in_ticks: 0,
             ramp: Ramp::NONE,
         };
         Self {
-            fall,
+            descent,
             ramps: [none; RAMPS],
             begun: 0,
             len: 0,
         }
     }
 
-    /// Nothing is left in it.
+    /// Leaves nothing in it.
     pub(super) const fn clear(&mut self) {
-        self.fall.clear();
+        self.descent.clear();
         (self.begun, self.len) = (0, 0);
     }
 
     /// Becomes another stop. Copies what there is of it, mostly a small part of its room.
     pub(super) fn copy(&mut self, other: &Self) {
-        self.fall.clear();
-        if other.fall.is_left() {
-            self.fall = other.fall;
+        self.descent.clear();
+        if other.descent.is_left() {
+            self.descent = other.descent;
         }
         (self.begun, self.len) = (other.begun, other.len);
-        for (slot, later) in self.ramps.iter_mut().zip(&other.ramps).take(other.len) {
-            *slot = *later;
+        for (slot, delayed) in self.ramps.iter_mut().zip(&other.ramps).take(other.len) {
+            *slot = *delayed;
         }
     }
 
     /// Appends a ramp; false if there are too many.
-    pub(super) fn push(&mut self, later: Later) -> bool {
+    pub(super) fn push(&mut self, delayed: DelayedRamp) -> bool {
         let Some(free) = self.ramps.get_mut(self.len) else {
             return false;
         };
-        *free = later;
+        *free = delayed;
         self.len += 1;
         true
     }
 
     /// Whether there is nothing in it.
     pub(super) const fn is_empty(&self) -> bool {
-        self.begun == self.len && !self.fall.is_left()
+        self.begun == self.len && !self.descent.is_left()
     }
 
     /// The ramp that begins next.
-    fn next(&mut self) -> Option<&mut Later> {
+    fn next(&mut self) -> Option<&mut DelayedRamp> {
         let left = self.ramps.get_mut(self.begun..self.len)?;
         left.first_mut()
     }
 
-    /// Ticks until it begins, or goes on; `None` at its end.
+    /// Ticks until the stop begins, or goes on; `None` at its end.
     pub(super) fn in_ticks(&self) -> Option<u32> {
-        if self.fall.is_left() {
-            return Some(self.fall.in_ticks);
+        if self.descent.is_left() {
+            return Some(self.descent.in_ticks);
         }
         let left = self.ramps.get(self.begun..self.len)?;
-        left.first().map(|later| later.in_ticks)
+        left.first().map(|delayed| delayed.in_ticks)
     }
 
-    /// All begin so many ticks later.
+    /// Puts the whole stop off by so many ticks.
     pub(super) fn delay(&mut self, ticks: u32) {
-        if self.fall.is_left() {
-            self.fall.in_ticks += ticks;
+        if self.descent.is_left() {
+            self.descent.in_ticks += ticks;
         } else if let Some(first) = self.next() {
             first.in_ticks += ticks;
         }
@@ -139,13 +140,13 @@ impl Steps {
 
     /// One tick has passed, at a rate with a slope: the ramp that begins now, if one does.
     pub(super) fn count_down(&mut self, rate: f64, slope: f64) -> Option<Ramp> {
-        if self.fall.is_left() {
-            if self.fall.in_ticks > 0 {
-                self.fall.in_ticks -= 1;
+        if self.descent.is_left() {
+            if self.descent.in_ticks > 0 {
+                self.descent.in_ticks -= 1;
                 return None;
             }
-            let to = *self.fall.values.get(usize::from(self.fall.taken))?;
-            self.fall.taken += 1;
+            let to = *self.descent.values.get(usize::from(self.descent.taken))?;
+            self.descent.taken += 1;
             return Ramp::tick_to(rate, slope, f64::from(to));
         }
         let next = self.next()?;

@@ -1,4 +1,4 @@
-//! What the operator and the faults want of the motion, and the state that follows.
+//! Stop requests: what the operator and the faults want of the motion, and the state that follows.
 //!
 //! Each reason to stop is kept by itself, and the state is worked out from them: a hold during
 //! starvation, or a fault during a hold, needs no case of its own.
@@ -18,11 +18,11 @@
 
 use crate::message::{Fault, Order};
 use crate::supply::Supply;
-use glidepath_link::MachineState;
+use glidepath_link::{Command, MachineState};
 
 /// Reasons to stop, and overrides.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Will {
+pub(crate) struct StopRequests {
     fault: Option<Fault>,
     abort: bool,
     hold: bool,
@@ -37,14 +37,21 @@ pub(crate) struct Will {
     rapid_override: f64,
 }
 
-/// What the operator lets the motion pass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct Passed {
+/// What the operator lets the motion pass, of what it stands at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Released {
     pub(crate) program_stop: bool,
     pub(crate) block_end: bool,
 }
 
-impl Default for Will {
+impl Released {
+    const NOTHING: Self = Self {
+        program_stop: false,
+        block_end: false,
+    };
+}
+
+impl Default for StopRequests {
     fn default() -> Self {
         Self {
             fault: None,
@@ -60,35 +67,40 @@ impl Default for Will {
     }
 }
 
-impl Will {
-    /// Takes an order. Returns what the motion is to pass of that which it stands at.
-    pub(crate) const fn obey(&mut self, order: Order, is_open: bool) -> Passed {
+impl StopRequests {
+    /// Carries out an order. Returns what the motion is to pass of that which it stands at.
+    pub(crate) const fn carry_out(&mut self, order: Order, is_open: bool) -> Released {
         match order {
-            Order::Hold => self.hold = is_open,
-            Order::Resume => return self.go_on(),
-            Order::Step => {
+            Order::Command(command) => return self.carry_out_command(command, is_open),
+            Order::Fault(fault) => self.fail(fault),
+            Order::PlannerLives => {} // This concerns the supply.
+        }
+        Released::NOTHING
+    }
+
+    const fn carry_out_command(&mut self, command: Command, is_open: bool) -> Released {
+        match command {
+            Command::Ping => {} // The ports thread has answered it.
+            Command::Hold => self.hold = is_open,
+            Command::Resume => return self.go_on(),
+            Command::Step => {
                 self.stop_at_block_end = is_open;
                 return self.go_on();
             }
-            Order::StopAtEndOfBlock => self.stop_at_block_end = is_open,
-            Order::SingleBlock(on) => self.single_block = on,
-            Order::FeedOverride(ratio) => self.feed_override = ratio,
-            Order::RapidOverride(ratio) => self.rapid_override = ratio,
-            Order::Abort => self.abort = is_open,
-            Order::Reset if is_open => self.abort = true,
-            Order::Reset => self.fault = None,
-            Order::Fault(fault) => self.fail(fault),
-            Order::PlannerLives => {} // For the supply.
+            Command::StopAtEndOfBlock => self.stop_at_block_end = is_open,
+            Command::SingleBlock(on) => self.single_block = on,
+            Command::FeedOverride(ratio) => self.feed_override = ratio,
+            Command::RapidOverride(ratio) => self.rapid_override = ratio,
+            Command::Abort => self.abort = is_open,
+            Command::Reset if is_open => self.abort = true,
+            Command::Reset => self.fault = None,
         }
-        Passed {
-            program_stop: false,
-            block_end: false,
-        }
+        Released::NOTHING
     }
 
-    const fn go_on(&mut self) -> Passed {
+    const fn go_on(&mut self) -> Released {
         self.hold = false;
-        Passed {
+        Released {
             program_stop: core::mem::replace(&mut self.program_stop, false),
             block_end: core::mem::replace(&mut self.block_end, false),
         }
@@ -137,7 +149,7 @@ impl Will {
 
     /// An epoch begins or ends: only a latched fault, the overrides and the single-block mode outlive
     /// it.
-    pub(crate) const fn turn_over(&mut self) {
+    pub(crate) const fn forget_epoch(&mut self) {
         self.abort = false;
         self.hold = false;
         self.program_stop = false;
@@ -149,8 +161,8 @@ impl Will {
         (self.feed_override, self.rapid_override)
     }
 
-    /// Rate of program time that is wanted, where supply does not matter.
-    pub(crate) fn rate(&self, is_rapid: bool, planned_override: f64) -> f64 {
+    /// The rate of program time that is wanted, where supply does not matter.
+    pub(crate) fn wanted_rate(&self, is_rapid: bool, planned_override: f64) -> f64 {
         if self.is_stopping() || self.hold || self.block_end {
             return 0.0;
         }

@@ -1,0 +1,181 @@
+//! The stop in reserve: how the motion comes to rest if no more frames arrive.
+//!
+//! While program time advances at a steady rate, a reserve says: so many ticks from now, a certain
+//! ramp to rest may begin; it has been played through, and needs only frames that are here. As long
+//! as frames keep coming, a later one is found well before, and replaces it. If none is found in
+//! time, it is taken.
+//!
+//! ```text
+//!       now          reserve begins      rests      newest frame
+//! ───────┼──────────────────┼──────────────┼────────────┤
+//!        │◄─ steady rate ──►│◄──── r → 0 ─►│
+//! ```
+//!
+//! No reserve is needed where the frames themselves hold the motion: before a program stop, and
+//! before a frame at rest that motion may not yet pass (a barrier, see [`Track`](crate::track::Track)). An epoch begins at
+//! such a frame, so it begins to move with a reserve, and always has one.
+//!
+//! How a stop is found is told in [`super::stop_search`] and [`super::greedy_descent`]. The first
+//! costs less, the second finds more: it is begun when no start is left for the first, or when there
+//! is little time. A plan can be at its limits on so many axes, for so long, that no later stop is
+//! found. Then the motion goes a little slower, where there is more room; and if that cannot be, the
+//! stop in reserve is taken, however many frames there are: it is what is known to keep the limits. A
+//! way back is found soon. Where the motion stands and no stop is found from the full rate, it sets
+//! out at a lower one. With a horizon of 0.6 s this is rare, with near-optimal plans too: they can be
+//! at their limits for a third of a second.
+
+use super::kept_stop::KeptStop;
+use super::play::Cue;
+use super::situation::Situation;
+use super::steady_rate::{SteadyRate, whole};
+use super::stop_search::{StopOutcome, StopSearch};
+use crate::program_time::ProgramTime;
+use crate::ramp::Ramp;
+
+/// Ticks between the latest possible and the earliest useful start of a stop are divided into so many
+/// parts. Each start is tried twice: without a greedy descent, and later with one, the latest first
+/// again.
+const STARTS: u32 = 8;
+
+/// What a search for a later stop has come to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ReserveOutcome {
+    /// A stop is known.
+    Found,
+    /// There was no time to try everything.
+    Open,
+    /// From no start is there a stop.
+    NoneLeft,
+}
+
+/// A search for a later stop in reserve that takes several ticks.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ReserveSearch {
+    /// There is one. It stays where it is: a kilobyte that is moved is sixteen cache lines, twice.
+    is_under_way: bool,
+    /// The steady rate, where the last tick left it.
+    from: SteadyRate,
+    /// Ticks from there to the start of the stop.
+    begins: u32,
+    /// Which start that is: of the first [`STARTS`] without a greedy descent, or those with one.
+    turn: u32,
+    stop: StopSearch,
+}
+
+impl ReserveSearch {
+    /// No search so far.
+    pub(super) const fn none() -> Self {
+        Self {
+            is_under_way: false,
+            from: SteadyRate {
+                time: ProgramTime::at(0),
+                rate: 0.0,
+            },
+            begins: 0,
+            turn: 0,
+            stop: StopSearch::new(Cue::NONE, 0.0, false),
+        }
+    }
+
+    /// Gives the search up.
+    pub(super) const fn give_up(&mut self) {
+        self.is_under_way = false;
+    }
+
+    /// The stop that was found, from where it begins.
+    pub(super) const fn found(&self) -> &KeptStop {
+        self.stop.stop()
+    }
+
+    /// Ticks until the stop that was found begins.
+    pub(super) const fn begins(&self) -> u32 {
+        self.begins
+    }
+
+    /// Goes on with the search for a stop that begins `at_least` so many ticks from now, or begins it
+    /// anew if the motion went another way. Where time `is_short`, only greedy descents are left to
+    /// try. Not in line, like all that looks for a ramp or a stop: what most ticks do not do is not to
+    /// spread their code and their stack.
+    #[inline(never)]
+    pub(super) fn go_on(
+        &mut self,
+        now: SteadyRate,
+        at_least: u32,
+        is_short: bool,
+        situation: &Situation<'_>,
+        budget: &mut u32,
+    ) -> ReserveOutcome {
+        // Ramps cost less, but the time to look for them ends.
+        let first = if is_short { STARTS } else { 0 };
+        let goes_on = self.is_under_way && self.follow(now) && self.turn >= first;
+        if !goes_on {
+            self.begin(first, now, at_least, situation);
+        }
+        while self.is_under_way {
+            match self.stop.go_on(situation, budget) {
+                StopOutcome::Rest => {
+                    self.is_under_way = false;
+                    return ReserveOutcome::Found;
+                }
+                StopOutcome::Open => return ReserveOutcome::Open,
+                StopOutcome::Lost => {
+                    let next = self.turn + 1;
+                    self.begin(next, now, at_least, situation);
+                    if !self.is_under_way && next < STARTS {
+                        // No earlier start for ramps: greedy descents from the latest on.
+                        self.begin(STARTS, now, at_least, situation);
+                    }
+                }
+            }
+        }
+        ReserveOutcome::NoneLeft
+    }
+
+    /// Begins with a start, if it is not too early.
+    fn begin(&mut self, turn: u32, from: SteadyRate, at_least: u32, situation: &Situation<'_>) {
+        self.is_under_way = self.try_begin(turn, from, at_least, situation).is_some();
+    }
+
+    fn try_begin(
+        &mut self,
+        turn: u32,
+        from: SteadyRate,
+        at_least: u32,
+        situation: &Situation<'_>,
+    ) -> Option<()> {
+        let earliest = f64::from(at_least.max(3));
+        let latest = latest(from, situation)?;
+        let step = ((latest - earliest) / f64::from(STARTS)).max(1.0);
+        let begins = (latest - f64::from(turn % STARTS) * step).floor();
+        if begins < earliest || turn >= 2 * STARTS {
+            return None;
+        }
+        let may_descend = turn >= STARTS;
+        self.stop
+            .begin(from.cue(begins, situation.track)?, from.rate, may_descend);
+        (self.from, self.begins, self.turn) = (from, whole(begins), turn);
+        Some(())
+    }
+
+    /// Catches up with the motion. False if it went another way, or where the stop may begin is over.
+    fn follow(&mut self, now: SteadyRate) -> bool {
+        let passed = self.from.follow(now);
+        let Some(begins) = passed.and_then(|ticks| self.begins.checked_sub(ticks)) else {
+            return false;
+        };
+        self.begins = begins;
+        true
+    }
+}
+
+/// The latest whole tick at which a stop could begin.
+fn latest(from: SteadyRate, situation: &Situation<'_>) -> Option<f64> {
+    let SteadyRate { time, rate } = from;
+    let last = situation.track.end().checked_sub(time.sequence + 1)?;
+    #[allow(clippy::cast_precision_loss, reason = "a number of frames at hand")]
+    let (ahead, reach) = (last as f64 - time.fraction, situation.reach as f64);
+    let about = (ahead - 2.0 * reach * rate).max(0.0);
+    let bounds = situation.fastest_from(time.after(about).sequence);
+    let ramp = Ramp::plan(rate, 0.0, 0.0, bounds)?;
+    Some(((ahead - ramp.at(ramp.duration()).elapsed) / rate).floor())
+}

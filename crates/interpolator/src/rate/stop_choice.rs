@@ -1,0 +1,196 @@
+//! Making sure of a stop: of a later one in reserve, or of one that arrives at the end of a block.
+
+use super::arrival_search::{ArrivalOutcome, ArrivalSearch};
+use super::ramp_trial::TrialOutcome;
+use super::reserve::Reserve;
+use super::reserve_search::ReserveOutcome;
+use super::situation::Situation;
+use super::state::Rate;
+use crate::ramp::Ramp;
+
+/// Samples a tick may spend on finding a reserve while there is time, and when there is little: then
+/// the plan is hard to stop on, and whatever is found saves the motion from slowing down.
+const BUDGET: u32 = 60;
+const URGENT_BUDGET: u32 = 240;
+/// The same for the way to rest at the end of a block, and for going slower.
+const TRIAL_BUDGET: u32 = 120;
+/// A reserve is replaced only by one that begins this much later, ticks.
+const GAIN: u32 = 3;
+/// Before a reserve begins, this many ticks are left to find a later one.
+const URGENT: u32 = 14;
+
+/// In the last ticks before a reserve begins it is tried to go slower instead.
+const SLOWER_IN_TICKS: u32 = 4;
+/// By which share of the rate, and at which pace.
+const SLOWER: [(f64, f64); 6] = [
+    (0.05, 0.7),
+    (0.12, 1.0),
+    (0.12, 0.6),
+    (0.3, 1.0),
+    (0.3, 0.6),
+    (0.6, 0.8),
+];
+
+impl Rate {
+    /// Makes sure that there is a stop in reserve. Returns whether there is a new one, so that
+    /// motion may pass a barrier.
+    pub(crate) fn ensure_stop(&mut self, goal: f64, situation: &Situation<'_>) -> bool {
+        if self.ramp.is_some() || self.now.rate <= 0.0 {
+            return false;
+        }
+        let has_time = |reserve: &Reserve| reserve.in_ticks() > URGENT;
+        if let Some(frame) = situation.block_end
+            && goal > 0.0
+            && (self.is_to_arrive_at(frame) || self.reserve.kept.as_ref().is_none_or(has_time))
+        {
+            let mut budget = situation.budget(TRIAL_BUDGET);
+            let passes_barrier = self.ensure_arrival(frame, situation, &mut budget);
+            // Motion does not set out without a way to rest at the end of the block.
+            if self.is_to_arrive_at(frame) || situation.is_held_at(self.now.time) {
+                return passes_barrier;
+            }
+        }
+        if situation.track.ends_at_rest() {
+            self.reserve.kept = None;
+            return false;
+        }
+        let left = match (&self.reserve.kept, situation.track.barrier()) {
+            (Some(reserve), _) => reserve.in_ticks(),
+            (None, barrier) => barrier.map_or(0, |barrier| self.ticks_to(barrier)),
+        };
+        // With the goal to stop, what is here is as good as what may come.
+        if left >= self.enough(situation) || goal <= 0.0 {
+            return false;
+        }
+        // Where the motion stands there is time while frames keep coming: with few of them no stop is
+        // found.
+        let has_time = if situation.is_held_at(self.now.time) {
+            !situation.is_fully_supplied
+        } else {
+            left > 2 * URGENT
+        };
+        let mut budget = if has_time { BUDGET } else { URGENT_BUDGET };
+        let finds_one = self.search_later_stop(left + GAIN, situation, &mut budget);
+        if finds_one {
+            self.keep_found();
+        } else if left < SLOWER_IN_TICKS
+            && self.reserve.kept.is_some()
+            && situation.is_fully_supplied
+        {
+            self.slow_down_a_little(situation);
+        }
+        finds_one
+    }
+
+    /// With fewer ticks left until the reserve begins a later one is looked for. The sooner a search
+    /// begins the less of it is left to any tick; but what is found soon begins soon.
+    fn enough(&self, situation: &Situation<'_>) -> u32 {
+        let frames = |n: u64| u32::try_from(n).unwrap_or(u32::MAX / 8);
+        let reach = frames(situation.reach.max(16));
+        let ahead = situation.track.end();
+        let ahead = frames(ahead.saturating_sub(self.now.time.sequence));
+        (2 * ahead.saturating_sub(reach) / 3).clamp(3 * reach, 4 * reach)
+    }
+
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "a number of ticks; the cast saturates"
+    )]
+    fn ticks_to(&self, sequence: u64) -> u32 {
+        let now = self.now.time;
+        let frames = sequence.saturating_sub(now.sequence) as f64 - now.fraction;
+        (frames / self.now.rate).max(0.0) as u32
+    }
+
+    /// Goes on with the search for a later stop. Returns whether it has found one.
+    fn search_later_stop(
+        &mut self,
+        at_least: u32,
+        situation: &Situation<'_>,
+        budget: &mut u32,
+    ) -> bool {
+        let now = self.steady();
+        let is_short = self.reserve.kept.is_some() && at_least <= 2 * URGENT;
+        let search = &mut self.reserve.search;
+        match search.go_on(now, at_least, is_short, situation, budget) {
+            ReserveOutcome::Found => true,
+            ReserveOutcome::Open => false,
+            ReserveOutcome::NoneLeft => {
+                let stands = situation.is_held_at(self.now.time);
+                self.reserve.found_none = situation.is_fully_supplied && stands;
+                false
+            }
+        }
+    }
+
+    /// The stop that was found becomes the one in reserve.
+    fn keep_found(&mut self) {
+        let reserve = self.reserve.kept.get_or_insert(Reserve::empty());
+        reserve.arrives_at = None;
+        reserve.stop.copy(self.reserve.search.found());
+        reserve.stop.delay(self.reserve.search.begins());
+    }
+
+    /// Goes a little slower, as little as possible, so that the stop in reserve need not begin: from
+    /// a lower rate there is a later one.
+    #[inline(never)]
+    fn slow_down_a_little(&mut self, situation: &Situation<'_>) {
+        let fastest = situation.fastest_from(self.now.time.sequence);
+        let mut budget = situation.budget(TRIAL_BUDGET);
+        for _ in 0..SLOWER.len() {
+            self.reserve.slower_tried += 1;
+            let Some((share, pace)) = SLOWER.get(self.reserve.slower_tried % SLOWER.len()) else {
+                continue;
+            };
+            let target = self.now.rate * (1.0 - share);
+            let ramp = Ramp::plan(self.now.rate, 0.0, target, fastest.paced(*pace));
+            let Some(ramp) = ramp else { continue };
+            match self.try_ramp(&ramp, situation, 0, &mut budget) {
+                TrialOutcome::Passed(reserve) => {
+                    self.commit(ramp, *pace, None, reserve);
+                    return;
+                }
+                TrialOutcome::Barred => {}
+                TrialOutcome::OutOfBudget { .. } => return,
+            }
+        }
+    }
+
+    /// Makes sure of a rest at the end of the block. Returns whether there is a new way to it that
+    /// passes a barrier.
+    #[inline(never)]
+    fn ensure_arrival(&mut self, frame: u64, situation: &Situation<'_>, budget: &mut u32) -> bool {
+        if self.is_to_arrive_at(frame) {
+            return false;
+        }
+        let now = self.steady();
+        let mut search = self.arrival.search.take();
+        if !search.as_mut().is_some_and(|it| it.follow(frame, now)) {
+            search = ArrivalSearch::new(frame, now, 0, situation);
+        }
+        let outcome = search
+            .as_mut()
+            .map_or(ArrivalOutcome::OutOfReach, |search| {
+                search.go_on(situation, budget)
+            });
+        match outcome {
+            ArrivalOutcome::Found(reserve) => {
+                self.reserve.kept = Some(reserve);
+                let barrier = situation.track.barrier();
+                barrier.is_some_and(|barrier| barrier < frame)
+            }
+            ArrivalOutcome::Open => {
+                self.arrival.search = search;
+                false
+            }
+            ArrivalOutcome::Barred | ArrivalOutcome::OutOfReach => {
+                // From nearer something may pass, but not from where the motion stands.
+                self.arrival.has_missed = situation.is_held_at(self.now.time)
+                    || matches!(outcome, ArrivalOutcome::OutOfReach);
+                false
+            }
+        }
+    }
+}
