@@ -17,78 +17,15 @@ compile_error!(
     "recordings are little-endian, as the records in memory must be to be written as they are"
 );
 
+mod error;
+mod format;
+
+pub use error::RecordingError;
+
 use crate::{LinkError, Record, Subscriber};
 use core::marker::PhantomData;
+use format::{Header, MAGIC, NAME_BYTES, VERSION};
 use std::io::{self, Read, Write};
-
-const MAGIC: [u8; 8] = *b"GLIDEREC";
-const VERSION: u32 = 1;
-const NAME_BYTES: usize = 48;
-
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
-struct Header {
-    magic: [u8; 8],
-    version: u32,
-    record_size: u32,
-    name: [u8; NAME_BYTES],
-}
-
-impl Header {
-    fn of<R: Record>() -> Self {
-        let mut name = [0; NAME_BYTES];
-        for (to, from) in name.iter_mut().zip(R::NAME.as_bytes()) {
-            *to = *from;
-        }
-        let record_size = u32::try_from(size_of::<R>()).unwrap_or(u32::MAX);
-        Self {
-            magic: MAGIC,
-            version: VERSION,
-            record_size,
-            name,
-        }
-    }
-
-    fn name(&self) -> String {
-        let used = self
-            .name
-            .split(|byte| *byte == 0)
-            .next()
-            .unwrap_or_default();
-        String::from_utf8_lossy(used).into_owned()
-    }
-}
-
-/// Why a recording cannot be written or read.
-#[derive(Debug, thiserror::Error)]
-pub enum RecordingError {
-    /// The file cannot be written or read.
-    #[error("recording: {0}")]
-    File(#[from] io::Error),
-    /// It does not begin as a recording does.
-    #[error("this file is no recording of glidepath")]
-    NotARecording,
-    /// It is of a later version of the format.
-    #[error("the recording has format version {found}; this program reads version {VERSION}")]
-    Version {
-        /// Its version.
-        found: u32,
-    },
-    /// It is of other records.
-    #[error("the recording is of {found}, not of {expected}")]
-    OtherRecord {
-        /// What it is of.
-        found: String,
-        /// What was wanted.
-        expected: &'static str,
-    },
-    /// It ends within a record.
-    #[error("the recording was cut short: it ends within a record, after {whole} whole ones")]
-    CutShort {
-        /// Records before that.
-        whole: u64,
-    },
-}
 
 /// Writes records to a file or any other writer, which had better be buffered.
 #[derive(Debug)]

@@ -20,6 +20,8 @@
 //! enough, the one is taken that is as far from the beginning of the block as the machine has
 //! travelled on it, or next to that.
 
+mod error;
+mod point;
 mod search;
 
 use std::collections::VecDeque;
@@ -27,83 +29,15 @@ use std::f64::consts::TAU;
 use std::time::Duration;
 
 use glidepath_geometry::{Arc, AxisVector, Segment};
-use glidepath_link::{EndOfEpoch, LinkError, Status};
 use glidepath_motion::PlanError;
 use glidepath_program::{Item, ItemKind, PathMode};
-use thiserror::Error;
+
+pub use error::ResumeError;
+pub use point::ResumePoint;
 
 use crate::{ItemSource, RunError, Supply};
+use point::ROUNDING_MM;
 use search::{Search, distance};
-
-/// How far from the program a machine that stands on it may be on top of the tolerance: rounding.
-const ROUNDING_MM: f64 = 1e-6;
-
-/// Why a program cannot be taken up again. Nothing has moved.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum ResumeError {
-    /// The interpolator has not executed any program since it was started.
-    #[error("no program was under way: run it from its beginning, without --resume")]
-    NothingToResume,
-    /// The last one was executed to its end.
-    #[error("the last program came to its end: there is nothing to resume")]
-    Completed,
-    /// The program is not the one that was under way, or was edited since.
-    #[error(
-        "this is not the program that was under way, or it was edited since; only the same text can \
-         be resumed"
-    )]
-    OtherProgram,
-    /// The machine does not stand where the program says.
-    #[error(
-        "the machine does not stand on this program's path at block {block} (line {line}): the \
-         nearest point there is {distance_mm:.4} mm away; it was moved, or another configuration was \
-         used"
-    )]
-    OffPath {
-        /// The block.
-        block: u32,
-        /// Its line, 0 if the program ends before.
-        line: u32,
-        /// Distance to the nearest point that comes into question, mm or degrees; infinite if there
-        /// is none.
-        distance_mm: f64,
-    },
-}
-
-/// Where a program was left.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ResumePoint {
-    /// Where the machine stands.
-    pub position: AxisVector,
-    /// Where it stood when the program began: what the program is read with.
-    pub program_start: AxisVector,
-    /// Which program: see [`ItemSource::fingerprint`].
-    pub program: u64,
-    /// The block being executed: see [`glidepath_link::SetpointFrame::block`].
-    pub block: u32,
-    /// Path position, mm.
-    pub path_s: f64,
-    /// The same at the beginning of the block.
-    pub block_path_s: f64,
-}
-
-impl ResumePoint {
-    pub(crate) fn of(status: &Status) -> Result<Self, RunError> {
-        match status.end_of_epoch().map_err(LinkError::from)? {
-            EndOfEpoch::None => Err(ResumeError::NothingToResume)?,
-            EndOfEpoch::Completed => Err(ResumeError::Completed)?,
-            EndOfEpoch::Open | EndOfEpoch::Aborted | EndOfEpoch::Faulted => {}
-        }
-        Ok(Self {
-            position: AxisVector::from(status.position),
-            program_start: AxisVector::from(status.program_start),
-            program: status.program,
-            block: status.block,
-            path_s: status.path_s,
-            block_path_s: status.block_path_s,
-        })
-    }
-}
 
 /// The rest of a program: what follows the point at which it was left.
 #[derive(Debug)]

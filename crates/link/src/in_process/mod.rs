@@ -5,6 +5,7 @@
 
 mod queue;
 mod request;
+mod shared;
 mod topic;
 
 use crate::service::{COMMANDS, Capacity, FRAMES, SEGMENTS, SETPOINTS, STATUS};
@@ -14,7 +15,7 @@ use crate::{
 };
 use queue::FrameQueue;
 use request::Exchange;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use shared::Shared;
 use topic::Topic;
 
 /// All services of one instance. Clones are ways to the same instance, for other threads.
@@ -94,27 +95,5 @@ impl Transport for InProcess {
 
     fn clean_up_dead_peers(&self) -> Result<usize, LinkError> {
         Ok(0) // A port that ends says so when it is dropped, and nothing ends without that here.
-    }
-}
-
-/// What the ports of a service share.
-#[derive(Debug)]
-struct Shared<T>(Arc<Mutex<T>>);
-
-impl<T> Shared<T> {
-    fn new(inner: T) -> Self {
-        Self(Arc::new(Mutex::new(inner)))
-    }
-
-    /// The queues hold plain data and every change is complete before anything can panic, so a thread
-    /// that panicked elsewhere has not broken them.
-    fn lock(&self) -> MutexGuard<'_, T> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl<T> Clone for Shared<T> {
-    fn clone(&self) -> Self {
-        Self(Arc::clone(&self.0))
     }
 }

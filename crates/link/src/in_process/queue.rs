@@ -1,6 +1,6 @@
 //! The frame queue: bounded, ordered, one consumer.
 
-use super::Shared;
+use super::shared::Shared;
 use crate::{Delivery, FrameSink, LinkError, SetpointFrame, Subscriber};
 use std::collections::VecDeque;
 

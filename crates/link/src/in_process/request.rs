@@ -1,6 +1,6 @@
 //! Requests and replies: many clients, one server.
 
-use super::Shared;
+use super::shared::Shared;
 use crate::port::MAX_UNANSWERED;
 use crate::service::CLIENTS;
 use crate::{Client, LinkError, Server};

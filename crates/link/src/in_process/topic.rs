@@ -1,6 +1,6 @@
 //! A topic: every subscriber has a queue of its own that loses its oldest record when full.
 
-use super::Shared;
+use super::shared::Shared;
 use crate::service::SENDERS;
 use crate::{LinkError, Publisher, Subscriber};
 use std::collections::VecDeque;

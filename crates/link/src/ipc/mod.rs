@@ -16,6 +16,7 @@ mod config;
 mod node;
 mod presence;
 mod request;
+mod settings;
 mod topic;
 
 pub use config::LinkConfig;

@@ -2,13 +2,13 @@
 
 use super::config::LinkConfig;
 use super::presence::Presence;
+use super::settings::settings;
 use crate::service::{CLIENTS, SENDERS};
 use crate::{BoxedError, LinkError, MAX_UNANSWERED, Record};
 use core::cell::Cell;
 use core::time::Duration;
 use iceoryx2::prelude::{
-    Config, FileName, LogLevel, Node, NodeBuilder, Path, SemanticString, ServiceName,
-    SignalHandlingMode, ipc, set_log_level,
+    LogLevel, Node, NodeBuilder, ServiceName, SignalHandlingMode, ipc, set_log_level,
 };
 use iceoryx2::service::builder::publish_subscribe::PublishSubscribeOpenOrCreateError as TopicError;
 use iceoryx2::service::builder::request_response::RequestResponseOpenOrCreateError as ExchangeError;
@@ -21,9 +21,6 @@ use std::time::Instant;
 pub(super) type TopicService<R> = publish_subscribe::PortFactory<ipc::Service, R, ()>;
 pub(super) type ExchangeService<Q, A> = request_response::PortFactory<ipc::Service, Q, (), A, ()>;
 
-/// How long one side of a connection waits for the other to finish making it. Longer waits belong to
-/// the retries here, which the ports' callers never pay.
-const CREATION_TIMEOUT: Duration = Duration::from_millis(100);
 /// How long to try again when a service is being made or removed by another process.
 const SETTLE: Duration = Duration::from_secs(2);
 /// Least time between two searches for dead peers by a port that waits.
@@ -38,25 +35,6 @@ pub(super) struct Session {
     searched: Cell<Option<Instant>>,
     /// After the node, so that its files are gone when the last one out looks.
     presence: Presence,
-}
-
-/// The settings of the transport for an instance; never those of the user or the machine.
-pub(super) fn settings(config: &LinkConfig) -> Result<Config, LinkError> {
-    let directory = config.directory();
-    let failed = |detail: BoxedError| LinkError::Transport {
-        service: "instance",
-        action: "naming its files",
-        detail,
-    };
-    let mut settings = Config::default();
-    settings.global.prefix = FileName::new(config.prefix().as_bytes())
-        .map_err(|error| failed(format!("{error:?}").into()))?;
-    let root = Path::new(directory.as_os_str().as_encoded_bytes())
-        .map_err(|error| failed(format!("{error:?}").into()))?;
-    settings.global.set_root_path(&root);
-    settings.global.creation_timeout = CREATION_TIMEOUT;
-    settings.global.node.cleanup_dead_nodes_on_creation = true;
-    Ok(settings)
 }
 
 impl Session {

@@ -7,7 +7,7 @@
 //! the one the name stands for.
 
 use super::config::LinkConfig;
-use super::node::settings;
+use super::settings::settings;
 use crate::LinkError;
 use iceoryx2::prelude::{CallbackProgression, Node, NodeState, ipc};
 use std::fs::{File, OpenOptions, TryLockError};

@@ -3,7 +3,7 @@
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, Segment, UVW};
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
-use super::{ROUNDING_MM, ResumePoint};
+use super::point::{ROUNDING_MM, ResumePoint};
 
 /// Angle between two looks at an arc.
 const ARC_STEP_RAD: f64 = 0.05;

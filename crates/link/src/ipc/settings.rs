@@ -1,0 +1,29 @@
+//! The settings of the transport for an instance.
+
+use super::config::LinkConfig;
+use crate::{BoxedError, LinkError};
+use core::time::Duration;
+use iceoryx2::prelude::{Config, FileName, Path, SemanticString as _};
+
+/// How long one side of a connection waits for the other to finish making it. Longer waits belong to
+/// the retries of a session, which the ports' callers never pay.
+const CREATION_TIMEOUT: Duration = Duration::from_millis(100);
+
+/// The settings of the transport for an instance; never those of the user or the machine.
+pub(super) fn settings(config: &LinkConfig) -> Result<Config, LinkError> {
+    let directory = config.directory();
+    let failed = |detail: BoxedError| LinkError::Transport {
+        service: "instance",
+        action: "naming its files",
+        detail,
+    };
+    let mut settings = Config::default();
+    settings.global.prefix = FileName::new(config.prefix().as_bytes())
+        .map_err(|error| failed(format!("{error:?}").into()))?;
+    let root = Path::new(directory.as_os_str().as_encoded_bytes())
+        .map_err(|error| failed(format!("{error:?}").into()))?;
+    settings.global.set_root_path(&root);
+    settings.global.creation_timeout = CREATION_TIMEOUT;
+    settings.global.node.cleanup_dead_nodes_on_creation = true;
+    Ok(settings)
+}

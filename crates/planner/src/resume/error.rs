@@ -1,0 +1,35 @@
+//! Why a program cannot be taken up again.
+
+use thiserror::Error;
+
+/// Why a program cannot be taken up again. Nothing has moved.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum ResumeError {
+    /// The interpolator has not executed any program since it was started.
+    #[error("no program was under way: run it from its beginning, without --resume")]
+    NothingToResume,
+    /// The last one was executed to its end.
+    #[error("the last program came to its end: there is nothing to resume")]
+    Completed,
+    /// The program is not the one that was under way, or was edited since.
+    #[error(
+        "this is not the program that was under way, or it was edited since; only the same text can \
+         be resumed"
+    )]
+    OtherProgram,
+    /// The machine does not stand where the program says.
+    #[error(
+        "the machine does not stand on this program's path at block {block} (line {line}): the \
+         nearest point there is {distance_mm:.4} mm away; it was moved, or another configuration was \
+         used"
+    )]
+    OffPath {
+        /// The block.
+        block: u32,
+        /// Its line, 0 if the program ends before.
+        line: u32,
+        /// Distance to the nearest point that comes into question, mm or degrees; infinite if there
+        /// is none.
+        distance_mm: f64,
+    },
+}

@@ -1,0 +1,45 @@
+//! Where a program was left.
+
+use glidepath_geometry::AxisVector;
+use glidepath_link::{EndOfEpoch, LinkError, Status};
+
+use super::error::ResumeError;
+use crate::RunError;
+
+/// How far from the program a machine that stands on it may be on top of the tolerance: rounding.
+pub(super) const ROUNDING_MM: f64 = 1e-6;
+
+/// Where a program was left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ResumePoint {
+    /// Where the machine stands.
+    pub position: AxisVector,
+    /// Where it stood when the program began: what the program is read with.
+    pub program_start: AxisVector,
+    /// Which program: see [`ItemSource::fingerprint`].
+    pub program: u64,
+    /// The block being executed: see [`glidepath_link::SetpointFrame::block`].
+    pub block: u32,
+    /// Path position, mm.
+    pub path_s: f64,
+    /// The same at the beginning of the block.
+    pub block_path_s: f64,
+}
+
+impl ResumePoint {
+    pub(crate) fn of(status: &Status) -> Result<Self, RunError> {
+        match status.end_of_epoch().map_err(LinkError::from)? {
+            EndOfEpoch::None => Err(ResumeError::NothingToResume)?,
+            EndOfEpoch::Completed => Err(ResumeError::Completed)?,
+            EndOfEpoch::Open | EndOfEpoch::Aborted | EndOfEpoch::Faulted => {}
+        }
+        Ok(Self {
+            position: AxisVector::from(status.position),
+            program_start: AxisVector::from(status.program_start),
+            program: status.program,
+            block: status.block,
+            path_s: status.path_s,
+            block_path_s: status.block_path_s,
+        })
+    }
+}
