@@ -6,12 +6,13 @@
 //! ```
 
 use crate::PlanError;
+use crate::element::Element;
 use crate::law::Refiner;
 use crate::path::PathFront;
-use crate::piece::{Element, Piece};
 use crate::sample::{Sampler, Step};
-use crate::schedule::{Scheduler, Settled};
-use crate::scurve::{PathLimits, slowing_horizon};
+use crate::schedule::Scheduler;
+use crate::settled::Settled;
+use crate::slowing::Slowing;
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Frame, Item, ItemKind, Limits, Override, Settings};
 use std::collections::VecDeque;
@@ -171,55 +172,6 @@ impl FastEngine {
         }
         for settled in settled {
             self.refiner.push(settled, &mut self.settled);
-        }
-    }
-}
-
-/// The path on which a speed is brought down to a lower override: there the old one still holds.
-struct Slowing {
-    from_v: f64,
-    to: Override,
-    passed_s: f64,
-    weakest: Option<PathLimits>,
-    over: bool,
-}
-
-impl Slowing {
-    const fn new(from_v: f64, to: Override) -> Self {
-        Self {
-            from_v,
-            to,
-            passed_s: 0.0,
-            weakest: None,
-            over: false,
-        }
-    }
-
-    /// What of the next piece is still needed for it, and what is not.
-    fn split(&mut self, piece: Piece) -> (Option<Piece>, Option<Piece>) {
-        let Override { feed_r, rapid_r } = piece.planned;
-        let is_lower = self.to.feed_r < feed_r || self.to.rapid_r < rapid_r;
-        if self.over || !is_lower {
-            return (None, Some(piece));
-        }
-        let change = piece.limit.change;
-        let weakest = self.weakest.map_or(change, |weakest| PathLimits {
-            accel_a: weakest.accel_a.min(change.accel_a),
-            jerk_j: weakest.jerk_j.min(change.jerk_j),
-        });
-        let needed_s = slowing_horizon(self.from_v, weakest) - self.passed_s;
-        self.weakest = Some(weakest);
-        self.passed_s += piece.length_s;
-        let may_change = piece.limit.constant_above_v.is_infinite();
-        if needed_s <= 0.0 {
-            (None, Some(piece))
-        } else if may_change && needed_s < 0.99 * piece.length_s {
-            (
-                Some(piece.clone().before(needed_s)),
-                Some(piece.after(needed_s)),
-            )
-        } else {
-            (Some(piece), None)
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Runs whose junctions are given up where that is faster.
 
+use crate::course::{Course, Leg};
 use crate::haste::{drive_together, hasten};
 use crate::piece::{Piece, Shape};
 use crate::run::Run;
-use crate::schedule::Settled;
-use crate::valley::{Course, Leg};
+use crate::settled::Settled;
 use glidepath_program::Limits;
 
 /// Runs that are driven together, and how.

@@ -11,10 +11,10 @@
 //! * for neighbouring runs together ([`drive_together`]), so that the junction between them need not
 //!   be passed without acceleration.
 
+use crate::course::{Course, Leg};
 use crate::piece::{Piece, Shape};
-use crate::run::weaker;
 use crate::scurve::{PathLimits, Profile};
-use crate::valley::{Course, Leg, Limiting, Span, ValleyFirst};
+use crate::valley::{Limiting, Span, ValleyFirst};
 use glidepath_program::Limits;
 
 /// Shares of the way from what the pieces allow without a check to what they allow at most,
@@ -93,7 +93,7 @@ const LESS_R: f64 = 1.0 - 1e-4;
 /// The weakest limits of some pieces, safe and alone.
 fn weakest(pieces: &[Piece]) -> Option<(PathLimits, PathLimits)> {
     let both = pieces.iter().map(|p| (p.limit.change, p.limit.alone));
-    both.reduce(|a, b| (weaker(a.0, b.0), weaker(a.1, b.1)))
+    both.reduce(|a, b| (a.0.weaker(b.0), a.1.weaker(b.1)))
 }
 
 /// How long a motion takes, s.

@@ -15,8 +15,8 @@
 //! vertices holds everywhere, both ways: program and merged line are within ε of each other, in
 //! order, in every group of axes. What is left of the tolerance is for the transitions.
 
-use core::ops::Range;
-use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
+use crate::feed_axes::feed_axes;
+use glidepath_geometry::AxisVector;
 use glidepath_program::tolerance_norm;
 
 /// Most vertices dropped from one line.
@@ -42,8 +42,8 @@ impl Dropped {
     ) -> bool {
         let (before, after) = (through - start, end - through);
         let line = end - start;
-        let group = moving_group(&line);
-        let is_one_kind = moving_group(&before) == group && moving_group(&after) == group;
+        let group = feed_axes(&line);
+        let is_one_kind = feed_axes(&before) == group && feed_axes(&after) == group;
         if self.vertices.len() >= MOST_DROPPED || !is_one_kind {
             return false;
         }
@@ -64,12 +64,4 @@ impl Dropped {
         self.error_mm = error_mm;
         true
     }
-}
-
-/// The axes that measure the feed of a displacement.
-fn moving_group(displacement: &AxisVector) -> Range<usize> {
-    [LINEAR_XYZ, UVW]
-        .into_iter()
-        .find(|group| group.clone().any(|i| displacement[i].abs() > 1e-7))
-        .unwrap_or(ROTARY_ABC)
 }

@@ -2,9 +2,8 @@
 
 use crate::joint::Leg;
 use crate::programmed_rate::ProgrammedRate;
-use crate::speed_limit;
 use glidepath_geometry::Segment;
-use glidepath_program::{Event, PathMode, Settings};
+use glidepath_program::{Event, PathMode};
 
 /// A segment whose end is not decided yet.
 #[derive(Debug)]
@@ -58,9 +57,4 @@ impl Pending {
     pub(crate) fn last_line(&self) -> u32 {
         self.lines.last().map_or(self.line, |(_, line)| *line)
     }
-}
-
-/// The speed at which some axis reaches its velocity limit, mm/s.
-pub(crate) fn axes_speed(segment: &Segment, settings: &Settings) -> f64 {
-    speed_limit::straight(&segment.jet(0.0).d1, f64::INFINITY, &settings.limits).top_v
 }

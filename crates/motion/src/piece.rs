@@ -1,4 +1,4 @@
-//! Pieces of smooth path, and the rests between them.
+//! Pieces of smooth path.
 
 use crate::speed_limit::{SpeedLimit, SpeedRule};
 use glidepath_geometry::{Cubic, Jet, Segment, Transition};
@@ -95,42 +95,4 @@ impl Piece {
             None => self.line,
         }
     }
-}
-
-/// What follows a piece of path where the machine comes to rest.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum RestKind {
-    /// The motion goes on in the same period.
-    Corner,
-    /// One setpoint is exactly there.
-    ExactStop,
-    /// For a time, s.
-    Dwell(f64),
-    /// For an event.
-    Event(Event),
-    /// End of the program.
-    End,
-}
-
-/// A rest and where it is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Rest {
-    pub kind: RestKind,
-    pub line: u32,
-}
-
-/// What the path front makes.
-#[derive(Debug, Clone)]
-#[allow(clippy::large_enum_variant, reason = "nearly every element is a piece")]
-pub(crate) enum Element {
-    Piece(Piece),
-    /// A rest of which the program knows nothing, inside a stretch.
-    InnerRest(Rest),
-    /// The stretch that the next rest ends can also be driven like this, at rest after each piece.
-    Stops {
-        pieces: Vec<Piece>,
-        /// Whether each rest needs a setpoint exactly there.
-        exact: bool,
-    },
-    Rest(Rest),
 }

@@ -1,6 +1,7 @@
 //! The rate a program asks for, before and after the operator's override.
 
-use glidepath_program::{Override, Rate};
+use glidepath_geometry::{AxisVector, Segment, limit_along};
+use glidepath_program::{Limits, Override, Rate};
 
 /// The rate of a segment before any override.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,4 +20,14 @@ impl ProgrammedRate {
         };
         programmed_v.min(self.rate.most_v())
     }
+}
+
+/// The speed at which some axis reaches its velocity limit at the start of a segment, mm/s.
+pub(crate) fn axes_speed(segment: &Segment, limits: &Limits) -> f64 {
+    axes_speed_along(&segment.jet(0.0).d1, limits)
+}
+
+/// The same in a direction: `d1` is the change of every axis for each millimetre of path.
+pub(crate) fn axes_speed_along(d1: &AxisVector, limits: &Limits) -> f64 {
+    f64::INFINITY.min(limit_along(d1, &limits.velocity))
 }

@@ -5,10 +5,11 @@
 //! pieces are so short that it does not, many form one run, and the speed inside is found valley
 //! first ([`crate::valley`]).
 
+use crate::course::{Course, Leg};
 use crate::piece::Piece;
 use crate::scurve::{PathLimits, Profile, ramp_fits, reachable_speed, slowing_horizon};
 use crate::speed_limit::SpeedLimit;
-use crate::valley::{Course, Leg, Limiting, SPEED_ROUNDING_R, Span, ValleyFirst};
+use crate::valley::{Limiting, SPEED_ROUNDING_R, Span, ValleyFirst};
 
 /// A stretch of path with zero acceleration along it at both ends.
 #[derive(Debug, Clone)]
@@ -76,7 +77,7 @@ impl Run {
         self.low_v = self.low_v.min(next.low_v);
         self.high_v = self.high_v.max(next.high_v);
         self.curved_v = self.curved_v.min(next.curved_v);
-        self.change = weaker(self.change, next.change);
+        self.change = self.change.weaker(next.change);
         self.pieces.extend(next.pieces);
         None
     }
@@ -159,12 +160,5 @@ impl Run {
             limiting: Limiting::Weakest(self.change),
         };
         valley.drive(span).unwrap_or_default()
-    }
-}
-
-pub(crate) fn weaker(a: PathLimits, b: PathLimits) -> PathLimits {
-    PathLimits {
-        accel_a: a.accel_a.min(b.accel_a),
-        jerk_j: a.jerk_j.min(b.jerk_j),
     }
 }

@@ -4,12 +4,12 @@
 //! a period before its first frame, and that fraction is carried, never rounded. Times and positions
 //! are kept relative to the stretch, so a long program loses no digits.
 
+use crate::course::Leg;
 use crate::grid::{FrameGrid, Moving, Passing};
 use crate::law::Law;
 use crate::piece::{Piece, Shape};
-use crate::schedule::Settled;
 use crate::scurve::PathState;
-use crate::valley::Leg;
+use crate::settled::Settled;
 use glidepath_geometry::{AxisVector, Prepared};
 use glidepath_program::Frame;
 use std::collections::VecDeque;

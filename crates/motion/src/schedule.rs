@@ -12,47 +12,16 @@
 //! from which one could stop, one may be unable to slow down just a little. Then the motion follows
 //! the plan that was made when its speed was settled, which ends at rest, until it meets the new one.
 
+use crate::element::Element;
 use crate::group::Group;
-use crate::law::Law;
-use crate::piece::{Element, Piece, Rest, RestKind};
+use crate::piece::Piece;
+use crate::rest::{Rest, RestKind};
 use crate::run::Run;
 use crate::scurve::{PathLimits, slowing_horizon};
-use crate::stops::drive_each;
-use crate::valley::Leg;
+use crate::settled::Settled;
+use crate::stop_at_each::drive_each;
 use glidepath_program::Limits;
 use std::collections::VecDeque;
-
-/// A part of the motion that nothing later changes.
-#[derive(Debug, Clone)]
-pub(crate) enum Settled {
-    /// Drive these pieces with these S-curves.
-    Motion { pieces: Vec<Piece>, legs: Vec<Leg> },
-    /// Drive these pieces by this law.
-    Lawful { pieces: Vec<Piece>, law: Law },
-    /// Rest.
-    Rest(Rest),
-}
-
-impl Settled {
-    /// How long the motion takes, s.
-    fn duration_t(&self) -> f64 {
-        match self {
-            Self::Motion { legs, .. } => legs.iter().map(|leg| leg.profile.duration_t()).sum(),
-            Self::Lawful { law, .. } => law.duration_t(),
-            Self::Rest(_) => 0.0,
-        }
-    }
-
-    /// What it was made of.
-    pub(crate) fn elements(&self) -> Vec<Element> {
-        match self {
-            Self::Motion { pieces, .. } | Self::Lawful { pieces, .. } => {
-                pieces.iter().cloned().map(Element::Piece).collect()
-            }
-            Self::Rest(rest) => vec![Element::Rest(*rest)],
-        }
-    }
-}
 
 /// Pieces waiting in a chain before some are settled whatever their length.
 const MOST_WAITING: usize = 4096;

@@ -12,7 +12,6 @@
 //! which may be used at once anywhere on it.
 
 use crate::programmed_rate::ProgrammedRate;
-use crate::run::weaker;
 use crate::scurve::{Extremes, PathLimits};
 use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds, feed_length, limit_along};
 use glidepath_program::Override;
@@ -102,8 +101,8 @@ impl SpeedLimit {
         let fastest_v = bounds.speed_v(curvature_k);
         self.top_v = self.top_v.min(fastest_v);
         self.peak_v = self.peak_v.min(fastest_v);
-        self.change = weaker(self.change, bounding);
-        self.alone = weaker(self.alone, bounding);
+        self.change = self.change.weaker(bounding);
+        self.alone = self.alone.weaker(bounding);
         self
     }
 }

@@ -14,9 +14,9 @@
 //! Samples are dense near a vertex that turns much and spread by doubling: long spans next to short
 //! ones are where a fit fails.
 
-use super::Tube;
 use super::marks::Change;
 use super::output::Output;
+use super::shares::Tube;
 use super::thinning::Chord;
 use super::vector::{add_scaled, between, dot, minus};
 use super::window::{End, Window};

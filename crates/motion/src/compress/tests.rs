@@ -11,8 +11,8 @@
 
 use super::*;
 use crate::programmed_rate::ProgrammedRate;
-use glidepath_geometry::{Cubic, Segment, feed_length};
-use glidepath_program::{Effort, Limits, Rate, Smoothing};
+use glidepath_geometry::{AxisVector, Cubic, LINEAR_XYZ, Segment, feed_length};
+use glidepath_program::{Effort, Limits, Rate, Settings, Smoothing};
 use proptest::prelude::*;
 
 const TOLERANCE_MM: f64 = 0.02;

@@ -15,10 +15,10 @@
 //! a few times before the certificate is asked for. Where that fails the weights near the worst
 //! place are raised more, and then [`crate::compress::resort`] is taken.
 
-use super::Tube;
 use super::fit::{Sample, Spline};
 use super::knots::{DEGREE, bezier, greville};
 use super::output::Output;
+use super::shares::Tube;
 use super::vector::{add_scaled, between, minus, norm};
 use core::f64::consts::{PI, TAU};
 
@@ -32,17 +32,14 @@ pub(super) enum End {
 }
 
 /// Samples in a window, before any are put between.
-const WINDOW: usize = 64;
+pub(super) const WINDOW: usize = 64;
 /// Most samples in a window.
-const MOST_SAMPLES: usize = 2 * WINDOW;
+pub(super) const MOST_SAMPLES: usize = 2 * WINDOW;
 /// Solves before the certificate is asked for, and in a window that was refined.
 const SOLVES: u32 = 6;
 const SOLVES_REFINED: u32 = 4;
-/// Solves more that a certificate that fails may cost, and refinements.
+/// Solves more that a certificate that fails may cost.
 const MORE_SOLVES: u32 = 6;
-const REFINEMENTS: u32 = 5;
-/// Blocks that may wait in a window.
-pub(super) const MOST_BLOCKS: usize = 1536;
 /// First weight: so stiff that the first curve keeps near the samples.
 const FIRST_STIFFNESS: f64 = 2.0;
 /// Weights stay between these, times the sixth power of 1/spacing.
@@ -122,61 +119,8 @@ impl<const D: usize> Window<D> {
         }
     }
 
-    /// The next sample, `spacing_t` after the last.
-    pub(super) fn add(
-        &mut self,
-        point: [f64; D],
-        (along_t, spacing_t): (f64, f64),
-        out: &mut Output,
-    ) {
-        let foot_t = self.knots.last().copied().unwrap_or(0.0) + spacing_t;
-        self.knots.push(foot_t);
-        self.samples.push(Sample {
-            point,
-            along_t,
-            spacing_t,
-            foot_t,
-            weight: first_weight(spacing_t),
-            error_mm: 0.0,
-        });
-        if self.samples.len() > WINDOW || out.blocks_waiting() >= MOST_BLOCKS {
-            self.drive(None, out);
-        }
-    }
-
-    /// The curve ends at the last sample.
-    pub(super) fn finish(&mut self, end: End, out: &mut Output) {
-        self.drive(Some(end), out);
-        self.samples.clear();
-    }
-
-    /// Fits what is there and puts out the first half, or all of it if it ends here.
-    fn drive(&mut self, end: Option<End>, out: &mut Output) {
-        let mut refinements = 0;
-        while self.samples.len() > 1 {
-            let spans = self.prepare(end);
-            let worst = self.fit(end, spans, refinements > 0);
-            let Some(worst) = worst else {
-                self.put_out(spans, out);
-                if end.is_none() {
-                    self.shift(spans);
-                }
-                return;
-            };
-            let may_refine = refinements < REFINEMENTS && self.samples.len() < MOST_SAMPLES;
-            refinements += 1;
-            if may_refine && self.refine(worst) {
-                continue;
-            }
-            refinements = 0;
-            if !self.fall_back(worst, end, out) {
-                return;
-            }
-        }
-    }
-
     /// Knots and a first guess of the control points; the number of spans to put out.
-    fn prepare(&mut self, end: Option<End>) -> usize {
+    pub(super) fn prepare(&mut self, end: Option<End>) -> usize {
         let last = self.samples.len() - 1;
         let end_t = self.knots.last().copied().unwrap_or(0.0);
         self.samples[last].foot_t = end_t;
@@ -236,7 +180,12 @@ impl<const D: usize> Window<D> {
 
     /// Fits and certifies the first spans: `None` if they are in the tube, else the sample at the
     /// end of the worst chord.
-    fn fit(&mut self, end: Option<End>, spans: usize, is_refined: bool) -> Option<usize> {
+    pub(super) fn fit(
+        &mut self,
+        end: Option<End>,
+        spans: usize,
+        is_refined: bool,
+    ) -> Option<usize> {
         let fixed = (
             if self.is_frozen {
                 DEGREE
@@ -300,7 +249,7 @@ impl<const D: usize> Window<D> {
     }
 
     /// Puts out the first spans.
-    fn put_out(&self, spans: usize, out: &mut Output) {
+    pub(super) fn put_out(&self, spans: usize, out: &mut Output) {
         let mut j = 1;
         for span in 0..spans {
             let Some(control) = bezier(&self.spline.knots, &self.spline.control, span) else {
@@ -322,7 +271,7 @@ impl<const D: usize> Window<D> {
     }
 
     /// Leaves the first spans behind.
-    fn shift(&mut self, spans: usize) {
+    pub(super) fn shift(&mut self, spans: usize) {
         self.samples.drain(..self.chord);
         self.spline.control.drain(..spans);
         self.knots.drain(..spans);

@@ -5,9 +5,9 @@
 //! optimised is looked at in between, and where it demands too much the rows of the intervals around
 //! are given a smaller share of the limits, and the law is made anew.
 
-use super::track::Interval;
-use super::{Law, Span};
-use crate::valley::Course;
+use super::interval::Interval;
+use super::parametrisation::{Law, Span};
+use crate::course::Course;
 use glidepath_program::Limits;
 
 /// Places on an interval that are looked at, besides its start.

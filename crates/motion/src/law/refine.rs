@@ -1,10 +1,12 @@
 //! Where a law takes the place of S-curves.
 
-use super::Law;
+use super::optimise::optimise;
+use super::parametrisation::Law;
 use super::track::Track;
-use crate::piece::{Element, Piece};
-use crate::schedule::Settled;
-use crate::valley::{Course, Leg};
+use crate::course::{Course, Leg};
+use crate::element::Element;
+use crate::piece::Piece;
+use crate::settled::Settled;
 use glidepath_program::Limits;
 use std::collections::VecDeque;
 
@@ -231,6 +233,6 @@ impl Refiner {
         let track = Track::new(&course, legs, &self.limits)?;
         rates
             .iter()
-            .find_map(|rate_r| track.optimise(&course, &self.limits, *rate_r))
+            .find_map(|rate_r| optimise(&track, &course, &self.limits, *rate_r))
     }
 }

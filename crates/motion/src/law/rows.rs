@@ -1,8 +1,10 @@
 //! The problem: a quadratic spline on a track of knots, and every limit as a row over three of its
 //! coefficients.
 
-use super::track::{Interval, Track};
-use glidepath_geometry::{AXES, Jet, feed_length};
+use super::interval::BETWEEN_R;
+use super::parabola::Taylor;
+use super::track::Track;
+use glidepath_geometry::{AXES, Jet};
 use glidepath_program::Limits;
 
 /// A limit: `of`·x ≤ limit, or ≤ limit/√(`root_of`·x), x three neighbouring coefficients.
@@ -36,62 +38,10 @@ pub(super) struct Problem {
     pub(super) knots: Vec<Knot>,
 }
 
-/// Share of what a curve allows, for the places between knots.
-const BETWEEN_R: f64 = 1.0 - 2e-4;
 /// The same of the jerk of an axis, which changes faster.
 const JERK_BETWEEN_R: f64 = 1.0 - 2e-3;
 /// A limit this many times what can be asked for is none.
 const IDLE_R: f64 = 1.5;
-
-/// b, b′ and b″ at a place, over three coefficients.
-#[derive(Clone, Copy)]
-struct Taylor {
-    value: [f64; 3],
-    slope: [f64; 3],
-    second: [f64; 3],
-}
-
-/// The parabola of an interval, over its three coefficients.
-#[derive(Clone, Copy)]
-pub(super) struct Parabola {
-    start: Taylor,
-    end: Taylor,
-}
-
-impl Parabola {
-    /// `lengths`: of the interval before (0 if there is none), its own, and of the one after.
-    pub(super) fn new(lengths: [f64; 3]) -> Self {
-        let [before, own, after] = lengths;
-        let (left, right) = (before + own, own + after);
-        let start_slope = [-2.0 / left, 2.0 / left, 0.0];
-        let end_slope = [0.0, -2.0 / right, 2.0 / right];
-        let second = core::array::from_fn(|i| (end_slope[i] - start_slope[i]) / own);
-        Self {
-            start: Taylor {
-                value: [own / left, before / left, 0.0],
-                slope: start_slope,
-                second,
-            },
-            end: Taylor {
-                value: [0.0, after / right, own / right],
-                slope: end_slope,
-                second,
-            },
-        }
-    }
-
-    /// b, b′ and b″ at the start for some coefficients.
-    pub(super) fn at_start(&self, x: &[f64]) -> [f64; 3] {
-        [self.start.value, self.start.slope, self.start.second]
-            .map(|of| of[0] * x[0] + of[1] * x[1] + of[2] * x[2])
-    }
-
-    fn middle(&self) -> [f64; 3] {
-        let (start, end) = (self.start.value, self.end.value);
-        let inner = [0.0, 2.0, 0.0];
-        core::array::from_fn(|i| 0.25 * (start[i] + inner[i] + end[i]))
-    }
-}
 
 impl Problem {
     /// `shares`: of its limits that each interval may use.
@@ -214,18 +164,5 @@ impl Problem {
                 self.both(first, of, Some(*value), share_r * JERK_BETWEEN_R * most_j);
             }
         }
-    }
-}
-
-impl Interval {
-    /// The highest speed where a piece has these derivatives, mm/s.
-    pub(super) fn cap_v(jet: &Jet, own: &super::track::Caps, limits: &Limits) -> f64 {
-        let curvature_k = feed_length(&jet.d2);
-        let by_axes = (0..AXES)
-            .map(|i| limits.velocity[i] / jet.d1[i].abs())
-            .fold(f64::INFINITY, f64::min);
-        let by_chord = (own.chord_a / curvature_k).sqrt();
-        let by_curve = by_chord.min(limits.path.speed_v(curvature_k));
-        own.rate_v.min(by_axes).min(BETWEEN_R * by_curve)
     }
 }

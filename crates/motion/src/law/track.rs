@@ -1,9 +1,9 @@
 //! Where the knots of a law are, what the path is there, and the S-curves it starts from.
 
-use super::rows::{Parabola, Problem};
-use super::{Builder, Law, between, solver};
+use super::interval::{Caps, Interval};
+use super::parabola::Parabola;
+use crate::course::{Course, Leg};
 use crate::scurve::PathState;
-use crate::valley::{Course, Leg};
 use glidepath_geometry::Jet;
 use glidepath_program::Limits;
 
@@ -14,32 +14,8 @@ const REST_T: f64 = 0.001;
 const REST_R: f64 = 0.25;
 /// Next to a rest, the time to a knot grows by this factor from the one before.
 const REST_GROWTH: f64 = 1.2;
-/// Times a law is made anew where it demands too much between its knots.
-const ROUNDS: u32 = 6;
 /// Knots nearer than this share of their distance to a place where pieces meet are left out.
 const NEAREST_R: f64 = 0.35;
-
-/// What bounds the speed on a piece whatever the axes can do.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Caps {
-    pub(super) rate_v: f64,
-    /// The largest acceleration across the path.
-    pub(super) chord_a: f64,
-}
-
-/// The path between two knots.
-#[derive(Debug)]
-pub(super) struct Interval {
-    /// The piece it is on.
-    pub(super) piece: usize,
-    pub(super) from_s: f64,
-    pub(super) length_s: f64,
-    pub(super) start: Jet,
-    pub(super) end: Jet,
-    pub(super) start_v: f64,
-    pub(super) middle_v: f64,
-    pub(super) end_v: f64,
-}
 
 /// A place on the S-curves: time and path position.
 #[derive(Debug, Clone, Copy)]
@@ -50,9 +26,9 @@ struct Mark {
 
 /// The phase of constant jerk next to a rest.
 #[derive(Debug, Clone, Copy)]
-struct RestPhase {
-    jerk_j: f64,
-    duration_t: f64,
+pub(super) struct RestPhase {
+    pub(super) jerk_j: f64,
+    pub(super) duration_t: f64,
 }
 
 /// Knots, path and S-curves.
@@ -63,9 +39,9 @@ pub(super) struct Track {
     legs: Vec<Leg>,
     marks: Vec<Mark>,
     /// At start and end; `None` where the motion does not rest.
-    rests: [Option<RestPhase>; 2],
-    ends_v: [f64; 2],
-    length_s: f64,
+    pub(super) rests: [Option<RestPhase>; 2],
+    pub(super) ends_v: [f64; 2],
+    pub(super) length_s: f64,
 }
 
 impl Track {
@@ -107,7 +83,7 @@ impl Track {
 
     /// Path position at which the phase next to the start ends, and that where the one next to the end
     /// begins.
-    fn inner(&self) -> [f64; 2] {
+    pub(super) fn inner(&self) -> [f64; 2] {
         let [start_s, end_s] = self
             .rests
             .map(|rest| rest.map_or(0.0, |r| r.jerk_j * r.duration_t.powi(3) / 6.0));
@@ -200,7 +176,7 @@ impl Track {
     }
 
     /// Coefficients of the S-curves, `rate_r` times as fast.
-    fn start(&self, rate_r: f64) -> Vec<f64> {
+    pub(super) fn start(&self, rate_r: f64) -> Vec<f64> {
         let square_r = rate_r * rate_r;
         let count = self.intervals.len();
         let mut x = Vec::with_capacity(count + 2);
@@ -227,61 +203,6 @@ impl Track {
             *b *= square_r;
         }
         x
-    }
-
-    /// The law near the least time that starts and ends as the S-curves do, `rate_r` times as fast;
-    /// `None` if none is found that keeps all limits, also between knots.
-    pub(super) fn optimise(
-        &self,
-        course: &Course<'_>,
-        limits: &Limits,
-        rate_r: f64,
-    ) -> Option<Law> {
-        let mut shares = vec![1.0; self.intervals.len()];
-        let first = usize::from(self.rests[0].is_some());
-        for _ in 0..ROUNDS {
-            let law = self.law(&Problem::new(self, limits, &shares), rate_r)?;
-            if between::lessen(&mut shares, &law, first, &self.intervals, course, limits) {
-                return Some(law);
-            }
-        }
-        None
-    }
-
-    fn law(&self, problem: &Problem, rate_r: f64) -> Option<Law> {
-        let x = solver::solve(problem, self.start(rate_r))?;
-        let mut builder = Builder::new();
-        let zero = PathState {
-            position_s: 0.0,
-            speed_v: 0.0,
-            accel_a: 0.0,
-        };
-        let slowed = |rest: RestPhase| (rest.jerk_j * rate_r.powi(3), rest.duration_t / rate_r);
-        if let Some((jerk_j, duration_t)) = self.rests[0].map(slowed) {
-            builder.push_phase(zero, jerk_j, duration_t);
-        }
-        for (k, interval) in self.intervals.iter().enumerate() {
-            let [b, slope, second] = self.parabola(k).at_start(&x[k..k + 3]);
-            let state = PathState {
-                position_s: interval.from_s,
-                speed_v: b.max(0.0).sqrt(),
-                accel_a: 0.5 * slope,
-            };
-            builder.push_span(state, interval.length_s, second)?;
-        }
-        if let Some((jerk_j, duration_t)) = self.rests[1].map(slowed) {
-            let state = PathState {
-                position_s: self.inner()[1],
-                speed_v: 0.5 * jerk_j * duration_t * duration_t,
-                accel_a: -jerk_j * duration_t,
-            };
-            builder.push_phase(state, jerk_j, duration_t);
-        }
-        Some(builder.finish(PathState {
-            position_s: self.length_s,
-            speed_v: self.ends_v[1] * rate_r,
-            accel_a: 0.0,
-        }))
     }
 }
 

@@ -10,13 +10,13 @@
 //! pieces is within the tolerance of the program. Pieces cost the window planner work, and tolerance
 //! gains it time; the shares below leave nearly all of it to the motion.
 
-use super::intake::{Intake, Move, Work};
 use super::ledger::Part;
+use super::works::{Move, Work, Works};
+use crate::intake::SHORTEST_MOVE_MM;
 use crate::merge::Dropped;
-use crate::path::SHORTEST_MOVE_MM;
-use crate::pending::axes_speed;
-use crate::piece::Rest;
 use crate::programmed_rate::ProgrammedRate;
+use crate::programmed_rate::axes_speed;
+use crate::rest::Rest;
 use crate::window::Reference;
 use glidepath_geometry::{Arc, AxisVector, Segment, feed_length};
 use glidepath_program::tolerance_norm;
@@ -93,7 +93,7 @@ impl Chords {
     }
 
     /// The next product, as far as the program is known.
-    pub(super) fn next(&mut self, intake: &mut Intake) -> Option<Product> {
+    pub(super) fn next(&mut self, works: &mut Works) -> Option<Product> {
         loop {
             if let Some(product) = self.ready.pop_front() {
                 return Some(product);
@@ -103,7 +103,7 @@ impl Chords {
                 continue;
             }
             self.flattening = None;
-            match intake.next()? {
+            match works.next()? {
                 Work::Move(of) => self.flattening = Some(Flattening::new(of)),
                 Work::Exact(item) => self.put(Product::Exact(item)),
                 Work::ExactEnd => self.put(Product::ExactEnd),
@@ -142,7 +142,7 @@ impl Chords {
         let length_s = segment.length();
         let rate = ProgrammedRate {
             rate: chord.rate,
-            axes_v: axes_speed(&segment, &self.settings),
+            axes_v: axes_speed(&segment, &self.settings.limits),
         };
         let left_mm = chord.tolerance_mm - chord.error_mm;
         let reference = Reference {

@@ -9,6 +9,16 @@ pub struct PathLimits {
     pub jerk_j: f64,
 }
 
+impl PathLimits {
+    /// The weaker of two bounds each: what holds on both of two parts of a path.
+    pub(crate) const fn weaker(self, other: Self) -> Self {
+        Self {
+            accel_a: self.accel_a.min(other.accel_a),
+            jerk_j: self.jerk_j.min(other.jerk_j),
+        }
+    }
+}
+
 /// A speed change between two speeds, zero acceleration at both ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Ramp {

@@ -1,12 +1,12 @@
 //! One window: how much of the path it sees, which axes move, and what becomes of it.
 
+use super::direction::directional;
 use super::follow::Follower;
 use super::judge::History;
 use super::opening::Opening;
 use super::optimiser::{Optimiser, Question};
 use super::scene::{Scene, moving_axes};
 use super::spline::Grid;
-use super::stop_leg::directional;
 use super::track::Track;
 use glidepath_geometry::{AXES, AxisVector};
 use glidepath_program::Limits;

@@ -12,7 +12,7 @@
 //! And when it has run slower for a while, periods end elsewhere: then chords cut off what the motion
 //! bulges out, and the vertices must be nearer to it by that.
 
-use super::Period;
+use super::period::State;
 use super::track::Piece;
 use glidepath_geometry::AxisVector;
 
@@ -22,35 +22,6 @@ const BULGE_R: f64 = 1e-3;
 const STRAIGHT: f64 = 0.8;
 /// Most parts of a period.
 const MOST_PARTS: f64 = 16.0;
-
-/// Position, velocity and acceleration.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct State {
-    pub(super) position: AxisVector,
-    pub(super) velocity: AxisVector,
-    pub(super) acceleration: AxisVector,
-}
-
-impl State {
-    /// At rest somewhere.
-    pub(super) fn rest(position: AxisVector) -> Self {
-        Self {
-            position,
-            velocity: AxisVector::zeros(),
-            acceleration: AxisVector::zeros(),
-        }
-    }
-}
-
-impl From<&Period> for State {
-    fn from(period: &Period) -> Self {
-        Self {
-            position: period.position,
-            velocity: period.velocity,
-            acceleration: period.acceleration,
-        }
-    }
-}
 
 /// The motion of a period.
 #[derive(Debug)]

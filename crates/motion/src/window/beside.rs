@@ -13,7 +13,7 @@ use core::ops::Range;
 
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 
-use super::follow::Span;
+use super::parameter_range::Span;
 use super::track::Piece;
 
 /// Axes with a tolerance together: two of three linear ones each, and every rotary one.

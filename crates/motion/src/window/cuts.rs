@@ -5,19 +5,18 @@
 //! of the last few rounds are all kept, or else a motion that is pushed back at one side comes out at
 //! another.
 
-use super::samples::{Samples, sample};
-use super::scene::Scene;
+use super::samples::{Samples, WORTH_R, sample};
+use super::scene::{SHARP, Scene};
 use super::solver::{combine, dot};
 use super::spline::Grid;
-use super::tube::{CLOSE_R, SHARP};
 
+/// Part of the radius from which a gentle corner gets rows.
+pub(super) const CLOSE_R: f64 = 0.85;
 /// Planes kept for each ball.
 const KEPT: usize = 5;
 /// Directions kept in which a velocity was above the feed, by this factor.
 const KEPT_DIRECTIONS: usize = 3;
 pub(super) const WORTH_OF_FEED: f64 = 1.0 + 1e-4;
-/// From this part of the radius on a motion is worth a plane.
-pub(super) const WORTH_R: f64 = 0.5;
 
 /// A plane with its outward normal; what it cuts off lies beyond `radius` from `center`.
 #[derive(Debug, Clone, Copy)]

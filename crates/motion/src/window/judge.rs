@@ -3,9 +3,10 @@
 //! Only positions at the periods count: differences of first, second and third order against the
 //! limits of every axis, the feed, and the way along the path ([`super::follow`]).
 
-use super::bend::{Bend, State};
+use super::bend::Bend;
+use super::feed::counted_length;
 use super::follow::Follower;
-use super::stop_leg::counted_length;
+use super::period::State;
 use super::track::Track;
 use glidepath_geometry::{AXES, AxisVector, feed_length};
 use glidepath_program::Limits;

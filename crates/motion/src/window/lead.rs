@@ -12,8 +12,10 @@
 //! no more against the S-curve than [`TRUST_PERIODS`]: along one straight piece there is nothing they
 //! could get stuck at.
 
-use super::bend::State;
-use super::stop_leg::{Bounds, StopLeg, directional, top_v};
+use super::direction::{Bounds, directional};
+use super::feed::top_v;
+use super::period::State;
+use super::stop_leg::StopLeg;
 use super::track::{Piece, Track};
 use crate::scurve::Profile;
 use glidepath_geometry::feed_length;

@@ -11,10 +11,9 @@
 //!           │           can be followed for some more periods, or to its end and rest.
 //! ```
 
-use super::bend::State;
+use super::period::{Period, State};
+use super::state::{Force, PlannerState};
 use super::stop_leg::StopLeg;
-use super::{Force, Period, WindowPlanner};
-use glidepath_geometry::AxisVector;
 
 /// Periods that are followed of a leg before it is begun: chords that begin before it end by the
 /// first, and what they may lose depends on the last two.
@@ -51,7 +50,7 @@ impl Stance {
     }
 }
 
-impl WindowPlanner {
+impl PlannerState {
     /// One period of straight legs from vertex to vertex. `None` if more of the path is needed.
     pub(super) fn next_of_legs(&mut self) -> Option<Period> {
         let Force::Legs {
@@ -140,12 +139,5 @@ impl WindowPlanner {
             next = next.later(self.period_t);
             is_kept || history.last() == state.position
         })
-    }
-
-    /// The leg to the end of the first piece from `index` on that does not end here.
-    pub(super) fn leg_from(&self, from: AxisVector, index: usize) -> Option<StopLeg> {
-        (index..self.track.end())
-            .take_while(|&index| self.track.is_settled(index))
-            .find_map(|index| StopLeg::new(&self.limits, from, index, self.track.get(index)?))
     }
 }

@@ -11,12 +11,14 @@
 //! is taken if it leads by more than what would be done without it.
 
 use super::attempt::{Motion, Setting, View};
-use super::bend::State;
 use super::budget::{FIRST_WORK, PLAN_WORK};
+use super::direction::{Bounds, directional};
 use super::lead::{Rival, TRUST_PERIODS, arrival_t};
+use super::period::State;
 use super::spline::Grid;
-use super::stop_leg::{Bounds, StopLeg, directional};
-use super::{Force, MOST_LEGS, WindowPlanner};
+use super::state::{Force, MOST_LEGS, PlannerState};
+use super::stop_leg::StopLeg;
+use super::track::Piece;
 use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC, feed_length};
 
 /// Intervals before a leg brakes at which a window is tried.
@@ -35,7 +37,7 @@ struct Candidate {
     commit: usize,
 }
 
-impl WindowPlanner {
+impl PlannerState {
     /// True if a window is to be tried before the leg under way goes on.
     pub(super) fn is_trial_due(&self) -> bool {
         match (&self.force, &self.grid) {
@@ -333,17 +335,6 @@ impl WindowPlanner {
             _ => vec![self.history.last(); 4],
         }
     }
-
-    /// Time since the start of the stretch.
-    fn clock_t(&self) -> f64 {
-        self.periods_t(self.clock)
-    }
-
-    fn periods_t(&self, periods: usize) -> f64 {
-        #[expect(clippy::cast_precision_loss, reason = "exact for any stretch")]
-        let periods = periods as f64;
-        periods * self.period_t
-    }
 }
 
 /// Periods after which the next window starts.
@@ -370,7 +361,7 @@ fn leg_tail(leg: &StopLeg, leg_t: f64, grid: &Grid, intervals: usize) -> Vec<Axi
 }
 
 /// Half the time in which jerk strays by a tolerance: the grid on which corners are still resolved.
-fn wanted_grid(planner: &WindowPlanner, piece: &super::track::Piece) -> Grid {
+fn wanted_grid(planner: &PlannerState, piece: &Piece) -> Grid {
     let limits = &planner.limits;
     let moved = piece.end - piece.start;
     let least_of = |of_axis: &dyn Fn(usize) -> f64| {

@@ -6,11 +6,12 @@
 //! the overlap of two tubes goes to the later one at once: the motion it has keeps the new rows too,
 //! and the next solution can use the room.
 
-use super::cuts::WORTH_R;
 use super::scene::Scene;
 use super::solver::{combine, dot};
 use super::spline::Grid;
 
+/// From this part of the radius on a motion is worth a plane.
+pub(super) const WORTH_R: f64 = 0.5;
 /// Cosine of the turn from which a corner holds samples back.
 const FOLD_COS: f64 = 0.2;
 /// Share of the radius before the end of a piece at which a sample goes over to the next.

@@ -5,12 +5,16 @@
 //! groups allow: a point within the radius in this space is within tolerance in every group. It also
 //! makes millimetres and degrees, and millimetres and micrometres, the same problem.
 
+use super::direction::directional;
 use super::solver::dot;
-use super::stop_leg::directional;
 use super::track::{Piece, Track};
+use crate::feed_axes::counted_axes;
 use crate::scurve::PathLimits;
-use glidepath_geometry::{AXES, Axis, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW, feed_length};
+use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_program::Limits;
+
+/// Turn from which the motion may run back for a moment, as a corner of less than the tolerance does.
+pub(super) const SHARP: f64 = 0.3;
 
 /// A piece of the path in the space of the window.
 #[derive(Debug, Clone)]
@@ -124,7 +128,7 @@ impl<const D: usize> Scene<D> {
         let bounds = directional(limits, &(displacement / length));
         let mut feed = [0.0; D];
         let mut feed_axes = [0.0; D];
-        let counted = feed_group(&displacement);
+        let counted = counted_axes(&displacement);
         for k in 0..self.moving {
             if counted.contains(&self.axes[k]) {
                 feed[k] = displacement[self.axes[k]] / piece.length_s * self.unit[k] / piece.top_v;
@@ -230,20 +234,4 @@ impl<const D: usize> Scene<D> {
             }
         })
     }
-}
-
-/// The axes the feed counts in a displacement: XYZ if they move, else UVW, else the rotary axes.
-pub(super) fn feed_group(displacement: &AxisVector) -> core::ops::Range<usize> {
-    let length = feed_length(displacement);
-    let counts = |axes: &core::ops::Range<usize>| {
-        let square: f64 = axes
-            .clone()
-            .map(|i| displacement[i] * displacement[i])
-            .sum();
-        square.sqrt() >= length && square > 0.0
-    };
-    [LINEAR_XYZ, UVW]
-        .into_iter()
-        .find(counts)
-        .unwrap_or(ROTARY_ABC)
 }

@@ -1,6 +1,6 @@
 //! Uniform cubic B-splines in time, and the grid of knots against the grid of periods.
 
-use super::bend::State;
+use super::period::State;
 use super::solver::SPAN;
 use glidepath_geometry::AxisVector;
 

@@ -5,11 +5,12 @@
 //! whatever else fails, a leg brings the motion to the next vertex. Its seven-phase profile keeps the
 //! limits of every axis at every instant, hence all differences over a period.
 
-use super::Period;
-use super::scene::feed_group;
+use super::direction::directional;
+use super::feed::top_v;
+use super::period::Period;
 use super::track::Piece;
-use crate::scurve::{PathLimits, Profile};
-use glidepath_geometry::{AXES, AxisVector, feed_length};
+use crate::scurve::Profile;
+use glidepath_geometry::{AxisVector, feed_length};
 use glidepath_program::Limits;
 
 /// A straight motion from rest to rest.
@@ -93,49 +94,5 @@ impl StopLeg {
             tag: 0,
             rest_at_end: false,
         }
-    }
-}
-
-/// Speed the feed of a piece allows along a displacement of a feed length. What the piece's feed
-/// counts may be another group of axes than what the displacement's does: beside a rotary move, a way
-/// of a micrometre back to the path is all that XYZ move.
-pub(super) fn top_v(piece: &Piece, displacement: &AxisVector, length_s: f64) -> f64 {
-    let counted_s = counted_length(piece, displacement);
-    if counted_s > length_s {
-        piece.top_v * length_s / counted_s
-    } else {
-        piece.top_v
-    }
-}
-
-/// Length of a displacement in the axes that the feed of a piece counts.
-pub(super) fn counted_length(piece: &Piece, displacement: &AxisVector) -> f64 {
-    let counted = feed_group(&(piece.end - piece.start));
-    let square: f64 = counted.map(|i| displacement[i] * displacement[i]).sum();
-    square.sqrt()
-}
-
-/// Limits of the path in a direction.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Bounds {
-    pub(super) speed_v: f64,
-    pub(super) path: PathLimits,
-}
-
-/// The largest path speed, acceleration and jerk at which no axis exceeds its own; `along` is the
-/// change of every axis per unit of path.
-pub(super) fn directional(limits: &Limits, along: &AxisVector) -> Bounds {
-    let least = |of: &AxisVector| {
-        (0..AXES)
-            .filter(|&i| along[i] != 0.0)
-            .map(|i| of[i] / along[i].abs())
-            .fold(Limits::UNLIMITED, f64::min)
-    };
-    Bounds {
-        speed_v: least(&limits.velocity),
-        path: PathLimits {
-            accel_a: least(&limits.acceleration),
-            jerk_j: least(&limits.jerk),
-        },
     }
 }

@@ -11,10 +11,11 @@ mod calls;
 mod extremes;
 
 use super::budget::PLAN_WORK;
+use super::state::Force;
 use super::*;
 use glidepath_audit::{Audit, AuditSettings, Report, Sample};
-use glidepath_geometry::Segment;
-use glidepath_program::{Item, ItemKind, PathMode, Rate};
+use glidepath_geometry::{AxisVector, Segment};
+use glidepath_program::{Item, ItemKind, Limits, PathMode, Rate};
 use proptest::prelude::{ProptestConfig, proptest};
 
 /// A path with everything needed to plan and to judge it.
@@ -67,7 +68,7 @@ impl Case {
         let mut periods = Vec::new();
         let mut work = 0;
         while let Some(period) = planner.next_period() {
-            let spent = planner.optimisers.work() - work;
+            let spent = planner.state.optimisers.work() - work;
             assert!(
                 spent <= PLAN_WORK,
                 "{spent} before period {}",

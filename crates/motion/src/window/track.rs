@@ -10,8 +10,8 @@
 //!   ────────────────●···────────●   and ends at the first one outside the ball
 //! ```
 
-use super::Reference;
-use super::scene::feed_group;
+use super::reference::Reference;
+use crate::feed_axes::counted_axes;
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW, feed_length};
 use std::collections::VecDeque;
 
@@ -57,7 +57,7 @@ impl Piece {
 impl Piece {
     /// Speed along the path in the sense of the feed.
     pub(super) fn path_v(&self, velocity: &AxisVector) -> f64 {
-        let counted = feed_group(&(self.end - self.start));
+        let counted = counted_axes(&(self.end - self.start));
         counted
             .map(|i| velocity[i] * velocity[i])
             .sum::<f64>()

@@ -19,18 +19,14 @@
 //! The round parts are bounded by planes ([`super::cuts`]).
 
 use super::cuts::{
-    Cuts, HALF_WAY, Passing, Plane, WORTH_OF_FEED, nearest_to_corner, piece_at, pieces_at,
+    CLOSE_R, Cuts, HALF_WAY, Passing, Plane, WORTH_OF_FEED, nearest_to_corner, piece_at, pieces_at,
     slowest_feed, velocity_over_feed,
 };
 use super::samples::Samples;
-use super::scene::Scene;
+use super::scene::{SHARP, Scene};
 use super::solver::{FAR, Problem, dot};
 use super::spline::Grid;
 
-/// Turn from which the motion may run back for a moment, as a corner of less than the tolerance does.
-pub(super) const SHARP: f64 = 0.3;
-/// Part of the radius from which a gentle corner gets rows.
-pub(super) const CLOSE_R: f64 = 0.85;
 /// Most of the radius of a corner that is left to chords that cut it off.
 const MOST_SAGITTA_R: f64 = 0.5;
 /// Most corners between two samples that get rows.

@@ -1,7 +1,7 @@
 //! What is made of segments: distances, order, lines.
 
 use super::*;
-use crate::optimal::intake::Intake;
+use crate::optimal::works::Works;
 use glidepath_geometry::Plane;
 use glidepath_program::{Effort, ItemKind, Limits, PathMode, Smoothing};
 
@@ -17,18 +17,18 @@ fn settings() -> Settings {
 
 fn pieces(segments: &[Segment]) -> Vec<(Part, Reference)> {
     let start = segments[0].start();
-    let (mut intake, mut chords) = (Intake::new(settings(), start), Chords::new(settings()));
+    let (mut works, mut chords) = (Works::new(settings(), start), Chords::new(settings()));
     for (line, segment) in (1..).zip(segments) {
         let kind = ItemKind::Move {
             segment: *segment,
             rate: Rate::Feed(50.0),
             mode: PathMode::Continuous { tolerance_mm: None },
         };
-        assert_eq!(intake.push(&Item { line, kind }), Ok(()));
+        assert_eq!(works.push(&Item { line, kind }), Ok(()));
     }
-    intake.finish();
+    works.finish();
     let mut pieces = Vec::new();
-    while let Some(product) = chords.next(&mut intake) {
+    while let Some(product) = chords.next(&mut works) {
         if let Product::Piece(part, reference) = product {
             pieces.push((part, reference));
         }

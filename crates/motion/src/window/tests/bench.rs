@@ -4,6 +4,8 @@
 //! GLIDEPATH_BENCH=tests/data/bench cargo test --release -p glidepath-motion --lib window::tests::bench -- --nocapture
 //! ```
 
+use super::super::stop_leg::StopLeg;
+use super::super::track::Track;
 use super::*;
 
 /// Six axes with limits of their own, which take all the work that is allowed, and would take more.
@@ -74,14 +76,14 @@ fn planned(case: &Case, cost: &mut Cost) -> Vec<Period> {
     planner.finish();
     let mut periods = Vec::new();
     loop {
-        let (start_t, start_work) = (processor_t(), planner.optimisers.work());
+        let (start_t, start_work) = (processor_t(), planner.state.optimisers.work());
         let Some(period) = planner.next_period() else {
             return periods;
         };
         let taken_t = processor_t() - start_t;
         cost.spent_t += taken_t;
         cost.worst_t = cost.worst_t.max(taken_t);
-        let work = planner.optimisers.work() - start_work;
+        let work = planner.state.optimisers.work() - start_work;
         cost.worst_work = cost.worst_work.max(work);
         periods.push(period);
     }

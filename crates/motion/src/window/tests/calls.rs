@@ -1,6 +1,6 @@
 //! What the motion depends on, and what it does not; changes of rates.
 
-use super::bend::State;
+use super::period::State;
 use super::*;
 use glidepath_audit::{Violation, ViolationKind};
 

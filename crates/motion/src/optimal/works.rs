@@ -1,8 +1,8 @@
 //! Items in, checked; what there is to do out, in order: moves, exact moves, rests.
 
 use crate::PlanError;
-use crate::path::{SHORTEST_MOVE_MM, check, starting_at};
-use crate::piece::{Rest, RestKind};
+use crate::intake::{Intake, check_dwell};
+use crate::rest::{Rest, RestKind};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Event, Item, ItemKind, PathMode, Rate, Settings};
 use std::collections::VecDeque;
@@ -32,13 +32,10 @@ pub(super) struct Move {
 
 /// Takes items and keeps what they ask for until it is done.
 #[derive(Debug)]
-pub(super) struct Intake {
+pub(super) struct Works {
     settings: Settings,
     works: VecDeque<Work>,
-    /// Where the moves taken so far end.
-    position: AxisVector,
-    /// Where the program is; differs by moves too short to be made.
-    program_position: AxisVector,
+    intake: Intake,
     /// Events that wait for the move they happen on.
     events: Vec<(u32, Event)>,
     stretch: Stretch,
@@ -69,13 +66,12 @@ enum Stretch {
     Curved,
 }
 
-impl Intake {
+impl Works {
     pub(super) const fn new(settings: Settings, start: AxisVector) -> Self {
         Self {
             settings,
             works: VecDeque::new(),
-            position: start,
-            program_position: start,
+            intake: Intake::new(start),
             events: Vec::new(),
             stretch: Stretch::None,
             held: None,
@@ -103,14 +99,12 @@ impl Intake {
                 rate,
                 mode,
             } => {
-                check(line, &segment, rate, mode, &self.program_position)?;
+                self.intake.check_move(line, &segment, rate, mode)?;
                 self.push_move(line, segment, rate, mode);
                 self.last.1 = rate;
             }
             ItemKind::Dwell(dwell_t) => {
-                if !(dwell_t >= 0.0 && dwell_t.is_finite()) {
-                    return Err(PlanError::Dwell { line, dwell_t });
-                }
+                check_dwell(line, dwell_t)?;
                 self.rest(RestKind::Dwell(dwell_t), line);
             }
             ItemKind::Event(event @ (Event::SpindleSpeed(_) | Event::SelectTool(_))) => {
@@ -142,19 +136,13 @@ impl Intake {
             self.end_stretch();
             self.put_rest(RestKind::ExactStop, self.last.0);
         }
-        self.program_position = segment.end();
-        let segment = starting_at(segment, self.position);
-        let is_arc = matches!(segment, Segment::Arc(_));
-        if (segment.end() - segment.start()).amax() < SHORTEST_MOVE_MM
-            && (!is_arc || segment.length() < SHORTEST_MOVE_MM)
-        {
+        let Some(segment) = self.intake.take(segment) else {
             return;
-        }
+        };
         if self.stretch == Stretch::None && stretch == Stretch::Free {
             self.held = Some((0, 0.0));
         }
         self.stretch = stretch;
-        self.position = segment.end();
         let events = core::mem::take(&mut self.events);
         if stretch != Stretch::Free {
             let events = events.into_iter().map(|(line, event)| Item {
@@ -247,7 +235,7 @@ impl Intake {
 
     fn end_stretch(&mut self) {
         self.held = None;
-        let segment = Segment::line(self.position, self.program_position);
+        let segment = self.intake.remainder();
         let (line, rate) = self.last;
         // Moves that were too short to be made by themselves.
         let is_left = segment.length() > 0.0;
@@ -271,7 +259,7 @@ impl Intake {
                 events: Vec::new(),
             }));
         }
-        self.position = self.program_position;
+        self.intake.make_up();
         self.stretch = Stretch::None;
     }
 }

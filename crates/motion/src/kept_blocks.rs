@@ -1,14 +1,9 @@
-//! The other way to drive a stretch between two rests: exactly along the program, with a stop at the
-//! end of every block.
+//! The blocks of a short stretch, kept as they were programmed.
 //!
-//! Curves and transitions nearly always win, and by far. But on a path that turns sharply at nearly
-//! every short block, stopping can be faster: the limits of jerk let a machine turn around in no
-//! length at all. Whether it is cannot be told corner by corner. So for stretches of few blocks both
-//! ways are planned, and the faster is taken; of longer ones, the blocks are not kept.
+//! A stretch of few blocks is planned a second time with a stop at the end of every block
+//! ([`crate::stop_at_each`]); of longer ones, the blocks are not kept.
 
 use crate::piece::{Piece, Shape};
-use crate::scurve::Profile;
-use crate::valley::Leg;
 use glidepath_geometry::{AxisVector, Segment};
 use std::collections::VecDeque;
 
@@ -17,13 +12,13 @@ const MOST_BLOCKS: usize = 64;
 
 /// The blocks since the last rest, as pieces.
 #[derive(Debug, Default)]
-pub(crate) struct Blocks {
+pub(crate) struct KeptBlocks {
     pieces: VecDeque<Piece>,
     /// Some were not kept.
     is_lost: bool,
 }
 
-impl Blocks {
+impl KeptBlocks {
     pub(crate) const fn new() -> Self {
         Self {
             pieces: VecDeque::new(),
@@ -83,15 +78,4 @@ fn ends_at(piece: &Piece, point: &AxisVector) -> bool {
         Shape::Segment(Segment::Curve(curve)) => curve.end == *point,
         Shape::Transition(_) | Shape::Spline(_) => false,
     }
-}
-
-/// S-curves from rest to rest along each of some pieces; `None` if there is none for one of them.
-pub(crate) fn drive_each(pieces: &[Piece]) -> Option<Vec<Leg>> {
-    let leg = |piece: &Piece| {
-        let limit = &piece.limit;
-        let profile = Profile::new(0.0, 0.0, piece.length_s, limit.top_v, limit.change)?;
-        let from_s = 0.0;
-        Some(Leg { from_s, profile })
-    };
-    pieces.iter().map(leg).collect()
 }

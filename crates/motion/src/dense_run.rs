@@ -3,12 +3,15 @@
 //! Lines wait for what follows them, like any segment: two in a row meet at a corner. Spans of a
 //! spline continue what comes before them and are put out at once.
 
-use crate::compress::{Change, Compressor, Cut, Part, PartShape, feed_axes};
+use crate::assembly::Assembly;
+use crate::compress::{Change, Compressor, Cut, Part, PartShape};
+use crate::element::Element;
+use crate::feed_axes::feed_axes;
 use crate::joint::chord_error_mm;
-use crate::path::PathFront;
-use crate::pending::{Pending, axes_speed};
-use crate::piece::{Element, Rest, RestKind, Shape};
-use crate::programmed_rate::ProgrammedRate;
+use crate::pending::Pending;
+use crate::piece::Shape;
+use crate::programmed_rate::{ProgrammedRate, axes_speed};
+use crate::rest::{Rest, RestKind};
 use crate::speed_limit::{CurveRule, SpeedRule};
 use core::ops::Range;
 use glidepath_geometry::{AxisVector, Cubic, Segment};
@@ -16,7 +19,7 @@ use glidepath_program::{Event, PathMode, Rate, Smoothing};
 
 /// A run of blocks under compression.
 #[derive(Debug)]
-pub(crate) struct DenseRun {
+struct DenseRun {
     compressor: Compressor,
     manner: Manner,
     /// The rate of the last block taken.
@@ -31,10 +34,33 @@ struct Manner {
     feed_axes: Range<usize>,
 }
 
-impl PathFront {
+/// Dense blocks on their way through the compressor.
+#[derive(Debug)]
+pub(crate) struct DenseBlocks {
+    /// The run of blocks under compression.
+    run: Option<DenseRun>,
+    /// The rate of its block that was last put out.
+    run_rate: ProgrammedRate,
+    /// No other axis than X, Y, Z has moved in such a run.
+    is_linear: bool,
+}
+
+impl DenseBlocks {
+    pub(crate) const fn new() -> Self {
+        Self {
+            run: None,
+            run_rate: ProgrammedRate {
+                rate: Rate::Rapid,
+                axes_v: f64::INFINITY,
+            },
+            is_linear: true,
+        }
+    }
+
     /// Takes a block into the run at hand, or starts another; false if it is none for compression.
     pub(crate) fn compress(
         &mut self,
+        assembly: &mut Assembly,
         (segment, line): (&Segment, u32),
         rate: Rate,
         mode: PathMode,
@@ -44,7 +70,7 @@ impl PathFront {
             return false;
         };
         let is_continuous = matches!(mode, PathMode::Continuous { .. });
-        if !is_continuous || self.settings.smoothing == Smoothing::ExactStop {
+        if !is_continuous || assembly.settings.smoothing == Smoothing::ExactStop {
             return false;
         }
         let displacement = block.displacement();
@@ -56,7 +82,7 @@ impl PathFront {
             Some(run) if run.manner == manner && run.compressor.takes(&displacement) => Some(run),
             other => {
                 self.run = other;
-                self.end_run(out);
+                self.end_run(assembly, out);
                 None
             }
         };
@@ -64,8 +90,8 @@ impl PathFront {
         let mut is_new = false;
         let mut run = run.unwrap_or_else(|| {
             is_new = true;
-            let tolerance_mm = mode.tolerance_mm(&self.settings);
-            let (start, settings) = (block.start, &self.settings);
+            let tolerance_mm = mode.tolerance_mm(&assembly.settings);
+            let (start, settings) = (block.start, &assembly.settings);
             DenseRun {
                 compressor: Compressor::new(
                     start,
@@ -78,36 +104,42 @@ impl PathFront {
                 rate,
             }
         });
-        let is_change = is_new || run.rate != rate || !self.events.is_empty();
+        let is_change = is_new || run.rate != rate || !assembly.events.is_empty();
         let change = is_change.then(|| Change {
             rate: ProgrammedRate {
                 rate,
                 axes_v: f64::INFINITY,
             },
-            events: core::mem::take(&mut self.events),
+            events: core::mem::take(&mut assembly.events),
         });
         run.rate = rate;
         run.compressor.push(&block.end, line, change);
-        self.put_parts(&mut run, out);
+        self.put_parts(&mut run, assembly, out);
         self.run = Some(run);
         true
     }
 
     /// Ends the run at hand, if any: all of it is put out, but for the last line.
-    pub(crate) fn end_run(&mut self, out: &mut Vec<Element>) {
+    pub(crate) fn end_run(&mut self, assembly: &mut Assembly, out: &mut Vec<Element>) {
         if let Some(mut run) = self.run.take() {
             run.compressor.finish();
-            self.put_parts(&mut run, out);
+            self.put_parts(&mut run, assembly, out);
         }
     }
 
-    fn put_parts(&mut self, run: &mut DenseRun, out: &mut Vec<Element>) {
+    fn put_parts(&mut self, run: &mut DenseRun, assembly: &mut Assembly, out: &mut Vec<Element>) {
         for part in run.compressor.parts() {
-            self.put_part(part, &run.manner, out);
+            self.put_part(part, &run.manner, assembly, out);
         }
     }
 
-    fn put_part(&mut self, part: Part, manner: &Manner, out: &mut Vec<Element>) {
+    fn put_part(
+        &mut self,
+        part: Part,
+        manner: &Manner,
+        assembly: &mut Assembly,
+        out: &mut Vec<Element>,
+    ) {
         let Part { shape, cuts } = part;
         let mode = manner.mode;
         match shape {
@@ -118,27 +150,28 @@ impl PathFront {
                 continues,
             } => {
                 let segment = Segment::line(start, end);
-                let mut next = self.pending_line(segment, cuts, mode);
+                let mut next = self.pending_line(segment, cuts, mode, assembly);
                 (next.error_mm, next.continues) = (error_mm, continues);
-                if let Some(before) = self.pending.take() {
-                    self.join(before, &mut next, out);
+                if let Some(before) = assembly.pending.take() {
+                    assembly.join(before, &mut next, out);
                 }
-                self.pending = Some(next);
+                assembly.pending = Some(next);
             }
             PartShape::Span { control, error_mm } => {
-                self.put_pending(out);
-                self.put_span((control, error_mm), cuts, manner, out);
+                assembly.put_pending(out);
+                self.put_span((control, error_mm), cuts, manner, assembly, out);
             }
             PartShape::Stop => {
-                self.put_pending(out);
+                assembly.put_pending(out);
                 // The chord of one period must not cut off more than the fit left over.
-                let is_exact = self.stop_cut_mm() > 0.05 * mode.tolerance_mm(&self.settings);
+                let is_exact =
+                    assembly.stop_cut_mm() > 0.05 * mode.tolerance_mm(&assembly.settings);
                 let kind = if is_exact {
                     RestKind::ExactStop
                 } else {
                     RestKind::Corner
                 };
-                let line = self.line;
+                let line = assembly.line;
                 out.push(Element::InnerRest(Rest { kind, line }));
             }
         }
@@ -153,23 +186,29 @@ impl PathFront {
         events
     }
 
-    fn pending_line(&mut self, segment: Segment, mut cuts: Vec<Cut>, mode: PathMode) -> Pending {
+    fn pending_line(
+        &mut self,
+        segment: Segment,
+        mut cuts: Vec<Cut>,
+        mode: PathMode,
+        assembly: &Assembly,
+    ) -> Pending {
         let length_s = segment.length();
         let mut events = Vec::new();
         for cut in &mut cuts {
             events.extend(self.enter(cut));
         }
-        let line = cuts.first().map_or(self.line, |cut| cut.line);
+        let line = cuts.first().map_or(assembly.line, |cut| cut.line);
         let lines = cuts.iter().skip(1);
         let rate = ProgrammedRate {
-            axes_v: axes_speed(&segment, &self.settings),
+            axes_v: axes_speed(&segment, &assembly.settings.limits),
             ..self.run_rate
         };
         Pending {
             segment,
             length_s,
             rate,
-            rate_v: rate.under(self.wanted),
+            rate_v: rate.under(assembly.wanted),
             line,
             lines: lines.map(|cut| (cut.from_u * length_s, cut.line)).collect(),
             mode,
@@ -186,14 +225,15 @@ impl PathFront {
         (control, error_mm): ([AxisVector; 4], f64),
         cuts: Vec<Cut>,
         manner: &Manner,
+        assembly: &Assembly,
         out: &mut Vec<Element>,
     ) {
         let Some(span) = Cubic::new(control, manner.feed_axes.clone()) else {
             return;
         };
         let bounds = span.bounds();
-        let left_mm = (manner.mode.tolerance_mm(&self.settings) - error_mm).max(0.0);
-        let at_unit_mm = chord_error_mm(&bounds, 1.0, self.settings.period_t);
+        let left_mm = (manner.mode.tolerance_mm(&assembly.settings) - error_mm).max(0.0);
+        let at_unit_mm = chord_error_mm(&bounds, 1.0, assembly.settings.period_t);
         let curve = CurveRule {
             bounds,
             gentle: true,
@@ -217,7 +257,7 @@ impl PathFront {
                 rates: [self.run_rate; 2],
             };
             let shape = Shape::Spline(Box::new(span.clone()));
-            let mut piece = self.piece(shape, (from_s, to_s - from_s), rule, cut.line);
+            let mut piece = assembly.piece(shape, (from_s, to_s - from_s), rule, cut.line);
             (piece.events, piece.lines) = (events, lines);
             out.push(Element::Piece(piece));
         }

@@ -1,0 +1,53 @@
+//! What the tolerance is spent on: merging, the fit, and the chord error of one period.
+
+use core::ops::Range;
+use glidepath_program::Settings;
+
+/// Share of the tolerance that merging may use.
+const MERGE_SHARE_R: f64 = 0.05;
+
+/// Most of the tolerance that is left for the chord error of one period.
+const CHORD_SHARE_R: f64 = 0.25;
+
+/// Share of what is allowed that the weights aim at.
+const TARGET_R: f64 = 0.8;
+
+/// Longest wavelength that is smoothed away, in tolerances.
+const LONGEST_R: f64 = 1250.0;
+
+/// The tube a curve has to stay in.
+#[derive(Debug, Clone)]
+pub(super) struct Tube {
+    /// The tolerance of the program, everything together, mm.
+    pub(super) tolerance_mm: f64,
+    /// What merging may use of it.
+    pub(super) merge_mm: f64,
+    /// What the fit may use, and what it aims at.
+    pub(super) allowed_mm: f64,
+    pub(super) target_mm: f64,
+    pub(super) longest_mm: f64,
+    /// The axes that measure the feed.
+    pub(super) feed_axes: Range<usize>,
+}
+
+impl Tube {
+    pub(super) fn new(tolerance_mm: f64, settings: &Settings, feed_axes: Range<usize>) -> Self {
+        // The chord of one period is a·T²/8 away from a curve that takes all of an axis' limit.
+        let period_t = settings.period_t;
+        let sharpest_a = feed_axes
+            .clone()
+            .map(|i| settings.limits.acceleration[i])
+            .fold(0.0, f64::max);
+        let chord_mm = (sharpest_a * period_t * period_t / 8.0).min(CHORD_SHARE_R * tolerance_mm);
+        let merge_mm = MERGE_SHARE_R * tolerance_mm;
+        let allowed_mm = tolerance_mm - merge_mm - chord_mm;
+        Self {
+            tolerance_mm,
+            merge_mm,
+            allowed_mm,
+            target_mm: TARGET_R * allowed_mm,
+            longest_mm: LONGEST_R * tolerance_mm,
+            feed_axes,
+        }
+    }
+}
