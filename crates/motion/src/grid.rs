@@ -7,7 +7,7 @@
 //! say what they pass and where they rest; the frames are made here, so that they tell the same
 //! story whoever planned them.
 
-use crate::rest::{Rest, RestKind};
+use super::rest::{Rest, RestKind};
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Event, Frame, FrameFlags};
 use std::collections::VecDeque;

@@ -15,47 +15,18 @@
 //! | `_u` | a curve's own parameter, 0…1 |
 //! | `_k` | curvature, 1/mm |
 
-mod assembly;
-mod compress;
-mod course;
-mod dense_run;
-mod element;
 mod error;
-mod fast;
 mod feed_axes;
 mod grid;
-mod group;
 mod guard;
-mod haste;
+mod in_tube;
 mod intake;
-mod joint;
-mod kept_blocks;
-mod law;
-mod merge;
-mod optimal;
-mod path;
-mod pending;
-mod piece;
+mod on_path;
 mod planner;
 pub mod preview;
 mod programmed_rate;
 mod rest;
-mod run;
-mod sample;
-mod schedule;
 pub mod scurve;
-mod settled;
-mod slowing;
-mod speed_limit;
-mod stop_at_each;
-mod stop_or_pass;
-
-mod tolerance_split;
-mod valley;
-mod window;
 
 pub use error::PlanError;
 pub use planner::Planner;
-pub use tolerance_split::{
-    CornerLimits, ToleranceSplit, chord_acceleration, chord_error, chord_speed,
-};

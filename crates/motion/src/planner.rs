@@ -1,9 +1,9 @@
 //! The planner: items in, frames out.
 
+use super::guard::Guard;
+use super::in_tube::OptimalEngine;
+use super::on_path::FastEngine;
 use crate::PlanError;
-use crate::fast::FastEngine;
-use crate::guard::Guard;
-use crate::optimal::OptimalEngine;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Effort, Frame, Item, Override, Settings, Smoothing};
 

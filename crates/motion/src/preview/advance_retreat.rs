@@ -18,7 +18,8 @@
 //! What cannot be repaired: a region shorter than the step that meets it is passed over in silence,
 //! and of several minima in a region only the sharpest is found.
 
-use super::{Demand, Method, Minimum, Probe, Region};
+use super::probe::Probe;
+use super::{Demand, Method, Minimum, Region};
 
 /// Refinement ends when the allowed speed changes by less than this from step to step, mm/s.
 const REFINED_V: f64 = 1e-3;

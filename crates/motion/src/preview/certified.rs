@@ -16,7 +16,8 @@
 //! *Rounding.* Two roots closer than about 1e-12 of a span may be lost; the curvature between them
 //! changes by a negligible amount.
 
-use super::{Demand, Method, Minimum, Probe, Region};
+use super::probe::Probe;
+use super::{Demand, Method, Minimum, Region};
 use glidepath_geometry::{Nurbs, SpanCurvature};
 
 /// Evaluations of one search for a crossing, at most.

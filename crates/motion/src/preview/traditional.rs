@@ -1,6 +1,7 @@
 //! The traditional preview: every tick of a motion whose speed follows the curvature.
 
-use super::{Demand, Method, Minimum, Probe, Region};
+use super::probe::Probe;
+use super::{Demand, Method, Minimum, Region};
 
 /// The slowest advance, relative to the feedrate: at a cusp the allowed speed is zero, and the
 /// reading would never pass it.

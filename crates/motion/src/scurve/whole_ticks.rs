@@ -8,7 +8,7 @@
 //! average at 4 ms, in proportion to the period. [`super::Profile`] has the peak speed in closed form
 //! and reaches the limit; nothing here is used by the planner.
 
-use super::PathLimits;
+use super::ramp::PathLimits;
 
 /// A speed change in whole periods.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,7 +74,7 @@ pub fn speed_up_in_whole_ticks(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scurve::Profile;
+    use crate::scurve::profile::Profile;
 
     /// Mean and worst shortfall of the peak speed, relative, over a grid of speeds and limits.
     fn shortfall(period_t: f64) -> (f64, f64) {

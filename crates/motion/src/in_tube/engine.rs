@@ -1,0 +1,266 @@
+//! The engine: what moves the machine at present, and what comes next.
+
+use super::flattening::{Chords, Product};
+use super::ledger::{Ledger, Part};
+use super::path::Reference;
+use super::period::Period;
+use super::planner::WindowPlanner;
+use super::works::Works;
+use crate::PlanError;
+use crate::grid::{FrameGrid, Moving};
+use crate::on_path::FastEngine;
+use crate::rest::Rest;
+use glidepath_geometry::AxisVector;
+use glidepath_program::Override;
+use glidepath_program::{Frame, FrameFlags, Item, Settings};
+
+/// The optimal engine, as [`crate::Planner`] uses it.
+#[derive(Debug)]
+pub(crate) struct OptimalEngine {
+    settings: Settings,
+    wanted: Override,
+    works: Works,
+    chords: Chords,
+    grid: FrameGrid,
+    drive: Drive,
+    /// Where the last stretch ended.
+    position: AxisVector,
+    path_s: f64,
+}
+
+/// What moves the machine.
+#[derive(Debug)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "there is one, and it is replaced at a rest only"
+)]
+enum Drive {
+    /// At rest.
+    None,
+    Window(Stretch),
+    Exact(ExactPath),
+}
+
+/// A stretch between two rests.
+#[derive(Debug)]
+struct Stretch {
+    planner: WindowPlanner,
+    ledger: Ledger,
+    length_s: f64,
+    end: AxisVector,
+    /// The rest at its end, once that is known.
+    then: Option<Rest>,
+}
+
+/// A stretch to be passed exactly.
+#[derive(Debug)]
+struct ExactPath {
+    engine: FastEngine,
+    /// Where its last frame is, once that is taken.
+    end: Option<(AxisVector, f64)>,
+}
+
+impl OptimalEngine {
+    /// An engine for a machine at rest at `start`.
+    pub(crate) fn new(settings: Settings, start: AxisVector) -> Self {
+        Self {
+            settings,
+            wanted: Override::NONE,
+            works: Works::new(settings, start),
+            chords: Chords::new(settings),
+            grid: FrameGrid::new(settings.period_t, start),
+            drive: Drive::None,
+            position: start,
+            path_s: 0.0,
+        }
+    }
+
+    /// Takes the next item; see [`crate::Planner::push`].
+    pub(crate) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
+        self.works.push(item)
+    }
+
+    /// No more items.
+    pub(crate) fn finish(&mut self) {
+        self.works.finish();
+    }
+
+    /// Plans what follows with another override, from the state given out last.
+    pub(crate) fn set_override(&mut self, wanted: Override) {
+        self.wanted = wanted;
+        match &mut self.drive {
+            Drive::None => {}
+            Drive::Window(Stretch {
+                planner, ledger, ..
+            }) => {
+                ledger.set_override(wanted);
+                planner.set_rates(|tag| ledger.rate_v(tag));
+            }
+            Drive::Exact(exact) => exact.engine.set_override(wanted),
+        }
+    }
+
+    /// The next frame; see [`crate::Planner::pop_frame`].
+    pub(crate) fn pop_frame(&mut self) -> Result<Option<Frame>, PlanError> {
+        loop {
+            if let Some(frame) = self.grid.rest_frame() {
+                return Ok(Some(frame));
+            }
+            let moved = match &mut self.drive {
+                Drive::None => None,
+                Drive::Window(stretch) => stretch.planner.next_period().map(Moved::Period),
+                Drive::Exact(exact) => exact.engine.pop_frame()?.map(Moved::Exact),
+            };
+            let frame = match moved {
+                Some(Moved::Period(period)) => self.tell(&period),
+                Some(Moved::Exact(frame)) => self.relay(frame),
+                None if self.arrive() => None,
+                None if self.is_stuck() => {
+                    let line = self.grid.line();
+                    return Err(PlanError::NoMotion { line });
+                }
+                None if self.supply()? => None,
+                None => return Ok(None),
+            };
+            if frame.is_some() {
+                return Ok(frame);
+            }
+        }
+    }
+
+    /// Gives the drive at hand its next piece, or sets up a rest; false if the program is not known
+    /// further.
+    fn supply(&mut self) -> Result<bool, PlanError> {
+        let Some(product) = self.chords.next(&mut self.works) else {
+            return Ok(false);
+        };
+        match product {
+            Product::Piece(part, reference) => self.extend(part, reference),
+            Product::Exact(item) => {
+                if !matches!(self.drive, Drive::Exact(_)) {
+                    let mut engine = FastEngine::new(self.settings, self.position);
+                    engine.set_override(self.wanted);
+                    self.drive = Drive::Exact(ExactPath { engine, end: None });
+                }
+                if let Drive::Exact(exact) = &mut self.drive {
+                    exact.engine.push(&item)?;
+                }
+            }
+            Product::ExactEnd => {
+                if let Drive::Exact(exact) = &mut self.drive {
+                    exact.engine.finish();
+                }
+            }
+            Product::Rest(rest) => match &mut self.drive {
+                Drive::Window(stretch) => {
+                    stretch.planner.finish();
+                    stretch.then = Some(rest);
+                }
+                Drive::None | Drive::Exact(_) => {
+                    self.grid.enter_rest(rest);
+                }
+            },
+        }
+        Ok(true)
+    }
+
+    fn extend(&mut self, part: Part, mut reference: Reference) {
+        if !matches!(self.drive, Drive::Window(_)) {
+            let Settings {
+                limits, period_t, ..
+            } = &self.settings;
+            self.drive = Drive::Window(Stretch {
+                planner: WindowPlanner::new(limits, *period_t, self.position),
+                ledger: Ledger::new(self.wanted),
+                length_s: 0.0,
+                end: self.position,
+                then: None,
+            });
+        }
+        if let Drive::Window(stretch) = &mut self.drive {
+            stretch.length_s += part.length_s;
+            stretch.end = reference.end;
+            reference.tag = stretch.ledger.push(part);
+            reference.top_v = stretch.ledger.rate_v(reference.tag);
+            stretch.planner.push(reference);
+        }
+    }
+
+    /// The frame of a period, if it is not the one at which a rest begins.
+    fn tell(&mut self, period: &Period) -> Option<Frame> {
+        let Drive::Window(stretch) = &mut self.drive else {
+            return None;
+        };
+        let grid = &mut self.grid;
+        stretch
+            .ledger
+            .come_to(period.tag, |passing, events| grid.enter(passing, events));
+        if period.rest_at_end {
+            return None;
+        }
+        grid.pass(stretch.ledger.place(period.path_s, period.path_v));
+        Some(grid.motion_frame(&Moving {
+            path_v: period.path_v,
+            path_s: self.path_s + period.path_s,
+            position: period.position,
+            velocity: period.velocity,
+            acceleration: period.acceleration,
+        }))
+    }
+
+    /// True if a stretch whose end is known gives no motion: there is nothing to wait for.
+    const fn is_stuck(&self) -> bool {
+        matches!(&self.drive, Drive::Window(stretch) if stretch.then.is_some())
+    }
+
+    /// Ends a drive that has reached its end; false if there is none.
+    fn arrive(&mut self) -> bool {
+        let (end, end_s, then) = match &mut self.drive {
+            Drive::Window(stretch) if stretch.planner.is_over() && stretch.then.is_some() => {
+                let grid = &mut self.grid;
+                stretch
+                    .ledger
+                    .come_to(u64::MAX, |passing, events| grid.enter(passing, events));
+                let end_s = self.path_s + stretch.length_s;
+                (stretch.end, end_s, stretch.then)
+            }
+            Drive::Exact(ExactPath {
+                end: Some((end, end_s)),
+                ..
+            }) => (*end, *end_s, None),
+            _ => return false,
+        };
+        self.position = end;
+        self.path_s = end_s;
+        self.grid.leave(end, end_s);
+        self.drive = Drive::None;
+        if let Some(rest) = then {
+            self.grid.enter_rest(rest);
+        }
+        true
+    }
+
+    /// A frame of the fast engine as one of this motion. Its first is the one given out last, and at
+    /// its last the rest begins.
+    fn relay(&mut self, mut frame: Frame) -> Option<Frame> {
+        frame.path_s += self.path_s;
+        if frame.flags.contains(FrameFlags::LAST)
+            && let Drive::Exact(exact) = &mut self.drive
+        {
+            exact.end = Some((frame.position, frame.path_s));
+            return None;
+        }
+        if frame.flags.contains(FrameFlags::FIRST) {
+            None
+        } else {
+            Some(self.grid.relay(frame))
+        }
+    }
+}
+
+/// What a drive gives for a period.
+#[allow(clippy::large_enum_variant, reason = "on the stack, one at a time")]
+enum Moved {
+    Period(Period),
+    Exact(Frame),
+}

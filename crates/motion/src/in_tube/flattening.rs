@@ -1,0 +1,290 @@
+//! Moves to the straight pieces that the window planner follows.
+//!
+//! ```text
+//!  arc     ──flattened──▶ chords within a small share of the tolerance of it
+//!  chords  ──merged─────▶ pieces within a small share of the tolerance of them
+//! ```
+//!
+//! Both steps keep what they give within a known distance of what they take, both ways and in order,
+//! so the tolerance of a piece is what is left after the two distances: a motion within that of the
+//! pieces is within the tolerance of the program. Pieces cost the window planner work, and tolerance
+//! gains it time; the shares below leave nearly all of it to the motion.
+
+use super::ledger::Part;
+use super::merging::Dropped;
+use super::path::Reference;
+use super::works::{Move, Work, Works};
+use crate::intake::SHORTEST_MOVE_MM;
+use crate::programmed_rate::ProgrammedRate;
+use crate::programmed_rate::axes_speed;
+use crate::rest::Rest;
+use glidepath_geometry::{Arc, AxisVector, Segment, feed_length};
+use glidepath_program::tolerance_norm;
+use glidepath_program::{Event, Item, Rate, Settings};
+use std::collections::VecDeque;
+
+/// Share of the tolerance that chords of an arc may be away from it.
+const FLATTENING_R: f64 = 0.05;
+/// Share of the tolerance that a merged piece may be away from the chords it replaces.
+const MERGING_R: f64 = 0.1;
+/// Largest turn from one chord of an arc to the next, rad.
+const LARGEST_TURN_RAD: f64 = 0.5;
+
+/// What the program comes down to.
+#[derive(Debug)]
+#[allow(clippy::large_enum_variant, reason = "short-lived, one at a time")]
+pub(crate) enum Product {
+    /// A straight piece. Its tag and its speed are for the taker to fill in.
+    Piece(Part, Reference),
+    Exact(Item),
+    ExactEnd,
+    Rest(Rest),
+}
+
+/// Makes pieces of moves, as they are asked for.
+#[derive(Debug)]
+pub(crate) struct Chords {
+    settings: Settings,
+    flattening: Option<Flattening>,
+    /// The chord that may still be merged with what follows.
+    open: Option<Open>,
+    ready: VecDeque<Product>,
+}
+
+/// A move that is being cut into chords.
+#[derive(Debug)]
+struct Flattening {
+    of: Move,
+    /// Where the chords made so far end.
+    at: AxisVector,
+    done: u32,
+    count: u32,
+    error_mm: f64,
+}
+
+#[derive(Debug)]
+struct Chord {
+    start: AxisVector,
+    end: AxisVector,
+    rate: Rate,
+    tolerance_mm: f64,
+    /// Distance from the program, mm.
+    error_mm: f64,
+    line: u32,
+    events: Vec<Event>,
+}
+
+#[derive(Debug)]
+struct Open {
+    chord: Chord,
+    dropped: Dropped,
+    /// Where further lines begin, mm after its start.
+    lines: Vec<(f64, u32)>,
+}
+
+impl Chords {
+    pub(crate) const fn new(settings: Settings) -> Self {
+        Self {
+            settings,
+            flattening: None,
+            open: None,
+            ready: VecDeque::new(),
+        }
+    }
+
+    /// The next product, as far as the program is known.
+    pub(crate) fn next(&mut self, works: &mut Works) -> Option<Product> {
+        loop {
+            if let Some(product) = self.ready.pop_front() {
+                return Some(product);
+            }
+            if let Some(chord) = self.flattening.as_mut().and_then(Flattening::next) {
+                self.take(chord);
+                continue;
+            }
+            self.flattening = None;
+            match works.next()? {
+                Work::Move(of) => self.flattening = Some(Flattening::new(of)),
+                Work::Exact(item) => self.put(Product::Exact(item)),
+                Work::ExactEnd => self.put(Product::ExactEnd),
+                Work::Rest(rest) => self.put(Product::Rest(rest)),
+            }
+        }
+    }
+
+    /// Puts out something that ends a piece.
+    fn put(&mut self, product: Product) {
+        self.close();
+        self.ready.push_back(product);
+    }
+
+    fn take(&mut self, chord: Chord) {
+        if let Some(open) = &mut self.open
+            && (open.absorb(&chord) || open.merge(&chord))
+        {
+            return;
+        }
+        self.close();
+        self.open = Some(Open {
+            chord,
+            dropped: Dropped::default(),
+            lines: Vec::new(),
+        });
+    }
+
+    /// Nothing more is merged with the open chord.
+    fn close(&mut self) {
+        let Some(open) = self.open.take() else {
+            return;
+        };
+        let Open { chord, lines, .. } = open;
+        let segment = Segment::line(chord.start, chord.end);
+        let length_s = segment.length();
+        let rate = ProgrammedRate {
+            rate: chord.rate,
+            axes_v: axes_speed(&segment, &self.settings.limits),
+        };
+        let left_mm = chord.tolerance_mm - chord.error_mm;
+        let reference = Reference {
+            end: chord.end,
+            top_v: rate.axes_v,
+            tolerance_mm: left_mm,
+            tolerance_deg: left_mm,
+            tag: 0,
+        };
+        let part = Part {
+            line: chord.line,
+            lines,
+            rate,
+            length_s,
+            events: chord.events,
+        };
+        self.ready.push_back(Product::Piece(part, reference));
+    }
+}
+
+impl Open {
+    /// Takes in a chord too short for a piece: what moves too short to be made by themselves have left
+    /// at the end of a stretch.
+    fn absorb(&mut self, next: &Chord) -> bool {
+        let left = next.end - next.start;
+        let error_mm = self.chord.error_mm + tolerance_norm(&left);
+        let is_short = left.amax() < SHORTEST_MOVE_MM && next.events.is_empty();
+        if !is_short || error_mm > 2.0 * MERGING_R * self.chord.tolerance_mm {
+            return false;
+        }
+        self.tell_line(next);
+        self.chord.end = next.end;
+        self.chord.error_mm = error_mm;
+        true
+    }
+
+    /// Takes note of the line of a chord that is drawn together with this one.
+    fn tell_line(&mut self, next: &Chord) {
+        let chord = &self.chord;
+        let last_line = self.lines.last().map_or(chord.line, |&(_, line)| line);
+        if next.line != last_line {
+            let passed_s = feed_length(&(chord.end - chord.start));
+            self.lines.push((passed_s, next.line));
+        }
+    }
+
+    /// Draws the next chord together with this one, if both are driven alike and the tolerance
+    /// allows it.
+    fn merge(&mut self, next: &Chord) -> bool {
+        let chord = &self.chord;
+        let alike = chord.rate == next.rate
+            && !chord.rate.is_rapid()
+            && chord.tolerance_mm.total_cmp(&next.tolerance_mm).is_eq()
+            && next.events.is_empty();
+        let allowed_mm = MERGING_R * chord.tolerance_mm;
+        let base_mm = (chord.error_mm - self.dropped.error_mm).max(next.error_mm);
+        if !alike
+            || !self
+                .dropped
+                .extend(&chord.start, &chord.end, &next.end, allowed_mm)
+        {
+            return false;
+        }
+        self.tell_line(next);
+        let chord = &mut self.chord;
+        chord.end = next.end;
+        chord.error_mm = base_mm + self.dropped.error_mm;
+        true
+    }
+}
+
+impl Flattening {
+    fn new(of: Move) -> Self {
+        let (count, error_mm) = match &of.segment {
+            Segment::Line(_) => (1, 0.0),
+            Segment::Arc(arc) => cuts(arc, FLATTENING_R * of.tolerance_mm),
+            Segment::Curve(curve) => {
+                let second_k = tolerance_norm(&curve.bounds().d2);
+                let allowed_mm = FLATTENING_R * of.tolerance_mm;
+                let turn_rad = second_k * curve.length;
+                let (count, error_mm) = chords_of((curve.length, second_k, turn_rad), allowed_mm);
+                (count, error_mm + curve.error_mm)
+            }
+        };
+        Self {
+            at: of.segment.start(),
+            of,
+            done: 0,
+            count,
+            error_mm,
+        }
+    }
+
+    fn next(&mut self) -> Option<Chord> {
+        if self.done >= self.count {
+            return None;
+        }
+        self.done += 1;
+        let segment = &self.of.segment;
+        let end = if self.done == self.count {
+            segment.end()
+        } else {
+            let share = f64::from(self.done) / f64::from(self.count);
+            segment.jet(segment.length() * share).position
+        };
+        Some(Chord {
+            start: core::mem::replace(&mut self.at, end),
+            end,
+            rate: self.of.rate,
+            tolerance_mm: self.of.tolerance_mm,
+            error_mm: self.error_mm,
+            line: self.of.line,
+            events: core::mem::take(&mut self.of.events),
+        })
+    }
+}
+
+/// How many chords an arc is cut into, and how far they are from it at most: |q″|·h²/8 for chords of
+/// length h, between points of equal path position.
+fn cuts(arc: &Arc, allowed_mm: f64) -> (u32, f64) {
+    let length_s = arc.length();
+    let radius_mm = arc.start_radius().max(arc.end_radius());
+    let drift = (arc.end_radius() - arc.start_radius()).abs() / length_s;
+    let omega = arc.sweep_rad.abs() / length_s;
+    let second_k = radius_mm * omega * omega + 2.0 * drift * omega;
+    chords_of((length_s, second_k, arc.sweep_rad.abs()), allowed_mm)
+}
+
+/// The same from length, largest second derivative and turn.
+fn chords_of((length_s, second_k, turn_rad): (f64, f64, f64), allowed_mm: f64) -> (u32, f64) {
+    let by_error = length_s * (second_k / (8.0 * allowed_mm)).sqrt();
+    let by_turn = turn_rad / LARGEST_TURN_RAD;
+    let count = by_error.max(by_turn).ceil().clamp(1.0, 4e9);
+    let chord_s = length_s / count;
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped"
+    )]
+    let number = count as u32;
+    (number, second_k * chord_s * chord_s / 8.0)
+}
+
+#[cfg(test)]
+mod tests;

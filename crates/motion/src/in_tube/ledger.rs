@@ -1,0 +1,132 @@
+//! What the pieces of a stretch have to do with the program: their lines, rates and events, by tag.
+
+use crate::grid::Passing;
+use crate::programmed_rate::ProgrammedRate;
+use glidepath_program::Event;
+use glidepath_program::Override;
+use std::collections::VecDeque;
+
+/// A piece as the program sees it.
+#[derive(Debug, Clone)]
+pub(crate) struct Part {
+    /// Line of its start.
+    pub(crate) line: u32,
+    /// Where further lines begin, mm after its start, ascending.
+    pub(crate) lines: Vec<(f64, u32)>,
+    pub(crate) rate: ProgrammedRate,
+    pub(crate) length_s: f64,
+    /// Events that happen when it is entered, without stopping.
+    pub(crate) events: Vec<Event>,
+}
+
+/// The parts of a stretch that are not passed yet.
+#[derive(Debug)]
+pub(crate) struct Ledger {
+    parts: VecDeque<Part>,
+    /// Tag of the first of them, and where it begins.
+    first: u64,
+    first_s: f64,
+    /// Parts entered.
+    entered: u64,
+    wanted: Override,
+    /// The override told last. A lower one than wanted is never told.
+    told: Override,
+}
+
+impl Ledger {
+    pub(crate) const fn new(wanted: Override) -> Self {
+        Self {
+            parts: VecDeque::new(),
+            first: 0,
+            first_s: 0.0,
+            entered: 0,
+            wanted,
+            told: wanted,
+        }
+    }
+
+    /// Adds a part; returns its tag.
+    pub(crate) fn push(&mut self, part: Part) -> u64 {
+        self.parts.push_back(part);
+        self.first + self.parts.len() as u64 - 1
+    }
+
+    pub(crate) const fn set_override(&mut self, wanted: Override) {
+        self.wanted = wanted;
+        self.told = Override {
+            feed_r: self.told.feed_r.max(wanted.feed_r),
+            rapid_r: self.told.rapid_r.max(wanted.rapid_r),
+        };
+    }
+
+    /// The speed wanted on a part, mm/s; that of the first one kept for those before it.
+    pub(crate) fn rate_v(&self, tag: u64) -> f64 {
+        let index = usize::try_from(tag.saturating_sub(self.first)).unwrap_or(usize::MAX);
+        self.parts.get(index).map_or(f64::MIN_POSITIVE, |part| {
+            part.rate.under(self.wanted).min(part.rate.axes_v)
+        })
+    }
+
+    /// The motion comes to the part with a tag: forgets those before it, and tells each that is
+    /// entered, in order, with its events.
+    pub(crate) fn come_to(&mut self, tag: u64, mut enter: impl FnMut(Passing, &[Event])) {
+        loop {
+            if self.entered <= self.first
+                && let Some(part) = self.parts.front()
+            {
+                self.entered = self.first + 1;
+                enter(self.passing(self.first_s), &part.events);
+            }
+            if self.first >= tag || self.parts.len() <= 1 {
+                return;
+            }
+            if let Some(part) = self.parts.pop_front() {
+                self.first += 1;
+                self.first_s += part.length_s;
+            }
+        }
+    }
+
+    /// The place in the program at a path position of the first part, passed at a speed.
+    ///
+    /// A frame tells the override that belongs to its speed, so that whoever scales the speed by
+    /// commanded over planned override gets what is commanded while the speed is brought down.
+    pub(crate) fn place(&mut self, path_s: f64, path_v: f64) -> Passing {
+        if let Some(part) = self.parts.front() {
+            let (programmed_v, told, wanted) = match part.rate.rate.feed_v() {
+                Some(feed_v) => (feed_v, &mut self.told.feed_r, self.wanted.feed_r),
+                None => (
+                    part.rate.axes_v,
+                    &mut self.told.rapid_r,
+                    self.wanted.rapid_r,
+                ),
+            };
+            *told = told.min((path_v / programmed_v).max(wanted));
+        }
+        self.passing(path_s)
+    }
+
+    fn passing(&self, path_s: f64) -> Passing {
+        let Some(part) = self.parts.front() else {
+            return Passing::NONE;
+        };
+        let passed_s = path_s - self.first_s;
+        let before = part
+            .lines
+            .partition_point(|&(start_s, _)| start_s <= passed_s);
+        let line = match before.checked_sub(1).and_then(|last| part.lines.get(last)) {
+            Some(&(_, line)) => line,
+            None => part.line,
+        };
+        let rapid = part.rate.rate.is_rapid();
+        Passing {
+            line,
+            rapid,
+            planned_override: if rapid {
+                self.told.rapid_r
+            } else {
+                self.told.feed_r
+            },
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! The path of a stretch: straight pieces, each with a speed and a tolerance, which make the tube.
+
+mod direction;
+mod feed;
+mod reference;
+mod reference_path;
+
+pub(crate) use direction::{Bounds, directional};
+pub(crate) use feed::{counted_length, top_v};
+pub(crate) use reference::Reference;
+pub(crate) use reference_path::{Piece, Track};

@@ -1,0 +1,190 @@
+//! The reference path of a stretch: a ring of straight pieces, dropped when the motion is past them.
+//!
+//! Pieces are numbered from the start of the stretch, so that a number stays valid while the ring
+//! moves on. Pieces far shorter than the tolerance carry no direction worth following and would make
+//! the ring grow without bound: a vertex that lies within [`TINY_R`] tolerances of the vertex before
+//! it is held back until the path leaves that ball, and the tolerance is smaller by as much.
+//!
+//! ```text
+//!        held back:  · ·            a piece starts at the last vertex kept,
+//!   ────────────────●···────────●   and ends at the first one outside the ball
+//! ```
+
+use super::reference::Reference;
+use crate::feed_axes::counted_axes;
+use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW, feed_length};
+use std::collections::VecDeque;
+
+/// Radius of the ball, in tolerances, inside which vertices are drawn together.
+const TINY_R: f64 = 1e-3;
+/// Margin between the tolerance that is planned for and the one that is promised.
+const ROUNDING_R: f64 = 1e-7;
+
+/// One straight piece.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Piece {
+    pub(crate) start: AxisVector,
+    pub(crate) end: AxisVector,
+    /// Feed length, mm (degrees for a move of rotary axes alone), > 0.
+    pub(crate) length_s: f64,
+    /// Feed length from the start of the stretch to the start of the piece.
+    pub(crate) start_s: f64,
+    /// Path speed by the feed.
+    pub(crate) top_v: f64,
+    /// Tolerance of the linear axes, mm.
+    pub(crate) tolerance_mm: f64,
+    /// Tolerance of each rotary axis, degrees.
+    pub(crate) tolerance_deg: f64,
+    pub(crate) tag: u64,
+}
+
+impl Piece {
+    /// How far a point is from another in tolerances of this piece: the largest over the groups.
+    pub(crate) fn distance_r(&self, displacement: &AxisVector) -> f64 {
+        let norm = |axes: core::ops::Range<usize>| {
+            axes.map(|i| displacement[i] * displacement[i])
+                .sum::<f64>()
+                .sqrt()
+        };
+        let linear = norm(LINEAR_XYZ).max(norm(UVW)) / self.tolerance_mm;
+        let rotary = ROTARY_ABC
+            .map(|i| displacement[i].abs())
+            .fold(0.0, f64::max);
+        linear.max(rotary / self.tolerance_deg)
+    }
+}
+
+impl Piece {
+    /// Speed along the path in the sense of the feed.
+    pub(crate) fn path_v(&self, velocity: &AxisVector) -> f64 {
+        let counted = counted_axes(&(self.end - self.start));
+        counted
+            .map(|i| velocity[i] * velocity[i])
+            .sum::<f64>()
+            .sqrt()
+    }
+}
+
+/// The part of the path that is known and not yet passed.
+#[derive(Debug)]
+pub(crate) struct Track {
+    pieces: VecDeque<Piece>,
+    /// Number of the first piece of the ring.
+    base: usize,
+    /// The last vertex kept, and feed length up to it.
+    corner: AxisVector,
+    corner_s: f64,
+    /// A piece that has not left the ball round the last vertex.
+    held: Option<Reference>,
+    is_finished: bool,
+}
+
+impl Track {
+    pub(crate) fn new(start: AxisVector) -> Self {
+        Self {
+            pieces: VecDeque::new(),
+            base: 0,
+            corner: start,
+            corner_s: 0.0,
+            held: None,
+            is_finished: false,
+        }
+    }
+
+    /// The path goes on with a piece.
+    pub(crate) fn push(&mut self, piece: Reference) {
+        let tolerances_r = self.reach_r(&piece);
+        self.held = Some(piece);
+        if tolerances_r > TINY_R {
+            self.keep_held();
+        }
+    }
+
+    /// Distance of the end of a piece from the last vertex kept, in tolerances.
+    fn reach_r(&self, piece: &Reference) -> f64 {
+        let displacement = piece.end - self.corner;
+        self.as_piece(piece).distance_r(&displacement)
+    }
+
+    fn as_piece(&self, piece: &Reference) -> Piece {
+        let keep_r = 1.0 - TINY_R - ROUNDING_R;
+        Piece {
+            start: self.corner,
+            end: piece.end,
+            length_s: feed_length(&(piece.end - self.corner)),
+            start_s: self.corner_s,
+            top_v: piece.top_v,
+            tolerance_mm: piece.tolerance_mm * keep_r,
+            tolerance_deg: piece.tolerance_deg * keep_r,
+            tag: piece.tag,
+        }
+    }
+
+    fn keep_held(&mut self) {
+        let Some(reference) = self.held.take() else {
+            return;
+        };
+        let piece = self.as_piece(&reference);
+        if piece.length_s > 0.0 {
+            self.corner = piece.end;
+            self.corner_s += piece.length_s;
+            self.pieces.push_back(piece);
+        }
+    }
+
+    /// The path ends with what has been pushed.
+    pub(crate) fn finish(&mut self) {
+        self.keep_held();
+        self.is_finished = true;
+    }
+
+    /// Number of the piece after the last one known.
+    pub(crate) fn end(&self) -> usize {
+        self.base + self.pieces.len()
+    }
+
+    /// Piece `index`, if it is known and not yet dropped.
+    pub(crate) fn get(&self, index: usize) -> Option<&Piece> {
+        self.pieces.get(index.checked_sub(self.base)?)
+    }
+
+    /// True if the path is known to end with piece `index`.
+    pub(crate) fn is_last(&self, index: usize) -> bool {
+        self.is_finished && index + 1 == self.end()
+    }
+
+    /// True if all is known that the motion along piece `index` depends on: the piece, and the next
+    /// one or that there is none.
+    pub(crate) fn is_settled(&self, index: usize) -> bool {
+        index + 1 < self.end() || self.is_last(index)
+    }
+
+    /// True if the path is known to end where it starts.
+    pub(crate) fn is_empty_and_finished(&self) -> bool {
+        self.is_finished && self.end() == 0
+    }
+
+    /// The largest speed of the ring.
+    pub(crate) fn top_v(&self) -> f64 {
+        self.pieces
+            .iter()
+            .fold(0.0, |most, piece| most.max(piece.top_v))
+    }
+
+    /// Drops the pieces before `index`.
+    pub(crate) fn forget_before(&mut self, index: usize) {
+        while self.base < index && self.pieces.pop_front().is_some() {
+            self.base += 1;
+        }
+    }
+
+    /// Gives every piece of the ring another speed.
+    pub(crate) fn set_rates(&mut self, mut rate_of: impl FnMut(u64) -> f64) {
+        for piece in &mut self.pieces {
+            piece.top_v = rate_of(piece.tag);
+        }
+        if let Some(held) = &mut self.held {
+            held.top_v = rate_of(held.tag);
+        }
+    }
+}

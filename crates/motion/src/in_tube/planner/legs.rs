@@ -1,0 +1,143 @@
+//! Legs from vertex to vertex: what runs where no window is found.
+//!
+//! Legs follow each other without waiting for the next period, so that a chain of them takes no longer
+//! than the sum of their times; only where chords between two periods would cut off too much of a
+//! vertex does the motion rest at it, until the next period or for one more.
+//!
+//! ```text
+//!        vertex         A chord that begins before the vertex ends up to a period after it: where
+//!   ──────┬●            periods may end elsewhere, because time runs slower, the vertex is cut off
+//!          ╲│           by chords of this period and of the next one. So a leg is begun only if it
+//!           │           can be followed for some more periods, or to its end and rest.
+//! ```
+
+use super::state::{Force, PlannerState};
+use crate::in_tube::fallback::StopLeg;
+use crate::in_tube::period::{Period, State};
+
+/// Periods that are followed of a leg before it is begun: chords that begin before it end by the
+/// first, and what they may lose depends on the last two.
+const AHEAD: usize = 2;
+
+/// Where a chain of legs is.
+#[derive(Debug, Clone)]
+struct Stance {
+    leg: StopLeg,
+    leg_t: f64,
+    /// At rest at the end of the leg until the next period.
+    is_resting: bool,
+    /// Legs that are to end before a window is tried.
+    wait: usize,
+}
+
+impl Stance {
+    fn period(&self) -> Period {
+        if self.leg_t >= self.leg.duration_t() {
+            Period::rest(self.leg.to)
+        } else {
+            self.leg.at(self.leg_t)
+        }
+    }
+
+    /// So much later, at the end of the leg if it is over by then.
+    fn later(&self, t: f64) -> Self {
+        let leg_t = self.leg_t + t;
+        Self {
+            is_resting: leg_t >= self.leg.duration_t(),
+            leg_t,
+            ..self.clone()
+        }
+    }
+}
+
+impl PlannerState {
+    /// One period of straight legs from vertex to vertex. `None` if more of the path is needed.
+    pub(crate) fn next_of_legs(&mut self) -> Option<Period> {
+        let Force::Legs {
+            leg: Some(leg),
+            leg_t,
+            wait,
+            ..
+        } = &self.force
+        else {
+            return None;
+        };
+        let now = Stance {
+            leg: StopLeg::clone(leg),
+            leg_t: *leg_t,
+            is_resting: false,
+            wait: *wait,
+        };
+        let passed = self.passed_on(&now)?;
+        let next = self.checked(now, passed);
+        let period = next.period();
+        self.follower.end = next.leg.piece + 1;
+        let way = (&self.track, &mut self.follower);
+        let is_kept = self
+            .history
+            .follow(&self.limits, self.period_t, way, &State::from(&period));
+        // A leg begun before the rates were lowered is driven to its end as it was planned: what is
+        // only too fast has been followed all the same.
+        if !is_kept && self.history.last() != period.position {
+            return None;
+        }
+        self.is_over = next.is_resting
+            && self.track.is_last(next.leg.piece)
+            && self.follower.place.is_at_end(&self.track);
+        self.force = Force::Legs {
+            leg_t: if next.is_resting { 0.0 } else { next.leg_t },
+            leg: Some(Box::new(next.leg)).filter(|_| !next.is_resting),
+            wait: next.wait,
+            is_stale: false,
+        };
+        Some(period)
+    }
+
+    /// A period later, past every vertex on the way. `None` if more of the path is needed.
+    fn passed_on(&mut self, now: &Stance) -> Option<Stance> {
+        let mut next = now.later(self.period_t);
+        while next.is_resting && !self.track.is_last(next.leg.piece) {
+            let leg_t = next.leg_t - next.leg.duration_t();
+            let leg = self.leg_from(next.leg.to, next.leg.piece + 1)?;
+            if let Some(rival) = &mut self.rival {
+                rival.end_t(&self.limits, &self.track, leg.piece);
+            }
+            next = Stance {
+                is_resting: leg_t >= leg.duration_t(),
+                leg,
+                leg_t,
+                wait: next.wait.saturating_sub(1),
+            };
+        }
+        Some(next)
+    }
+
+    /// The furthest of what can be next: past the vertices, at rest at the first one, or still at rest.
+    fn checked(&self, now: Stance, passed: Stance) -> Stance {
+        let begins = now.leg_t <= 0.0 || passed.leg.piece != now.leg.piece;
+        if !begins || self.can_go_on(&passed) {
+            return passed;
+        }
+        let later = now.later(self.period_t);
+        // What has rested for long enough can begin any leg, and a leg once begun can be ended.
+        if now.leg_t > 0.0 || self.history.has_rested() || self.can_go_on(&later) {
+            later
+        } else {
+            now
+        }
+    }
+
+    /// True if a leg can be followed that has been begun in the next period.
+    fn can_go_on(&self, next: &Stance) -> bool {
+        let mut history = self.history.clone();
+        let mut follower = self.follower.to(next.leg.piece + 1);
+        let mut next = next.clone();
+        (0..=AHEAD).all(|_| {
+            let state = State::from(&next.period());
+            let way = (&self.track, &mut follower);
+            let is_kept = history.follow(&self.limits, self.period_t, way, &state);
+            next = next.later(self.period_t);
+            is_kept || history.last() == state.position
+        })
+    }
+}

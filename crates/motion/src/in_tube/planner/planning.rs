@@ -1,0 +1,382 @@
+//! What moves the machine next: a leg, a window, or what is left of the last window.
+//!
+//! ```text
+//!            ┌────────── leg from vertex to vertex ◄── at rest
+//!            ▼ shortly before it would brake
+//!     window from its state ──► ahead of the leg: window ──► window ──► …
+//!                          └──► else: the leg goes on, and some more legs follow
+//! ```
+//!
+//! Whatever is taken keeps the lead over the rival of [`super::lead`]: a leg does by itself, a window
+//! is taken if it leads by more than what would be done without it.
+
+use super::state::{Force, MOST_LEGS, PlannerState};
+use crate::in_tube::fallback::StopLeg;
+use crate::in_tube::fallback::{Rival, TRUST_PERIODS, arrival_t};
+use crate::in_tube::path::Piece;
+use crate::in_tube::path::{Bounds, directional};
+use crate::in_tube::period::State;
+use crate::in_tube::window::Grid;
+use crate::in_tube::window::{FIRST_WORK, PLAN_WORK};
+use crate::in_tube::window::{Motion, Setting, View};
+use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC, feed_length};
+
+/// Intervals before a leg brakes at which a window is tried.
+const TRIAL_INTERVALS: f64 = 4.0;
+/// Share of a window that is worth handing out by itself.
+const LEAST_COMMIT: usize = 4;
+/// A window that would have to stop in less than one part in so many of the way that takes is not tried.
+const FAR_TOO_FAST: f64 = 2.0;
+
+/// A window that may be taken.
+struct Candidate {
+    motion: Motion,
+    /// Its lead, from the next window on.
+    lead_t: Option<f64>,
+    /// Periods that can be handed out without falling behind: up to the next window, or less.
+    commit: usize,
+}
+
+impl PlannerState {
+    /// True if a window is to be tried before the leg under way goes on.
+    pub(crate) fn is_trial_due(&self) -> bool {
+        match (&self.force, &self.grid) {
+            (Force::Legs { is_stale: true, .. }, _) => true,
+            (
+                Force::Legs {
+                    leg: Some(leg),
+                    leg_t,
+                    wait: 0,
+                    ..
+                },
+                Some(grid),
+            ) => leg.eager_t() - leg_t <= TRIAL_INTERVALS * grid.knot_t,
+            _ => false,
+        }
+    }
+
+    /// Plans what moves the machine next. `None` if more of the path is needed, or none is left.
+    pub(crate) fn plan(&mut self) -> Option<()> {
+        let grid = match self.grid {
+            Some(grid) => grid,
+            None => wanted_grid(self, self.track.get(0)?),
+        };
+        self.grid = Some(grid);
+        if self.is_at_rest(&grid) {
+            return self.set_out();
+        }
+        let view = self.view(&grid)?;
+        if let Force::Legs {
+            wait,
+            is_stale: false,
+            ..
+        } = &mut self.force
+            && view.pieces.end - self.progress.0 == 1
+        {
+            // Nothing is faster along the last piece.
+            *wait = usize::MAX;
+            return Some(());
+        }
+        let tail = self.tail(&grid, view.intervals);
+        let best = self.best_window(&grid, &view, &tail);
+        // Never less than before: what is left of the last window may go as far as that one saw.
+        self.follower.end = self.follower.end.max(view.pieces.end);
+        if let Some(Candidate { motion, commit, .. }) = best {
+            self.legs = 1;
+            self.force = Force::Window {
+                points: motion.points,
+                is_end: motion.is_end,
+                done: 0,
+                commit,
+            };
+            return Some(());
+        }
+        match &mut self.force {
+            Force::Legs { wait, is_stale, .. } => {
+                *is_stale = false;
+                *wait = self.legs;
+                self.legs = (2 * self.legs).min(MOST_LEGS);
+            }
+            _ => {
+                // From a little further on a window may be found, before this one has slowed down.
+                let soon = commit(&grid, &view) / LEAST_COMMIT;
+                self.force = Force::Window {
+                    commit: soon.next_multiple_of(grid.periods).max(grid.periods),
+                    points: tail,
+                    is_end: false,
+                    done: 0,
+                };
+            }
+        }
+        Some(())
+    }
+
+    /// The window to take, if there is one that is better than to go on without.
+    fn best_window(&mut self, grid: &Grid, view: &View, tail: &[AxisVector]) -> Option<Candidate> {
+        let stay_t = self.stay_lead_t(grid);
+        let work = self.optimisers.work();
+        let window = self.try_window(grid, view, tail, FIRST_WORK);
+        let is_behind = |window: &Candidate| window.lead_t.is_none_or(|lead_t| lead_t < 0.0);
+        let may_halt = matches!(self.force, Force::Window { .. }) && self.rival.is_some();
+        if !may_halt || window.as_ref().is_some_and(|window| !is_behind(window)) {
+            return window.filter(|window| window.lead_t >= stay_t);
+        }
+        let usual = commit(grid, view);
+        let is_early =
+            |window: &Candidate| window.commit < usual && LEAST_COMMIT * window.commit >= usual;
+        if window.as_ref().is_some_and(is_early) {
+            // It is too early to know.
+            return window;
+        }
+        let left_work = PLAN_WORK.saturating_sub(self.optimisers.work() - work);
+        let halt = self.try_halt(grid, view, tail, left_work);
+        let mut all = [window, halt].into_iter().flatten();
+        let first = all.next()?;
+        let best = all.fold(first, |a, b| if b.lead_t > a.lead_t { b } else { a });
+        Some(best).filter(|best| best.lead_t >= stay_t)
+    }
+
+    /// From rest: a leg to the next vertex.
+    fn set_out(&mut self) -> Option<()> {
+        if self.is_at_end() {
+            self.is_over = true;
+            return None;
+        }
+        let leg = self.leg_from(self.history.last(), self.follower.place.last())?;
+        if self.rival.is_none() {
+            let end_t = self.clock_t() + leg.duration_t();
+            self.rival = Some(Rival::new(leg.piece, end_t));
+        }
+        self.force = Force::Legs {
+            leg: Some(Box::new(leg)),
+            leg_t: 0.0,
+            wait: 0,
+            is_stale: false,
+        };
+        Some(())
+    }
+
+    fn view(&self, grid: &Grid) -> Option<View> {
+        let first = self.follower.first();
+        View::new(&self.limits, &self.track, grid, first, self.progress)
+    }
+
+    /// A window, and what it is worth.
+    fn try_window(
+        &mut self,
+        grid: &Grid,
+        view: &View,
+        tail: &[AxisVector],
+        most_work: usize,
+    ) -> Option<Candidate> {
+        let setting = Setting {
+            limits: &self.limits,
+            period_t: self.period_t,
+            grid,
+            track: &self.track,
+            history: &self.history,
+            follower: &self.follower,
+            progress: self.progress,
+            end: view.pieces.end,
+            commit: commit(grid, view),
+            keeps_rates: !matches!(self.force, Force::Legs { is_stale: true, .. }),
+            most_work,
+        };
+        let motion = self.optimisers.attempt(&setting, view, tail)?;
+        Some(self.judge(grid, view, motion))
+    }
+
+    /// A window that rests at the end of the piece the motion is on, if that is in view.
+    fn try_halt(
+        &mut self,
+        grid: &Grid,
+        view: &View,
+        tail: &[AxisVector],
+        most_work: usize,
+    ) -> Option<Candidate> {
+        let end = self.follower.place.last() + 1;
+        if end >= view.pieces.end || !self.may_rest_before(end) {
+            return None;
+        }
+        let view = View {
+            pieces: view.pieces.start..end,
+            is_halt: true,
+            ..*view
+        };
+        self.try_window(grid, &view, tail, most_work)
+    }
+
+    /// False if the motion is far too fast to rest at the end of the piece before `end`.
+    fn may_rest_before(&self, end: usize) -> bool {
+        let Some(piece) = self.track.get(end - 1) else {
+            return false;
+        };
+        let velocity = self.history.velocity();
+        let speed_v = feed_length(velocity);
+        if speed_v <= 0.0 {
+            return true;
+        }
+        let Bounds { path, .. } = directional(&self.limits, &(velocity / speed_v));
+        let stop_s = 0.5 * speed_v * speed_v / path.accel_a;
+        let room = piece.tolerance_mm.max(piece.tolerance_deg);
+        let rest_s = feed_length(&(piece.end - self.history.last()));
+        stop_s <= FAR_TOO_FAST * (rest_s + room)
+    }
+
+    /// What a motion from now on is worth.
+    fn judge(&mut self, grid: &Grid, view: &View, motion: Motion) -> Candidate {
+        let mut history = self.history.clone();
+        let mut follower = self.follower.to(view.pieces.end);
+        let periods = grid.periods_in(motion.points.len() - 3);
+        let usual = if motion.is_rest {
+            periods
+        } else {
+            commit(grid, view).min(periods)
+        };
+        let mut candidate = Candidate {
+            motion,
+            lead_t: None,
+            commit: usual,
+        };
+        let mut safe = None;
+        for period in 1..=periods {
+            let points = &candidate.motion.points;
+            let next = grid.state(points, period);
+            let way = (&self.track, &mut follower);
+            history.follow(&self.limits, self.period_t, way, &next);
+            let Some(mut lead_t) = self.state_lead_t(follower.place.last(), &next, period) else {
+                continue;
+            };
+            match (period == periods, candidate.motion.is_end) {
+                // A rival at the end of the path rests there until the period is over, too.
+                (true, true) => lead_t += (1.0 - 1e-6) * self.period_t,
+                (true, false) => {}
+                _ => lead_t -= TRUST_PERIODS * self.period_t,
+            }
+            if period >= usual {
+                candidate.lead_t = Some(candidate.lead_t.map_or(lead_t, |most| most.max(lead_t)));
+            } else if lead_t >= 0.0 && period % grid.periods == 0 {
+                safe = Some(period);
+            }
+        }
+        if let Some(safe) = safe.filter(|_| candidate.lead_t.is_none_or(|lead_t| lead_t < 0.0)) {
+            candidate.commit = safe;
+        }
+        candidate
+    }
+
+    /// The lead of a state some periods from now.
+    fn state_lead_t(&mut self, index: usize, state: &State, period: usize) -> Option<f64> {
+        let piece = self.track.get(index)?;
+        let arrival_t = arrival_t(&self.limits, piece, state)?;
+        let rival = self.rival.as_mut()?;
+        let rival_t = rival.end_t(&self.limits, &self.track, index)?;
+        Some(rival_t - self.periods_t(self.clock + period) - arrival_t)
+    }
+
+    /// The lead if no window is found: of the leg, or of the rest that the last window ends with.
+    fn stay_lead_t(&mut self, grid: &Grid) -> Option<f64> {
+        if let Force::Legs {
+            leg: Some(leg),
+            leg_t,
+            ..
+        } = &self.force
+        {
+            let end_t = self.clock_t() - leg_t + leg.duration_t();
+            let rival = self.rival.as_mut()?;
+            let rival_t = rival.end_t(&self.limits, &self.track, leg.piece)?;
+            return Some(rival_t - end_t);
+        }
+        let points = self.tail(grid, 0);
+        let view = self.view(grid)?;
+        let rest = Motion {
+            points,
+            is_rest: true,
+            is_end: false,
+        };
+        self.judge(grid, &view, rest).lead_t
+    }
+
+    /// True if nothing moves or will move without a new plan.
+    fn is_at_rest(&self, grid: &Grid) -> bool {
+        match &self.force {
+            Force::Nothing => true,
+            Force::Legs { leg, .. } => leg.is_none(),
+            Force::Window { .. } => {
+                let tail = self.tail(grid, 0);
+                tail.iter().all(|point| *point == tail[0])
+            }
+        }
+    }
+
+    /// True if the motion handed out so far is exactly at the end of the path.
+    fn is_at_end(&self) -> bool {
+        let place = &self.follower.place;
+        let end = self.track.get(place.last()).map(|piece| piece.end);
+        place.is_at_end(&self.track) && end == Some(self.history.last())
+    }
+
+    /// The motion from the present state on, as control points: what is left of the last window down
+    /// to its rest, or so many intervals of the leg under way, which need not be a motion.
+    fn tail(&self, grid: &Grid, intervals: usize) -> Vec<AxisVector> {
+        match &self.force {
+            Force::Window { points, done, .. } => {
+                let passed = done * grid.knots / grid.periods;
+                let last = points.len() - 1;
+                (passed..passed.max(last - 2) + 3)
+                    .map(|k| points[k.min(last)])
+                    .collect()
+            }
+            Force::Legs {
+                leg: Some(leg),
+                leg_t,
+                ..
+            } => leg_tail(leg, *leg_t, grid, intervals),
+            _ => vec![self.history.last(); 4],
+        }
+    }
+}
+
+/// Periods after which the next window starts.
+fn commit(grid: &Grid, view: &View) -> usize {
+    grid.periods_in(grid.whole_periods(view.intervals / 3).max(grid.knots))
+}
+
+/// Control points of a leg from some time on: exact at that time, positions at the knots after it.
+fn leg_tail(leg: &StopLeg, leg_t: f64, grid: &Grid, intervals: usize) -> Vec<AxisVector> {
+    let h = grid.knot_t;
+    let state = leg.at(leg_t);
+    let bend = state.acceleration * (h * h / 6.0);
+    let step = state.velocity * h;
+    let mut points = vec![
+        state.position - step + bend * 2.0,
+        state.position - bend,
+        state.position + step + bend * 2.0,
+    ];
+    #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+    points.extend((3..=intervals.max(6)).map(|k| leg.position(leg_t + (k - 1) as f64 * h)));
+    let last = points[points.len() - 1];
+    points.extend([last; 2]);
+    points
+}
+
+/// Half the time in which jerk strays by a tolerance: the grid on which corners are still resolved.
+fn wanted_grid(planner: &PlannerState, piece: &Piece) -> Grid {
+    let limits = &planner.limits;
+    let moved = piece.end - piece.start;
+    let least_of = |of_axis: &dyn Fn(usize) -> f64| {
+        let moving = (0..AXES).filter(|&i| moved[i] != 0.0);
+        moving.map(of_axis).fold(f64::INFINITY, f64::min)
+    };
+    let wanted_t = least_of(&|i| {
+        let is_rotary = ROTARY_ABC.contains(&i);
+        let tolerance = if is_rotary {
+            piece.tolerance_deg
+        } else {
+            piece.tolerance_mm
+        };
+        0.5 * (tolerance / limits.jerk[i]).cbrt()
+    });
+    let ramp_t = least_of(&|i| limits.acceleration[i] / limits.jerk[i]);
+    Grid::new(planner.period_t, wanted_t, ramp_t)
+}

@@ -1,0 +1,97 @@
+//! What is known of a stretch: its path, where the motion is, and what moves the machine.
+
+use crate::in_tube::fallback::Rival;
+use crate::in_tube::fallback::StopLeg;
+use crate::in_tube::path::Track;
+use crate::in_tube::verify::History;
+use crate::in_tube::verify::{Follower, Place};
+use crate::in_tube::window::Grid;
+use crate::in_tube::window::Optimisers;
+use glidepath_geometry::AxisVector;
+use glidepath_program::Limits;
+
+/// Most legs from vertex to vertex before windows are tried again.
+pub(crate) const MOST_LEGS: usize = 8;
+
+/// What moves the machine.
+#[derive(Debug)]
+pub(crate) enum Force {
+    /// At rest.
+    Nothing,
+    /// Legs from vertex to vertex: the one under way, the time since its start, how many are to end
+    /// before a window is tried; rates have changed since its start.
+    Legs {
+        leg: Option<Box<StopLeg>>,
+        leg_t: f64,
+        wait: usize,
+        is_stale: bool,
+    },
+    /// A window that ends at rest, periods of it that have been handed out and that will be.
+    Window {
+        points: Vec<AxisVector>,
+        is_end: bool,
+        done: usize,
+        commit: usize,
+    },
+}
+
+/// A stretch that is being planned.
+#[derive(Debug)]
+pub(crate) struct PlannerState {
+    pub(crate) limits: Limits,
+    pub(crate) period_t: f64,
+    pub(crate) track: Track,
+    /// Positions handed out last, and where on the path the last one is.
+    pub(crate) history: History,
+    pub(crate) follower: Follower,
+    pub(crate) progress: (usize, f64),
+    pub(crate) force: Force,
+    pub(crate) grid: Option<Grid>,
+    pub(crate) optimisers: Optimisers,
+    /// Legs to run when the next window is refused: the more, the more have been.
+    pub(crate) legs: usize,
+    /// Stopping at every vertex; `None` after rates have changed, until the next rest.
+    pub(crate) rival: Option<Rival>,
+    /// Periods handed out.
+    pub(crate) clock: usize,
+    pub(crate) is_over: bool,
+}
+
+impl PlannerState {
+    /// At rest at `start`, nothing known of the path; period in seconds.
+    pub(crate) fn new(limits: &Limits, period_t: f64, start: AxisVector) -> Self {
+        Self {
+            limits: *limits,
+            period_t,
+            track: Track::new(start),
+            history: History::new(start),
+            follower: Follower::new(Place::start_of(0), 0),
+            progress: (0, 0.0),
+            force: Force::Nothing,
+            grid: None,
+            optimisers: Optimisers::default(),
+            legs: 1,
+            rival: None,
+            clock: 0,
+            is_over: false,
+        }
+    }
+
+    /// The leg to the end of the first piece from `index` on that does not end here.
+    pub(crate) fn leg_from(&self, from: AxisVector, index: usize) -> Option<StopLeg> {
+        (index..self.track.end())
+            .take_while(|&index| self.track.is_settled(index))
+            .find_map(|index| StopLeg::new(&self.limits, from, index, self.track.get(index)?))
+    }
+
+    /// Time since the start of the stretch.
+    pub(crate) fn clock_t(&self) -> f64 {
+        self.periods_t(self.clock)
+    }
+
+    pub(crate) fn periods_t(&self, periods: usize) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "exact for any stretch")]
+        let periods = periods as f64;
+        periods * self.period_t
+    }
+}

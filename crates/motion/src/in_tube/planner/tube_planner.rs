@@ -1,0 +1,132 @@
+//! The planner of a stretch, as the engine uses it.
+
+use super::state::{Force, PlannerState};
+use crate::in_tube::path::Reference;
+use crate::in_tube::period::Period;
+use crate::in_tube::verify::FEED_SLACK;
+use glidepath_geometry::AxisVector;
+use glidepath_program::Limits;
+
+/// Plans one stretch of motion between two rests.
+#[derive(Debug)]
+pub(crate) struct WindowPlanner {
+    pub(crate) state: PlannerState,
+}
+
+impl WindowPlanner {
+    /// A planner for a machine at rest at `start`, period in seconds.
+    pub(crate) fn new(limits: &Limits, period_t: f64, start: AxisVector) -> Self {
+        Self {
+            state: PlannerState::new(limits, period_t, start),
+        }
+    }
+
+    /// The path goes on. A piece of length zero counts for nothing.
+    ///
+    /// Where merging has left out vertices, the path with them and the path without must be within
+    /// some distance of each other both ways and in order, and the tolerance be smaller by that
+    /// distance: then each vertex that was left out is within the full tolerance of the motion.
+    pub(crate) fn push(&mut self, piece: Reference) {
+        self.state.track.push(piece);
+    }
+
+    /// The path ends with what has been pushed, at rest.
+    pub(crate) fn finish(&mut self) {
+        self.state.track.finish();
+    }
+
+    /// True when the end of the path has been reached and handed out, or there is no path.
+    pub(crate) fn is_over(&self) -> bool {
+        self.state.is_over || self.state.track.is_empty_and_finished()
+    }
+
+    /// Other speeds for the path from here on, by tag; the motion is planned again from the state
+    /// handed out last.
+    pub(crate) fn set_rates(&mut self, rate_of: impl FnMut(u64) -> f64) {
+        let before_v = self.state.track.top_v();
+        self.state.track.set_rates(rate_of);
+        self.state.history.overspeed_v = self.state.history.overspeed_v.max(before_v * FEED_SLACK);
+        self.state.rival = None;
+        match (&mut self.state.force, &self.state.grid) {
+            (
+                Force::Window {
+                    is_end,
+                    done,
+                    commit,
+                    ..
+                },
+                Some(grid),
+            ) => {
+                *is_end = false;
+                *commit = (*commit).min(done.div_ceil(grid.periods) * grid.periods);
+            }
+            (Force::Legs { is_stale, .. }, _) => *is_stale = true,
+            _ => {}
+        }
+    }
+
+    /// The state one period further, if what is known of the path settles it.
+    ///
+    /// `None`: more of the path is needed, or the motion is at rest at its end ([`Self::is_over`]).
+    pub(crate) fn next_period(&mut self) -> Option<Period> {
+        if self.state.is_over {
+            return None;
+        }
+        let mut period = loop {
+            match &self.state.force {
+                Force::Window { done, commit, .. } if done < commit => {
+                    break self.next_of_window()?;
+                }
+                Force::Legs { leg: Some(_), .. } if !self.state.is_trial_due() => {
+                    break self.state.next_of_legs()?;
+                }
+                _ => self.state.plan()?,
+            }
+        };
+        self.state.clock += 1;
+        let place = &self.state.follower.place;
+        self.state.progress =
+            place.nearest(&self.state.track, &period.position, self.state.progress);
+        if let Some(piece) = self.state.track.get(self.state.progress.0) {
+            period.path_s = piece.start_s + piece.length_s * self.state.progress.1;
+            period.tag = piece.tag;
+            period.path_v = piece.path_v(&period.velocity);
+        }
+        let kept = self.state.follower.first().min(self.state.progress.0);
+        self.state.track.forget_before(kept);
+        if let Some(rival) = &mut self.state.rival {
+            rival.forget_before(kept);
+        }
+        period.rest_at_end = self.state.is_over;
+        Some(period)
+    }
+
+    /// One period of a window.
+    fn next_of_window(&mut self) -> Option<Period> {
+        let Force::Window {
+            points,
+            is_end,
+            done,
+            ..
+        } = &mut self.state.force
+        else {
+            return None;
+        };
+        let grid = self.state.grid.as_ref()?;
+        *done += 1;
+        let state = grid.state(points, *done);
+        self.state.is_over = *is_end && *done == grid.periods_in(points.len() - 3);
+        let way = (&self.state.track, &mut self.state.follower);
+        let is_kept =
+            self.state
+                .history
+                .follow(&self.state.limits, self.state.period_t, way, &state);
+        // Too fast for a rate that was lowered meanwhile is all that it may be.
+        let is_followed = is_kept || self.state.history.last() == state.position;
+        is_followed.then_some(Period {
+            velocity: state.velocity,
+            acceleration: state.acceleration,
+            ..Period::rest(state.position)
+        })
+    }
+}

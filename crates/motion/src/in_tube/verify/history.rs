@@ -1,0 +1,107 @@
+//! The last word on a motion before it is handed out.
+//!
+//! Only positions at the periods count: differences of first, second and third order against the
+//! limits of every axis, the feed, and the way along the path ([`super::follow`]).
+
+use super::between_periods::Bend;
+use super::follow::Follower;
+use crate::in_tube::path::Track;
+use crate::in_tube::path::counted_length;
+use crate::in_tube::period::State;
+use glidepath_geometry::{AXES, AxisVector, feed_length};
+use glidepath_program::Limits;
+
+/// A limit counts as kept up to this factor.
+const SLACK: f64 = 1.0 + 5e-7;
+/// The feed counts as kept up to this factor.
+pub(crate) const FEED_SLACK: f64 = 1.0 + 5e-4;
+
+/// The last positions handed out.
+#[derive(Debug, Clone)]
+pub(crate) struct History {
+    /// Newest first.
+    recent: [AxisVector; 3],
+    state: State,
+    /// Speed that is allowed although the feed is less: what it was before a change of rates. Zero
+    /// once the motion has slowed down.
+    pub(crate) overspeed_v: f64,
+}
+
+impl History {
+    /// At rest.
+    pub(crate) fn new(position: AxisVector) -> Self {
+        Self {
+            recent: [position; 3],
+            state: State::rest(position),
+            overspeed_v: 0.0,
+        }
+    }
+
+    pub(crate) fn last(&self) -> AxisVector {
+        self.recent[0]
+    }
+
+    pub(crate) const fn velocity(&self) -> &AxisVector {
+        &self.state.velocity
+    }
+
+    /// True if no chord of a period begins before the present rest.
+    pub(crate) fn has_rested(&self) -> bool {
+        self.recent
+            .iter()
+            .all(|position| *position == self.recent[0])
+    }
+
+    /// True if every axis keeps its limits on the way to the next position.
+    pub(crate) fn allows(&self, limits: &Limits, period_t: f64, next: &AxisVector) -> bool {
+        let t = period_t;
+        let [p1, p2, p3] = &self.recent;
+        (0..AXES).all(|i| {
+            let magnitude = next[i].abs().max(p3[i].abs());
+            let rounding = 0.5 * f64::EPSILON * magnitude;
+            let d1 = next[i] - p1[i];
+            let d2 = d1 - (p1[i] - p2[i]);
+            let d3 = d2 - (p1[i] - 2.0 * p2[i] + p3[i]);
+            d1.abs() <= limits.velocity[i] * t * SLACK + 2.0 * rounding
+                && d2.abs() <= limits.acceleration[i] * t * t * SLACK + 4.0 * rounding
+                && d3.abs() <= limits.jerk[i] * t * t * t * SLACK + 8.0 * rounding
+        })
+    }
+
+    /// Follows a period along the path: limits, tolerance, feed. False leaves all as it was.
+    pub(crate) fn follow(
+        &mut self,
+        limits: &Limits,
+        period_t: f64,
+        (track, follower): (&Track, &mut Follower),
+        next: &State,
+    ) -> bool {
+        let from = follower.place.first;
+        let position = next.position;
+        let bend = Bend {
+            from: &self.state,
+            to: next,
+            period_t,
+        };
+        if !self.allows(limits, period_t, &position) || !follower.step(track, &bend) {
+            return false;
+        }
+        let step = position - self.recent[0];
+        let speed_v = feed_length(&step) / period_t;
+        let pieces = (from..=follower.place.last()).filter_map(|index| track.get(index));
+        let feed_v = pieces
+            .clone()
+            .fold(0.0_f64, |most, piece| most.max(piece.top_v));
+        // Counted as the pieces count it: beside a rotary move, the least motion of XYZ is all that the
+        // step's own feed length tells.
+        let mut counted =
+            pieces.map(|piece| counted_length(piece, &step) / (piece.top_v * period_t));
+        let is_slow = speed_v <= self.overspeed_v || counted.any(|ratio| ratio <= FEED_SLACK);
+        self.recent = [position, self.recent[0], self.recent[1]];
+        self.state = *next;
+        if speed_v <= feed_v {
+            self.overspeed_v = 0.0;
+        }
+        is_slow && speed_v <= (feed_v * FEED_SLACK).max(self.overspeed_v)
+    }
+}

@@ -1,0 +1,12 @@
+//! The check that every motion passes before it is handed out: limits, tolerance, order and feed.
+
+mod beside;
+mod between_periods;
+mod follow;
+mod history;
+mod parameter_range;
+
+#[cfg(test)]
+pub(crate) use between_periods::Bend;
+pub(crate) use follow::{Follower, Place};
+pub(crate) use history::{FEED_SLACK, History};

@@ -1,0 +1,234 @@
+//! One window: how much of the path it sees, which axes move, and what becomes of it.
+
+use super::opening::Opening;
+use super::optimiser::{Optimiser, Question};
+use super::scene::{Scene, moving_axes};
+use super::spline::Grid;
+use crate::in_tube::path::Track;
+use crate::in_tube::path::directional;
+use crate::in_tube::verify::Follower;
+use crate::in_tube::verify::History;
+use glidepath_geometry::{AXES, AxisVector};
+use glidepath_program::Limits;
+
+/// Most pieces a window looks at.
+const MOST_PIECES: usize = 4096;
+/// Intervals of a window, at least and at most.
+const INTERVALS: [usize; 2] = [60, 160];
+/// Length of a window in times to stop from the top speed.
+const STOPS: f64 = 2.4;
+
+/// The pieces a window sees, and its length in knot intervals.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct View {
+    pub(crate) pieces: core::ops::Range<usize>,
+    pub(crate) intervals: usize,
+    /// The motion is to rest at the end of the last piece, whatever follows.
+    pub(crate) is_halt: bool,
+}
+
+impl View {
+    /// What a window needs that starts on piece `index` at parameter `u`, with everything from piece
+    /// `first` on in sight; `None` if that is not known yet.
+    pub(crate) fn new(
+        limits: &Limits,
+        track: &Track,
+        grid: &Grid,
+        first: usize,
+        (index, u): (usize, f64),
+    ) -> Option<Self> {
+        let mut needed = INTERVALS[0];
+        let mut known_t = 0.0;
+        let mut end = index;
+        while track.is_settled(end) {
+            let piece = track.get(end)?;
+            let along = (piece.end - piece.start) / piece.length_s;
+            let bounds = directional(limits, &along);
+            let top_v = piece.top_v.min(bounds.speed_v);
+            let stop_t = top_v / bounds.path.accel_a + bounds.path.accel_a / bounds.path.jerk_j;
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "clamped"
+            )]
+            let wanted = (STOPS * stop_t / grid.knot_t)
+                .ceil()
+                .min(INTERVALS[1] as f64) as usize;
+            needed = needed.max(wanted);
+            let share = if end == index { 1.0 - u } else { 1.0 };
+            known_t += share * piece.length_s / top_v;
+            end += 1;
+            let is_enough = known_t >= needed as f64 * grid.knot_t || end - first >= MOST_PIECES;
+            if is_enough || track.is_last(end - 1) {
+                return Some(Self {
+                    pieces: first..end,
+                    intervals: grid.whole_periods(needed + grid.knots - 1),
+                    is_halt: false,
+                });
+            }
+        }
+        None
+    }
+}
+
+/// A motion as control points from the present knot on.
+#[derive(Debug, Clone)]
+pub(crate) struct Motion {
+    pub(crate) points: Vec<AxisVector>,
+    /// Rests at the end of the last piece in view.
+    pub(crate) is_rest: bool,
+    /// Which is the end of the path.
+    pub(crate) is_end: bool,
+}
+
+/// Everything a window starts from.
+#[derive(Debug)]
+pub(crate) struct Setting<'a> {
+    pub(crate) limits: &'a Limits,
+    pub(crate) period_t: f64,
+    pub(crate) grid: &'a Grid,
+    pub(crate) track: &'a Track,
+    pub(crate) history: &'a History,
+    pub(crate) follower: &'a Follower,
+    pub(crate) progress: (usize, f64),
+    /// Pieces from here on are out of view.
+    pub(crate) end: usize,
+    /// Periods after which the next window will start.
+    pub(crate) commit: usize,
+    /// What goes on without a window keeps the rates, which may have changed.
+    pub(crate) keeps_rates: bool,
+    /// Multiplications of the solver that may be spent.
+    pub(crate) most_work: usize,
+}
+
+/// Optimisers by number of axes, made when first needed.
+#[derive(Debug, Default)]
+pub(crate) struct Optimisers {
+    two: Option<Box<Optimiser<2>>>,
+    three: Option<Box<Optimiser<3>>>,
+    four: Option<Box<Optimiser<4>>>,
+    five: Option<Box<Optimiser<5>>>,
+    six: Option<Box<Optimiser<6>>>,
+    nine: Option<Box<Optimiser<9>>>,
+}
+
+impl Optimisers {
+    /// Multiplications of the solvers so far.
+    pub(crate) fn work(&self) -> usize {
+        fn of<const D: usize>(optimiser: Option<&Optimiser<D>>) -> usize {
+            optimiser.map_or(0, |optimiser| optimiser.interior.work)
+        }
+        of(self.two.as_deref())
+            + of(self.three.as_deref())
+            + of(self.four.as_deref())
+            + of(self.five.as_deref())
+            + of(self.six.as_deref())
+            + of(self.nine.as_deref())
+    }
+
+    /// A better motion than `tail`, which starts at the present state and ends at rest.
+    pub(crate) fn attempt(
+        &mut self,
+        setting: &Setting<'_>,
+        view: &View,
+        tail: &[AxisVector],
+    ) -> Option<Motion> {
+        let origin = setting.history.last();
+        let corners = view
+            .pieces
+            .clone()
+            .filter_map(|index| setting.track.get(index))
+            .flat_map(|piece| [&piece.start, &piece.end]);
+        let moves = moving_axes(&origin, corners.chain(tail));
+        let way = (setting, view, tail, moves);
+        match moves.iter().filter(|&&is_moving| is_moving).count() {
+            0..=2 => attempt(&mut self.two, way),
+            3 => attempt(&mut self.three, way),
+            4 => attempt(&mut self.four, way),
+            5 => attempt(&mut self.five, way),
+            6 => attempt(&mut self.six, way),
+            _ => attempt(&mut self.nine, way),
+        }
+    }
+}
+
+/// What an optimiser is given: a setting, a view, the motion to fall back on, which axes move.
+type Way<'a> = (&'a Setting<'a>, &'a View, &'a [AxisVector], [bool; AXES]);
+
+fn attempt<const D: usize>(
+    optimiser: &mut Option<Box<Optimiser<D>>>,
+    (setting, view, tail, moves): Way<'_>,
+) -> Option<Motion> {
+    let optimiser = optimiser.get_or_insert_with(|| Box::new(Optimiser::new()));
+    let origin = setting.history.last();
+    let is_path_end = setting.track.is_last(setting.end - 1);
+    let mut scene: Scene<D> = Scene::new(
+        setting.limits,
+        setting.track,
+        view.pieces.clone(),
+        origin,
+        moves,
+    );
+    scene.is_final |= view.is_halt;
+    let tail: Vec<_> = (0..view.intervals.max(tail.len() - 3) + 3)
+        .filter_map(|k| tail.get(k).or(tail.last()))
+        .map(|point| scene.inside(point))
+        .collect();
+    let piece = setting.progress.0 - scene.first;
+    let chord = scene.chords.get(piece)?;
+    let opening = Opening {
+        tail: &tail,
+        keeps_rates: setting.keeps_rates,
+        piece,
+        progress: chord.s + chord.length * setting.progress.1,
+        passed: setting.follower.place.last() - scene.first,
+        grid: *setting.grid,
+        period_t: setting.period_t,
+        commit: setting.commit,
+        most_work: setting.most_work,
+    };
+    let solution = optimiser.optimise(&scene, &opening, &mut |points, question| {
+        let points: Vec<_> = points.iter().map(|point| scene.outside(point)).collect();
+        passes(setting, &points, question)
+    })?;
+    let mut points: Vec<_> = solution
+        .points
+        .iter()
+        .map(|point| scene.outside(point))
+        .collect();
+    if solution.is_end {
+        end_exactly(setting, &mut points);
+    }
+    Some(Motion {
+        points,
+        is_rest: solution.is_end,
+        is_end: solution.is_end && is_path_end,
+    })
+}
+
+/// The last control points are the end of what is in view, to the bit.
+fn end_exactly(setting: &Setting<'_>, points: &mut [AxisVector]) {
+    if let Some(last) = setting.track.get(setting.end - 1) {
+        let count = points.len();
+        points[count - 3..].fill(last.end);
+    }
+}
+
+/// Follows a motion to its rest.
+fn passes(setting: &Setting<'_>, points: &[AxisVector], question: Question) -> bool {
+    let mut points = points.to_vec();
+    if question == Question::IsEnd {
+        end_exactly(setting, &mut points);
+    }
+    let mut history = setting.history.clone();
+    let mut follower = setting.follower.to(setting.end);
+    let periods = setting.grid.periods_in(points.len() - 3);
+    for period in 1..=periods + 3 {
+        let next = setting.grid.state(&points, period);
+        let way = (setting.track, &mut follower);
+        if !history.follow(setting.limits, setting.period_t, way, &next) {
+            return false;
+        }
+    }
+    question == Question::IsValid || follower.place.is_at_end_of(setting.end - 1)
+}

@@ -1,0 +1,90 @@
+//! What is carried from round to round of the optimisation of a window.
+
+use super::samples::Samples;
+use super::tube::FEED_R;
+use crate::in_tube::verify::FEED_SLACK;
+
+/// Gain of progress, relative to that of the window, below which nothing more is tried.
+const LITTLE_GAIN: f64 = 1e-4;
+
+/// Speed over the feed that is aimed at where motions stand out of the planes: the judge allows a
+/// little more.
+const ALLOWED_R: f64 = 1.0 + 4e-4;
+/// How many times stronger the pull to the middle is where the feed was not kept.
+const FIRM: f64 = 1e3;
+/// Least share of the feed to plan with.
+const LEAST_FEED_R: f64 = 0.995;
+
+/// The best motion so far.
+#[derive(Debug)]
+pub(crate) struct Found<const D: usize> {
+    pub(crate) best: Option<(f64, Vec<[f64; D]>, Samples)>,
+}
+
+impl<const D: usize> Found<D> {
+    pub(crate) fn add(&mut self, mean: f64, points: &[[f64; D]], samples: &Samples) {
+        if self.best.as_ref().is_none_or(|(most, ..)| mean > *most) {
+            self.best = Some((mean, points.to_vec(), samples.clone()));
+        }
+    }
+}
+
+/// Where an attempt is.
+#[derive(Debug)]
+pub(crate) struct Walk<const D: usize> {
+    pub(crate) points: Vec<[f64; D]>,
+    /// The points are a motion, and not only the tail to start from.
+    pub(crate) has_motion: bool,
+    /// Rows were violated in the last round: samples are on pieces too early.
+    pub(crate) is_exceeding: bool,
+    /// Mean progress in the last round.
+    pub(crate) mean: f64,
+    /// Largest speed over the feed in the last solution.
+    pub(crate) speed_r: f64,
+    /// Share of the feed to plan with in rounds in which samples stay where they are.
+    pub(crate) feed_r: f64,
+}
+
+impl<const D: usize> Walk<D> {
+    /// Takes note of how far the last solution stands out of the planes that bound the feed, which it was
+    /// planned with a share of: the next one is expected to stand out as far.
+    ///
+    /// On curves velocities turn from round to round, and planes that touch the feed where the last
+    /// ones were come a little late for the next.
+    pub(crate) fn learn_feed(&mut self, planned_r: f64) {
+        let excess_r = self.speed_r / planned_r;
+        self.feed_r = (ALLOWED_R / excess_r).clamp(LEAST_FEED_R, FEED_R);
+    }
+
+    /// The pull to the middle where the feed was not kept: in a wide tube velocities may turn far from
+    /// round to round, and planes of the last ones do not hold the next; near the middle they all point
+    /// along the path.
+    pub(crate) fn firm_ridge(&self, ridge: f64) -> f64 {
+        if self.speed_r > FEED_SLACK {
+            FIRM * ridge
+        } else {
+            ridge
+        }
+    }
+
+    /// True if progress hardly changes any more.
+    pub(crate) fn has_settled(&self, mean: f64, start: f64) -> bool {
+        (mean - self.mean).abs() < LITTLE_GAIN * (mean - start)
+    }
+}
+
+/// The same way in fewer steps.
+pub(crate) fn hurried<T>(values: &[T], fewer: usize, between: impl Fn(&T, &T, f64) -> T) -> Vec<T> {
+    let count = values.len() - 1;
+    let less = count.saturating_sub(fewer).max(1);
+    (0..=less)
+        .map(|k| {
+            let at = k * count;
+            let (before, rest) = (at / less, at % less);
+            let after = (before + 1).min(count);
+            #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+            let share = rest as f64 / less as f64;
+            between(&values[before], &values[after], share)
+        })
+        .collect()
+}

@@ -1,0 +1,266 @@
+//! Which piece owns which sample of the motion: the one part of the problem that is not convex.
+//!
+//! Samples are the ends of the periods: what is handed out. With every sample given to a piece, all
+//! that is asked of the motion is convex; after a solution, the samples are given out again by
+//! projecting the motion onto the path, never backwards, and the problem is solved again. A sample in
+//! the overlap of two tubes goes to the later one at once: the motion it has keeps the new rows too,
+//! and the next solution can use the room.
+
+use super::scene::Scene;
+use super::solver::{combine, dot};
+use super::spline::Grid;
+
+/// From this part of the radius on a motion is worth a plane.
+pub(crate) const WORTH_R: f64 = 0.5;
+/// Cosine of the turn from which a corner holds samples back.
+const FOLD_COS: f64 = 0.2;
+/// Share of the radius before the end of a piece at which a sample goes over to the next.
+const HOP_R: f64 = 0.3;
+
+/// What the motion bulges out of the chords of half periods, as a part of what it does out of whole ones.
+const OF_HALVES: f64 = 0.25;
+
+/// Samples 0 … count of a window.
+#[derive(Debug, Default, Clone)]
+pub(crate) struct Samples {
+    /// Progress along the scene: where a sample is taken to be.
+    pub(crate) progress: Vec<f64>,
+    /// Piece a sample must be given to at least.
+    pub(crate) at_least: Vec<usize>,
+    /// Piece a sample is given to.
+    pub(crate) piece: Vec<usize>,
+    /// Factor of the radius: below one where a sample has come out too far off.
+    pub(crate) shrink: Vec<f64>,
+    /// What the motion bulges out of the chord of the period before a sample.
+    bulge: Vec<f64>,
+    /// Whether the tube bounds middles of periods, too: where there are several knots in each. With one,
+    /// windows along short legs are refused for it more often than others gain.
+    bounds_middles: bool,
+    /// Whether the middle of that period has come near the edge of the tube.
+    is_middle_near: Vec<bool>,
+    /// Largest distance from the path, in radii, found by the last projection.
+    pub(crate) worst_r: f64,
+}
+
+impl Samples {
+    pub(crate) fn reset(&mut self, count: usize) {
+        self.progress.clear();
+        self.progress.resize(count + 1, 0.0);
+        self.forget();
+    }
+
+    /// Only the first samples remain.
+    pub(crate) fn cut(&mut self, count: usize) {
+        self.progress.truncate(count + 1);
+        self.forget();
+    }
+
+    /// Forgets what iterations have learnt.
+    pub(crate) fn forget(&mut self) {
+        let count = self.progress.len();
+        self.piece.resize(count, 0);
+        self.at_least.clear();
+        self.at_least.resize(count, 0);
+        self.shrink.clear();
+        self.shrink.resize(count, 1.0);
+        self.bulge.clear();
+        self.bulge.resize(count, 0.0);
+        self.is_middle_near.clear();
+        self.is_middle_near.resize(count, false);
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.progress.len() - 1
+    }
+
+    /// True if the period before sample `k` lies on one piece.
+    fn is_on_one_piece(&self, k: usize) -> bool {
+        self.piece[k - 1] == self.piece[k]
+    }
+
+    /// True if the tube bounds the middle of the period before sample `k`, too.
+    pub(crate) fn has_middle(&self, k: usize) -> bool {
+        self.is_middle_near[k] && self.is_on_one_piece(k)
+    }
+
+    /// What the motion bulges, next to sample `k`, out of chords whose ends are bounded: those of periods.
+    /// With their middles bounded those of half periods on one piece, and at a corner of the part of a
+    /// period that is on its side.
+    pub(crate) fn sagitta<const D: usize>(&self, scene: &Scene<D>, k: usize) -> f64 {
+        let bulge_after = self.bulge.get(k + 1).copied().unwrap_or(0.0);
+        if !self.bounds_middles {
+            return f64::max(self.bulge[k], bulge_after);
+        }
+        let part_of = |share: f64| (share * share).clamp(OF_HALVES, 1.0);
+        let before = if self.is_on_one_piece(k) {
+            OF_HALVES
+        } else {
+            part_of(1.0 - self.share_before(scene, self.piece[k], k))
+        };
+        let after = match self.piece.get(k + 1) {
+            None => 0.0,
+            Some(next) if *next == self.piece[k] => OF_HALVES,
+            Some(_) => part_of(self.share_before(scene, self.piece[k] + 1, k + 1)),
+        };
+        f64::max(before * self.bulge[k], after * bulge_after)
+    }
+
+    /// The share of the period before sample `k` that is before the start of a piece.
+    fn share_before<const D: usize>(&self, scene: &Scene<D>, piece: usize, k: usize) -> f64 {
+        let (from, to) = (self.progress[k - 1], self.progress[k]);
+        let share = (scene.chords[piece].s - from) / (to - from);
+        if share.is_finite() {
+            share.clamp(0.0, 1.0)
+        } else {
+            0.5
+        }
+    }
+
+    /// Gives every sample to a piece by its progress.
+    pub(crate) fn give_out<const D: usize>(&mut self, scene: &Scene<D>, first: usize) {
+        let chords = &scene.chords;
+        let mut i = first;
+        self.piece[0] = first;
+        for k in 1..self.progress.len() {
+            while i + 1 < chords.len() {
+                let chord = &chords[i];
+                let hop = HOP_R * chord.radius.min(chord.length);
+                let is_past = self.progress[k] > chord.s + chord.length - hop;
+                if !is_past && self.at_least[k] <= i {
+                    break;
+                }
+                i += 1;
+            }
+            self.piece[k] = i;
+        }
+    }
+
+    /// Projects a motion onto the path, in order, from a place on piece `first`. With `may_lead`, a
+    /// sample that is already in the tube of the next piece will be given to that.
+    pub(crate) fn project<const D: usize>(
+        &mut self,
+        scene: &Scene<D>,
+        points: &[[f64; D]],
+        first: usize,
+        (grid, period_t): (&Grid, f64),
+        may_lead: bool,
+    ) {
+        let mut at = (first, self.progress[0]);
+        self.worst_r = 0.0;
+        self.bounds_middles = grid.knots > 1;
+        let mut bend_before = 0.0;
+        for k in 1..=self.count() {
+            let y = sample(points, grid, k);
+            let (piece, s, distance) = nearest(scene, &y, at, period_t);
+            at = (piece, s);
+            self.progress[k] = s;
+            self.at_least[k] = 0;
+            let (site, weights) = grid.bend_site(k);
+            let bend = across(scene, piece, &combine(points, site, &weights)) / 8.0;
+            self.bulge[k] = f64::max(bend, bend_before);
+            bend_before = bend;
+            self.is_middle_near[k] |=
+                self.bounds_middles && middle_r(scene, piece, points, grid, k) > WORTH_R;
+            let distance_r = distance / scene.chords[piece].radius;
+            self.worst_r = self.worst_r.max(distance_r);
+            if may_lead && leads(scene, &y, piece, s) {
+                self.at_least[k] = piece + 1;
+            }
+            if distance_r > 0.9995 && distance_r < 1.5 {
+                self.shrink[k] = (self.shrink[k] * 0.998 / distance_r).max(0.7);
+            }
+        }
+    }
+
+    /// Between what the samples were given for and where they came out: against coming and going.
+    pub(crate) fn go_half_way(&mut self, given: &[f64]) {
+        for (s, before) in self.progress.iter_mut().zip(given) {
+            *s = 0.5 * (*s + before);
+        }
+        self.at_least.fill(0);
+    }
+
+    /// Mean progress.
+    pub(crate) fn mean(&self) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "thousands")]
+        let count = self.progress.len() as f64;
+        self.progress.iter().sum::<f64>() / count
+    }
+}
+
+/// The length of a vector across a piece.
+fn across<const D: usize>(scene: &Scene<D>, piece: usize, vector: &[f64; D]) -> f64 {
+    let tangent = &scene.chords[piece].tangent;
+    let along = dot(vector, tangent);
+    let rest: [f64; D] = core::array::from_fn(|a| vector[a] - along * tangent[a]);
+    dot(&rest, &rest).sqrt()
+}
+
+/// How far the middle of the period before sample `k` is off the line of a piece, in radii.
+fn middle_r<const D: usize>(
+    scene: &Scene<D>,
+    piece: usize,
+    points: &[[f64; D]],
+    grid: &Grid,
+    k: usize,
+) -> f64 {
+    let (site, weights) = grid.inner_site(k - 1, 0.5, 0.0);
+    let middle = combine(points, site, &weights);
+    let chord = &scene.chords[piece];
+    let offset = core::array::from_fn(|a| middle[a] - chord.start[a]);
+    across(scene, piece, &offset) / chord.radius
+}
+
+/// The point of a sample.
+pub(crate) fn sample<const D: usize>(points: &[[f64; D]], grid: &Grid, k: usize) -> [f64; D] {
+    let (first, weights) = grid.site(k);
+    combine(points, first, &weights)
+}
+
+/// The nearest place from `at` on that a sample can be at: piece, progress, distance.
+fn nearest<const D: usize>(
+    scene: &Scene<D>,
+    y: &[f64; D],
+    at: (usize, f64),
+    step_t: f64,
+) -> (usize, f64, f64) {
+    let chords = &scene.chords;
+    let ahead = 1.5 * chords[at.0].top * step_t + 2.0 * chords[at.0].radius;
+    let mut best = (at.0, at.1, f64::INFINITY);
+    let mut i = at.0;
+    while i < chords.len() && chords[i].s <= at.1 + ahead {
+        let chord = &chords[i];
+        let offset: [f64; D] = core::array::from_fn(|k| y[k] - chord.start[k]);
+        let low = (at.1 - chord.s).clamp(0.0, chord.length);
+        let x = dot(&offset, &chord.tangent).clamp(low, chord.length);
+        let across: [f64; D] = core::array::from_fn(|k| offset[k] - x * chord.tangent[k]);
+        let distance = dot(&across, &across).sqrt();
+        if distance < best.2 - 1e-7 * chord.radius {
+            best = (i, chord.s + x, distance);
+        }
+        // A path that folds back is not jumped over while the motion can still be before the fold.
+        let folds = chords
+            .get(i + 1)
+            .is_some_and(|next| dot(&chord.tangent, &next.tangent) < FOLD_COS);
+        if folds && best.2 <= chord.radius && best.1 < chord.s + chord.length - 0.5 * chord.radius {
+            break;
+        }
+        i += 1;
+    }
+    best
+}
+
+/// A sample near the end of a piece that is in the tube of the next one as well.
+fn leads<const D: usize>(scene: &Scene<D>, y: &[f64; D], piece: usize, s: f64) -> bool {
+    let Some(next) = scene.chords.get(piece + 1) else {
+        return false;
+    };
+    let turn = scene.turn(piece, piece + 1);
+    if turn <= 0.05 || next.s - s >= 4.0 * next.radius / turn.min(1.0) {
+        return false;
+    }
+    let offset: [f64; D] = core::array::from_fn(|k| y[k] - next.start[k]);
+    let x = dot(&offset, &next.tangent).clamp(0.0, next.length);
+    let across: [f64; D] = core::array::from_fn(|k| offset[k] - x * next.tangent[k]);
+    dot(&across, &across).sqrt() < 0.98 * next.radius
+}

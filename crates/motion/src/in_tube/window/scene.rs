@@ -1,0 +1,237 @@
+//! What a window sees of the path: the axes that move, measured in tolerances.
+//!
+//! Dividing every axis by the tolerance of its group makes the tube round the path a round one of
+//! radius one (unless tolerances change along the path), and distances in it the larger of what the
+//! groups allow: a point within the radius in this space is within tolerance in every group. It also
+//! makes millimetres and degrees, and millimetres and micrometres, the same problem.
+
+use super::solver::dot;
+use crate::feed_axes::counted_axes;
+use crate::in_tube::path::directional;
+use crate::in_tube::path::{Piece, Track};
+use crate::scurve::PathLimits;
+use glidepath_geometry::{AXES, Axis, AxisVector};
+use glidepath_program::Limits;
+
+/// Turn from which the motion may run back for a moment, as a corner of less than the tolerance does.
+pub(crate) const SHARP: f64 = 0.3;
+
+/// A piece of the path in the space of the window.
+#[derive(Debug, Clone)]
+pub(crate) struct Chord<const D: usize> {
+    pub(crate) start: [f64; D],
+    /// Unit vector.
+    pub(crate) tangent: [f64; D],
+    pub(crate) length: f64,
+    /// Length from the start of the scene to the start of the piece.
+    pub(crate) s: f64,
+    /// Radius of the tube.
+    pub(crate) radius: f64,
+    /// Speed the feed and the axes allow, per second.
+    pub(crate) top: f64,
+    /// Limits along it.
+    pub(crate) limits: PathLimits,
+    /// Direction in the axes of the feed, such that feed speed over programmed feed is `feed · v`.
+    pub(crate) feed: [f64; D],
+    /// Per axis, one over the programmed feed where the feed counts the axis, in units of the window.
+    pub(crate) feed_axes: [f64; D],
+    /// Across: first in the plane of the corner at its end, then whatever completes the base.
+    pub(crate) normals: [[f64; D]; D],
+}
+
+/// The path of a window.
+#[derive(Debug, Clone)]
+pub(crate) struct Scene<const D: usize> {
+    /// Number of the first piece.
+    pub(crate) first: usize,
+    pub(crate) chords: Vec<Chord<D>>,
+    /// The path ends with the last piece.
+    pub(crate) is_final: bool,
+    /// The moving axes, and how many they are: the rest of the `D` stays at zero.
+    axes: [usize; D],
+    moving: usize,
+    unit: [f64; D],
+    origin: AxisVector,
+    pub(crate) velocity: [f64; D],
+    pub(crate) acceleration: [f64; D],
+    pub(crate) jerk: [f64; D],
+}
+
+/// Axes on which something differs from `from`.
+pub(crate) fn moving_axes<'a>(
+    from: &AxisVector,
+    points: impl Iterator<Item = &'a AxisVector>,
+) -> [bool; AXES] {
+    let mut moves = [false; AXES];
+    for point in points {
+        for (is_moving, (a, b)) in moves.iter_mut().zip(point.iter().zip(from.iter())) {
+            *is_moving |= (a - b).abs() > 0.0;
+        }
+    }
+    moves
+}
+
+impl<const D: usize> Scene<D> {
+    /// The pieces `range` as seen from `origin`; `moves` has at most `D` axes.
+    pub(crate) fn new(
+        limits: &Limits,
+        track: &Track,
+        range: core::ops::Range<usize>,
+        origin: AxisVector,
+        moves: [bool; AXES],
+    ) -> Self {
+        let tolerances = track
+            .get(range.start)
+            .map_or([1.0; 2], |piece| [piece.tolerance_mm, piece.tolerance_deg]);
+        let mut scene = Self {
+            first: range.start,
+            chords: Vec::with_capacity(range.len()),
+            is_final: range.end > 0 && track.is_last(range.end - 1),
+            axes: [0; D],
+            moving: 0,
+            unit: [1.0; D],
+            origin,
+            velocity: [1.0; D],
+            acceleration: [1.0; D],
+            jerk: [1.0; D],
+        };
+        for axis in Axis::ALL
+            .into_iter()
+            .filter(|axis| moves[axis.index()])
+            .take(D)
+        {
+            let (k, i) = (scene.moving, axis.index());
+            let unit = tolerances[usize::from(axis.is_rotary())];
+            scene.axes[k] = i;
+            scene.unit[k] = unit;
+            scene.velocity[k] = limits.velocity[i] / unit;
+            scene.acceleration[k] = limits.acceleration[i] / unit;
+            scene.jerk[k] = limits.jerk[i] / unit;
+            scene.moving += 1;
+        }
+        for piece in range.filter_map(|index| track.get(index)) {
+            scene.add(limits, piece, tolerances);
+        }
+        scene.add_normals();
+        scene
+    }
+
+    fn add(&mut self, limits: &Limits, piece: &Piece, [unit_mm, unit_deg]: [f64; 2]) {
+        let displacement = piece.end - piece.start;
+        let start = self.inside(&piece.start);
+        let mut along = [0.0; D];
+        for k in 0..self.moving {
+            along[k] = displacement[self.axes[k]] / self.unit[k];
+        }
+        let length = dot(&along, &along).sqrt();
+        let tangent = along.map(|value| value / length);
+        let bounds = directional(limits, &(displacement / length));
+        let mut feed = [0.0; D];
+        let mut feed_axes = [0.0; D];
+        let counted = counted_axes(&displacement);
+        for k in 0..self.moving {
+            if counted.contains(&self.axes[k]) {
+                feed[k] = displacement[self.axes[k]] / piece.length_s * self.unit[k] / piece.top_v;
+                feed_axes[k] = self.unit[k] / piece.top_v;
+            }
+        }
+        let s = self.chords.last().map_or(0.0, |last| last.s + last.length);
+        self.chords.push(Chord {
+            start,
+            tangent,
+            length,
+            s,
+            radius: (piece.tolerance_mm / unit_mm).min(piece.tolerance_deg / unit_deg),
+            top: (piece.top_v * length / piece.length_s).min(bounds.speed_v),
+            limits: bounds.path,
+            feed,
+            feed_axes,
+            normals: [[0.0; D]; D],
+        });
+    }
+
+    /// Completes each tangent to a base whose first normal lies in the plane of the next corner (of
+    /// the corner before, where the path goes straight on).
+    fn add_normals(&mut self) {
+        for i in 0..self.chords.len() {
+            let tangent = self.chords[i].tangent;
+            let mut candidates: Vec<[f64; D]> = Vec::with_capacity(D + 2);
+            for other in [Some(i + 1), i.checked_sub(1)].into_iter().flatten() {
+                candidates.extend(self.chords.get(other).map(|chord| chord.tangent));
+            }
+            candidates
+                .extend((0..D).map(|k| core::array::from_fn(|a| f64::from(u8::from(a == k)))));
+            let mut normals = [[0.0; D]; D];
+            let mut found = 0;
+            for candidate in candidates {
+                if found + 1 >= D {
+                    break;
+                }
+                let mut rest = candidate;
+                for other in core::iter::once(&tangent).chain(&normals[..found]) {
+                    let part = dot(&rest, other);
+                    for k in 0..D {
+                        rest[k] -= part * other[k];
+                    }
+                }
+                let size = dot(&rest, &rest).sqrt();
+                if size > 1e-3 {
+                    normals[found] = rest.map(|value| value / size);
+                    found += 1;
+                }
+            }
+            self.chords[i].normals = normals;
+        }
+    }
+
+    /// Length of the whole path of the scene.
+    pub(crate) fn length(&self) -> f64 {
+        self.chords.last().map_or(0.0, |last| last.s + last.length)
+    }
+
+    /// The end of piece `i`.
+    pub(crate) fn vertex(&self, i: usize) -> [f64; D] {
+        let chord = &self.chords[i];
+        core::array::from_fn(|k| chord.start[k] + chord.length * chord.tangent[k])
+    }
+
+    /// How much the direction changes between two pieces: 2·sin(turn/2).
+    pub(crate) fn turn(&self, i: usize, j: usize) -> f64 {
+        let (a, b) = (&self.chords[i].tangent, &self.chords[j].tangent);
+        let difference: [f64; D] = core::array::from_fn(|k| a[k] - b[k]);
+        dot(&difference, &difference).sqrt()
+    }
+
+    /// A position in the space of the window.
+    pub(crate) fn inside(&self, position: &AxisVector) -> [f64; D] {
+        let mut point = [0.0; D];
+        for k in 0..self.moving {
+            let i = self.axes[k];
+            point[k] = (position[i] - self.origin[i]) / self.unit[k];
+        }
+        point
+    }
+
+    /// A point of the window as a position; axes that do not move are those of the origin.
+    pub(crate) fn outside(&self, point: &[f64; D]) -> AxisVector {
+        let mut position = self.origin;
+        for k in 0..self.moving {
+            let i = self.axes[k];
+            position[i] += point[k] * self.unit[k];
+        }
+        position
+    }
+
+    /// Axes whose own velocity limit may bind before the feed does.
+    pub(crate) fn velocity_bounds(&self) -> [f64; D] {
+        core::array::from_fn(|k| {
+            let is_bounded_by_feed =
+                |chord: &Chord<D>| chord.feed_axes[k] * self.velocity[k] > 1.05;
+            if self.chords.iter().all(is_bounded_by_feed) || k >= self.moving {
+                f64::INFINITY
+            } else {
+                self.velocity[k]
+            }
+        })
+    }
+}

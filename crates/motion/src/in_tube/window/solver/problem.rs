@@ -1,0 +1,171 @@
+//! The convex sub-problem of a window: a uniform cubic B-spline in time, linear rows.
+//!
+//! Unknown are the control points x₀ … x_{M+2} of M knot intervals; the first three are the state the
+//! window starts from, the last three are equal: the window ends at rest. All limits are bounds of
+//! differences of control points, and hold in continuous time: jerk is constant in an interval and
+//! is the third difference, acceleration is linear between knots, where it is the second difference,
+//! and velocity lies in the hull of first differences.
+//!
+//! ```text
+//!     maximise   Σ aim_k · x_k  −  Σ ridge · |offset across the path|²
+//!     subject to |Δⁿ x|  ≤ bound        every axis, n = 1, 2, 3         hard
+//!                low ≤ normal · Σ wᵢ x_{m+i} ≤ high                      elastic: at a price
+//! ```
+//!
+//! Elastic rows make sure there is always a solution: the rest of the last window keeps the hard ones.
+
+/// Marks a row that must hold.
+pub(in crate::in_tube::window) const HARD: f64 = 1e300;
+/// Price of violating an elastic row by one. Progress gains at most about one by it, so a row that
+/// can be kept is kept.
+pub(in crate::in_tube::window) const PRICE: f64 = 30.0;
+/// The same where a violation must not buy a smaller one elsewhere.
+pub(in crate::in_tube::window) const FIRM_PRICE: f64 = 1000.0;
+/// A bound that does not bind.
+pub(in crate::in_tube::window) const FAR: f64 = 1e3;
+
+/// Most control points in a row.
+pub(in crate::in_tube::window) const SPAN: usize = 5;
+
+/// A weighted sum of up to [`SPAN`] consecutive control points, and rows on it.
+#[derive(Debug, Clone)]
+pub(in crate::in_tube::window) struct Site<const D: usize> {
+    /// The first control point.
+    pub(in crate::in_tube::window) first: usize,
+    pub(in crate::in_tube::window) weights: [f64; SPAN],
+    /// Its rows.
+    pub(in crate::in_tube::window) rows: core::ops::Range<usize>,
+    /// Pull towards the line through `center` along `tangent`, per square of the distance.
+    pub(in crate::in_tube::window) ridge: f64,
+    pub(in crate::in_tube::window) center: [f64; D],
+    pub(in crate::in_tube::window) tangent: [f64; D],
+}
+
+/// `low ≤ normal · y ≤ high`, scaled so that one is a large violation.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::in_tube::window) struct Row<const D: usize> {
+    pub(in crate::in_tube::window) normal: [f64; D],
+    pub(in crate::in_tube::window) low: f64,
+    pub(in crate::in_tube::window) high: f64,
+    /// Price of violating it by one.
+    pub(in crate::in_tube::window) price: f64,
+}
+
+/// What is to be solved.
+#[derive(Debug, Clone)]
+pub(in crate::in_tube::window) struct Problem<const D: usize> {
+    /// Knot intervals, ≥ 6.
+    pub(in crate::in_tube::window) intervals: usize,
+    /// The last three control points are given, not only equal.
+    pub(in crate::in_tube::window) is_end_fixed: bool,
+    /// Bounds of first, second, third differences; an infinite one is left out.
+    pub(in crate::in_tube::window) bounds: [[f64; D]; 3],
+    /// Gradient of the objective, by control point.
+    pub(in crate::in_tube::window) aims: Vec<[f64; D]>,
+    pub(in crate::in_tube::window) sites: Vec<Site<D>>,
+    pub(in crate::in_tube::window) rows: Vec<Row<D>>,
+}
+
+impl<const D: usize> Problem<D> {
+    pub(in crate::in_tube::window) const fn new() -> Self {
+        Self {
+            intervals: 0,
+            is_end_fixed: false,
+            bounds: [[f64::INFINITY; D]; 3],
+            aims: Vec::new(),
+            sites: Vec::new(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// Starts anew.
+    pub(in crate::in_tube::window) fn clear(&mut self, intervals: usize, is_end_fixed: bool) {
+        self.intervals = intervals;
+        self.is_end_fixed = is_end_fixed;
+        self.aims.clear();
+        self.aims.resize(intervals + 3, [0.0; D]);
+        self.sites.clear();
+        self.rows.clear();
+    }
+
+    /// A site without pull; rows added next belong to it.
+    pub(in crate::in_tube::window) fn add_site(&mut self, first: usize, weights: [f64; SPAN]) {
+        let at = self.rows.len();
+        self.sites.push(Site {
+            first,
+            weights,
+            rows: at..at,
+            ridge: 0.0,
+            center: [0.0; D],
+            tangent: [0.0; D],
+        });
+    }
+
+    /// A row of the last site: `low ≤ normal · (y − center) ≤ high`.
+    pub(in crate::in_tube::window) fn add_row(
+        &mut self,
+        normal: [f64; D],
+        center: &[f64; D],
+        [low, high]: [f64; 2],
+    ) {
+        let shift = dot(&normal, center);
+        self.rows.push(Row {
+            normal,
+            low: low + shift,
+            high: high + shift,
+            price: PRICE,
+        });
+        if let Some(site) = self.sites.last_mut() {
+            site.rows.end = self.rows.len();
+        }
+    }
+
+    /// A row of the last site on a difference; a firm one has a price that nothing else is worth.
+    pub(in crate::in_tube::window) fn add_feed_row(
+        &mut self,
+        normal: [f64; D],
+        sides: [f64; 2],
+        is_firm: bool,
+    ) {
+        self.add_row(normal, &[0.0; D], sides);
+        if let Some(row) = self.rows.last_mut().filter(|_| is_firm) {
+            row.price = FIRM_PRICE;
+        }
+    }
+
+    /// Control points that are unknown.
+    pub(in crate::in_tube::window) fn free(&self) -> core::ops::Range<usize> {
+        3..self.intervals + usize::from(!self.is_end_fixed)
+    }
+}
+
+/// Coefficients of differences of order 1, 2, 3.
+pub(in crate::in_tube::window) const DIFFERENCES: [[f64; 4]; 3] = [
+    [-1.0, 1.0, 0.0, 0.0],
+    [1.0, -2.0, 1.0, 0.0],
+    [-1.0, 3.0, -3.0, 1.0],
+];
+
+pub(in crate::in_tube::window) fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    let mut sum = 0.0;
+    for k in 0..D {
+        sum += a[k] * b[k];
+    }
+    sum
+}
+
+/// A weighted sum of consecutive points.
+#[inline]
+pub(in crate::in_tube::window) fn combine<const D: usize, const N: usize>(
+    points: &[[f64; D]],
+    first: usize,
+    weights: &[f64; N],
+) -> [f64; D] {
+    let mut sum = [0.0; D];
+    for (point, weight) in points[first..].iter().zip(weights) {
+        for k in 0..D {
+            sum[k] += weight * point[k];
+        }
+    }
+    sum
+}

@@ -1,0 +1,326 @@
+//! The rows of a window: stay in the tube of the piece, come near the corners, keep the feed.
+//!
+//! ```text
+//!          ┊ over                     A sample of a piece stays within the radius of its line, and
+//!   ───────●┈┈┈┈┈                     on the line between `back` before its start and `over` beyond
+//!          │ ╲ ball                   its end: as far as the line stays near the path. Beyond a
+//!          │   round the corner       sharp corner that is less than the radius; along gentle chords
+//!                                     it is far, so that samples need not change pieces at once.
+//! ```
+//!
+//! Samples are bound to the tube and, with several knots in a period, the middles between samples of one
+//! piece where they are near its edge; less what the motion bulges out of the chords between them. A
+//! straight line between two samples of one piece is then in it too, and where the motion goes over to another piece, it must come near
+//! every corner on the way: a point of it between the two samples must be inside the ball round the
+//! corner, and so must a chord that has its middle there. Half-way between both, which is linear in the
+//! control points, each plane that touches the ball is nearer by half the way. Together that is just what
+//! the judge asks.
+//!
+//! The round parts are bounded by planes ([`super::cuts`]).
+
+use super::cuts::{
+    CLOSE_R, Cuts, HALF_WAY, Passing, Plane, WORTH_OF_FEED, nearest_to_corner, piece_at, pieces_at,
+    slowest_feed, velocity_over_feed,
+};
+use super::samples::Samples;
+use super::scene::{SHARP, Scene};
+use super::solver::{FAR, Problem, dot};
+use super::spline::Grid;
+
+/// Most of the radius of a corner that is left to chords that cut it off.
+const MOST_SAGITTA_R: f64 = 0.5;
+/// Most corners between two samples that get rows.
+const MOST_CORNERS: usize = 4;
+/// Share of the feed that is planned with at most.
+pub(crate) const FEED_R: f64 = 0.999_95;
+/// How the rows are to be made.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Style {
+    pub(crate) grid: Grid,
+    pub(crate) period_t: f64,
+    /// Radii by which lines may leave the path beyond their ends: large while searching.
+    pub(crate) stray_r: f64,
+    /// Corners at the ends of pieces before this one may have been passed already.
+    pub(crate) passed: usize,
+    /// The feed is not exceeded to be in time on a piece.
+    pub(crate) is_feed_firm: bool,
+    /// Share of the feed that is planned with.
+    pub(crate) feed_r: f64,
+    /// Part of the radius that is used: the rest is left to rounding, and to iterates that come and go.
+    pub(crate) keep_r: f64,
+    /// Pull towards the middle of the tube, so that a motion at rest has a place there.
+    pub(crate) ridge: f64,
+    /// Not as far as possible, but as much in the middle as possible.
+    pub(crate) is_centred: bool,
+    /// The points of the last motion are one, and not only a place to start from.
+    pub(crate) has_motion: bool,
+}
+
+/// Extent of each piece's line beyond its ends, found when first asked for.
+#[derive(Debug, Default)]
+pub(crate) struct Extents {
+    spans: Vec<Option<[f64; 2]>>,
+}
+
+impl Extents {
+    pub(crate) fn clear(&mut self, pieces: usize) {
+        self.spans.clear();
+        self.spans.resize(pieces, None);
+    }
+
+    /// How far the line of a piece goes on before its start and beyond its end.
+    fn of<const D: usize>(&mut self, scene: &Scene<D>, i: usize, style: &Style) -> [f64; 2] {
+        if let Some(span) = self.spans[i] {
+            return span;
+        }
+        let chord = &scene.chords[i];
+        let stray = 0.5 * style.stray_r * chord.radius;
+        let cap = 4.0 * chord.top * style.grid.knot_t;
+        let last = scene.chords.len() - 1;
+        let over = if i < last {
+            let ahead = (i + 1..=last).map(|j| scene.vertex(j));
+            extent(&scene.vertex(i), &chord.tangent, ahead, stray, cap)
+        } else {
+            0.0
+        };
+        let back = if i > 0 {
+            let behind = (0..i).rev().map(|j| scene.chords[j].start);
+            extent(&chord.start, &chord.tangent.map(|t| -t), behind, stray, cap)
+        } else {
+            0.3 * chord.radius
+        };
+        self.spans[i] = Some([back, over]);
+        [back, over]
+    }
+}
+
+/// How far the ray from a vertex goes before the path through `vertices` has left it by `stray`.
+fn extent<const D: usize>(
+    from: &[f64; D],
+    direction: &[f64; D],
+    vertices: impl Iterator<Item = [f64; D]>,
+    stray: f64,
+    cap: f64,
+) -> f64 {
+    let mut best = 0.0_f64;
+    let mut last = (0.0, 0.0);
+    for vertex in vertices {
+        let offset: [f64; D] = core::array::from_fn(|k| vertex[k] - from[k]);
+        let x = dot(&offset, direction);
+        let across: [f64; D] = core::array::from_fn(|k| offset[k] - x * direction[k]);
+        let distance = dot(&across, &across).sqrt();
+        if x < best || distance > stray {
+            if distance > last.1 && distance > stray {
+                let share = ((stray - last.1) / (distance - last.1)).clamp(0.0, 1.0);
+                best = best.max((last.0 + (x - last.0) * share).min(best + cap));
+            }
+            break;
+        }
+        best = x;
+        last = (x, distance);
+        if best > cap {
+            break;
+        }
+    }
+    best.max(stray).min(cap)
+}
+
+/// What rows are made from.
+#[derive(Debug)]
+pub(crate) struct Layout<'a, const D: usize> {
+    pub(crate) scene: &'a Scene<D>,
+    /// Given out.
+    pub(crate) samples: &'a Samples,
+    pub(crate) cuts: &'a Cuts<D>,
+    /// The motion so far.
+    pub(crate) points: &'a [[f64; D]],
+    pub(crate) style: &'a Style,
+}
+
+/// Makes all rows and the objective.
+pub(crate) fn build<const D: usize>(
+    problem: &mut Problem<D>,
+    layout: &Layout<'_, D>,
+    extents: &mut Extents,
+) {
+    let Layout {
+        scene,
+        samples,
+        style,
+        ..
+    } = layout;
+    #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+    let share = 1.0 / samples.count() as f64;
+    for k in 1..=samples.count() {
+        let i = samples.piece[k];
+        let chord = &scene.chords[i];
+        let (first, weights) = style.grid.site(k);
+        problem.add_site(first, weights);
+        let span = extents.of(scene, i, style);
+        add_tube(problem, layout, k, span);
+        let aim = if style.is_centred {
+            0.0
+        } else {
+            share / (chord.top * style.period_t)
+        };
+        for (offset, weight) in weights.into_iter().enumerate().take(4) {
+            if let Some(aims) = problem.aims.get_mut(first + offset) {
+                for a in 0..D {
+                    aims[a] += aim * weight * chord.tangent[a];
+                }
+            }
+        }
+        if samples.piece[k - 1] < i {
+            add_corners(problem, layout, k);
+        }
+    }
+    add_feeds(problem, layout);
+}
+
+/// Rows of the last site, which is sample `k`.
+fn add_tube<const D: usize>(
+    problem: &mut Problem<D>,
+    layout: &Layout<'_, D>,
+    k: usize,
+    [back, over]: [f64; 2],
+) {
+    let piece = layout.samples.piece[k];
+    let chord = &layout.scene.chords[piece];
+    let sagitta = layout.samples.sagitta(layout.scene, k);
+    let sagitta = sagitta.min(MOST_SAGITTA_R * chord.radius);
+    let radius = (chord.radius * layout.style.keep_r - sagitta) * layout.samples.shrink[k];
+    if let Some(site) = problem.sites.last_mut() {
+        site.ridge = layout.style.ridge / (radius * radius);
+        site.center = chord.start;
+        site.tangent = chord.tangent;
+    }
+    for normal in &chord.normals[..D - 1] {
+        problem.add_row(normal.map(|n| n / radius), &chord.start, [-1.0, 1.0]);
+    }
+    let scale = 4.0 * radius;
+    let ends = [-back / scale, (chord.length + over) / scale];
+    problem.add_row(chord.tangent.map(|t| t / scale), &chord.start, ends);
+    for plane in layout.cuts.of_sample(k, piece) {
+        let normal = plane.normal.map(|n| n / radius);
+        problem.add_row(normal, &plane.center, [-FAR, 1.0]);
+    }
+    if layout.samples.has_middle(k) {
+        add_middle(problem, layout, k, radius);
+    }
+}
+
+/// The same, but for the ends, for the middle between two samples of one piece. What has bounded the
+/// samples bounds it, too.
+fn add_middle<const D: usize>(
+    problem: &mut Problem<D>,
+    layout: &Layout<'_, D>,
+    k: usize,
+    radius: f64,
+) {
+    let piece = layout.samples.piece[k];
+    let chord = &layout.scene.chords[piece];
+    let (first, weights) = layout.style.grid.inner_site(k - 1, 0.5, 0.0);
+    problem.add_site(first, weights);
+    for normal in &chord.normals[..D - 1] {
+        problem.add_row(normal.map(|n| n / radius), &chord.start, [-1.0, 1.0]);
+    }
+    let planes = [k - 1, k].map(|k| layout.cuts.of_sample(k, piece));
+    for plane in planes.into_iter().flatten() {
+        let normal = plane.normal.map(|n| n / radius);
+        problem.add_row(normal, &plane.center, [-FAR, 1.0]);
+    }
+}
+
+/// The line from the sample before `k` to sample `k` comes near the corners between.
+fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: usize) {
+    let Layout {
+        scene,
+        samples,
+        points,
+        style,
+        ..
+    } = layout;
+    let (from, to) = (samples.piece[k - 1].max(style.passed), samples.piece[k]);
+    let mut corners: Vec<(f64, usize, Option<Passing<D>>)> = (from..to)
+        .filter_map(|i| {
+            let turn = scene.turn(i, i + 1);
+            if !style.has_motion {
+                return (turn > SHARP).then_some((turn, i, None));
+            }
+            let passing = nearest_to_corner(scene, points, (i, k, samples.count()), &style.grid);
+            let off = passing.furthest();
+            let distance_r = dot(&off, &off).sqrt() / corner_radius(scene, i, style);
+            // A corner once close stays in, or else it would come and go from round to round.
+            let is_close = distance_r > CLOSE_R || layout.cuts.of_corner(i).next().is_some();
+            (turn > SHARP || is_close).then_some((distance_r, i, Some(passing)))
+        })
+        .collect();
+    corners.sort_by(|a, b| b.0.total_cmp(&a.0));
+    for (_, i, passing) in corners.iter().take(MOST_CORNERS) {
+        let (before, after) = (&scene.chords[*i], &scene.chords[i + 1]);
+        let radius = corner_radius(scene, *i, style);
+        let (k, lambda) = passing
+            .as_ref()
+            .map_or((k, 0.5), |passing| (passing.sample, passing.lambda));
+        let left = |normal: &[f64; D]| {
+            let room = passing.as_ref().map_or(0.0, |passing| passing.room(normal));
+            radius - room.min(MOST_SAGITTA_R * radius)
+        };
+        let (first, weights) = style.grid.inner_site(k - 1, lambda, HALF_WAY);
+        problem.add_site(first, weights);
+        if let Some(site) = problem.sites.last_mut().filter(|_| style.is_centred) {
+            site.ridge = style.ridge / (radius * radius);
+            site.center = after.start;
+        }
+        let turn = scene.turn(*i, i + 1);
+        let inwards = (turn > 1e-6).then(|| Plane {
+            normal: core::array::from_fn(|a| (after.tangent[a] - before.tangent[a]) / turn),
+            center: after.start,
+        });
+        for plane in inwards.iter().chain(layout.cuts.of_corner(*i)) {
+            let left = left(&plane.normal);
+            let normal = plane.normal.map(|n| n / left);
+            problem.add_row(normal, &plane.center, [-FAR, 1.0]);
+        }
+    }
+}
+
+/// The part that is used of the tolerance of the corner at the end of piece `i`.
+fn corner_radius<const D: usize>(scene: &Scene<D>, i: usize, style: &Style) -> f64 {
+    scene.chords[i].radius.min(scene.chords[i + 1].radius) * style.keep_r
+}
+
+/// Feed, and no running back, for every first difference that is not given.
+fn add_feeds<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
+    let Layout {
+        scene,
+        samples,
+        points,
+        style,
+        cuts,
+    } = layout;
+    let (grid, h) = (&style.grid, style.grid.knot_t);
+    for k in 2..problem.intervals {
+        let middle = piece_at(samples, grid, 2 * k - 1);
+        let bends_here = (piece_at(samples, grid, 2 * k - 3)
+            ..piece_at(samples, grid, 2 * k + 1 + grid.knots))
+            .any(|i| scene.turn(i, i + 1) > SHARP);
+        let scale = scene.chords[middle].feed_axes;
+        let slowest = slowest_feed(scene, pieces_at(samples, grid, k));
+        let factor = (0..D)
+            .filter(|&a| scale[a] > 0.0)
+            .fold(1.0_f64, |most, a| most.max(slowest[a] / scale[a]));
+        problem.add_site(k, [-1.0, 1.0, 0.0, 0.0, 0.0]);
+        let normal = scene.chords[middle].feed.map(|f| f * factor / h);
+        let low = if bends_here { -FAR } else { 0.0 };
+        problem.add_feed_row(normal, [low, style.feed_r], style.is_feed_firm);
+        // The feed bounds a ball of velocities: a plane touches it where the last motion was, and
+        // more where earlier ones were beyond it.
+        let (size, direction) = velocity_over_feed(points, &slowest, k, grid);
+        let last = Some(direction).filter(|_| size > 0.2 && size <= WORTH_OF_FEED);
+        for direction in last.iter().chain(cuts.of_feed(k)) {
+            let normal = core::array::from_fn(|a| direction[a] * slowest[a] / h);
+            problem.add_feed_row(normal, [-FAR, style.feed_r], style.is_feed_firm);
+        }
+    }
+}

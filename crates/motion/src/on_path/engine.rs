@@ -1,0 +1,177 @@
+//! The fast engine: corners replaced by transitions, and closed-form S-curves along the path.
+//!
+//! ```text
+//!  item ──PathFront──▶ pieces, rests ──Scheduler──▶ settled motion ──Refiner──▶ ──Sampler──▶ frames
+//!                                                                  (on curves)
+//! ```
+
+use super::front::PathFront;
+use super::look_ahead::Scheduler;
+use super::look_ahead::Settled;
+use super::pieces::Element;
+use super::refiner::Refiner;
+use super::sampler::{Sampler, Step};
+use super::slowing::Slowing;
+use crate::PlanError;
+use glidepath_geometry::{AxisVector, Segment};
+use glidepath_program::{Frame, Item, ItemKind, Limits, Override, Settings};
+use std::collections::VecDeque;
+
+/// The fast engine, as [`crate::Planner`] uses it.
+#[derive(Debug)]
+pub(crate) struct FastEngine {
+    front: PathFront,
+    scheduler: Scheduler,
+    refiner: Refiner,
+    sampler: Sampler,
+    elements: Vec<Element>,
+    settled: VecDeque<Settled>,
+    finished: bool,
+    limits: Limits,
+    period_t: f64,
+    /// An override that is not in the plan yet.
+    wanted: Option<Override>,
+}
+
+impl FastEngine {
+    /// A planner for a machine at rest at `start`.
+    pub(crate) fn new(settings: Settings, start: AxisVector) -> Self {
+        Self {
+            front: PathFront::new(settings, start),
+            scheduler: Scheduler::new(settings.limits, settings.period_t),
+            refiner: Refiner::new(settings.limits),
+            sampler: Sampler::new(settings.period_t, start),
+            elements: Vec::new(),
+            settled: VecDeque::new(),
+            finished: false,
+            limits: settings.limits,
+            period_t: settings.period_t,
+            wanted: None,
+        }
+    }
+
+    /// Takes the next item; see [`crate::Planner::push`].
+    pub(crate) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
+        self.front.push(item, &mut self.elements)?;
+        let segment = match item.kind {
+            ItemKind::Move { segment, .. } => Some(segment),
+            ItemKind::Dwell(_) | ItemKind::Event(_) => None,
+        };
+        if matches!(segment, Some(Segment::Curve(_))) {
+            self.refiner.want();
+        }
+        self.schedule();
+        Ok(())
+    }
+
+    /// No more items: what is planned ends at rest. Further calls do nothing.
+    pub(crate) fn finish(&mut self) {
+        if !self.finished {
+            self.finished = true;
+            self.front.finish(&mut self.elements);
+            self.schedule();
+        }
+    }
+
+    /// The next frame; see [`crate::Planner::pop_frame`].
+    pub(crate) fn pop_frame(&mut self) -> Result<Option<Frame>, PlanError> {
+        let mut frame = Frame::blank(AxisVector::zeros());
+        Ok(self.make_frame(&mut frame)?.then_some(frame))
+    }
+
+    /// The next frame, in `frame`; see [`crate::Planner::make_frame`].
+    pub(crate) fn make_frame(&mut self, frame: &mut Frame) -> Result<bool, PlanError> {
+        loop {
+            let was_planned = self.plan_anew();
+            match self
+                .sampler
+                .next_frame(&mut self.settled, !was_planned, frame)
+            {
+                Step::Frame => return Ok(true),
+                Step::Junction => {}
+                Step::End => return Ok(false),
+                Step::Broken { line } => return Err(PlanError::NoMotion { line }),
+            }
+            // At a junction. If the override cannot be had from here, go on to the next one.
+            if !self.plan_anew() {
+                match self.sampler.next_frame(&mut self.settled, false, frame) {
+                    Step::Frame => return Ok(true),
+                    Step::Junction | Step::End => return Ok(false),
+                    Step::Broken { line } => return Err(PlanError::NoMotion { line }),
+                }
+            }
+        }
+    }
+
+    /// Plans what no frame was taken of with another override: rates times their override, limits
+    /// unchanged.
+    ///
+    /// The new plan begins at the next place where the motion has no acceleration along the path; a
+    /// lower override takes effect as soon after that as the speed can be brought down. Each frame
+    /// tells the override it was planned with.
+    pub(crate) fn set_override(&mut self, wanted: Override) {
+        self.front.set_override(wanted);
+        self.wanted = Some(wanted);
+    }
+
+    /// Puts a wanted override into the plan if that can be done from the last frame. True if there
+    /// is none left to put in.
+    fn plan_anew(&mut self) -> bool {
+        let Some(wanted) = self.wanted else {
+            return true;
+        };
+        let Some(entry_v) = self.sampler.steady_v() else {
+            return false;
+        };
+        let mut scheduler = Scheduler::entered_at(entry_v, self.limits, self.period_t);
+        let mut settled = VecDeque::new();
+        let limits = self.limits;
+        let rest_of_stretch = self.sampler.rest_of_stretch().map(Element::Piece);
+        let elements = rest_of_stretch
+            .into_iter()
+            .chain(self.settled.iter().flat_map(Settled::elements))
+            .chain(self.refiner.elements())
+            .chain(self.scheduler.elements());
+        let mut slowing = Slowing::new(entry_v, wanted);
+        for element in elements {
+            let piece = match element {
+                Element::Piece(piece) => piece,
+                Element::Stops { .. } => continue,
+                rest @ (Element::Rest(_) | Element::InnerRest(_)) => {
+                    slowing.over = true;
+                    scheduler.push(rest, &mut settled);
+                    continue;
+                }
+            };
+            let (old, new) = slowing.split(piece);
+            if let Some(old) = old {
+                scheduler.push(Element::Piece(old), &mut settled);
+            }
+            if let Some(new) = new {
+                if !core::mem::replace(&mut slowing.over, true) {
+                    scheduler.close_run();
+                }
+                scheduler.push(Element::Piece(new.under(wanted, &limits)), &mut settled);
+            }
+        }
+        if !scheduler.is_feasible() {
+            return false;
+        }
+        self.sampler.drop_stretch();
+        self.scheduler = scheduler;
+        self.refiner.restart(entry_v);
+        self.settled = settled;
+        self.wanted = None;
+        true
+    }
+
+    fn schedule(&mut self) {
+        let mut settled = VecDeque::new();
+        for element in self.elements.drain(..) {
+            self.scheduler.push(element, &mut settled);
+        }
+        for settled in settled {
+            self.refiner.push(settled, &mut self.settled);
+        }
+    }
+}

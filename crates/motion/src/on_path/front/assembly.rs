@@ -1,0 +1,196 @@
+//! Segments and what joins them, put together to pieces of path.
+//!
+//! A segment waits until the one after it is known, since the junction between the two tells where each
+//! ends.
+
+use super::kept_blocks::KeptBlocks;
+use super::pending::Pending;
+use crate::on_path::junction::{Joint, chord_error_mm, join};
+use crate::on_path::pieces::Element;
+use crate::on_path::pieces::{CurveRule, SpeedRule};
+use crate::on_path::pieces::{Piece, Shape};
+use crate::programmed_rate::ProgrammedRate;
+use crate::rest::{Rest, RestKind};
+use glidepath_geometry::Segment;
+use glidepath_program::{Event, Limits, Override, PathMode, Settings};
+
+/// Puts pieces together.
+#[derive(Debug)]
+pub(crate) struct Assembly {
+    pub(crate) settings: Settings,
+    pub(crate) wanted: Override,
+    /// The segment whose end is not decided.
+    pub(crate) pending: Option<Pending>,
+    /// The blocks since the last rest.
+    pub(crate) blocks: KeptBlocks,
+    /// Events that wait for the move they happen on.
+    pub(crate) events: Vec<Event>,
+    /// The line taken last.
+    pub(crate) line: u32,
+}
+
+impl Assembly {
+    pub(crate) const fn new(settings: Settings) -> Self {
+        Self {
+            settings,
+            wanted: Override::NONE,
+            pending: None,
+            blocks: KeptBlocks::new(),
+            events: Vec::new(),
+            line: 0,
+        }
+    }
+
+    /// Plans what follows with another override.
+    pub(crate) fn set_override(&mut self, wanted: Override) {
+        self.wanted = wanted;
+        self.blocks.lose();
+        let settings = self.settings;
+        if let Some(held) = &mut self.pending {
+            let chord_v = chord_speed(&held.segment, held.mode, &settings);
+            held.rate_v = held.rate.under(wanted).min(chord_v);
+        }
+    }
+
+    /// Decides the joint between two segments and puts out all of the first.
+    pub(crate) fn join(&mut self, before: Pending, next: &mut Pending, out: &mut Vec<Element>) {
+        let joint = join(before.ending(), next.starting(), &self.settings);
+        let (line, rates) = (before.last_line(), [before.rate, next.rate]);
+        match joint {
+            Joint::Straight => self.put_segment(before, 0.0, out),
+            Joint::Stop { exact } => {
+                self.put_segment(before, 0.0, out);
+                let kind = if exact {
+                    RestKind::ExactStop
+                } else {
+                    RestKind::Corner
+                };
+                let stops = self.blocks.take(&next.segment.start());
+                self.put_stops(stops, out);
+                out.push(Element::Rest(Rest { kind, line }));
+            }
+            Joint::Blend {
+                transition,
+                trim_s,
+                curve,
+            } => {
+                self.put_segment(before, trim_s, out);
+                let length_s = transition.length();
+                let shape = Shape::Transition(Box::new(transition));
+                let rule = SpeedRule::Curve {
+                    curve: Box::new(curve),
+                    rates,
+                };
+                let mut piece = self.piece(shape, (0.0, length_s), rule, line);
+                piece.events = core::mem::take(&mut next.events);
+                out.push(Element::Piece(piece));
+                next.trimmed_s = trim_s;
+            }
+        }
+    }
+
+    /// Puts out the segment that waits: it is left without a joint.
+    pub(crate) fn put_pending(&mut self, out: &mut Vec<Element>) {
+        if let Some(pending) = self.pending.take() {
+            self.put_segment(pending, 0.0, out);
+        }
+    }
+
+    /// Puts out what is left of a segment after both its joints.
+    fn put_segment(&self, pending: Pending, trim_end_s: f64, out: &mut Vec<Element>) {
+        let length_s = pending.length_s - pending.trimmed_s - trim_end_s;
+        // Half is the most a joint takes, so nothing left means rounding of two halves.
+        if length_s <= 1e-12 * pending.length_s {
+            return;
+        }
+        let rule = self.rule(&pending.segment, pending.rate, pending.mode);
+        let shape = Shape::Segment(pending.segment);
+        let mut piece = self.piece(shape, (pending.trimmed_s, length_s), rule, pending.line);
+        (piece.events, piece.lines) = (pending.events, pending.lines);
+        out.push(Element::Piece(piece));
+    }
+
+    /// What limits the speed on a segment.
+    pub(crate) fn rule(
+        &self,
+        segment: &Segment,
+        rate: ProgrammedRate,
+        mode: PathMode,
+    ) -> SpeedRule {
+        match segment {
+            Segment::Line(_) => SpeedRule::Straight {
+                d1: segment.jet(0.0).d1,
+                rate,
+            },
+            Segment::Arc(arc) => SpeedRule::Arc {
+                arc: *arc,
+                rate,
+                chord_v: chord_speed(segment, mode, &self.settings),
+            },
+            Segment::Curve(curve) => SpeedRule::Curve {
+                curve: Box::new(CurveRule {
+                    bounds: curve.bounds(),
+                    gentle: true,
+                    stretch_r: 1.0,
+                    chord_v: chord_speed(segment, mode, &self.settings),
+                }),
+                rates: [rate; 2],
+            },
+        }
+    }
+
+    /// Tells of the other way to drive up to the rest that comes next.
+    pub(crate) fn put_stops(&self, stops: Option<Vec<Piece>>, out: &mut Vec<Element>) {
+        if let Some(pieces) = stops {
+            let exact = self.stop_cut_mm() > 0.05 * self.settings.tolerance_mm;
+            out.push(Element::Stops { pieces, exact });
+        }
+    }
+
+    /// How much the chord of one period can cut off at a stop between two setpoints, at most, mm.
+    pub(crate) fn stop_cut_mm(&self) -> f64 {
+        let jerk_j = self.settings.limits.jerk;
+        let limited = jerk_j.iter().filter(|j| **j < Limits::UNLIMITED);
+        let greatest_j = limited.fold(0.0_f64, |a, b| a.max(*b));
+        greatest_j * self.settings.period_t.powi(3) / 48.0
+    }
+
+    /// A piece of a shape: where in the shape it starts, and how long it is.
+    pub(crate) fn piece(
+        &self,
+        shape: Shape,
+        (from_s, length_s): (f64, f64),
+        rule: SpeedRule,
+        line: u32,
+    ) -> Piece {
+        Piece {
+            shape,
+            from_s,
+            length_s,
+            limit: rule.limit(self.wanted, &self.settings.limits),
+            rapid: rule.is_rapid(),
+            rule,
+            planned: self.wanted,
+            line,
+            lines: Vec::new(),
+            events: Vec::new(),
+        }
+    }
+}
+
+/// The speed at which the chords of one period reach the tolerance of an arc or another curve.
+pub(crate) fn chord_speed(segment: &Segment, mode: PathMode, settings: &Settings) -> f64 {
+    let arc = match segment {
+        Segment::Line(_) => return f64::INFINITY,
+        Segment::Arc(arc) => arc,
+        Segment::Curve(curve) => {
+            let left_mm = mode.tolerance_mm(settings) - curve.error_mm;
+            let at_unit_mm = chord_error_mm(&curve.bounds(), 1.0, settings.period_t);
+            return (left_mm.max(0.0) / at_unit_mm).sqrt();
+        }
+    };
+    let radius_mm = arc.start_radius().max(arc.end_radius());
+    let omega = arc.sweep_rad / arc.length();
+    let curvature_k = radius_mm * omega * omega;
+    (8.0 * mode.tolerance_mm(settings) / curvature_k).sqrt() / settings.period_t
+}

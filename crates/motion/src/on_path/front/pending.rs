@@ -1,0 +1,60 @@
+//! A segment that waits for what follows it.
+
+use crate::on_path::junction::Leg;
+use crate::programmed_rate::ProgrammedRate;
+use glidepath_geometry::Segment;
+use glidepath_program::{Event, PathMode};
+
+/// A segment whose end is not decided yet.
+#[derive(Debug)]
+pub(crate) struct Pending {
+    pub segment: Segment,
+    pub length_s: f64,
+    pub rate: ProgrammedRate,
+    /// The rate under the override at hand, where the segment can be driven at it.
+    pub rate_v: f64,
+    pub line: u32,
+    /// The lines of further blocks on it, and where on it they start.
+    pub lines: Vec<(f64, u32)>,
+    pub mode: PathMode,
+    /// Length at the start that the joint before has replaced.
+    pub trimmed_s: f64,
+    pub events: Vec<Event>,
+    /// How far it is from the program, mm.
+    pub error_mm: f64,
+    /// Whether it continues a curve at its start, and is continued by one at its end: then the joint
+    /// at the other end may take all of it.
+    pub continues: [bool; 2],
+}
+
+impl Pending {
+    /// The segment as one that a joint ends.
+    pub(crate) const fn ending(&self) -> Leg<'_> {
+        self.leg(self.continues[0])
+    }
+
+    /// The segment as one that a joint starts.
+    pub(crate) const fn starting(&self) -> Leg<'_> {
+        self.leg(self.continues[1])
+    }
+
+    const fn leg(&self, is_whole: bool) -> Leg<'_> {
+        Leg {
+            segment: &self.segment,
+            mode: self.mode,
+            length_s: self.length_s,
+            share_s: if is_whole {
+                self.length_s
+            } else {
+                0.5 * self.length_s
+            },
+            rate_v: self.rate_v,
+            error_mm: self.error_mm,
+        }
+    }
+
+    /// The line of the last block on it.
+    pub(crate) fn last_line(&self) -> u32 {
+        self.lines.last().map_or(self.line, |(_, line)| *line)
+    }
+}

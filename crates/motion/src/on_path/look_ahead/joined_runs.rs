@@ -1,0 +1,68 @@
+//! Runs whose junctions are given up where that is faster.
+
+use super::settled::Settled;
+use crate::on_path::pieces::{Piece, Shape};
+use crate::on_path::speed::Run;
+use crate::on_path::speed::{Course, Leg};
+use crate::on_path::speed::{drive_together, hasten};
+use glidepath_program::Limits;
+
+/// Runs that are driven together, and how.
+pub(crate) struct Group {
+    pieces: Vec<Piece>,
+    legs: Vec<Leg>,
+}
+
+/// Most pieces that are driven together.
+const MOST_TOGETHER: usize = 512;
+
+impl Group {
+    pub(crate) fn new(run: Run, (entry_v, exit_v): (f64, f64), limits: &Limits) -> Self {
+        let course = Course::new(&run.pieces);
+        let mut legs = run.drive(&course, entry_v, exit_v);
+        hasten(&mut legs, &course, limits);
+        Self {
+            pieces: run.pieces,
+            legs,
+        }
+    }
+
+    /// Takes in the next group if the last leg of this and the first of that are driven faster
+    /// together; gives it back if not.
+    pub(crate) fn join(&mut self, mut next: Self, limits: &Limits) -> Option<Self> {
+        let count = self.pieces.len();
+        let is_bent = |piece: &Piece| matches!(piece.shape, Shape::Spline(_));
+        let has_curve =
+            self.pieces.last().is_some_and(is_bent) || next.pieces.first().is_some_and(is_bent);
+        if count + next.pieces.len() > MOST_TOGETHER || !has_curve {
+            return Some(next);
+        }
+        self.pieces.append(&mut next.pieces);
+        let course = Course::new(&self.pieces);
+        let offset_s = course.starts_s[count];
+        let mut others = next.legs.iter().map(|leg| Leg {
+            from_s: leg.from_s + offset_s,
+            ..*leg
+        });
+        let together = match (self.legs.last(), others.next()) {
+            (Some(before), Some(after)) => drive_together((before, &after), &course, limits),
+            _ => None,
+        };
+        if let Some(mut legs) = together {
+            hasten(&mut legs, &course, limits);
+            self.legs.pop();
+            self.legs.extend(legs);
+            self.legs.extend(others);
+            return None;
+        }
+        next.pieces = self.pieces.split_off(count);
+        Some(next)
+    }
+
+    pub(crate) fn settled(self) -> Settled {
+        Settled::Motion {
+            pieces: self.pieces,
+            legs: self.legs,
+        }
+    }
+}

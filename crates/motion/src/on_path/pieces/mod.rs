@@ -1,0 +1,9 @@
+//! What the path is made of: smooth pieces, each with one speed limit, and the rests between them.
+
+mod element;
+mod piece;
+mod speed_limit;
+
+pub(crate) use element::Element;
+pub(crate) use piece::{Piece, Shape};
+pub(crate) use speed_limit::{CurveRule, SpeedLimit, SpeedRule, straight_limit};

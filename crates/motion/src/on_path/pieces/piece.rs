@@ -1,0 +1,98 @@
+//! Pieces of smooth path.
+
+use super::speed_limit::{SpeedLimit, SpeedRule};
+use glidepath_geometry::{Cubic, Jet, Segment, Transition};
+use glidepath_program::Override;
+use glidepath_program::{Event, Limits};
+
+/// A smooth piece of path with one speed limit.
+#[derive(Debug, Clone)]
+pub(crate) struct Piece {
+    pub shape: Shape,
+    /// Where in the shape the piece begins.
+    pub from_s: f64,
+    pub length_s: f64,
+    pub rule: SpeedRule,
+    pub limit: SpeedLimit,
+    /// The override that `limit` was computed with.
+    pub planned: Override,
+    /// Source line at its start.
+    pub line: u32,
+    /// The lines of further blocks on it, and where in the shape they start.
+    pub lines: Vec<(f64, u32)>,
+    pub rapid: bool,
+    /// Events that happen when the piece is entered, without stopping.
+    pub events: Vec<Event>,
+}
+
+/// The curve a piece is cut from.
+#[allow(clippy::large_enum_variant, reason = "a piece is mostly of a segment")]
+#[derive(Debug, Clone)]
+pub(crate) enum Shape {
+    Segment(Segment),
+    Transition(Box<Transition>),
+    Spline(Box<Cubic>),
+}
+
+impl Piece {
+    /// True for a line.
+    pub(crate) fn is_straight(&self) -> bool {
+        matches!(self.shape, Shape::Segment(Segment::Line(_)))
+    }
+
+    /// The override that applies to the piece, as planned.
+    pub(crate) const fn planned_override(&self) -> f64 {
+        if self.rapid {
+            self.planned.rapid_r
+        } else {
+            self.planned.feed_r
+        }
+    }
+
+    /// The same piece under another override.
+    pub(crate) fn under(self, planned: Override, limits: &Limits) -> Self {
+        Self {
+            limit: self.rule.limit(planned, limits),
+            planned,
+            ..self
+        }
+    }
+
+    /// The piece up to `s` after its start.
+    pub(crate) fn before(self, s: f64) -> Self {
+        Self {
+            length_s: s,
+            ..self
+        }
+    }
+
+    /// What is left of the piece `s` after its start. Its events have happened.
+    pub(crate) fn after(self, s: f64) -> Self {
+        Self {
+            from_s: self.from_s + s,
+            length_s: self.length_s - s,
+            events: Vec::new(),
+            ..self
+        }
+    }
+
+    /// Position and derivatives `s` after the start of the piece.
+    pub(crate) fn jet(&self, s: f64) -> Jet {
+        match &self.shape {
+            Shape::Segment(segment) => segment.jet(self.from_s + s),
+            Shape::Transition(transition) => transition.jet(self.from_s + s),
+            Shape::Spline(span) => span.jet(self.from_s + s),
+        }
+    }
+
+    /// The source line `s` after the start of the piece.
+    pub(crate) fn line_at(&self, s: f64) -> u32 {
+        let passed = self
+            .lines
+            .partition_point(|(from_s, _)| *from_s <= self.from_s + s);
+        match passed.checked_sub(1).and_then(|last| self.lines.get(last)) {
+            Some((_, line)) => *line,
+            None => self.line,
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! What a law demands of the axes between its knots, where the problem has no rows.
+//!
+//! The rows hold at knots. Where the path bends within the time from one knot to the next, as in the
+//! curve that replaces a corner, acceleration and jerk may be larger between them. So what was
+//! optimised is looked at in between, and where it demands too much the rows of the intervals around
+//! are given a smaller share of the limits, and the law is made anew.
+
+use super::interval::Interval;
+use super::parametrisation::{Law, Span};
+use crate::on_path::speed::Course;
+use glidepath_program::Limits;
+
+/// Places on an interval that are looked at, besides its start.
+const PLACES: u32 = 8;
+/// Taken off more than was exceeded, for the places between these.
+const MORE_R: f64 = 1e-3;
+
+/// The largest share of a limit of an axis that is used on a span of a law.
+fn worst(
+    span: &Span,
+    duration_t: f64,
+    interval: &Interval,
+    course: &Course<'_>,
+    limits: &Limits,
+) -> f64 {
+    let piece = &course.pieces[interval.piece];
+    let from_s = course.starts_s[interval.piece];
+    let mut worst = 0.0_f64;
+    for k in 0..=PLACES {
+        let state = span.at(duration_t * f64::from(k) / f64::from(PLACES));
+        let (v, a) = (state.speed_v, state.accel_a);
+        let j = span.jerk_j + span.growth * v;
+        let jet = piece.jet((state.position_s - from_s).clamp(0.0, piece.length_s));
+        let speed = jet.d1 * v;
+        let accel = jet.d2 * (v * v) + jet.d1 * a;
+        let jerk = jet.d3 * (v * v * v) + jet.d2 * (3.0 * v * a) + jet.d1 * j;
+        for (asked, limit) in [
+            (speed, &limits.velocity),
+            (accel, &limits.acceleration),
+            (jerk, &limits.jerk),
+        ] {
+            worst = worst.max(asked.abs().component_div(limit).max());
+        }
+    }
+    worst
+}
+
+/// Takes from the shares of the intervals that rows have of the limits where a law exceeds them; true if
+/// it does nowhere. `first`: the span of the first interval.
+pub(crate) fn lessen(
+    shares: &mut [f64],
+    law: &Law,
+    first: usize,
+    intervals: &[Interval],
+    course: &Course<'_>,
+    limits: &Limits,
+) -> bool {
+    let given = shares.to_vec();
+    let mut is_kept = true;
+    for (k, interval) in intervals.iter().enumerate() {
+        let Some(span) = law.spans.get(first + k) else {
+            break;
+        };
+        let next_t = law.spans.get(first + k + 1).map(|next| next.from_t);
+        let duration_t = next_t.unwrap_or(law.duration_t) - span.from_t;
+        let ratio = worst(span, duration_t, interval, course, limits);
+        if ratio > 1.0 {
+            is_kept = false;
+            let around = k.saturating_sub(1)..(k + 2).min(shares.len());
+            for (share, given) in shares[around.clone()].iter_mut().zip(&given[around]) {
+                *share = share.min(given / ratio - MORE_R);
+            }
+        }
+    }
+    is_kept
+}

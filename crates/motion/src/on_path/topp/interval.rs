@@ -1,0 +1,42 @@
+//! The path between two knots, and what bounds the speed there.
+
+use glidepath_geometry::{AXES, Jet, feed_length};
+use glidepath_program::Limits;
+
+/// Share of what a curve allows, for the places between knots.
+pub(crate) const BETWEEN_R: f64 = 1.0 - 2e-4;
+
+/// What bounds the speed on a piece whatever the axes can do.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Caps {
+    pub(crate) rate_v: f64,
+    /// The largest acceleration across the path.
+    pub(crate) chord_a: f64,
+}
+
+/// The path between two knots.
+#[derive(Debug)]
+pub(crate) struct Interval {
+    /// The piece it is on.
+    pub(crate) piece: usize,
+    pub(crate) from_s: f64,
+    pub(crate) length_s: f64,
+    pub(crate) start: Jet,
+    pub(crate) end: Jet,
+    pub(crate) start_v: f64,
+    pub(crate) middle_v: f64,
+    pub(crate) end_v: f64,
+}
+
+impl Interval {
+    /// The highest speed where a piece has these derivatives, mm/s.
+    pub(crate) fn cap_v(jet: &Jet, own: &Caps, limits: &Limits) -> f64 {
+        let curvature_k = feed_length(&jet.d2);
+        let by_axes = (0..AXES)
+            .map(|i| limits.velocity[i] / jet.d1[i].abs())
+            .fold(f64::INFINITY, f64::min);
+        let by_chord = (own.chord_a / curvature_k).sqrt();
+        let by_curve = by_chord.min(limits.path.speed_v(curvature_k));
+        own.rate_v.min(by_axes).min(BETWEEN_R * by_curve)
+    }
+}

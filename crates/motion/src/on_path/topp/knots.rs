@@ -1,0 +1,262 @@
+//! Where the knots of a law are, what the path is there, and the S-curves it starts from.
+
+use super::interval::{Caps, Interval};
+use super::parabola::Parabola;
+use crate::on_path::speed::{Course, Leg};
+use crate::scurve::PathState;
+use glidepath_geometry::Jet;
+use glidepath_program::Limits;
+
+/// Time from knot to knot on the S-curves, s.
+const KNOT_T: f64 = 0.002;
+/// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's.
+const REST_T: f64 = 0.001;
+const REST_R: f64 = 0.25;
+/// Next to a rest, the time to a knot grows by this factor from the one before.
+const REST_GROWTH: f64 = 1.2;
+/// Knots nearer than this share of their distance to a place where pieces meet are left out.
+const NEAREST_R: f64 = 0.35;
+
+/// A place on the S-curves: time and path position.
+#[derive(Debug, Clone, Copy)]
+struct Mark {
+    t: f64,
+    s: f64,
+}
+
+/// The phase of constant jerk next to a rest.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RestPhase {
+    pub(crate) jerk_j: f64,
+    pub(crate) duration_t: f64,
+}
+
+/// Knots, path and S-curves.
+#[derive(Debug)]
+pub(crate) struct Track {
+    pub(crate) intervals: Vec<Interval>,
+    /// What the law starts from, and places on it, densely.
+    legs: Vec<Leg>,
+    marks: Vec<Mark>,
+    /// At start and end; `None` where the motion does not rest.
+    pub(crate) rests: [Option<RestPhase>; 2],
+    pub(crate) ends_v: [f64; 2],
+    pub(crate) length_s: f64,
+}
+
+impl Track {
+    /// A track along a course that S-curves drive.
+    pub(crate) fn new(course: &Course<'_>, legs: &[Leg], limits: &Limits) -> Option<Self> {
+        let first = legs.first()?.profile;
+        let last = legs.last()?.profile;
+        let rests = [
+            (first.entry_v() <= 0.0).then(|| rest_phase(first.phases())),
+            (last.exit_v() <= 0.0).then(|| {
+                let phases: Vec<_> = last.phases().collect();
+                rest_phase(phases.into_iter().rev())
+            }),
+        ];
+        let mut track = Self {
+            intervals: Vec::new(),
+            legs: legs.to_vec(),
+            marks: marks(legs),
+            rests,
+            ends_v: [first.entry_v(), last.exit_v()],
+            length_s: course.length_s(),
+        };
+        let knots = track.knots(course);
+        track.lay(course, &knots, limits);
+        (track.intervals.len() > 4).then_some(track)
+    }
+
+    /// Length of the interval before one, 0 if there is none.
+    pub(crate) fn before_s(&self, k: usize) -> f64 {
+        let before = k.checked_sub(1).and_then(|k| self.intervals.get(k));
+        before.map_or(0.0, |interval| interval.length_s)
+    }
+
+    /// The parabola of an interval, over its coefficients.
+    pub(crate) fn parabola(&self, k: usize) -> Parabola {
+        let length = |k: usize| self.intervals.get(k).map_or(0.0, |i| i.length_s);
+        Parabola::new([self.before_s(k), length(k), length(k + 1)])
+    }
+
+    /// Path position at which the phase next to the start ends, and that where the one next to the end
+    /// begins.
+    pub(crate) fn inner(&self) -> [f64; 2] {
+        let [start_s, end_s] = self
+            .rests
+            .map(|rest| rest.map_or(0.0, |r| r.jerk_j * r.duration_t.powi(3) / 6.0));
+        [start_s, self.length_s - end_s]
+    }
+
+    /// Path positions of the knots.
+    fn knots(&self, course: &Course<'_>) -> Vec<f64> {
+        let [from_s, to_s] = self.inner();
+        let duration_t = self.marks.last().map_or(0.0, |mark| mark.t);
+        // From both ends to the middle.
+        let [mut times, mut back] = self.rests.map(|rest| times(rest, 0.5 * duration_t));
+        back.reverse();
+        let left = back.into_iter().map(|t| duration_t - t);
+        times.extend(left.filter(|t| *t > 0.5 * (duration_t + KNOT_T)));
+        let mut own = vec![from_s];
+        own.extend(times.into_iter().map(|t| self.position_at(t)));
+        own.push(to_s);
+        let joints: Vec<f64> = course.starts_s.clone();
+        let joints = &joints[joints.partition_point(|s| *s <= from_s)..];
+        let joints = &joints[..joints.partition_point(|s| *s < to_s)];
+        let mut knots = vec![from_s];
+        let mut next = joints.iter().copied().peekable();
+        for window in own.windows(3) {
+            let [before_s, here_s, after_s] = [window[0], window[1], window[2]];
+            let near_s = NEAREST_R * (here_s - before_s).min(after_s - here_s);
+            while let Some(joint_s) = next.next_if(|s| *s <= here_s) {
+                knots.push(joint_s);
+            }
+            let passed_s = knots.last().copied().unwrap_or(from_s);
+            let is_near = next.peek().is_some_and(|s| s - here_s < near_s);
+            if here_s - passed_s > near_s && !is_near {
+                knots.push(here_s);
+            }
+        }
+        knots.extend(next);
+        knots.push(to_s);
+        knots
+    }
+
+    /// Path position of the S-curves at a time.
+    fn position_at(&self, t: f64) -> f64 {
+        let after = self.marks.partition_point(|mark| mark.t <= t);
+        let before = after.saturating_sub(1);
+        match (self.marks.get(before), self.marks.get(after)) {
+            (Some(a), Some(b)) => a.s + (b.s - a.s) * (t - a.t) / (b.t - a.t),
+            _ => self.length_s,
+        }
+    }
+
+    /// The coefficient of b on an interval, as the S-curves have it: where the tangents of b at the ends
+    /// have the middle, on average. Exact for a parabola.
+    fn coefficient(&self, interval: &Interval) -> f64 {
+        let half_s = 0.5 * interval.length_s;
+        let after = |s: f64| self.legs.partition_point(|leg| leg.from_s <= s);
+        let tangent = |s: f64, step_s: f64| {
+            let leg = self.legs.get(after(s).saturating_sub(1));
+            leg.map_or(0.0, |leg| {
+                let state = leg.profile.at_position(s - leg.from_s);
+                state.speed_v * state.speed_v + 2.0 * state.accel_a * step_s
+            })
+        };
+        let [from_s, to_s] = [interval.from_s, interval.from_s + interval.length_s];
+        0.5 * (tangent(from_s, half_s) + tangent(to_s, -half_s))
+    }
+
+    /// The path between the knots.
+    fn lay(&mut self, course: &Course<'_>, knots: &[f64], limits: &Limits) {
+        for window in knots.windows(2) {
+            let (from_s, to_s) = (window[0], window[1]);
+            let middle_s = 0.5 * (from_s + to_s);
+            let index = course.touched(middle_s, middle_s).start;
+            let piece = &course.pieces[index];
+            let (rate_v, chord_a) = piece.rule.caps(piece.planned);
+            let caps = Caps { rate_v, chord_a };
+            let jet = |s: f64| piece.jet((s - course.starts_s[index]).clamp(0.0, piece.length_s));
+            let [start, middle, end] = [from_s, middle_s, to_s].map(jet);
+            let top_v = |jet: &Jet| Interval::cap_v(jet, &caps, limits);
+            self.intervals.push(Interval {
+                piece: index,
+                from_s,
+                length_s: to_s - from_s,
+                start_v: top_v(&start),
+                middle_v: top_v(&middle),
+                end_v: top_v(&end),
+                start,
+                end,
+            });
+        }
+    }
+
+    /// Coefficients of the S-curves, `rate_r` times as fast.
+    pub(crate) fn start(&self, rate_r: f64) -> Vec<f64> {
+        let square_r = rate_r * rate_r;
+        let count = self.intervals.len();
+        let mut x = Vec::with_capacity(count + 2);
+        let speed = |rest: Option<RestPhase>, end_v: f64| match rest {
+            Some(r) => {
+                let speed_v = 0.5 * r.jerk_j * r.duration_t * r.duration_t;
+                (speed_v * speed_v, r.jerk_j * r.duration_t)
+            }
+            None => (end_v * end_v, 0.0),
+        };
+        let (start_b, start_a) = speed(self.rests[0], self.ends_v[0]);
+        let (end_b, end_a) = speed(self.rests[1], self.ends_v[1]);
+        x.push(start_b);
+        for interval in &self.intervals {
+            x.push(self.coefficient(interval));
+        }
+        x.push(end_b);
+        // b′ at the ends is twice the acceleration.
+        if let (Some(first), Some(last)) = (self.intervals.first(), self.intervals.last()) {
+            x[1] = start_b + start_a * first.length_s;
+            x[count] = end_b + end_a * last.length_s;
+        }
+        for b in &mut x {
+            *b *= square_r;
+        }
+        x
+    }
+}
+
+/// Times of knots from an end of the motion up to some time, without the end.
+fn times(rest: Option<RestPhase>, to_t: f64) -> Vec<f64> {
+    let mut times = Vec::new();
+    let mut t = rest.map_or(0.0, |rest| rest.duration_t);
+    loop {
+        t += match rest {
+            Some(_) => ((REST_GROWTH - 1.0) * t).min(KNOT_T),
+            None => KNOT_T,
+        };
+        let is_before = t > 0.0 && t < to_t;
+        if !is_before {
+            return times;
+        }
+        times.push(t);
+    }
+}
+
+/// The phase next to a rest, from the phases of an S-curve in the order away from it.
+fn rest_phase(mut phases: impl Iterator<Item = (f64, PathState, f64)>) -> RestPhase {
+    let first = phases.find(|(duration_t, ..)| *duration_t > 0.0);
+    let (duration_t, jerk_j) = first.map_or((0.0, 0.0), |(t, _, jerk_j)| (t, jerk_j));
+    RestPhase {
+        jerk_j: jerk_j.abs(),
+        duration_t: (REST_R * duration_t).min(REST_T),
+    }
+}
+
+/// Places on some S-curves, four between two knots.
+fn marks(legs: &[Leg]) -> Vec<Mark> {
+    let mut marks = Vec::new();
+    let mut from_t = 0.0;
+    for leg in legs {
+        let duration_t = leg.profile.duration_t();
+        let steps = (duration_t / (0.25 * KNOT_T)).ceil().max(8.0);
+        let mut k = 0.0;
+        while k < steps {
+            let t = duration_t * k / steps;
+            let state = leg.profile.at(t);
+            marks.push(Mark {
+                t: from_t + t,
+                s: leg.from_s + state.position_s,
+            });
+            k += 1.0;
+        }
+        from_t += duration_t;
+    }
+    if let Some(last) = legs.last() {
+        marks.push(Mark {
+            t: from_t,
+            s: last.from_s + last.profile.length_s(),
+        });
+    }
+    marks
+}

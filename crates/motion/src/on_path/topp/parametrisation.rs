@@ -1,0 +1,200 @@
+//! Path position by time along a path, evaluated exactly.
+
+use crate::on_path::speed::Leg;
+use crate::scurve::PathState;
+
+/// Path position by time along some pieces.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Law {
+    pub(crate) spans: Vec<Span>,
+    pub(crate) duration_t: f64,
+    end: PathState,
+}
+
+/// A part of a law on which acceleration changes by constant jerk, or in proportion to path position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Span {
+    pub(crate) from_t: f64,
+    pub(crate) start: PathState,
+    /// Constant jerk, mm/s³.
+    pub(crate) jerk_j: f64,
+    /// Acceleration gained for each mm, 1/s².
+    pub(crate) growth: f64,
+}
+
+/// Terms of the series, and the magnitude below which one no longer counts.
+const MOST_TERMS: u32 = 40;
+
+const SMALLEST_TERM: f64 = 1e-18;
+
+/// Newton steps for the time on a span.
+const TIME_STEPS: u32 = 20;
+
+/// sinh(√γ·t)/√γ and (cosh(√γ·t) − 1)/γ, or their circular likes for γ < 0, by their series.
+fn series(growth: f64, t: f64) -> (f64, f64) {
+    let z = growth * t * t;
+    let (mut first, mut second) = (1.0, 0.5);
+    let (mut odd, mut even) = (1.0, 0.5);
+    for k in 1..MOST_TERMS {
+        let n = f64::from(2 * k);
+        odd *= z / (n * (n + 1.0));
+        even *= z / ((n + 1.0) * (n + 2.0));
+        first += odd;
+        second += even;
+        if odd.abs() < SMALLEST_TERM {
+            break;
+        }
+    }
+    (first * t, second * t * t)
+}
+
+impl Span {
+    /// The state `t` after the start of the span.
+    pub(crate) fn at(&self, t: f64) -> PathState {
+        let PathState {
+            position_s,
+            speed_v,
+            accel_a,
+        } = self.start;
+        let (first, second) = series(self.growth, t);
+        let (zeroth, jerk_j) = (1.0 + self.growth * second, self.jerk_j);
+        PathState {
+            position_s: position_s + speed_v * first + accel_a * second + jerk_j * t * t * t / 6.0,
+            speed_v: speed_v * zeroth + accel_a * first + 0.5 * jerk_j * t * t,
+            accel_a: accel_a * zeroth + self.growth * speed_v * first + jerk_j * t,
+        }
+    }
+}
+
+impl Law {
+    /// The same motion as some S-curves, slowed down: `rate_r` ≤ 1 times as fast.
+    pub(crate) fn slowed(legs: &[Leg], rate_r: f64) -> Option<Self> {
+        let mut spans: Vec<Span> = Vec::new();
+        let mut from_t = 0.0;
+        for leg in legs {
+            for (duration_t, start, jerk_j) in leg.profile.phases() {
+                if duration_t <= 0.0 {
+                    continue;
+                }
+                spans.push(Span {
+                    from_t,
+                    start: PathState {
+                        position_s: leg.from_s + start.position_s,
+                        speed_v: start.speed_v * rate_r,
+                        accel_a: start.accel_a * rate_r * rate_r,
+                    },
+                    jerk_j: jerk_j * rate_r.powi(3),
+                    growth: 0.0,
+                });
+                from_t += duration_t / rate_r;
+            }
+        }
+        let last = legs.last()?;
+        let end = PathState {
+            position_s: last.from_s + last.profile.length_s(),
+            speed_v: last.profile.exit_v() * rate_r,
+            accel_a: 0.0,
+        };
+        Some(Self {
+            spans,
+            duration_t: from_t,
+            end,
+        })
+    }
+
+    /// How long the motion takes, s.
+    pub(crate) const fn duration_t(&self) -> f64 {
+        self.duration_t
+    }
+
+    /// The path it covers, mm.
+    pub(crate) const fn length_s(&self) -> f64 {
+        self.end.position_s
+    }
+
+    /// The speed at its end, mm/s.
+    pub(crate) const fn exit_v(&self) -> f64 {
+        self.end.speed_v
+    }
+
+    /// The state `t` after the start, held after the end.
+    pub(crate) fn at(&self, t: f64) -> PathState {
+        if t >= self.duration_t {
+            return self.end;
+        }
+        let index = self.spans.partition_point(|span| span.from_t <= t);
+        match self.spans.get(index.saturating_sub(1)) {
+            Some(span) => span.at(t - span.from_t),
+            None => self.end,
+        }
+    }
+}
+
+/// Puts spans one after the other.
+pub(crate) struct Builder {
+    law: Law,
+}
+
+impl Builder {
+    pub(crate) const fn new() -> Self {
+        let end = PathState {
+            position_s: 0.0,
+            speed_v: 0.0,
+            accel_a: 0.0,
+        };
+        Self {
+            law: Law {
+                spans: Vec::new(),
+                duration_t: 0.0,
+                end,
+            },
+        }
+    }
+
+    /// A phase of constant jerk.
+    pub(crate) fn push_phase(&mut self, start: PathState, jerk_j: f64, duration_t: f64) {
+        let from_t = self.law.duration_t;
+        self.law.spans.push(Span {
+            from_t,
+            start,
+            jerk_j,
+            growth: 0.0,
+        });
+        self.law.duration_t += duration_t;
+    }
+
+    /// A span on which b = v² is a parabola: from a state over a length, b″ its second derivative.
+    /// `None` if the motion does not get through.
+    pub(crate) fn push_span(&mut self, start: PathState, length_s: f64, second: f64) -> Option<()> {
+        let growth = 0.5 * second;
+        let span = Span {
+            from_t: self.law.duration_t,
+            start,
+            jerk_j: 0.0,
+            growth,
+        };
+        let left_b =
+            start.speed_v * start.speed_v + length_s * (2.0 * start.accel_a + growth * length_s);
+        let sum_v = start.speed_v + left_b.max(0.0).sqrt();
+        let mut t = 2.0 * length_s / sum_v;
+        for _ in 0..TIME_STEPS {
+            let state = span.at(t);
+            let step_t = (state.position_s - start.position_s - length_s) / state.speed_v;
+            t -= step_t;
+            if step_t.abs() <= 1e-15 + 1e-14 * t {
+                break;
+            }
+        }
+        let is_through = t > 0.0 && t.is_finite();
+        if is_through {
+            self.law.spans.push(span);
+            self.law.duration_t += t;
+        }
+        is_through.then_some(())
+    }
+
+    pub(crate) fn finish(mut self, end: PathState) -> Law {
+        self.law.end = end;
+        self.law
+    }
+}
