@@ -18,7 +18,7 @@
 //!
 //! Source of the equal chords: Lu, Zhao, Wang, Jiang, *Research on space curve interpolation of equal
 //! chord length for parallel machine tool*, Machinery Design & Manufacture 2010 no. 3. Its methods are
-//! here for comparison ([`parametric::Method::Bisection`], [`implicit::linear_step`]); what is used by
+//! here for comparison ([`parametric::Method::Bisection`], [`published::linear_step`]); what is used by
 //! default differs where they fail: a bracket that proves the first crossing, a corrector that puts
 //! implicit points on the curve, and an error bound that holds over the whole arc.
 
@@ -28,6 +28,7 @@ pub mod implicit;
 mod laps;
 mod nurbs_file;
 pub mod parametric;
+pub mod published;
 mod rule;
 mod sagitta;
 

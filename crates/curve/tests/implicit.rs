@@ -5,8 +5,9 @@
 mod support;
 
 use glidepath_curve::implicit::{
-    End, ImplicitChords, ImplicitStepper, Reading, chord_error_mm, curvature_k, linear_step, node,
+    End, ImplicitChords, ImplicitStepper, chord_error_mm, curvature_k, node,
 };
+use glidepath_curve::published::{Reading, linear_step};
 use glidepath_curve::{ChordRule, CurveError, ImplicitCurve};
 use nalgebra::Vector3;
 use proptest::prelude::*;

@@ -5,8 +5,9 @@
 mod support;
 
 use glidepath_curve::parametric::{
-    Method, ParametricChords, ParametricStepper, bracket, breaks, certify_bracket, equal_chords,
+    Method, ParametricChords, ParametricStepper, bracket, breaks, certify_bracket,
 };
+use glidepath_curve::published::equal_chords;
 use glidepath_curve::{ChordRule, CurveError, ParametricCurve, chord_mm, sagitta_mm};
 use proptest::prelude::*;
 use support::*;

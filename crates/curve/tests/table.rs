@@ -5,8 +5,9 @@
 
 mod support;
 
-use glidepath_curve::implicit::{ImplicitStepper, Reading, linear_step};
+use glidepath_curve::implicit::ImplicitStepper;
 use glidepath_curve::parametric::{Method, ParametricStepper};
+use glidepath_curve::published::{Reading, linear_step};
 use glidepath_curve::{ImplicitCurve, ParametricCurve};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;

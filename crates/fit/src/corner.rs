@@ -1,6 +1,6 @@
 //! Where a run of points turns so sharply that no smooth curve belongs there.
 
-use crate::Point;
+use crate::point::Point;
 
 /// The points without those that repeat the one before them, which has no direction.
 pub(crate) fn distinct(points: &[Point]) -> Vec<Point> {

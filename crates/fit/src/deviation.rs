@@ -4,8 +4,8 @@
 //! densely, and everything near in path is compared with everything near. The curve is parametrised by
 //! the chord length of the points; a window of chord lengths says what is near.
 
-use crate::Point;
 use crate::part::to_chord;
+use crate::point::Point;
 use glidepath_geometry::Nurbs;
 
 /// Samples of the curve for each chord.

@@ -4,7 +4,7 @@
 //! seven, solved by Cholesky's method in time proportional to points and knots. For these knots and
 //! parameters no other control points have a smaller sum of squares.
 
-use crate::Point;
+use crate::point::Point;
 use crate::spline::{Spline, basis, span_from};
 
 /// A pivot this small, relative to its row, means that the points do not determine the spline.

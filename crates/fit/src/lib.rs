@@ -36,26 +36,22 @@
 //! Sources: the foraging method is that of Gu, Zhou, Lin et al. on NURBS fitting by bacterial
 //! foraging, completed after Passino, *Biomimicry of bacterial foraging*, 2002.
 
+mod bacterial_foraging;
 mod corner;
 mod deviation;
-mod foraging;
 mod knots;
 mod least_squares;
 mod part;
-mod random;
-mod search;
+mod point;
 mod spline;
 
+pub use bacterial_foraging::Foraging;
 pub use deviation::Deviation;
-pub use foraging::Foraging;
+pub use point::Point;
 
 use glidepath_geometry::{AxisVector, Nurbs, NurbsError};
 use knots::Placed;
-use nalgebra::Vector3;
 use part::{Candidate, Part};
-
-/// X, Y and Z of a point, mm.
-pub type Point = Vector3<f64>;
 
 /// The share of the tolerance the fit uses: it compares curve and polyline at some points, and
 /// between them they may be a little further apart.
@@ -197,13 +193,21 @@ pub fn fit(
             Method::Foraging => {
                 // What the search made small, so that its figures can be compared.
                 let part = placed.determined();
-                let (candidate, search) =
-                    foraging::on_control_points(part, &placed.candidate, seed, &mut progress);
+                let (candidate, search) = bacterial_foraging::on_control_points(
+                    part,
+                    &placed.candidate,
+                    seed,
+                    &mut progress,
+                );
                 (candidate, search, part)
             }
             Method::Hybrid => {
-                let (candidate, search) =
-                    foraging::on_knots(&placed.fitted, placed.candidate, seed, &mut progress);
+                let (candidate, search) = bacterial_foraging::on_knots(
+                    &placed.fitted,
+                    placed.candidate,
+                    seed,
+                    &mut progress,
+                );
                 (candidate, search, part)
             }
         };

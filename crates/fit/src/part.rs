@@ -1,7 +1,7 @@
 //! One smooth part of a run: its points, their parameters, and what a spline makes of them.
 
-use crate::Point;
 use crate::least_squares;
+use crate::point::Point;
 use crate::spline::{Pieces, Spline, clamped};
 
 /// Rounds of parameter correction where a fit is almost good enough.

@@ -1,6 +1,6 @@
 //! Cubic B-splines with clamped ends, not rational: what a fit is made of.
 
-use crate::Point;
+use crate::point::Point;
 
 /// Knots `x₀ x₀ x₀ x₀ … xₙ xₙ xₙ xₙ`, one more control point than there are knots but four.
 #[derive(Debug, Clone, PartialEq)]

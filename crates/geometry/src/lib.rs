@@ -14,6 +14,7 @@ mod arc;
 mod axis;
 mod bernstein;
 mod cubic;
+mod jet;
 pub mod number;
 mod nurbs;
 mod prepared;
@@ -26,12 +27,12 @@ mod turn;
 pub use arc::{Arc, Plane};
 pub use axis::{AXES, Axis, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 pub use cubic::Cubic;
+pub use jet::Jet;
 pub use nurbs::{MAX_DEGREE, Nurbs, NurbsError, NurbsJet, NurbsPath, Span, SpanCurvature};
 pub use prepared::{Prepared, PreparedArc, PreparedLine};
 pub use quintic::Quintic;
-pub use segment::{Jet, Line, Segment, feed_length};
+pub use segment::{Line, Segment, feed_length};
 pub use transition::{
-    BezierPair, Blend, DerivativeBounds, HeadingCurve, Hermite, PairShape, Profile, Transition,
-    TransitionError,
+    BezierPair, Blend, DerivativeBounds, Hermite, PairShape, Transition, TransitionError,
 };
 pub use turn::{Turn, limit_along, tolerance_half_turn};

@@ -5,20 +5,7 @@
 //! of those moves, else the length of the rotary motion in degrees. The feedrate is the rate of `s`,
 //! so a rotary axis that turns along with a linear move does not slow the tool.
 
-use crate::{Arc, AxisVector, LINEAR_XYZ, Quintic, ROTARY_ABC, UVW};
-
-/// Position and its first three derivatives by path position.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Jet {
-    /// Position.
-    pub position: AxisVector,
-    /// First derivative by `s`, units of the axis per unit of `s`.
-    pub d1: AxisVector,
-    /// Second derivative by `s`.
-    pub d2: AxisVector,
-    /// Third derivative by `s`.
-    pub d3: AxisVector,
-}
+use crate::{Arc, AxisVector, Jet, LINEAR_XYZ, Quintic, ROTARY_ABC, UVW};
 
 /// A straight move over any of the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,9 +2,7 @@
 
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod vectors {
-    use glidepath_geometry::{
-        AxisVector, BezierPair, Blend, HeadingCurve, Jet, PairShape, Profile, Transition, Turn,
-    };
+    use glidepath_geometry::{AxisVector, BezierPair, Blend, Jet, PairShape, Transition, Turn};
     use serde_json::Value;
 
     const TEXT: &str = include_str!(concat!(
@@ -104,24 +102,22 @@ mod vectors {
     #[test]
     fn uniform_blends() {
         for corner in corners() {
-            for (key, profile) in [("blend6", Profile::Sextic), ("blend4", Profile::Quartic)] {
-                let want = &corner.value[key];
-                if !want.is_null() {
-                    check_blend(&corner, profile, want);
-                }
+            let want = &corner.value["blend6"];
+            if !want.is_null() {
+                check_blend(&corner, want);
             }
         }
     }
 
-    fn check_blend(corner: &Corner, profile: Profile, want: &Value) {
+    fn check_blend(corner: &Corner, want: &Value) {
         let &Corner {
             d, t1, t2, turn, ..
         } = corner;
-        let name = &format!("{} {profile:?}", corner.name);
-        let blend = Blend::new(profile, AxisVector::zeros(), t1, t2, d);
+        let name = &format!("{} blend", corner.name);
+        let blend = Blend::new(AxisVector::zeros(), t1, t2, d);
         close(
             name,
-            profile.deviation(d, turn.sb),
+            Blend::deviation(d, turn.sb),
             &want["deviation"],
             1e-12,
             0.0,
@@ -146,7 +142,7 @@ mod vectors {
         if !want["kappa_max"].is_null() {
             close(
                 name,
-                profile.max_curvature(d, turn),
+                Blend::max_curvature(d, turn),
                 &want["kappa_max"],
                 1e-12,
                 0.0,
@@ -158,30 +154,21 @@ mod vectors {
         }
         let end_rate = curvature_rate(&blend.jet(0.0));
         close(name, end_rate, &want["dkds_start"], 1e-9, 1e-12);
-        close(
-            name,
-            profile.end_curvature_rate(d, turn),
-            &want["dkds_start"],
-            1e-12,
-            0.0,
-        );
-        if profile == Profile::Sextic {
-            check_point(name, &blend.jet(0.5 * d).position, &want["point_u025"], d);
-            let caps = [
-                profile.acceleration_cap(d, turn.sb, 1e4),
-                profile.jerk_cap(d, turn.sb, 1e6),
-            ];
-            close(name, caps[0], &want["V_cap_A1e4"], 1e-12, 0.0);
-            close(name, caps[1], &want["V_cap_J1e6"], 1e-12, 0.0);
-            if !want["dkds_u025"].is_null() {
-                close(
-                    name,
-                    curvature_rate(&blend.jet(0.5 * d)),
-                    &want["dkds_u025"],
-                    1e-9,
-                    0.0,
-                );
-            }
+        check_point(name, &blend.jet(0.5 * d).position, &want["point_u025"], d);
+        let caps = [
+            Blend::acceleration_cap(d, turn.sb, 1e4),
+            Blend::jerk_cap(d, turn.sb, 1e6),
+        ];
+        close(name, caps[0], &want["V_cap_A1e4"], 1e-12, 0.0);
+        close(name, caps[1], &want["V_cap_J1e6"], 1e-12, 0.0);
+        if !want["dkds_u025"].is_null() {
+            close(
+                name,
+                curvature_rate(&blend.jet(0.5 * d)),
+                &want["dkds_u025"],
+                1e-9,
+                0.0,
+            );
         }
     }
 
@@ -299,70 +286,6 @@ mod vectors {
             measured.abs() <= 1e-10 * scale / turn.cb,
             "{}: {measured}",
             corner.name
-        );
-    }
-
-    #[test]
-    fn heading_curves() {
-        for corner in corners() {
-            let want = &corner.value["heading"];
-            if want.is_null() {
-                let Corner { d, t1, t2, .. } = corner;
-                let refused = HeadingCurve::new(AxisVector::zeros(), t1, t2, d);
-                assert!(refused.is_err(), "{}", corner.name);
-            } else {
-                check_heading_curve(&corner, want);
-            }
-        }
-    }
-
-    fn check_heading_curve(corner: &Corner, want: &Value) {
-        let &Corner {
-            d, t1, t2, turn, ..
-        } = corner;
-        let name = &corner.name;
-        let curve = HeadingCurve::new(AxisVector::zeros(), t1, t2, d).unwrap();
-        let length = curve.length();
-        close(name, length, &want["arc_length"], 1e-12, 0.0);
-        close(
-            name,
-            HeadingCurve::deviation(d, turn),
-            &want["deviation"],
-            1e-12,
-            2e-16,
-        );
-        close(
-            name,
-            HeadingCurve::max_curvature(d, turn),
-            &want["kappa_max"],
-            1e-12,
-            0.0,
-        );
-        close(
-            name,
-            HeadingCurve::max_curvature_rate(d, turn),
-            &want["dkds_max"],
-            1e-12,
-            0.0,
-        );
-        for (i, k) in want["kappa_x"].as_array().unwrap().iter().enumerate() {
-            let s = length * f64::from(u32::try_from(i).unwrap()) / 10.0;
-            close(name, curvature(&curve.jet(s)), k, 1e-9, 1e-15);
-        }
-        for (key, s) in [("dkds_start", 0.0), ("dkds_end", length)] {
-            close(name, curvature_rate(&curve.jet(s)), &want[key], 0.0, 1e-14);
-        }
-        check_point(
-            name,
-            &curve.jet(0.25 * length).position,
-            &want["point_x025"],
-            d,
-        );
-        check_point(
-            name,
-            &curve.jet(0.5 * length).position,
-            &want["point_x05"],
-            d,
         );
     }
 

@@ -1,8 +1,8 @@
 //! Properties of the transitions over all nine axes.
 
 use glidepath_geometry::{
-    AXES, AxisVector, Blend, HeadingCurve, Jet, LINEAR_XYZ, PairShape, Profile, Transition, Turn,
-    feed_length, limit_along, tolerance_half_turn,
+    AXES, AxisVector, Blend, Jet, LINEAR_XYZ, PairShape, Transition, Turn, feed_length,
+    limit_along, tolerance_half_turn,
 };
 use proptest::prelude::*;
 
@@ -32,10 +32,7 @@ fn corner() -> impl Strategy<Value = (AxisVector, AxisVector, AxisVector, f64)> 
 /// The curves by arc length have no limit of sharpness but the reversal; at 170° their own figures
 /// span four orders of magnitude, which is enough to ask of a finite difference.
 fn all_families(p: AxisVector, t1: AxisVector, t2: AxisVector, d: f64) -> Vec<Transition> {
-    let mut all = vec![
-        Transition::sextic(p, t1, t2, d),
-        Transition::quartic(p, t1, t2, d),
-    ];
+    let mut all = vec![Transition::sextic(p, t1, t2, d)];
     if Turn::between(&t1, &t2).cb > 0.09 {
         for shape in [
             PairShape::CUBIC,
@@ -44,7 +41,6 @@ fn all_families(p: AxisVector, t1: AxisVector, t2: AxisVector, d: f64) -> Vec<Tr
         ] {
             all.extend(Transition::bezier_pair(p, t1, t2, d, shape));
         }
-        all.extend(Transition::heading(p, t1, t2, d));
     }
     // A bend at the start, as where an arc arrives.
     let bend = (t2 - t1 * t1.dot(&t2) / t1.norm_squared()) * (0.3 / d);
@@ -112,17 +108,12 @@ proptest! {
     fn the_deviation_is_that_of_the_formula((p, t1, t2, d) in corner()) {
         let turn = Turn::between(&t1, &t2);
         let distance = |jet: Jet| (jet.position - p).rows(0, 3).norm();
-        for (profile, curve) in [
-            (Profile::Sextic, Transition::sextic(p, t1, t2, d)),
-            (Profile::Quartic, Transition::quartic(p, t1, t2, d)),
-        ] {
-            let nearest = nearest(&curve, distance);
-            let formula = profile.deviation(d, turn.sb);
-            prop_assert!((nearest - formula).abs() < 1e-9 * d, "{nearest} {formula}");
-            prop_assert!((profile.distance_for(formula, turn.sb) / d - 1.0).abs() < 1e-12);
-        }
+        let nearest = nearest(&Transition::sextic(p, t1, t2, d), distance);
+        let formula = Blend::deviation(d, turn.sb);
+        prop_assert!((nearest - formula).abs() < 1e-9 * d, "{nearest} {formula}");
+        prop_assert!((Blend::distance_for(formula, turn.sb) / d - 1.0).abs() < 1e-12);
         // Over mixed axes the formula holds for the worst tolerance group.
-        let worst = Profile::Sextic.deviation(d, tolerance_half_turn(&t1, &t2));
+        let worst = Blend::deviation(d, tolerance_half_turn(&t1, &t2));
         let middle = Transition::sextic(p, t1, t2, d).jet(d).position - p;
         let rotary = (3..6).map(|i| middle[i].abs()).fold(0.0, f64::max);
         let groups = middle.rows(0, 3).norm().max(middle.rows(6, 3).norm()).max(rotary);
@@ -133,9 +124,9 @@ proptest! {
     fn an_unequal_blend_deviates_no_more_than_the_mean_one(
         (p, t1, t2, d) in corner(), ratio in 1.0..20.0_f64,
     ) {
-        let blend = Blend::asymmetric(Profile::Sextic, p, t1, t2, [d, d * ratio]);
+        let blend = Blend::asymmetric(p, t1, t2, [d, d * ratio]);
         let turn = Turn::between(&t1, &t2);
-        let bound = Profile::Sextic.deviation(d * ratio.sqrt(), turn.sb);
+        let bound = Blend::deviation(d * ratio.sqrt(), turn.sb);
         let nearest = nearest(&Transition::Blend(blend), |jet| (jet.position - p).rows(0, 3).norm());
         prop_assert!(nearest <= bound * (1.0 + 1e-9), "{nearest} {bound}");
         prop_assert!((blend.length() - d * (1.0 + ratio)).abs() < 1e-12 * blend.length());
@@ -148,17 +139,17 @@ proptest! {
         let normal = (t2 - t1) / (2.0 * turn.sb);
         let along = limit_along(&normal, &limit);
         let bounds = Transition::sextic(AxisVector::zeros(), t1, t2, d).bounds();
-        let v = Profile::Sextic.acceleration_cap(d, turn.sb, along);
+        let v = Blend::acceleration_cap(d, turn.sb, along);
         let used = (0..AXES).map(|i| v * v * bounds.d2[i] / limit[i]).fold(0.0, f64::max);
         prop_assert!((used - 1.0).abs() < 1e-12, "{used}");
-        let v = Profile::Sextic.jerk_cap(d, turn.sb, along);
+        let v = Blend::jerk_cap(d, turn.sb, along);
         let used = (0..AXES).map(|i| v.powi(3) * bounds.d3[i] / limit[i]).fold(0.0, f64::max);
         prop_assert!((used - 1.0).abs() < 1e-12, "{used}");
-        prop_assert!((Profile::Sextic.peak_jerk(d, turn.sb, v) / along - 1.0).abs() < 1e-12);
+        prop_assert!((Blend::peak_jerk(d, turn.sb, v) / along - 1.0).abs() < 1e-12);
         // The length that just allows a speed.
-        let d_min = Profile::Sextic.distance_for_speed(turn.sb, v, along, along);
-        let cap = Profile::Sextic.acceleration_cap(d_min, turn.sb, along)
-            .min(Profile::Sextic.jerk_cap(d_min, turn.sb, along));
+        let d_min = Blend::distance_for_speed(turn.sb, v, along, along);
+        let cap = Blend::acceleration_cap(d_min, turn.sb, along)
+            .min(Blend::jerk_cap(d_min, turn.sb, along));
         prop_assert!((cap / v - 1.0).abs() < 1e-12);
     }
 }
@@ -228,49 +219,46 @@ fn planar(theta: f64) -> (AxisVector, AxisVector) {
 #[test]
 fn a_blend_accelerates_in_one_direction() {
     const V: f64 = 30.0;
-    for profile in [Profile::Sextic, Profile::Quartic] {
-        for theta in [0.01, 1.0, 2.0, 3.1] {
-            let (t1, t2) = planar(theta);
-            let turn = Turn::between(&t1, &t2);
-            let normal = (t2 - t1) / (2.0 * turn.sb);
-            let blend = Blend::new(profile, AxisVector::zeros(), t1, t2, 0.4);
-            let (mut peak_a, mut peak_j) = (0.0_f64, 0.0_f64);
-            for i in 0..=20_000 {
-                let jet = blend.jet(blend.length() * f64::from(i) / 20_000.0);
-                let (a, j) = (jet.d2 * V.powi(2), jet.d3 * V.powi(3));
-                assert!((a - normal * a.dot(&normal)).norm() <= 1e-12 * a.norm());
-                assert!((j - normal * j.dot(&normal)).norm() <= 1e-12 * j.norm());
-                (peak_a, peak_j) = (peak_a.max(a.norm()), peak_j.max(j.norm()));
-            }
-            let formulas = (
-                profile.peak_acceleration(0.4, turn.sb, V),
-                profile.peak_jerk(0.4, turn.sb, V),
-            );
-            assert!(
-                (peak_a / formulas.0 - 1.0).abs() < 1e-6,
-                "{peak_a} {formulas:?}"
-            );
-            assert!(
-                (peak_j / formulas.1 - 1.0).abs() < 1e-6,
-                "{peak_j} {formulas:?}"
-            );
-            // Slowest in the middle: cos β of the rate.
-            let middle = blend.jet(0.4).d1.norm();
-            assert!((middle - turn.cb).abs() < 1e-12, "{middle}");
+    for theta in [0.01, 1.0, 2.0, 3.1] {
+        let (t1, t2) = planar(theta);
+        let turn = Turn::between(&t1, &t2);
+        let normal = (t2 - t1) / (2.0 * turn.sb);
+        let blend = Blend::new(AxisVector::zeros(), t1, t2, 0.4);
+        let (mut peak_a, mut peak_j) = (0.0_f64, 0.0_f64);
+        for i in 0..=20_000 {
+            let jet = blend.jet(blend.length() * f64::from(i) / 20_000.0);
+            let (a, j) = (jet.d2 * V.powi(2), jet.d3 * V.powi(3));
+            assert!((a - normal * a.dot(&normal)).norm() <= 1e-12 * a.norm());
+            assert!((j - normal * j.dot(&normal)).norm() <= 1e-12 * j.norm());
+            (peak_a, peak_j) = (peak_a.max(a.norm()), peak_j.max(j.norm()));
         }
+        let formulas = (
+            Blend::peak_acceleration(0.4, turn.sb, V),
+            Blend::peak_jerk(0.4, turn.sb, V),
+        );
+        assert!(
+            (peak_a / formulas.0 - 1.0).abs() < 1e-6,
+            "{peak_a} {formulas:?}"
+        );
+        assert!(
+            (peak_j / formulas.1 - 1.0).abs() < 1e-6,
+            "{peak_j} {formulas:?}"
+        );
+        // Slowest in the middle: cos β of the rate.
+        let middle = blend.jet(0.4).d1.norm();
+        assert!((middle - turn.cb).abs() < 1e-12, "{middle}");
     }
 }
 
 #[test]
 fn a_reversal_turns_back_smoothly() {
     let (t1, _) = planar(0.0);
-    let blend = Blend::new(Profile::Sextic, AxisVector::zeros(), t1, -t1, 2.0);
+    let blend = Blend::new(AxisVector::zeros(), t1, -t1, 2.0);
     assert!((blend.arc_length() - 11.0 * 2.0 / 8.0).abs() < 1e-13);
-    assert!((blend.jet(2.0).position[0] + Profile::Sextic.deviation(2.0, 1.0)).abs() < 1e-14);
+    assert!((blend.jet(2.0).position[0] + Blend::deviation(2.0, 1.0)).abs() < 1e-14);
     for shape in [PairShape::CUBIC, PairShape::SMOOTH] {
         assert!(Transition::bezier_pair(AxisVector::zeros(), t1, -t1, 1.0, shape).is_err());
     }
-    assert!(Transition::heading(AxisVector::zeros(), t1, -t1, 1.0).is_err());
 }
 
 #[test]
@@ -294,7 +282,7 @@ fn rounding_in_another_group_is_no_motion() {
     t2[0] = 1e-9;
     let turn = Turn::between(&t1, &t2);
     assert!((turn.sb - 1.0).abs() < 1e-15 && turn.cb < 1e-15, "{turn:?}");
-    let blend = Blend::asymmetric(Profile::Sextic, AxisVector::zeros(), t1, t2, [1.0, 9.0]);
+    let blend = Blend::asymmetric(AxisVector::zeros(), t1, t2, [1.0, 9.0]);
     assert!(blend.arc_length() > 1.0);
 }
 
@@ -332,7 +320,4 @@ fn rotation_changes_nothing() {
             assert!((map(&p.d3) - t.d3).norm() < 1e-10);
         }
     }
-    assert!(
-        (HeadingCurve::deviation(0.7, turn) - HeadingCurve::deviation(0.7, mapped)).abs() < 1e-15
-    );
 }

@@ -79,7 +79,7 @@ impl CurveSource {
             .chords(rule)
             .map_err(|error| vec![cannot_follow(&text, &file, &error)])?;
         Ok(Self {
-            moves: FileMoves::new(text, file.place(ShapeKey::Formula), options),
+            moves: FileMoves::new(text, file.key(ShapeKey::Formula), options),
             file,
             chords,
             rate: Rate::Feed(feed_mm_min / 60.0),
@@ -138,7 +138,7 @@ fn cannot_follow(text: &str, file: &CurveFile, error: &CurveError) -> Diagnostic
     };
     Diagnostic::in_text(
         text,
-        file.place(key),
+        file.key(key),
         DiagnosticCode::Curve,
         error.to_string(),
         help.to_owned(),

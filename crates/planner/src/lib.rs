@@ -43,7 +43,7 @@ pub use pipeline::{Output, Pipeline, Statistics, Step};
 pub use program::{PipeSource, ProgramSource};
 pub use publish::Publisher;
 pub use refusal::Refusal;
-pub use resume::{Rest, ResumeError, ResumePoint};
+pub use resume::{Remainder, ResumeError, ResumePoint};
 pub use source::{ItemSource, Supply};
 use stream::Stream;
 pub use stream::{STREAM_QUEUE, SoftLimits};

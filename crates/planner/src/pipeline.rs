@@ -21,7 +21,7 @@ use glidepath_program::{Frame, Item, ItemKind, Override, Settings};
 
 use crate::blocks::Blocks;
 use crate::joint_speed::JointSpeed;
-use crate::{ItemSource, Refusal, Rest, Supply};
+use crate::{ItemSource, Refusal, Remainder, Supply};
 
 /// One step of a pipeline.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,10 +93,10 @@ pub struct Pipeline<S> {
     joints: Option<JointSpeed>,
 }
 
-impl<S: ItemSource> Pipeline<Rest<S>> {
+impl<S: ItemSource> Pipeline<Remainder<S>> {
     /// A pipeline for the rest of a program, from where the machine stands.
     #[must_use]
-    pub fn resuming(rest: Rest<S>, settings: Settings) -> Self {
+    pub fn resuming(rest: Remainder<S>, settings: Settings) -> Self {
         let (point, first) = (*rest.point(), rest.first_block());
         Self {
             blocks: Blocks::from(first),

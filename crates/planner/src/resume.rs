@@ -24,6 +24,9 @@ mod error;
 mod point;
 mod search;
 
+pub use error::ResumeError;
+pub use point::ResumePoint;
+
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 use std::time::Duration;
@@ -32,16 +35,13 @@ use glidepath_geometry::{Arc, AxisVector, Segment};
 use glidepath_motion::PlanError;
 use glidepath_program::{Item, ItemKind, PathMode};
 
-pub use error::ResumeError;
-pub use point::ResumePoint;
-
 use crate::{ItemSource, RunError, Supply};
 use point::ROUNDING_MM;
-use search::{Search, distance};
+use search::{MachineSearch, distance};
 
 /// The rest of a program: what follows the point at which it was left.
 #[derive(Debug)]
-pub struct Rest<S> {
+pub struct Remainder<S> {
     source: S,
     point: ResumePoint,
     first_block: u32,
@@ -51,7 +51,7 @@ pub struct Rest<S> {
     last: Option<Supply>,
 }
 
-impl<S: ItemSource> Rest<S> {
+impl<S: ItemSource> Remainder<S> {
     /// Reads a program, opened for a machine at [`ResumePoint::program_start`], up to the point at
     /// which it was left. `tolerance_mm` is the configured one. For sources that are never pending.
     ///
@@ -68,7 +68,7 @@ impl<S: ItemSource> Rest<S> {
                 Supply::Pending | Supply::End => return Err(off_path(&point, 0, f64::INFINITY)),
             }
         }
-        let mut search = Search::new(point, tolerance_mm);
+        let mut search = MachineSearch::new(point, tolerance_mm);
         let mut rest = Self {
             source,
             point,
@@ -100,7 +100,7 @@ impl<S: ItemSource> Rest<S> {
     }
 
     /// Drops what lies before the point.
-    fn cut(&mut self, search: Search) -> Result<(), RunError> {
+    fn cut(&mut self, search: MachineSearch) -> Result<(), RunError> {
         let line = self.ahead.front().map_or(0, |item| item.line);
         match self.ahead.front().map(|item| item.kind) {
             // A dwell begins again; an event has happened.
@@ -153,7 +153,7 @@ const fn off_path(point: &ResumePoint, line: u32, distance_mm: f64) -> RunError 
     })
 }
 
-impl<S: ItemSource> ItemSource for Rest<S> {
+impl<S: ItemSource> ItemSource for Remainder<S> {
     fn next_item(&mut self) -> Supply {
         if let Some(item) = self.ahead.pop_front() {
             return Supply::Item(item);

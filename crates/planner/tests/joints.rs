@@ -10,8 +10,8 @@
 use glidepath_gcode::Options;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{
-    AxisRates, AxisShare, FiveAxis, Hexapod, JointLimit, JointLimits, JointVector, Kinematics as _,
-    LinearDelta, Mechanism, PathCaps, Rotaries, Tilt,
+    AxisRates, AxisShare, Elbow, FiveAxis, Hexapod, JointLimit, JointLimits, JointVector,
+    Kinematics as _, LinearDelta, Mechanism, PathCaps, Rotaries, RotaryDelta, Scara, Tilt,
 };
 use glidepath_planner::{Output, Pipeline, ProgramSource};
 use glidepath_program::{Effort, Limits, Override, PathBounds, Settings, Smoothing};
@@ -66,6 +66,12 @@ fn machines() -> Vec<Machine> {
     hexapod.extend(turned(10.0));
     let mut five = xyz(60.0, (-50.0, 50.0));
     five.extend([(Axis::A, -40.0, 40.0), (Axis::C, -180.0, 180.0)]);
+    let scara = vec![
+        (Axis::X, 250.0, 400.0),
+        (Axis::Y, -150.0, 150.0),
+        (Axis::Z, 0.0, 150.0),
+        (Axis::C, -90.0, 90.0),
+    ];
     vec![
         Machine {
             mechanism: Mechanism::Hexapod(Hexapod::paired(400.0, 150.0, 15.0)),
@@ -83,6 +89,30 @@ fn machines() -> Vec<Machine> {
             travel: xyz(50.0, (0.0, 100.0)),
             limits: limits([300.0, 3000.0, 60_000.0], [1.0; 3]),
             joint: joint(120.0, 2000.0, 50_000.0),
+        },
+        Machine {
+            mechanism: Mechanism::RotaryDelta(RotaryDelta {
+                base_radius_mm: 90.0,
+                platform_radius_mm: 40.0,
+                upper_arm_mm: 120.0,
+                forearm_mm: 260.0,
+                arm_deg: [90.0, 210.0, 330.0],
+            }),
+            travel: xyz(60.0, (-270.0, -210.0)),
+            limits: limits([300.0, 3000.0, 60_000.0], [1.0; 3]),
+            joint: joint(80.0, 1000.0, 25_000.0),
+        },
+        Machine {
+            mechanism: Mechanism::Scara(Scara {
+                upper_arm_mm: 340.0,
+                forearm_mm: 250.0,
+                tool_mm: 50.0,
+                height_mm: 200.0,
+                elbow: Elbow::Negative,
+            }),
+            travel: scara,
+            limits: limits([300.0, 3000.0, 60_000.0], [120.0, 1200.0, 24_000.0]),
+            joint: joint(90.0, 1000.0, 25_000.0),
         },
         Machine {
             mechanism: Mechanism::FiveAxis(FiveAxis {

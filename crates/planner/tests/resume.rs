@@ -15,7 +15,8 @@ use glidepath_audit::{Audit, AuditSettings, Sample};
 use glidepath_gcode::Options;
 use glidepath_geometry::AxisVector;
 use glidepath_planner::{
-    ItemSource, Output, Pipeline, ProgramSource, Rest, ResumeError, ResumePoint, RunError, Supply,
+    ItemSource, Output, Pipeline, ProgramSource, Remainder, ResumeError, ResumePoint, RunError,
+    Supply,
 };
 use glidepath_program::{Frame, Item, Limits};
 use support::items::settings;
@@ -138,7 +139,7 @@ fn stop_and_resume(text: &str, step: usize) {
     let length = frames.last().unwrap().0.path_s;
     for stop in (1..frames.len() - 1).step_by(step) {
         let point = left_at(&frames, stop);
-        let rest = Rest::find(Text::new(text, start), point, settings().tolerance_mm)
+        let rest = Remainder::find(Text::new(text, start), point, settings().tolerance_mm)
             .unwrap_or_else(|error| panic!("frame {stop}, {point:?}: {error}"));
         let (again, _) = run(Pipeline::resuming(rest, settings()));
         let (first, last) = (again[0], again.last().unwrap());
@@ -197,13 +198,13 @@ fn a_rest_can_be_resumed() {
     let start = AxisVector::zeros();
     let (frames, _) = run(Pipeline::new(Text::new(CURVES, start), settings(), start));
     let first = left_at(&frames, frames.len() / 3);
-    let rest = Rest::find(Text::new(CURVES, start), first, 0.02).unwrap();
+    let rest = Remainder::find(Text::new(CURVES, start), first, 0.02).unwrap();
     let (again, _) = run(Pipeline::resuming(rest, settings()));
     let second = ResumePoint {
         program_start: start,
         ..left_at(&again, again.len() / 2)
     };
-    let rest = Rest::find(Text::new(CURVES, start), second, 0.02).unwrap();
+    let rest = Remainder::find(Text::new(CURVES, start), second, 0.02).unwrap();
     let (last, _) = run(Pipeline::resuming(rest, settings()));
     assert_eq!(last[0].0.position, second.position);
     let end = |frames: &[(Frame, u32)]| frames.last().map(|(f, block)| (f.position, *block));
@@ -215,7 +216,8 @@ fn what_cannot_be_resumed_is_refused() {
     let start = AxisVector::zeros();
     let (frames, _) = run(Pipeline::new(Text::new(CURVES, start), settings(), start));
     let good = left_at(&frames, frames.len() / 2);
-    let refused = |point: ResumePoint| match Rest::find(Text::new(CURVES, start), point, 0.02) {
+    let refused = |point: ResumePoint| match Remainder::find(Text::new(CURVES, start), point, 0.02)
+    {
         Err(RunError::Resume(error)) => error,
         other => panic!("{:?}", other.is_ok()),
     };

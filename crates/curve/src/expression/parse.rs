@@ -1,6 +1,7 @@
 //! Text to tree, by recursive descent.
 
-use super::{ExpressionError, Function, Node};
+use super::error::ExpressionError;
+use super::tree::{Function, Node};
 use core::f64::consts::{E, PI, TAU};
 use core::ops::Range;
 

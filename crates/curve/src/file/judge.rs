@@ -1,6 +1,8 @@
 //! Every value in its range, every key with its kind, all diagnostics at once.
 
-use super::{CurveFile, FileDiagnostic, Key, Number, Raw, RawEnd, Shape};
+use super::curve_file::{CurveFile, Shape};
+use super::diagnostic::FileDiagnostic;
+use super::raw::{Key, Number, Raw, RawEnd};
 use crate::implicit::End;
 use crate::{Expression, ExpressionError, ImplicitCurve, ParametricCurve};
 use core::ops::Range;
@@ -56,14 +58,14 @@ pub(super) fn judge(raw: Raw) -> Result<CurveFile, Vec<FileDiagnostic>> {
         judge.closed(shape, at);
     }
     match shape {
-        Some((shape, places)) if judge.diagnostics.is_empty() => Ok(CurveFile {
+        Some((shape, keys)) if judge.diagnostics.is_empty() => Ok(CurveFile {
             name,
             feed_mm_min,
             tolerance_mm,
             chord_mm,
             laps,
             shape,
-            places,
+            keys,
         }),
         _ => Err(judge.diagnostics),
     }

@@ -4,7 +4,6 @@ mod across;
 mod branch;
 mod chords;
 mod curvature;
-mod linear;
 mod node;
 mod passage;
 mod step;
@@ -12,7 +11,6 @@ mod tube;
 
 pub use chords::{End, ImplicitChords};
 pub use curvature::curvature_k;
-pub use linear::{Reading, linear_step};
 pub use node::{Node, node};
 pub use step::{ImplicitStep, ImplicitStepper, onto_curve};
 pub use tube::chord_error_mm;

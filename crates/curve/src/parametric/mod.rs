@@ -8,7 +8,8 @@ mod step;
 pub use bracket::{Bracket, bracket, certify_bracket};
 pub use breaks::breaks;
 pub use chords::ParametricChords;
-pub use step::{EqualChords, Method, ParametricStepper, Step, equal_chords};
+pub(crate) use step::inside;
+pub use step::{Method, ParametricStepper, Step};
 
 use crate::sagitta_mm;
 use crate::{Expression, ExpressionError};

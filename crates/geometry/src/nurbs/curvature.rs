@@ -166,8 +166,8 @@ impl SpanCurvature {
 
     /// Where the curve stands still inside the span, ascending. There E has a root as well, but a
     /// multiple one, which comes out with few digits; of |N|² it is a minimum, found with all.
-    fn standstills(&self) -> [Option<f64>; super::MAX_DEGREE] {
-        let mut still = [None; super::MAX_DEGREE];
+    fn standstills(&self) -> [Option<f64>; super::degree::MAX_DEGREE] {
+        let mut still = [None; super::degree::MAX_DEGREE];
         let square = squared(&self.hodograph);
         let least = (STANDSTILL * self.largest).powi(2);
         if square.min() > least {
@@ -225,7 +225,7 @@ fn hodograph(
     offset: impl Fn(usize) -> Vector3<f64>,
 ) -> [Polynomial; 3] {
     let degree = 2 * p - 2;
-    let mut sums = [Vector3::zeros(); 2 * super::MAX_DEGREE - 1];
+    let mut sums = [Vector3::zeros(); 2 * super::degree::MAX_DEGREE - 1];
     for i in 0..p {
         for j in i + 1..=p {
             let factor = (j - i) as f64 * binomial(p, i) * binomial(p, j);
@@ -240,7 +240,7 @@ fn hodograph(
 
 fn turning(p: usize, points: &[Feed4], offset: impl Fn(usize) -> Vector3<f64>) -> [Polynomial; 3] {
     let degree = 3 * p - 6;
-    let mut sums = [Vector3::zeros(); 3 * super::MAX_DEGREE - 5];
+    let mut sums = [Vector3::zeros(); 3 * super::degree::MAX_DEGREE - 5];
     for i in 0..p - 1 {
         for j in i + 1..p {
             for l in j + 1..=p {

@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum NurbsError {
     /// The degree is not supported.
-    #[error("degree {degree}: it must be 1 to {max}", max = super::MAX_DEGREE)]
+    #[error("degree {degree}: it must be 1 to {max}", max = super::degree::MAX_DEGREE)]
     Degree {
         /// The degree asked for.
         degree: usize,

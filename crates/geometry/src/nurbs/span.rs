@@ -1,6 +1,7 @@
 //! One knot span of a NURBS as a rational Bézier curve.
 
-use super::{MAX_DEGREE, NurbsJet};
+use super::degree::MAX_DEGREE;
+use super::jet::NurbsJet;
 use crate::{AXES, AxisVector};
 use nalgebra::SVector;
 

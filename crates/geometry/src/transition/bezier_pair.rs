@@ -16,79 +16,20 @@
 //! The speed along the parameter changes by 2/cos β and more, so the curve is run by arc length:
 //! lengths up to graded parameter values are tabulated, then Newton's method on a Gauss rule.
 
-use super::constant_speed::{Frame, PlanarJet};
-use super::{DerivativeBounds, TransitionError};
+use super::bounds::DerivativeBounds;
+use super::constant_speed::Frame;
+use super::error::TransitionError;
 use crate::quadrature::{PANELS, gauss_12, graded_boundary};
-use crate::{AxisVector, Jet, Turn};
+use crate::{AxisVector, Jet};
 
 mod enclosure;
+mod half;
+mod shape;
+
+pub use shape::PairShape;
+
 use enclosure::PairHalf;
-
-/// Shape invariants of a half: s1 = w0·w2/w1², s2 = w1·w3/w2², both > 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PairShape {
-    /// At the line.
-    pub s1: f64,
-    /// At the junction.
-    pub s2: f64,
-}
-
-impl PairShape {
-    /// Unit weights: one polynomial cubic.
-    pub const CUBIC: Self = Self { s1: 1.0, s2: 1.0 };
-    /// A sensible fixed choice among the pairs whose curvature is smooth at the junction: 12 % less
-    /// peak curvature than the cubic.
-    pub const SMOOTH: Self = Self {
-        s1: 0.6,
-        s2: 15.0 / 17.0,
-    };
-
-    /// True if the derivative of curvature is continuous at the junction, to a relative 1e-12.
-    #[must_use]
-    pub fn is_smooth_at_junction(self) -> bool {
-        (self.s2 * (4.0 - self.s1) - 3.0).abs() <= 3e-12
-    }
-
-    /// Largest distance of the corner from the curve, mm; `sb` as for [`super::Profile::deviation`].
-    #[must_use]
-    pub fn deviation(d: f64, sb: f64) -> f64 {
-        0.25 * d * sb
-    }
-
-    /// The length `d` that gives a deviation; infinite for `sb` = 0.
-    #[must_use]
-    pub fn distance_for(deviation_mm: f64, sb: f64) -> f64 {
-        4.0 * deviation_mm / sb
-    }
-
-    /// Curvature at the junction, 1/mm. It is the largest if [`PairShape::peaks_at_junction`].
-    #[must_use]
-    pub fn junction_curvature(self, d: f64, turn: Turn) -> f64 {
-        self.s2 * 8.0 * turn.sb / (3.0 * d * turn.cb * turn.cb)
-    }
-
-    /// Whether the curvature peaks at the junction, for a shape that is smooth there. Where it does
-    /// not, the peak was at most 0.3 % higher for 0.02 ≤ s1.
-    #[must_use]
-    pub fn peaks_at_junction(self, turn: Turn) -> bool {
-        let tan = turn.sb / turn.cb;
-        3.0 * tan * tan + 3.0 * self.s1 * self.s1 - self.s1 >= 0.0
-    }
-
-    /// Derivative of curvature by arc length where the curve leaves the line, 1/mm²: never zero.
-    #[must_use]
-    pub fn end_curvature_rate(self, d: f64, turn: Turn) -> f64 {
-        2.0 * self.s1 * self.s1 * self.s2 * turn.sin_theta() / (9.0 * d * d)
-    }
-
-    /// Derivative of curvature by arc length arriving at the junction, 1/mm²; it leaves with the
-    /// opposite sign.
-    #[must_use]
-    pub fn junction_curvature_rate(self, d: f64, turn: Turn) -> f64 {
-        let Self { s1, s2 } = self;
-        32.0 / 3.0 * s2 * (4.0 * s2 - s1 * s2 - 3.0) * turn.sb / (d * d * turn.cb.powi(3))
-    }
-}
+use half::HalfCurve;
 
 /// A pair at a corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -197,85 +138,4 @@ impl BezierPair {
         }
         t
     }
-}
-
-/// First half of a pair in the planar frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct HalfCurve {
-    d: f64,
-    shape: PairShape,
-    turn: Turn,
-}
-
-impl HalfCurve {
-    /// Homogeneous Bézier points: weighted coordinates along and across, and the weight.
-    const fn homogeneous(&self) -> [[f64; 4]; 3] {
-        let PairShape { s1, s2 } = self.shape;
-        let d = self.d;
-        [
-            [-d * s1, -0.5 * d, -0.25 * d, 0.0],
-            [d * s1, 0.5 * d, 0.25 * d, 0.25 * d * s2],
-            [s1, 1.0, 1.0, s2],
-        ]
-    }
-
-    /// Coordinates and three derivatives by the parameter.
-    fn by_parameter(&self, t: f64) -> PlanarJet {
-        let [x, y, w] = self.homogeneous().map(|c| cubic(&c, t));
-        let mut jet = [[0.0; 2]; 4];
-        for (axis, n) in [x, y].into_iter().enumerate() {
-            let r0 = n[0] / w[0];
-            let r1 = (n[1] - r0 * w[1]) / w[0];
-            let r2 = (n[2] - 2.0 * r1 * w[1] - r0 * w[2]) / w[0];
-            let r3 = (n[3] - 3.0 * r2 * w[1] - 3.0 * r1 * w[2] - r0 * w[3]) / w[0];
-            for (order, value) in [r0, r1, r2, r3].into_iter().enumerate() {
-                jet[order][axis] = value;
-            }
-        }
-        jet
-    }
-
-    fn dot(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
-        let Turn { sb, cb } = self.turn;
-        cb * cb * a[0] * b[0] + sb * sb * a[1] * b[1]
-    }
-
-    /// |r'| = |N'·w − N·w'| / w².
-    fn speed(&self, t: f64) -> f64 {
-        let [x, y, w] = self.homogeneous().map(|c| cubic(&c, t));
-        let velocity = [x[1] * w[0] - x[0] * w[1], y[1] * w[0] - y[0] * w[1]];
-        self.dot(velocity, velocity).sqrt() / (w[0] * w[0])
-    }
-
-    /// Coordinates and three derivatives by arc length, at a parameter.
-    fn by_arc_length(&self, t: f64) -> PlanarJet {
-        let [r0, r1, r2, r3] = self.by_parameter(t);
-        // With v = |r'|: t' = 1/v, t'' = −v'/v³, t''' = (3v'² − v·v'')/v⁵.
-        let v = self.dot(r1, r1).sqrt();
-        let v_1 = self.dot(r1, r2) / v;
-        let v_v2 = self.dot(r2, r2) + self.dot(r1, r3) - v_1 * v_1;
-        let t1 = 1.0 / v;
-        let t2 = -v_1 / v.powi(3);
-        let t3 = (3.0 * v_1 * v_1 - v_v2) / v.powi(5);
-        let mut jet = [r0, [0.0; 2], [0.0; 2], [0.0; 2]];
-        for axis in 0..2 {
-            jet[1][axis] = r1[axis] * t1;
-            jet[2][axis] = r2[axis] * t1 * t1 + r1[axis] * t2;
-            jet[3][axis] = r3[axis] * t1 * t1 * t1 + 3.0 * r2[axis] * t1 * t2 + r1[axis] * t3;
-        }
-        jet
-    }
-}
-
-/// Value and three derivatives of a cubic in Bernstein form.
-fn cubic(c: &[f64; 4], t: f64) -> [f64; 4] {
-    let s = 1.0 - t;
-    let d = [c[1] - c[0], c[2] - c[1], c[3] - c[2]];
-    let e = [d[1] - d[0], d[2] - d[1]];
-    [
-        c[0] * s * s * s + 3.0 * t * s * (c[1] * s + c[2] * t) + c[3] * t * t * t,
-        3.0 * (d[0] * s * s + 2.0 * d[1] * s * t + d[2] * t * t),
-        6.0 * (e[0] * s + e[1] * t),
-        6.0 * (e[1] - e[0]),
-    ]
 }

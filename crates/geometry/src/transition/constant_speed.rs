@@ -17,7 +17,8 @@
 //! values that are attained; a piece whose upper bound is not worth more than the best attained value
 //! is done, others are halved.
 
-use super::{DerivativeBounds, TransitionError};
+use super::bounds::DerivativeBounds;
+use super::error::TransitionError;
 use crate::turn::{feed_group, norm_in};
 use crate::{AXES, AxisVector, Jet, Turn};
 

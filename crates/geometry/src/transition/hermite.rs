@@ -4,7 +4,7 @@
 //! polynomial of degree seven in s; its Bézier points follow from the Taylor expansions at the ends,
 //! and the hull of the Bézier points of a derivative bounds that derivative.
 
-use super::DerivativeBounds;
+use super::bounds::DerivativeBounds;
 use crate::bernstein;
 use crate::{AxisVector, Jet};
 

@@ -14,54 +14,27 @@
 //!
 //! | family | at the lines | parametrised by | meant for |
 //! |---|---|---|---|
-//! | [`Blend`], sextic | velocity, acceleration, jerk continuous | its time law | corners of two lines (default) |
-//! | [`Blend`], quartic | acceleration continuous, jerk steps | its time law | the same, less deviation per length left over |
+//! | [`Blend`] | velocity, acceleration, jerk continuous | path position | corners of two lines (default) |
 //! | [`BezierPair`] | curvature continuous | arc length | constant corner speed, the published pair |
-//! | [`HeadingCurve`] | curvature and its derivative continuous | arc length | constant corner speed |
-//! | [`Hermite`] | position and three derivatives | path position | corners and joints where an arc takes part |
+//! | [`Hermite`] | position and three derivatives | path position | junctions where an arc takes part |
 //!
 //! Source: Chen, Zhang, Li, *Local Interpolation Method for Continuous Small Line Segments*, 2017,
 //! for the pair, with its misprints put right; the other families were derived for Glidepath.
 
 mod bezier_pair;
 mod blend;
+mod bounds;
 mod constant_speed;
-mod heading;
+mod error;
 mod hermite;
 
 pub use bezier_pair::{BezierPair, PairShape};
-pub use blend::{Blend, Profile};
-pub use heading::HeadingCurve;
+pub use blend::Blend;
+pub use bounds::DerivativeBounds;
+pub use error::TransitionError;
 pub use hermite::Hermite;
 
 use crate::{AxisVector, Jet};
-
-/// The largest magnitude, per axis, of the derivatives by path position over a whole curve.
-///
-/// Upper bounds: never below the true maximum, above it by at most a few percent. At constant rate
-/// `v` of path position, axis `i` needs `v·d1[i]`, `v²·d2[i]` and `v³·d3[i]`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DerivativeBounds {
-    /// Of the first derivative, axis unit per mm.
-    pub d1: AxisVector,
-    /// Of the second derivative, axis unit per mm².
-    pub d2: AxisVector,
-    /// Of the third derivative, axis unit per mm³.
-    pub d3: AxisVector,
-}
-
-/// Why a corner has no transition of the family that was asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum TransitionError {
-    /// The path turns back on itself: a curve at constant speed would need infinite acceleration.
-    #[error("the path reverses at this corner; stop there, or use a sextic blend")]
-    Reversal,
-    /// The two directions are not of unit length in the same axes, so there is no common speed.
-    #[error(
-        "the feed is measured in different axes before and after this corner; use a sextic blend"
-    )]
-    MixedFeedAxes,
-}
 
 /// A curve that replaces a corner. Path position runs from 0 to [`Transition::length`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,8 +47,6 @@ pub enum Transition {
     Blend(Blend),
     /// Two rational cubics.
     BezierPair(BezierPair),
-    /// Heading as a polynomial of arc length.
-    Heading(HeadingCurve),
     /// Septic polynomial through two jets.
     Hermite(Hermite),
 }
@@ -85,13 +56,7 @@ impl Transition {
     /// side. `t1` and `t2` are the directions, of unit feed length.
     #[must_use]
     pub fn sextic(corner: AxisVector, t1: AxisVector, t2: AxisVector, d: f64) -> Self {
-        Self::Blend(Blend::new(Profile::Sextic, corner, t1, t2, d))
-    }
-
-    /// The uniform quartic blend.
-    #[must_use]
-    pub fn quartic(corner: AxisVector, t1: AxisVector, t2: AxisVector, d: f64) -> Self {
-        Self::Blend(Blend::new(Profile::Quartic, corner, t1, t2, d))
+        Self::Blend(Blend::new(corner, t1, t2, d))
     }
 
     /// The published pair of rational cubics, by arc length.
@@ -108,19 +73,6 @@ impl Transition {
         BezierPair::new(corner, t1, t2, d, shape).map(Self::BezierPair)
     }
 
-    /// The heading curve, by arc length.
-    ///
-    /// # Errors
-    /// For a reversal, and for directions that are not both unit in the same axes.
-    pub fn heading(
-        corner: AxisVector,
-        t1: AxisVector,
-        t2: AxisVector,
-        d: f64,
-    ) -> Result<Self, TransitionError> {
-        HeadingCurve::new(corner, t1, t2, d).map(Self::Heading)
-    }
-
     /// The septic polynomial that leaves `from` and arrives at `to` with all their derivatives, its
     /// path position running over `length` > 0. Between two lines, with length 2d, it is the sextic.
     #[must_use]
@@ -134,7 +86,6 @@ impl Transition {
         match self {
             Self::Blend(curve) => curve.length(),
             Self::BezierPair(curve) => curve.length(),
-            Self::Heading(curve) => curve.length(),
             Self::Hermite(curve) => curve.length(),
         }
     }
@@ -147,7 +98,6 @@ impl Transition {
         match self {
             Self::Blend(curve) => curve.jet(s),
             Self::BezierPair(curve) => curve.jet(s),
-            Self::Heading(curve) => curve.jet(s),
             Self::Hermite(curve) => curve.jet(s),
         }
     }
@@ -158,7 +108,6 @@ impl Transition {
         match self {
             Self::Blend(curve) => curve.bounds(),
             Self::BezierPair(curve) => curve.bounds(),
-            Self::Heading(curve) => curve.bounds(),
             Self::Hermite(curve) => curve.bounds(),
         }
     }

@@ -15,7 +15,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_link::{Ipc, Transport};
 use glidepath_planner::{
     Control, FileSource, ItemSource, Listening, Notice, PipeSource, Pipeline, Publisher, Refusal,
-    Rest, RunError, SoftLimits, Statistics, listen,
+    Remainder, RunError, SoftLimits, Statistics, listen,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -104,8 +104,8 @@ fn resume<S: ItemSource>(
     let source =
         open(point.program_start).map_err(|refusal| Failure::refused(name, refusal, false))?;
     let settings = config.settings();
-    let rest = Rest::find(source, point, settings.tolerance_mm)?;
-    let mut pipeline = Pipeline::resuming(rest, settings)
+    let remainder = Remainder::find(source, point, settings.tolerance_mm)?;
+    let mut pipeline = Pipeline::resuming(remainder, settings)
         .with_joints(config.path_caps())
         .with_clock(clock::elapsed);
     Ok(publisher.publish(&mut pipeline, control)?)

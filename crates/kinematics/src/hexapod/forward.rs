@@ -7,7 +7,7 @@
 //! Up to forty real poses have the same lengths. Only the one next to the last known pose is the
 //! machine's, so a step that leaves its neighbourhood is a failure, not progress.
 
-use super::{Hexapod, Pose, STRUTS};
+use super::struts::{Hexapod, Pose, STRUTS};
 use crate::{JointVector, KinematicsError};
 use glidepath_geometry::AxisVector;
 use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};

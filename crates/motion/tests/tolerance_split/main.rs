@@ -3,7 +3,7 @@
 
 mod split;
 
-use glidepath_geometry::{AxisVector, HeadingCurve, PairShape, Profile, Transition, Turn};
+use glidepath_geometry::{AxisVector, Blend, PairShape, Transition, Turn};
 use proptest::prelude::*;
 use split::{CornerLimits, ToleranceSplit, chord_acceleration, chord_error, chord_speed};
 
@@ -34,17 +34,15 @@ proptest! {
     fn no_other_split_is_faster_where_feed_or_jerk_bind(
         tolerance in 0.001..0.2_f64, sb in 0.01..1.0_f64, period in 0.0005..0.01_f64,
         feed_v in 1.0..500.0_f64, acceleration_a in 100.0..2e4_f64, jerk_j in 1e4..1e7_f64,
-        quartic in any::<bool>(),
     ) {
-        let profile = if quartic { Profile::Quartic } else { Profile::Sextic };
         let limits = CornerLimits { feed_v, acceleration_a, jerk_j };
         let speed = |smoothing: f64| {
-            let d = profile.distance_for(smoothing, sb);
+            let d = Blend::distance_for(smoothing, sb);
             let chords = chord_acceleration(tolerance - smoothing, period);
             let a = acceleration_a.min(chords);
-            feed_v.min(profile.acceleration_cap(d, sb, a)).min(profile.jerk_cap(d, sb, jerk_j))
+            feed_v.min(Blend::acceleration_cap(d, sb, a)).min(Blend::jerk_cap(d, sb, jerk_j))
         };
-        let split = ToleranceSplit::for_blend(profile, sb, tolerance, &limits, period);
+        let split = ToleranceSplit::for_blend(sb, tolerance, &limits, period);
         let ours = speed(split.smoothing_mm);
         for i in 1..1000 {
             let other = speed(tolerance * f64::from(i) / 1000.0);
@@ -136,10 +134,8 @@ fn the_published_example() {
         let v = (A / max_k)
             .sqrt()
             .min(chord_speed(max_k, split.chord_mm, PERIOD));
-        let d_blend = Profile::Sextic
-            .distance_for(split.smoothing_mm, turn.sb)
-            .min(corner.share);
-        let v_blend = Profile::Sextic.acceleration_cap(d_blend, turn.sb, A);
+        let d_blend = Blend::distance_for(split.smoothing_mm, turn.sb).min(corner.share);
+        let v_blend = Blend::acceleration_cap(d_blend, turn.sb, A);
         let got = [turn.theta_rad().to_degrees(), d, max_k, v, v_blend];
         for ((got, want), digits) in got.into_iter().zip(want).zip([3, 5, 4, 3, 3]) {
             assert!((rounded(got, digits) - want).abs() < 1e-9, "{got} {want}");
@@ -174,17 +170,14 @@ fn the_published_example_to_all_digits() {
             let by_tolerance = if pair {
                 PairShape::distance_for(split.smoothing_mm, turn.sb)
             } else {
-                Profile::Sextic.distance_for(split.smoothing_mm, turn.sb)
+                Blend::distance_for(split.smoothing_mm, turn.sb)
             };
             let d = by_tolerance.min(corner.share);
             let (deviation, max_k) = if pair {
                 let max_k = PairShape::CUBIC.junction_curvature(d, turn);
                 (PairShape::deviation(d, turn.sb), max_k)
             } else {
-                (
-                    Profile::Sextic.deviation(d, turn.sb),
-                    Profile::Sextic.max_curvature(d, turn),
-                )
+                (Blend::deviation(d, turn.sb), Blend::max_curvature(d, turn))
             };
             let (v_acc, v_chord) = (
                 (A / max_k).sqrt(),
@@ -199,10 +192,7 @@ fn the_published_example_to_all_digits() {
                 ("v_acc", v_acc),
                 ("v_chord", v_chord),
                 ("v_cap", v_acc.min(v_chord)),
-                (
-                    "v_cap_time_law",
-                    Profile::Sextic.acceleration_cap(d, turn.sb, A),
-                ),
+                ("v_cap_time_law", Blend::acceleration_cap(d, turn.sb, A)),
             ] {
                 if let Some(want) = want[key].as_f64() {
                     assert!(
@@ -296,10 +286,8 @@ fn the_split_keeps_the_combined_error_of_the_sextic() {
             .iter()
             .map(|corner| {
                 let sb = corner.turn.sb;
-                let d = Profile::Sextic
-                    .distance_for(smoothing, sb)
-                    .min(corner.share);
-                let v = Profile::Sextic.acceleration_cap(d, sb, A);
+                let d = Blend::distance_for(smoothing, sb).min(corner.share);
+                let v = Blend::acceleration_cap(d, sb, A);
                 let blend = Transition::sextic(corner.at, corner.t1, corner.t2, d);
                 corner_error(corner, &blend, d, v)
             })
@@ -317,18 +305,10 @@ fn chords_stay_within_the_bound() {
     const V: f64 = 30.0;
     for corner in example_corners() {
         let d = 0.25;
-        let max_k = HeadingCurve::max_curvature(d, corner.turn);
-        let curves = [
-            (
-                Transition::sextic(corner.at, corner.t1, corner.t2, d),
-                Profile::Sextic.peak_acceleration(d, corner.turn.sb, V),
-            ),
-            (
-                Transition::heading(corner.at, corner.t1, corner.t2, d)
-                    .unwrap_or_else(|_| unreachable!("not a reversal")),
-                V * V * max_k,
-            ),
-        ];
+        let curves = [(
+            Transition::sextic(corner.at, corner.t1, corner.t2, d),
+            Blend::peak_acceleration(d, corner.turn.sb, V),
+        )];
         for (curve, peak_a) in curves {
             let bound = chord_error(peak_a, PERIOD);
             let error = sampled_error(&curve, |_| V);

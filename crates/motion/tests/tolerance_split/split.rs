@@ -1,7 +1,7 @@
 //! How much of the tolerance a corner's transition may use, and how much is left to the chords.
 //!
 //! The servo goes straight from one setpoint to the next, so a motion with acceleration of at most
-//! `a` strays from its own curve by at most a·T²/8 (*chord error*), whatever its speed profile. That
+//! `a` strays from its own curve by at most a·T²/8 (*chord error*), whatever its speed Blend:: That
 //! and the deviation δ of the transition share the tolerance ε: δ + e ≤ ε.
 //!
 //! A larger δ makes a gentler transition: its curvature is k = c/δ with a constant of the family and
@@ -18,7 +18,7 @@
 //! limits the corner, the acceleration and with it the chord error stay below A·T²/8, so the
 //! transition may use more.
 
-use glidepath_geometry::Profile;
+use glidepath_geometry::Blend;
 
 /// Largest distance between a motion and the chords of its samples, mm, when the magnitude of its
 /// acceleration (normal and tangential together) never exceeds `acceleration_a` mm/s².
@@ -88,7 +88,6 @@ impl ToleranceSplit {
     /// of three: the limit; that at full feed, ∝ 1/δ; that at the jerk cap, ∝ ∛δ.
     #[must_use]
     pub(crate) fn for_blend(
-        profile: Profile,
         sb: f64,
         tolerance_mm: f64,
         limits: &CornerLimits,
@@ -96,8 +95,8 @@ impl ToleranceSplit {
     ) -> Self {
         let by_acceleration = Self::new(tolerance_mm, limits.acceleration_a, period_t).smoothing_mm;
 
-        let unit_d = profile.distance_for(1.0, sb);
-        let at_feed = profile.peak_acceleration(unit_d, sb, limits.feed_v);
+        let unit_d = Blend::distance_for(1.0, sb);
+        let at_feed = Blend::peak_acceleration(unit_d, sb, limits.feed_v);
         let discriminant = tolerance_mm * tolerance_mm - 4.0 * chord_error(at_feed, period_t);
         let by_feed = if discriminant >= 0.0 {
             0.5 * (tolerance_mm + discriminant.sqrt())
@@ -105,8 +104,8 @@ impl ToleranceSplit {
             0.0
         };
 
-        let jerk_v = profile.jerk_cap(unit_d, sb, limits.jerk_j);
-        let at_jerk = chord_error(profile.peak_acceleration(unit_d, sb, jerk_v), period_t);
+        let jerk_v = Blend::jerk_cap(unit_d, sb, limits.jerk_j);
+        let at_jerk = chord_error(Blend::peak_acceleration(unit_d, sb, jerk_v), period_t);
         let by_jerk = depressed_cubic_root(at_jerk, tolerance_mm).powi(3);
 
         let smoothing_mm = by_acceleration.max(by_feed).max(by_jerk).min(tolerance_mm);

@@ -15,7 +15,7 @@ const SLACK_R: f64 = 0.05;
 
 /// A point of the program at which the machine may stand.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct Standpoint {
     /// Which item from the block on.
     pub(super) item: usize,
     /// Part of its length.
@@ -27,20 +27,20 @@ pub(super) struct Place {
 
 /// The search for the machine along the program.
 #[derive(Debug)]
-pub(super) struct Search {
+pub(super) struct MachineSearch {
     position: AxisVector,
     travelled_mm: f64,
     tolerance_mm: f64,
     /// Length of the items looked at, mm, and their number.
     passed_mm: f64,
     items: usize,
-    pub(super) best: Option<Place>,
+    pub(super) best: Option<Standpoint>,
     /// The distance of the nearest point that came into question, mm.
     pub(super) nearest_mm: f64,
     ended: bool,
 }
 
-impl Search {
+impl MachineSearch {
     pub(super) fn new(point: ResumePoint, tolerance_mm: f64) -> Self {
         Self {
             position: point.position,
@@ -128,7 +128,7 @@ impl Search {
         if distance_mm > self.tolerance_mm + ROUNDING_MM {
             return;
         }
-        let place = Place {
+        let place = Standpoint {
             item,
             part,
             distance_mm,
@@ -143,7 +143,7 @@ impl Search {
     }
 }
 
-impl Place {
+impl Standpoint {
     /// Places beside each other are told apart by their distance, others by the distance travelled.
     fn is_better_than(&self, other: &Self, tolerance_mm: f64) -> bool {
         let are_beside = (self.mismatch_mm - other.mismatch_mm).abs() <= 20.0 * tolerance_mm;

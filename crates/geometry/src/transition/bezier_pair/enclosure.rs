@@ -9,7 +9,7 @@
 //!
 //! All are polynomials; their Bernstein hulls on the piece enclose k and dk/ds.
 
-use super::HalfCurve;
+use super::half::HalfCurve;
 use crate::bernstein::{differences, halve};
 use crate::transition::constant_speed::{Enclosure, Half, Point};
 

@@ -8,7 +8,7 @@
 //! the radius, about π L a lap whatever the radius. With the residuals it does not accumulate, but every
 //! point stays κ L²/2 off the curve, four times the sagitta.
 
-use super::ImplicitCurve;
+use crate::ImplicitCurve;
 use nalgebra::{Matrix2, Vector2, Vector3};
 
 /// The two ways to read the published equations.

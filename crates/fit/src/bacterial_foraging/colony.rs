@@ -6,7 +6,7 @@
 //! (reproduction); after some of those, each bacterium but the best may be put down anew near the best
 //! point so far (elimination and dispersal).
 
-use crate::random::Random;
+use super::random::Random;
 
 /// Numbers of a search.
 #[derive(Debug, Clone, Copy)]
@@ -47,7 +47,7 @@ struct Bacterium {
     health: f64,
 }
 
-struct Search<'a> {
+struct ForagingRun<'a> {
     colony: Colony,
     random: Random,
     value: &'a mut dyn FnMut(&[f64]) -> f64,
@@ -68,7 +68,7 @@ pub(crate) fn forage(
     progress: &mut dyn FnMut(f64),
 ) -> Outcome {
     let least = value(start);
-    let mut search = Search {
+    let mut search = ForagingRun {
         colony,
         random: Random::new(seed),
         value,
@@ -86,7 +86,7 @@ pub(crate) fn forage(
     search.outcome
 }
 
-impl Search<'_> {
+impl ForagingRun<'_> {
     fn run(&mut self, progress: &mut dyn FnMut(f64)) {
         let first = Bacterium {
             at: self.outcome.best.clone(),

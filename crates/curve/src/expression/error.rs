@@ -1,0 +1,16 @@
+//! What is wrong with a formula.
+
+use core::ops::Range;
+use thiserror::Error;
+
+/// What is wrong with a formula.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{message}")]
+pub struct ExpressionError {
+    /// What is wrong.
+    pub message: String,
+    /// How to mend it.
+    pub help: String,
+    /// Where, in bytes of the text.
+    pub at: Range<usize>,
+}

@@ -1,0 +1,16 @@
+//! What a search did.
+
+/// What a search did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foraging {
+    /// Iterations of all its runs.
+    pub iterations: u64,
+    /// Evaluations of the value.
+    pub evaluations: u64,
+    /// Sum of the squared distances at the parameters, at the start, mm².
+    pub start_mm2: f64,
+    /// The same for least squares over the same knots, mm².
+    pub least_squares_mm2: f64,
+    /// Largest distance for least squares over the same knots, mm.
+    pub least_squares_max_mm: f64,
+}

@@ -1,0 +1,17 @@
+//! How large the derivatives of a curve are.
+
+use crate::AxisVector;
+
+/// The largest magnitude, per axis, of the derivatives by path position over a whole curve.
+///
+/// Upper bounds: never below the true maximum, above it by at most a few percent. At constant rate
+/// `v` of path position, axis `i` needs `v·d1[i]`, `v²·d2[i]` and `v³·d3[i]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DerivativeBounds {
+    /// Of the first derivative, axis unit per mm.
+    pub d1: AxisVector,
+    /// Of the second derivative, axis unit per mm².
+    pub d2: AxisVector,
+    /// Of the third derivative, axis unit per mm³.
+    pub d3: AxisVector,
+}
