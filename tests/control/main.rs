@@ -11,10 +11,10 @@
               for people"
 )]
 
-mod desk;
 mod overrides;
 mod random;
 mod reaction;
+mod supervisor;
 
 /// How many times as much as by default the tests do.
 fn times() -> usize {

@@ -3,19 +3,23 @@
 use glidepath_link::Command;
 use glidepath_program::Override;
 
-use crate::desk::{Desk, HORIZON, Job, assert_limits, jobs};
+use crate::supervisor::{HORIZON, Job, Supervisor, assert_limits, jobs};
 
 /// How much longer or shorter it may take than the plan, besides a horizon: what was published before
 /// is played at the override's rate, also where the feed did not bind.
 const PART: f64 = 0.02;
 /// Ticks from the first to the last frame.
-fn ticks_of(desk: &mut Desk<'_, '_, '_>, feed_r: f64) -> u64 {
-    desk.command(Command::FeedOverride(feed_r));
-    desk.play(60_000);
-    assert!(desk.is_over());
-    let first = desk.setpoints.iter().position(|s| s.sequence > 0).unwrap();
-    let last = desk.frames.last().unwrap().sequence;
-    let end = desk.setpoints.iter().position(|s| s.sequence == last);
+fn ticks_of(supervisor: &mut Supervisor<'_, '_, '_>, feed_r: f64) -> u64 {
+    supervisor.command(Command::FeedOverride(feed_r));
+    supervisor.play(60_000);
+    assert!(supervisor.is_over());
+    let first = supervisor
+        .setpoints
+        .iter()
+        .position(|s| s.sequence > 0)
+        .unwrap();
+    let last = supervisor.frames.last().unwrap().sequence;
+    let end = supervisor.setpoints.iter().position(|s| s.sequence == last);
     (end.unwrap() - first + 1) as u64
 }
 
@@ -29,10 +33,10 @@ fn a_program_under_an_override_takes_as_long_as_one_planned_with_it() {
                 feed_r,
                 rapid_r: 1.0,
             });
-            let (ticks, report) = job.at_desk(|desk| {
-                let ticks = ticks_of(desk, feed_r);
+            let (ticks, report) = job.supervised(|supervisor| {
+                let ticks = ticks_of(supervisor, feed_r);
                 // It begins at 100 %.
-                (ticks, desk.audit(&job.settings, feed_r.max(1.0)))
+                (ticks, supervisor.audit(&job.settings, feed_r.max(1.0)))
             });
             eprintln!("{name:20} {effort:?} {feed_r:3.1}: {ticks:6} ticks, planned {planned:6}");
             assert_limits(&report);

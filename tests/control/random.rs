@@ -4,7 +4,7 @@ use glidepath_link::{Command, MachineState};
 use glidepath_program::Effort;
 use proptest::prelude::*;
 
-use crate::desk::{BENCH, Desk, EFFORTS, Job, assert_limits};
+use crate::supervisor::{BENCH, EFFORTS, Job, Supervisor, assert_limits};
 use crate::times;
 
 fn command() -> impl Strategy<Value = Command> {
@@ -50,21 +50,21 @@ proptest! {
 
 /// Carries out commands, each followed by some ticks, and the rest of the program.
 fn carry_out(job: &Job, commands: &[(Command, usize)]) -> Result<(), TestCaseError> {
-    job.at_desk(|desk| {
+    job.supervised(|supervisor| {
         let mut largest_override = 1.0_f64;
         for &(command, ticks) in commands {
             if let Command::FeedOverride(ratio) = command {
                 largest_override = largest_override.max(ratio);
             }
-            desk.command(command);
-            desk.play(ticks);
+            supervisor.command(command);
+            supervisor.play(ticks);
         }
-        finish(desk)?;
-        let report = desk.audit(&job.settings, largest_override);
+        finish(supervisor)?;
+        let report = supervisor.audit(&job.settings, largest_override);
         assert_limits(&report);
-        let end = desk.frames.last().unwrap().position;
-        prop_assert_eq!(desk.setpoints.last().unwrap().position, end);
-        assert_bits(desk)?;
+        let end = supervisor.frames.last().unwrap().position;
+        prop_assert_eq!(supervisor.setpoints.last().unwrap().position, end);
+        assert_bits(supervisor)?;
         Ok(())
     })
 }
@@ -84,23 +84,23 @@ fn the_end_of_a_block_is_met_where_a_change_of_rate_just_ended() {
 }
 
 /// Goes on wherever the machine stands, to the end.
-fn finish(desk: &mut Desk<'_, '_, '_>) -> Result<(), TestCaseError> {
+fn finish(supervisor: &mut Supervisor<'_, '_, '_>) -> Result<(), TestCaseError> {
     for command in [
         Command::SingleBlock(false),
         Command::FeedOverride(1.0),
         Command::RapidOverride(1.0),
     ] {
-        desk.command(command);
-        desk.play(1);
+        supervisor.command(command);
+        supervisor.play(1);
     }
     for _ in 0..50 {
-        desk.command(Command::Resume);
-        desk.play(1_000);
-        if desk.is_over() {
+        supervisor.command(Command::Resume);
+        supervisor.play(1_000);
+        if supervisor.is_over() {
             return Ok(());
         }
     }
-    let last = desk
+    let last = supervisor
         .setpoints
         .last()
         .map(|s| (s.state(), s.sequence, s.fraction));
@@ -109,10 +109,10 @@ fn finish(desk: &mut Desk<'_, '_, '_>) -> Result<(), TestCaseError> {
 
 /// Where the motion follows the plan it is the plan, bit for bit; where it stands at the end of a
 /// block, it stands at a frame.
-fn assert_bits(desk: &Desk<'_, '_, '_>) -> Result<(), TestCaseError> {
-    for pair in desk.setpoints.windows(2) {
+fn assert_bits(supervisor: &Supervisor<'_, '_, '_>) -> Result<(), TestCaseError> {
+    for pair in supervisor.setpoints.windows(2) {
         let (before, now) = (&pair[0], &pair[1]);
-        let frame = desk
+        let frame = supervisor
             .frames
             .iter()
             .find(|frame| frame.sequence == now.sequence);

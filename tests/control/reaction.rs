@@ -6,7 +6,7 @@ use glidepath_link::{Command, MachineState, SetpointFrame};
 use glidepath_program::Settings;
 use proptest::test_runner::{Config, TestRunner};
 
-use crate::desk::{Desk, Job, assert_limits, jobs};
+use crate::supervisor::{Job, Supervisor, assert_limits, jobs};
 use crate::times;
 
 /// The most ticks until a hold begins where the plan cruises: nothing accelerates, for as long as it
@@ -23,7 +23,7 @@ impl Ticks {
         *self.0.entry(ticks).or_default() += 1;
     }
 
-    fn quantile(&self, part: f64) -> usize {
+    fn quantile(&self, share: f64) -> usize {
         let all: Vec<_> = self.0.iter().flat_map(|(t, n)| vec![*t; *n]).collect();
         #[allow(
             clippy::cast_precision_loss,
@@ -31,14 +31,14 @@ impl Ticks {
             clippy::cast_sign_loss,
             reason = "small numbers, not negative"
         )]
-        let place = (part * (all.len().saturating_sub(1)) as f64) as usize;
-        all.get(place).copied().unwrap_or(0)
+        let index = (share * (all.len().saturating_sub(1)) as f64) as usize;
+        all.get(index).copied().unwrap_or(0)
     }
 }
 
 impl std::fmt::Display for Ticks {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let [p50, p90, p99, most] = [0.5, 0.9, 0.99, 1.0].map(|part| self.quantile(part));
+        let [p50, p90, p99, most] = [0.5, 0.9, 0.99, 1.0].map(|share| self.quantile(share));
         write!(f, "{p50:5}{p90:5}{p99:5}{most:5}")
     }
 }
@@ -59,12 +59,18 @@ fn a_hold_begins_at_once_in_a_cruise_and_soon_everywhere() {
         let job = Job::bench(name, effort);
         let (mut waits, mut rests, mut cruises) = <(Ticks, Ticks, Ticks)>::default();
         for _ in 0..times() {
-            job.at_desk(|desk| {
-                while !desk.is_over() {
-                    desk.play(chance(1, 300));
-                    hold(desk, &job.settings, &mut waits, &mut rests, &mut cruises);
+            job.supervised(|supervisor| {
+                while !supervisor.is_over() {
+                    supervisor.play(chance(1, 300));
+                    hold(
+                        supervisor,
+                        &job.settings,
+                        &mut waits,
+                        &mut rests,
+                        &mut cruises,
+                    );
                 }
-                let report = desk.audit(&job.settings, 1.0);
+                let report = supervisor.audit(&job.settings, 1.0);
                 assert_limits(&report);
             });
         }
@@ -108,33 +114,34 @@ fn stopping_ticks(frame: &SetpointFrame, settings: &Settings) -> usize {
 
 /// Holds where the motion follows the plan, counts, and resumes.
 fn hold(
-    desk: &mut Desk<'_, '_, '_>,
+    supervisor: &mut Supervisor<'_, '_, '_>,
     settings: &Settings,
     waits: &mut Ticks,
     rests: &mut Ticks,
     cruises: &mut Ticks,
 ) {
-    let Some(last) = desk.setpoints.last().copied() else {
+    let Some(last) = supervisor.setpoints.last().copied() else {
         return;
     };
-    if !desk.is(MachineState::Running) || last.effective_override < 1.0 || last.feed_v <= 0.0 {
+    if !supervisor.is(MachineState::Running) || last.effective_override < 1.0 || last.feed_v <= 0.0
+    {
         return;
     }
-    let place = usize::try_from(last.sequence).unwrap();
+    let next = usize::try_from(last.sequence).unwrap();
     let cruise = |frame: &SetpointFrame| frame.acceleration.iter().all(|a| a.abs() < 1e-6);
-    let stops_in = FROM_CRUISE + stopping_ticks(&desk.frames[place], settings);
-    let mut ahead = desk.frames[place..].iter().take(stops_in);
+    let stops_in = FROM_CRUISE + stopping_ticks(&supervisor.frames[next], settings);
+    let mut ahead = supervisor.frames[next..].iter().take(stops_in);
     let cruises_here = ahead.len() == stops_in && ahead.all(cruise);
-    desk.command(Command::Hold);
+    supervisor.command(Command::Hold);
     let (mut wait, mut ticks) = (None, 0);
-    while !desk.is(MachineState::Held) && !desk.is_over() {
+    while !supervisor.is(MachineState::Held) && !supervisor.is_over() {
         ticks += 1;
-        let setpoint = desk.tick();
+        let setpoint = supervisor.tick();
         if setpoint.effective_override < 1.0 {
             wait.get_or_insert(ticks);
         }
     }
-    if desk.is_over() {
+    if supervisor.is_over() {
         return; // It ended before it could stop earlier.
     }
     let wait = wait.unwrap_or(ticks);
@@ -143,5 +150,5 @@ fn hold(
     if cruises_here {
         cruises.add(wait);
     }
-    desk.command(Command::Resume);
+    supervisor.command(Command::Resume);
 }

@@ -57,7 +57,7 @@ impl Rings {
     }
 }
 
-/// Why the motion was stopped, with what is known of the place.
+/// Why the motion was stopped, with what is known of where that was.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Fault {
     pub(crate) cause: FaultCause,

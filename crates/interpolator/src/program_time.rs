@@ -1,4 +1,4 @@
-//! A place on the planned trajectory.
+//! Program time: how far along the planned trajectory the motion is.
 
 /// Program time in periods: a frame and the part of a period past it.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]

@@ -66,7 +66,7 @@ pub(crate) struct Ramp {
 }
 
 impl Ramp {
-    /// The place of one.
+    /// Room for a ramp, before there is one.
     pub(crate) const NONE: Self = {
         let rest = Instant {
             elapsed: 0.0,

@@ -30,7 +30,7 @@
 //!
 //! While the rate is on its way by a slow or a partial ramp, faster ones are tried at every tick.
 //! Most candidates fail in their first samples, so a tick rarely uses its budget. Where nothing passes
-//! the rate stays and the next tick tries again from another place: a plan that brakes at its limits
+//! the rate stays and the next tick tries again from further on: a plan that brakes at its limits
 //! cannot be made to brake harder, but it will be slow soon.
 //!
 //! That leaves the question whether there will be any stop before the frames run out. So motion goes

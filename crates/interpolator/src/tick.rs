@@ -189,7 +189,7 @@ impl<'a> Interpolator<'a> {
         }
     }
 
-    /// Starts an epoch, in place of one that stands in the middle of its way.
+    /// Starts an epoch, instead of one that stands in the middle of its way.
     fn open(&mut self, frame: &SetpointFrame) {
         let away = AxisVector::from(frame.position) - self.published.position();
         if away.amax() > SAME_POSITION || !self.published.is_at_rest() {

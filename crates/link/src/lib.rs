@@ -8,7 +8,6 @@
 pub mod servo;
 
 mod error;
-mod faulty;
 mod in_process;
 mod ipc;
 mod port;
@@ -17,7 +16,6 @@ mod recording;
 mod service;
 
 pub use error::{BoxedError, LinkError};
-pub use faulty::{Fault, Faulty};
 pub use in_process::InProcess;
 pub use ipc::{Ipc, LinkConfig, remove_leftovers};
 pub use port::{

@@ -159,9 +159,9 @@ extern "C" fn caught(_signal: c_int, info: *const siginfo_t, _context: *mut c_vo
     // SAFETY: with SA_SIGINFO the kernel passes a valid `siginfo_t`, larger than `SigsysInfo`, and
     // for SIGSYS from seccomp its union holds these fields.
     let mut number = unsafe { (*info.cast::<SigsysInfo>()).syscall };
-    for place in (DIGITS_AT..DIGITS_AT + 4).rev() {
+    for index in (DIGITS_AT..DIGITS_AT + 4).rev() {
         let digit = u8::try_from(number % 10).unwrap_or(0);
-        if let Some(byte) = MESSAGE.get(place) {
+        if let Some(byte) = MESSAGE.get(index) {
             byte.store(b'0' + digit, Ordering::Relaxed);
         }
         number /= 10;

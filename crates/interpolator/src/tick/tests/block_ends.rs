@@ -153,14 +153,14 @@ fn a_stop_at_the_end_of_the_block_is_made_once_and_anywhere() {
         let ordered_at = rig.setpoints.last().unwrap().sequence;
         rig.command(Command::StopAtEndOfBlock);
         play_until(&mut rig, MachineState::ProgramStop);
-        let place = rig.setpoints.last().unwrap().sequence;
+        let stood_at = rig.setpoints.last().unwrap().sequence;
         assert!(
-            place >= ordered_at && ends.contains(&place),
-            "seed {seed}: {place}"
+            stood_at >= ordered_at && ends.contains(&stood_at),
+            "seed {seed}: {stood_at}"
         );
         play(&mut rig, 700);
         let waiting = *rig.setpoints.last().unwrap();
-        assert_eq!((waiting.sequence, waiting.fraction), (place, 0.0));
+        assert_eq!((waiting.sequence, waiting.fraction), (stood_at, 0.0));
         assert_eq!(
             waiting.state(),
             Ok(MachineState::ProgramStop),
@@ -168,7 +168,7 @@ fn a_stop_at_the_end_of_the_block_is_made_once_and_anywhere() {
         );
         rig.command(Command::Resume);
         play_on(&mut rig);
-        assert_bits(&rig, &frames, &[place]);
+        assert_bits(&rig, &frames, &[stood_at]);
         assert!(
             rig.worst_ratio() <= INSIDE,
             "seed {seed}: {}",

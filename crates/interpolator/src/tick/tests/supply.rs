@@ -48,7 +48,7 @@ fn a_planner_that_comes_back_in_time_goes_on_from_where_the_machine_stands() {
     assert!(rig.worst_ratio() <= INSIDE);
 }
 
-/// The planner dies at any place of a plan that is at its limits: there is always a stop, also where
+/// The planner dies anywhere in a plan that is at its limits: there is always a stop, also where
 /// more axes are at their limits independently of each other than any path asks for.
 #[test]
 fn there_is_always_a_stop_in_reserve() {

@@ -1,7 +1,7 @@
 //! A receiving end that spoils what it receives, on purpose and repeatably: for tests of what stands
 //! behind it.
 
-use crate::{LinkError, Record, RecordError, Subscriber};
+use glidepath_link::{LinkError, Record, RecordError, Subscriber};
 use std::collections::VecDeque;
 
 /// What happens to a record.
@@ -25,17 +25,17 @@ pub enum Fault {
 
 /// When which fault happens.
 #[derive(Debug, Clone)]
-enum Plan {
+enum Schedule {
     /// At the given records, counted from 0 as they arrive.
     Script(Vec<(u64, Fault)>),
     /// One of the faults at one record in so many.
     Random { one_in: u64, faults: Vec<Fault> },
 }
 
-/// A receiving end that makes faults. The same plan and seed make the same faults.
+/// A receiving end that makes faults. The same schedule and seed make the same faults.
 pub struct Faulty<R> {
     inner: Box<dyn Subscriber<R>>,
-    plan: Plan,
+    schedule: Schedule,
     random: SplitMix64,
     arrived: u64,
     ready: VecDeque<R>,
@@ -48,7 +48,7 @@ pub struct Faulty<R> {
 impl<R> core::fmt::Debug for Faulty<R> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Faulty")
-            .field("plan", &self.plan)
+            .field("schedule", &self.schedule)
             .field("arrived", &self.arrived)
             .finish_non_exhaustive()
     }
@@ -59,7 +59,7 @@ impl<R: Record> Faulty<R> {
     /// bits and numbers.
     #[must_use]
     pub fn scripted(inner: Box<dyn Subscriber<R>>, seed: u64, script: &[(u64, Fault)]) -> Self {
-        Self::new(inner, seed, Plan::Script(script.to_vec()))
+        Self::new(inner, seed, Schedule::Script(script.to_vec()))
     }
 
     /// Makes a fault at one record in `one_in` ≥ 1 on average, chosen from `faults`.
@@ -68,17 +68,17 @@ impl<R: Record> Faulty<R> {
         Self::new(
             inner,
             seed,
-            Plan::Random {
+            Schedule::Random {
                 one_in: one_in.max(1),
                 faults: faults.to_vec(),
             },
         )
     }
 
-    fn new(inner: Box<dyn Subscriber<R>>, seed: u64, plan: Plan) -> Self {
+    fn new(inner: Box<dyn Subscriber<R>>, seed: u64, schedule: Schedule) -> Self {
         Self {
             inner,
-            plan,
+            schedule,
             random: SplitMix64(seed),
             arrived: 0,
             ready: VecDeque::new(),
@@ -90,12 +90,12 @@ impl<R: Record> Faulty<R> {
     }
 
     fn next_fault(&mut self) -> Option<Fault> {
-        match &self.plan {
-            Plan::Script(script) => script
+        match &self.schedule {
+            Schedule::Script(script) => script
                 .iter()
                 .find(|(at, _)| *at == self.arrived)
                 .map(|(_, fault)| *fault),
-            Plan::Random { one_in, faults } => {
+            Schedule::Random { one_in, faults } => {
                 let happens = self.random.below(*one_in) == 0;
                 let choice = self.random.index(faults.len());
                 faults.get(choice).copied().filter(|_| happens)
@@ -205,3 +205,6 @@ impl SplitMix64 {
         usize::try_from(self.below(length as u64)).unwrap_or(0)
     }
 }
+
+#[cfg(test)]
+mod tests;

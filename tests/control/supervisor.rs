@@ -1,4 +1,4 @@
-//! Planner and interpolator on a desk.
+//! A supervisor of planner and interpolator: it feeds the one with what the other gives, tick by tick.
 
 use std::path::Path;
 
@@ -98,11 +98,11 @@ impl Job {
         last
     }
 
-    /// Works at a desk with the program.
-    pub(crate) fn at_desk<R>(&self, work: impl FnOnce(&mut Desk<'_, '_, '_>) -> R) -> R {
+    /// Runs the program under a supervisor, which `work` tells what to do.
+    pub(crate) fn supervised<R>(&self, work: impl FnOnce(&mut Supervisor<'_, '_, '_>) -> R) -> R {
         let config = Config::new(self.settings.limits, PERIOD_NS);
         stepped(&config, |stepped| {
-            work(&mut Desk {
+            work(&mut Supervisor {
                 stepped,
                 pipeline: self.pipeline(),
                 frames: Vec::new(),
@@ -118,7 +118,7 @@ impl Job {
 }
 
 /// A program under way.
-pub(crate) struct Desk<'s, 'i, 'p> {
+pub(crate) struct Supervisor<'s, 'i, 'p> {
     stepped: &'s mut Stepped<'i>,
     pipeline: Pipeline<ProgramSource<&'p [u8]>>,
     /// Every frame given out.
@@ -131,7 +131,7 @@ pub(crate) struct Desk<'s, 'i, 'p> {
     ended: bool,
 }
 
-impl Desk<'_, '_, '_> {
+impl Supervisor<'_, '_, '_> {
     pub(crate) fn command(&mut self, command: Command) {
         assert!(self.stepped.command(command));
         match command {
