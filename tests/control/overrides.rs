@@ -5,8 +5,8 @@ use glidepath_program::Override;
 
 use crate::supervisor::{HORIZON, Job, Supervisor, assert_limits, jobs};
 
-/// How much longer or shorter it may take than the plan, besides a horizon: what was published before
-/// is played at the override's rate, also where the feed did not bind.
+/// How much longer or shorter it may take than the plan, besides a horizon: what was published
+/// before is played at the override's rate, also where the feed did not bind.
 const PART: f64 = 0.02;
 /// Ticks from the first to the last frame.
 fn ticks_of(supervisor: &mut Supervisor<'_, '_, '_>, feed_r: f64) -> u64 {

@@ -69,8 +69,8 @@ fn carry_out(job: &Job, commands: &[(Command, usize)]) -> Result<(), TestCaseErr
     })
 }
 
-/// The motion is back at the plan just when the way to the end of the block is settled: it began a tick
-/// late, and ended in the next block.
+/// The motion is back at the plan just when the way to the end of the block is settled: it began a
+/// tick late, and ended in the next block.
 #[test]
 fn the_end_of_a_block_is_met_where_a_change_of_rate_just_ended() {
     let commands = [

@@ -9,9 +9,9 @@ use proptest::test_runner::{Config, TestRunner};
 use crate::supervisor::{Job, Supervisor, assert_limits, jobs};
 use crate::times;
 
-/// The most ticks until a hold begins where the plan cruises: nothing accelerates, for as long as it
-/// takes to stop. Where the plan brakes sooner, both together may break a limit; then it is left to
-/// the plan to slow down first.
+/// The most ticks until a hold begins where the plan cruises: nothing accelerates, for as long as
+/// it takes to stop. Where the plan brakes sooner, both together may break a limit; then it is left
+/// to the plan to slow down first.
 const FROM_CRUISE: usize = 2;
 
 /// Numbers of ticks, and how often.

@@ -1,4 +1,5 @@
-//! A supervisor of planner and interpolator: it feeds the one with what the other gives, tick by tick.
+//! A supervisor of planner and interpolator: it feeds the one with what the other gives, tick by
+//! tick.
 
 use std::path::Path;
 

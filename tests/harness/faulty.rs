@@ -1,5 +1,5 @@
-//! A receiving end that spoils what it receives, on purpose and repeatably: for tests of what stands
-//! behind it.
+//! A receiving end that spoils what it receives, on purpose and repeatably: for tests of what
+//! stands behind it.
 
 use glidepath_link::{LinkError, Record, RecordError, Subscriber};
 use std::collections::VecDeque;

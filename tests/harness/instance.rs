@@ -45,8 +45,8 @@ impl Instance {
         }
     }
 
-    /// The same for a test of processes, with the binary at hand: that can take long where it has to
-    /// be built.
+    /// The same for a test of processes, with the binary at hand: that can take long where it has
+    /// to be built.
     #[must_use]
     pub fn for_processes() -> Self {
         let instance = Self::new();

@@ -6,8 +6,8 @@
 //! * [`Watchdog`]: ends a test that hangs;
 //! * [`Process`]: processes of the real binary, which [`glidepath`] finds and builds;
 //! * [`Services`]: an interpolator and a servo as processes;
-//! * [`Machine`]: interpolator, recorder and planner as threads of the test, joined by the transport
-//!   that real processes use.
+//! * [`Machine`]: interpolator, recorder and planner as threads of the test, joined by the
+//!   transport that real processes use.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,

@@ -86,7 +86,8 @@ impl Recording {
             .all(|pair| pair[1].number == pair[0].number + 1)
     }
 
-    /// What the auditor says about an epoch. Missed ticks are no gaps: the path goes on where it was.
+    /// What the auditor says about an epoch. Missed ticks are no gaps: the path goes on where it
+    /// was.
     #[must_use]
     pub fn audit(&self, epoch: u64, items: &[Item]) -> Report {
         let place = |setpoint: &Setpoint| AxisVector::from(setpoint.position);

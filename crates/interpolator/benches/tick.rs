@@ -57,8 +57,8 @@ fn cpu_ns() -> u64 {
     now.tv_sec.unsigned_abs() * 1_000_000_000 + now.tv_nsec.unsigned_abs()
 }
 
-/// More than the processor's own caches hold: walking through it leaves nothing else in them, as 4 ms
-/// of other work do.
+/// More than the processor's own caches hold: walking through it leaves nothing else in them, as 4
+/// ms of other work do.
 struct Evictor(Vec<u64>);
 
 impl Evictor {
@@ -73,8 +73,8 @@ impl Evictor {
     }
 }
 
-/// Times ticks that find cold caches. By the clock on the wall: processor time is read by the kernel,
-/// which would be cold as well.
+/// Times ticks that find cold caches. By the clock on the wall: processor time is read by the
+/// kernel, which would be cold as well.
 fn measure_cold(name: &str, frames: &[Frame]) {
     let mut histogram = Histogram::new();
     let (clock, mut feed, mut evictor) = (Monotonic, Feed::new(frames), Evictor::new());

@@ -1,10 +1,10 @@
 //! Which frames the real-time thread gets to see.
 //!
 //! A frame is data from another process. It passes if its numbers are finite, it continues the open
-//! epoch (or opens one, at rest, where the machine stands), it follows from the frame before it, and
-//! its positions are within the limits of every axis, by the same differences that are published.
-//! The first frame of an open epoch that does not pass is a fault, and the epoch gets no more: the
-//! motion stops on the frames that did pass.
+//! epoch (or opens one, at rest, where the machine stands), it follows from the frame before it,
+//! and its positions are within the limits of every axis, by the same differences that are
+//! published. The first frame of an open epoch that does not pass is a fault, and the epoch gets no
+//! more: the motion stops on the frames that did pass.
 
 use crate::config::{Config, SoftLimits};
 use crate::message::Fault;
@@ -14,7 +14,7 @@ use glidepath_kinematics::{JointFault, JointViolation, JointWatch, Quantity};
 use glidepath_link::{FaultCause, FrameRefusal, MachineState, Record, RecordError, SetpointFrame};
 use glidepath_program::{FrameFlags, Limits};
 
-/// Part of a limit that may be exceeded: what an audit allows.
+/// Share of a limit that may be exceeded: what an audit allows.
 const ALLOWANCE: f64 = 1e-6;
 /// Rounding of positions and their differences, mm.
 const ROUNDING: f64 = 1e-12;
@@ -28,7 +28,7 @@ pub(crate) enum Verdict {
     Known,
     /// Opens an epoch while the present one still moves: offer it again later.
     Later,
-    /// Not of the trajectory that is executed; nothing to stop for.
+    /// The frame is not of the trajectory that is executed; that is nothing to stop for.
     Refused(FrameRefusal),
     /// The trajectory cannot go on.
     Fault(Fault),

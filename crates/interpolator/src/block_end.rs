@@ -1,9 +1,9 @@
 //! Where the present block ends, looked for in the frames at hand.
 //!
-//! A block is known by the number its frames carry (by the line, if a planner does not number them).
-//! Its end is its last frame: the last point of the path that is a setpoint of its own, less than a
-//! period of motion before the next block begins. A block without a frame, shorter than a period of
-//! motion, is passed together with the one before it.
+//! A block is known by the number its frames carry (by the line, if a planner does not number
+//! them). Its end is its last frame: the last point of the path that is a setpoint of its own, less
+//! than a period of motion before the next block begins. A block without a frame, shorter than a
+//! period of motion, is passed together with the one before it.
 //!
 //! ```text
 //! frames     ─●──────●──────●──────●──────●─
@@ -26,12 +26,12 @@ pub(crate) enum BlockEnd {
     Unwanted,
     /// At or after a frame; the frames before it are of the same block.
     Sought {
-        /// It.
+        /// That frame.
         from: u64,
     },
     /// At a frame.
     Found {
-        /// It.
+        /// That frame.
         frame: u64,
         /// Whether the plan rests there, so that motion can be held as it is.
         rests: bool,

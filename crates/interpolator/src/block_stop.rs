@@ -1,5 +1,5 @@
-//! Coming to rest at the end of a block: what the search for the end, the rate of program time and the
-//! track have to know of each other.
+//! Coming to rest at the end of a block: what the search for the end, the rate of program time and
+//! the track have to know of each other.
 
 use crate::block_end::BlockEnd;
 use crate::differences::Differences;
@@ -12,8 +12,9 @@ use crate::track::Track;
 #[derive(Debug)]
 pub(crate) struct BlockStop {
     end: BlockEnd,
-    /// The rate at which motion sets out from a rest of the plan: less than the goal where the block
-    /// would be too short to come to rest at its end, or where no stop is found from a higher one.
+    /// The rate at which motion sets out from a rest of the plan: less than the goal where the
+    /// block would be too short to come to rest at its end, or where no stop is found from a higher
+    /// one.
     sets_out_at: f64,
 }
 
@@ -47,8 +48,8 @@ impl BlockStop {
         self.sets_out_at = 1.0;
     }
 
-    /// Keeps in mind where the present block ends, if the motion is to rest there, and holds the motion
-    /// where the plan rests by itself.
+    /// Keeps in mind where the present block ends, if the motion is to rest there, and holds the
+    /// motion where the plan rests by itself.
     pub(crate) fn look_ahead(
         &mut self,
         requests: &StopRequests,
@@ -72,8 +73,8 @@ impl BlockStop {
         track.hold_at_block_end(held_at);
     }
 
-    /// The frame at which the motion waits, at a rest of the plan, until it is known where the block
-    /// ends, as far as the frames at hand tell, and how to come to rest there.
+    /// The frame at which the motion waits, at a rest of the plan, until it is known where the
+    /// block ends, as far as the frames at hand tell, and how to come to rest there.
     fn waits_for_arrival(&self, rate: &Rate, track: &Track) -> Option<u64> {
         let is_open = match (self.end, self.end.in_motion()) {
             (BlockEnd::Sought { from }, _) => from + 1 < track.end(),
@@ -84,8 +85,8 @@ impl BlockStop {
         (is_open && track.rests_at(time)).then_some(time.sequence)
     }
 
-    /// The end of the block is too near to come to rest there: where the motion sets out from a rest
-    /// of the plan, not if it does so more slowly.
+    /// The end of the block is too near to come to rest there: where the motion sets out from a
+    /// rest of the plan, not if it does so more slowly.
     fn try_slower_or_later(&mut self, rate: &Rate, track: &Track, published: &Differences) {
         let plan_rests = track.rests_at(rate.now().time);
         if plan_rests && !published.is_at_rest() {

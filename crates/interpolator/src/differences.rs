@@ -1,7 +1,7 @@
 //! Limits by finite differences of the published positions: what a drive sees.
 //!
-//! With positions x one period T apart, every axis obeys |Δx| ≤ V·T, |Δ²x| ≤ A·T², |Δ³x| ≤ J·T³. The
-//! differences are averages of the derivatives of any motion through the positions, so a motion
+//! With positions x one period T apart, every axis obeys |Δx| ≤ V·T, |Δ²x| ≤ A·T², |Δ³x| ≤ J·T³.
+//! The differences are averages of the derivatives of any motion through the positions, so a motion
 //! inside its limits is inside these.
 
 use crate::pairs::{self, PAIRS, Pair, larger, smaller, sub};
@@ -9,7 +9,7 @@ use crate::quintic::Quintic;
 use glidepath_geometry::AxisVector;
 use glidepath_program::Limits;
 
-/// Part of a limit that may be lost to rounding; half of what an audit allows.
+/// Share of a limit that may be lost to rounding; half of what an audit allows.
 const ALLOWANCE: f64 = 5e-7;
 /// Rounding of a third difference of positions of up to a metre, mm.
 const ROUNDING: f64 = 1e-12;
@@ -143,8 +143,8 @@ impl Differences {
         inside == INSIDE
     }
 
-    /// Adds one more position; returns whether it is within the limits. Of axes without limits nothing
-    /// is kept.
+    /// Adds one more position; returns whether it is within the limits. Of axes without limits
+    /// nothing is kept.
     pub(crate) fn append(&mut self, position: &AxisVector, allowed: &Allowed) -> bool {
         let positions = pairs::pairs(position.as_slice());
         let mut inside = INSIDE;
@@ -154,7 +154,7 @@ impl Differences {
         inside == INSIDE
     }
 
-    /// The same with a position between two frames: most of the work of a tick that looks for a stop.
+    /// Appends a position between two frames: most of the work of a tick that looks for a stop.
     pub(crate) fn append_at(&mut self, quintic: &Quintic, u: f64, allowed: &Allowed) -> bool {
         let mut inside = INSIDE;
         for ((past, pair), most) in self.0.iter_mut().zip(quintic.pairs()).zip(allowed.used()) {
@@ -163,8 +163,9 @@ impl Differences {
         inside == INSIDE
     }
 
-    /// From where to where the next position may be moved until a limit is reached, from one between two
-    /// frames along the velocity there, in parts of that. Exact where the motion is straight.
+    /// From where to where the next position may be moved until a limit is reached, from one
+    /// between two frames along the velocity there, in parts of that. Exact where the motion is
+    /// straight.
     pub(crate) fn room(&self, quintic: &Quintic, u: f64, allowed: &Allowed) -> (f64, f64) {
         let (mut low, mut high) = ([f64::NEG_INFINITY; 2], [f64::INFINITY; 2]);
         for ((past, pair), most) in self.0.iter().zip(quintic.pairs()).zip(allowed.used()) {
@@ -174,7 +175,8 @@ impl Differences {
             let third = sub(second, past.second);
             let scale = pairs::map(velocity, |v| v.abs().recip());
             for (difference, most) in [first, second, third].into_iter().zip(*most) {
-                // What the differences are along the velocity. An axis that stands is not limited by it.
+                // What the differences are along the velocity. An axis that stands is not limited
+                // by it.
                 let along = pairs::zip(difference, velocity, |d, v| d.copysign(d * v));
                 let lowest = pairs::zip(most, along, |most, along| -most - along);
                 let highest = sub(most, along);

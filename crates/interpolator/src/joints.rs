@@ -1,7 +1,7 @@
 //! What the joints are to do: the mechanism's inverse, at every tick.
 //!
-//! The setpoint leaves the real-time thread whole, so what a drive gets depends on no other thread. The
-//! inverse is bounded work without allocation, a closed form for every mechanism.
+//! The setpoint leaves the real-time thread whole, so what a drive gets depends on no other thread.
+//! The inverse is bounded work without allocation, a closed form for every mechanism.
 
 use glidepath_kinematics::{JointVector, Kinematics as _, KinematicsError, Mechanism};
 use glidepath_link::Setpoint;
@@ -77,8 +77,8 @@ mod tests {
             let joints = mechanism.inverse(&s.position.into()).unwrap();
             assert_eq!(s.joint_position, <[f64; 9]>::from(joints));
         }
-        // Velocities and accelerations are those of the positions: the differences are off by J T² / 6
-        // and, where jerk steps, J T / 3, with the jerk J of three axes together.
+        // Velocities and accelerations are those of the positions: the differences are off by J T²
+        // / 6 and, where jerk steps, J T / 3, with the jerk J of three axes together.
         for window in rig.setpoints.windows(3).filter(|w| w[1].number > 130) {
             let [a, b, c] = [0, 1, 2].map(|k| JointVector::from(window[k].joint_position));
             let rate = (c - a) / 0.008 - JointVector::from(window[1].joint_velocity);

@@ -6,9 +6,9 @@
 //! ports              ▐███░         ▐███░       200 µs later: setpoints out, commands and frames in
 //! ```
 //!
-//! Both keep the same grid. The real-time thread rises a little before it, so that neither the host's
-//! latency nor cold caches delay a setpoint; the ports thread wakes a fixed phase after it, so that a
-//! setpoint leaves the process a known time after its tick.
+//! Both keep the same grid. The real-time thread rises a little before it, so that neither the
+//! host's latency nor cold caches delay a setpoint; the ports thread wakes a fixed phase after it,
+//! so that a setpoint leaves the process a known time after its tick.
 
 use crate::config::Config;
 use crate::message::{Inputs, Report, Timing};

@@ -1,9 +1,9 @@
 //! Axes two by two, as the processor computes them.
 //!
 //! What is kept for every axis is kept pair by pair, so that all that is needed of a pair is in
-//! neighbouring cache lines. After the sleep of a period it is these lines that take the time, and those
-//! of the code: hence loops over pairs, not one long run over all axes. A machine with fewer axes has
-//! fewer pairs to look at.
+//! neighbouring cache lines. After the sleep of a period it is these lines that take the time, and
+//! those of the code: hence loops over pairs, not one long run over all axes. A machine with fewer
+//! axes has fewer pairs to look at.
 
 use glidepath_geometry::{AXES, AxisVector};
 use glidepath_program::Limits;
@@ -43,13 +43,13 @@ pub(crate) fn in_use(limits: &Limits) -> usize {
     axes.map_or(0, |last| last / 2 + 1)
 }
 
-/// The same of both.
+/// Applies a function to both numbers of a pair.
 pub(crate) fn map(one: Pair, f: impl Fn(f64) -> f64) -> Pair {
     let [a, b] = one;
     [f(a), f(b)]
 }
 
-/// One with the other, each with each.
+/// Applies a function to the first numbers of two pairs, and to the second ones.
 pub(crate) fn zip(one: Pair, other: Pair, f: impl Fn(f64, f64) -> f64) -> Pair {
     let ([a, b], [c, d]) = (one, other);
     [f(a, c), f(b, d)]

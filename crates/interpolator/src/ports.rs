@@ -2,8 +2,8 @@
 //!
 //! Each turn: setpoints out, commands in, frames in as long as the ring to the real-time thread has
 //! room (what does not fit stays in the planner's queue, which pushes back), now and then a status,
-//! and the leftovers of dead processes. It may allocate, log and wait; the real-time thread does not
-//! notice.
+//! and the leftovers of dead processes. It may allocate, log and wait; the real-time thread does
+//! not notice.
 
 use crate::admission::{Admission, Machine, Verdict};
 use crate::commands::{answer, is_refusal};

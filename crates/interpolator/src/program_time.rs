@@ -27,7 +27,8 @@ impl ProgramTime {
     )]
     pub(crate) fn after(self, periods: f64) -> Self {
         let sum = self.fraction + periods;
-        // Not `floor`, which is a call where the processor is not known to have an instruction for it.
+        // Not `floor`, which is a call where the processor is not known to have an instruction for
+        // it.
         let whole = sum as i64;
         Self {
             sequence: self.sequence + whole as u64,
@@ -35,7 +36,7 @@ impl ProgramTime {
         }
     }
 
-    /// The same, but not past a frame that holds the motion, if one does.
+    /// This time, but not past a frame that holds the motion, if one does.
     pub(crate) fn held_at(self, frame: Option<u64>) -> Self {
         match frame {
             Some(frame) if self.sequence >= frame => Self::at(frame),

@@ -1,7 +1,7 @@
 //! The motion from one frame to the next: a polynomial of degree five for every axis.
 //!
-//! Its coefficients are computed once, when the later of the two frames arrives; an evaluation is then
-//! five multiplications and additions an axis.
+//! Its coefficients are computed once, when the later of the two frames arrives; an evaluation is
+//! then five multiplications and additions an axis.
 
 use crate::pairs::{self, PAIRS, Pair};
 use glidepath_geometry::AxisVector;
@@ -19,8 +19,8 @@ pub(crate) struct Kinematic {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Coefficients([Pair; 6]);
 
-/// The polynomial in 0 ≤ u ≤ 1 from one frame to the next. The first axes, which every machine has, lie
-/// in one cache line and the two after it.
+/// The polynomial in 0 ≤ u ≤ 1 from one frame to the next. The first axes, which every machine has,
+/// lie in one cache line and the two after it.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(64))]
 pub(crate) struct Quintic([Coefficients; PAIRS]);
@@ -117,7 +117,8 @@ impl Coefficients {
         (next(p1, c0), next(v1, p1))
     }
 
-    /// Positions and their first two derivatives. Not in line, like [`set_between`](Self::set_between).
+    /// Positions and their first two derivatives. Not in line, like
+    /// [`set_between`](Self::set_between).
     #[inline(never)]
     fn kinematic(&self, u: f64) -> [Pair; 3] {
         let [_, c1, c2, c3, c4, c5] = self.0;

@@ -1,8 +1,8 @@
 //! The rate of program time from one value to another.
 //!
 //! The rate r is in periods of program time per tick, its slope ṙ per tick, its bend r̈ per tick².
-//! A ramp is the shortest way from (r₀, ṙ₀) to (r₁, 0) with |ṙ| ≤ α and |r̈| ≤ β: bend one way, keep
-//! the slope if α is reached, bend back.
+//! A ramp is the shortest way from (r₀, ṙ₀) to (r₁, 0) with |ṙ| ≤ α and |r̈| ≤ β: bend one way,
+//! keep the slope if α is reached, bend back.
 //!
 //! ```text
 //!  r ──╮                 ṙ ─╮      ╭─
@@ -124,9 +124,9 @@ impl Ramp {
         })
     }
 
-    /// One tick, from a rate and slope to another slope, with the steps in program time of the ticks
-    /// before and after: what is between its two ends is not asked for. `None` if the rate would leave
-    /// 0 ≤ r ≤ 1.
+    /// One tick, from a rate and slope to another slope, with the steps in program time of the
+    /// ticks before and after: what is between its two ends is not asked for. `None` if the rate
+    /// would leave 0 ≤ r ≤ 1.
     pub(crate) fn tick_to(rate: f64, slope: f64, to: f64) -> Option<Self> {
         let start = Instant {
             elapsed: 0.0,

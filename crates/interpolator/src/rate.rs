@@ -7,18 +7,18 @@
 //! q′ = Q′ r      q″ = Q″ r² + Q′ ṙ      q‴ = Q‴ r³ + 3 Q″ r ṙ + Q′ r̈
 //! ```
 //!
-//! so a change of r costs acceleration and jerk on top of the plan's own, and the plan may be at its
-//! limit, for a while or (time-optimal plans) most of the time. No bound on ṙ and r̈ that is computed
-//! from the present alone is therefore safe: the rate may start to fall where there is room, and
-//! then find that it cannot be released where there is none.
+//! so a change of r costs acceleration and jerk on top of the plan's own, and the plan may be at
+//! its limit, for a while or (time-optimal plans) most of the time. No bound on ṙ and r̈ that is
+//! computed from the present alone is therefore safe: the rate may start to fall where there is
+//! room, and then find that it cannot be released where there is none.
 //!
-//! The way out is that the future is known. A change of the rate is a [`Ramp`] from the present rate
-//! and slope to another steady rate. Before a ramp is chosen it is *played through* on the frames at
-//! hand: the positions it would publish are computed, tick by tick to three ticks past its end, and
-//! their differences compared with the limits. Only a ramp that passes is committed, and a committed
-//! ramp is followed until a better one passes. Hence the invariant that makes this safe: **at every
-//! tick, following what is committed breaks no limit and needs no frame that is not here.** A steady
-//! rate r ≤ 1 is inside the limits because the plan is.
+//! The way out is that the future is known. A change of the rate is a [`Ramp`] from the present
+//! rate and slope to another steady rate. Before a ramp is chosen it is *played through* on the
+//! frames at hand: the positions it would publish are computed, tick by tick to three ticks past
+//! its end, and their differences compared with the limits. Only a ramp that passes is committed,
+//! and a committed ramp is followed until a better one passes. Hence the invariant that makes this
+//! safe: **at every tick, following what is committed breaks no limit and needs no frame that is
+//! not here.** A steady rate r ≤ 1 is inside the limits because the plan is.
 //!
 //! What is tried, in this order, until one passes or the tick's budget of samples is used up (the
 //! next tick then goes on from there):
@@ -29,19 +29,19 @@
 //!   slower, there is room to go on. This is what gets away from a plan at its limits.
 //!
 //! While the rate is on its way by a slow or a partial ramp, faster ones are tried at every tick.
-//! Most candidates fail in their first samples, so a tick rarely uses its budget. Where nothing passes
-//! the rate stays and the next tick tries again from further on: a plan that brakes at its limits
-//! cannot be made to brake harder, but it will be slow soon.
+//! Most candidates fail in their first samples, so a tick rarely uses its budget. Where nothing
+//! passes the rate stays and the next tick tries again from further on: a plan that brakes at its
+//! limits cannot be made to brake harder, but it will be slow soon.
 //!
-//! That leaves the question whether there will be any stop before the frames run out. So motion goes
-//! on only with a stop in reserve, played through beforehand ([`reserve_search`]; how it is found:
-//! [`stop_search`]). To come to rest at the end of a block is a reserve, too, that ends at a given
-//! frame and is taken on purpose: see [`arrival_search`].
+//! That leaves the question whether there will be any stop before the frames run out. So motion
+//! goes on only with a stop in reserve, played through beforehand ([`reserve_search`]; how it is
+//! found: [`stop_search`]). To come to rest at the end of a block is a reserve, too, that ends at a
+//! given frame and is taken on purpose: see [`arrival_search`].
 //!
 //! A ramp to rate 1 is stretched so that it ends on the grid of the frames: from there on the
-//! setpoints are the frames, bit for bit. Between its grid points a plan may exceed its jerk limit by
-//! a little (0.53 % if jerk steps in the middle of a period): r³ makes up for that at any lower steady
-//! rate, hence [`BESIDE_FULL`].
+//! setpoints are the frames, bit for bit. Between its grid points a plan may exceed its jerk limit
+//! by a little (0.53 % if jerk steps in the middle of a period): r³ makes up for that at any lower
+//! steady rate, hence [`BESIDE_FULL`].
 //!
 //! The files, each of which uses only those above it:
 //!
@@ -49,12 +49,12 @@
 //! |---|---|
 //! | [`progress`], [`situation`] | what a choice depends on: program time; frames and limits |
 //! | [`play`] | a ramp is played through |
-//! | [`steady_rate`], [`kept_stop`], [`reserve`] | where a stop sets out from, and a stop as it is kept |
+//! | [`steady_rate`], [`kept_stop`], [`reserve`] | where a stop sets out from; a stop as it is kept |
 //! | [`greedy_descent`], [`stop_search`] | a stop is found |
-//! | [`reserve_search`], [`arrival_search`] | when it is to begin: as late as possible, or to end at a frame |
+//! | [`reserve_search`], [`arrival_search`] | when it begins: late, or to end at a frame |
 //! | [`candidate`], [`ramp_trial`] | a ramp is shaped, and tried together with a stop after it |
 //! | [`state`] | the states of the rate: **the diagram is there** |
-//! | [`ramp_choice`], [`stop_choice`] | what a tick decides: [`Rate::choose_ramp`], [`Rate::ensure_stop`] |
+//! | [`ramp_choice`], [`stop_choice`] | what a tick decides: which ramp, which stop |
 
 mod arrival_search;
 mod candidate;

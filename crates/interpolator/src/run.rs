@@ -18,11 +18,11 @@ const LEAD_NS: u64 = 5_000_000;
 /// How long the motion may take to come to rest at the end.
 const FAREWELL_NS: u64 = 5_000_000_000;
 
-/// Runs an interpolator until `stop` is set; then the motion comes to rest on the path, and the last
-/// status is returned.
+/// Runs an interpolator until `stop` is set; then the motion comes to rest on the path, and the
+/// last status is returned.
 ///
-/// The calling thread becomes the ports thread: it makes the ports with `transport`, serves them, and
-/// passes lines for the log to `log`. A second thread is the real-time thread.
+/// The calling thread becomes the ports thread: it makes the ports with `transport`, serves them,
+/// and passes lines for the log to `log`. A second thread is the real-time thread.
 ///
 /// # Errors
 /// The real-time thread could not be set up, or a port could not be made. Nothing has moved then.
@@ -93,7 +93,8 @@ fn real_time_thread(
     Ok(())
 }
 
-/// A guarded thread cannot end, because ending takes system calls: it sleeps until the process ends.
+/// A guarded thread cannot end, because ending takes system calls: it sleeps until the process
+/// ends.
 fn sleep_on(timer: &mut DeadlineTimer<Monotonic>) -> ! {
     loop {
         timer.wait();

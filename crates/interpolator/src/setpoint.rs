@@ -32,8 +32,8 @@ impl SetpointWriter {
         self.announced = None;
     }
 
-    /// Writes the setpoint of an open epoch at the present program time. `None`, with nothing written,
-    /// if that is outside the track.
+    /// Writes the setpoint of an open epoch at the present program time. `None`, with nothing
+    /// written, if that is outside the track.
     pub(crate) fn write_moving(
         &mut self,
         epoch: u64,

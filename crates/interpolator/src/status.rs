@@ -62,8 +62,8 @@ impl StatusBook {
         *count == 1
     }
 
-    /// A frame passed to the real-time thread. The first one of a program tells which program that is,
-    /// and where it starts; that of a planner that goes on with one tells of a block.
+    /// A frame passed to the real-time thread. The first one of a program tells which program that
+    /// is, and where it starts; that of a planner that goes on with one tells of a block.
     pub(crate) const fn passed(&mut self, frame: &SetpointFrame) {
         if frame.sequence == 0 && frame.block == 0 {
             self.status.program = frame.program;

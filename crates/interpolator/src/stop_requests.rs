@@ -147,8 +147,8 @@ impl StopRequests {
         self.single_block
     }
 
-    /// An epoch begins or ends: only a latched fault, the overrides and the single-block mode outlive
-    /// it.
+    /// An epoch begins or ends: only a latched fault, the overrides and the single-block mode
+    /// outlive it.
     pub(crate) const fn forget_epoch(&mut self) {
         self.abort = false;
         self.hold = false;

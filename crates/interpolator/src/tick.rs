@@ -2,16 +2,19 @@
 //!
 //! ```text
 //! orders ─► stop requests ─┐
-//! frames ─► track ─────────┼─► supply ──► rate ──► program ──► setpoint ──► joints ──► end of ──► report ─┊─► stamp
-//!                          └── enough to  chosen   time        written,               epoch, or           deadline
-//!                              go on?              advanced    checked                program stop
+//! frames ─► track ─────────┴► supply ─► rate ─► program time ─► setpoint ─► joints ─┐
+//!                             enough    chosen  advanced        written,            │
+//!                             to go on?                         checked             │
+//!        ┌───────────────────────────────────────────────────────────────────────◄──┘
+//!        └► end of the epoch, program stop ─► state ─► report ─┊─► stamp
+//!                                                           deadline
 //! ```
 //!
-//! Everything but the stamp is done shortly before the deadline: how long it takes, and how cold the
-//! caches are after the sleep, does not delay the setpoint.
+//! Everything but the stamp is done shortly before the deadline: how long it takes, and how cold
+//! the caches are after the sleep, does not delay the setpoint.
 //!
-//! No step allocates, locks, waits or calls the system. Work is bounded: so many orders and frames a
-//! tick, and a budget for the choice of a ramp.
+//! No step allocates, locks, waits or calls the system. Work is bounded: so many orders and frames
+//! a tick, and a budget for the choice of a ramp.
 
 use crate::block_stop::BlockStop;
 use crate::config::Config;
@@ -88,8 +91,9 @@ impl<'a> Interpolator<'a> {
     }
 
     /// One period: reads the rings, advances program time, and says where the axes are to be. Needs
-    /// nothing but the rings, so it is done before the deadline of the tick. Writes all of the report but
-    /// the stamp, in its place: every copy of it would be a dozen more cache lines to wait for.
+    /// nothing but the rings, so it is done before the deadline of the tick. Writes all of the
+    /// report but the stamp, in its place: every copy of it would be a dozen more cache lines to
+    /// wait for.
     #[cfg_attr(glidepath_rtsan, sanitize(realtime = "nonblocking"))]
     pub(crate) fn prepare(&mut self, tick: u64, inputs: &mut Inputs<'_>, report: &mut Report) {
         self.carry_out_orders(inputs);
@@ -104,7 +108,8 @@ impl<'a> Interpolator<'a> {
             self.write_standing(&mut report.setpoint);
         }
         if self.joints.follow(&mut report.setpoint).is_err() {
-            // Every frame passed a judge of the joints, so this cannot be; if it were, the motion ends.
+            // Every frame passed a judge of the joints, so this cannot be; if it were, the motion
+            // ends.
             self.fail(FaultCause::Output);
         }
         self.end_epoch_or_wait();

@@ -7,9 +7,10 @@
 //! released │ oldest … now … newest │ free          a ring over sequence numbers
 //! ```
 //!
-//! Three kinds of frames hold the motion: the next program stop, and the end of a block where the plan
-//! rests, until the operator lets it pass, and the *barrier*, the latest frame at rest, until it is
-//! known how to stop after it. Program time stands there: everything later is evaluated as that frame.
+//! Three kinds of frames hold the motion: the next program stop, and the end of a block where the
+//! plan rests, until the operator lets it pass, and the *barrier*, the latest frame at rest, until
+//! it is known how to stop after it. Program time stands there: everything later is evaluated as
+//! that frame.
 
 use crate::differences::{Allowed, Differences};
 use crate::program_time::ProgramTime;
@@ -234,8 +235,8 @@ impl Track {
         }
     }
 
-    /// Appends the planned position at a time to others; returns whether it is within the limits, and
-    /// within the owned frames.
+    /// Appends the planned position at a time to others; returns whether it is within the limits,
+    /// and within the owned frames.
     pub(crate) fn append_to(
         &self,
         published: &mut Differences,
@@ -249,8 +250,8 @@ impl Track {
         position.is_some_and(|position| published.append(&position, allowed))
     }
 
-    /// By how much the planned position at a time may be moved along the path: see [`Differences::room`].
-    /// Up to the newest frame but one; `None` outside the owned frames.
+    /// By how much the planned position at a time may be moved along the path: see
+    /// [`Differences::room`]. Up to the newest frame but one; `None` outside the owned frames.
     pub(crate) fn room(
         &self,
         time: ProgramTime,

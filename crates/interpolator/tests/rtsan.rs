@@ -1,5 +1,5 @@
-//! The real-time sanitizer of LLVM: ends the process where a function that must not block allocates,
-//! locks or calls the system. It takes the nightly compiler:
+//! The real-time sanitizer of LLVM: ends the process where a function that must not block
+//! allocates, locks or calls the system. It takes the nightly compiler:
 //!
 //! ```text
 //! RUSTFLAGS="-Zsanitizer=realtime --cfg glidepath_rtsan" cargo +nightly test -p glidepath-interpolator \
@@ -7,7 +7,8 @@
 //! ```
 //!
 //! The unit tests drive the work of a tick, which is marked, through start, motion, hold, resume,
-//! override, starvation, steps, faults, reset and abort; the test here proves that the sanitizer is on.
+//! override, starvation, steps, faults, reset and abort; the test here proves that the sanitizer is
+//! on.
 #![cfg(glidepath_rtsan)]
 #![feature(sanitize)]
 #![allow(clippy::unwrap_used, reason = "a test")]

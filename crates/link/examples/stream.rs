@@ -1,7 +1,7 @@
 //! Streams a square to a listening planner, as a CAM program or an operator panel would.
 //!
-//! Start `glidepath interpolator --best-effort` and `glidepath planner --listen` first. The argument
-//! is the name of the instance, `default` if there is none.
+//! Start `glidepath interpolator --best-effort` and `glidepath planner --listen` first. The
+//! argument is the name of the instance, `default` if there is none.
 
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_link::{

@@ -1,9 +1,49 @@
 //! The contract between the processes: the records they exchange, the ports they exchange them
 //! through, and two transports for the ports.
 //!
-//! Every record is plain old data of fixed size whose name carries its version. What is read from a
-//! port has been written by another process: [`Record::check`] (or a checked conversion such as
-//! [`SetpointFrame::to_frame`]) comes before any use.
+//! ```text
+//! other programs ─ SegmentRequest ─► planner ─ SetpointFrame ─► interpolator ─ Setpoint ─► servos
+//!                ◄ SegmentReply ────    ▲                        │   ▲
+//!                                       └──────── Status ────────┤   └─ CommandRequest ─ anybody
+//!                                                    anybody ◄───┘
+//! ```
+//!
+//! Planner, interpolator and servos meet here and nowhere else. Entry points:
+//!
+//! * [`Transport`] makes the ports of an instance: [`Ipc`] between processes, over shared memory,
+//!   and [`InProcess`] between the threads of one, with the same order, back-pressure and loss;
+//! * the ports are [`Publisher`] and [`Subscriber`], [`FrameSink`] (which is told when nobody takes
+//!   its frames), [`Client`] and [`Server`];
+//! * the records: [`SetpointFrame`], [`Setpoint`], [`Status`], [`CommandRequest`],
+//!   [`SegmentRequest`] and their replies;
+//! * [`servo`] is what a drive does with setpoints; [`Recorder`] and [`Replay`] keep records in a
+//!   file.
+//!
+//! Invariants:
+//!
+//! * every record is plain old data of fixed size whose name carries its version: what reads
+//!   another version does not connect;
+//! * what is read from a port has been written by another process, so [`Record::check`] (or a
+//!   checked conversion such as [`SetpointFrame::to_frame`]) comes before any use;
+//! * frames are never lost and never overwritten: a full queue is reported. Setpoints and status
+//!   never wait for a subscriber: a full queue loses its oldest, which the numbers in the records
+//!   show.
+//!
+//! ```
+//! use glidepath_link::{Delivery, InProcess, Record, SetpointFrame, Transport};
+//!
+//! let link = InProcess::default();
+//! let (mut sink, mut source) = (link.frame_sink()?, link.frame_source()?);
+//! let mut frame: SetpointFrame = bytemuck::Zeroable::zeroed();
+//! (frame.epoch, frame.period_ns, frame.planned_override) = (1, 4_000_000, 1.0);
+//! assert_eq!(sink.offer(&frame)?, Delivery::Delivered);
+//!
+//! let taken = source.take()?.expect("it was delivered");
+//! taken.check()?;
+//! assert_eq!(taken, frame);
+//! assert!(source.take()?.is_none());
+//! # Ok::<(), glidepath_link::LinkError>(())
+//! ```
 
 pub mod servo;
 

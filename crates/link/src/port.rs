@@ -8,8 +8,8 @@
 //! ```
 //!
 //! No call here waits for the other side; waiting is the caller's, who knows for how long and what
-//! may end it ([`FrameSink::send`] does it for frames). Records are handed over as they arrived: the
-//! receiver checks them.
+//! may end it ([`FrameSink::send`] does it for frames). Records are handed over as they arrived:
+//! the receiver checks them.
 //!
 //! Ports belong to the thread that made them. They may allocate and make system calls; no real-time
 //! thread calls them.
@@ -79,8 +79,8 @@ pub trait Publisher<R> {
     /// A failure of the transport, never a slow or missing subscriber.
     fn publish(&mut self, record: &R) -> Result<(), LinkError>;
 
-    /// Lets subscribers that came since the last call have the last record. To be called now and then
-    /// by a publisher that may be silent for long.
+    /// Lets subscribers that came since the last call have the last record. To be called now and
+    /// then by a publisher that may be silent for long.
     ///
     /// # Errors
     ///
@@ -115,8 +115,8 @@ pub trait Client<Q, A> {
     ///
     /// # Errors
     ///
-    /// [`LinkError::NoServer`] if the server went away with a request unanswered: what was asked may
-    /// or may not have been done. All requests under way are forgotten.
+    /// [`LinkError::NoServer`] if the server went away with a request unanswered: what was asked
+    /// may or may not have been done. All requests under way are forgotten.
     fn reply(&mut self) -> Result<Option<A>, LinkError>;
 
     /// Asks, and waits at most `patience` for the answer; `None` if there was none. To be used with
@@ -181,8 +181,8 @@ pub trait Transport {
     /// For a listening planner.
     fn segment_server(&self) -> Result<Box<dyn Server<SegmentRequest, SegmentReply>>, LinkError>;
 
-    /// Frees what dead processes of this instance hold. To be called every 200 ms or so by a process
-    /// that runs for long, outside any real-time thread. Returns how many dead it found.
+    /// Frees what dead processes of this instance hold. To be called every 200 ms or so by a
+    /// process that runs for long, outside any real-time thread. Returns how many dead it found.
     ///
     /// # Errors
     ///

@@ -11,8 +11,8 @@ pub(crate) const COMMANDS: &str = "glidepath/commands";
 /// Other programs to a listening planner.
 pub(crate) const SEGMENTS: &str = "glidepath/segments";
 
-/// Publishers of a topic and senders of frames: one that works, and one that bridges to another host
-/// or comes in the place of a dead one that is not yet cleaned up.
+/// Publishers of a topic and senders of frames: one that works, and one that bridges to another
+/// host or comes in the place of a dead one that is not yet cleaned up.
 pub(crate) const SENDERS: usize = 2;
 /// Clients of a request-response service.
 pub(crate) const CLIENTS: usize = 16;
@@ -32,7 +32,8 @@ impl Default for Capacity {
     fn default() -> Self {
         Self {
             frames: 256,
-            // Four seconds at 4 ms: on a busy host an ordinary process may not run for half a second.
+            // Four seconds at 4 ms: on a busy host an ordinary process may not run for half a
+            // second.
             setpoints: 1024,
             subscribers: 16,
         }

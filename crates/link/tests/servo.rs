@@ -106,7 +106,8 @@ proptest! {
         limit in 500.0..5000.0,
         jerk in 10_000.0..1e6,
     ) {
-        // From steady motion: the trapezoid of deceleration, or the triangle if the limit is not met.
+        // From steady motion: the trapezoid of deceleration, or the triangle if the limit is not
+        // met.
         let stop = Stop::new(state(0.0, velocity, 0.0), StopLimits { acceleration: limit, jerk });
         let shortest_t = if velocity * jerk <= limit * limit {
             2.0 * (velocity / jerk).sqrt()

@@ -11,7 +11,7 @@ pub trait Clock {
     /// Returns once [`now_ns`](Self::now_ns) is `deadline_ns` or later.
     fn sleep_until(&mut self, deadline_ns: u64);
 
-    /// The same without giving the processor away; returns the time.
+    /// Waits until a time without giving the processor away; returns the time.
     fn spin_until(&mut self, deadline_ns: u64) -> u64 {
         loop {
             let now_ns = self.now_ns();

@@ -10,8 +10,8 @@
 //! that has passed, and is told how many it missed: it never runs twice in a hurry to catch up.
 //!
 //! A thread that was asleep wakes some ten microseconds late even on a quiet host, and finds its
-//! caches cold. A timer with a *lead* hides both: it rises that much before the deadline, leaves the
-//! time to the thread for what can be done beforehand, and spins for the rest of it.
+//! caches cold. A timer with a *lead* hides both: it rises that much before the deadline, leaves
+//! the time to the thread for what can be done beforehand, and spins for the rest of it.
 //!
 //! ```text
 //!          lead
@@ -113,8 +113,8 @@ impl<C: Clock> DeadlineTimer<C> {
         }
     }
 
-    /// Sleeps until a lead before the next deadline. What is done before [`wait`](Self::wait) is done
-    /// in time.
+    /// Sleeps until a lead before the next deadline. What is done before [`wait`](Self::wait) is
+    /// done in time.
     pub fn rise(&mut self) -> Rise {
         let scheduled_ns = self.next_ns().saturating_sub(self.lead_ns);
         self.clock.sleep_until(scheduled_ns);
@@ -124,8 +124,8 @@ impl<C: Clock> DeadlineTimer<C> {
         }
     }
 
-    /// Returns at the next deadline, and says which of them it was. Sleeps for what is more than the
-    /// lead, and spins for the rest.
+    /// Returns at the next deadline, and says which of them it was. Sleeps for what is more than
+    /// the lead, and spins for the rest.
     pub fn wait(&mut self) -> Wake {
         let (next, next_ns) = (self.tick + 1, self.next_ns());
         if self.clock.now_ns() + self.lead_ns < next_ns || self.lead_ns == 0 {

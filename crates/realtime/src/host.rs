@@ -4,7 +4,8 @@ use core::ops::RangeInclusive;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A tree with the files of `/proc`, `/sys` and `/dev`: that of the host, or one made up for a test.
+/// A tree with the files of `/proc`, `/sys` and `/dev`: that of the host, or one made up for a
+/// test.
 #[derive(Debug, Clone)]
 pub struct Host {
     root: PathBuf,

@@ -1,6 +1,8 @@
 //! Linux real time: what a thread needs that must act every period and never be late.
 //!
-//! Knows nothing of machines or motion. The parts, in the order a program meets them:
+//! The lowest layer of the pipeline: the interpolator's two threads stand on it, and the command
+//! asks it whether a host is fit. It knows nothing of machines or motion. The parts, in the order a
+//! program meets them:
 //!
 //! * [`enter`] makes the calling thread a real-time thread (scheduling class, processor, locked and
 //!   prefaulted memory, processor idle states) and reads every setting back; [`Mode::Strict`]
@@ -8,11 +10,36 @@
 //! * [`DeadlineTimer`] wakes the thread on an absolute grid that never moves;
 //! * [`doctor`] says beforehand whether the host is fit for that, and how to mend it;
 //! * [`event_ring`] and [`Histogram`] carry what happened to a thread that may write logs;
-//! * [`forbid_system_calls`] and [`CountingAllocator`] prove, in tests, that the thread makes no system call
-//!   and no allocation.
+//! * [`forbid_system_calls`] and [`CountingAllocator`] prove, in tests, that the thread makes no
+//!   system call and no allocation.
 //!
-//! After [`enter`] nothing here allocates, locks or makes a system call other than the sleep and
-//! the reading of the clock. All `unsafe` code is in the module `sys`.
+//! Invariants: after [`enter`] nothing here allocates, locks or makes a system call other than the
+//! sleep and the reading of the clock; the grid of a timer never moves, however late a wake-up is;
+//! all `unsafe` code is in the module `sys`.
+//!
+//! ```
+//! use glidepath_realtime::{
+//!     Clock as _, DeadlineTimer, Histogram, Mode, Monotonic, Request, enter,
+//! };
+//!
+//! // A host that grants nothing is good enough for an example.
+//! let entered = enter(&Request::default(), Mode::BestEffort)?;
+//! assert_eq!(entered.grants.refusals().count(), 0, "nothing was asked for");
+//!
+//! let period_ns = 1_000_000;
+//! let mut timer = DeadlineTimer::new(Monotonic, Monotonic.now_ns(), period_ns);
+//! let mut lateness = Histogram::new();
+//! let mut tick = 0;
+//! while tick < 3 {
+//!     let wake = timer.wait();
+//!     // The ticks that were missed are counted, not made up for.
+//!     assert_eq!(wake.tick, tick + 1 + wake.missed);
+//!     lateness.record(wake.lateness_ns());
+//!     tick = wake.tick;
+//! }
+//! assert!(lateness.quantiles().max_ns < period_ns);
+//! # Ok::<(), glidepath_realtime::NotRealTime>(())
+//! ```
 
 mod clock;
 mod deadline;

@@ -1,8 +1,8 @@
 //! Making a thread a real-time thread.
 //!
-//! Each [`Item`] is asked for, read back, and reported by itself: granted, not asked for, or refused
-//! with the call, the error and what to do about it. Whether a refusal is the end is the caller's
-//! choice ([`Mode`]): a machine does not move on a host that cannot keep time, a desk may.
+//! Each [`Item`] is asked for, read back, and reported by itself: granted, not asked for, or
+//! refused with the call, the error and what to do about it. Whether a refusal is the end is the
+//! caller's choice ([`Mode`]): a machine does not move on a host that cannot keep time, a desk may.
 
 use crate::sys::{sched, stack};
 use core::fmt;

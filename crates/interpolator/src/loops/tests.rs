@@ -24,8 +24,8 @@ enum Act {
     Frames(bool),
 }
 
-/// A clock that lets the loop go on by one tick at a time, when it is told to: what happens in which
-/// tick does not depend on how busy the host is.
+/// A clock that lets the loop go on by one tick at a time, when it is told to: what happens in
+/// which tick does not depend on how busy the host is.
 struct Metronome<'a> {
     now_ns: u64,
     /// Beats allowed so far, and those that were made.

@@ -1,8 +1,8 @@
 //! Coming to rest exactly at a frame: the end of a block.
 //!
-//! The plan does not rest there, so program time does: a ramp to rate 0 is stretched until the program
-//! time that passes on it is what is left to the frame. Like a stop in reserve it begins some ticks
-//! from now and is played through before anything relies on it; unlike one it is wanted.
+//! The plan does not rest there, so program time does: a ramp to rate 0 is stretched until the
+//! program time that passes on it is what is left to the frame. Like a stop in reserve it begins
+//! some ticks from now and is played through before anything relies on it; unlike one it is wanted.
 //!
 //! ```text
 //!        now                        frame
@@ -11,12 +11,12 @@
 //!         │◄───── w ────►│◄── E / p ─►│   w whole ticks, p ≤ 1 what is left: exact
 //! ```
 //!
-//! Where a plan at its limits lets no single ramp pass, two may: a little slower first (see the module
-//! above), then to rest. What cannot be reached is left to the next block: see
+//! Where a plan at its limits lets no single ramp pass, two may: a little slower first (see the
+//! module above), then to rest. What cannot be reached is left to the next block: see
 //! [`Rate::ensure_stop`](super::Rate::ensure_stop).
 //!
-//! A slow approach to a slow machine's stop takes more samples than a tick may spend, so the search can
-//! pause between any two of them, and go on in the next tick.
+//! A slow approach to a slow machine's stop takes more samples than a tick may spend, so the search
+//! can pause between any two of them, and go on in the next tick.
 
 use super::kept_stop::{DelayedRamp, KeptStop};
 use super::play::{Playthrough, PlaythroughOutcome};

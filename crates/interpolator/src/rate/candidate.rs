@@ -93,10 +93,11 @@ pub(super) fn ramp_to(
     (is_on_grid && on_grid.duration() < within).then_some(on_grid)
 }
 
-/// The ramp, among those of all paces, that loses so much program time, no less than the one of pace 1.
+/// The ramp, among those of all paces, that loses so much program time, no less than the one of
+/// pace 1.
 ///
-/// From a slope the curve is not just stretched, but the loss still grows nearly in proportion to the
-/// stretching: the secant finds it in a few steps.
+/// From a slope the curve is not just stretched, but the loss still grows nearly in proportion to
+/// the stretching: the secant finds it in a few steps.
 fn stretched(ramp: &Ramp, wanted: f64, plan: impl Fn(f64) -> Option<Ramp>) -> Option<Ramp> {
     let beyond = |stretching: f64| {
         let ramp = plan(1.0 / stretching)?;

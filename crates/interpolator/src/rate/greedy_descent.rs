@@ -2,24 +2,26 @@
 //!
 //! Where one axis or another is at a limit all the time, no ramp has room: its shape is settled
 //! beforehand, and the limits leave a little now on this side, now on that. But how far the next
-//! position may be moved along the path can be computed, and so what the next tick may do to the rate:
+//! position may be moved along the path can be computed, and so what the next tick may do to the
+//! rate:
 //!
 //! ```text
-//!   third difference     With the last step in program time d and the slope s, the next step is d + s′,
-//!  +J ┄┄┄┄┄┄┄┄┄┄┄┄┄┄     and another slope s′ moves the next position by Q′·(s′ − s), and so all its
-//!       ●   ●            differences. Every axis gives an interval of s′ for each of its limits; s′ has
-//!  ─────────────────     to be in all of them. The positions prove it, as they do for ramps.
-//!           ○   ○
+//!   third difference     With the last step in program time d and the slope s, the next step is
+//!  +J ┄┄┄┄┄┄┄┄┄┄┄┄┄┄     d + s′, and another slope s′ moves the next position by Q′·(s′ − s), and
+//!       ●   ●            so all its differences. Every axis gives an interval of s′ for each of its
+//!  ─────────────────     limits; s′ has to be in all of them. The positions prove it, as they do
+//!           ○   ○        for ramps.
 //!  −J ┄┄┄┄┄┄┄┄┄┄┄┄┄┄
 //! ```
 //!
-//! The steepest slope at every tick comes to where nothing is allowed. So a few branches are followed
-//! side by side: one for each of a few slopes, of those that lead there the one with the least rate.
-//! The steady rate is one more branch, at every tick a new beginning. As soon as a branch is steady at
-//! a rate that is lower by a twentieth, ramps have room: there the plan takes 14 % less of the jerk.
+//! The steepest slope at every tick comes to where nothing is allowed. So a few branches are
+//! followed side by side: one for each of a few slopes, of those that lead there the one with the
+//! least rate. The steady rate is one more branch, at every tick a new beginning. As soon as a
+//! branch is steady at a rate that is lower by a twentieth, ramps have room: there the plan takes
+//! 14 % less of the jerk.
 //!
-//! Four branches are enough: on near-optimal plans they lead down from wherever tens of thousands do,
-//! as a search by brute force has shown.
+//! Four branches are enough: on near-optimal plans they lead down from wherever tens of thousands
+//! do, as a search by brute force has shown.
 
 use super::kept_stop::DescentSlopes;
 use super::play::Cue;
@@ -32,8 +34,8 @@ const SLOPES: [f64; 4] = [0.0, -0.25, -0.5, -1.0];
 const ROOM: f64 = 0.95;
 /// Share of an interval that a slope keeps away from its ends.
 const INSIDE: f64 = 0.02;
-/// What it costs to compute an interval and to follow a slope, and at most to follow all branches for
-/// a tick, in samples of a ramp.
+/// What it costs to compute an interval and to follow a slope, and at most to follow all branches
+/// for a tick, in samples of a ramp.
 const INTERVAL: u32 = 3;
 const SLOPE: u32 = 2;
 const TICK: u32 = 30;

@@ -26,8 +26,8 @@ pub(super) struct Cue {
     pub(super) time: ProgramTime,
     /// The positions published before it.
     pub(super) published: Differences,
-    /// Whether the frame that holds the motion now holds the ramp, too. A stop in reserve is for the
-    /// time after that, and is not held.
+    /// Whether the frame that holds the motion now holds the ramp, too. A stop in reserve is for
+    /// the time after that, and is not held.
     pub(super) is_held: bool,
 }
 

@@ -33,8 +33,9 @@ impl Rate {
         self.try_candidates(goal, heading, situation);
     }
 
-    /// Tries ramps to a goal, or part of the way, until one passes. Not in line, like all that looks for
-    /// a ramp or a stop: what most ticks do not do is not to spread their code and their stack.
+    /// Tries ramps to a goal, or part of the way, until one passes. Not in line, like all that
+    /// looks for a ramp or a stop: what most ticks do not do is not to spread their code and their
+    /// stack.
     #[inline(never)]
     #[allow(clippy::float_cmp, reason = "targets are copies of goals")]
     fn try_candidates(&mut self, goal: f64, heading: Option<f64>, situation: &Situation<'_>) {
@@ -52,7 +53,8 @@ impl Rate {
                 continue;
             };
             if self.now.rate <= 0.0 && self.candidates.barred >= CANDIDATES.len() {
-                // Nothing gets away from here that rests at the end of the block, where the plan moves.
+                // Nothing gets away from here that rests at the end of the block, where the plan
+                // moves.
                 self.arrival.has_missed = situation.block_end.is_some();
                 self.candidates.barred = 0;
             }
@@ -87,9 +89,9 @@ impl Rate {
         }
     }
 
-    /// Remembers where the next tick goes on: with the candidate whose turn it is, and with an approach
-    /// to the end of a block. What does not fit into the budget of a tick that begins with it never
-    /// will; unless it is kept as a trial, it is passed over.
+    /// Remembers where the next tick goes on: with the candidate whose turn it is, and with an
+    /// approach to the end of a block. What does not fit into the budget of a tick that begins with
+    /// it never will; unless it is kept as a trial, it is passed over.
     fn pause_at(
         &mut self,
         turn: usize,
@@ -136,8 +138,8 @@ impl Rate {
         !already.is_finite() || share > already
     }
 
-    /// Plays a ramp through, and looks for a stop after it if it does not end in one. With a rest at
-    /// the end of a block in view, the search for that begins with approach `first_approach`.
+    /// Plays a ramp through, and looks for a stop after it if it does not end in one. With a rest
+    /// at the end of a block in view, the search for that begins with approach `first_approach`.
     pub(super) fn try_ramp(
         &mut self,
         ramp: &Ramp,

@@ -1,7 +1,7 @@
 //! Trying a ramp: it must pass, and a stop after it must be known.
 //!
-//! Where the motion stands the next tick finds everything as it was: there a trial that has used up the
-//! budget of a tick is kept, and goes on. Where it moves, the next tick finds something else.
+//! Where the motion stands the next tick finds everything as it was: there a trial that has used up
+//! the budget of a tick is kept, and goes on. Where it moves, the next tick finds something else.
 
 use super::arrival_search::{ArrivalOutcome, ArrivalSearch};
 use super::play::{Cue, Playthrough, PlaythroughOutcome};
@@ -11,8 +11,8 @@ use super::steady_rate::SteadyRate;
 use super::stop_search::{StopOutcome, StopSearch};
 use crate::ramp::Ramp;
 
-/// The stop after a ramp begins no earlier than so many ticks after its end, if there are frames for
-/// that: in these a later one is found.
+/// The stop after a ramp begins no earlier than so many ticks after its end, if there are frames
+/// for that: in these a later one is found.
 const AFTERWARDS: u32 = 12;
 
 /// What trying a ramp has shown.
@@ -22,12 +22,13 @@ const AFTERWARDS: u32 = 12;
     reason = "it lives on the stack for a moment; no boxes here"
 )]
 pub(super) enum TrialOutcome {
-    /// The ramp keeps the limits, and this is the stop after it, unless it ends in one or the frames
-    /// hold the motion.
+    /// The ramp keeps the limits, and this is the stop after it, unless it ends in one or the
+    /// frames hold the motion.
     Passed(Option<Reserve>),
     /// The ramp breaks a limit, or there is no stop after it.
     Barred,
-    /// There was no time to try everything: on the way to the end of a block, from this approach on.
+    /// There was no time to try everything: on the way to the end of a block, from this approach
+    /// on.
     OutOfBudget {
         /// The index of the approach.
         approach: Option<usize>,
@@ -89,8 +90,8 @@ impl RampTrial {
         self.holding_frame
     }
 
-    /// Whether the same frames hold the motion, and it is to rest at the same frame, as when the trial
-    /// began.
+    /// Whether the same frames hold the motion, and it is to rest at the same frame, as when the
+    /// trial began.
     pub(super) fn is_about(&self, situation: &Situation<'_>) -> bool {
         situation.track.holding_frame() == self.holding_frame
             && situation.block_end == self.block_end

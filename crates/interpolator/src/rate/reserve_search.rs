@@ -12,17 +12,18 @@
 //! ```
 //!
 //! No reserve is needed where the frames themselves hold the motion: before a program stop, and
-//! before a frame at rest that motion may not yet pass (a barrier, see [`Track`](crate::track::Track)). An epoch begins at
-//! such a frame, so it begins to move with a reserve, and always has one.
+//! before a frame at rest that motion may not yet pass (a barrier, see
+//! [`Track`](crate::track::Track)). An epoch begins at such a frame, so it begins to move with a
+//! reserve, and always has one.
 //!
 //! How a stop is found is told in [`super::stop_search`] and [`super::greedy_descent`]. The first
-//! costs less, the second finds more: it is begun when no start is left for the first, or when there
-//! is little time. A plan can be at its limits on so many axes, for so long, that no later stop is
-//! found. Then the motion goes a little slower, where there is more room; and if that cannot be, the
-//! stop in reserve is taken, however many frames there are: it is what is known to keep the limits. A
-//! way back is found soon. Where the motion stands and no stop is found from the full rate, it sets
-//! out at a lower one. With a horizon of 0.6 s this is rare, with near-optimal plans too: they can be
-//! at their limits for a third of a second.
+//! costs less, the second finds more: it is begun when no start is left for the first, or when
+//! there is little time. A plan can be at its limits on so many axes, for so long, that no later
+//! stop is found. Then the motion goes a little slower, where there is more room; and if that
+//! cannot be, the stop in reserve is taken, however many frames there are: it is what is known to
+//! keep the limits. A way back is found soon. Where the motion stands and no stop is found from the
+//! full rate, it sets out at a lower one. With a horizon of 0.6 s this is rare, with near-optimal
+//! plans too: they can be at their limits for a third of a second.
 
 use super::kept_stop::KeptStop;
 use super::play::Cue;
@@ -32,9 +33,9 @@ use super::stop_search::{StopOutcome, StopSearch};
 use crate::program_time::ProgramTime;
 use crate::ramp::Ramp;
 
-/// Ticks between the latest possible and the earliest useful start of a stop are divided into so many
-/// parts. Each start is tried twice: without a greedy descent, and later with one, the latest first
-/// again.
+/// Ticks between the latest possible and the earliest useful start of a stop are divided into so
+/// many parts. Each start is tried twice: without a greedy descent, and later with one, the latest
+/// first again.
 const STARTS: u32 = 8;
 
 /// What a search for a later stop has come to.
@@ -92,10 +93,10 @@ impl ReserveSearch {
         self.begins
     }
 
-    /// Goes on with the search for a stop that begins `at_least` so many ticks from now, or begins it
-    /// anew if the motion went another way. Where time `is_short`, only greedy descents are left to
-    /// try. Not in line, like all that looks for a ramp or a stop: what most ticks do not do is not to
-    /// spread their code and their stack.
+    /// Goes on with the search for a stop that begins `at_least` so many ticks from now, or begins
+    /// it anew if the motion went another way. Where time `is_short`, only greedy descents are left
+    /// to try. Not in line, like all that looks for a ramp or a stop: what most ticks do not do is
+    /// not to spread their code and their stack.
     #[inline(never)]
     pub(super) fn go_on(
         &mut self,
@@ -157,7 +158,8 @@ impl ReserveSearch {
         Some(())
     }
 
-    /// Catches up with the motion. False if it went another way, or where the stop may begin is over.
+    /// Catches up with the motion. False if it went another way, or where the stop may begin is
+    /// over.
     fn follow(&mut self, now: SteadyRate) -> bool {
         let passed = self.from.follow(now);
         let Some(begins) = passed.and_then(|ticks| self.begins.checked_sub(ticks)) else {

@@ -17,7 +17,8 @@ const FASTEST: Bounds = Bounds {
     beta: 0.25,
 };
 
-/// What the motion finds in a tick: the frames ahead of it, the positions behind it, and the limits.
+/// What the motion finds in a tick: the frames ahead of it, the positions behind it, and the
+/// limits.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Situation<'a> {
     /// The frames at hand.
@@ -35,8 +36,8 @@ pub(crate) struct Situation<'a> {
 }
 
 impl Situation<'_> {
-    /// Samples a tick may spend on what has to be done within it: so many, or what it takes to play a
-    /// stop from full speed through twice. With less, at a short period, no stop would ever pass.
+    /// Samples a tick may spend on what has to be done within it: so many, or what it takes to play
+    /// a stop from full speed through twice. With less, at a short period, no stop would ever pass.
     pub(super) fn budget(&self, least: u32) -> u32 {
         let stop = u32::try_from(2 * self.reach).unwrap_or(u32::MAX / 4);
         least.max(2 * (stop + 3 + SET_UP)).min(MOST)
@@ -47,8 +48,8 @@ impl Situation<'_> {
         self.track.holding_frame().map(ProgramTime::at) == Some(time)
     }
 
-    /// Bounds of the fastest ramp worth trying at a frame: no axis needs more than its limits for it
-    /// at the highest speed ahead.
+    /// Bounds of the fastest ramp worth trying at a frame: no axis needs more than its limits for
+    /// it at the highest speed ahead.
     pub(super) fn fastest_from(&self, sequence: u64) -> Bounds {
         fastest(self.track.longest_stop(sequence, self.reach))
     }

@@ -20,14 +20,14 @@
 //!     └───────┴───────────────────┘          (from `Arrival` only a stop before the frame)
 //! ```
 //!
-//! * While the rate is **steady**, it has a stop in reserve unless the frames hold the motion, and a
-//!   later one is searched ([`LaterStops`]). A stop may be several ramps; between two of them the rate
-//!   is steady, too, the rest of the stop is the reserve, and the [`Course`] stays.
-//! * On a **ramp** ([`FollowedRamp`]) the reserve is the stop after the ramp. None other is searched,
-//!   but better ramps are.
-//! * **Held**, by a frame at rest: program time stands at whatever rate, and both searches that depend
-//!   on where the motion stands ([`CandidateSearch`], [`ArrivalAttempts`]) keep from tick to tick what
-//!   they have found out.
+//! * While the rate is **steady**, it has a stop in reserve unless the frames hold the motion, and
+//!   a later one is searched ([`LaterStops`]). A stop may be several ramps; between two of them the
+//!   rate is steady, too, the rest of the stop is the reserve, and the [`Course`] stays.
+//! * On a **ramp** ([`FollowedRamp`]) the reserve is the stop after the ramp. None other is
+//!   searched, but better ramps are.
+//! * **Held**, by a frame at rest: program time stands at whatever rate, and both searches that
+//!   depend on where the motion stands ([`CandidateSearch`], [`ArrivalAttempts`]) keep from tick to
+//!   tick what they have found out.
 //!
 //! Every ramp is begun by [`Rate::commit`], which ends what was searched for another one.
 
@@ -62,8 +62,9 @@ pub(super) struct FollowedRamp {
     ticks: u32,
     /// The pace of the candidate that it was; 0 if it was none, or is not known any more.
     pub(super) pace: f64,
-    /// The frame that held the motion when the ramp was played through. It does so to the ramp's end,
-    /// even if motion could pass it by now: what the ramp would publish after it was not looked at.
+    /// The frame that held the motion when the ramp was played through. It does so to the ramp's
+    /// end, even if motion could pass it by now: what the ramp would publish after it was not
+    /// looked at.
     held_at: Option<u64>,
 }
 
@@ -89,11 +90,12 @@ pub(super) struct LaterStops {
     pub(super) slower_tried: usize,
 }
 
-/// What is known of the candidates for the next ramp from the present state: until one is committed.
+/// What is known of the candidates for the next ramp from the present state: until one is
+/// committed.
 #[derive(Debug)]
 pub(super) struct CandidateSearch {
-    /// The index of the candidate at which the last tick ran out of budget, and of the approach to the
-    /// end of a block that was its turn then.
+    /// The index of the candidate at which the last tick ran out of budget, and of the approach to
+    /// the end of a block that was its turn then.
     pub(super) resume_at: usize,
     pub(super) approach: usize,
     /// Candidates that did not pass, one after the other, at rest.
@@ -293,7 +295,8 @@ impl Rate {
         held_at: Option<u64>,
         reserve: Option<Reserve>,
     ) {
-        // A ramp that changes nothing takes no tick, in which what is to begin later would come late.
+        // A ramp that changes nothing takes no tick, in which what is to begin later would come
+        // late.
         self.ramp = (ramp.duration() > 0.0).then_some(FollowedRamp {
             ramp,
             start: self.now.time,
@@ -310,8 +313,8 @@ impl Rate {
         self.arrival.search = None;
     }
 
-    /// One tick less until the reserve begins. Begins it when its time has come, and returns whether it
-    /// has.
+    /// One tick less until the reserve begins. Begins it when its time has come, and returns
+    /// whether it has.
     fn count_down(&mut self) -> bool {
         let Some(reserve) = &mut self.reserve.kept else {
             return false;

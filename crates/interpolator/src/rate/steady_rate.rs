@@ -27,8 +27,8 @@ impl SteadyRate {
         (self.time == now.time).then_some(1)
     }
 
-    /// A tick at this rate, the third or later, with the positions published before it. `None` if it
-    /// is outside the frames at hand.
+    /// A tick at this rate, the third or later, with the positions published before it. `None` if
+    /// it is outside the frames at hand.
     pub(super) fn cue(self, tick: f64, track: &Track) -> Option<Cue> {
         let time = |back: f64| self.time.after(self.rate * (tick - back));
         let at = |back: f64| track.position(time(back));

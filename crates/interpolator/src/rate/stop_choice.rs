@@ -8,8 +8,8 @@ use super::situation::Situation;
 use super::state::Rate;
 use crate::ramp::Ramp;
 
-/// Samples a tick may spend on finding a reserve while there is time, and when there is little: then
-/// the plan is hard to stop on, and whatever is found saves the motion from slowing down.
+/// Samples a tick may spend on finding a reserve while there is time, and when there is little:
+/// then the plan is hard to stop on, and whatever is found saves the motion from slowing down.
 const BUDGET: u32 = 60;
 const URGENT_BUDGET: u32 = 240;
 /// The same for the way to rest at the end of a block, and for going slower.
@@ -62,8 +62,8 @@ impl Rate {
         if left >= self.enough(situation) || goal <= 0.0 {
             return false;
         }
-        // Where the motion stands there is time while frames keep coming: with few of them no stop is
-        // found.
+        // Where the motion stands there is time while frames keep coming: with few of them no stop
+        // is found.
         let has_time = if situation.is_held_at(self.now.time) {
             !situation.is_fully_supplied
         } else {
@@ -82,8 +82,8 @@ impl Rate {
         finds_one
     }
 
-    /// With fewer ticks left until the reserve begins a later one is looked for. The sooner a search
-    /// begins the less of it is left to any tick; but what is found soon begins soon.
+    /// With fewer ticks left until the reserve begins a later one is looked for. The sooner a
+    /// search begins the less of it is left to any tick; but what is found soon begins soon.
     fn enough(&self, situation: &Situation<'_>) -> u32 {
         let frames = |n: u64| u32::try_from(n).unwrap_or(u32::MAX / 8);
         let reach = frames(situation.reach.max(16));
@@ -133,8 +133,8 @@ impl Rate {
         reserve.stop.delay(self.reserve.search.begins());
     }
 
-    /// Goes a little slower, as little as possible, so that the stop in reserve need not begin: from
-    /// a lower rate there is a later one.
+    /// Goes a little slower, as little as possible, so that the stop in reserve need not begin:
+    /// from a lower rate there is a later one.
     #[inline(never)]
     fn slow_down_a_little(&mut self, situation: &Situation<'_>) {
         let fastest = situation.fastest_from(self.now.time.sequence);

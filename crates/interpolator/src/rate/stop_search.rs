@@ -1,9 +1,10 @@
 //! How a stop is found: down step by step, as soon and as far as the plan lets go.
 //!
-//! A plan that is near the least time possible has some axis at a limit nearly everywhere. Where one
-//! brakes at its limit the rate cannot fall, and where there is room there often is for a moment
-//! only, too short for a ramp to rest. But with a rate of 0.95 the plan itself takes 14 % less jerk
-//! and 10 % less acceleration, wherever it is: each small step makes room for a larger one.
+//! A plan that is near the least time possible has some axis at a limit nearly everywhere. Where
+//! one brakes at its limit the rate cannot fall, and where there is room there often is for a
+//! moment only, too short for a ramp to rest. But with a rate of 0.95 the plan itself takes 14 %
+//! less jerk and 10 % less acceleration, wherever it is: each small step makes room for a larger
+//! one.
 //!
 //! ```text
 //! r ──────╮                          one step down after the other, each the largest of a few that
@@ -15,9 +16,9 @@
 //!
 //! Where none passes for too long there is another way: see [`super::greedy_descent`].
 //!
-//! Every step is played through from the very positions that the ones before it end with, so what is
-//! found keeps the limits as it stands. The search can pause between any two samples, and go on in
-//! the next tick: it depends on the position along the path, not on when that is looked at.
+//! Every step is played through from the very positions that the ones before it end with, so what
+//! is found keeps the limits as it stands. The search can pause between any two samples, and go on
+//! in the next tick: it depends on the position along the path, not on when that is looked at.
 
 use super::greedy_descent::{DescentOutcome, GreedyDescent};
 use super::kept_stop::{DelayedRamp, KeptStop};
@@ -80,8 +81,8 @@ pub(super) struct StopSearch {
     waited: u32,
     /// The steps so far.
     stop: KeptStop,
-    /// The step that is tried next at this tick, and whether all of them are: the gentlest has passed
-    /// here, or it is time to be thorough.
+    /// The step that is tried next at this tick, and whether all of them are: the gentlest has
+    /// passed here, or it is time to be thorough.
     turn: usize,
     tries_all: bool,
     /// What the last tick had no time to play to its end.
@@ -91,8 +92,8 @@ pub(super) struct StopSearch {
 }
 
 impl StopSearch {
-    /// A search that begins where the rate is steady. Where no step passes there, it begins a greedy
-    /// descent if it may, or waits.
+    /// A search that begins where the rate is steady. Where no step passes there, it begins a
+    /// greedy descent if it may, or waits.
     pub(super) const fn new(at: Cue, rate: f64, may_descend: bool) -> Self {
         Self {
             at,

@@ -142,8 +142,8 @@ proptest! {
     }
 }
 
-/// From anywhere on a plan that is at its limits on two axes all the time, a greedy descent leads to a lower
-/// steady rate, and what it is kept as repeats it within the limits, bit for bit.
+/// From anywhere on a plan that is at its limits on two axes all the time, a greedy descent leads
+/// to a lower steady rate, and what it is kept as repeats it within the limits, bit for bit.
 #[test]
 fn a_greedy_descent_leads_down_within_the_limits() {
     let (p, mut found) = (player(5, 2, 400), 0);

@@ -11,8 +11,8 @@ impl<T> Shared<T> {
         Self(Arc::new(Mutex::new(inner)))
     }
 
-    /// The queues hold plain data and every change is complete before anything can panic, so a thread
-    /// that panicked elsewhere has not broken them.
+    /// The queues hold plain data and every change is complete before anything can panic, so a
+    /// thread that panicked elsewhere has not broken them.
     pub(super) fn lock(&self) -> MutexGuard<'_, T> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -13,8 +13,8 @@ const NAME_MAX: usize = 32;
 pub struct LinkConfig {
     /// Name of the instance: letters, digits, `-` and `_`, at most 32.
     pub instance: String,
-    /// Directory for the files of all instances of this user, private to the user (mode 0700). It is
-    /// made if it does not exist.
+    /// Directory for the files of all instances of this user, private to the user (mode 0700). It
+    /// is made if it does not exist.
     pub root: PathBuf,
     /// How much the services hold; the same for all processes of an instance.
     pub capacity: Capacity,
@@ -53,9 +53,9 @@ impl LinkConfig {
         self.root.join(&self.instance)
     }
 
-    /// What the names of the instance's files in `/dev/shm` begin with: the same for all processes of
-    /// the instance, and no other instance's. A subscriber that does not use this crate needs it and
-    /// [`LinkConfig::directory`] for its own configuration of iceoryx2.
+    /// What the names of the instance's files in `/dev/shm` begin with: the same for all processes
+    /// of the instance, and no other instance's. A subscriber that does not use this crate needs it
+    /// and [`LinkConfig::directory`] for its own configuration of iceoryx2.
     #[must_use]
     pub fn prefix(&self) -> String {
         // Two users, or two root paths, may each have an instance of the same name.

@@ -1,14 +1,14 @@
 //! The transport between processes: iceoryx2 over shared memory.
 //!
-//! Each instance has names of its own in `/dev/shm` and a directory of its own that only its user can
-//! enter; the machine's or user's configuration of iceoryx2 is never read. Nothing here waits longer
-//! than it takes to make or clean up a connection.
+//! Each instance has names of its own in `/dev/shm` and a directory of its own that only its user
+//! can enter; the machine's or user's configuration of iceoryx2 is never read. Nothing here waits
+//! longer than it takes to make or clean up a connection.
 //!
 //! What the services rely on, all of it checked by the tests:
 //!
 //! * a frame counts as delivered only if the transport says that one consumer got it;
-//! * a full queue, of frames or requests, is reported and never overwritten; of setpoints and status,
-//!   it loses its oldest;
+//! * a full queue, of frames or requests, is reported and never overwritten; of setpoints and
+//!   status, it loses its oldest;
 //! * a peer that was killed is noticed by whoever waits for it, by everybody that joins, and by
 //!   [`Transport::clean_up_dead_peers`].
 

@@ -66,7 +66,8 @@ impl Session {
         usize::try_from(self.node.try_cleanup_dead_nodes().cleanups).unwrap_or(usize::MAX)
     }
 
-    /// The same, but not too often: for a port that waits for a peer that may have died.
+    /// Frees what dead peers hold, but not too often: for a port that waits for a peer that may
+    /// have died.
     pub(super) fn clean_up_now_and_then(&self) {
         if self
             .searched
@@ -78,8 +79,8 @@ impl Session {
         }
     }
 
-    /// Makes a port; if all places are taken, once more after the dead have given up theirs. Another
-    /// process may be cleaning up just then, which made that of joining pass over them.
+    /// Makes a port; if all places are taken, once more after the dead have given up theirs.
+    /// Another process may be cleaning up just then, which made that of joining pass over them.
     pub(super) fn claim<T>(&self, make: impl Fn() -> Result<T, LinkError>) -> Result<T, LinkError> {
         match make() {
             Err(LinkError::Taken { .. }) => {
@@ -160,8 +161,8 @@ pub(super) struct TopicSettings {
     pub(super) subscribers: usize,
 }
 
-/// Of all it makes, iceoryx2 lets everybody write one file: the bookkeeping that the processes of an
-/// instance share. Only their owner is to have a say in it.
+/// iceoryx2 lets everybody write one of the files that it makes: the bookkeeping that the processes
+/// of an instance share. Only their owner is to have a say in it.
 fn keep_private(prefix: &str) {
     let files = std::fs::read_dir("/dev/shm")
         .into_iter()

@@ -1,10 +1,10 @@
 //! Who is there, and what is left when nobody is.
 //!
 //! Every process of an instance holds a shared lock on a file of the instance for as long as it has
-//! ports; the kernel releases it however the process ends. Whoever gets the exclusive lock knows that
-//! no other is there, and removes what the instance left in `/dev/shm` and in its directory. The lock
-//! file is removed last, under the lock, and a newcomer makes sure that the file it locked still is
-//! the one the name stands for.
+//! ports; the kernel releases it however the process ends. Whoever gets the exclusive lock knows
+//! that no other is there, and removes what the instance left in `/dev/shm` and in its directory.
+//! The lock file is removed last, under the lock, and a newcomer makes sure that the file it locked
+//! still is the one the name stands for.
 
 use super::config::LinkConfig;
 use super::settings::settings;
@@ -93,7 +93,8 @@ impl Drop for Presence {
     }
 }
 
-/// Removes what an instance left behind, if no process of it lives. Returns whether nothing is left.
+/// Removes what an instance left behind, if no process of it lives. Returns whether nothing is
+/// left.
 ///
 /// A process does this itself when it ends in good order. To be called for an instance whose
 /// processes may all have been killed.

@@ -81,7 +81,8 @@ pub enum RecordError {
 ///
 /// # Errors
 ///
-/// [`RecordError::Size`] if the length is not that of the record, else what [`Record::check`] finds.
+/// [`RecordError::Size`] if the length is not that of the record, else what [`Record::check`]
+/// finds.
 pub fn decode<R: Record>(bytes: &[u8]) -> Result<R, RecordError> {
     let record: R = bytemuck::try_pod_read_unaligned(bytes).map_err(|_| RecordError::Size {
         record: R::NAME,

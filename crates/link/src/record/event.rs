@@ -8,7 +8,8 @@ use super::code::coded;
 use glidepath_program::Event;
 
 coded! {
-    /// What the lowest byte of `event_kind` says; `event_value` is the speed, tool, M code or value.
+    /// What the lowest byte of `event_kind` says; `event_value` is the speed, tool, M code or
+    /// value.
     pub enum EventKind {
         /// No event.
         None = 0,

@@ -87,37 +87,38 @@ pub struct SegmentRequest {
     pub kind: u32,
     /// Source line, from 1; 0 for open and end.
     pub line: u32,
-    /// Of a line or arc: 1 if it is a rapid move, else 0.
+    /// For a line or arc: 1 if it is a rapid move, else 0.
     pub rapid: u32,
-    /// Of a line or arc: 1 exact stop, 2 exact path, 3 continuous, 4 continuous within `tolerance_mm`.
+    /// For a line or arc: 1 exact stop, 2 exact path, 3 continuous, 4 continuous within
+    /// `tolerance_mm`.
     pub mode: u32,
-    /// Of an arc: 1 XY, 2 ZX, 3 YZ, 4 UV, 5 WU, 6 VW.
+    /// For an arc: 1 XY, 2 ZX, 3 YZ, 4 UV, 5 WU, 6 VW.
     pub plane: u32,
-    /// Of an event: its code, as in [`super::SetpointFrame`].
+    /// For an event: its code, as in [`super::SetpointFrame`].
     pub event_kind: u32,
     /// The event's number (speed, tool, M code).
     pub event_value: f64,
-    /// Of a line or arc that is not rapid: feedrate, mm/s (°/s for rotary axes alone), > 0.
+    /// For a line or arc that is not rapid: feedrate, mm/s (°/s for rotary axes alone), > 0.
     pub feed_v: f64,
     /// Path tolerance, mm, > 0, with mode 4.
     pub tolerance_mm: f64,
-    /// Of a dwell: time, s, ≥ 0.
+    /// For a dwell: time, s, ≥ 0.
     pub dwell_t: f64,
-    /// Of an arc: signed sweep, radians, not 0.
+    /// For an arc: signed sweep, radians, not 0.
     pub sweep_rad: f64,
-    /// Of an arc: centre on the first and second axis of the plane, mm.
+    /// For an arc: centre on the first and second axis of the plane, mm.
     pub center: [f64; 2],
     /// Start of a line or arc: the end of the one before, bit for bit.
     pub start: [f64; AXES],
     /// End of a line or arc.
     pub end: [f64; AXES],
-    /// Of a curve: first derivative of X, Y, Z by path position, at start and end.
+    /// For a curve: first derivative of X, Y, Z by path position, at start and end.
     pub tangents: [[f64; 3]; 2],
-    /// Of a curve: second derivative, 1/mm.
+    /// For a curve: second derivative, 1/mm.
     pub bends: [[f64; 3]; 2],
-    /// Of a curve: its length, mm, > 0.
+    /// For a curve: its length, mm, > 0.
     pub length: f64,
-    /// Of a curve: how far it is from what it stands for, mm, ≥ 0.
+    /// For a curve: how far it is from what it stands for, mm, ≥ 0.
     pub error_mm: f64,
 }
 

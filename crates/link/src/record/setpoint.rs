@@ -30,8 +30,8 @@ pub struct Setpoint {
     pub tick: u64,
     /// When the tick was due, ns of `CLOCK_MONOTONIC`.
     pub scheduled_ns: u64,
-    /// When the setpoint is to be applied, ns of `CLOCK_MONOTONIC`: one period after `scheduled_ns`,
-    /// so that the time of delivery does not matter.
+    /// When the setpoint is to be applied, ns of `CLOCK_MONOTONIC`: one period after
+    /// `scheduled_ns`, so that the time of delivery does not matter.
     pub apply_ns: u64,
     /// How late the tick began, ns.
     pub lateness_ns: u64,
@@ -53,7 +53,8 @@ pub struct Setpoint {
     pub state: u32,
     /// Code of the event that happens now, 0 for none.
     pub event_kind: u32,
-    /// Block of the program being executed, 0 before the first: see [`super::SetpointFrame::block`].
+    /// Block of the program being executed, 0 before the first: see
+    /// [`super::SetpointFrame::block`].
     pub block: u32,
     /// The event's number (speed, tool, M code), 0 without an event.
     pub event_value: f64,
@@ -61,7 +62,8 @@ pub struct Setpoint {
     pub path_s: f64,
     /// Rate of path position as executed, mm/s.
     pub feed_v: f64,
-    /// Override as executed, 0 to [`OVERRIDE_MAX`]: that of the plan times the rate of program time.
+    /// Override as executed, 0 to [`OVERRIDE_MAX`]: that of the plan times the rate of program
+    /// time.
     pub effective_override: f64,
     /// Axis positions, mm or degrees.
     pub position: [f64; AXES],

@@ -64,7 +64,7 @@ coded! {
         Malformed = 2,
         /// Sampled with another period than the interpolator's.
         Period = 3,
-        /// Of an epoch that is over, or of a new one while the present one runs.
+        /// It is of an epoch that is over, or of a new one while the present one runs.
         Epoch = 4,
         /// A gap in the sequence.
         Sequence = 5,
@@ -89,7 +89,7 @@ coded! {
 pub const FRAME_REFUSALS: usize = 12;
 
 impl FrameRefusal {
-    /// Place of its counter in a status.
+    /// The index of its counter in a status.
     #[must_use]
     pub const fn index(self) -> usize {
         self.code() as usize - 1

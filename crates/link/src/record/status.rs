@@ -61,7 +61,8 @@ pub struct Quantiles {
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
-    /// When this was true, ns of `CLOCK_MONOTONIC`. A reader takes an old one for a dead interpolator.
+    /// When this was true, ns of `CLOCK_MONOTONIC`. A reader takes an old one for a dead
+    /// interpolator.
     pub updated_ns: u64,
     /// Interpolation period, ns.
     pub period_ns: u64,
@@ -99,7 +100,8 @@ pub struct Status {
     pub line: u32,
     /// Bits of [`Grants`].
     pub grants: u32,
-    /// Block of the program being executed, 0 before the first: see [`super::SetpointFrame::block`].
+    /// Block of the program being executed, 0 before the first: see
+    /// [`super::SetpointFrame::block`].
     pub block: u32,
     /// 1 if the machine rests at the end of every block, 0 if not.
     pub single_block: u32,

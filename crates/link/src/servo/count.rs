@@ -52,7 +52,8 @@ impl ServoCounts {
                 };
                 self.lost += lost;
                 self.gaps += u64::from(lost > 0);
-                // Counted by the interpolator, so that a lost setpoint is not taken for a missed tick.
+                // Counted by the interpolator, so that a lost setpoint is not taken for a missed
+                // tick.
                 self.missed_ticks += setpoint.missed_ticks.saturating_sub(before.missed_ticks);
                 Sequel::New
             }

@@ -77,8 +77,8 @@ pub struct Servo {
     counts: ServoCounts,
     last: Option<Setpoint>,
     last_refusal: Option<RecordError>,
-    /// Whether setpoints are played. Not those of another life of the interpolator than the one this
-    /// began with: it may take the machine to be elsewhere.
+    /// Whether setpoints are played. Not those of another life of the interpolator than the one
+    /// this began with: it may take the machine to be elsewhere.
     armed: bool,
 }
 
@@ -108,8 +108,8 @@ impl Servo {
         }
     }
 
-    /// The next new setpoint that has arrived, `None` if there is no more yet. Duplicates and records
-    /// that fail their check are counted and left out. `now_ns` is of `CLOCK_MONOTONIC`.
+    /// The next new setpoint that has arrived, `None` if there is no more yet. Duplicates and
+    /// records that fail their check are counted and left out. `now_ns` is of `CLOCK_MONOTONIC`.
     ///
     /// # Errors
     ///
@@ -135,8 +135,8 @@ impl Servo {
         Ok(None)
     }
 
-    /// What the joints are to do at a time, `None` before the first setpoint's. Times do not go back
-    /// from call to call.
+    /// What the joints are to do at a time, `None` before the first setpoint's. Times do not go
+    /// back from call to call.
     pub fn demand(&mut self, now_ns: u64) -> Option<JointStates> {
         let was_stopping = self.player.is_stopping();
         let demand = self.player.demand(now_ns);
@@ -153,8 +153,8 @@ impl Servo {
         self.armed
     }
 
-    /// Plays setpoints again, from the next one on. For an operator who has made sure that the joints
-    /// are where the interpolator takes them to be.
+    /// Plays setpoints again, from the next one on. For an operator who has made sure that the
+    /// joints are where the interpolator takes them to be.
     pub fn rearm(&mut self) {
         self.player.reset();
         self.armed = true;

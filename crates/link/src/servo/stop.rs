@@ -14,8 +14,8 @@
 //! v + a² / 2J = A² / J + A t₂
 //! ```
 //!
-//! so without a hold the peak is A = √(J v + a² / 2); where that is above the limit, it is the limit
-//! and t₂ follows. The stop leaves the path: nobody knows the path any more.
+//! so without a hold the peak is A = √(J v + a² / 2); where that is above the limit, it is the
+//! limit and t₂ follows. The stop leaves the path: nobody knows the path any more.
 
 use super::JointState;
 

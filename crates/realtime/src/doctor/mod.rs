@@ -1,8 +1,9 @@
 //! Is this host fit for real time?
 //!
-//! Each [`Check`] looks at one thing and says what it found and, where that is not good, how to mend
-//! it. What [`enter`](crate::enter) would be refused is *missing*; what only makes the thread late is
-//! a *warning*. Nothing is changed and nothing is tried out: the checks read files of a [`Host`].
+//! Each [`Check`] looks at one thing and says what it found and, where that is not good, how to
+//! mend it. What [`enter`](crate::enter) would be refused is *missing*; what only makes the thread
+//! late is a *warning*. Nothing is changed and nothing is tried out: the checks read files of a
+//! [`Host`].
 
 mod check;
 mod kernel;

@@ -84,8 +84,8 @@ pub(super) fn memory_lock(host: &Host) -> Check {
 
 /// Has the control group time for real-time threads?
 ///
-/// Kernels with `RT_GROUP_SCHED` and version 1 of the control groups give each group a budget, which
-/// is zero for a new one: `SCHED_FIFO` then fails even for root.
+/// Kernels with `RT_GROUP_SCHED` and version 1 of the control groups give each group a budget,
+/// which is zero for a new one: `SCHED_FIFO` then fails even for root.
 pub(super) fn group_budget(host: &Host) -> Check {
     let name = "RT budget";
     let Some(group) = cpu_group(host) else {

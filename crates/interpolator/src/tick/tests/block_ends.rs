@@ -5,8 +5,8 @@ use super::*;
 use glidepath_geometry::{Arc, Plane, Segment};
 use glidepath_program::{Effort, Item, ItemKind, PathMode, Rate as Speed};
 
-/// Plays a program in single-block mode, going on by `command` wherever it has stood for some ticks;
-/// returns where.
+/// Plays a program in single-block mode, going on by `command` wherever it has stood for some
+/// ticks; returns where.
 fn stands(rig: &mut Rig, command: Command, waits: u64) -> Vec<u64> {
     let mut stands = vec![];
     for _ in 0..60_000 {

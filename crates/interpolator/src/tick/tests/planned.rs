@@ -1,5 +1,5 @@
-//! The same with motion as the planner makes it: polylines with rounded corners, arcs' worth of
-//! short chords, exact stops, dwells.
+//! Commands and supply with motion as the planner makes it: polylines with rounded corners, arcs'
+//! worth of short chords, exact stops, dwells.
 
 use super::*;
 use glidepath_geometry::Segment;
@@ -131,7 +131,8 @@ fn a_short_period_gets_under_way() {
     assert!(rig.worst_ratio() <= 1.0 + 1e-6);
 }
 
-/// Commands by number, each with ticks after it, from a planner that dies at that part of the frames.
+/// Commands by number, each with ticks after it, from a planner that dies at that part of the
+/// frames.
 fn command_planned(
     effort: Effort,
     seed: u64,
