@@ -5,8 +5,8 @@ use crate::{BoxedError, LinkError};
 use core::time::Duration;
 use iceoryx2::prelude::{Config, FileName, Path, SemanticString as _};
 
-/// How long one side of a connection waits for the other to finish making it. Longer waits belong to
-/// the retries of a session, which the ports' callers never pay.
+/// How long one side of a connection waits for the other to finish making it. Longer waits belong
+/// to the retries of a session, which the ports' callers never pay.
 const CREATION_TIMEOUT: Duration = Duration::from_millis(100);
 
 /// The settings of the transport for an instance; never those of the user or the machine.
