@@ -1,8 +1,8 @@
 //! The planner: items in, frames out.
 
 use super::guard::Guard;
-use super::in_tube::OptimalEngine;
-use super::on_path::FastEngine;
+use super::in_tube::InTubeEngine;
+use super::on_path::OnPathEngine;
 use crate::PlanError;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Effort, Frame, Item, Override, Settings, Smoothing};
@@ -57,17 +57,17 @@ pub struct Planner {
 /// How motion is planned.
 #[derive(Debug)]
 enum Engine {
-    Fast(Box<FastEngine>),
-    Optimal(Box<OptimalEngine>),
+    OnPath(Box<OnPathEngine>),
+    InTube(Box<InTubeEngine>),
 }
 
 impl Engine {
     fn new(settings: Settings, start: AxisVector) -> Self {
         match (settings.effort, settings.smoothing) {
             (Effort::Optimal, Smoothing::Auto) if settings.limits.path.is_none() => {
-                Self::Optimal(Box::new(OptimalEngine::new(settings, start)))
+                Self::InTube(Box::new(InTubeEngine::new(settings, start)))
             }
-            _ => Self::Fast(Box::new(FastEngine::new(settings, start))),
+            _ => Self::OnPath(Box::new(OnPathEngine::new(settings, start))),
         }
     }
 }
@@ -95,16 +95,16 @@ impl Planner {
             return Err(error);
         }
         match &mut self.engine {
-            Engine::Fast(engine) => engine.push(item),
-            Engine::Optimal(engine) => engine.push(item),
+            Engine::OnPath(engine) => engine.push(item),
+            Engine::InTube(engine) => engine.push(item),
         }
     }
 
     /// No more items: what is planned ends at rest. Further calls do nothing.
     pub fn finish(&mut self) {
         match &mut self.engine {
-            Engine::Fast(engine) => engine.finish(),
-            Engine::Optimal(engine) => engine.finish(),
+            Engine::OnPath(engine) => engine.finish(),
+            Engine::InTube(engine) => engine.finish(),
         }
     }
 
@@ -129,8 +129,8 @@ impl Planner {
             return Err(error);
         }
         let made = match &mut self.engine {
-            Engine::Fast(engine) => engine.make_frame(&mut self.frame),
-            Engine::Optimal(engine) => engine.pop_frame().map(|frame| {
+            Engine::OnPath(engine) => engine.make_frame(&mut self.frame),
+            Engine::InTube(engine) => engine.pop_frame().map(|frame| {
                 let is_made = frame.is_some();
                 self.frame = frame.unwrap_or(self.frame);
                 is_made
@@ -160,7 +160,7 @@ impl Planner {
     /// Plans what no frame was taken of with another override: rates times their override, limits
     /// unchanged.
     ///
-    /// A lower override takes effect as soon as the speed can be brought down; the fast engine begins
+    /// A lower override takes effect as soon as the speed can be brought down; the on-path engine begins
     /// at the next place where the motion has no acceleration along the path. Each frame tells the
     /// override it was planned with: while the speed is brought down, one in between.
     ///
@@ -173,8 +173,8 @@ impl Planner {
             return Err(PlanError::Override { feed_r, rapid_r });
         }
         match &mut self.engine {
-            Engine::Fast(engine) => engine.set_override(wanted),
-            Engine::Optimal(engine) => engine.set_override(wanted),
+            Engine::OnPath(engine) => engine.set_override(wanted),
+            Engine::InTube(engine) => engine.set_override(wanted),
         }
         Ok(())
     }

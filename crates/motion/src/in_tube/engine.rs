@@ -1,26 +1,26 @@
 //! The engine: what moves the machine at present, and what comes next.
 
-use super::flattening::{Chords, Product};
-use super::ledger::{Ledger, Part};
+use super::flattening::{Flattener, Product};
+use super::ledger::{Ledger, LedgerEntry};
 use super::path::Reference;
 use super::period::Period;
-use super::planner::WindowPlanner;
+use super::planner::TubePlanner;
 use super::works::Works;
 use crate::PlanError;
 use crate::grid::{FrameGrid, Moving};
-use crate::on_path::FastEngine;
+use crate::on_path::OnPathEngine;
 use crate::rest::Rest;
 use glidepath_geometry::AxisVector;
 use glidepath_program::Override;
 use glidepath_program::{Frame, FrameFlags, Item, Settings};
 
-/// The optimal engine, as [`crate::Planner`] uses it.
+/// The in-tube engine, as [`crate::Planner`] uses it.
 #[derive(Debug)]
-pub(crate) struct OptimalEngine {
+pub(crate) struct InTubeEngine {
     settings: Settings,
     wanted: Override,
     works: Works,
-    chords: Chords,
+    flattener: Flattener,
     grid: FrameGrid,
     drive: Drive,
     /// Where the last stretch ended.
@@ -44,7 +44,7 @@ enum Drive {
 /// A stretch between two rests.
 #[derive(Debug)]
 struct Stretch {
-    planner: WindowPlanner,
+    planner: TubePlanner,
     ledger: Ledger,
     length_s: f64,
     end: AxisVector,
@@ -55,19 +55,19 @@ struct Stretch {
 /// A stretch to be passed exactly.
 #[derive(Debug)]
 struct ExactPath {
-    engine: FastEngine,
+    engine: OnPathEngine,
     /// Where its last frame is, once that is taken.
     end: Option<(AxisVector, f64)>,
 }
 
-impl OptimalEngine {
+impl InTubeEngine {
     /// An engine for a machine at rest at `start`.
     pub(crate) fn new(settings: Settings, start: AxisVector) -> Self {
         Self {
             settings,
             wanted: Override::NONE,
             works: Works::new(settings, start),
-            chords: Chords::new(settings),
+            flattener: Flattener::new(settings),
             grid: FrameGrid::new(settings.period_t, start),
             drive: Drive::None,
             position: start,
@@ -131,14 +131,14 @@ impl OptimalEngine {
     /// Gives the drive at hand its next piece, or sets up a rest; false if the program is not known
     /// further.
     fn supply(&mut self) -> Result<bool, PlanError> {
-        let Some(product) = self.chords.next(&mut self.works) else {
+        let Some(product) = self.flattener.next(&mut self.works) else {
             return Ok(false);
         };
         match product {
-            Product::Piece(part, reference) => self.extend(part, reference),
+            Product::Piece(entry, reference) => self.extend(entry, reference),
             Product::Exact(item) => {
                 if !matches!(self.drive, Drive::Exact(_)) {
-                    let mut engine = FastEngine::new(self.settings, self.position);
+                    let mut engine = OnPathEngine::new(self.settings, self.position);
                     engine.set_override(self.wanted);
                     self.drive = Drive::Exact(ExactPath { engine, end: None });
                 }
@@ -164,13 +164,13 @@ impl OptimalEngine {
         Ok(true)
     }
 
-    fn extend(&mut self, part: Part, mut reference: Reference) {
+    fn extend(&mut self, entry: LedgerEntry, mut reference: Reference) {
         if !matches!(self.drive, Drive::Window(_)) {
             let Settings {
                 limits, period_t, ..
             } = &self.settings;
             self.drive = Drive::Window(Stretch {
-                planner: WindowPlanner::new(limits, *period_t, self.position),
+                planner: TubePlanner::new(limits, *period_t, self.position),
                 ledger: Ledger::new(self.wanted),
                 length_s: 0.0,
                 end: self.position,
@@ -178,9 +178,9 @@ impl OptimalEngine {
             });
         }
         if let Drive::Window(stretch) = &mut self.drive {
-            stretch.length_s += part.length_s;
+            stretch.length_s += entry.length_s;
             stretch.end = reference.end;
-            reference.tag = stretch.ledger.push(part);
+            reference.tag = stretch.ledger.push(entry);
             reference.top_v = stretch.ledger.rate_v(reference.tag);
             stretch.planner.push(reference);
         }
@@ -198,7 +198,7 @@ impl OptimalEngine {
         if period.rest_at_end {
             return None;
         }
-        grid.pass(stretch.ledger.place(period.path_s, period.path_v));
+        grid.pass(stretch.ledger.passing_at(period.path_s, period.path_v));
         Some(grid.motion_frame(&Moving {
             path_v: period.path_v,
             path_s: self.path_s + period.path_s,
@@ -240,7 +240,7 @@ impl OptimalEngine {
         true
     }
 
-    /// A frame of the fast engine as one of this motion. Its first is the one given out last, and at
+    /// A frame of the on-path engine as one of this motion. Its first is the one given out last, and at
     /// its last the rest begins.
     fn relay(&mut self, mut frame: Frame) -> Option<Frame> {
         frame.path_s += self.path_s;

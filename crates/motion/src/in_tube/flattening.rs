@@ -10,7 +10,7 @@
 //! pieces is within the tolerance of the program. Pieces cost the window planner work, and tolerance
 //! gains it time; the shares below leave nearly all of it to the motion.
 
-use super::ledger::Part;
+use super::ledger::LedgerEntry;
 use super::merging::Dropped;
 use super::path::Reference;
 use super::works::{Move, Work, Works};
@@ -35,7 +35,7 @@ const LARGEST_TURN_RAD: f64 = 0.5;
 #[allow(clippy::large_enum_variant, reason = "short-lived, one at a time")]
 pub(crate) enum Product {
     /// A straight piece. Its tag and its speed are for the taker to fill in.
-    Piece(Part, Reference),
+    Piece(LedgerEntry, Reference),
     Exact(Item),
     ExactEnd,
     Rest(Rest),
@@ -43,17 +43,17 @@ pub(crate) enum Product {
 
 /// Makes pieces of moves, as they are asked for.
 #[derive(Debug)]
-pub(crate) struct Chords {
+pub(crate) struct Flattener {
     settings: Settings,
-    flattening: Option<Flattening>,
+    flattening: Option<CutMove>,
     /// The chord that may still be merged with what follows.
-    open: Option<Open>,
+    open: Option<OpenChord>,
     ready: VecDeque<Product>,
 }
 
 /// A move that is being cut into chords.
 #[derive(Debug)]
-struct Flattening {
+struct CutMove {
     of: Move,
     /// Where the chords made so far end.
     at: AxisVector,
@@ -63,7 +63,7 @@ struct Flattening {
 }
 
 #[derive(Debug)]
-struct Chord {
+struct FlatChord {
     start: AxisVector,
     end: AxisVector,
     rate: Rate,
@@ -75,14 +75,14 @@ struct Chord {
 }
 
 #[derive(Debug)]
-struct Open {
-    chord: Chord,
+struct OpenChord {
+    chord: FlatChord,
     dropped: Dropped,
     /// Where further lines begin, mm after its start.
     lines: Vec<(f64, u32)>,
 }
 
-impl Chords {
+impl Flattener {
     pub(crate) const fn new(settings: Settings) -> Self {
         Self {
             settings,
@@ -98,13 +98,13 @@ impl Chords {
             if let Some(product) = self.ready.pop_front() {
                 return Some(product);
             }
-            if let Some(chord) = self.flattening.as_mut().and_then(Flattening::next) {
+            if let Some(chord) = self.flattening.as_mut().and_then(CutMove::next) {
                 self.take(chord);
                 continue;
             }
             self.flattening = None;
             match works.next()? {
-                Work::Move(of) => self.flattening = Some(Flattening::new(of)),
+                Work::Move(of) => self.flattening = Some(CutMove::new(of)),
                 Work::Exact(item) => self.put(Product::Exact(item)),
                 Work::ExactEnd => self.put(Product::ExactEnd),
                 Work::Rest(rest) => self.put(Product::Rest(rest)),
@@ -118,14 +118,14 @@ impl Chords {
         self.ready.push_back(product);
     }
 
-    fn take(&mut self, chord: Chord) {
+    fn take(&mut self, chord: FlatChord) {
         if let Some(open) = &mut self.open
             && (open.absorb(&chord) || open.merge(&chord))
         {
             return;
         }
         self.close();
-        self.open = Some(Open {
+        self.open = Some(OpenChord {
             chord,
             dropped: Dropped::default(),
             lines: Vec::new(),
@@ -137,7 +137,7 @@ impl Chords {
         let Some(open) = self.open.take() else {
             return;
         };
-        let Open { chord, lines, .. } = open;
+        let OpenChord { chord, lines, .. } = open;
         let segment = Segment::line(chord.start, chord.end);
         let length_s = segment.length();
         let rate = ProgrammedRate {
@@ -152,21 +152,21 @@ impl Chords {
             tolerance_deg: left_mm,
             tag: 0,
         };
-        let part = Part {
+        let entry = LedgerEntry {
             line: chord.line,
             lines,
             rate,
             length_s,
             events: chord.events,
         };
-        self.ready.push_back(Product::Piece(part, reference));
+        self.ready.push_back(Product::Piece(entry, reference));
     }
 }
 
-impl Open {
+impl OpenChord {
     /// Takes in a chord too short for a piece: what moves too short to be made by themselves have left
     /// at the end of a stretch.
-    fn absorb(&mut self, next: &Chord) -> bool {
+    fn absorb(&mut self, next: &FlatChord) -> bool {
         let left = next.end - next.start;
         let error_mm = self.chord.error_mm + tolerance_norm(&left);
         let is_short = left.amax() < SHORTEST_MOVE_MM && next.events.is_empty();
@@ -180,7 +180,7 @@ impl Open {
     }
 
     /// Takes note of the line of a chord that is drawn together with this one.
-    fn tell_line(&mut self, next: &Chord) {
+    fn tell_line(&mut self, next: &FlatChord) {
         let chord = &self.chord;
         let last_line = self.lines.last().map_or(chord.line, |&(_, line)| line);
         if next.line != last_line {
@@ -191,7 +191,7 @@ impl Open {
 
     /// Draws the next chord together with this one, if both are driven alike and the tolerance
     /// allows it.
-    fn merge(&mut self, next: &Chord) -> bool {
+    fn merge(&mut self, next: &FlatChord) -> bool {
         let chord = &self.chord;
         let alike = chord.rate == next.rate
             && !chord.rate.is_rapid()
@@ -214,7 +214,7 @@ impl Open {
     }
 }
 
-impl Flattening {
+impl CutMove {
     fn new(of: Move) -> Self {
         let (count, error_mm) = match &of.segment {
             Segment::Line(_) => (1, 0.0),
@@ -236,7 +236,7 @@ impl Flattening {
         }
     }
 
-    fn next(&mut self) -> Option<Chord> {
+    fn next(&mut self) -> Option<FlatChord> {
         if self.done >= self.count {
             return None;
         }
@@ -248,7 +248,7 @@ impl Flattening {
             let share = f64::from(self.done) / f64::from(self.count);
             segment.jet(segment.length() * share).position
         };
-        Some(Chord {
+        Some(FlatChord {
             start: core::mem::replace(&mut self.at, end),
             end,
             rate: self.of.rate,

@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 
 /// A piece as the program sees it.
 #[derive(Debug, Clone)]
-pub(crate) struct Part {
+pub(crate) struct LedgerEntry {
     /// Line of its start.
     pub(crate) line: u32,
     /// Where further lines begin, mm after its start, ascending.
@@ -19,10 +19,10 @@ pub(crate) struct Part {
     pub(crate) events: Vec<Event>,
 }
 
-/// The parts of a stretch that are not passed yet.
+/// The entries of a stretch that are not passed yet.
 #[derive(Debug)]
 pub(crate) struct Ledger {
-    parts: VecDeque<Part>,
+    entries: VecDeque<LedgerEntry>,
     /// Tag of the first of them, and where it begins.
     first: u64,
     first_s: f64,
@@ -36,7 +36,7 @@ pub(crate) struct Ledger {
 impl Ledger {
     pub(crate) const fn new(wanted: Override) -> Self {
         Self {
-            parts: VecDeque::new(),
+            entries: VecDeque::new(),
             first: 0,
             first_s: 0.0,
             entered: 0,
@@ -45,10 +45,10 @@ impl Ledger {
         }
     }
 
-    /// Adds a part; returns its tag.
-    pub(crate) fn push(&mut self, part: Part) -> u64 {
-        self.parts.push_back(part);
-        self.first + self.parts.len() as u64 - 1
+    /// Adds a entry; returns its tag.
+    pub(crate) fn push(&mut self, entry: LedgerEntry) -> u64 {
+        self.entries.push_back(entry);
+        self.first + self.entries.len() as u64 - 1
     }
 
     pub(crate) const fn set_override(&mut self, wanted: Override) {
@@ -59,44 +59,44 @@ impl Ledger {
         };
     }
 
-    /// The speed wanted on a part, mm/s; that of the first one kept for those before it.
+    /// The speed wanted on a entry, mm/s; that of the first one kept for those before it.
     pub(crate) fn rate_v(&self, tag: u64) -> f64 {
         let index = usize::try_from(tag.saturating_sub(self.first)).unwrap_or(usize::MAX);
-        self.parts.get(index).map_or(f64::MIN_POSITIVE, |part| {
-            part.rate.under(self.wanted).min(part.rate.axes_v)
+        self.entries.get(index).map_or(f64::MIN_POSITIVE, |entry| {
+            entry.rate.under(self.wanted).min(entry.rate.axes_v)
         })
     }
 
-    /// The motion comes to the part with a tag: forgets those before it, and tells each that is
+    /// The motion comes to the entry with a tag: forgets those before it, and tells each that is
     /// entered, in order, with its events.
     pub(crate) fn come_to(&mut self, tag: u64, mut enter: impl FnMut(Passing, &[Event])) {
         loop {
             if self.entered <= self.first
-                && let Some(part) = self.parts.front()
+                && let Some(entry) = self.entries.front()
             {
                 self.entered = self.first + 1;
-                enter(self.passing(self.first_s), &part.events);
+                enter(self.passing(self.first_s), &entry.events);
             }
-            if self.first >= tag || self.parts.len() <= 1 {
+            if self.first >= tag || self.entries.len() <= 1 {
                 return;
             }
-            if let Some(part) = self.parts.pop_front() {
+            if let Some(entry) = self.entries.pop_front() {
                 self.first += 1;
-                self.first_s += part.length_s;
+                self.first_s += entry.length_s;
             }
         }
     }
 
-    /// The place in the program at a path position of the first part, passed at a speed.
+    /// The place in the program at a path position of the first entry, passed at a speed.
     ///
     /// A frame tells the override that belongs to its speed, so that whoever scales the speed by
     /// commanded over planned override gets what is commanded while the speed is brought down.
-    pub(crate) fn place(&mut self, path_s: f64, path_v: f64) -> Passing {
-        if let Some(part) = self.parts.front() {
-            let (programmed_v, told, wanted) = match part.rate.rate.feed_v() {
+    pub(crate) fn passing_at(&mut self, path_s: f64, path_v: f64) -> Passing {
+        if let Some(entry) = self.entries.front() {
+            let (programmed_v, told, wanted) = match entry.rate.rate.feed_v() {
                 Some(feed_v) => (feed_v, &mut self.told.feed_r, self.wanted.feed_r),
                 None => (
-                    part.rate.axes_v,
+                    entry.rate.axes_v,
                     &mut self.told.rapid_r,
                     self.wanted.rapid_r,
                 ),
@@ -107,18 +107,18 @@ impl Ledger {
     }
 
     fn passing(&self, path_s: f64) -> Passing {
-        let Some(part) = self.parts.front() else {
+        let Some(entry) = self.entries.front() else {
             return Passing::NONE;
         };
         let passed_s = path_s - self.first_s;
-        let before = part
+        let before = entry
             .lines
             .partition_point(|&(start_s, _)| start_s <= passed_s);
-        let line = match before.checked_sub(1).and_then(|last| part.lines.get(last)) {
+        let line = match before.checked_sub(1).and_then(|last| entry.lines.get(last)) {
             Some(&(_, line)) => line,
-            None => part.line,
+            None => entry.line,
         };
-        let rapid = part.rate.rate.is_rapid();
+        let rapid = entry.rate.rate.is_rapid();
         Passing {
             line,
             rapid,

@@ -38,7 +38,7 @@ pub(crate) struct Works {
     intake: Intake,
     /// Events that wait for the move they happen on.
     events: Vec<(u32, Event)>,
-    stretch: Stretch,
+    stretch: StretchKind,
     /// The last works, not to be done before it is known whether a curve follows: so many, of so much
     /// time at their feedrates.
     held: Option<(usize, f64)>,
@@ -58,7 +58,7 @@ const STRAIGHT: usize = 64;
 
 /// What the moves since the last rest are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Stretch {
+enum StretchKind {
     None,
     Free,
     Exact,
@@ -73,7 +73,7 @@ impl Works {
             works: VecDeque::new(),
             intake: Intake::new(start),
             events: Vec::new(),
-            stretch: Stretch::None,
+            stretch: StretchKind::None,
             held: None,
             straight: 0,
             last: (0, Rate::Rapid),
@@ -125,26 +125,26 @@ impl Works {
 
     fn push_move(&mut self, line: u32, segment: Segment, rate: Rate, mode: PathMode) {
         let stretch = match mode {
-            PathMode::ExactPath => Stretch::Exact,
-            _ if self.is_curved(&segment) => Stretch::Curved,
-            PathMode::ExactStop | PathMode::Continuous { .. } => Stretch::Free,
+            PathMode::ExactPath => StretchKind::Exact,
+            _ if self.is_curved(&segment) => StretchKind::Curved,
+            PathMode::ExactStop | PathMode::Continuous { .. } => StretchKind::Free,
         };
-        if stretch == Stretch::Curved {
+        if stretch == StretchKind::Curved {
             self.follow_held();
         }
-        if self.stretch != Stretch::None && self.stretch != stretch {
+        if self.stretch != StretchKind::None && self.stretch != stretch {
             self.end_stretch();
             self.put_rest(RestKind::ExactStop, self.last.0);
         }
         let Some(segment) = self.intake.take(segment) else {
             return;
         };
-        if self.stretch == Stretch::None && stretch == Stretch::Free {
+        if self.stretch == StretchKind::None && stretch == StretchKind::Free {
             self.held = Some((0, 0.0));
         }
         self.stretch = stretch;
         let events = core::mem::take(&mut self.events);
-        if stretch != Stretch::Free {
+        if stretch != StretchKind::Free {
             let events = events.into_iter().map(|(line, event)| Item {
                 line,
                 kind: ItemKind::Event(event),
@@ -182,10 +182,10 @@ impl Works {
     fn is_curved(&mut self, segment: &Segment) -> bool {
         if !matches!(segment, Segment::Curve(_)) {
             self.straight += 1;
-            return self.stretch == Stretch::Curved && self.straight <= STRAIGHT;
+            return self.stretch == StretchKind::Curved && self.straight <= STRAIGHT;
         }
         self.straight = 0;
-        self.stretch != Stretch::Free || self.held.is_some()
+        self.stretch != StretchKind::Free || self.held.is_some()
     }
 
     /// Keeps the last move, if a curve may follow it soon.
@@ -217,7 +217,7 @@ impl Works {
             self.works
                 .extend(kinds.map(|kind| Work::Exact(Item { line, kind })));
         }
-        self.stretch = Stretch::Curved;
+        self.stretch = StretchKind::Curved;
     }
 
     /// Ends the path at rest.
@@ -239,7 +239,7 @@ impl Works {
         let (line, rate) = self.last;
         // Moves that were too short to be made by themselves.
         let is_left = segment.length() > 0.0;
-        if matches!(self.stretch, Stretch::Exact | Stretch::Curved) {
+        if matches!(self.stretch, StretchKind::Exact | StretchKind::Curved) {
             if is_left {
                 let mode = PathMode::ExactPath;
                 let kind = ItemKind::Move {
@@ -260,6 +260,6 @@ impl Works {
             }));
         }
         self.intake.make_up();
-        self.stretch = Stretch::None;
+        self.stretch = StretchKind::None;
     }
 }

@@ -1,4 +1,4 @@
-//! The fast engine: corners replaced by transitions, and closed-form S-curves along the path.
+//! The on-path engine: corners replaced by transitions, and closed-form S-curves along the path.
 //!
 //! ```text
 //!  item ──PathFront──▶ pieces, rests ──Scheduler──▶ settled motion ──Refiner──▶ ──Sampler──▶ frames
@@ -10,16 +10,16 @@ use super::look_ahead::Scheduler;
 use super::look_ahead::Settled;
 use super::pieces::Element;
 use super::refiner::Refiner;
-use super::sampler::{Sampler, Step};
+use super::sampler::{NextFrame, Sampler};
 use super::slowing::Slowing;
 use crate::PlanError;
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Frame, Item, ItemKind, Limits, Override, Settings};
 use std::collections::VecDeque;
 
-/// The fast engine, as [`crate::Planner`] uses it.
+/// The on-path engine, as [`crate::Planner`] uses it.
 #[derive(Debug)]
-pub(crate) struct FastEngine {
+pub(crate) struct OnPathEngine {
     front: PathFront,
     scheduler: Scheduler,
     refiner: Refiner,
@@ -33,7 +33,7 @@ pub(crate) struct FastEngine {
     wanted: Option<Override>,
 }
 
-impl FastEngine {
+impl OnPathEngine {
     /// A planner for a machine at rest at `start`.
     pub(crate) fn new(settings: Settings, start: AxisVector) -> Self {
         Self {
@@ -87,17 +87,17 @@ impl FastEngine {
                 .sampler
                 .next_frame(&mut self.settled, !was_planned, frame)
             {
-                Step::Frame => return Ok(true),
-                Step::Junction => {}
-                Step::End => return Ok(false),
-                Step::Broken { line } => return Err(PlanError::NoMotion { line }),
+                NextFrame::Frame => return Ok(true),
+                NextFrame::Junction => {}
+                NextFrame::End => return Ok(false),
+                NextFrame::Broken { line } => return Err(PlanError::NoMotion { line }),
             }
             // At a junction. If the override cannot be had from here, go on to the next one.
             if !self.plan_anew() {
                 match self.sampler.next_frame(&mut self.settled, false, frame) {
-                    Step::Frame => return Ok(true),
-                    Step::Junction | Step::End => return Ok(false),
-                    Step::Broken { line } => return Err(PlanError::NoMotion { line }),
+                    NextFrame::Frame => return Ok(true),
+                    NextFrame::Junction | NextFrame::End => return Ok(false),
+                    NextFrame::Broken { line } => return Err(PlanError::NoMotion { line }),
                 }
             }
         }
@@ -126,8 +126,8 @@ impl FastEngine {
         let mut scheduler = Scheduler::entered_at(entry_v, self.limits, self.period_t);
         let mut settled = VecDeque::new();
         let limits = self.limits;
-        let rest_of_stretch = self.sampler.rest_of_stretch().map(Element::Piece);
-        let elements = rest_of_stretch
+        let remaining_piece = self.sampler.remaining_piece().map(Element::Piece);
+        let elements = remaining_piece
             .into_iter()
             .chain(self.settled.iter().flat_map(Settled::elements))
             .chain(self.refiner.elements())
@@ -157,7 +157,7 @@ impl FastEngine {
         if !scheduler.is_feasible() {
             return false;
         }
-        self.sampler.drop_stretch();
+        self.sampler.drop_motion();
         self.scheduler = scheduler;
         self.refiner.restart(entry_v);
         self.settled = settled;

@@ -35,4 +35,4 @@ mod speed;
 mod spline_tube;
 mod topp;
 
-pub(crate) use engine::FastEngine;
+pub(crate) use engine::OnPathEngine;

@@ -1,11 +1,11 @@
-//! Where a law takes the place of S-curves.
+//! Where a time parametrisation takes the place of S-curves.
 
 use super::look_ahead::Settled;
 use super::pieces::Element;
 use super::pieces::Piece;
 use super::speed::{Course, Leg};
-use super::topp::Law;
-use super::topp::Track;
+use super::topp::KnotPath;
+use super::topp::Parametrisation;
 use super::topp::optimise;
 use glidepath_program::Limits;
 use std::collections::VecDeque;
@@ -16,9 +16,9 @@ const WINDOW_T: f64 = 12.0;
 /// A window ends where the S-curves are slowest, after this share of it: there little is lost.
 const SHORTEST_R: f64 = 0.4;
 const MOST_PIECES: usize = 4096;
-/// How much slower than the S-curves a law starts, and passes from one window to the next.
+/// How much slower than the S-curves a time parametrisation starts, and passes from one window to the next.
 const RATE_R: f64 = 0.85;
-/// Where no law is found, the window is parted in this share of it, so often at most.
+/// Where no parametrisation is found, the window is parted in this share of it, so often at most.
 const MIDDLE_R: [f64; 2] = [0.2, 0.8];
 const HALVINGS: u32 = 6;
 /// From rest to rest, other rates to start from.
@@ -28,18 +28,18 @@ const RATES: [f64; 4] = [RATE_R, 0.7, 0.55, 0.4];
 #[derive(Debug)]
 pub(crate) struct Refiner {
     limits: Limits,
-    /// A curve has come: what is still to be driven gets laws, from the next rest on.
+    /// A curve has come: what is still to be driven gets parametrisations, from the next rest on.
     is_wanted: bool,
-    /// Nothing that goes on without a law was given on since the last rest.
+    /// Nothing that goes on without a time parametrisation was given on since the last rest.
     is_from_rest: bool,
     /// The motion goes on at [`RATE_R`] of the speed that the S-curves have.
     is_slowed: bool,
-    waiting: Stretch,
+    waiting: MotionChain,
 }
 
 /// Motions one after the other, as they were settled.
 #[derive(Debug, Default)]
-struct Stretch {
+struct MotionChain {
     pieces: Vec<Piece>,
     legs: Vec<Leg>,
     /// Where the motions end.
@@ -48,7 +48,7 @@ struct Stretch {
     duration_t: f64,
 }
 
-/// Where a motion ends, from the start of its stretch.
+/// Where a motion ends, from the start of its chain.
 #[derive(Debug, Clone, Copy)]
 struct End {
     pieces: usize,
@@ -58,7 +58,7 @@ struct End {
     exit_v: f64,
 }
 
-impl Stretch {
+impl MotionChain {
     fn push(&mut self, pieces: Vec<Piece>, legs: &[Leg]) {
         for leg in legs {
             self.legs.push(Leg {
@@ -97,7 +97,7 @@ impl Stretch {
             leg.from_s -= end.length_s;
         }
         let ends = self.ends.iter().filter(|other| other.pieces > end.pieces);
-        let rest = Self {
+        let remainder = Self {
             pieces: self.pieces.split_off(end.pieces),
             legs,
             ends: ends
@@ -114,7 +114,7 @@ impl Stretch {
         };
         self.ends.retain(|other| other.pieces <= end.pieces);
         (self.length_s, self.duration_t) = (end.length_s, end.duration_t);
-        rest
+        remainder
     }
 }
 
@@ -125,7 +125,7 @@ impl Refiner {
             is_wanted: false,
             is_from_rest: true,
             is_slowed: false,
-            waiting: Stretch::default(),
+            waiting: MotionChain::default(),
         }
     }
 
@@ -153,14 +153,14 @@ impl Refiner {
         match settled {
             Settled::Motion { pieces, legs } if self.is_wanted && self.is_from_rest => {
                 self.waiting.push(pieces, &legs);
-                let Stretch {
+                let MotionChain {
                     duration_t, pieces, ..
                 } = &self.waiting;
                 if *duration_t >= WINDOW_T || pieces.len() >= MOST_PIECES {
                     self.put_window(out);
                 }
             }
-            Settled::Motion { .. } | Settled::Lawful { .. } => {
+            Settled::Motion { .. } | Settled::Parametrised { .. } => {
                 self.is_from_rest = false;
                 out.push_back(settled);
             }
@@ -178,61 +178,78 @@ impl Refiner {
         let Some(end) = self.waiting.slowest([SHORTEST_R, 1.0]) else {
             return;
         };
-        let rest = self.waiting.split_off(&end);
+        let remainder = self.waiting.split_off(&end);
         self.put(out);
-        self.waiting = rest;
+        self.waiting = remainder;
     }
 
     fn put(&mut self, out: &mut VecDeque<Settled>) {
-        let stretch = core::mem::take(&mut self.waiting);
-        if stretch.legs.is_empty() {
+        let chain = core::mem::take(&mut self.waiting);
+        if chain.legs.is_empty() {
             return;
         }
-        let is_free = stretch.exit_v() <= 0.0 && !self.is_slowed;
-        self.is_slowed = stretch.exit_v() > 0.0;
+        let is_free = chain.exit_v() <= 0.0 && !self.is_slowed;
+        self.is_slowed = chain.exit_v() > 0.0;
         if !is_free {
-            return self.put_slowed(stretch, HALVINGS, out);
+            return self.put_slowed(chain, HALVINGS, out);
         }
-        let Stretch {
+        let MotionChain {
             pieces,
             legs,
             duration_t,
             ..
-        } = stretch;
-        let law = self.law(&pieces, &legs, &RATES);
-        out.push_back(match law.filter(|law| law.duration_t() < duration_t) {
-            Some(law) => Settled::Lawful { pieces, law },
-            None => Settled::Motion { pieces, legs },
-        });
+        } = chain;
+        let parametrisation = self.parametrisation(&pieces, &legs, &RATES);
+        out.push_back(
+            match parametrisation
+                .filter(|parametrisation| parametrisation.duration_t() < duration_t)
+            {
+                Some(parametrisation) => Settled::Parametrised {
+                    pieces,
+                    parametrisation,
+                },
+                None => Settled::Motion { pieces, legs },
+            },
+        );
     }
 
-    /// With a law that begins and ends at [`RATE_R`] of the speed of the S-curves. If none is found for
+    /// With a time parametrisation that begins and ends at [`RATE_R`] of the speed of the S-curves. If none is found for
     /// all of it, one is for most of its parts: only where there is none, the S-curves are
     /// driven slower.
-    fn put_slowed(&self, mut stretch: Stretch, halvings: u32, out: &mut VecDeque<Settled>) {
-        let law = self.law(&stretch.pieces, &stretch.legs, &[RATE_R]);
-        if law.is_none()
+    fn put_slowed(&self, mut chain: MotionChain, halvings: u32, out: &mut VecDeque<Settled>) {
+        let parametrisation = self.parametrisation(&chain.pieces, &chain.legs, &[RATE_R]);
+        if parametrisation.is_none()
             && let Some(fewer) = halvings.checked_sub(1)
-            && let Some(middle) = stretch.slowest(MIDDLE_R)
+            && let Some(middle) = chain.slowest(MIDDLE_R)
         {
-            let rest = stretch.split_off(&middle);
-            self.put_slowed(stretch, fewer, out);
-            self.put_slowed(rest, fewer, out);
+            let remainder = chain.split_off(&middle);
+            self.put_slowed(chain, fewer, out);
+            self.put_slowed(remainder, fewer, out);
             return;
         }
-        let Stretch { pieces, legs, .. } = stretch;
-        out.push_back(match law.or_else(|| Law::slowed(&legs, RATE_R)) {
-            Some(law) => Settled::Lawful { pieces, law },
-            None => Settled::Motion { pieces, legs },
-        });
+        let MotionChain { pieces, legs, .. } = chain;
+        out.push_back(
+            match parametrisation.or_else(|| Parametrisation::slowed(&legs, RATE_R)) {
+                Some(parametrisation) => Settled::Parametrised {
+                    pieces,
+                    parametrisation,
+                },
+                None => Settled::Motion { pieces, legs },
+            },
+        );
     }
 
-    /// A law from the first of some rates from which one is found.
-    fn law(&self, pieces: &[Piece], legs: &[Leg], rates: &[f64]) -> Option<Law> {
+    /// A time parametrisation from the first of some rates from which one is found.
+    fn parametrisation(
+        &self,
+        pieces: &[Piece],
+        legs: &[Leg],
+        rates: &[f64],
+    ) -> Option<Parametrisation> {
         let course = Course::new(pieces);
-        let track = Track::new(&course, legs, &self.limits)?;
+        let knot_path = KnotPath::new(&course, legs, &self.limits)?;
         rates
             .iter()
-            .find_map(|rate_r| optimise(&track, &course, &self.limits, *rate_r))
+            .find_map(|rate_r| optimise(&knot_path, &course, &self.limits, *rate_r))
     }
 }

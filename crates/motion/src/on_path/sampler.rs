@@ -7,7 +7,7 @@
 use super::look_ahead::Settled;
 use super::pieces::{Piece, Shape};
 use super::speed::Leg;
-use super::topp::Law;
+use super::topp::Parametrisation;
 use crate::grid::{FrameGrid, Moving, Passing};
 use crate::scurve::PathState;
 use glidepath_geometry::{AxisVector, Prepared};
@@ -21,16 +21,16 @@ pub(crate) struct Sampler {
     period_t: f64,
     /// Time from the start of the stretch at hand to its first frame, 0 < t ≤ period.
     first_frame_t: f64,
-    stretch: Option<Stretch>,
+    motion: Option<CurrentMotion>,
     /// Path position at the start of the piece at hand.
     path_s: f64,
-    /// Speed at the end of the last stretch.
+    /// Speed at the end of the last motion.
     speed_v: f64,
 }
 
 /// What comes next.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Step {
+pub(crate) enum NextFrame {
     /// A frame was made.
     Frame,
     /// The next stretch; only if asked to stop there.
@@ -42,10 +42,10 @@ pub(crate) enum Step {
 }
 
 #[derive(Debug)]
-struct Stretch {
+struct CurrentMotion {
     pieces: Vec<Piece>,
-    /// How it is driven: by a law, or else by S-curves.
-    law: Option<Law>,
+    /// How it is driven: by a time parametrisation, or else by S-curves.
+    parametrisation: Option<Parametrisation>,
     legs: Vec<Leg>,
     leg: usize,
     piece: usize,
@@ -57,7 +57,7 @@ struct Stretch {
     frames: u32,
 }
 
-impl Stretch {
+impl CurrentMotion {
     /// Position and speed of the last frame, if it is in the cruise of a stretch of one piece.
     fn cruise(&self, first_frame_t: f64, period_t: f64) -> Option<(f64, f64)> {
         let ([_], [leg]) = (self.pieces.as_slice(), self.legs.as_slice()) else {
@@ -75,7 +75,7 @@ impl Sampler {
             grid: FrameGrid::new(period_t, start),
             period_t,
             first_frame_t: period_t,
-            stretch: None,
+            motion: None,
             path_s: 0.0,
             speed_v: 0.0,
         }
@@ -88,35 +88,38 @@ impl Sampler {
         settled: &mut VecDeque<Settled>,
         pause: bool,
         frame: &mut Frame,
-    ) -> Step {
+    ) -> NextFrame {
         loop {
             if let Some(at_rest) = self.grid.rest_frame() {
                 *frame = at_rest;
-                return Step::Frame;
+                return NextFrame::Frame;
             }
-            if self.stretch.is_some() {
+            if self.motion.is_some() {
                 if self.motion_frame(frame).is_some() {
-                    return Step::Frame;
+                    return NextFrame::Frame;
                 }
-                self.stretch = None;
+                self.motion = None;
                 if pause {
-                    return Step::Junction;
+                    return NextFrame::Junction;
                 }
             }
             match settled.pop_front() {
                 Some(Settled::Motion { pieces, legs }) => {
                     if !leads_to_the_end(&pieces, &legs) {
                         let line = pieces.first().map_or(0, |piece| piece.line);
-                        return Step::Broken { line };
+                        return NextFrame::Broken { line };
                     }
-                    self.enter_stretch(pieces, legs, None);
+                    self.enter_motion(pieces, legs, None);
                 }
-                Some(Settled::Lawful { pieces, law }) => {
-                    if !is_whole(&pieces, law.length_s()) {
+                Some(Settled::Parametrised {
+                    pieces,
+                    parametrisation,
+                }) => {
+                    if !is_whole(&pieces, parametrisation.length_s()) {
                         let line = pieces.first().map_or(0, |piece| piece.line);
-                        return Step::Broken { line };
+                        return NextFrame::Broken { line };
                     }
-                    self.enter_stretch(pieces, Vec::new(), Some(law));
+                    self.enter_motion(pieces, Vec::new(), Some(parametrisation));
                 }
                 Some(Settled::Rest(rest)) => {
                     self.speed_v = 0.0;
@@ -124,7 +127,7 @@ impl Sampler {
                         self.first_frame_t = self.period_t;
                     }
                 }
-                None => return Step::End,
+                None => return NextFrame::End,
             }
         }
     }
@@ -132,35 +135,40 @@ impl Sampler {
     /// The speed at which the motion can be planned anew from where the last frame is, if it has no
     /// acceleration along the path there: at a junction, at rest, or cruising along a single piece.
     pub(crate) fn steady_v(&self) -> Option<f64> {
-        match &self.stretch {
+        match &self.motion {
             None => Some(self.speed_v),
-            Some(stretch) => stretch
+            Some(motion) => motion
                 .cruise(self.first_frame_t, self.period_t)
                 .map(|(_, v)| v),
         }
     }
 
     /// What is left of the stretch at hand after the last frame, where it is cruising.
-    pub(crate) fn rest_of_stretch(&self) -> Option<Piece> {
-        let stretch = self.stretch.as_ref()?;
-        let (s, _) = stretch.cruise(self.first_frame_t, self.period_t)?;
-        Some(stretch.pieces.first()?.clone().after(s))
+    pub(crate) fn remaining_piece(&self) -> Option<Piece> {
+        let motion = self.motion.as_ref()?;
+        let (s, _) = motion.cruise(self.first_frame_t, self.period_t)?;
+        Some(motion.pieces.first()?.clone().after(s))
     }
 
-    /// Gives up what [`Sampler::rest_of_stretch`] returned: it was planned anew.
-    pub(crate) fn drop_stretch(&mut self) {
-        if let Some(stretch) = self.stretch.take()
-            && let Some((s, _)) = stretch.cruise(self.first_frame_t, self.period_t)
+    /// Gives up what [`Sampler::remaining_piece`] returned: it was planned anew.
+    pub(crate) fn drop_motion(&mut self) {
+        if let Some(motion) = self.motion.take()
+            && let Some((s, _)) = motion.cruise(self.first_frame_t, self.period_t)
         {
             self.path_s += s;
             self.first_frame_t = self.period_t;
         }
     }
 
-    fn enter_stretch(&mut self, pieces: Vec<Piece>, legs: Vec<Leg>, law: Option<Law>) {
-        self.stretch = Some(Stretch {
+    fn enter_motion(
+        &mut self,
+        pieces: Vec<Piece>,
+        legs: Vec<Leg>,
+        parametrisation: Option<Parametrisation>,
+    ) {
+        self.motion = Some(CurrentMotion {
             pieces,
-            law,
+            parametrisation,
             legs,
             leg: 0,
             piece: 0,
@@ -174,15 +182,15 @@ impl Sampler {
     /// The next frame of the stretch, or `None` after setting up for the next one.
     fn motion_frame(&mut self, frame: &mut Frame) -> Option<()> {
         loop {
-            let stretch = self.stretch.as_ref()?;
-            let t = self.first_frame_t + f64::from(stretch.frames) * self.period_t;
-            let duration_t = match (&stretch.law, stretch.legs.get(stretch.leg)) {
-                (Some(law), _) if stretch.leg == 0 => {
-                    if t < law.duration_t() {
-                        let state = law.at(t);
+            let motion = self.motion.as_ref()?;
+            let t = self.first_frame_t + f64::from(motion.frames) * self.period_t;
+            let duration_t = match (&motion.parametrisation, motion.legs.get(motion.leg)) {
+                (Some(parametrisation), _) if motion.leg == 0 => {
+                    if t < parametrisation.duration_t() {
+                        let state = parametrisation.at(t);
                         return self.frame_at(state, frame);
                     }
-                    law.duration_t()
+                    parametrisation.duration_t()
                 }
                 (None, Some(leg)) => {
                     if t < leg.profile.duration_t() {
@@ -193,14 +201,14 @@ impl Sampler {
                     leg.profile.duration_t()
                 }
                 _ => {
-                    self.leave_stretch();
+                    self.leave_motion();
                     return None;
                 }
             };
             self.first_frame_t = (t - duration_t).min(self.period_t);
-            if let Some(stretch) = &mut self.stretch {
-                stretch.leg += 1;
-                stretch.frames = 0;
+            if let Some(motion) = &mut self.motion {
+                motion.leg += 1;
+                motion.frames = 0;
             }
         }
     }
@@ -208,19 +216,19 @@ impl Sampler {
     fn frame_at(&mut self, state: PathState, frame: &mut Frame) -> Option<()> {
         let s = state.position_s;
         loop {
-            let stretch = self.stretch.as_ref()?;
-            let piece = stretch.pieces.get(stretch.piece)?;
-            let last = stretch.piece + 1 == stretch.pieces.len();
-            if last || s < stretch.piece_s + piece.length_s {
+            let motion = self.motion.as_ref()?;
+            let piece = motion.pieces.get(motion.piece)?;
+            let last = motion.piece + 1 == motion.pieces.len();
+            if last || s < motion.piece_s + piece.length_s {
                 break;
             }
             self.leave_piece();
         }
-        let stretch = self.stretch.as_mut()?;
-        stretch.frames += 1;
-        let piece = stretch.pieces.get(stretch.piece)?;
-        let piece_s = s - stretch.piece_s;
-        let jet = match (&piece.shape, &mut stretch.prepared) {
+        let motion = self.motion.as_mut()?;
+        motion.frames += 1;
+        let piece = motion.pieces.get(motion.piece)?;
+        let piece_s = s - motion.piece_s;
+        let jet = match (&piece.shape, &mut motion.prepared) {
             (Shape::Segment(_), Some(prepared)) => prepared.jet(piece.from_s + piece_s),
             (Shape::Segment(segment), none) => {
                 none.insert(segment.prepared()).jet(piece.from_s + piece_s)
@@ -244,22 +252,22 @@ impl Sampler {
         Some(())
     }
 
-    /// Goes on to the next piece of the stretch.
+    /// Goes on to the next piece of the motion.
     fn leave_piece(&mut self) {
-        if let Some(stretch) = &mut self.stretch
-            && let Some(piece) = stretch.pieces.get(stretch.piece)
+        if let Some(motion) = &mut self.motion
+            && let Some(piece) = motion.pieces.get(motion.piece)
         {
-            stretch.piece_s += piece.length_s;
-            stretch.piece += 1;
-            stretch.prepared = None;
+            motion.piece_s += piece.length_s;
+            motion.piece += 1;
+            motion.prepared = None;
             self.path_s += piece.length_s;
         }
         self.enter_piece();
     }
 
     fn enter_piece(&mut self) {
-        if let Some(stretch) = &self.stretch
-            && let Some(piece) = stretch.pieces.get(stretch.piece)
+        if let Some(motion) = &self.motion
+            && let Some(piece) = motion.pieces.get(motion.piece)
         {
             self.grid.enter(
                 Passing {
@@ -273,17 +281,20 @@ impl Sampler {
     }
 
     /// Passes the pieces that no frame fell on, and notes where the stretch ends.
-    fn leave_stretch(&mut self) {
-        while let Some(stretch) = &self.stretch
-            && stretch.piece + 1 < stretch.pieces.len()
+    fn leave_motion(&mut self) {
+        while let Some(motion) = &self.motion
+            && motion.piece + 1 < motion.pieces.len()
         {
             self.leave_piece();
         }
-        if let Some(stretch) = &self.stretch
-            && let Some(piece) = stretch.pieces.last()
+        if let Some(motion) = &self.motion
+            && let Some(piece) = motion.pieces.last()
         {
-            let by_legs_v = stretch.legs.last().map_or(0.0, |leg| leg.profile.exit_v());
-            self.speed_v = stretch.law.as_ref().map_or(by_legs_v, Law::exit_v);
+            let by_legs_v = motion.legs.last().map_or(0.0, |leg| leg.profile.exit_v());
+            self.speed_v = motion
+                .parametrisation
+                .as_ref()
+                .map_or(by_legs_v, Parametrisation::exit_v);
             self.path_s += piece.length_s;
             self.grid
                 .leave(piece.jet(piece.length_s).position, self.path_s);
@@ -348,7 +359,7 @@ mod tests {
         }]);
         let (mut sampler, mut frame) = (Sampler::new(0.004, start), Frame::blank(start));
         let mut next = || sampler.next_frame(&mut settled, false, &mut frame);
-        assert_eq!(next(), Step::Frame);
-        assert_eq!(next(), Step::Broken { line: 17 });
+        assert_eq!(next(), NextFrame::Frame);
+        assert_eq!(next(), NextFrame::Broken { line: 17 });
     }
 }

@@ -1,11 +1,11 @@
 //! The race against stopping at every vertex.
 //!
-//! Legs from vertex to vertex are the rival: when it is where, is known in closed form. A window is
+//! Legs from vertex to vertex are the baseline: when it is where, is known in closed form. A window is
 //! worth as much as the best state in it: from there an S-curve leads straight to rest at the end of
 //! the piece, where legs can take over.
 //!
 //! ```text
-//!   lead = time of the rival at the end of the piece − (time of the state + S-curve from there)
+//!   gain = time of the baseline at the end of the piece − (time of the state + S-curve from there)
 //! ```
 //!
 //! At the rest of a window this is exact. Before that it is trusted that the windows to come lose
@@ -15,7 +15,7 @@
 use super::stop_leg::StopLeg;
 use crate::in_tube::path::top_v;
 use crate::in_tube::path::{Bounds, directional};
-use crate::in_tube::path::{Piece, Track};
+use crate::in_tube::path::{ReferencePath, TubePiece};
 use crate::in_tube::period::State;
 use crate::scurve::Profile;
 use glidepath_geometry::feed_length;
@@ -29,13 +29,13 @@ const ASIDE: f64 = 0.02;
 
 /// When legs from vertex to vertex are at the end of which piece, s from the start of the stretch.
 #[derive(Debug)]
-pub(crate) struct Rival {
+pub(crate) struct Baseline {
     first: usize,
     ends_t: VecDeque<f64>,
 }
 
-impl Rival {
-    /// A rival that is at the end of a piece at some time.
+impl Baseline {
+    /// A baseline that is at the end of a piece at some time.
     pub(crate) fn new(piece: usize, end_t: f64) -> Self {
         Self {
             first: piece,
@@ -44,10 +44,15 @@ impl Rival {
     }
 
     /// When it is at the end of piece `index`; `None` if that is not known, or no more.
-    pub(crate) fn end_t(&mut self, limits: &Limits, track: &Track, index: usize) -> Option<f64> {
+    pub(crate) fn end_t(
+        &mut self,
+        limits: &Limits,
+        reference_path: &ReferencePath,
+        index: usize,
+    ) -> Option<f64> {
         while self.first + self.ends_t.len() <= index {
             let next = self.first + self.ends_t.len();
-            let piece = track.get(next)?;
+            let piece = reference_path.get(next)?;
             let leg = StopLeg::new(limits, piece.start, next, piece);
             let leg_t = leg.map_or(0.0, |leg| leg.duration_t());
             self.ends_t.push_back(self.ends_t.back()? + leg_t);
@@ -66,7 +71,7 @@ impl Rival {
 
 /// How long a state takes straight to rest at the end of a piece, s; `None` if it does not point
 /// there or cannot stop before.
-pub(crate) fn arrival_t(limits: &Limits, piece: &Piece, state: &State) -> Option<f64> {
+pub(crate) fn arrival_t(limits: &Limits, piece: &TubePiece, state: &State) -> Option<f64> {
     let State {
         position,
         velocity,

@@ -4,5 +4,5 @@
 mod baseline;
 mod stop_leg;
 
-pub(crate) use baseline::{Rival, TRUST_PERIODS, arrival_t};
+pub(crate) use baseline::{Baseline, TRUST_PERIODS, arrival_t};
 pub(crate) use stop_leg::StopLeg;

@@ -5,7 +5,7 @@
 //! whatever else fails, a leg brings the motion to the next vertex. Its seven-phase profile keeps the
 //! limits of every axis at every instant, hence all differences over a period.
 
-use crate::in_tube::path::Piece;
+use crate::in_tube::path::TubePiece;
 use crate::in_tube::path::directional;
 use crate::in_tube::path::top_v;
 use crate::in_tube::period::Period;
@@ -31,7 +31,7 @@ impl StopLeg {
         limits: &Limits,
         from: AxisVector,
         index: usize,
-        piece: &Piece,
+        piece: &TubePiece,
     ) -> Option<Self> {
         let displacement = piece.end - from;
         let length_s = feed_length(&displacement);

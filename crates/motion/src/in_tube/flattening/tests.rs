@@ -15,9 +15,9 @@ fn settings() -> Settings {
     }
 }
 
-fn pieces(segments: &[Segment]) -> Vec<(Part, Reference)> {
+fn pieces(segments: &[Segment]) -> Vec<(LedgerEntry, Reference)> {
     let start = segments[0].start();
-    let (mut works, mut chords) = (Works::new(settings(), start), Chords::new(settings()));
+    let (mut works, mut chords) = (Works::new(settings(), start), Flattener::new(settings()));
     for (line, segment) in (1..).zip(segments) {
         let kind = ItemKind::Move {
             segment: *segment,
@@ -29,8 +29,8 @@ fn pieces(segments: &[Segment]) -> Vec<(Part, Reference)> {
     works.finish();
     let mut pieces = Vec::new();
     while let Some(product) = chords.next(&mut works) {
-        if let Product::Piece(part, reference) = product {
-            pieces.push((part, reference));
+        if let Product::Piece(entry, reference) = product {
+            pieces.push((entry, reference));
         }
     }
     pieces
@@ -58,8 +58,8 @@ fn chords_of_a_helix_and_their_tolerance_stay_within_that_of_the_program() {
     let pieces = pieces(&[Segment::Arc(arc)]);
     let mut from = start;
     let mut worst_mm = 0.0_f64;
-    for (part, reference) in &pieces {
-        assert_eq!(part.line, 1);
+    for (entry, reference) in &pieces {
+        assert_eq!(entry.line, 1);
         let left_mm = reference.tolerance_mm;
         for k in 0..=2000 {
             let at = arc.jet(arc.length() * f64::from(k) / 2000.0).position;
@@ -96,10 +96,10 @@ fn dense_chords_merge_and_tell_their_lines() {
     let pieces = pieces(&segments);
     assert!(pieces.len() < 60, "{}", pieces.len());
     let (mut from, mut next_line) = (point(0), 1);
-    for (part, reference) in &pieces {
-        let lines = [(0.0, part.line)]
+    for (entry, reference) in &pieces {
+        let lines = [(0.0, entry.line)]
             .into_iter()
-            .chain(part.lines.iter().copied());
+            .chain(entry.lines.iter().copied());
         for (start_s, line) in lines {
             assert_eq!(line, next_line, "every block in order");
             let vertex = point(line - 1);

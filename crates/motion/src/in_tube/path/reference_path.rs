@@ -22,7 +22,7 @@ const ROUNDING_R: f64 = 1e-7;
 
 /// One straight piece.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Piece {
+pub(crate) struct TubePiece {
     pub(crate) start: AxisVector,
     pub(crate) end: AxisVector,
     /// Feed length, mm (degrees for a move of rotary axes alone), > 0.
@@ -38,7 +38,7 @@ pub(crate) struct Piece {
     pub(crate) tag: u64,
 }
 
-impl Piece {
+impl TubePiece {
     /// How far a point is from another in tolerances of this piece: the largest over the groups.
     pub(crate) fn distance_r(&self, displacement: &AxisVector) -> f64 {
         let norm = |axes: core::ops::Range<usize>| {
@@ -54,7 +54,7 @@ impl Piece {
     }
 }
 
-impl Piece {
+impl TubePiece {
     /// Speed along the path in the sense of the feed.
     pub(crate) fn path_v(&self, velocity: &AxisVector) -> f64 {
         let counted = counted_axes(&(self.end - self.start));
@@ -67,8 +67,8 @@ impl Piece {
 
 /// The part of the path that is known and not yet passed.
 #[derive(Debug)]
-pub(crate) struct Track {
-    pieces: VecDeque<Piece>,
+pub(crate) struct ReferencePath {
+    pieces: VecDeque<TubePiece>,
     /// Number of the first piece of the ring.
     base: usize,
     /// The last vertex kept, and feed length up to it.
@@ -79,7 +79,7 @@ pub(crate) struct Track {
     is_finished: bool,
 }
 
-impl Track {
+impl ReferencePath {
     pub(crate) fn new(start: AxisVector) -> Self {
         Self {
             pieces: VecDeque::new(),
@@ -106,9 +106,9 @@ impl Track {
         self.as_piece(piece).distance_r(&displacement)
     }
 
-    fn as_piece(&self, piece: &Reference) -> Piece {
+    fn as_piece(&self, piece: &Reference) -> TubePiece {
         let keep_r = 1.0 - TINY_R - ROUNDING_R;
-        Piece {
+        TubePiece {
             start: self.corner,
             end: piece.end,
             length_s: feed_length(&(piece.end - self.corner)),
@@ -143,8 +143,8 @@ impl Track {
         self.base + self.pieces.len()
     }
 
-    /// Piece `index`, if it is known and not yet dropped.
-    pub(crate) fn get(&self, index: usize) -> Option<&Piece> {
+    /// TubePiece `index`, if it is known and not yet dropped.
+    pub(crate) fn get(&self, index: usize) -> Option<&TubePiece> {
         self.pieces.get(index.checked_sub(self.base)?)
     }
 

@@ -11,7 +11,7 @@
 //!           │           can be followed for some more periods, or to its end and rest.
 //! ```
 
-use super::state::{Force, PlannerState};
+use super::state::{ActiveMotion, PlannerState};
 use crate::in_tube::fallback::StopLeg;
 use crate::in_tube::period::{Period, State};
 
@@ -21,7 +21,7 @@ const AHEAD: usize = 2;
 
 /// Where a chain of legs is.
 #[derive(Debug, Clone)]
-struct Stance {
+struct LegProgress {
     leg: StopLeg,
     leg_t: f64,
     /// At rest at the end of the leg until the next period.
@@ -30,7 +30,7 @@ struct Stance {
     wait: usize,
 }
 
-impl Stance {
+impl LegProgress {
     fn period(&self) -> Period {
         if self.leg_t >= self.leg.duration_t() {
             Period::rest(self.leg.to)
@@ -53,16 +53,16 @@ impl Stance {
 impl PlannerState {
     /// One period of straight legs from vertex to vertex. `None` if more of the path is needed.
     pub(crate) fn next_of_legs(&mut self) -> Option<Period> {
-        let Force::Legs {
+        let ActiveMotion::Legs {
             leg: Some(leg),
             leg_t,
             wait,
             ..
-        } = &self.force
+        } = &self.active
         else {
             return None;
         };
-        let now = Stance {
+        let now = LegProgress {
             leg: StopLeg::clone(leg),
             leg_t: *leg_t,
             is_resting: false,
@@ -72,7 +72,7 @@ impl PlannerState {
         let next = self.checked(now, passed);
         let period = next.period();
         self.follower.end = next.leg.piece + 1;
-        let way = (&self.track, &mut self.follower);
+        let way = (&self.reference_path, &mut self.follower);
         let is_kept = self
             .history
             .follow(&self.limits, self.period_t, way, &State::from(&period));
@@ -82,9 +82,9 @@ impl PlannerState {
             return None;
         }
         self.is_over = next.is_resting
-            && self.track.is_last(next.leg.piece)
-            && self.follower.place.is_at_end(&self.track);
-        self.force = Force::Legs {
+            && self.reference_path.is_last(next.leg.piece)
+            && self.follower.reachable.is_at_end(&self.reference_path);
+        self.active = ActiveMotion::Legs {
             leg_t: if next.is_resting { 0.0 } else { next.leg_t },
             leg: Some(Box::new(next.leg)).filter(|_| !next.is_resting),
             wait: next.wait,
@@ -94,15 +94,15 @@ impl PlannerState {
     }
 
     /// A period later, past every vertex on the way. `None` if more of the path is needed.
-    fn passed_on(&mut self, now: &Stance) -> Option<Stance> {
+    fn passed_on(&mut self, now: &LegProgress) -> Option<LegProgress> {
         let mut next = now.later(self.period_t);
-        while next.is_resting && !self.track.is_last(next.leg.piece) {
+        while next.is_resting && !self.reference_path.is_last(next.leg.piece) {
             let leg_t = next.leg_t - next.leg.duration_t();
             let leg = self.leg_from(next.leg.to, next.leg.piece + 1)?;
-            if let Some(rival) = &mut self.rival {
-                rival.end_t(&self.limits, &self.track, leg.piece);
+            if let Some(baseline) = &mut self.baseline {
+                baseline.end_t(&self.limits, &self.reference_path, leg.piece);
             }
-            next = Stance {
+            next = LegProgress {
                 is_resting: leg_t >= leg.duration_t(),
                 leg,
                 leg_t,
@@ -113,7 +113,7 @@ impl PlannerState {
     }
 
     /// The furthest of what can be next: past the vertices, at rest at the first one, or still at rest.
-    fn checked(&self, now: Stance, passed: Stance) -> Stance {
+    fn checked(&self, now: LegProgress, passed: LegProgress) -> LegProgress {
         let begins = now.leg_t <= 0.0 || passed.leg.piece != now.leg.piece;
         if !begins || self.can_go_on(&passed) {
             return passed;
@@ -128,13 +128,13 @@ impl PlannerState {
     }
 
     /// True if a leg can be followed that has been begun in the next period.
-    fn can_go_on(&self, next: &Stance) -> bool {
+    fn can_go_on(&self, next: &LegProgress) -> bool {
         let mut history = self.history.clone();
         let mut follower = self.follower.to(next.leg.piece + 1);
         let mut next = next.clone();
         (0..=AHEAD).all(|_| {
             let state = State::from(&next.period());
-            let way = (&self.track, &mut follower);
+            let way = (&self.reference_path, &mut follower);
             let is_kept = history.follow(&self.limits, self.period_t, way, &state);
             next = next.later(self.period_t);
             is_kept || history.last() == state.position

@@ -5,7 +5,7 @@
 //! inside the tolerance.
 //!
 //! ```text
-//!   push ──► Track ──► optimised window, verified ──► periods ──► next_period
+//!   push ──► ReferencePath ──► optimised window, verified ──► periods ──► next_period
 //!            ring of   otherwise: rest of the last
 //!            pieces    window, which ends at rest;
 //!                      at rest: straight legs to the
@@ -26,4 +26,4 @@ mod state;
 mod tests;
 mod tube_planner;
 
-pub(crate) use tube_planner::WindowPlanner;
+pub(crate) use tube_planner::TubePlanner;

@@ -7,18 +7,18 @@
 //!                          └──► else: the leg goes on, and some more legs follow
 //! ```
 //!
-//! Whatever is taken keeps the lead over the rival of [`super::lead`]: a leg does by itself, a window
+//! Whatever is taken keeps the gain over the baseline of [`super::gain`]: a leg does by itself, a window
 //! is taken if it leads by more than what would be done without it.
 
-use super::state::{Force, MOST_LEGS, PlannerState};
+use super::state::{ActiveMotion, MOST_LEGS, PlannerState};
 use crate::in_tube::fallback::StopLeg;
-use crate::in_tube::fallback::{Rival, TRUST_PERIODS, arrival_t};
-use crate::in_tube::path::Piece;
+use crate::in_tube::fallback::{Baseline, TRUST_PERIODS, arrival_t};
+use crate::in_tube::path::TubePiece;
 use crate::in_tube::path::{Bounds, directional};
 use crate::in_tube::period::State;
 use crate::in_tube::window::Grid;
 use crate::in_tube::window::{FIRST_WORK, PLAN_WORK};
-use crate::in_tube::window::{Motion, Setting, View};
+use crate::in_tube::window::{View, WindowContext, WindowMotion};
 use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC, feed_length};
 
 /// Intervals before a leg brakes at which a window is tried.
@@ -30,9 +30,9 @@ const FAR_TOO_FAST: f64 = 2.0;
 
 /// A window that may be taken.
 struct Candidate {
-    motion: Motion,
-    /// Its lead, from the next window on.
-    lead_t: Option<f64>,
+    motion: WindowMotion,
+    /// Its gain, from the next window on.
+    gain_t: Option<f64>,
     /// Periods that can be handed out without falling behind: up to the next window, or less.
     commit: usize,
 }
@@ -40,10 +40,10 @@ struct Candidate {
 impl PlannerState {
     /// True if a window is to be tried before the leg under way goes on.
     pub(crate) fn is_trial_due(&self) -> bool {
-        match (&self.force, &self.grid) {
-            (Force::Legs { is_stale: true, .. }, _) => true,
+        match (&self.active, &self.grid) {
+            (ActiveMotion::Legs { is_stale: true, .. }, _) => true,
             (
-                Force::Legs {
+                ActiveMotion::Legs {
                     leg: Some(leg),
                     leg_t,
                     wait: 0,
@@ -59,18 +59,18 @@ impl PlannerState {
     pub(crate) fn plan(&mut self) -> Option<()> {
         let grid = match self.grid {
             Some(grid) => grid,
-            None => wanted_grid(self, self.track.get(0)?),
+            None => wanted_grid(self, self.reference_path.get(0)?),
         };
         self.grid = Some(grid);
         if self.is_at_rest(&grid) {
             return self.set_out();
         }
         let view = self.view(&grid)?;
-        if let Force::Legs {
+        if let ActiveMotion::Legs {
             wait,
             is_stale: false,
             ..
-        } = &mut self.force
+        } = &mut self.active
             && view.pieces.end - self.progress.0 == 1
         {
             // Nothing is faster along the last piece.
@@ -83,7 +83,7 @@ impl PlannerState {
         self.follower.end = self.follower.end.max(view.pieces.end);
         if let Some(Candidate { motion, commit, .. }) = best {
             self.legs = 1;
-            self.force = Force::Window {
+            self.active = ActiveMotion::Window {
                 points: motion.points,
                 is_end: motion.is_end,
                 done: 0,
@@ -91,8 +91,8 @@ impl PlannerState {
             };
             return Some(());
         }
-        match &mut self.force {
-            Force::Legs { wait, is_stale, .. } => {
+        match &mut self.active {
+            ActiveMotion::Legs { wait, is_stale, .. } => {
                 *is_stale = false;
                 *wait = self.legs;
                 self.legs = (2 * self.legs).min(MOST_LEGS);
@@ -100,7 +100,7 @@ impl PlannerState {
             _ => {
                 // From a little further on a window may be found, before this one has slowed down.
                 let soon = commit(&grid, &view) / LEAST_COMMIT;
-                self.force = Force::Window {
+                self.active = ActiveMotion::Window {
                     commit: soon.next_multiple_of(grid.periods).max(grid.periods),
                     points: tail,
                     is_end: false,
@@ -113,13 +113,14 @@ impl PlannerState {
 
     /// The window to take, if there is one that is better than to go on without.
     fn best_window(&mut self, grid: &Grid, view: &View, tail: &[AxisVector]) -> Option<Candidate> {
-        let stay_t = self.stay_lead_t(grid);
+        let stay_t = self.stay_gain_t(grid);
         let work = self.optimisers.work();
         let window = self.try_window(grid, view, tail, FIRST_WORK);
-        let is_behind = |window: &Candidate| window.lead_t.is_none_or(|lead_t| lead_t < 0.0);
-        let may_halt = matches!(self.force, Force::Window { .. }) && self.rival.is_some();
+        let is_behind = |window: &Candidate| window.gain_t.is_none_or(|gain_t| gain_t < 0.0);
+        let may_halt =
+            matches!(self.active, ActiveMotion::Window { .. }) && self.baseline.is_some();
         if !may_halt || window.as_ref().is_some_and(|window| !is_behind(window)) {
-            return window.filter(|window| window.lead_t >= stay_t);
+            return window.filter(|window| window.gain_t >= stay_t);
         }
         let usual = commit(grid, view);
         let is_early =
@@ -132,8 +133,8 @@ impl PlannerState {
         let halt = self.try_halt(grid, view, tail, left_work);
         let mut all = [window, halt].into_iter().flatten();
         let first = all.next()?;
-        let best = all.fold(first, |a, b| if b.lead_t > a.lead_t { b } else { a });
-        Some(best).filter(|best| best.lead_t >= stay_t)
+        let best = all.fold(first, |a, b| if b.gain_t > a.gain_t { b } else { a });
+        Some(best).filter(|best| best.gain_t >= stay_t)
     }
 
     /// From rest: a leg to the next vertex.
@@ -142,12 +143,12 @@ impl PlannerState {
             self.is_over = true;
             return None;
         }
-        let leg = self.leg_from(self.history.last(), self.follower.place.last())?;
-        if self.rival.is_none() {
+        let leg = self.leg_from(self.history.last(), self.follower.reachable.last())?;
+        if self.baseline.is_none() {
             let end_t = self.clock_t() + leg.duration_t();
-            self.rival = Some(Rival::new(leg.piece, end_t));
+            self.baseline = Some(Baseline::new(leg.piece, end_t));
         }
-        self.force = Force::Legs {
+        self.active = ActiveMotion::Legs {
             leg: Some(Box::new(leg)),
             leg_t: 0.0,
             wait: 0,
@@ -158,7 +159,13 @@ impl PlannerState {
 
     fn view(&self, grid: &Grid) -> Option<View> {
         let first = self.follower.first();
-        View::new(&self.limits, &self.track, grid, first, self.progress)
+        View::new(
+            &self.limits,
+            &self.reference_path,
+            grid,
+            first,
+            self.progress,
+        )
     }
 
     /// A window, and what it is worth.
@@ -169,17 +176,17 @@ impl PlannerState {
         tail: &[AxisVector],
         most_work: usize,
     ) -> Option<Candidate> {
-        let setting = Setting {
+        let setting = WindowContext {
             limits: &self.limits,
             period_t: self.period_t,
             grid,
-            track: &self.track,
+            reference_path: &self.reference_path,
             history: &self.history,
             follower: &self.follower,
             progress: self.progress,
             end: view.pieces.end,
             commit: commit(grid, view),
-            keeps_rates: !matches!(self.force, Force::Legs { is_stale: true, .. }),
+            keeps_rates: !matches!(self.active, ActiveMotion::Legs { is_stale: true, .. }),
             most_work,
         };
         let motion = self.optimisers.attempt(&setting, view, tail)?;
@@ -194,7 +201,7 @@ impl PlannerState {
         tail: &[AxisVector],
         most_work: usize,
     ) -> Option<Candidate> {
-        let end = self.follower.place.last() + 1;
+        let end = self.follower.reachable.last() + 1;
         if end >= view.pieces.end || !self.may_rest_before(end) {
             return None;
         }
@@ -208,7 +215,7 @@ impl PlannerState {
 
     /// False if the motion is far too fast to rest at the end of the piece before `end`.
     fn may_rest_before(&self, end: usize) -> bool {
-        let Some(piece) = self.track.get(end - 1) else {
+        let Some(piece) = self.reference_path.get(end - 1) else {
             return false;
         };
         let velocity = self.history.velocity();
@@ -224,7 +231,7 @@ impl PlannerState {
     }
 
     /// What a motion from now on is worth.
-    fn judge(&mut self, grid: &Grid, view: &View, motion: Motion) -> Candidate {
+    fn judge(&mut self, grid: &Grid, view: &View, motion: WindowMotion) -> Candidate {
         let mut history = self.history.clone();
         let mut follower = self.follower.to(view.pieces.end);
         let periods = grid.periods_in(motion.points.len() - 3);
@@ -235,74 +242,75 @@ impl PlannerState {
         };
         let mut candidate = Candidate {
             motion,
-            lead_t: None,
+            gain_t: None,
             commit: usual,
         };
         let mut safe = None;
         for period in 1..=periods {
             let points = &candidate.motion.points;
             let next = grid.state(points, period);
-            let way = (&self.track, &mut follower);
+            let way = (&self.reference_path, &mut follower);
             history.follow(&self.limits, self.period_t, way, &next);
-            let Some(mut lead_t) = self.state_lead_t(follower.place.last(), &next, period) else {
+            let Some(mut gain_t) = self.state_gain_t(follower.reachable.last(), &next, period)
+            else {
                 continue;
             };
             match (period == periods, candidate.motion.is_end) {
-                // A rival at the end of the path rests there until the period is over, too.
-                (true, true) => lead_t += (1.0 - 1e-6) * self.period_t,
+                // A baseline at the end of the path rests there until the period is over, too.
+                (true, true) => gain_t += (1.0 - 1e-6) * self.period_t,
                 (true, false) => {}
-                _ => lead_t -= TRUST_PERIODS * self.period_t,
+                _ => gain_t -= TRUST_PERIODS * self.period_t,
             }
             if period >= usual {
-                candidate.lead_t = Some(candidate.lead_t.map_or(lead_t, |most| most.max(lead_t)));
-            } else if lead_t >= 0.0 && period % grid.periods == 0 {
+                candidate.gain_t = Some(candidate.gain_t.map_or(gain_t, |most| most.max(gain_t)));
+            } else if gain_t >= 0.0 && period % grid.periods == 0 {
                 safe = Some(period);
             }
         }
-        if let Some(safe) = safe.filter(|_| candidate.lead_t.is_none_or(|lead_t| lead_t < 0.0)) {
+        if let Some(safe) = safe.filter(|_| candidate.gain_t.is_none_or(|gain_t| gain_t < 0.0)) {
             candidate.commit = safe;
         }
         candidate
     }
 
-    /// The lead of a state some periods from now.
-    fn state_lead_t(&mut self, index: usize, state: &State, period: usize) -> Option<f64> {
-        let piece = self.track.get(index)?;
+    /// The gain of a state some periods from now.
+    fn state_gain_t(&mut self, index: usize, state: &State, period: usize) -> Option<f64> {
+        let piece = self.reference_path.get(index)?;
         let arrival_t = arrival_t(&self.limits, piece, state)?;
-        let rival = self.rival.as_mut()?;
-        let rival_t = rival.end_t(&self.limits, &self.track, index)?;
-        Some(rival_t - self.periods_t(self.clock + period) - arrival_t)
+        let baseline = self.baseline.as_mut()?;
+        let baseline_t = baseline.end_t(&self.limits, &self.reference_path, index)?;
+        Some(baseline_t - self.periods_t(self.clock + period) - arrival_t)
     }
 
-    /// The lead if no window is found: of the leg, or of the rest that the last window ends with.
-    fn stay_lead_t(&mut self, grid: &Grid) -> Option<f64> {
-        if let Force::Legs {
+    /// The gain if no window is found: of the leg, or of the rest that the last window ends with.
+    fn stay_gain_t(&mut self, grid: &Grid) -> Option<f64> {
+        if let ActiveMotion::Legs {
             leg: Some(leg),
             leg_t,
             ..
-        } = &self.force
+        } = &self.active
         {
             let end_t = self.clock_t() - leg_t + leg.duration_t();
-            let rival = self.rival.as_mut()?;
-            let rival_t = rival.end_t(&self.limits, &self.track, leg.piece)?;
-            return Some(rival_t - end_t);
+            let baseline = self.baseline.as_mut()?;
+            let baseline_t = baseline.end_t(&self.limits, &self.reference_path, leg.piece)?;
+            return Some(baseline_t - end_t);
         }
         let points = self.tail(grid, 0);
         let view = self.view(grid)?;
-        let rest = Motion {
+        let rest = WindowMotion {
             points,
             is_rest: true,
             is_end: false,
         };
-        self.judge(grid, &view, rest).lead_t
+        self.judge(grid, &view, rest).gain_t
     }
 
     /// True if nothing moves or will move without a new plan.
     fn is_at_rest(&self, grid: &Grid) -> bool {
-        match &self.force {
-            Force::Nothing => true,
-            Force::Legs { leg, .. } => leg.is_none(),
-            Force::Window { .. } => {
+        match &self.active {
+            ActiveMotion::Nothing => true,
+            ActiveMotion::Legs { leg, .. } => leg.is_none(),
+            ActiveMotion::Window { .. } => {
                 let tail = self.tail(grid, 0);
                 tail.iter().all(|point| *point == tail[0])
             }
@@ -311,23 +319,26 @@ impl PlannerState {
 
     /// True if the motion handed out so far is exactly at the end of the path.
     fn is_at_end(&self) -> bool {
-        let place = &self.follower.place;
-        let end = self.track.get(place.last()).map(|piece| piece.end);
-        place.is_at_end(&self.track) && end == Some(self.history.last())
+        let reachable = &self.follower.reachable;
+        let end = self
+            .reference_path
+            .get(reachable.last())
+            .map(|piece| piece.end);
+        reachable.is_at_end(&self.reference_path) && end == Some(self.history.last())
     }
 
     /// The motion from the present state on, as control points: what is left of the last window down
     /// to its rest, or so many intervals of the leg under way, which need not be a motion.
     fn tail(&self, grid: &Grid, intervals: usize) -> Vec<AxisVector> {
-        match &self.force {
-            Force::Window { points, done, .. } => {
+        match &self.active {
+            ActiveMotion::Window { points, done, .. } => {
                 let passed = done * grid.knots / grid.periods;
                 let last = points.len() - 1;
                 (passed..passed.max(last - 2) + 3)
                     .map(|k| points[k.min(last)])
                     .collect()
             }
-            Force::Legs {
+            ActiveMotion::Legs {
                 leg: Some(leg),
                 leg_t,
                 ..
@@ -361,7 +372,7 @@ fn leg_tail(leg: &StopLeg, leg_t: f64, grid: &Grid, intervals: usize) -> Vec<Axi
 }
 
 /// Half the time in which jerk strays by a tolerance: the grid on which corners are still resolved.
-fn wanted_grid(planner: &PlannerState, piece: &Piece) -> Grid {
+fn wanted_grid(planner: &PlannerState, piece: &TubePiece) -> Grid {
     let limits = &planner.limits;
     let moved = piece.end - piece.start;
     let least_of = |of_axis: &dyn Fn(usize) -> f64| {

@@ -1,10 +1,10 @@
 //! What is known of a stretch: its path, where the motion is, and what moves the machine.
 
-use crate::in_tube::fallback::Rival;
+use crate::in_tube::fallback::Baseline;
 use crate::in_tube::fallback::StopLeg;
-use crate::in_tube::path::Track;
+use crate::in_tube::path::ReferencePath;
 use crate::in_tube::verify::History;
-use crate::in_tube::verify::{Follower, Place};
+use crate::in_tube::verify::{Follower, Reachable};
 use crate::in_tube::window::Grid;
 use crate::in_tube::window::Optimisers;
 use glidepath_geometry::AxisVector;
@@ -15,7 +15,7 @@ pub(crate) const MOST_LEGS: usize = 8;
 
 /// What moves the machine.
 #[derive(Debug)]
-pub(crate) enum Force {
+pub(crate) enum ActiveMotion {
     /// At rest.
     Nothing,
     /// Legs from vertex to vertex: the one under way, the time since its start, how many are to end
@@ -40,18 +40,18 @@ pub(crate) enum Force {
 pub(crate) struct PlannerState {
     pub(crate) limits: Limits,
     pub(crate) period_t: f64,
-    pub(crate) track: Track,
+    pub(crate) reference_path: ReferencePath,
     /// Positions handed out last, and where on the path the last one is.
     pub(crate) history: History,
     pub(crate) follower: Follower,
     pub(crate) progress: (usize, f64),
-    pub(crate) force: Force,
+    pub(crate) active: ActiveMotion,
     pub(crate) grid: Option<Grid>,
     pub(crate) optimisers: Optimisers,
     /// Legs to run when the next window is refused: the more, the more have been.
     pub(crate) legs: usize,
     /// Stopping at every vertex; `None` after rates have changed, until the next rest.
-    pub(crate) rival: Option<Rival>,
+    pub(crate) baseline: Option<Baseline>,
     /// Periods handed out.
     pub(crate) clock: usize,
     pub(crate) is_over: bool,
@@ -63,15 +63,15 @@ impl PlannerState {
         Self {
             limits: *limits,
             period_t,
-            track: Track::new(start),
+            reference_path: ReferencePath::new(start),
             history: History::new(start),
-            follower: Follower::new(Place::start_of(0), 0),
+            follower: Follower::new(Reachable::start_of(0), 0),
             progress: (0, 0.0),
-            force: Force::Nothing,
+            active: ActiveMotion::Nothing,
             grid: None,
             optimisers: Optimisers::default(),
             legs: 1,
-            rival: None,
+            baseline: None,
             clock: 0,
             is_over: false,
         }
@@ -79,9 +79,11 @@ impl PlannerState {
 
     /// The leg to the end of the first piece from `index` on that does not end here.
     pub(crate) fn leg_from(&self, from: AxisVector, index: usize) -> Option<StopLeg> {
-        (index..self.track.end())
-            .take_while(|&index| self.track.is_settled(index))
-            .find_map(|index| StopLeg::new(&self.limits, from, index, self.track.get(index)?))
+        (index..self.reference_path.end())
+            .take_while(|&index| self.reference_path.is_settled(index))
+            .find_map(|index| {
+                StopLeg::new(&self.limits, from, index, self.reference_path.get(index)?)
+            })
     }
 
     /// Time since the start of the stretch.

@@ -10,7 +10,7 @@ mod bench;
 mod calls;
 mod extremes;
 
-use super::state::Force;
+use super::state::ActiveMotion;
 use super::*;
 use crate::in_tube::path::Reference;
 use crate::in_tube::period::Period;
@@ -57,8 +57,8 @@ impl Case {
             .collect()
     }
 
-    fn planner(&self) -> WindowPlanner {
-        WindowPlanner::new(&self.limits, self.period_t, self.points[0])
+    fn planner(&self) -> TubePlanner {
+        TubePlanner::new(&self.limits, self.period_t, self.points[0])
     }
 
     fn plan(&self) -> Vec<Period> {

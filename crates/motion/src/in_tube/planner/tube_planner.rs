@@ -1,6 +1,6 @@
 //! The planner of a stretch, as the engine uses it.
 
-use super::state::{Force, PlannerState};
+use super::state::{ActiveMotion, PlannerState};
 use crate::in_tube::path::Reference;
 use crate::in_tube::period::Period;
 use crate::in_tube::verify::FEED_SLACK;
@@ -9,11 +9,11 @@ use glidepath_program::Limits;
 
 /// Plans one stretch of motion between two rests.
 #[derive(Debug)]
-pub(crate) struct WindowPlanner {
+pub(crate) struct TubePlanner {
     pub(crate) state: PlannerState,
 }
 
-impl WindowPlanner {
+impl TubePlanner {
     /// A planner for a machine at rest at `start`, period in seconds.
     pub(crate) fn new(limits: &Limits, period_t: f64, start: AxisVector) -> Self {
         Self {
@@ -27,29 +27,29 @@ impl WindowPlanner {
     /// some distance of each other both ways and in order, and the tolerance be smaller by that
     /// distance: then each vertex that was left out is within the full tolerance of the motion.
     pub(crate) fn push(&mut self, piece: Reference) {
-        self.state.track.push(piece);
+        self.state.reference_path.push(piece);
     }
 
     /// The path ends with what has been pushed, at rest.
     pub(crate) fn finish(&mut self) {
-        self.state.track.finish();
+        self.state.reference_path.finish();
     }
 
     /// True when the end of the path has been reached and handed out, or there is no path.
     pub(crate) fn is_over(&self) -> bool {
-        self.state.is_over || self.state.track.is_empty_and_finished()
+        self.state.is_over || self.state.reference_path.is_empty_and_finished()
     }
 
     /// Other speeds for the path from here on, by tag; the motion is planned again from the state
     /// handed out last.
     pub(crate) fn set_rates(&mut self, rate_of: impl FnMut(u64) -> f64) {
-        let before_v = self.state.track.top_v();
-        self.state.track.set_rates(rate_of);
+        let before_v = self.state.reference_path.top_v();
+        self.state.reference_path.set_rates(rate_of);
         self.state.history.overspeed_v = self.state.history.overspeed_v.max(before_v * FEED_SLACK);
-        self.state.rival = None;
-        match (&mut self.state.force, &self.state.grid) {
+        self.state.baseline = None;
+        match (&mut self.state.active, &self.state.grid) {
             (
-                Force::Window {
+                ActiveMotion::Window {
                     is_end,
                     done,
                     commit,
@@ -60,7 +60,7 @@ impl WindowPlanner {
                 *is_end = false;
                 *commit = (*commit).min(done.div_ceil(grid.periods) * grid.periods);
             }
-            (Force::Legs { is_stale, .. }, _) => *is_stale = true,
+            (ActiveMotion::Legs { is_stale, .. }, _) => *is_stale = true,
             _ => {}
         }
     }
@@ -73,29 +73,32 @@ impl WindowPlanner {
             return None;
         }
         let mut period = loop {
-            match &self.state.force {
-                Force::Window { done, commit, .. } if done < commit => {
+            match &self.state.active {
+                ActiveMotion::Window { done, commit, .. } if done < commit => {
                     break self.next_of_window()?;
                 }
-                Force::Legs { leg: Some(_), .. } if !self.state.is_trial_due() => {
+                ActiveMotion::Legs { leg: Some(_), .. } if !self.state.is_trial_due() => {
                     break self.state.next_of_legs()?;
                 }
                 _ => self.state.plan()?,
             }
         };
         self.state.clock += 1;
-        let place = &self.state.follower.place;
-        self.state.progress =
-            place.nearest(&self.state.track, &period.position, self.state.progress);
-        if let Some(piece) = self.state.track.get(self.state.progress.0) {
+        let reachable = &self.state.follower.reachable;
+        self.state.progress = reachable.nearest(
+            &self.state.reference_path,
+            &period.position,
+            self.state.progress,
+        );
+        if let Some(piece) = self.state.reference_path.get(self.state.progress.0) {
             period.path_s = piece.start_s + piece.length_s * self.state.progress.1;
             period.tag = piece.tag;
             period.path_v = piece.path_v(&period.velocity);
         }
         let kept = self.state.follower.first().min(self.state.progress.0);
-        self.state.track.forget_before(kept);
-        if let Some(rival) = &mut self.state.rival {
-            rival.forget_before(kept);
+        self.state.reference_path.forget_before(kept);
+        if let Some(baseline) = &mut self.state.baseline {
+            baseline.forget_before(kept);
         }
         period.rest_at_end = self.state.is_over;
         Some(period)
@@ -103,12 +106,12 @@ impl WindowPlanner {
 
     /// One period of a window.
     fn next_of_window(&mut self) -> Option<Period> {
-        let Force::Window {
+        let ActiveMotion::Window {
             points,
             is_end,
             done,
             ..
-        } = &mut self.state.force
+        } = &mut self.state.active
         else {
             return None;
         };
@@ -116,7 +119,7 @@ impl WindowPlanner {
         *done += 1;
         let state = grid.state(points, *done);
         self.state.is_over = *is_end && *done == grid.periods_in(points.len() - 3);
-        let way = (&self.state.track, &mut self.state.follower);
+        let way = (&self.state.reference_path, &mut self.state.follower);
         let is_kept =
             self.state
                 .history

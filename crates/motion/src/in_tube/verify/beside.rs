@@ -13,8 +13,8 @@ use core::ops::Range;
 
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 
-use super::parameter_range::Span;
-use crate::in_tube::path::Piece;
+use super::parameter_range::ParameterRange;
+use crate::in_tube::path::TubePiece;
 
 /// Axes with a tolerance together: two of three linear ones each, and every rotary one.
 const GROUPS: usize = 5;
@@ -22,14 +22,14 @@ const GROUPS: usize = 5;
 /// A chord and a point beside it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Beside {
-    groups: [Group; GROUPS],
+    groups: [AxisGroup; GROUPS],
     /// Of them, how many have an extent.
     count: usize,
 }
 
 /// The same in a group of axes.
 #[derive(Debug, Clone, Copy, Default)]
-struct Group {
+struct AxisGroup {
     tolerance: f64,
     /// Squares of lengths: of the chord, from it to the point, and from its start to the point.
     along_2: f64,
@@ -41,10 +41,10 @@ struct Group {
 
 impl Beside {
     /// The chord between two places and a point, with the tolerances of a piece.
-    pub(crate) fn new(piece: &Piece, [a, b]: [&AxisVector; 2], point: &AxisVector) -> Self {
+    pub(crate) fn new(piece: &TubePiece, [a, b]: [&AxisVector; 2], point: &AxisVector) -> Self {
         let (along, offset) = (b - a, point - a);
         let mut beside = Self {
-            groups: [Group::default(); GROUPS],
+            groups: [AxisGroup::default(); GROUPS],
             count: 0,
         };
         let axes = [LINEAR_XYZ, UVW].map(|axes| (axes, piece.tolerance_mm));
@@ -54,7 +54,7 @@ impl Beside {
                 continue;
             }
             if let Some(next) = beside.groups.get_mut(beside.count) {
-                *next = Group::new(tolerance, axes, &along, &offset);
+                *next = AxisGroup::new(tolerance, axes, &along, &offset);
                 beside.count += 1;
             }
         }
@@ -62,8 +62,8 @@ impl Beside {
     }
 
     /// The part of the chord within `share_r` tolerances of the point.
-    pub(crate) fn within(&self, share_r: f64) -> Span {
-        let mut span = Span::WHOLE;
+    pub(crate) fn within(&self, share_r: f64) -> ParameterRange {
+        let mut range = ParameterRange::WHOLE;
         for group in self.groups.iter().take(self.count) {
             let threshold = group.tolerance * share_r;
             let threshold_2 = threshold * threshold;
@@ -75,21 +75,21 @@ impl Beside {
                 threshold_2 - group.offset_2
             };
             if room_2.is_nan() || room_2 < 0.0 {
-                return Span::EMPTY;
+                return ParameterRange::EMPTY;
             }
             if has_direction {
                 let half = (room_2 / group.along_2).sqrt();
-                span = span.cut(Span {
+                range = range.cut(ParameterRange {
                     from: group.foot - half,
                     to: group.foot + half,
                 });
             }
         }
-        span
+        range
     }
 }
 
-impl Group {
+impl AxisGroup {
     fn new(tolerance: f64, axes: Range<usize>, along: &AxisVector, offset: &AxisVector) -> Self {
         let (mut along_2, mut dot, mut offset_2) = (0.0, 0.0, 0.0);
         for i in axes.clone() {

@@ -12,7 +12,7 @@
 //! And when it has run slower for a while, periods end elsewhere: then chords cut off what the motion
 //! bulges out, and the vertices must be nearer to it by that.
 
-use crate::in_tube::path::Piece;
+use crate::in_tube::path::TubePiece;
 use crate::in_tube::period::State;
 use glidepath_geometry::AxisVector;
 
@@ -25,13 +25,13 @@ const MOST_PARTS: f64 = 16.0;
 
 /// The motion of a period.
 #[derive(Debug)]
-pub(crate) struct Bend<'a> {
+pub(crate) struct BetweenPeriods<'a> {
     pub(crate) from: &'a State,
     pub(crate) to: &'a State,
     pub(crate) period_t: f64,
 }
 
-impl Bend<'_> {
+impl BetweenPeriods<'_> {
     /// What a chord of one period is off the motion in its middle, a·T²/8, at both ends; across the
     /// chord, if the motion hardly turns.
     pub(crate) fn sagittas(&self) -> [AxisVector; 2] {
@@ -62,7 +62,7 @@ impl Bend<'_> {
 
     /// Points after the first, near enough to each other that the motion is hardly off their chords
     /// in the tolerance of a piece.
-    pub(crate) fn points(&self, piece: &Piece) -> impl Iterator<Item = AxisVector> {
+    pub(crate) fn points(&self, piece: &TubePiece) -> impl Iterator<Item = AxisVector> {
         let (from, to, t) = (self.from, self.to, self.period_t);
         let bulge = self.across(
             &((from.velocity - to.velocity) * (t * 5.0 / 32.0)
@@ -118,7 +118,7 @@ mod tests {
             state
         };
         let (from, to) = (at(0.0), at(0.5));
-        let bend = Bend {
+        let bend = BetweenPeriods {
             from: &from,
             to: &to,
             period_t: 0.5,

@@ -11,7 +11,7 @@
 //!        │    ┌───┬───┐    In one cell (chord × piece) the pairs that are near are a convex set, so
 //!    n+1 │    │   │ ╱ │    only its edges matter: what is reached on the right edge and on top
 //!        │    ├───┼───┤    follows from what is reached on the left edge and at the bottom.
-//!    n   │    │ ╱─│─  │    [`Place`] holds the right edges: the part of the path at which the
+//!    n   │    │ ╱─│─  │    [`Reachable`] holds the right edges: the part of the path at which the
 //!        └────┴───┴───┴─▶  other walker may be while the motion is at its present position.
 //!               motion
 //! ```
@@ -21,65 +21,65 @@
 //! rotary axis by itself.
 
 use super::beside::Beside;
-use super::between_periods::Bend;
-use super::parameter_range::Span;
-use crate::in_tube::path::{Piece, Track};
+use super::between_periods::BetweenPeriods;
+use super::parameter_range::ParameterRange;
+use crate::in_tube::path::{ReferencePath, TubePiece};
 use glidepath_geometry::AxisVector;
 
-/// The places on the path the motion may be at: a span of each of some consecutive pieces.
+/// The places on the path the motion may be at: a range of each of some consecutive pieces.
 #[derive(Debug, Clone)]
-pub(crate) struct Place {
+pub(crate) struct Reachable {
     /// The first piece.
     pub(crate) first: usize,
-    pub(crate) spans: Vec<Span>,
+    pub(crate) ranges: Vec<ParameterRange>,
 }
 
-impl Place {
+impl Reachable {
     /// At the start of a piece.
     pub(crate) fn start_of(index: usize) -> Self {
         Self {
             first: index,
-            spans: vec![Span { from: 0.0, to: 0.0 }],
+            ranges: vec![ParameterRange { from: 0.0, to: 0.0 }],
         }
     }
 
     /// The furthest piece it has a part of.
     pub(crate) fn last(&self) -> usize {
-        self.first + self.spans.len().saturating_sub(1)
+        self.first + self.ranges.len().saturating_sub(1)
     }
 
     /// True if the end of the path has been reached.
-    pub(crate) fn is_at_end(&self, track: &Track) -> bool {
-        track.is_last(self.last()) && self.is_at_end_of(self.last())
+    pub(crate) fn is_at_end(&self, reference_path: &ReferencePath) -> bool {
+        reference_path.is_last(self.last()) && self.is_at_end_of(self.last())
     }
 
     /// True if the end of piece `index` has been reached, and no later piece.
     pub(crate) fn is_at_end_of(&self, index: usize) -> bool {
-        self.last() == index && self.spans.last().is_some_and(|span| span.to >= 1.0)
+        self.last() == index && self.ranges.last().is_some_and(|range| range.to >= 1.0)
     }
 
     /// The place nearest to a position that is not before `(piece, parameter)`.
     pub(crate) fn nearest(
         &self,
-        track: &Track,
+        reference_path: &ReferencePath,
         position: &AxisVector,
         not_before: (usize, f64),
     ) -> (usize, f64) {
         let mut best = (f64::INFINITY, not_before);
-        for (offset, span) in self.spans.iter().enumerate() {
+        for (offset, range) in self.ranges.iter().enumerate() {
             let index = self.first + offset;
-            let Some(piece) = track.get(index) else {
+            let Some(piece) = reference_path.get(index) else {
                 continue;
             };
-            if index < not_before.0 || span.is_empty() {
+            if index < not_before.0 || range.is_empty() {
                 continue;
             }
             let along = piece.end - piece.start;
             let foot = (position - piece.start).dot(&along) / along.norm_squared();
             let u = if foot.is_finite() {
-                foot.clamp(span.from, span.to)
+                foot.clamp(range.from, range.to)
             } else {
-                span.to
+                range.to
             };
             let u = if index == not_before.0 {
                 u.max(not_before.1)
@@ -95,11 +95,15 @@ impl Place {
     }
 
     fn trim(&mut self) {
-        while self.spans.last().is_some_and(|span| span.is_empty()) {
-            self.spans.pop();
+        while self.ranges.last().is_some_and(|range| range.is_empty()) {
+            self.ranges.pop();
         }
-        let empty = self.spans.iter().take_while(|span| span.is_empty()).count();
-        self.spans.drain(..empty);
+        let empty = self
+            .ranges
+            .iter()
+            .take_while(|range| range.is_empty())
+            .count();
+        self.ranges.drain(..empty);
         self.first += empty;
     }
 }
@@ -107,38 +111,38 @@ impl Place {
 /// Walks a motion along a path: its chords, and the curve between them.
 #[derive(Debug, Clone)]
 pub(crate) struct Follower {
-    pub(crate) place: Place,
+    pub(crate) reachable: Reachable,
     /// Pieces from this one on are not looked at, though they may be known: what comes out must not
     /// depend on when they became known.
     pub(crate) end: usize,
     /// Places of the curve.
-    curve: Place,
+    curve: Reachable,
     /// Places of chords that begin at other parts of a period, and where their last ones end.
-    phases: [Place; PHASES.len()],
+    phases: [Reachable; PHASES.len()],
     phase_ends: Option<[AxisVector; PHASES.len()]>,
-    /// [`Bend::sagittas`] of the last period.
+    /// [`BetweenPeriods::sagittas`] of the last period.
     sagittas: [AxisVector; 2],
     /// Memory for the places after a step.
-    next: Place,
-    curve_next: [Place; 2],
-    phases_next: [Place; PHASES.len()],
+    next: Reachable,
+    curve_next: [Reachable; 2],
+    phases_next: [Reachable; PHASES.len()],
 }
 
 /// Parts of a period at which chords begin, if time has run slower for a while.
 const PHASES: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
 
 impl Follower {
-    pub(crate) fn new(place: Place, end: usize) -> Self {
+    pub(crate) fn new(reachable: Reachable, end: usize) -> Self {
         Self {
             end,
-            curve: place.clone(),
-            next: place.clone(),
-            curve_next: [place.clone(), place.clone()],
-            phases: PHASES.map(|_| place.clone()),
-            phases_next: PHASES.map(|_| place.clone()),
+            curve: reachable.clone(),
+            next: reachable.clone(),
+            curve_next: [reachable.clone(), reachable.clone()],
+            phases: PHASES.map(|_| reachable.clone()),
+            phases_next: PHASES.map(|_| reachable.clone()),
             phase_ends: None,
             sagittas: [AxisVector::zeros(); 2],
-            place,
+            reachable,
         }
     }
 
@@ -152,25 +156,29 @@ impl Follower {
 
     /// The first piece that matters to what comes.
     pub(crate) fn first(&self) -> usize {
-        let phases = self.phases.iter().map(|place| place.first);
-        phases.fold(self.place.first.min(self.curve.first), usize::min)
+        let phases = self.phases.iter().map(|reachable| reachable.first);
+        phases.fold(self.reachable.first.min(self.curve.first), usize::min)
     }
 
     /// Goes on by a period. False if that leaves the path; then the place is what it was.
-    pub(crate) fn step(&mut self, track: &Track, bend: &Bend<'_>) -> bool {
+    pub(crate) fn step(
+        &mut self,
+        reference_path: &ReferencePath,
+        bend: &BetweenPeriods<'_>,
+    ) -> bool {
         let (from, to) = (&bend.from.position, &bend.to.position);
         let sagittas = bend.sagittas();
         let shift = Shift {
             before: self.sagittas,
             now: sagittas,
         };
-        let Some(piece) = track.get(self.place.first) else {
+        let Some(piece) = reference_path.get(self.reachable.first) else {
             return false;
         };
         if !walk(
-            track,
+            reference_path,
             self.end,
-            &self.place,
+            &self.reachable,
             &mut self.next,
             ([from, to], Some(&shift)),
         ) {
@@ -182,13 +190,19 @@ impl Follower {
         let phase_starts = self.phase_ends.unwrap_or([*from; PHASES.len()]);
         for (k, next) in self.phases_next.iter_mut().enumerate() {
             let way = [&phase_starts[k], &phase_ends[k]];
-            if !walk(track, self.end, &self.phases[k], next, (way, Some(&shift))) {
+            if !walk(
+                reference_path,
+                self.end,
+                &self.phases[k],
+                next,
+                (way, Some(&shift)),
+            ) {
                 return false;
             }
         }
         let mut from = *from;
         for to in bend.points(piece) {
-            if !walk(track, self.end, curve, next, ([&from, &to], None)) {
+            if !walk(reference_path, self.end, curve, next, ([&from, &to], None)) {
                 return false;
             }
             core::mem::swap(curve, next);
@@ -198,7 +212,7 @@ impl Follower {
         core::mem::swap(&mut self.phases, &mut self.phases_next);
         self.phase_ends = Some(phase_ends);
         self.sagittas = sagittas;
-        core::mem::swap(&mut self.place, &mut self.next);
+        core::mem::swap(&mut self.reachable, &mut self.next);
         true
     }
 }
@@ -207,36 +221,38 @@ impl Follower {
 /// that begins a little earlier or later may be further off; `next` is where that leads. False if it
 /// leaves the path.
 fn walk(
-    track: &Track,
+    reference_path: &ReferencePath,
     end: usize,
-    place: &Place,
-    next: &mut Place,
+    reachable: &Reachable,
+    next: &mut Reachable,
     (way, shift): ([&AxisVector; 2], Option<&Shift>),
 ) -> bool {
-    next.spans.clear();
-    next.first = place.first;
-    let known = place.first + place.spans.len();
-    let mut bottom = Span::EMPTY;
-    let mut index = place.first;
+    next.ranges.clear();
+    next.first = reachable.first;
+    let known = reachable.first + reachable.ranges.len();
+    let mut bottom = ParameterRange::EMPTY;
+    let mut index = reachable.first;
     while index < known || (index < end && !bottom.is_empty()) {
-        let Some(piece) = track.get(index) else { break };
-        let left = match place.spans.get(index - place.first) {
-            Some(span) => *span,
-            None => Span::EMPTY,
+        let Some(piece) = reference_path.get(index) else {
+            break;
+        };
+        let left = match reachable.ranges.get(index - reachable.first) {
+            Some(range) => *range,
+            None => ParameterRange::EMPTY,
         };
         let (right, top) = cell(
             piece,
-            (corner_tolerance(track, index), shift),
+            (corner_tolerance(reference_path, index), shift),
             left,
             bottom,
             way,
         );
-        next.spans.push(right);
+        next.ranges.push(right);
         bottom = top;
         index += 1;
     }
     next.trim();
-    !next.spans.is_empty()
+    !next.ranges.is_empty()
 }
 
 /// What chords may be further off a vertex that begin up to half a step of [`PHASES`] earlier or later.
@@ -247,7 +263,7 @@ fn walk(
 /// A change of acceleration adds, to first order in δ, jT³/6·δ/2.
 #[derive(Debug)]
 struct Shift {
-    /// [`Bend::sagittas`] of the two periods that a chord has a part of.
+    /// [`BetweenPeriods::sagittas`] of the two periods that a chord has a part of.
     before: [AxisVector; 2],
     now: [AxisVector; 2],
 }
@@ -259,27 +275,27 @@ const MIDDLES: [f64; 3] = [0.5, 0.25, 0.0625];
 
 impl Shift {
     /// The part of a chord from which the vertex at the end of a piece, beside it, is within `corner_r`
-    /// tolerances, less what holds there. Distance and loss are convex, so it is a span, and the
+    /// tolerances, less what holds there. Distance and loss are convex, so it is a range, and the
     /// parts of it found are joined.
-    fn near_vertex(&self, piece: &Piece, corner_r: f64, beside: &Beside) -> Span {
+    fn near_vertex(&self, piece: &TubePiece, corner_r: f64, beside: &Beside) -> ParameterRange {
         let all = self.before.iter().chain(&self.now);
         let sagitta_r = all.fold(0.0_f64, |most, s| most.max(piece.distance_r(s)));
         let change_r = [self.before, self.now]
             .map(|[a, b]| piece.distance_r(&(b - a)))
             .into_iter()
             .fold(0.0, f64::max);
-        let mut joined = Span::EMPTY;
+        let mut joined = ParameterRange::EMPTY;
         for half in MIDDLES {
             let loss_r = 4.0 * HALF_STEP * (2.0 * half + HALF_STEP) * sagitta_r
                 + 2.0 / 3.0 * HALF_STEP * change_r;
-            let middle = Span {
+            let middle = ParameterRange {
                 from: 0.5 - half,
                 to: 0.5 + half,
             };
             let share_r = (corner_r - loss_r).max(0.0);
             let part = beside.within(share_r).cut(middle);
             if !part.is_empty() {
-                joined = Span {
+                joined = ParameterRange {
                     from: joined.from.min(part.from),
                     to: joined.to.max(part.to),
                 };
@@ -290,8 +306,8 @@ impl Shift {
 }
 
 /// Share of a piece's own tolerance that holds at its end: the smaller one of both sides.
-fn corner_tolerance(track: &Track, index: usize) -> f64 {
-    match (track.get(index), track.get(index + 1)) {
+fn corner_tolerance(reference_path: &ReferencePath, index: usize) -> f64 {
+    match (reference_path.get(index), reference_path.get(index + 1)) {
         (Some(piece), Some(next)) => (next.tolerance_mm / piece.tolerance_mm)
             .min(next.tolerance_deg / piece.tolerance_deg)
             .min(1.0),
@@ -301,14 +317,14 @@ fn corner_tolerance(track: &Track, index: usize) -> f64 {
 
 /// What is reached on the right edge and on top of a cell.
 fn cell(
-    piece: &Piece,
+    piece: &TubePiece,
     (corner_r, shift): (f64, Option<&Shift>),
-    left: Span,
-    bottom: Span,
+    left: ParameterRange,
+    bottom: ParameterRange,
     [from, to]: [&AxisVector; 2],
-) -> (Span, Span) {
+) -> (ParameterRange, ParameterRange) {
     if left.is_empty() && bottom.is_empty() {
-        return (Span::EMPTY, Span::EMPTY);
+        return (ParameterRange::EMPTY, ParameterRange::EMPTY);
     }
     let mut right = Beside::new(piece, [&piece.start, &piece.end], to).within(1.0);
     if bottom.is_empty() {

@@ -3,9 +3,9 @@
 //! Only positions at the periods count: differences of first, second and third order against the
 //! limits of every axis, the feed, and the way along the path ([`super::follow`]).
 
-use super::between_periods::Bend;
+use super::between_periods::BetweenPeriods;
 use super::follow::Follower;
-use crate::in_tube::path::Track;
+use crate::in_tube::path::ReferencePath;
 use crate::in_tube::path::counted_length;
 use crate::in_tube::period::State;
 use glidepath_geometry::{AXES, AxisVector, feed_length};
@@ -73,22 +73,23 @@ impl History {
         &mut self,
         limits: &Limits,
         period_t: f64,
-        (track, follower): (&Track, &mut Follower),
+        (reference_path, follower): (&ReferencePath, &mut Follower),
         next: &State,
     ) -> bool {
-        let from = follower.place.first;
+        let from = follower.reachable.first;
         let position = next.position;
-        let bend = Bend {
+        let bend = BetweenPeriods {
             from: &self.state,
             to: next,
             period_t,
         };
-        if !self.allows(limits, period_t, &position) || !follower.step(track, &bend) {
+        if !self.allows(limits, period_t, &position) || !follower.step(reference_path, &bend) {
             return false;
         }
         let step = position - self.recent[0];
         let speed_v = feed_length(&step) / period_t;
-        let pieces = (from..=follower.place.last()).filter_map(|index| track.get(index));
+        let pieces =
+            (from..=follower.reachable.last()).filter_map(|index| reference_path.get(index));
         let feed_v = pieces
             .clone()
             .fold(0.0_f64, |most, piece| most.max(piece.top_v));

@@ -7,6 +7,6 @@ mod history;
 mod parameter_range;
 
 #[cfg(test)]
-pub(crate) use between_periods::Bend;
-pub(crate) use follow::{Follower, Place};
+pub(crate) use between_periods::BetweenPeriods;
+pub(crate) use follow::{Follower, Reachable};
 pub(crate) use history::{FEED_SLACK, History};

@@ -2,12 +2,12 @@
 
 /// Part of a chord, as parameters 0…1; empty if `from` > `to`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Span {
+pub(crate) struct ParameterRange {
     pub(crate) from: f64,
     pub(crate) to: f64,
 }
 
-impl Span {
+impl ParameterRange {
     pub(crate) const EMPTY: Self = Self { from: 1.0, to: 0.0 };
     pub(crate) const WHOLE: Self = Self { from: 0.0, to: 1.0 };
 

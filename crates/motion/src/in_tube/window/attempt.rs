@@ -1,10 +1,10 @@
 //! One window: how much of the path it sees, which axes move, and what becomes of it.
 
-use super::opening::Opening;
 use super::optimiser::{Optimiser, Question};
-use super::scene::{Scene, moving_axes};
+use super::scaled_path::{ScaledPath, moving_axes};
 use super::spline::Grid;
-use crate::in_tube::path::Track;
+use super::window_start::WindowStart;
+use crate::in_tube::path::ReferencePath;
 use crate::in_tube::path::directional;
 use crate::in_tube::verify::Follower;
 use crate::in_tube::verify::History;
@@ -32,7 +32,7 @@ impl View {
     /// `first` on in sight; `None` if that is not known yet.
     pub(crate) fn new(
         limits: &Limits,
-        track: &Track,
+        reference_path: &ReferencePath,
         grid: &Grid,
         first: usize,
         (index, u): (usize, f64),
@@ -40,8 +40,8 @@ impl View {
         let mut needed = INTERVALS[0];
         let mut known_t = 0.0;
         let mut end = index;
-        while track.is_settled(end) {
-            let piece = track.get(end)?;
+        while reference_path.is_settled(end) {
+            let piece = reference_path.get(end)?;
             let along = (piece.end - piece.start) / piece.length_s;
             let bounds = directional(limits, &along);
             let top_v = piece.top_v.min(bounds.speed_v);
@@ -59,7 +59,7 @@ impl View {
             known_t += share * piece.length_s / top_v;
             end += 1;
             let is_enough = known_t >= needed as f64 * grid.knot_t || end - first >= MOST_PIECES;
-            if is_enough || track.is_last(end - 1) {
+            if is_enough || reference_path.is_last(end - 1) {
                 return Some(Self {
                     pieces: first..end,
                     intervals: grid.whole_periods(needed + grid.knots - 1),
@@ -73,7 +73,7 @@ impl View {
 
 /// A motion as control points from the present knot on.
 #[derive(Debug, Clone)]
-pub(crate) struct Motion {
+pub(crate) struct WindowMotion {
     pub(crate) points: Vec<AxisVector>,
     /// Rests at the end of the last piece in view.
     pub(crate) is_rest: bool,
@@ -83,11 +83,11 @@ pub(crate) struct Motion {
 
 /// Everything a window starts from.
 #[derive(Debug)]
-pub(crate) struct Setting<'a> {
+pub(crate) struct WindowContext<'a> {
     pub(crate) limits: &'a Limits,
     pub(crate) period_t: f64,
     pub(crate) grid: &'a Grid,
-    pub(crate) track: &'a Track,
+    pub(crate) reference_path: &'a ReferencePath,
     pub(crate) history: &'a History,
     pub(crate) follower: &'a Follower,
     pub(crate) progress: (usize, f64),
@@ -129,18 +129,18 @@ impl Optimisers {
     /// A better motion than `tail`, which starts at the present state and ends at rest.
     pub(crate) fn attempt(
         &mut self,
-        setting: &Setting<'_>,
+        context: &WindowContext<'_>,
         view: &View,
         tail: &[AxisVector],
-    ) -> Option<Motion> {
-        let origin = setting.history.last();
+    ) -> Option<WindowMotion> {
+        let origin = context.history.last();
         let corners = view
             .pieces
             .clone()
-            .filter_map(|index| setting.track.get(index))
+            .filter_map(|index| context.reference_path.get(index))
             .flat_map(|piece| [&piece.start, &piece.end]);
         let moves = moving_axes(&origin, corners.chain(tail));
-        let way = (setting, view, tail, moves);
+        let way = (context, view, tail, moves);
         match moves.iter().filter(|&&is_moving| is_moving).count() {
             0..=2 => attempt(&mut self.two, way),
             3 => attempt(&mut self.three, way),
@@ -152,54 +152,59 @@ impl Optimisers {
     }
 }
 
-/// What an optimiser is given: a setting, a view, the motion to fall back on, which axes move.
-type Way<'a> = (&'a Setting<'a>, &'a View, &'a [AxisVector], [bool; AXES]);
+/// What an optimiser is given: a context, a view, the motion to fall back on, which axes move.
+type Way<'a> = (
+    &'a WindowContext<'a>,
+    &'a View,
+    &'a [AxisVector],
+    [bool; AXES],
+);
 
 fn attempt<const D: usize>(
     optimiser: &mut Option<Box<Optimiser<D>>>,
-    (setting, view, tail, moves): Way<'_>,
-) -> Option<Motion> {
+    (context, view, tail, moves): Way<'_>,
+) -> Option<WindowMotion> {
     let optimiser = optimiser.get_or_insert_with(|| Box::new(Optimiser::new()));
-    let origin = setting.history.last();
-    let is_path_end = setting.track.is_last(setting.end - 1);
-    let mut scene: Scene<D> = Scene::new(
-        setting.limits,
-        setting.track,
+    let origin = context.history.last();
+    let is_path_end = context.reference_path.is_last(context.end - 1);
+    let mut path: ScaledPath<D> = ScaledPath::new(
+        context.limits,
+        context.reference_path,
         view.pieces.clone(),
         origin,
         moves,
     );
-    scene.is_final |= view.is_halt;
+    path.is_final |= view.is_halt;
     let tail: Vec<_> = (0..view.intervals.max(tail.len() - 3) + 3)
         .filter_map(|k| tail.get(k).or(tail.last()))
-        .map(|point| scene.inside(point))
+        .map(|point| path.inside(point))
         .collect();
-    let piece = setting.progress.0 - scene.first;
-    let chord = scene.chords.get(piece)?;
-    let opening = Opening {
+    let piece = context.progress.0 - path.first;
+    let segment = path.segments.get(piece)?;
+    let window_start = WindowStart {
         tail: &tail,
-        keeps_rates: setting.keeps_rates,
+        keeps_rates: context.keeps_rates,
         piece,
-        progress: chord.s + chord.length * setting.progress.1,
-        passed: setting.follower.place.last() - scene.first,
-        grid: *setting.grid,
-        period_t: setting.period_t,
-        commit: setting.commit,
-        most_work: setting.most_work,
+        progress: segment.s + segment.length * context.progress.1,
+        passed: context.follower.reachable.last() - path.first,
+        grid: *context.grid,
+        period_t: context.period_t,
+        commit: context.commit,
+        most_work: context.most_work,
     };
-    let solution = optimiser.optimise(&scene, &opening, &mut |points, question| {
-        let points: Vec<_> = points.iter().map(|point| scene.outside(point)).collect();
-        passes(setting, &points, question)
+    let solution = optimiser.optimise(&path, &window_start, &mut |points, question| {
+        let points: Vec<_> = points.iter().map(|point| path.outside(point)).collect();
+        passes(context, &points, question)
     })?;
     let mut points: Vec<_> = solution
         .points
         .iter()
-        .map(|point| scene.outside(point))
+        .map(|point| path.outside(point))
         .collect();
     if solution.is_end {
-        end_exactly(setting, &mut points);
+        end_exactly(context, &mut points);
     }
-    Some(Motion {
+    Some(WindowMotion {
         points,
         is_rest: solution.is_end,
         is_end: solution.is_end && is_path_end,
@@ -207,28 +212,28 @@ fn attempt<const D: usize>(
 }
 
 /// The last control points are the end of what is in view, to the bit.
-fn end_exactly(setting: &Setting<'_>, points: &mut [AxisVector]) {
-    if let Some(last) = setting.track.get(setting.end - 1) {
+fn end_exactly(context: &WindowContext<'_>, points: &mut [AxisVector]) {
+    if let Some(last) = context.reference_path.get(context.end - 1) {
         let count = points.len();
         points[count - 3..].fill(last.end);
     }
 }
 
 /// Follows a motion to its rest.
-fn passes(setting: &Setting<'_>, points: &[AxisVector], question: Question) -> bool {
+fn passes(context: &WindowContext<'_>, points: &[AxisVector], question: Question) -> bool {
     let mut points = points.to_vec();
     if question == Question::IsEnd {
-        end_exactly(setting, &mut points);
+        end_exactly(context, &mut points);
     }
-    let mut history = setting.history.clone();
-    let mut follower = setting.follower.to(setting.end);
-    let periods = setting.grid.periods_in(points.len() - 3);
+    let mut history = context.history.clone();
+    let mut follower = context.follower.to(context.end);
+    let periods = context.grid.periods_in(points.len() - 3);
     for period in 1..=periods + 3 {
-        let next = setting.grid.state(&points, period);
-        let way = (setting.track, &mut follower);
-        if !history.follow(setting.limits, setting.period_t, way, &next) {
+        let next = context.grid.state(&points, period);
+        let way = (context.reference_path, &mut follower);
+        if !history.follow(context.limits, context.period_t, way, &next) {
             return false;
         }
     }
-    question == Question::IsValid || follower.place.is_at_end_of(setting.end - 1)
+    question == Question::IsValid || follower.reachable.is_at_end_of(context.end - 1)
 }

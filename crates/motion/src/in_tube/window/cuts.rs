@@ -6,7 +6,7 @@
 //! another.
 
 use super::samples::{Samples, WORTH_R, sample};
-use super::scene::{SHARP, Scene};
+use super::scaled_path::{SHARP, ScaledPath};
 use super::solver::{combine, dot};
 use super::spline::Grid;
 
@@ -106,20 +106,20 @@ impl<const D: usize> Cuts<D> {
     /// speed over the feed.
     pub(crate) fn learn(
         &mut self,
-        scene: &Scene<D>,
+        path: &ScaledPath<D>,
         samples: &Samples,
         points: &[[f64; D]],
         grid: &Grid,
     ) -> f64 {
         for k in 1..=samples.count() {
             let piece = samples.piece[k];
-            self.learn_sample(scene, (k, piece), &sample(points, grid, k));
+            self.learn_sample(path, (k, piece), &sample(points, grid, k));
             for i in samples.piece[k - 1]..piece {
-                let passing = nearest_to_corner(scene, points, (i, k, samples.count()), grid);
+                let passing = nearest_to_corner(path, points, (i, k, samples.count()), grid);
                 let off = passing.furthest();
-                let radius = scene.chords[i].radius.min(scene.chords[i + 1].radius);
+                let radius = path.segments[i].radius.min(path.segments[i + 1].radius);
                 let distance = dot(&off, &off).sqrt();
-                let worth_r = if scene.turn(i, i + 1) > SHARP {
+                let worth_r = if path.turn(i, i + 1) > SHARP {
                     WORTH_R
                 } else {
                     CLOSE_R
@@ -127,18 +127,18 @@ impl<const D: usize> Cuts<D> {
                 if distance > worth_r * radius {
                     let plane = Plane {
                         normal: off.map(|o| o / distance),
-                        center: scene.chords[i + 1].start,
+                        center: path.segments[i + 1].start,
                     };
                     self.corners[i].add(i, plane);
                 }
             }
         }
-        self.learn_feeds(scene, samples, points, grid)
+        self.learn_feeds(path, samples, points, grid)
     }
 
     fn learn_feeds(
         &mut self,
-        scene: &Scene<D>,
+        path: &ScaledPath<D>,
         samples: &Samples,
         points: &[[f64; D]],
         grid: &Grid,
@@ -146,7 +146,7 @@ impl<const D: usize> Cuts<D> {
         let mut most_r = 0.0_f64;
         self.feeds.resize(points.len(), [None; KEPT_DIRECTIONS]);
         for k in 2..points.len() - 3 {
-            let slowest = slowest_feed(scene, pieces_at(samples, grid, k));
+            let slowest = slowest_feed(path, pieces_at(samples, grid, k));
             let (size, direction) = velocity_over_feed(points, &slowest, k, grid);
             most_r = most_r.max(size);
             if size > WORTH_OF_FEED {
@@ -157,20 +157,20 @@ impl<const D: usize> Cuts<D> {
         most_r
     }
 
-    fn learn_sample(&mut self, scene: &Scene<D>, (k, piece): (usize, usize), y: &[f64; D]) {
-        let chord = &scene.chords[piece];
-        let offset: [f64; D] = core::array::from_fn(|a| y[a] - chord.start[a]);
-        let along = dot(&offset, &chord.tangent);
-        let x = along.clamp(0.0, chord.length);
+    fn learn_sample(&mut self, path: &ScaledPath<D>, (k, piece): (usize, usize), y: &[f64; D]) {
+        let segment = &path.segments[piece];
+        let offset: [f64; D] = core::array::from_fn(|a| y[a] - segment.start[a]);
+        let along = dot(&offset, &segment.tangent);
+        let x = along.clamp(0.0, segment.length);
         let is_beyond = (along - x).abs() > 0.0;
         // In a plane the sides of the tube are planes; far beyond an end its rows are what counts.
-        if (D == 2 && !is_beyond) || (along - x).abs() > chord.radius {
+        if (D == 2 && !is_beyond) || (along - x).abs() > segment.radius {
             return;
         }
-        let foot: [f64; D] = core::array::from_fn(|a| chord.start[a] + x * chord.tangent[a]);
+        let foot: [f64; D] = core::array::from_fn(|a| segment.start[a] + x * segment.tangent[a]);
         let across: [f64; D] = core::array::from_fn(|a| y[a] - foot[a]);
         let distance = dot(&across, &across).sqrt();
-        if distance > WORTH_R * chord.radius {
+        if distance > WORTH_R * segment.radius {
             let plane = Plane {
                 normal: across.map(|c| c / distance),
                 center: foot,
@@ -223,14 +223,14 @@ impl<const D: usize> Passing<D> {
 
 /// How a motion passes the corner at the end of piece `i` near sample `k` of so many.
 pub(crate) fn nearest_to_corner<const D: usize>(
-    scene: &Scene<D>,
+    path: &ScaledPath<D>,
     points: &[[f64; D]],
     (i, k, count): (usize, usize, usize),
     grid: &Grid,
 ) -> Passing<D> {
-    let mut best = passing(scene, points, (i, k), grid);
+    let mut best = passing(path, points, (i, k), grid);
     for k in k.saturating_sub(NEAR_PERIODS).max(1)..=(k + NEAR_PERIODS).min(count) {
-        let other = passing(scene, points, (i, k), grid);
+        let other = passing(path, points, (i, k), grid);
         if dot(&other.off, &other.off) < dot(&best.off, &best.off) {
             best = other;
         }
@@ -239,12 +239,12 @@ pub(crate) fn nearest_to_corner<const D: usize>(
 }
 
 fn passing<const D: usize>(
-    scene: &Scene<D>,
+    path: &ScaledPath<D>,
     points: &[[f64; D]],
     (i, k): (usize, usize),
     grid: &Grid,
 ) -> Passing<D> {
-    let vertex = &scene.chords[i + 1].start;
+    let vertex = &path.segments[i + 1].start;
     let at = |lambda: f64, part: f64| -> [f64; D] {
         let (first, weights) = grid.inner_site(k - 1, lambda, part);
         combine(points, first, &weights)
@@ -262,7 +262,7 @@ fn passing<const D: usize>(
     let mut half: [f64; D] = core::array::from_fn(|a| nearest[a] - motion[a]);
     let part = dot(&half, &along) / dot(&along, &along);
     if part.is_finite() {
-        let share = if scene.turn(i, i + 1) <= SHARP {
+        let share = if path.turn(i, i + 1) <= SHARP {
             1.0
         } else {
             straightness(points, grid, k)
@@ -310,13 +310,13 @@ pub(crate) fn piece_at(samples: &Samples, grid: &Grid, halves: usize) -> usize {
 
 /// Per axis, one over the feed of the slowest of some pieces, where the feed counts the axis.
 pub(crate) fn slowest_feed<const D: usize>(
-    scene: &Scene<D>,
+    path: &ScaledPath<D>,
     pieces: core::ops::RangeInclusive<usize>,
 ) -> [f64; D] {
     let mut slowest = [0.0_f64; D];
-    for chord in &scene.chords[pieces] {
+    for segment in &path.segments[pieces] {
         for a in 0..D {
-            slowest[a] = slowest[a].max(chord.feed_axes[a]);
+            slowest[a] = slowest[a].max(segment.feed_axes[a]);
         }
     }
     slowest

@@ -5,7 +5,7 @@
 //! on by a tube length an iteration. The cap at a vertex is the speed at which the turn fits into the
 //! tube: with jerk J a change of velocity takes the time τ, J·τ² = |Δt|·v, and strays by about J·τ³/4.
 
-use super::scene::Scene;
+use super::scaled_path::ScaledPath;
 use crate::scurve::{PathLimits, Profile, reachable_speed};
 
 /// Speed at and time of every vertex.
@@ -17,39 +17,39 @@ pub(crate) struct Guess {
 }
 
 impl Guess {
-    pub(crate) fn make<const D: usize>(&mut self, scene: &Scene<D>) {
-        self.caps(scene);
-        let count = scene.chords.len();
+    pub(crate) fn make<const D: usize>(&mut self, path: &ScaledPath<D>) {
+        self.caps(path);
+        let count = path.segments.len();
         self.slow_down(
             count,
-            |i| scene.chords[i].s,
-            |i| scene.chords[i].length,
-            |i| scene.chords[i].limits,
+            |i| path.segments[i].s,
+            |i| path.segments[i].length,
+            |i| path.segments[i].limits,
         );
         self.times.clear();
         self.times.push(0.0);
         let mut time = 0.0;
-        for (i, chord) in scene.chords.iter().enumerate() {
+        for (i, segment) in path.segments.iter().enumerate() {
             let (from, to) = (self.speeds[i], self.speeds[i + 1]);
-            let top = chord.top.max(from).max(to);
-            time += Profile::new(from, to, chord.length, top, chord.limits).map_or_else(
-                || 2.0 * chord.length / (from + to).max(1e-9 * chord.top),
+            let top = segment.top.max(from).max(to);
+            time += Profile::new(from, to, segment.length, top, segment.limits).map_or_else(
+                || 2.0 * segment.length / (from + to).max(1e-9 * segment.top),
                 |profile| profile.duration_t(),
             );
             self.times.push(time);
         }
     }
 
-    fn caps<const D: usize>(&mut self, scene: &Scene<D>) {
-        let chords = &scene.chords;
+    fn caps<const D: usize>(&mut self, path: &ScaledPath<D>) {
+        let segments = &path.segments;
         self.speeds.clear();
         self.speeds.push(0.0);
-        for i in 1..chords.len() {
-            let (before, after) = (&chords[i - 1], &chords[i]);
+        for i in 1..segments.len() {
+            let (before, after) = (&segments[i - 1], &segments[i]);
             let mut cap = before.top.min(after.top);
             for k in 0..D {
                 let jump = (after.tangent[k] - before.tangent[k]).abs();
-                let (a, j) = (scene.acceleration[k], scene.jerk[k]);
+                let (a, j) = (path.acceleration[k], path.jerk[k]);
                 let tau = (4.0 * before.radius.min(after.radius) / j)
                     .cbrt()
                     .min(2.0 * a / j);
@@ -103,8 +103,13 @@ impl Guess {
     }
 
     /// Where the guess is at a time; `hint` is the piece to look at first.
-    pub(crate) fn s_at<const D: usize>(&self, scene: &Scene<D>, t: f64, hint: &mut usize) -> f64 {
-        let count = scene.chords.len();
+    pub(crate) fn s_at<const D: usize>(
+        &self,
+        path: &ScaledPath<D>,
+        t: f64,
+        hint: &mut usize,
+    ) -> f64 {
+        let count = path.segments.len();
         while *hint + 1 < count && self.times[*hint + 1] <= t {
             *hint += 1;
         }
@@ -112,26 +117,26 @@ impl Guess {
             *hint -= 1;
         }
         let i = *hint;
-        let chord = &scene.chords[i];
+        let segment = &path.segments[i];
         let span = self.times[i + 1] - self.times[i];
         let x = if span > 0.0 {
             ((t - self.times[i]) / span).clamp(0.0, 1.0)
         } else {
             1.0
         };
-        let slope = |speed: f64| (speed * span / chord.length).min(3.0);
+        let slope = |speed: f64| (speed * span / segment.length).min(3.0);
         let (m0, m1) = (slope(self.speeds[i]), slope(self.speeds[i + 1]));
         let y = 1.0 - x;
         let part = x * x * (3.0 - 2.0 * x) + m0 * x * y * y - m1 * x * x * y;
-        chord.s + chord.length * part.clamp(0.0, 1.0)
+        segment.s + segment.length * part.clamp(0.0, 1.0)
     }
 
     /// When the guess is at a place of piece `i`.
-    pub(crate) fn t_at<const D: usize>(&self, scene: &Scene<D>, s: f64, i: usize) -> f64 {
+    pub(crate) fn t_at<const D: usize>(&self, path: &ScaledPath<D>, s: f64, i: usize) -> f64 {
         let (mut low, mut high) = (self.times[i], self.times[i + 1]);
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            if self.s_at(scene, middle, &mut i.clone()) < s {
+            if self.s_at(path, middle, &mut i.clone()) < s {
                 low = middle;
             } else {
                 high = middle;

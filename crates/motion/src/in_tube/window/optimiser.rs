@@ -12,13 +12,13 @@
 use super::budget;
 use super::cuts::Cuts;
 use super::guess::Guess;
-use super::opening::Opening;
-use super::rounds::{Found, Walk, hurried};
+use super::rounds::{BestMotion, RoundState, hurried};
 use super::samples::Samples;
-use super::scene::Scene;
+use super::scaled_path::ScaledPath;
 use super::solver::{Goal, Interior, Problem};
 use super::tube;
 use super::tube::{Extents, FEED_R, Layout, Style};
+use super::window_start::WindowStart;
 
 /// Rounds in which samples change pieces, and rounds in which they do not; what of the radius is used
 /// in them, and how strong the pull to the middle is.
@@ -109,63 +109,63 @@ impl<const D: usize> Optimiser<D> {
     /// A better motion than the tail, if one is found.
     pub(crate) fn optimise(
         &mut self,
-        scene: &Scene<D>,
-        opening: &Opening<'_, D>,
+        path: &ScaledPath<D>,
+        window_start: &WindowStart<'_, D>,
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
     ) -> Option<Solution<D>> {
-        self.guess.make(scene);
+        self.guess.make(path);
         for extents in &mut self.extents {
-            extents.clear(scene.chords.len());
+            extents.clear(path.segments.len());
         }
-        let intervals = opening.tail.len() - 3;
-        self.samples.reset(opening.grid.periods_in(intervals));
-        self.samples.progress[0] = opening.progress;
+        let intervals = window_start.tail.len() - 3;
+        self.samples.reset(window_start.grid.periods_in(intervals));
+        self.samples.progress[0] = window_start.progress;
         self.samples.project(
-            scene,
-            opening.tail,
-            opening.piece,
-            (&opening.grid, opening.period_t),
+            path,
+            window_start.tail,
+            window_start.piece,
+            (&window_start.grid, window_start.period_t),
             false,
         );
-        if !opening.keeps_rates {
-            self.samples.progress.fill(opening.progress);
+        if !window_start.keeps_rates {
+            self.samples.progress.fill(window_start.progress);
         }
         let tail_progress = self.samples.progress.clone();
         let tail_mean = self.samples.mean();
-        let (rest_at, stop_at) = opening.tail_ends(scene);
+        let (rest_at, stop_at) = window_start.tail_ends(path);
         let work = self.interior.work;
-        let allowance = budget::search(D, scene.is_final, opening.most_work);
+        let allowance = budget::search(D, path.is_final, window_start.most_work);
         self.interior.allow(allowance);
-        let mut found = Found { best: None };
+        let mut found = BestMotion { best: None };
         for attempt in 0..=PACES.len() {
             self.samples.progress.clone_from(&tail_progress);
             self.samples.forget();
-            self.cuts.clear(self.samples.count(), scene.chords.len());
+            self.cuts.clear(self.samples.count(), path.segments.len());
             let progress = &mut self.samples.progress;
             match PACES.get(attempt) {
                 Some(share) => {
                     let from = (stop_at, share * self.pace);
-                    opening.play_guess(scene, &self.guess, progress, from);
+                    window_start.play_guess(path, &self.guess, progress, from);
                 }
-                None => opening.play_stops(scene, progress, rest_at),
+                None => window_start.play_stops(path, progress, rest_at),
             }
-            self.iterate(scene, opening, attempt > 0, judge, &mut found);
+            self.iterate(path, window_start, attempt > 0, judge, &mut found);
             if found.best.is_some() || self.interior.is_spent() {
                 break;
             }
         }
-        let left_work = opening.most_work - (self.interior.work - work);
+        let left_work = window_start.most_work - (self.interior.work - work);
         self.interior.allow(budget::finish(D, left_work));
         let passed = found
             .best
             .filter(|(mean, ..)| rest_at == 0 || *mean >= tail_mean);
         let Some((_, points, samples)) = passed else {
             self.pace = (0.85 * self.pace).max(0.5);
-            return self.finish(scene, opening, opening.tail, &tail_progress, judge);
+            return self.finish(path, window_start, window_start.tail, &tail_progress, judge);
         };
-        let pace = opening.pace(scene, &self.guess, &samples.progress);
+        let pace = window_start.pace(path, &self.guess, &samples.progress);
         self.pace = 0.5 * (self.pace + (1.05 * pace).clamp(0.8, 2.5));
-        let finished = self.finish(scene, opening, &points, &samples.progress, judge);
+        let finished = self.finish(path, window_start, &points, &samples.progress, judge);
         if finished.is_some() {
             return finished;
         }
@@ -179,14 +179,14 @@ impl<const D: usize> Optimiser<D> {
     /// motion that passes. In the later rounds of a phase the samples stay where they are.
     fn iterate(
         &mut self,
-        scene: &Scene<D>,
-        opening: &Opening<'_, D>,
+        path: &ScaledPath<D>,
+        window_start: &WindowStart<'_, D>,
         is_careful: bool,
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
-        found: &mut Found<D>,
+        found: &mut BestMotion<D>,
     ) {
-        let mut walk = Walk {
-            points: opening.tail.to_vec(),
+        let mut round_state = RoundState {
+            points: window_start.tail.to_vec(),
             has_motion: false,
             is_exceeding: false,
             mean: f64::NEG_INFINITY,
@@ -199,41 +199,46 @@ impl<const D: usize> Optimiser<D> {
                     return;
                 }
                 if round <= phase.search {
-                    self.samples.give_out(scene, opening.piece);
+                    self.samples.give_out(path, window_start.piece);
                 }
                 let is_polish = round >= phase.search;
                 let is_wide = !is_polish && !is_careful;
                 let style = Style {
                     stray_r: if is_wide { SEARCH_STRAY_R } else { 1.0 },
-                    is_feed_firm: is_polish || walk.is_exceeding,
+                    is_feed_firm: is_polish || round_state.is_exceeding,
                     keep_r: phase.keep_r,
                     ridge: if is_polish && number > 0 {
-                        walk.firm_ridge(phase.ridge)
+                        round_state.firm_ridge(phase.ridge)
                     } else {
                         phase.ridge
                     },
-                    feed_r: if is_polish { walk.feed_r } else { FEED_R },
-                    ..opening.style(walk.has_motion)
+                    feed_r: if is_polish {
+                        round_state.feed_r
+                    } else {
+                        FEED_R
+                    },
+                    ..window_start.style(round_state.has_motion)
                 };
                 let given = self.samples.progress.clone();
                 let may_lead = round + 1 < phase.search;
-                let is_solved = self.take_round(scene, opening, &style, may_lead, &mut walk);
+                let is_solved =
+                    self.take_round(path, window_start, &style, may_lead, &mut round_state);
                 if is_polish && is_solved {
-                    walk.learn_feed(style.feed_r);
+                    round_state.learn_feed(style.feed_r);
                 }
-                let passes = is_solved && judge(&walk.points, Question::IsValid);
+                let passes = is_solved && judge(&round_state.points, Question::IsValid);
                 if passes {
-                    found.add(self.samples.mean(), &walk.points, &self.samples);
+                    found.add(self.samples.mean(), &round_state.points, &self.samples);
                 }
-                if passes && walk.has_settled(self.samples.mean(), opening.progress) {
+                if passes && round_state.has_settled(self.samples.mean(), window_start.progress) {
                     return;
                 }
-                walk.mean = self.samples.mean();
-                if is_polish && walk.is_exceeding && number > 0 && found.best.is_none() {
+                round_state.mean = self.samples.mean();
+                if is_polish && round_state.is_exceeding && number > 0 && found.best.is_none() {
                     // Samples are on pieces that the motion cannot reach in time.
                     return;
                 }
-                if is_polish && (passes || walk.is_exceeding) {
+                if is_polish && (passes || round_state.is_exceeding) {
                     break;
                 }
                 if !is_polish && self.samples.worst_r > 1.02 && round >= 2 {
@@ -246,32 +251,34 @@ impl<const D: usize> Optimiser<D> {
     /// Solves and projects. True if there is a solution.
     fn take_round(
         &mut self,
-        scene: &Scene<D>,
-        opening: &Opening<'_, D>,
+        path: &ScaledPath<D>,
+        window_start: &WindowStart<'_, D>,
         style: &Style,
         may_lead: bool,
-        walk: &mut Walk<D>,
+        round_state: &mut RoundState<D>,
     ) -> bool {
-        let mut next = walk.points.clone();
+        let mut next = round_state.points.clone();
         let is_exact = style.stray_r <= 1.0;
-        let is_solved = self.solve(scene, style, &mut next, false, is_exact);
+        let is_solved = self.solve(path, style, &mut next, false, is_exact);
         if is_solved {
-            walk.speed_r = self.cuts.learn(scene, &self.samples, &next, &opening.grid);
+            round_state.speed_r = self
+                .cuts
+                .learn(path, &self.samples, &next, &window_start.grid);
         }
-        walk.is_exceeding = self.interior.violation() > ENOUGH_VIOLATION;
-        let grid = (&opening.grid, opening.period_t);
+        round_state.is_exceeding = self.interior.violation() > ENOUGH_VIOLATION;
+        let grid = (&window_start.grid, window_start.period_t);
         self.samples
-            .project(scene, &next, opening.piece, grid, may_lead);
+            .project(path, &next, window_start.piece, grid, may_lead);
         if is_solved || self.samples.worst_r < 3.0 {
-            walk.points = next;
-            walk.has_motion = true;
+            round_state.points = next;
+            round_state.has_motion = true;
         }
         is_solved
     }
 
     fn solve(
         &mut self,
-        scene: &Scene<D>,
+        path: &ScaledPath<D>,
         style: &Style,
         points: &mut [[f64; D]],
         is_end_fixed: bool,
@@ -281,23 +288,23 @@ impl<const D: usize> Optimiser<D> {
         self.problem.clear(points.len() - 3, is_end_fixed);
         let keep = 1.0 - 2e-6;
         self.problem.bounds = [
-            scene.velocity_bounds().map(|v| v * h * keep),
-            scene.acceleration.map(|a| a * h * h * keep),
-            scene.jerk.map(|j| j * h * h * h * keep),
+            path.velocity_bounds().map(|v| v * h * keep),
+            path.acceleration.map(|a| a * h * h * keep),
+            path.jerk.map(|j| j * h * h * h * keep),
         ];
         let extents = &mut self.extents[usize::from(style.stray_r > 1.0)];
         let layout = Layout {
-            scene,
+            path,
             samples: &self.samples,
             cuts: &self.cuts,
             points,
             style,
         };
         tube::build(&mut self.problem, &layout, extents);
-        let top = scene
-            .chords
+        let top = path
+            .segments
             .iter()
-            .map(|chord| chord.top)
+            .map(|segment| segment.top)
             .fold(0.0, f64::max);
         let goal = Goal {
             mu: if is_exact { 1e-5 } else { 1e-4 },
@@ -310,25 +317,25 @@ impl<const D: usize> Optimiser<D> {
     /// If the motion comes to rest at the end of the path: the shortest one that rests exactly there.
     fn finish(
         &mut self,
-        scene: &Scene<D>,
-        opening: &Opening<'_, D>,
+        path: &ScaledPath<D>,
+        window_start: &WindowStart<'_, D>,
         points: &[[f64; D]],
         progress: &[f64],
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
     ) -> Option<Solution<D>> {
-        let last = scene.chords.last().filter(|_| scene.is_final)?;
-        let total = scene.length();
+        let last = path.segments.last().filter(|_| path.is_final)?;
+        let total = path.length();
         let near = 0.02 * last.radius + 1e-9 * total;
         let arrival = progress.iter().position(|&s| s >= total - near)?;
         let intervals = points.len() - 3;
-        let end = scene.vertex(scene.chords.len() - 1);
-        let multiple = opening.grid.knots;
-        let arrival = arrival * opening.grid.knots / opening.grid.periods;
+        let end = path.vertex(path.segments.len() - 1);
+        let multiple = window_start.grid.knots;
+        let arrival = arrival * window_start.grid.knots / window_start.grid.periods;
         let first = arrival.max(6).div_ceil(multiple) * multiple;
         let style = Style {
             is_centred: true,
             ridge: CENTRED_RIDGE,
-            ..opening.style(true)
+            ..window_start.style(true)
         };
         let mut shortest: Option<Vec<[f64; D]>> = None;
         let mut progress = progress.to_vec();
@@ -338,8 +345,8 @@ impl<const D: usize> Optimiser<D> {
                 break;
             }
             self.samples.progress.clone_from(&progress);
-            self.samples.cut(opening.grid.periods_in(count));
-            self.samples.give_out(scene, opening.piece);
+            self.samples.cut(window_start.grid.periods_in(count));
+            self.samples.give_out(path, window_start.piece);
             let mut next = match &shortest {
                 Some(longer) => hurried(longer, multiple, |a: &[f64; D], b, share| {
                     core::array::from_fn(|k| a[k] + share * (b[k] - a[k]))
@@ -348,13 +355,13 @@ impl<const D: usize> Optimiser<D> {
             };
             next[..3].copy_from_slice(&points[..3]);
             next[count..].fill(end);
-            let passes = self.finish_in(scene, opening, &style, &mut next, judge);
+            let passes = self.finish_in(path, window_start, &style, &mut next, judge);
             if passes {
                 // Then all of it a little faster.
-                let grid = (&opening.grid, opening.period_t);
+                let grid = (&window_start.grid, window_start.period_t);
                 self.samples
-                    .project(scene, &next, opening.piece, grid, false);
-                let fewer = opening.grid.periods_in(multiple);
+                    .project(path, &next, window_start.piece, grid, false);
+                let fewer = window_start.grid.periods_in(multiple);
                 progress = hurried(&self.samples.progress, fewer, |a, b, share| {
                     a + share * (b - a)
                 });
@@ -375,21 +382,22 @@ impl<const D: usize> Optimiser<D> {
     /// Makes a motion pass that rests at the end of the path after so many control points.
     fn finish_in(
         &mut self,
-        scene: &Scene<D>,
-        opening: &Opening<'_, D>,
+        path: &ScaledPath<D>,
+        window_start: &WindowStart<'_, D>,
         style: &Style,
         points: &mut [[f64; D]],
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
     ) -> bool {
         for _ in 0..FINISH_ROUNDS {
-            let is_solved = self.solve(scene, style, points, true, true);
+            let is_solved = self.solve(path, style, points, true, true);
             if !is_solved || self.interior.violation() > ENOUGH_VIOLATION {
                 return false;
             }
             if judge(points, Question::IsEnd) {
                 return true;
             }
-            self.cuts.learn(scene, &self.samples, points, &opening.grid);
+            self.cuts
+                .learn(path, &self.samples, points, &window_start.grid);
         }
         false
     }

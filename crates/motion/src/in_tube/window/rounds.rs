@@ -17,11 +17,11 @@ const LEAST_FEED_R: f64 = 0.995;
 
 /// The best motion so far.
 #[derive(Debug)]
-pub(crate) struct Found<const D: usize> {
+pub(crate) struct BestMotion<const D: usize> {
     pub(crate) best: Option<(f64, Vec<[f64; D]>, Samples)>,
 }
 
-impl<const D: usize> Found<D> {
+impl<const D: usize> BestMotion<D> {
     pub(crate) fn add(&mut self, mean: f64, points: &[[f64; D]], samples: &Samples) {
         if self.best.as_ref().is_none_or(|(most, ..)| mean > *most) {
             self.best = Some((mean, points.to_vec(), samples.clone()));
@@ -31,7 +31,7 @@ impl<const D: usize> Found<D> {
 
 /// Where an attempt is.
 #[derive(Debug)]
-pub(crate) struct Walk<const D: usize> {
+pub(crate) struct RoundState<const D: usize> {
     pub(crate) points: Vec<[f64; D]>,
     /// The points are a motion, and not only the tail to start from.
     pub(crate) has_motion: bool,
@@ -45,7 +45,7 @@ pub(crate) struct Walk<const D: usize> {
     pub(crate) feed_r: f64,
 }
 
-impl<const D: usize> Walk<D> {
+impl<const D: usize> RoundState<D> {
     /// Takes note of how far the last solution stands out of the planes that bound the feed, which it was
     /// planned with a share of: the next one is expected to stand out as far.
     ///

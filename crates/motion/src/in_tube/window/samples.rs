@@ -6,7 +6,7 @@
 //! the overlap of two tubes goes to the later one at once: the motion it has keeps the new rows too,
 //! and the next solution can use the room.
 
-use super::scene::Scene;
+use super::scaled_path::ScaledPath;
 use super::solver::{combine, dot};
 use super::spline::Grid;
 
@@ -25,9 +25,9 @@ const OF_HALVES: f64 = 0.25;
 pub(crate) struct Samples {
     /// Progress along the scene: where a sample is taken to be.
     pub(crate) progress: Vec<f64>,
-    /// Piece a sample must be given to at least.
+    /// TubePiece a sample must be given to at least.
     pub(crate) at_least: Vec<usize>,
-    /// Piece a sample is given to.
+    /// TubePiece a sample is given to.
     pub(crate) piece: Vec<usize>,
     /// Factor of the radius: below one where a sample has come out too far off.
     pub(crate) shrink: Vec<f64>,
@@ -86,7 +86,7 @@ impl Samples {
     /// What the motion bulges, next to sample `k`, out of chords whose ends are bounded: those of periods.
     /// With their middles bounded those of half periods on one piece, and at a corner of the part of a
     /// period that is on its side.
-    pub(crate) fn sagitta<const D: usize>(&self, scene: &Scene<D>, k: usize) -> f64 {
+    pub(crate) fn sagitta<const D: usize>(&self, path: &ScaledPath<D>, k: usize) -> f64 {
         let bulge_after = self.bulge.get(k + 1).copied().unwrap_or(0.0);
         if !self.bounds_middles {
             return f64::max(self.bulge[k], bulge_after);
@@ -95,20 +95,20 @@ impl Samples {
         let before = if self.is_on_one_piece(k) {
             OF_HALVES
         } else {
-            part_of(1.0 - self.share_before(scene, self.piece[k], k))
+            part_of(1.0 - self.share_before(path, self.piece[k], k))
         };
         let after = match self.piece.get(k + 1) {
             None => 0.0,
             Some(next) if *next == self.piece[k] => OF_HALVES,
-            Some(_) => part_of(self.share_before(scene, self.piece[k] + 1, k + 1)),
+            Some(_) => part_of(self.share_before(path, self.piece[k] + 1, k + 1)),
         };
         f64::max(before * self.bulge[k], after * bulge_after)
     }
 
     /// The share of the period before sample `k` that is before the start of a piece.
-    fn share_before<const D: usize>(&self, scene: &Scene<D>, piece: usize, k: usize) -> f64 {
+    fn share_before<const D: usize>(&self, path: &ScaledPath<D>, piece: usize, k: usize) -> f64 {
         let (from, to) = (self.progress[k - 1], self.progress[k]);
-        let share = (scene.chords[piece].s - from) / (to - from);
+        let share = (path.segments[piece].s - from) / (to - from);
         if share.is_finite() {
             share.clamp(0.0, 1.0)
         } else {
@@ -117,15 +117,15 @@ impl Samples {
     }
 
     /// Gives every sample to a piece by its progress.
-    pub(crate) fn give_out<const D: usize>(&mut self, scene: &Scene<D>, first: usize) {
-        let chords = &scene.chords;
+    pub(crate) fn give_out<const D: usize>(&mut self, path: &ScaledPath<D>, first: usize) {
+        let segments = &path.segments;
         let mut i = first;
         self.piece[0] = first;
         for k in 1..self.progress.len() {
-            while i + 1 < chords.len() {
-                let chord = &chords[i];
-                let hop = HOP_R * chord.radius.min(chord.length);
-                let is_past = self.progress[k] > chord.s + chord.length - hop;
+            while i + 1 < segments.len() {
+                let segment = &segments[i];
+                let hop = HOP_R * segment.radius.min(segment.length);
+                let is_past = self.progress[k] > segment.s + segment.length - hop;
                 if !is_past && self.at_least[k] <= i {
                     break;
                 }
@@ -139,7 +139,7 @@ impl Samples {
     /// sample that is already in the tube of the next piece will be given to that.
     pub(crate) fn project<const D: usize>(
         &mut self,
-        scene: &Scene<D>,
+        path: &ScaledPath<D>,
         points: &[[f64; D]],
         first: usize,
         (grid, period_t): (&Grid, f64),
@@ -151,19 +151,19 @@ impl Samples {
         let mut bend_before = 0.0;
         for k in 1..=self.count() {
             let y = sample(points, grid, k);
-            let (piece, s, distance) = nearest(scene, &y, at, period_t);
+            let (piece, s, distance) = nearest(path, &y, at, period_t);
             at = (piece, s);
             self.progress[k] = s;
             self.at_least[k] = 0;
             let (site, weights) = grid.bend_site(k);
-            let bend = across(scene, piece, &combine(points, site, &weights)) / 8.0;
+            let bend = across(path, piece, &combine(points, site, &weights)) / 8.0;
             self.bulge[k] = f64::max(bend, bend_before);
             bend_before = bend;
             self.is_middle_near[k] |=
-                self.bounds_middles && middle_r(scene, piece, points, grid, k) > WORTH_R;
-            let distance_r = distance / scene.chords[piece].radius;
+                self.bounds_middles && middle_r(path, piece, points, grid, k) > WORTH_R;
+            let distance_r = distance / path.segments[piece].radius;
             self.worst_r = self.worst_r.max(distance_r);
-            if may_lead && leads(scene, &y, piece, s) {
+            if may_lead && leads(path, &y, piece, s) {
                 self.at_least[k] = piece + 1;
             }
             if distance_r > 0.9995 && distance_r < 1.5 {
@@ -189,8 +189,8 @@ impl Samples {
 }
 
 /// The length of a vector across a piece.
-fn across<const D: usize>(scene: &Scene<D>, piece: usize, vector: &[f64; D]) -> f64 {
-    let tangent = &scene.chords[piece].tangent;
+fn across<const D: usize>(path: &ScaledPath<D>, piece: usize, vector: &[f64; D]) -> f64 {
+    let tangent = &path.segments[piece].tangent;
     let along = dot(vector, tangent);
     let rest: [f64; D] = core::array::from_fn(|a| vector[a] - along * tangent[a]);
     dot(&rest, &rest).sqrt()
@@ -198,7 +198,7 @@ fn across<const D: usize>(scene: &Scene<D>, piece: usize, vector: &[f64; D]) -> 
 
 /// How far the middle of the period before sample `k` is off the line of a piece, in radii.
 fn middle_r<const D: usize>(
-    scene: &Scene<D>,
+    path: &ScaledPath<D>,
     piece: usize,
     points: &[[f64; D]],
     grid: &Grid,
@@ -206,9 +206,9 @@ fn middle_r<const D: usize>(
 ) -> f64 {
     let (site, weights) = grid.inner_site(k - 1, 0.5, 0.0);
     let middle = combine(points, site, &weights);
-    let chord = &scene.chords[piece];
-    let offset = core::array::from_fn(|a| middle[a] - chord.start[a]);
-    across(scene, piece, &offset) / chord.radius
+    let segment = &path.segments[piece];
+    let offset = core::array::from_fn(|a| middle[a] - segment.start[a]);
+    across(path, piece, &offset) / segment.radius
 }
 
 /// The point of a sample.
@@ -219,30 +219,33 @@ pub(crate) fn sample<const D: usize>(points: &[[f64; D]], grid: &Grid, k: usize)
 
 /// The nearest place from `at` on that a sample can be at: piece, progress, distance.
 fn nearest<const D: usize>(
-    scene: &Scene<D>,
+    path: &ScaledPath<D>,
     y: &[f64; D],
     at: (usize, f64),
     step_t: f64,
 ) -> (usize, f64, f64) {
-    let chords = &scene.chords;
-    let ahead = 1.5 * chords[at.0].top * step_t + 2.0 * chords[at.0].radius;
+    let segments = &path.segments;
+    let ahead = 1.5 * segments[at.0].top * step_t + 2.0 * segments[at.0].radius;
     let mut best = (at.0, at.1, f64::INFINITY);
     let mut i = at.0;
-    while i < chords.len() && chords[i].s <= at.1 + ahead {
-        let chord = &chords[i];
-        let offset: [f64; D] = core::array::from_fn(|k| y[k] - chord.start[k]);
-        let low = (at.1 - chord.s).clamp(0.0, chord.length);
-        let x = dot(&offset, &chord.tangent).clamp(low, chord.length);
-        let across: [f64; D] = core::array::from_fn(|k| offset[k] - x * chord.tangent[k]);
+    while i < segments.len() && segments[i].s <= at.1 + ahead {
+        let segment = &segments[i];
+        let offset: [f64; D] = core::array::from_fn(|k| y[k] - segment.start[k]);
+        let low = (at.1 - segment.s).clamp(0.0, segment.length);
+        let x = dot(&offset, &segment.tangent).clamp(low, segment.length);
+        let across: [f64; D] = core::array::from_fn(|k| offset[k] - x * segment.tangent[k]);
         let distance = dot(&across, &across).sqrt();
-        if distance < best.2 - 1e-7 * chord.radius {
-            best = (i, chord.s + x, distance);
+        if distance < best.2 - 1e-7 * segment.radius {
+            best = (i, segment.s + x, distance);
         }
         // A path that folds back is not jumped over while the motion can still be before the fold.
-        let folds = chords
+        let folds = segments
             .get(i + 1)
-            .is_some_and(|next| dot(&chord.tangent, &next.tangent) < FOLD_COS);
-        if folds && best.2 <= chord.radius && best.1 < chord.s + chord.length - 0.5 * chord.radius {
+            .is_some_and(|next| dot(&segment.tangent, &next.tangent) < FOLD_COS);
+        if folds
+            && best.2 <= segment.radius
+            && best.1 < segment.s + segment.length - 0.5 * segment.radius
+        {
             break;
         }
         i += 1;
@@ -251,11 +254,11 @@ fn nearest<const D: usize>(
 }
 
 /// A sample near the end of a piece that is in the tube of the next one as well.
-fn leads<const D: usize>(scene: &Scene<D>, y: &[f64; D], piece: usize, s: f64) -> bool {
-    let Some(next) = scene.chords.get(piece + 1) else {
+fn leads<const D: usize>(path: &ScaledPath<D>, y: &[f64; D], piece: usize, s: f64) -> bool {
+    let Some(next) = path.segments.get(piece + 1) else {
         return false;
     };
-    let turn = scene.turn(piece, piece + 1);
+    let turn = path.turn(piece, piece + 1);
     if turn <= 0.05 || next.s - s >= 4.0 * next.radius / turn.min(1.0) {
         return false;
     }

@@ -85,7 +85,7 @@ impl Grid {
     }
 
     /// Interval and place in it of the end of a period, counted from a knot.
-    fn place(&self, period: usize) -> (usize, f64) {
+    fn interval_of(&self, period: usize) -> (usize, f64) {
         let steps = period * self.knots;
         #[expect(clippy::cast_precision_loss, reason = "at most eight")]
         let u = (steps % self.periods) as f64 / self.periods as f64;
@@ -94,7 +94,7 @@ impl Grid {
 
     /// First control point and weights of the end of a period.
     pub(crate) fn site(&self, period: usize) -> (usize, [f64; SPAN]) {
-        let (first, u) = self.place(period);
+        let (first, u) = self.interval_of(period);
         (first, widen(basis(u), 0))
     }
 
@@ -129,7 +129,7 @@ impl Grid {
 
     /// First control point and weights of the velocity at the end of a period, times the period.
     pub(crate) fn velocity_site(&self, period: usize) -> (usize, [f64; SPAN]) {
-        let (first, u) = self.place(period);
+        let (first, u) = self.interval_of(period);
         let ratio = self.ratio();
         (first, widen(basis_1(u).map(|w| w * ratio), 0))
     }
@@ -137,7 +137,7 @@ impl Grid {
     /// First control point and weights of the acceleration at the end of a period, times the square of
     /// the period.
     pub(crate) fn bend_site(&self, period: usize) -> (usize, [f64; SPAN]) {
-        let (first, u) = self.place(period);
+        let (first, u) = self.interval_of(period);
         let ratio = self.ratio();
         (first, widen(basis_2(u).map(|w| w * ratio * ratio), 0))
     }
@@ -174,7 +174,7 @@ impl Grid {
 
     /// Position at the end of a period, counted from the first knot of the control points.
     pub(crate) fn position(&self, points: &[AxisVector], period: usize) -> AxisVector {
-        let (first, u) = self.place(period);
+        let (first, u) = self.interval_of(period);
         let is_at_rest = points.len() >= 3 && first + 3 >= points.len();
         match points.last() {
             Some(last) if is_at_rest => *last,
@@ -184,7 +184,7 @@ impl Grid {
 
     /// Velocity and acceleration there.
     pub(crate) fn derivatives(&self, points: &[AxisVector], period: usize) -> [AxisVector; 2] {
-        let (first, u) = self.place(period);
+        let (first, u) = self.interval_of(period);
         let t = self.knot_t;
         [
             Self::weigh(points, first, widen(basis_1(u), 0)) / t,

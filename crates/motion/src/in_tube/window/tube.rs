@@ -23,7 +23,7 @@ use super::cuts::{
     slowest_feed, velocity_over_feed,
 };
 use super::samples::Samples;
-use super::scene::{SHARP, Scene};
+use super::scaled_path::{SHARP, ScaledPath};
 use super::solver::{FAR, Problem, dot};
 use super::spline::Grid;
 
@@ -69,25 +69,31 @@ impl Extents {
     }
 
     /// How far the line of a piece goes on before its start and beyond its end.
-    fn of<const D: usize>(&mut self, scene: &Scene<D>, i: usize, style: &Style) -> [f64; 2] {
+    fn of<const D: usize>(&mut self, path: &ScaledPath<D>, i: usize, style: &Style) -> [f64; 2] {
         if let Some(span) = self.spans[i] {
             return span;
         }
-        let chord = &scene.chords[i];
-        let stray = 0.5 * style.stray_r * chord.radius;
-        let cap = 4.0 * chord.top * style.grid.knot_t;
-        let last = scene.chords.len() - 1;
+        let segment = &path.segments[i];
+        let stray = 0.5 * style.stray_r * segment.radius;
+        let cap = 4.0 * segment.top * style.grid.knot_t;
+        let last = path.segments.len() - 1;
         let over = if i < last {
-            let ahead = (i + 1..=last).map(|j| scene.vertex(j));
-            extent(&scene.vertex(i), &chord.tangent, ahead, stray, cap)
+            let ahead = (i + 1..=last).map(|j| path.vertex(j));
+            extent(&path.vertex(i), &segment.tangent, ahead, stray, cap)
         } else {
             0.0
         };
         let back = if i > 0 {
-            let behind = (0..i).rev().map(|j| scene.chords[j].start);
-            extent(&chord.start, &chord.tangent.map(|t| -t), behind, stray, cap)
+            let behind = (0..i).rev().map(|j| path.segments[j].start);
+            extent(
+                &segment.start,
+                &segment.tangent.map(|t| -t),
+                behind,
+                stray,
+                cap,
+            )
         } else {
-            0.3 * chord.radius
+            0.3 * segment.radius
         };
         self.spans[i] = Some([back, over]);
         [back, over]
@@ -128,7 +134,7 @@ fn extent<const D: usize>(
 /// What rows are made from.
 #[derive(Debug)]
 pub(crate) struct Layout<'a, const D: usize> {
-    pub(crate) scene: &'a Scene<D>,
+    pub(crate) path: &'a ScaledPath<D>,
     /// Given out.
     pub(crate) samples: &'a Samples,
     pub(crate) cuts: &'a Cuts<D>,
@@ -144,7 +150,7 @@ pub(crate) fn build<const D: usize>(
     extents: &mut Extents,
 ) {
     let Layout {
-        scene,
+        path,
         samples,
         style,
         ..
@@ -153,20 +159,20 @@ pub(crate) fn build<const D: usize>(
     let share = 1.0 / samples.count() as f64;
     for k in 1..=samples.count() {
         let i = samples.piece[k];
-        let chord = &scene.chords[i];
+        let segment = &path.segments[i];
         let (first, weights) = style.grid.site(k);
         problem.add_site(first, weights);
-        let span = extents.of(scene, i, style);
+        let span = extents.of(path, i, style);
         add_tube(problem, layout, k, span);
         let aim = if style.is_centred {
             0.0
         } else {
-            share / (chord.top * style.period_t)
+            share / (segment.top * style.period_t)
         };
         for (offset, weight) in weights.into_iter().enumerate().take(4) {
             if let Some(aims) = problem.aims.get_mut(first + offset) {
                 for a in 0..D {
-                    aims[a] += aim * weight * chord.tangent[a];
+                    aims[a] += aim * weight * segment.tangent[a];
                 }
             }
         }
@@ -185,21 +191,21 @@ fn add_tube<const D: usize>(
     [back, over]: [f64; 2],
 ) {
     let piece = layout.samples.piece[k];
-    let chord = &layout.scene.chords[piece];
-    let sagitta = layout.samples.sagitta(layout.scene, k);
-    let sagitta = sagitta.min(MOST_SAGITTA_R * chord.radius);
-    let radius = (chord.radius * layout.style.keep_r - sagitta) * layout.samples.shrink[k];
+    let segment = &layout.path.segments[piece];
+    let sagitta = layout.samples.sagitta(layout.path, k);
+    let sagitta = sagitta.min(MOST_SAGITTA_R * segment.radius);
+    let radius = (segment.radius * layout.style.keep_r - sagitta) * layout.samples.shrink[k];
     if let Some(site) = problem.sites.last_mut() {
         site.ridge = layout.style.ridge / (radius * radius);
-        site.center = chord.start;
-        site.tangent = chord.tangent;
+        site.center = segment.start;
+        site.tangent = segment.tangent;
     }
-    for normal in &chord.normals[..D - 1] {
-        problem.add_row(normal.map(|n| n / radius), &chord.start, [-1.0, 1.0]);
+    for normal in &segment.normals[..D - 1] {
+        problem.add_row(normal.map(|n| n / radius), &segment.start, [-1.0, 1.0]);
     }
     let scale = 4.0 * radius;
-    let ends = [-back / scale, (chord.length + over) / scale];
-    problem.add_row(chord.tangent.map(|t| t / scale), &chord.start, ends);
+    let ends = [-back / scale, (segment.length + over) / scale];
+    problem.add_row(segment.tangent.map(|t| t / scale), &segment.start, ends);
     for plane in layout.cuts.of_sample(k, piece) {
         let normal = plane.normal.map(|n| n / radius);
         problem.add_row(normal, &plane.center, [-FAR, 1.0]);
@@ -218,11 +224,11 @@ fn add_middle<const D: usize>(
     radius: f64,
 ) {
     let piece = layout.samples.piece[k];
-    let chord = &layout.scene.chords[piece];
+    let segment = &layout.path.segments[piece];
     let (first, weights) = layout.style.grid.inner_site(k - 1, 0.5, 0.0);
     problem.add_site(first, weights);
-    for normal in &chord.normals[..D - 1] {
-        problem.add_row(normal.map(|n| n / radius), &chord.start, [-1.0, 1.0]);
+    for normal in &segment.normals[..D - 1] {
+        problem.add_row(normal.map(|n| n / radius), &segment.start, [-1.0, 1.0]);
     }
     let planes = [k - 1, k].map(|k| layout.cuts.of_sample(k, piece));
     for plane in planes.into_iter().flatten() {
@@ -234,7 +240,7 @@ fn add_middle<const D: usize>(
 /// The line from the sample before `k` to sample `k` comes near the corners between.
 fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: usize) {
     let Layout {
-        scene,
+        path,
         samples,
         points,
         style,
@@ -243,13 +249,13 @@ fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>,
     let (from, to) = (samples.piece[k - 1].max(style.passed), samples.piece[k]);
     let mut corners: Vec<(f64, usize, Option<Passing<D>>)> = (from..to)
         .filter_map(|i| {
-            let turn = scene.turn(i, i + 1);
+            let turn = path.turn(i, i + 1);
             if !style.has_motion {
                 return (turn > SHARP).then_some((turn, i, None));
             }
-            let passing = nearest_to_corner(scene, points, (i, k, samples.count()), &style.grid);
+            let passing = nearest_to_corner(path, points, (i, k, samples.count()), &style.grid);
             let off = passing.furthest();
-            let distance_r = dot(&off, &off).sqrt() / corner_radius(scene, i, style);
+            let distance_r = dot(&off, &off).sqrt() / corner_radius(path, i, style);
             // A corner once close stays in, or else it would come and go from round to round.
             let is_close = distance_r > CLOSE_R || layout.cuts.of_corner(i).next().is_some();
             (turn > SHARP || is_close).then_some((distance_r, i, Some(passing)))
@@ -257,8 +263,8 @@ fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>,
         .collect();
     corners.sort_by(|a, b| b.0.total_cmp(&a.0));
     for (_, i, passing) in corners.iter().take(MOST_CORNERS) {
-        let (before, after) = (&scene.chords[*i], &scene.chords[i + 1]);
-        let radius = corner_radius(scene, *i, style);
+        let (before, after) = (&path.segments[*i], &path.segments[i + 1]);
+        let radius = corner_radius(path, *i, style);
         let (k, lambda) = passing
             .as_ref()
             .map_or((k, 0.5), |passing| (passing.sample, passing.lambda));
@@ -272,7 +278,7 @@ fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>,
             site.ridge = style.ridge / (radius * radius);
             site.center = after.start;
         }
-        let turn = scene.turn(*i, i + 1);
+        let turn = path.turn(*i, i + 1);
         let inwards = (turn > 1e-6).then(|| Plane {
             normal: core::array::from_fn(|a| (after.tangent[a] - before.tangent[a]) / turn),
             center: after.start,
@@ -286,14 +292,14 @@ fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>,
 }
 
 /// The part that is used of the tolerance of the corner at the end of piece `i`.
-fn corner_radius<const D: usize>(scene: &Scene<D>, i: usize, style: &Style) -> f64 {
-    scene.chords[i].radius.min(scene.chords[i + 1].radius) * style.keep_r
+fn corner_radius<const D: usize>(path: &ScaledPath<D>, i: usize, style: &Style) -> f64 {
+    path.segments[i].radius.min(path.segments[i + 1].radius) * style.keep_r
 }
 
 /// Feed, and no running back, for every first difference that is not given.
 fn add_feeds<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
     let Layout {
-        scene,
+        path,
         samples,
         points,
         style,
@@ -304,14 +310,14 @@ fn add_feeds<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
         let middle = piece_at(samples, grid, 2 * k - 1);
         let bends_here = (piece_at(samples, grid, 2 * k - 3)
             ..piece_at(samples, grid, 2 * k + 1 + grid.knots))
-            .any(|i| scene.turn(i, i + 1) > SHARP);
-        let scale = scene.chords[middle].feed_axes;
-        let slowest = slowest_feed(scene, pieces_at(samples, grid, k));
+            .any(|i| path.turn(i, i + 1) > SHARP);
+        let scale = path.segments[middle].feed_axes;
+        let slowest = slowest_feed(path, pieces_at(samples, grid, k));
         let factor = (0..D)
             .filter(|&a| scale[a] > 0.0)
             .fold(1.0_f64, |most, a| most.max(slowest[a] / scale[a]));
         problem.add_site(k, [-1.0, 1.0, 0.0, 0.0, 0.0]);
-        let normal = scene.chords[middle].feed.map(|f| f * factor / h);
+        let normal = path.segments[middle].feed.map(|f| f * factor / h);
         let low = if bends_here { -FAR } else { 0.0 };
         problem.add_feed_row(normal, [low, style.feed_r], style.is_feed_firm);
         // The feed bounds a ball of velocities: a plane touches it where the last motion was, and

@@ -5,7 +5,7 @@
 
 use super::kept_blocks::KeptBlocks;
 use super::pending::Pending;
-use crate::on_path::junction::{Joint, chord_error_mm, join};
+use crate::on_path::junction::{Junction, chord_error_mm, join};
 use crate::on_path::pieces::Element;
 use crate::on_path::pieces::{CurveRule, SpeedRule};
 use crate::on_path::pieces::{Piece, Shape};
@@ -52,13 +52,13 @@ impl Assembly {
         }
     }
 
-    /// Decides the joint between two segments and puts out all of the first.
+    /// Decides the junction between two segments and puts out all of the first.
     pub(crate) fn join(&mut self, before: Pending, next: &mut Pending, out: &mut Vec<Element>) {
-        let joint = join(before.ending(), next.starting(), &self.settings);
+        let junction = join(before.ending(), next.starting(), &self.settings);
         let (line, rates) = (before.last_line(), [before.rate, next.rate]);
-        match joint {
-            Joint::Straight => self.put_segment(before, 0.0, out),
-            Joint::Stop { exact } => {
+        match junction {
+            Junction::Straight => self.put_segment(before, 0.0, out),
+            Junction::Stop { exact } => {
                 self.put_segment(before, 0.0, out);
                 let kind = if exact {
                     RestKind::ExactStop
@@ -69,7 +69,7 @@ impl Assembly {
                 self.put_stops(stops, out);
                 out.push(Element::Rest(Rest { kind, line }));
             }
-            Joint::Blend {
+            Junction::Blend {
                 transition,
                 trim_s,
                 curve,
@@ -89,17 +89,17 @@ impl Assembly {
         }
     }
 
-    /// Puts out the segment that waits: it is left without a joint.
+    /// Puts out the segment that waits: it is left without a junction.
     pub(crate) fn put_pending(&mut self, out: &mut Vec<Element>) {
         if let Some(pending) = self.pending.take() {
             self.put_segment(pending, 0.0, out);
         }
     }
 
-    /// Puts out what is left of a segment after both its joints.
+    /// Puts out what is left of a segment after both its junctions.
     fn put_segment(&self, pending: Pending, trim_end_s: f64, out: &mut Vec<Element>) {
         let length_s = pending.length_s - pending.trimmed_s - trim_end_s;
-        // Half is the most a joint takes, so nothing left means rounding of two halves.
+        // Half is the most a junction takes, so nothing left means rounding of two halves.
         if length_s <= 1e-12 * pending.length_s {
             return;
         }

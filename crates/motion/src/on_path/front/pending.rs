@@ -1,6 +1,6 @@
 //! A segment that waits for what follows it.
 
-use crate::on_path::junction::Leg;
+use crate::on_path::junction::JunctionSide;
 use crate::programmed_rate::ProgrammedRate;
 use glidepath_geometry::Segment;
 use glidepath_program::{Event, PathMode};
@@ -17,29 +17,29 @@ pub(crate) struct Pending {
     /// The lines of further blocks on it, and where on it they start.
     pub lines: Vec<(f64, u32)>,
     pub mode: PathMode,
-    /// Length at the start that the joint before has replaced.
+    /// Length at the start that the junction before has replaced.
     pub trimmed_s: f64,
     pub events: Vec<Event>,
     /// How far it is from the program, mm.
     pub error_mm: f64,
-    /// Whether it continues a curve at its start, and is continued by one at its end: then the joint
+    /// Whether it continues a curve at its start, and is continued by one at its end: then the junction
     /// at the other end may take all of it.
     pub continues: [bool; 2],
 }
 
 impl Pending {
-    /// The segment as one that a joint ends.
-    pub(crate) const fn ending(&self) -> Leg<'_> {
-        self.leg(self.continues[0])
+    /// The segment as one that a junction ends.
+    pub(crate) const fn ending(&self) -> JunctionSide<'_> {
+        self.side(self.continues[0])
     }
 
-    /// The segment as one that a joint starts.
-    pub(crate) const fn starting(&self) -> Leg<'_> {
-        self.leg(self.continues[1])
+    /// The segment as one that a junction starts.
+    pub(crate) const fn starting(&self) -> JunctionSide<'_> {
+        self.side(self.continues[1])
     }
 
-    const fn leg(&self, is_whole: bool) -> Leg<'_> {
-        Leg {
+    const fn side(&self, is_whole: bool) -> JunctionSide<'_> {
+        JunctionSide {
             segment: &self.segment,
             mode: self.mode,
             length_s: self.length_s,

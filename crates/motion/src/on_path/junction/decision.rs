@@ -3,7 +3,7 @@
 //! A transition takes a length d from both segments. The longer it is, the faster it can be driven
 //! and the further it leaves the program, so d is the largest that keeps within
 //!
-//! * half of each segment (the other half belongs to the joint at its other end, if there is one),
+//! * half of each segment (the other half belongs to the junction at its other end, if there is one),
 //! * the tolerance: deviation of the curve plus the chord error of driving it at its top speed,
 //!
 //! and no longer than needed for the programmed rate. Deviation is measured between points of equal
@@ -12,7 +12,7 @@
 //! A sharp corner is driven at constant speed: it is a valley of the speed anyway, and all of the
 //! limits go into following it. On a gentle one the speed may change, so that a run of short
 //! segments can be accelerated through. Where coming to rest at the corner costs less time than
-//! the transition, the joint is a stop.
+//! the transition, the junction is a stop.
 
 use super::stop_or_pass::{Side, stop_is_faster};
 use crate::on_path::pieces::{CurveRule, SpeedLimit, straight_limit};
@@ -21,13 +21,13 @@ use glidepath_geometry::{
 };
 use glidepath_program::{PathMode, Settings, Smoothing, tolerance_norm};
 
-/// One of the two segments of a joint.
+/// One of the two segments of a junction.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Leg<'a> {
+pub(crate) struct JunctionSide<'a> {
     pub segment: &'a Segment,
     pub mode: PathMode,
     pub length_s: f64,
-    /// The most of it that the joint may take.
+    /// The most of it that the junction may take.
     pub share_s: f64,
     /// Wanted rate, overrides included.
     pub rate_v: f64,
@@ -41,7 +41,7 @@ pub(crate) struct Leg<'a> {
     clippy::large_enum_variant,
     reason = "short-lived, one per corner, never stored in bulk"
 )]
-pub(crate) enum Joint {
+pub(crate) enum Junction {
     /// The segments continue each other.
     Straight,
     /// The machine rests at the corner; if `exact`, with a setpoint exactly there.
@@ -60,7 +60,7 @@ const GENTLE_SB: f64 = 0.2588;
 const REVERSAL_CB: f64 = 0.035;
 /// Halvings of each search for d: its relative accuracy is 2⁻¹⁴.
 const HALVINGS: u32 = 14;
-/// An arc gives at most this angle to a joint, so that the polynomial stays close to it.
+/// An arc gives at most this angle to a junction, so that the polynomial stays close to it.
 const ARC_SHARE_RAD: f64 = 0.6;
 /// Points at which the deviation and the speed of a general transition are measured, and the margins
 /// for the places between them.
@@ -76,20 +76,20 @@ enum Family {
 }
 
 /// Decides how `from` is joined to `to`: in the path mode of `from`.
-pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, settings: &Settings) -> Joint {
+pub(crate) fn join(from: JunctionSide<'_>, to: JunctionSide<'_>, settings: &Settings) -> Junction {
     let rate_v = from.rate_v.min(to.rate_v);
     let jet_in = from.segment.jet(from.length_s);
     let jet_out = to.segment.jet(0.0);
     let tolerance_mm = from.mode.tolerance_mm(settings);
     let stop_wanted = match from.mode {
-        PathMode::ExactStop => return Joint::Stop { exact: true },
+        PathMode::ExactStop => return Junction::Stop { exact: true },
         // A chord from a loose stretch must not reach into a tight one.
         PathMode::Continuous { .. }
             if tolerance_mm
                 .total_cmp(&to.mode.tolerance_mm(settings))
                 .is_ne() =>
         {
-            return Joint::Stop { exact: true };
+            return Junction::Stop { exact: true };
         }
         PathMode::ExactPath => true,
         PathMode::Continuous { .. } => settings.smoothing == Smoothing::ExactStop,
@@ -97,10 +97,10 @@ pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, settings: &Settings) -> Joint {
     let step_d1 = jet_out.d1 - jet_in.d1;
     let step_d2 = jet_out.d2 - jet_in.d2;
     if continues(&step_d1, &step_d2, &jet_in.d1, rate_v, settings) {
-        return Joint::Straight;
+        return Junction::Straight;
     }
     let turn = Turn::between(&jet_in.d1, &jet_out.d1);
-    let stop = Joint::Stop {
+    let stop = Junction::Stop {
         exact: from.mode == PathMode::ExactPath
             || cut_by_chord_mm(&jet_in.d1, &jet_out.d1, settings) > 0.5 * tolerance_mm,
     };
@@ -126,7 +126,7 @@ pub(crate) fn join(from: Leg<'_>, to: Leg<'_>, settings: &Settings) -> Joint {
         settings,
     };
     match corner.best() {
-        Some(found) if !corner.stop_is_faster(&found) => Joint::Blend {
+        Some(found) if !corner.stop_is_faster(&found) => Junction::Blend {
             transition: found.transition,
             trim_s: found.d_s,
             curve: found.curve,
@@ -170,8 +170,8 @@ fn continues(
 
 /// A corner for which a transition is sought.
 struct Corner<'a> {
-    from: Leg<'a>,
-    to: Leg<'a>,
+    from: JunctionSide<'a>,
+    to: JunctionSide<'a>,
     t1: AxisVector,
     t2: AxisVector,
     rate_v: f64,
@@ -309,7 +309,7 @@ impl Corner<'_> {
     /// Whether resting at the corner costs less time than the transition.
     fn stop_is_faster(&self, found: &Candidate) -> bool {
         let limits = &self.settings.limits;
-        let side = |leg: Leg<'_>, tangent: &AxisVector| {
+        let side = |leg: JunctionSide<'_>, tangent: &AxisVector| {
             let SpeedLimit { top_v, change, .. } = straight_limit(tangent, leg.rate_v, limits);
             Side {
                 length_s: leg.length_s,
@@ -332,7 +332,7 @@ fn greatest_stretch(transition: &Transition) -> f64 {
         .fold(1.0, f64::max)
 }
 
-/// The most an arc may give to a joint.
+/// The most an arc may give to a junction.
 fn arc_share(segment: &Segment) -> f64 {
     match segment {
         Segment::Line(_) | Segment::Curve(_) => f64::INFINITY,

@@ -18,18 +18,18 @@ pub(crate) fn stop_is_faster(sides: &[Side; 2], corner_v: f64, transition_s: f64
     {
         return false;
     }
-    let [rest, next_rest] = sides.map(|side| Leg::new(side, 0.0, corner_v));
+    let [rest, next_rest] = sides.map(|side| TimedSide::new(side, 0.0, corner_v));
     if stop_gain_t([&rest, &next_rest], transition_s) > 0.0 {
         return true;
     }
-    let [fast, next_fast] = sides.map(|side| Leg::new(side, side.fast_v(corner_v), corner_v));
+    let [fast, next_fast] = sides.map(|side| TimedSide::new(side, side.fast_v(corner_v), corner_v));
     [
         [&fast, &next_rest],
         [&rest, &next_fast],
         [&fast, &next_fast],
     ]
     .into_iter()
-    .any(|legs| stop_gain_t(legs, transition_s) > 0.0)
+    .any(|both| stop_gain_t(both, transition_s) > 0.0)
 }
 
 /// A segment beside a corner.
@@ -58,7 +58,7 @@ impl Side {
 }
 
 /// A side with a speed at its far end.
-struct Leg {
+struct TimedSide {
     side: Side,
     far_v: f64,
     /// What the far end leaves of the speed of the corner.
@@ -68,7 +68,7 @@ struct Leg {
     passing_t: Option<f64>,
 }
 
-impl Leg {
+impl TimedSide {
     fn new(side: Side, far_v: f64, corner_v: f64) -> Self {
         let corner_v = corner_v.min(reachable_speed(far_v, side.left_s, side.change));
         Self {
@@ -92,9 +92,9 @@ impl Leg {
 }
 
 /// What stopping at the corner gains over passing it by a transition of that length, s.
-fn stop_gain_t(legs: [&Leg; 2], transition_s: f64) -> f64 {
-    let corner_v = legs[0].corner_v.min(legs[1].corner_v);
-    match legs.map(|leg| leg.loss_t(corner_v)) {
+fn stop_gain_t(both: [&TimedSide; 2], transition_s: f64) -> f64 {
+    let corner_v = both[0].corner_v.min(both[1].corner_v);
+    match both.map(|side| side.loss_t(corner_v)) {
         [Some(first), Some(second)] => transition_s / corner_v + first + second,
         _ => 0.0,
     }

@@ -4,11 +4,11 @@ use super::settled::Settled;
 use crate::on_path::pieces::{Piece, Shape};
 use crate::on_path::speed::Run;
 use crate::on_path::speed::{Course, Leg};
-use crate::on_path::speed::{drive_together, hasten};
+use crate::on_path::speed::{boost_limits, drive_together};
 use glidepath_program::Limits;
 
 /// Runs that are driven together, and how.
-pub(crate) struct Group {
+pub(crate) struct JoinedRuns {
     pieces: Vec<Piece>,
     legs: Vec<Leg>,
 }
@@ -16,18 +16,18 @@ pub(crate) struct Group {
 /// Most pieces that are driven together.
 const MOST_TOGETHER: usize = 512;
 
-impl Group {
+impl JoinedRuns {
     pub(crate) fn new(run: Run, (entry_v, exit_v): (f64, f64), limits: &Limits) -> Self {
         let course = Course::new(&run.pieces);
         let mut legs = run.drive(&course, entry_v, exit_v);
-        hasten(&mut legs, &course, limits);
+        boost_limits(&mut legs, &course, limits);
         Self {
             pieces: run.pieces,
             legs,
         }
     }
 
-    /// Takes in the next group if the last leg of this and the first of that are driven faster
+    /// Takes in the next joined if the last leg of this and the first of that are driven faster
     /// together; gives it back if not.
     pub(crate) fn join(&mut self, mut next: Self, limits: &Limits) -> Option<Self> {
         let count = self.pieces.len();
@@ -49,7 +49,7 @@ impl Group {
             _ => None,
         };
         if let Some(mut legs) = together {
-            hasten(&mut legs, &course, limits);
+            boost_limits(&mut legs, &course, limits);
             self.legs.pop();
             self.legs.extend(legs);
             self.legs.extend(others);

@@ -12,7 +12,7 @@
 //! from which one could stop, one may be unable to slow down just a little. Then the motion follows
 //! the plan that was made when its speed was settled, which ends at rest, until it meets the new one.
 
-use super::joined_runs::Group;
+use super::joined_runs::JoinedRuns;
 use super::settled::Settled;
 use super::stop_at_each::drive_each;
 use crate::on_path::pieces::Element;
@@ -256,24 +256,24 @@ impl Scheduler {
             return;
         }
         let planned_v = self.forward_pass(&self.backward_pass());
-        let mut group: Option<Group> = None;
+        let mut joined: Option<JoinedRuns> = None;
         for &exit_v in planned_v.iter().take(count) {
             let Some(run) = self.waiting.pop_front() else {
                 break;
             };
             self.waiting_s -= run.slowing_room_s();
             self.waiting_pieces -= run.pieces.len();
-            let next = Group::new(run, (self.entry_v, exit_v), &self.limits);
+            let next = JoinedRuns::new(run, (self.entry_v, exit_v), &self.limits);
             self.entry_v = exit_v;
-            let done = match &mut group {
-                Some(group) => group
+            let done = match &mut joined {
+                Some(joined) => joined
                     .join(next, &self.limits)
-                    .map(|next| core::mem::replace(group, next)),
-                None => group.replace(next),
+                    .map(|next| core::mem::replace(joined, next)),
+                None => joined.replace(next),
             };
-            out.extend(done.map(Group::settled));
+            out.extend(done.map(JoinedRuns::settled));
         }
-        out.extend(group.map(Group::settled));
+        out.extend(joined.map(JoinedRuns::settled));
         self.planned_v.clear();
         self.planned_v.extend(planned_v.into_iter().skip(count));
         if self.waiting.is_empty() {

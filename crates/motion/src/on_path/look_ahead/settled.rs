@@ -3,7 +3,7 @@
 use crate::on_path::pieces::Element;
 use crate::on_path::pieces::Piece;
 use crate::on_path::speed::Leg;
-use crate::on_path::topp::Law;
+use crate::on_path::topp::Parametrisation;
 use crate::rest::Rest;
 
 /// A part of the motion that nothing later changes.
@@ -11,8 +11,11 @@ use crate::rest::Rest;
 pub(crate) enum Settled {
     /// Drive these pieces with these S-curves.
     Motion { pieces: Vec<Piece>, legs: Vec<Leg> },
-    /// Drive these pieces by this law.
-    Lawful { pieces: Vec<Piece>, law: Law },
+    /// Drive these pieces by this parametrisation.
+    Parametrised {
+        pieces: Vec<Piece>,
+        parametrisation: Parametrisation,
+    },
     /// Rest.
     Rest(Rest),
 }
@@ -22,7 +25,9 @@ impl Settled {
     pub(crate) fn duration_t(&self) -> f64 {
         match self {
             Self::Motion { legs, .. } => legs.iter().map(|leg| leg.profile.duration_t()).sum(),
-            Self::Lawful { law, .. } => law.duration_t(),
+            Self::Parametrised {
+                parametrisation, ..
+            } => parametrisation.duration_t(),
             Self::Rest(_) => 0.0,
         }
     }
@@ -30,7 +35,7 @@ impl Settled {
     /// What it was made of.
     pub(crate) fn elements(&self) -> Vec<Element> {
         match self {
-            Self::Motion { pieces, .. } | Self::Lawful { pieces, .. } => {
+            Self::Motion { pieces, .. } | Self::Parametrised { pieces, .. } => {
                 pieces.iter().cloned().map(Element::Piece).collect()
             }
             Self::Rest(rest) => vec![Element::Rest(*rest)],

@@ -7,12 +7,12 @@
 //! limits are tried for the S-curves between them, and what they demand of every axis is computed
 //! piece by piece. The strongest that keeps all limits is taken:
 //!
-//! * for each S-curve by itself ([`hasten`]);
+//! * for each S-curve by itself ([`boost_limits`]);
 //! * for neighbouring runs together ([`drive_together`]), so that the junction between them need not
 //!   be passed without acceleration.
 
 use super::course::{Course, Leg};
-use super::valley_first::{Limiting, Span, ValleyFirst};
+use super::valley_first::{Limiting, Section, ValleyFirst};
 use crate::on_path::pieces::{Piece, Shape};
 use crate::scurve::{PathLimits, Profile};
 use glidepath_program::Limits;
@@ -102,7 +102,7 @@ fn duration_t(legs: &[Leg]) -> f64 {
 }
 
 /// Replaces S-curves by faster ones over the same path between the same speeds.
-pub(crate) fn hasten(legs: &mut [Leg], course: &Course<'_>, limits: &Limits) {
+pub(crate) fn boost_limits(legs: &mut [Leg], course: &Course<'_>, limits: &Limits) {
     let pieces = course.pieces;
     for leg in legs {
         let to_s = leg.from_s + leg.profile.length_s();
@@ -145,13 +145,13 @@ pub(crate) fn drive_together(
     course: &Course<'_>,
     limits: &Limits,
 ) -> Option<Vec<Leg>> {
-    let span = Span {
+    let section = Section {
         from_s: before.from_s,
         to_s: after.from_s + after.profile.length_s(),
         entry_v: before.profile.entry_v(),
         exit_v: after.profile.exit_v(),
     };
-    let touched = course.touched(span.from_s, span.to_s);
+    let touched = course.touched(section.from_s, section.to_s);
     let pieces = &course.pieces[touched.clone()];
     let (safe, alone) = weakest(pieces)?;
     let apart_t = before.profile.duration_t() + after.profile.duration_t();
@@ -168,7 +168,7 @@ pub(crate) fn drive_together(
                 caps_v: &caps_v,
                 limiting: Limiting::Fixed(trial.limits(safe, alone)),
             };
-            let Some(legs) = valley.drive(span) else {
+            let Some(legs) = valley.drive(section) else {
                 return Verdict::Breaks;
             };
             if duration_t(&legs) >= below_t * LESS_R {

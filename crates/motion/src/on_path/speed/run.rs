@@ -6,7 +6,7 @@
 //! first ([`crate::valley`]).
 
 use super::course::{Course, Leg};
-use super::valley_first::{Limiting, SPEED_ROUNDING_R, Span, ValleyFirst};
+use super::valley_first::{Limiting, SPEED_ROUNDING_R, Section, ValleyFirst};
 use crate::on_path::pieces::Piece;
 use crate::on_path::pieces::SpeedLimit;
 use crate::scurve::{PathLimits, Profile, ramp_fits, reachable_speed, slowing_horizon};
@@ -147,7 +147,7 @@ impl Run {
             }));
             return legs;
         }
-        let span = Span {
+        let section = Section {
             from_s: 0.0,
             to_s: course.length_s(),
             entry_v,
@@ -159,6 +159,6 @@ impl Run {
             caps_v: &caps_v,
             limiting: Limiting::Weakest(self.change),
         };
-        valley.drive(span).unwrap_or_default()
+        valley.drive(section).unwrap_or_default()
     }
 }

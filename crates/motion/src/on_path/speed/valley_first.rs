@@ -41,7 +41,7 @@ pub(crate) struct ValleyFirst<'a> {
 
 /// A part of the course, to be driven from one speed to another.
 #[derive(Clone, Copy)]
-pub(crate) struct Span {
+pub(crate) struct Section {
     pub from_s: f64,
     pub to_s: f64,
     pub entry_v: f64,
@@ -49,66 +49,74 @@ pub(crate) struct Span {
 }
 
 impl ValleyFirst<'_> {
-    /// S-curves along a span; `None` if it is too short for the change of speed.
-    pub(crate) fn drive(&self, span: Span) -> Option<Vec<Leg>> {
+    /// S-curves along a section; `None` if it is too short for the change of speed.
+    pub(crate) fn drive(&self, section: Section) -> Option<Vec<Leg>> {
         let (Limiting::Weakest(outer) | Limiting::Fixed(outer)) = self.limiting;
         let mut legs = Vec::new();
-        self.drive_span(span, outer, &mut legs)?;
+        self.drive_section(section, outer, &mut legs)?;
         Some(legs)
     }
 
-    fn touched(&self, span: Span) -> core::ops::Range<usize> {
-        self.course.touched(span.from_s, span.to_s)
+    fn touched(&self, section: Section) -> core::ops::Range<usize> {
+        self.course.touched(section.from_s, section.to_s)
     }
 
-    fn own_limits(&self, span: Span, outer: PathLimits) -> PathLimits {
+    fn own_limits(&self, section: Section, outer: PathLimits) -> PathLimits {
         let Limiting::Weakest(_) = self.limiting else {
             return outer;
         };
-        self.course.pieces[self.touched(span)]
+        self.course.pieces[self.touched(section)]
             .iter()
             .map(|piece| piece.limit.change)
             .reduce(PathLimits::weaker)
             .unwrap_or(outer)
     }
 
-    fn drive_span(&self, span: Span, outer: PathLimits, legs: &mut Vec<Leg>) -> Option<()> {
-        let own = self.own_limits(span, outer);
-        let (used, profile, violated) = self.unbounded(span, own, outer)?;
+    fn drive_section(
+        &self,
+        section: Section,
+        outer: PathLimits,
+        legs: &mut Vec<Leg>,
+    ) -> Option<()> {
+        let own = self.own_limits(section, outer);
+        let (used, profile, violated) = self.unbounded(section, own, outer)?;
         let Some(slowest) = violated else {
             legs.push(Leg {
-                from_s: span.from_s,
+                from_s: section.from_s,
                 profile,
             });
             return Some(());
         };
-        let cap_v = self.caps_v[slowest].max(span.entry_v).max(span.exit_v);
-        let capped = Self::profile(span, cap_v, used)?;
+        let cap_v = self.caps_v[slowest]
+            .max(section.entry_v)
+            .max(section.exit_v);
+        let capped = Self::profile(section, cap_v, used)?;
         let (cruise_from_s, cruise_to_s) = capped.cruise_s();
-        let (cruise_from_s, cruise_to_s) = (span.from_s + cruise_from_s, span.from_s + cruise_to_s);
+        let (cruise_from_s, cruise_to_s) =
+            (section.from_s + cruise_from_s, section.from_s + cruise_to_s);
         let before_s = self.course.starts_s[slowest].min(cruise_to_s);
         let after_s = self.course.starts_s[slowest + 1].max(cruise_from_s);
 
-        let mut middle = span;
-        if before_s >= cruise_from_s && before_s > span.from_s {
-            self.drive_span(
-                Span {
+        let mut middle = section;
+        if before_s >= cruise_from_s && before_s > section.from_s {
+            self.drive_section(
+                Section {
                     to_s: before_s,
                     exit_v: cap_v,
-                    ..span
+                    ..section
                 },
                 used,
                 legs,
             )?;
-            middle = Span {
+            middle = Section {
                 from_s: before_s,
                 entry_v: cap_v,
                 ..middle
             };
         }
-        let goes_on = after_s <= cruise_to_s && after_s < span.to_s;
+        let goes_on = after_s <= cruise_to_s && after_s < section.to_s;
         if goes_on {
-            middle = Span {
+            middle = Section {
                 to_s: after_s,
                 exit_v: cap_v,
                 ..middle
@@ -119,11 +127,11 @@ impl ValleyFirst<'_> {
             profile: Self::profile(middle, cap_v, used)?,
         });
         if goes_on {
-            self.drive_span(
-                Span {
+            self.drive_section(
+                Section {
                     from_s: after_s,
                     entry_v: cap_v,
-                    ..span
+                    ..section
                 },
                 used,
                 legs,
@@ -132,23 +140,23 @@ impl ValleyFirst<'_> {
         Some(())
     }
 
-    /// The S-curve with only the ends given, by the span's own limits, or by those of the span it
+    /// The S-curve with only the ends given, by the section's own limits, or by those of the section it
     /// was cut from where its own make it too fast on a piece slower than its ends.
     fn unbounded(
         &self,
-        span: Span,
+        section: Section,
         own: PathLimits,
         outer: PathLimits,
     ) -> Option<(PathLimits, Profile, Option<usize>)> {
-        let ends_v = span.entry_v.max(span.exit_v);
-        let highest_v = self.caps_v[self.touched(span)]
+        let ends_v = section.entry_v.max(section.exit_v);
+        let highest_v = self.caps_v[self.touched(section)]
             .iter()
             .copied()
             .fold(ends_v, f64::max);
         let mut found = None;
         for limits in [own, outer] {
-            let profile = Self::profile(span, highest_v, limits)?;
-            let violated = self.slowest_violated(span, &profile);
+            let profile = Self::profile(section, highest_v, limits)?;
+            let violated = self.slowest_violated(section, &profile);
             found = Some((limits, profile, violated));
             let sound =
                 violated.is_none_or(|m| self.caps_v[m] >= ends_v * (1.0 - SPEED_ROUNDING_R));
@@ -159,27 +167,27 @@ impl ValleyFirst<'_> {
         found
     }
 
-    fn profile(span: Span, top_v: f64, limits: PathLimits) -> Option<Profile> {
+    fn profile(section: Section, top_v: f64, limits: PathLimits) -> Option<Profile> {
         Profile::new(
-            span.entry_v,
-            span.exit_v,
-            span.to_s - span.from_s,
+            section.entry_v,
+            section.exit_v,
+            section.to_s - section.from_s,
             top_v,
             limits,
         )
     }
 
-    fn slowest_violated(&self, span: Span, profile: &Profile) -> Option<usize> {
+    fn slowest_violated(&self, section: Section, profile: &Profile) -> Option<usize> {
         let mut slowest: Option<usize> = None;
-        for m in self.touched(span) {
+        for m in self.touched(section) {
             let top_v = self.caps_v[m];
             if profile.peak_v() <= top_v * (1.0 + SPEED_ROUNDING_R)
                 || slowest.is_some_and(|s| self.caps_v[s] <= top_v)
             {
                 continue;
             }
-            let from_s = self.course.starts_s[m].max(span.from_s) - span.from_s;
-            let to_s = self.course.starts_s[m + 1].min(span.to_s) - span.from_s;
+            let from_s = self.course.starts_s[m].max(section.from_s) - section.from_s;
+            let to_s = self.course.starts_s[m + 1].min(section.to_s) - section.from_s;
             let greatest_v = profile.greatest_speed_between(from_s, to_s);
             if greatest_v > top_v * (1.0 + SPEED_ROUNDING_R) {
                 slowest = Some(m);

@@ -1,9 +1,9 @@
 //! Runs of blocks through the stages of the compressor.
 
-use super::chords::Chords;
 use super::marks::Change;
 use super::output::{Output, Part};
-use super::shares::Tube;
+use super::sample_layout::SampleLayout;
+use super::shares::ToleranceShares;
 use super::thinning::{Thinning, Vertex};
 use core::ops::Range;
 use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ};
@@ -11,18 +11,18 @@ use glidepath_program::Settings;
 
 /// A run of blocks over some of the axes.
 #[derive(Debug)]
-struct RunOf<const D: usize> {
+struct StagesOver<const D: usize> {
     thinning: Thinning<D>,
-    chords: Chords<D>,
+    layout: SampleLayout<D>,
     /// What the first block held back by merging changes.
     change: Option<Change>,
 }
 
-impl<const D: usize> RunOf<D> {
-    fn new(tube: Tube, start: &AxisVector) -> Self {
+impl<const D: usize> StagesOver<D> {
+    fn new(shares: ToleranceShares, start: &AxisVector) -> Self {
         Self {
-            thinning: Thinning::new(tube.merge_mm, tube.feed_axes.clone(), first_axes(start)),
-            chords: Chords::new(tube),
+            thinning: Thinning::new(shares.merge_mm, shares.feed_axes.clone(), first_axes(start)),
+            layout: SampleLayout::new(shares),
             change: None,
         }
     }
@@ -33,7 +33,7 @@ impl<const D: usize> RunOf<D> {
             line,
         };
         if let Some(chord) = self.thinning.push(vertex, change.is_some()) {
-            self.chords.push(chord, self.change.take(), out);
+            self.layout.push(chord, self.change.take(), out);
         }
         if change.is_some() {
             self.change = change;
@@ -42,9 +42,9 @@ impl<const D: usize> RunOf<D> {
 
     fn finish(&mut self, out: &mut Output) {
         if let Some(chord) = self.thinning.flush() {
-            self.chords.push(chord, self.change.take(), out);
+            self.layout.push(chord, self.change.take(), out);
         }
-        self.chords.finish(out);
+        self.layout.finish(out);
     }
 }
 
@@ -55,15 +55,15 @@ fn first_axes<const D: usize>(point: &AxisVector) -> [f64; D] {
 /// A run, over as many axes as need be.
 #[derive(Debug)]
 #[allow(clippy::large_enum_variant, reason = "there is one of them")]
-enum Run {
-    Linear(RunOf<3>),
-    All(RunOf<AXES>),
+enum Stages {
+    Linear(StagesOver<3>),
+    All(StagesOver<AXES>),
 }
 
 /// Compresses runs of blocks.
 #[derive(Debug)]
 pub(crate) struct Compressor {
-    run: Run,
+    stages: Stages,
     output: Output,
 }
 
@@ -77,36 +77,36 @@ impl Compressor {
         tolerance_mm: f64,
         settings: &Settings,
     ) -> Self {
-        let tube = Tube::new(tolerance_mm, settings, feed_axes.clone());
-        let output = Output::new(start, tube.merge_mm);
-        let run = if is_linear && feed_axes == LINEAR_XYZ {
-            Run::Linear(RunOf::new(tube, &start))
+        let shares = ToleranceShares::new(tolerance_mm, settings, feed_axes.clone());
+        let output = Output::new(start, shares.merge_mm);
+        let stages = if is_linear && feed_axes == LINEAR_XYZ {
+            Stages::Linear(StagesOver::new(shares, &start))
         } else {
-            Run::All(RunOf::new(tube, &start))
+            Stages::All(StagesOver::new(shares, &start))
         };
-        Self { run, output }
+        Self { stages, output }
     }
 
     /// True if the axes of this displacement can move in the run.
     pub(crate) fn takes(&self, displacement: &AxisVector) -> bool {
         let is_linear = displacement.iter().skip(LINEAR_XYZ.end).all(|x| *x == 0.0);
-        is_linear || matches!(self.run, Run::All(_))
+        is_linear || matches!(self.stages, Stages::All(_))
     }
 
     /// The next block: a line to a point at least a rounding error away. `change` is there for the
     /// first block, and where its rate is another than that of the block before or events happen.
     pub(crate) fn push(&mut self, end: &AxisVector, line: u32, change: Option<Change>) {
-        match &mut self.run {
-            Run::Linear(run) => run.push(end, line, change, &mut self.output),
-            Run::All(run) => run.push(end, line, change, &mut self.output),
+        match &mut self.stages {
+            Stages::Linear(stages) => stages.push(end, line, change, &mut self.output),
+            Stages::All(stages) => stages.push(end, line, change, &mut self.output),
         }
     }
 
     /// The run ends: everything is put out.
     pub(crate) fn finish(&mut self) {
-        match &mut self.run {
-            Run::Linear(run) => run.finish(&mut self.output),
-            Run::All(run) => run.finish(&mut self.output),
+        match &mut self.stages {
+            Stages::Linear(stages) => stages.finish(&mut self.output),
+            Stages::All(stages) => stages.finish(&mut self.output),
         }
     }
 

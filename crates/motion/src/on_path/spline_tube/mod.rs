@@ -8,7 +8,7 @@
 //!
 //! 1. nearly collinear chords are merged within a twentieth of the tolerance (`thinning`);
 //! 2. vertices that turn too much for a smooth curve are kept as corners, long chords keep a line in
-//!    their middle (`chords`), and the rest is sampled;
+//!    their middle (`sample_layout`), and the rest is sampled;
 //! 3. the spline of least jerk that stays in the tube around the chords is fitted in a window of
 //!    samples (`window`, `fit`), one half of which is put out each time;
 //! 4. nothing is put out without a proof that it is in the tube, both ways and in order
@@ -21,7 +21,6 @@
 
 mod banded;
 mod certificate;
-mod chords;
 mod compressor;
 mod driver;
 mod fit;
@@ -29,6 +28,7 @@ mod knots;
 mod marks;
 mod output;
 mod resort;
+mod sample_layout;
 mod shares;
 #[cfg(test)]
 mod tests;

@@ -34,7 +34,7 @@ impl<const D: usize> Window<D> {
         } else {
             start_t
         };
-        if after.foot_t - from_t <= 5e-3 * self.tube.tolerance_mm || foot_t <= frozen_t {
+        if after.foot_t - from_t <= 5e-3 * self.shares.tolerance_mm || foot_t <= frozen_t {
             return false;
         }
         let passed_u = if j == 1 { self.passed_u } else { 0.0 };
@@ -87,7 +87,7 @@ impl<const D: usize> Window<D> {
             out.line(
                 (&from, &sample.point),
                 along_t,
-                self.tube.merge_mm + self.tube.allowed_mm,
+                self.shares.merge_mm + self.shares.allowed_mm,
                 [false; 2],
             );
             (from, from_t) = (sample.point, sample.along_t);

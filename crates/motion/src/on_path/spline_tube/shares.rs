@@ -17,7 +17,7 @@ const LONGEST_R: f64 = 1250.0;
 
 /// The tube a curve has to stay in.
 #[derive(Debug, Clone)]
-pub(super) struct Tube {
+pub(super) struct ToleranceShares {
     /// The tolerance of the program, everything together, mm.
     pub(super) tolerance_mm: f64,
     /// What merging may use of it.
@@ -30,7 +30,7 @@ pub(super) struct Tube {
     pub(super) feed_axes: Range<usize>,
 }
 
-impl Tube {
+impl ToleranceShares {
     pub(super) fn new(tolerance_mm: f64, settings: &Settings, feed_axes: Range<usize>) -> Self {
         // The chord of one period is a·T²/8 away from a curve that takes all of an axis' limit.
         let period_t = settings.period_t;

@@ -27,7 +27,7 @@ pub(super) struct Vertex<const D: usize> {
 
 /// A merged chord.
 #[derive(Debug, Clone)]
-pub(super) struct Chord<const D: usize> {
+pub(super) struct MergedChord<const D: usize> {
     pub(super) start: [f64; D],
     pub(super) end: [f64; D],
     pub(super) length_t: f64,
@@ -59,7 +59,7 @@ impl<const D: usize> Thinning<D> {
 
     /// Takes the next vertex; gives a chord if the vertex is not on the same. With `apart` the chord
     /// before ends here whatever comes.
-    pub(super) fn push(&mut self, next: Vertex<D>, apart: bool) -> Option<Chord<D>> {
+    pub(super) fn push(&mut self, next: Vertex<D>, apart: bool) -> Option<MergedChord<D>> {
         let done = if apart || !self.reaches(&next.point) {
             self.flush()
         } else {
@@ -70,7 +70,7 @@ impl<const D: usize> Thinning<D> {
     }
 
     /// The chord held back, if any.
-    pub(super) fn flush(&mut self) -> Option<Chord<D>> {
+    pub(super) fn flush(&mut self) -> Option<MergedChord<D>> {
         let end = self.held.last()?.point;
         let chord = minus(&end, &self.anchor);
         let length_t = norm(&chord);
@@ -84,7 +84,7 @@ impl<const D: usize> Thinning<D> {
             error_mm2 = error_mm2.max(tolerance_square(&add_scaled(&offset, -from_u, &chord)));
         }
         let start = mem::replace(&mut self.anchor, end);
-        Some(Chord {
+        Some(MergedChord {
             start,
             end,
             length_t,

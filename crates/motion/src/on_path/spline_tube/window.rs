@@ -18,7 +18,7 @@
 use super::fit::{Sample, Spline};
 use super::knots::{DEGREE, bezier, greville};
 use super::output::Output;
-use super::shares::Tube;
+use super::shares::ToleranceShares;
 use super::vector::{add_scaled, between, minus, norm};
 use core::f64::consts::{PI, TAU};
 
@@ -52,7 +52,7 @@ const MOST_FACTOR: f64 = 100.0;
 /// The window.
 #[derive(Debug)]
 pub(super) struct Window<const D: usize> {
-    pub(super) tube: Tube,
+    pub(super) shares: ToleranceShares,
     pub(super) samples: Vec<Sample<D>>,
     /// Knots t₋₃ … t_m, each once.
     pub(super) knots: Vec<f64>,
@@ -70,9 +70,9 @@ pub(super) struct Window<const D: usize> {
 }
 
 impl<const D: usize> Window<D> {
-    pub(super) fn new(tube: Tube) -> Self {
+    pub(super) fn new(shares: ToleranceShares) -> Self {
         Self {
-            tube,
+            shares,
             samples: Vec::with_capacity(MOST_SAMPLES + 2),
             knots: Vec::with_capacity(MOST_SAMPLES + 2 * DEGREE),
             spline: Spline::new(),
@@ -203,10 +203,10 @@ impl<const D: usize> Window<D> {
                     &self.samples,
                     spans,
                     self.passed_u,
-                    &self.tube.feed_axes,
+                    &self.shares.feed_axes,
                     &mut self.errors_mm,
                 );
-                if verdict.worst_mm <= self.tube.allowed_mm {
+                if verdict.worst_mm <= self.shares.allowed_mm {
                     (self.chord, self.passed_u) = (verdict.chord, verdict.passed_u);
                     return None;
                 }
@@ -224,9 +224,9 @@ impl<const D: usize> Window<D> {
     /// certificate has failed only raises, most of all beside the worst chord.
     fn weigh(&mut self, worst: Option<usize>) {
         let boost = if worst.is_some() { 3.0 } else { 1.0 };
-        let longest = (TAU / self.tube.longest_mm).powi(6);
+        let longest = (TAU / self.shares.longest_mm).powi(6);
         for sample in self.samples.iter_mut().skip(1) {
-            let ratio = sample.error_mm / self.tube.target_mm;
+            let ratio = sample.error_mm / self.shares.target_mm;
             let wanted = ratio * ratio.sqrt();
             let factor = if ratio > 1.0 {
                 (boost * wanted).min(MOST_FACTOR)

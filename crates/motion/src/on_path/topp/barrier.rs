@@ -1,6 +1,6 @@
 //! Newton's method with a logarithmic barrier, over the coefficients of b.
 
-use super::constraints::{Problem, Row};
+use super::constraints::{Constraint, Problem};
 
 /// The weight of the time at the start, in limits for the time that the start takes.
 const START: f64 = 5.0;
@@ -15,13 +15,13 @@ const HALVINGS: u32 = 40;
 /// What is left to gain in the end, as a share of the time.
 const GAP_R: f64 = 2e-5;
 
-/// Coefficients of a law that keeps all limits and takes near the least time, from one that keeps
+/// Coefficients of a time parametrisation that keeps all limits and takes near the least time, from one that keeps
 /// them with room to spare; `None` if the start does not.
 pub(crate) fn solve(problem: &Problem, start: Vec<f64>) -> Option<Vec<f64>> {
     let mut x = start;
     let time_t = problem.time(&x);
     let count = problem.knots() as f64;
-    let mut weight = START * problem.rows.len() as f64 / time_t;
+    let mut weight = START * problem.constraints.len() as f64 / time_t;
     let last = 3.0 * count / (GAP_R * time_t);
     let mut value = merit(problem, &x, weight)?;
     let mut newton = Newton::new(x.len());
@@ -49,16 +49,16 @@ pub(crate) fn solve(problem: &Problem, start: Vec<f64>) -> Option<Vec<f64>> {
 /// Weighted time and barrier; `None` where a limit is broken.
 fn merit(problem: &Problem, x: &[f64], weight: f64) -> Option<f64> {
     let mut sum = 0.0;
-    // Products of a few slacks: one logarithm for several rows.
+    // Products of a few slacks: one logarithm for several constraints.
     let mut product = 1.0_f64;
-    for row in &problem.rows {
-        let slack = row.slack(x);
+    for constraint in &problem.constraints {
+        let slack = constraint.slack(x);
         // Refuses what is not a number, too.
         let is_kept = slack > 0.0;
         if !is_kept {
             return None;
         }
-        product *= slack / row.limit;
+        product *= slack / constraint.limit;
         if !(1e-100..=1e100).contains(&product) {
             sum -= product.ln();
             product = 1.0;
@@ -96,9 +96,14 @@ impl Newton {
             let bend = 0.75 * weight * knot.share_s / (b * b * root);
             self.add(knot.first, &knot.of, slope, bend);
         }
-        for row in &problem.rows {
-            let (slack, slope) = row.slack_and_slope(x);
-            self.add(row.first, &slope, -1.0 / slack, 1.0 / (slack * slack));
+        for constraint in &problem.constraints {
+            let (slack, slope) = constraint.slack_and_slope(x);
+            self.add(
+                constraint.first,
+                &slope,
+                -1.0 / slack,
+                1.0 / (slack * slack),
+            );
         }
         // The two coefficients at either end are given.
         let count = x.len();
@@ -196,7 +201,7 @@ impl Newton {
     }
 }
 
-impl Row {
+impl Constraint {
     fn dot(of: &[f64; 3], x: &[f64; 3]) -> f64 {
         of[0] * x[0] + of[1] * x[1] + of[2] * x[2]
     }

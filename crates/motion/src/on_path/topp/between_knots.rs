@@ -1,12 +1,12 @@
-//! What a law demands of the axes between its knots, where the problem has no rows.
+//! What a time parametrisation demands of the axes between its knots, where the problem has no constraints.
 //!
-//! The rows hold at knots. Where the path bends within the time from one knot to the next, as in the
+//! The constraints hold at knots. Where the path bends within the time from one knot to the next, as in the
 //! curve that replaces a corner, acceleration and jerk may be larger between them. So what was
-//! optimised is looked at in between, and where it demands too much the rows of the intervals around
-//! are given a smaller share of the limits, and the law is made anew.
+//! optimised is looked at in between, and where it demands too much the constraints of the intervals around
+//! are given a smaller share of the limits, and the parametrisation is made anew.
 
 use super::interval::Interval;
-use super::parametrisation::{Law, Span};
+use super::parametrisation::{MotionPhase, Parametrisation};
 use crate::on_path::speed::Course;
 use glidepath_program::Limits;
 
@@ -15,9 +15,9 @@ const PLACES: u32 = 8;
 /// Taken off more than was exceeded, for the places between these.
 const MORE_R: f64 = 1e-3;
 
-/// The largest share of a limit of an axis that is used on a span of a law.
+/// The largest share of a limit of an axis that is used on a phase of a time parametrisation.
 fn worst(
-    span: &Span,
+    phase: &MotionPhase,
     duration_t: f64,
     interval: &Interval,
     course: &Course<'_>,
@@ -27,9 +27,9 @@ fn worst(
     let from_s = course.starts_s[interval.piece];
     let mut worst = 0.0_f64;
     for k in 0..=PLACES {
-        let state = span.at(duration_t * f64::from(k) / f64::from(PLACES));
+        let state = phase.at(duration_t * f64::from(k) / f64::from(PLACES));
         let (v, a) = (state.speed_v, state.accel_a);
-        let j = span.jerk_j + span.growth * v;
+        let j = phase.jerk_j + phase.growth * v;
         let jet = piece.jet((state.position_s - from_s).clamp(0.0, piece.length_s));
         let speed = jet.d1 * v;
         let accel = jet.d2 * (v * v) + jet.d1 * a;
@@ -45,11 +45,11 @@ fn worst(
     worst
 }
 
-/// Takes from the shares of the intervals that rows have of the limits where a law exceeds them; true if
-/// it does nowhere. `first`: the span of the first interval.
+/// Takes from the shares of the intervals that constraints have of the limits where a time parametrisation exceeds them; true if
+/// it does nowhere. `first`: the phase of the first interval.
 pub(crate) fn lessen(
     shares: &mut [f64],
-    law: &Law,
+    parametrisation: &Parametrisation,
     first: usize,
     intervals: &[Interval],
     course: &Course<'_>,
@@ -58,12 +58,15 @@ pub(crate) fn lessen(
     let given = shares.to_vec();
     let mut is_kept = true;
     for (k, interval) in intervals.iter().enumerate() {
-        let Some(span) = law.spans.get(first + k) else {
+        let Some(phase) = parametrisation.phases.get(first + k) else {
             break;
         };
-        let next_t = law.spans.get(first + k + 1).map(|next| next.from_t);
-        let duration_t = next_t.unwrap_or(law.duration_t) - span.from_t;
-        let ratio = worst(span, duration_t, interval, course, limits);
+        let next_t = parametrisation
+            .phases
+            .get(first + k + 1)
+            .map(|next| next.from_t);
+        let duration_t = next_t.unwrap_or(parametrisation.duration_t) - phase.from_t;
+        let ratio = worst(phase, duration_t, interval, course, limits);
         if ratio > 1.0 {
             is_kept = false;
             let around = k.saturating_sub(1)..(k + 2).min(shares.len());

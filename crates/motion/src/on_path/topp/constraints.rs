@@ -1,15 +1,15 @@
-//! The problem: a quadratic spline on a track of knots, and every limit as a row over three of its
+//! The problem: a quadratic spline on a knot_path of knots, and every limit as a constraint over three of its
 //! coefficients.
 
 use super::interval::BETWEEN_R;
-use super::knots::Track;
+use super::knots::KnotPath;
 use super::parabola::Taylor;
 use glidepath_geometry::{AXES, Jet};
 use glidepath_program::Limits;
 
 /// A limit: `of`·x ≤ limit, or ≤ limit/√(`root_of`·x), x three neighbouring coefficients.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Row {
+pub(crate) struct Constraint {
     pub(crate) first: usize,
     pub(crate) of: [f64; 3],
     pub(crate) root_of: Option<[f64; 3]>,
@@ -31,10 +31,10 @@ impl Knot {
     }
 }
 
-/// All rows.
+/// All constraints.
 #[derive(Debug)]
 pub(crate) struct Problem {
-    pub(crate) rows: Vec<Row>,
+    pub(crate) constraints: Vec<Constraint>,
     pub(crate) knots: Vec<Knot>,
 }
 
@@ -45,14 +45,14 @@ const IDLE_R: f64 = 1.5;
 
 impl Problem {
     /// `shares`: of its limits that each interval may use.
-    pub(crate) fn new(track: &Track, limits: &Limits, shares: &[f64]) -> Self {
+    pub(crate) fn new(knot_path: &KnotPath, limits: &Limits, shares: &[f64]) -> Self {
         let mut problem = Self {
-            rows: Vec::new(),
+            constraints: Vec::new(),
             knots: Vec::new(),
         };
-        let count = track.intervals.len();
-        for (k, (interval, share_r)) in track.intervals.iter().zip(shares).enumerate() {
-            let parabola = track.parabola(k);
+        let count = knot_path.intervals.len();
+        for (k, (interval, share_r)) in knot_path.intervals.iter().zip(shares).enumerate() {
+            let parabola = knot_path.parabola(k);
             problem.cap(k, parabola.middle(), share_r * interval.middle_v);
             for (taylor, jet, top_v) in [
                 (&parabola.start, &interval.start, interval.start_v),
@@ -65,7 +65,7 @@ impl Problem {
             problem.knots.push(Knot {
                 first: k,
                 of: parabola.start.value,
-                share_s: 0.5 * (interval.length_s + track.before_s(k)),
+                share_s: 0.5 * (interval.length_s + knot_path.before_s(k)),
             });
             if k + 1 == count {
                 problem.knots.push(Knot {
@@ -91,7 +91,7 @@ impl Problem {
     fn cap(&mut self, first: usize, of: [f64; 3], top_v: f64) {
         let limit = top_v * top_v;
         if limit.is_finite() {
-            self.rows.push(Row {
+            self.constraints.push(Constraint {
                 first,
                 of,
                 root_of: None,
@@ -103,7 +103,7 @@ impl Problem {
     /// A limit both ways.
     fn both(&mut self, first: usize, of: [f64; 3], root_of: Option<[f64; 3]>, limit: f64) {
         for of in [of, of.map(|c| -c)] {
-            self.rows.push(Row {
+            self.constraints.push(Constraint {
                 first,
                 of,
                 root_of,

@@ -1,4 +1,4 @@
-//! Where the knots of a law are, what the path is there, and the S-curves it starts from.
+//! Where the knots of a time parametrisation are, what the path is there, and the S-curves it starts from.
 
 use super::interval::{Caps, Interval};
 use super::parabola::Parabola;
@@ -33,9 +33,9 @@ pub(crate) struct RestPhase {
 
 /// Knots, path and S-curves.
 #[derive(Debug)]
-pub(crate) struct Track {
+pub(crate) struct KnotPath {
     pub(crate) intervals: Vec<Interval>,
-    /// What the law starts from, and places on it, densely.
+    /// What the parametrisation starts from, and places on it, densely.
     legs: Vec<Leg>,
     marks: Vec<Mark>,
     /// At start and end; `None` where the motion does not rest.
@@ -44,8 +44,8 @@ pub(crate) struct Track {
     pub(crate) length_s: f64,
 }
 
-impl Track {
-    /// A track along a course that S-curves drive.
+impl KnotPath {
+    /// A knot_path along a course that S-curves drive.
     pub(crate) fn new(course: &Course<'_>, legs: &[Leg], limits: &Limits) -> Option<Self> {
         let first = legs.first()?.profile;
         let last = legs.last()?.profile;
@@ -56,7 +56,7 @@ impl Track {
                 rest_phase(phases.into_iter().rev())
             }),
         ];
-        let mut track = Self {
+        let mut knot_path = Self {
             intervals: Vec::new(),
             legs: legs.to_vec(),
             marks: marks(legs),
@@ -64,9 +64,9 @@ impl Track {
             ends_v: [first.entry_v(), last.exit_v()],
             length_s: course.length_s(),
         };
-        let knots = track.knots(course);
-        track.lay(course, &knots, limits);
-        (track.intervals.len() > 4).then_some(track)
+        let knots = knot_path.knots(course);
+        knot_path.lay(course, &knots, limits);
+        (knot_path.intervals.len() > 4).then_some(knot_path)
     }
 
     /// Length of the interval before one, 0 if there is none.
@@ -102,16 +102,16 @@ impl Track {
         let mut own = vec![from_s];
         own.extend(times.into_iter().map(|t| self.position_at(t)));
         own.push(to_s);
-        let joints: Vec<f64> = course.starts_s.clone();
-        let joints = &joints[joints.partition_point(|s| *s <= from_s)..];
-        let joints = &joints[..joints.partition_point(|s| *s < to_s)];
+        let junctions: Vec<f64> = course.starts_s.clone();
+        let junctions = &junctions[junctions.partition_point(|s| *s <= from_s)..];
+        let junctions = &junctions[..junctions.partition_point(|s| *s < to_s)];
         let mut knots = vec![from_s];
-        let mut next = joints.iter().copied().peekable();
+        let mut next = junctions.iter().copied().peekable();
         for window in own.windows(3) {
             let [before_s, here_s, after_s] = [window[0], window[1], window[2]];
             let near_s = NEAREST_R * (here_s - before_s).min(after_s - here_s);
-            while let Some(joint_s) = next.next_if(|s| *s <= here_s) {
-                knots.push(joint_s);
+            while let Some(junction_s) = next.next_if(|s| *s <= here_s) {
+                knots.push(junction_s);
             }
             let passed_s = knots.last().copied().unwrap_or(from_s);
             let is_near = next.peek().is_some_and(|s| s - here_s < near_s);

@@ -5,15 +5,15 @@ use crate::scurve::PathState;
 
 /// Path position by time along some pieces.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Law {
-    pub(crate) spans: Vec<Span>,
+pub(crate) struct Parametrisation {
+    pub(crate) phases: Vec<MotionPhase>,
     pub(crate) duration_t: f64,
     end: PathState,
 }
 
-/// A part of a law on which acceleration changes by constant jerk, or in proportion to path position.
+/// A part of a time parametrisation on which acceleration changes by constant jerk, or in proportion to path position.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Span {
+pub(crate) struct MotionPhase {
     pub(crate) from_t: f64,
     pub(crate) start: PathState,
     /// Constant jerk, mm/s³.
@@ -27,7 +27,7 @@ const MOST_TERMS: u32 = 40;
 
 const SMALLEST_TERM: f64 = 1e-18;
 
-/// Newton steps for the time on a span.
+/// Newton steps for the time on a phase.
 const TIME_STEPS: u32 = 20;
 
 /// sinh(√γ·t)/√γ and (cosh(√γ·t) − 1)/γ, or their circular likes for γ < 0, by their series.
@@ -48,8 +48,8 @@ fn series(growth: f64, t: f64) -> (f64, f64) {
     (first * t, second * t * t)
 }
 
-impl Span {
-    /// The state `t` after the start of the span.
+impl MotionPhase {
+    /// The state `t` after the start of the phase.
     pub(crate) fn at(&self, t: f64) -> PathState {
         let PathState {
             position_s,
@@ -66,17 +66,17 @@ impl Span {
     }
 }
 
-impl Law {
+impl Parametrisation {
     /// The same motion as some S-curves, slowed down: `rate_r` ≤ 1 times as fast.
     pub(crate) fn slowed(legs: &[Leg], rate_r: f64) -> Option<Self> {
-        let mut spans: Vec<Span> = Vec::new();
+        let mut phases: Vec<MotionPhase> = Vec::new();
         let mut from_t = 0.0;
         for leg in legs {
             for (duration_t, start, jerk_j) in leg.profile.phases() {
                 if duration_t <= 0.0 {
                     continue;
                 }
-                spans.push(Span {
+                phases.push(MotionPhase {
                     from_t,
                     start: PathState {
                         position_s: leg.from_s + start.position_s,
@@ -96,7 +96,7 @@ impl Law {
             accel_a: 0.0,
         };
         Some(Self {
-            spans,
+            phases,
             duration_t: from_t,
             end,
         })
@@ -122,17 +122,17 @@ impl Law {
         if t >= self.duration_t {
             return self.end;
         }
-        let index = self.spans.partition_point(|span| span.from_t <= t);
-        match self.spans.get(index.saturating_sub(1)) {
-            Some(span) => span.at(t - span.from_t),
+        let index = self.phases.partition_point(|phase| phase.from_t <= t);
+        match self.phases.get(index.saturating_sub(1)) {
+            Some(phase) => phase.at(t - phase.from_t),
             None => self.end,
         }
     }
 }
 
-/// Puts spans one after the other.
+/// Puts phases one after the other.
 pub(crate) struct Builder {
-    law: Law,
+    parametrisation: Parametrisation,
 }
 
 impl Builder {
@@ -143,8 +143,8 @@ impl Builder {
             accel_a: 0.0,
         };
         Self {
-            law: Law {
-                spans: Vec::new(),
+            parametrisation: Parametrisation {
+                phases: Vec::new(),
                 duration_t: 0.0,
                 end,
             },
@@ -153,22 +153,27 @@ impl Builder {
 
     /// A phase of constant jerk.
     pub(crate) fn push_phase(&mut self, start: PathState, jerk_j: f64, duration_t: f64) {
-        let from_t = self.law.duration_t;
-        self.law.spans.push(Span {
+        let from_t = self.parametrisation.duration_t;
+        self.parametrisation.phases.push(MotionPhase {
             from_t,
             start,
             jerk_j,
             growth: 0.0,
         });
-        self.law.duration_t += duration_t;
+        self.parametrisation.duration_t += duration_t;
     }
 
-    /// A span on which b = v² is a parabola: from a state over a length, b″ its second derivative.
+    /// A phase on which b = v² is a parabola: from a state over a length, b″ its second derivative.
     /// `None` if the motion does not get through.
-    pub(crate) fn push_span(&mut self, start: PathState, length_s: f64, second: f64) -> Option<()> {
+    pub(crate) fn push_parabola(
+        &mut self,
+        start: PathState,
+        length_s: f64,
+        second: f64,
+    ) -> Option<()> {
         let growth = 0.5 * second;
-        let span = Span {
-            from_t: self.law.duration_t,
+        let phase = MotionPhase {
+            from_t: self.parametrisation.duration_t,
             start,
             jerk_j: 0.0,
             growth,
@@ -178,7 +183,7 @@ impl Builder {
         let sum_v = start.speed_v + left_b.max(0.0).sqrt();
         let mut t = 2.0 * length_s / sum_v;
         for _ in 0..TIME_STEPS {
-            let state = span.at(t);
+            let state = phase.at(t);
             let step_t = (state.position_s - start.position_s - length_s) / state.speed_v;
             t -= step_t;
             if step_t.abs() <= 1e-15 + 1e-14 * t {
@@ -187,14 +192,14 @@ impl Builder {
         }
         let is_through = t > 0.0 && t.is_finite();
         if is_through {
-            self.law.spans.push(span);
-            self.law.duration_t += t;
+            self.parametrisation.phases.push(phase);
+            self.parametrisation.duration_t += t;
         }
         is_through.then_some(())
     }
 
-    pub(crate) fn finish(mut self, end: PathState) -> Law {
-        self.law.end = end;
-        self.law
+    pub(crate) fn finish(mut self, end: PathState) -> Parametrisation {
+        self.parametrisation.end = end;
+        self.parametrisation
     }
 }

@@ -6,7 +6,7 @@
 
 use super::*;
 use crate::in_tube::fallback::StopLeg;
-use crate::in_tube::path::Track;
+use crate::in_tube::path::ReferencePath;
 
 /// Six axes with limits of their own, which take all the work that is allowed, and would take more.
 #[test]
@@ -193,14 +193,14 @@ fn millions(work: usize) -> f64 {
 
 /// The time of stopping at every vertex, s.
 pub(crate) fn exact_stop_t(case: &Case) -> f64 {
-    let mut track = Track::new(case.points[0]);
+    let mut reference_path = ReferencePath::new(case.points[0]);
     for reference in case.references() {
-        track.push(reference);
+        reference_path.push(reference);
     }
-    track.finish();
-    (0..track.end())
+    reference_path.finish();
+    (0..reference_path.end())
         .filter_map(|index| {
-            let piece = track.get(index)?;
+            let piece = reference_path.get(index)?;
             StopLeg::new(&case.limits, piece.start, index, piece)
         })
         .map(|leg| leg.duration_t())

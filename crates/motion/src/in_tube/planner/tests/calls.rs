@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::in_tube::period::State;
-use crate::in_tube::verify::Bend;
+use crate::in_tube::verify::BetweenPeriods;
 use glidepath_audit::{Violation, ViolationKind};
 
 /// Pushes as late as possible.
@@ -111,7 +111,7 @@ fn shifted(periods: &[Period], start: AxisVector, period_t: f64, shift: f64) -> 
     let mut shifted = Vec::new();
     for period in periods {
         let to = State::from(period);
-        let bend = Bend {
+        let bend = BetweenPeriods {
             from: &from,
             to: &to,
             period_t,

@@ -121,7 +121,7 @@ fn legs_go_to_the_very_end_of_a_last_piece_shorter_than_the_tolerance() {
     }
     planner.finish();
     let leg = planner.state.leg_from(case.points[0], 0).expect("a leg");
-    planner.state.force = Force::Legs {
+    planner.state.active = ActiveMotion::Legs {
         leg: Some(Box::new(leg)),
         leg_t: 0.0,
         wait: usize::MAX,
@@ -176,7 +176,7 @@ fn a_hundred_thousand_blocks_go_through() {
     for reference in case.references() {
         planner.push(reference);
         periods.extend(core::iter::from_fn(|| planner.next_period()));
-        assert!(planner.state.track.end() - planner.state.follower.first() < 2000);
+        assert!(planner.state.reference_path.end() - planner.state.follower.first() < 2000);
     }
     planner.finish();
     periods.extend(core::iter::from_fn(|| planner.next_period()));

@@ -16,8 +16,8 @@
 
 use super::marks::Change;
 use super::output::Output;
-use super::shares::Tube;
-use super::thinning::Chord;
+use super::shares::ToleranceShares;
+use super::thinning::MergedChord;
 use super::vector::{add_scaled, between, dot, minus};
 use super::window::{End, Window};
 
@@ -45,10 +45,10 @@ const MOST_GRADED: usize = 24;
 
 /// Makes lines and samples of chords, each as soon as the next is known.
 #[derive(Debug)]
-pub(super) struct Chords<const D: usize> {
-    tube: Tube,
+pub(super) struct SampleLayout<const D: usize> {
+    shares: ToleranceShares,
     window: Window<D>,
-    waiting: Option<(Chord<D>, Option<Change>)>,
+    waiting: Option<(MergedChord<D>, Option<Change>)>,
     /// A curve leads to the start of the chord that waits.
     is_curved: bool,
     /// How much the path turns there, rad.
@@ -61,11 +61,11 @@ pub(super) struct Chords<const D: usize> {
     along_t: f64,
 }
 
-impl<const D: usize> Chords<D> {
-    pub(super) fn new(tube: Tube) -> Self {
+impl<const D: usize> SampleLayout<D> {
+    pub(super) fn new(shares: ToleranceShares) -> Self {
         Self {
-            window: Window::new(tube.clone()),
-            tube,
+            window: Window::new(shares.clone()),
+            shares,
             waiting: None,
             is_curved: false,
             turn_rad: 0.0,
@@ -76,7 +76,7 @@ impl<const D: usize> Chords<D> {
     }
 
     /// The next chord, and what its first block changes.
-    pub(super) fn push(&mut self, next: Chord<D>, change: Option<Change>, out: &mut Output) {
+    pub(super) fn push(&mut self, next: MergedChord<D>, change: Option<Change>, out: &mut Output) {
         if let Some((chord, mark)) = self.waiting.take() {
             let (turn_rad, bend) = turn(&chord, &next);
             let is_corner = self.is_corner(turn_rad, chord.length_t, next.length_t)
@@ -100,9 +100,9 @@ impl<const D: usize> Chords<D> {
     /// bends along the longer chord does.
     fn is_corner(&self, turn_rad: f64, before_t: f64, after_t: f64) -> bool {
         let sagitta_mm = |length_t: f64| 0.5 * length_t * (0.25 * turn_rad).tan();
-        let least_rad = if sagitta_mm(before_t.min(after_t)) > self.tube.tolerance_mm {
+        let least_rad = if sagitta_mm(before_t.min(after_t)) > self.shares.tolerance_mm {
             GENTLE_RAD
-        } else if sagitta_mm(before_t.max(after_t)) > self.tube.tolerance_mm {
+        } else if sagitta_mm(before_t.max(after_t)) > self.shares.tolerance_mm {
             SHARP_RAD
         } else {
             REVERSAL_RAD
@@ -116,23 +116,23 @@ impl<const D: usize> Chords<D> {
         let sine = (0.5 * less_rad).sin();
         less_rad > ZIGZAG_RAD
             && dot(bend, &self.bend) < 0.0
-            && shorter_t * sine * sine > ZIGZAG_R * self.tube.tolerance_mm
+            && shorter_t * sine * sine > ZIGZAG_R * self.shares.tolerance_mm
     }
 
     /// The spacing of samples beside a vertex, at most 2.5 times that of the samples on its other
     /// side.
     fn spacing(&self, turn_rad: f64, other_t: f64) -> f64 {
         let sine = (0.5 * turn_rad).sin().max(1e-9);
-        let wanted_t = 0.8 * self.tube.tolerance_mm / sine;
+        let wanted_t = 0.8 * self.shares.tolerance_mm / sine;
         wanted_t
             .min(2.5 * other_t)
-            .max(LEAST_SPACING_R * self.tube.tolerance_mm)
+            .max(LEAST_SPACING_R * self.shares.tolerance_mm)
     }
 
     /// Lays out a chord; at its end is a corner, or a curve goes on with samples so far apart.
     fn drive(
         &mut self,
-        chord: &Chord<D>,
+        chord: &MergedChord<D>,
         change: Option<Change>,
         end_spacing_t: Option<f64>,
         end_turn_rad: f64,
@@ -144,7 +144,7 @@ impl<const D: usize> Chords<D> {
             .is_curved
             .then(|| self.spacing(self.turn_rad, self.spacing_t));
         let bend_rad = self.turn_rad.max(end_turn_rad);
-        let tolerance_mm = self.tube.tolerance_mm;
+        let tolerance_mm = self.shares.tolerance_mm;
         let is_bent = length_t * bend_rad > 8.0 * tolerance_mm;
         let is_long =
             length_t > LONG_R * tolerance_mm || (is_bent && length_t > LONG_BENT_R * tolerance_mm);
@@ -193,7 +193,7 @@ impl<const D: usize> Chords<D> {
     }
 
     /// Tells where the blocks of a chord start.
-    fn mark(&self, chord: &Chord<D>, mut change: Option<Change>, out: &mut Output) {
+    fn mark(&self, chord: &MergedChord<D>, mut change: Option<Change>, out: &mut Output) {
         for &(from_u, line) in &chord.blocks {
             let from_t = self.along_t + from_u * chord.length_t;
             out.marks.push(from_t, line, change.take());
@@ -201,7 +201,7 @@ impl<const D: usize> Chords<D> {
     }
 
     /// The part of a chord that is a line.
-    fn line(&self, chord: &Chord<D>, (from_t, to_t): (f64, f64), out: &mut Output) {
+    fn line(&self, chord: &MergedChord<D>, (from_t, to_t): (f64, f64), out: &mut Output) {
         let at = |t: f64| between(&chord.start, &chord.end, t / chord.length_t);
         let continues = [from_t > 0.0, to_t < chord.length_t];
         let start = if continues[0] {
@@ -218,7 +218,7 @@ impl<const D: usize> Chords<D> {
     /// from those wanted at its ends.
     fn grade(
         &mut self,
-        chord: &Chord<D>,
+        chord: &MergedChord<D>,
         (from_t, to_t): (f64, f64),
         (mut low_t, mut high_t): (f64, f64),
         out: &mut Output,
@@ -263,7 +263,7 @@ impl<const D: usize> Chords<D> {
 }
 
 /// How much the path turns between two chords, rad, and the difference of their directions.
-fn turn<const D: usize>(from: &Chord<D>, to: &Chord<D>) -> (f64, [f64; D]) {
+fn turn<const D: usize>(from: &MergedChord<D>, to: &MergedChord<D>) -> (f64, [f64; D]) {
     let first = minus(&from.end, &from.start).map(|x| x / from.length_t);
     let second = minus(&to.end, &to.start).map(|x| x / to.length_t);
     let sum = add_scaled(&first, 1.0, &second);

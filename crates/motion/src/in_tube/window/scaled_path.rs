@@ -8,7 +8,7 @@
 use super::solver::dot;
 use crate::feed_axes::counted_axes;
 use crate::in_tube::path::directional;
-use crate::in_tube::path::{Piece, Track};
+use crate::in_tube::path::{ReferencePath, TubePiece};
 use crate::scurve::PathLimits;
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_program::Limits;
@@ -18,7 +18,7 @@ pub(crate) const SHARP: f64 = 0.3;
 
 /// A piece of the path in the space of the window.
 #[derive(Debug, Clone)]
-pub(crate) struct Chord<const D: usize> {
+pub(crate) struct ScaledSegment<const D: usize> {
     pub(crate) start: [f64; D],
     /// Unit vector.
     pub(crate) tangent: [f64; D],
@@ -41,10 +41,10 @@ pub(crate) struct Chord<const D: usize> {
 
 /// The path of a window.
 #[derive(Debug, Clone)]
-pub(crate) struct Scene<const D: usize> {
+pub(crate) struct ScaledPath<const D: usize> {
     /// Number of the first piece.
     pub(crate) first: usize,
-    pub(crate) chords: Vec<Chord<D>>,
+    pub(crate) segments: Vec<ScaledSegment<D>>,
     /// The path ends with the last piece.
     pub(crate) is_final: bool,
     /// The moving axes, and how many they are: the rest of the `D` stays at zero.
@@ -71,22 +71,22 @@ pub(crate) fn moving_axes<'a>(
     moves
 }
 
-impl<const D: usize> Scene<D> {
+impl<const D: usize> ScaledPath<D> {
     /// The pieces `range` as seen from `origin`; `moves` has at most `D` axes.
     pub(crate) fn new(
         limits: &Limits,
-        track: &Track,
+        reference_path: &ReferencePath,
         range: core::ops::Range<usize>,
         origin: AxisVector,
         moves: [bool; AXES],
     ) -> Self {
-        let tolerances = track
+        let tolerances = reference_path
             .get(range.start)
             .map_or([1.0; 2], |piece| [piece.tolerance_mm, piece.tolerance_deg]);
-        let mut scene = Self {
+        let mut path = Self {
             first: range.start,
-            chords: Vec::with_capacity(range.len()),
-            is_final: range.end > 0 && track.is_last(range.end - 1),
+            segments: Vec::with_capacity(range.len()),
+            is_final: range.end > 0 && reference_path.is_last(range.end - 1),
             axes: [0; D],
             moving: 0,
             unit: [1.0; D],
@@ -100,23 +100,23 @@ impl<const D: usize> Scene<D> {
             .filter(|axis| moves[axis.index()])
             .take(D)
         {
-            let (k, i) = (scene.moving, axis.index());
+            let (k, i) = (path.moving, axis.index());
             let unit = tolerances[usize::from(axis.is_rotary())];
-            scene.axes[k] = i;
-            scene.unit[k] = unit;
-            scene.velocity[k] = limits.velocity[i] / unit;
-            scene.acceleration[k] = limits.acceleration[i] / unit;
-            scene.jerk[k] = limits.jerk[i] / unit;
-            scene.moving += 1;
+            path.axes[k] = i;
+            path.unit[k] = unit;
+            path.velocity[k] = limits.velocity[i] / unit;
+            path.acceleration[k] = limits.acceleration[i] / unit;
+            path.jerk[k] = limits.jerk[i] / unit;
+            path.moving += 1;
         }
-        for piece in range.filter_map(|index| track.get(index)) {
-            scene.add(limits, piece, tolerances);
+        for piece in range.filter_map(|index| reference_path.get(index)) {
+            path.add(limits, piece, tolerances);
         }
-        scene.add_normals();
-        scene
+        path.add_normals();
+        path
     }
 
-    fn add(&mut self, limits: &Limits, piece: &Piece, [unit_mm, unit_deg]: [f64; 2]) {
+    fn add(&mut self, limits: &Limits, piece: &TubePiece, [unit_mm, unit_deg]: [f64; 2]) {
         let displacement = piece.end - piece.start;
         let start = self.inside(&piece.start);
         let mut along = [0.0; D];
@@ -135,8 +135,11 @@ impl<const D: usize> Scene<D> {
                 feed_axes[k] = self.unit[k] / piece.top_v;
             }
         }
-        let s = self.chords.last().map_or(0.0, |last| last.s + last.length);
-        self.chords.push(Chord {
+        let s = self
+            .segments
+            .last()
+            .map_or(0.0, |last| last.s + last.length);
+        self.segments.push(ScaledSegment {
             start,
             tangent,
             length,
@@ -153,11 +156,11 @@ impl<const D: usize> Scene<D> {
     /// Completes each tangent to a base whose first normal lies in the plane of the next corner (of
     /// the corner before, where the path goes straight on).
     fn add_normals(&mut self) {
-        for i in 0..self.chords.len() {
-            let tangent = self.chords[i].tangent;
+        for i in 0..self.segments.len() {
+            let tangent = self.segments[i].tangent;
             let mut candidates: Vec<[f64; D]> = Vec::with_capacity(D + 2);
             for other in [Some(i + 1), i.checked_sub(1)].into_iter().flatten() {
-                candidates.extend(self.chords.get(other).map(|chord| chord.tangent));
+                candidates.extend(self.segments.get(other).map(|segment| segment.tangent));
             }
             candidates
                 .extend((0..D).map(|k| core::array::from_fn(|a| f64::from(u8::from(a == k)))));
@@ -180,24 +183,26 @@ impl<const D: usize> Scene<D> {
                     found += 1;
                 }
             }
-            self.chords[i].normals = normals;
+            self.segments[i].normals = normals;
         }
     }
 
     /// Length of the whole path of the scene.
     pub(crate) fn length(&self) -> f64 {
-        self.chords.last().map_or(0.0, |last| last.s + last.length)
+        self.segments
+            .last()
+            .map_or(0.0, |last| last.s + last.length)
     }
 
     /// The end of piece `i`.
     pub(crate) fn vertex(&self, i: usize) -> [f64; D] {
-        let chord = &self.chords[i];
-        core::array::from_fn(|k| chord.start[k] + chord.length * chord.tangent[k])
+        let segment = &self.segments[i];
+        core::array::from_fn(|k| segment.start[k] + segment.length * segment.tangent[k])
     }
 
     /// How much the direction changes between two pieces: 2·sin(turn/2).
     pub(crate) fn turn(&self, i: usize, j: usize) -> f64 {
-        let (a, b) = (&self.chords[i].tangent, &self.chords[j].tangent);
+        let (a, b) = (&self.segments[i].tangent, &self.segments[j].tangent);
         let difference: [f64; D] = core::array::from_fn(|k| a[k] - b[k]);
         dot(&difference, &difference).sqrt()
     }
@@ -226,8 +231,8 @@ impl<const D: usize> Scene<D> {
     pub(crate) fn velocity_bounds(&self) -> [f64; D] {
         core::array::from_fn(|k| {
             let is_bounded_by_feed =
-                |chord: &Chord<D>| chord.feed_axes[k] * self.velocity[k] > 1.05;
-            if self.chords.iter().all(is_bounded_by_feed) || k >= self.moving {
+                |segment: &ScaledSegment<D>| segment.feed_axes[k] * self.velocity[k] > 1.05;
+            if self.segments.iter().all(is_bounded_by_feed) || k >= self.moving {
                 f64::INFINITY
             } else {
                 self.velocity[k]

@@ -1,19 +1,19 @@
 //! What a window starts from, and when it is first thought to be where.
 
 use super::guess::{Guess, rest_to_rest_t};
-use super::scene::Scene;
+use super::scaled_path::ScaledPath;
 use super::spline::Grid;
 use super::tube::{FEED_R, Style};
 
 /// What a window starts from.
 #[derive(Debug)]
-pub(crate) struct Opening<'a, const D: usize> {
+pub(crate) struct WindowStart<'a, const D: usize> {
     /// A motion from the start state to rest: the one to fall back on. Its number of control points
     /// sets that of the window.
     pub(crate) tail: &'a [[f64; D]],
     /// The tail keeps the rates: it tells where to start from, and a window is to go further.
     pub(crate) keeps_rates: bool,
-    /// Piece of the scene and progress on which it starts.
+    /// TubePiece of the scene and progress on which it starts.
     pub(crate) piece: usize,
     pub(crate) progress: f64,
     /// The motion may have passed the corners before this piece already.
@@ -26,7 +26,7 @@ pub(crate) struct Opening<'a, const D: usize> {
     pub(crate) most_work: usize,
 }
 
-impl<const D: usize> Opening<'_, D> {
+impl<const D: usize> WindowStart<'_, D> {
     /// How rows are made unless a search asks for more room.
     pub(crate) fn style(&self, has_motion: bool) -> Style {
         Style {
@@ -44,7 +44,7 @@ impl<const D: usize> Opening<'_, D> {
     }
 
     /// From which sample on the tail rests, and from which it may be slowing down for that.
-    pub(crate) fn tail_ends(&self, scene: &Scene<D>) -> (usize, usize) {
+    pub(crate) fn tail_ends(&self, path: &ScaledPath<D>) -> (usize, usize) {
         let tail = self.tail;
         if !self.keeps_rates {
             return (0, 0);
@@ -53,9 +53,9 @@ impl<const D: usize> Opening<'_, D> {
         let differs = |point: &[f64; D]| point.iter().zip(&last).any(|(a, b)| (a - b).abs() > 0.0);
         let moving = tail.iter().rposition(differs).map_or(0, |k| k + 1);
         let rest = self.grid.periods_in(moving + self.grid.knots - 1);
-        let chord = &scene.chords[self.piece];
-        let limits = chord.limits;
-        let stop_t = (chord.top / limits.accel_a + limits.accel_a / limits.jerk_j)
+        let segment = &path.segments[self.piece];
+        let limits = segment.limits;
+        let stop_t = (segment.top / limits.accel_a + limits.accel_a / limits.jerk_j)
             .min(0.4 * self.periods_t(rest));
         let stop = self.whole_periods(stop_t);
         (rest, rest.saturating_sub(stop))
@@ -64,39 +64,39 @@ impl<const D: usize> Opening<'_, D> {
     /// Samples from `from` on follow the guess, at a pace.
     pub(crate) fn play_guess(
         &self,
-        scene: &Scene<D>,
+        path: &ScaledPath<D>,
         guess: &Guess,
         progress: &mut [f64],
         (from, pace): (usize, f64),
     ) {
-        let mut hint = piece_at(scene, self.piece, progress[from]);
-        let start_t = guess.t_at(scene, progress[from], hint);
+        let mut hint = piece_at(path, self.piece, progress[from]);
+        let start_t = guess.t_at(path, progress[from], hint);
         for k in from + 1..progress.len() {
             let t = start_t + pace * self.periods_t(k - from);
-            let s = guess.s_at(scene, t, &mut hint);
+            let s = guess.s_at(path, t, &mut hint);
             // However fast the guess is played, the feed holds.
-            let most = progress[k - 1] + scene.chords[hint].top * self.period_t;
+            let most = progress[k - 1] + path.segments[hint].top * self.period_t;
             progress[k] = s.min(most).max(progress[k]).max(progress[k - 1]);
         }
     }
 
     /// Samples from `from` on stop at every vertex, with time to spare.
-    pub(crate) fn play_stops(&self, scene: &Scene<D>, progress: &mut [f64], from: usize) {
+    pub(crate) fn play_stops(&self, path: &ScaledPath<D>, progress: &mut [f64], from: usize) {
         let mut s = progress[from];
-        let mut i = piece_at(scene, self.piece, s);
+        let mut i = piece_at(path, self.piece, s);
         let mut start_t = 0.0;
         let mut k = from + 1;
         while k < progress.len() {
-            let chord = &scene.chords[i];
-            let end = chord.s + chord.length;
+            let segment = &path.segments[i];
+            let end = segment.s + segment.length;
             let rest = (end - s).max(0.0);
-            let last = if i + 1 < scene.chords.len() {
-                end - 0.3 * chord.radius.min(chord.length) * 1.01
+            let last = if i + 1 < path.segments.len() {
+                end - 0.3 * segment.radius.min(segment.length) * 1.01
             } else {
                 end
             };
             let duration_t =
-                1.15 * rest_to_rest_t(rest, chord.top, chord.limits) + 3.0 * self.grid.knot_t;
+                1.15 * rest_to_rest_t(rest, segment.top, segment.limits) + 3.0 * self.grid.knot_t;
             while k < progress.len() && self.periods_t(k - from) < start_t + duration_t {
                 let share = (self.periods_t(k - from) - start_t) / duration_t;
                 progress[k] = (s + (last - s).max(0.0) * share).max(progress[k - 1]);
@@ -104,7 +104,7 @@ impl<const D: usize> Opening<'_, D> {
             }
             start_t += duration_t;
             s = end;
-            if i + 1 < scene.chords.len() {
+            if i + 1 < path.segments.len() {
                 i += 1;
             } else {
                 progress[k..].fill(end);
@@ -114,12 +114,12 @@ impl<const D: usize> Opening<'_, D> {
     }
 
     /// How much faster than the guess the part up to the next window is.
-    pub(crate) fn pace(&self, scene: &Scene<D>, guess: &Guess, progress: &[f64]) -> f64 {
+    pub(crate) fn pace(&self, path: &ScaledPath<D>, guess: &Guess, progress: &[f64]) -> f64 {
         let k = self.commit.min(progress.len() - 1);
         let (from, to) = (progress[0], progress[k]);
-        let first = piece_at(scene, self.piece, from);
+        let first = piece_at(path, self.piece, from);
         let taken_t =
-            guess.t_at(scene, to, piece_at(scene, first, to)) - guess.t_at(scene, from, first);
+            guess.t_at(path, to, piece_at(path, first, to)) - guess.t_at(path, from, first);
         taken_t / self.periods_t(k)
     }
 
@@ -143,10 +143,10 @@ impl<const D: usize> Opening<'_, D> {
 }
 
 /// The piece of a progress, from a piece on.
-fn piece_at<const D: usize>(scene: &Scene<D>, from: usize, s: f64) -> usize {
-    let past = scene.chords[from..]
+fn piece_at<const D: usize>(path: &ScaledPath<D>, from: usize, s: f64) -> usize {
+    let past = path.segments[from..]
         .iter()
-        .take_while(|chord| chord.s + chord.length <= s)
+        .take_while(|segment| segment.s + segment.length <= s)
         .count();
-    (from + past).min(scene.chords.len() - 1)
+    (from + past).min(path.segments.len() - 1)
 }
