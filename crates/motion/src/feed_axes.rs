@@ -4,8 +4,8 @@
 use core::ops::Range;
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW, feed_length};
 
-/// The axes that measure the feed of a displacement; what is below the resolution of programs does not
-/// count as motion.
+/// The axes that measure the feed of a displacement; what is below the resolution of programs does
+/// not count as motion.
 pub(crate) fn feed_axes(displacement: &AxisVector) -> Range<usize> {
     [LINEAR_XYZ, UVW]
         .into_iter()

@@ -1,11 +1,11 @@
 //! The period grid: what every frame has besides the state of the axes.
 //!
 //! Frames are numbered without gaps. Events are told one a frame, in order, at the place where they
-//! happen or as soon after it as there is a frame; a rest lasts until all of them are told. Where the
-//! motion comes to rest, one frame still belongs to the block that led there: who stops at the end of
-//! every block stops there by the plan itself, and what the next block tells has not been told. Engines
-//! say what they pass and where they rest; the frames are made here, so that they tell the same
-//! story whoever planned them.
+//! happen or as soon after it as there is a frame; a rest lasts until all of them are told. Where
+//! the motion comes to rest, one frame still belongs to the block that led there: who stops at the
+//! end of every block stops there by the plan itself, and what the next block tells has not been
+//! told. Engines say what they pass and where they rest; the frames are made here, so that they
+//! tell the same story whoever planned them.
 
 use super::rest::{Rest, RestKind};
 use glidepath_geometry::AxisVector;

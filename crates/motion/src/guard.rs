@@ -19,8 +19,8 @@ pub(crate) struct Guard {
     others_move: bool,
 }
 
-/// How far above a limit a difference has to be to count as a hole in the plan. Rounding is far below
-/// it, a hole mostly far above.
+/// How far above a limit a difference has to be to count as a hole in the plan. Rounding is far
+/// below it, a hole mostly far above.
 const ALLOWANCE_R: f64 = 1.01;
 /// What rounding of large positions makes of a difference, mm.
 const ROUNDING_MM: f64 = 1e-8;
@@ -49,7 +49,8 @@ impl Guard {
         let is_first = self.last.is_none();
         let zero = AxisVector::zeros();
         let [position, first, second] = self.last.get_or_insert([frame.position, zero, zero]);
-        // Axes that do not move are not looked at: but for the sign of a zero, nothing of them changes.
+        // Axes that do not move are not looked at: but for the sign of a zero, nothing of them
+        // changes.
         let mut differing = 0;
         for i in LINEAR_XYZ.end..AXES {
             differing |= frame.position[i].to_bits() ^ position[i].to_bits();

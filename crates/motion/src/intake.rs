@@ -1,7 +1,8 @@
 //! Intake: what every item is checked for, whoever plans it, and how far the program has come.
 //!
-//! Moves below the resolution of programs are not made by themselves: the segment that follows starts
-//! where the last one that was made ended, and what is left over in the end is the remainder.
+//! Moves below the resolution of programs are not made by themselves: the segment that follows
+//! starts where the last one that was made ended, and what is left over in the end is the
+//! remainder.
 
 use crate::PlanError;
 use glidepath_geometry::{AxisVector, Segment};
@@ -44,8 +45,8 @@ impl Intake {
         check(line, segment, rate, mode, &self.program_position)
     }
 
-    /// Takes a move that was checked: its segment from where the last one ended; `None` if it is too
-    /// short to be made.
+    /// Takes a move that was checked: its segment from where the last one ended; `None` if it is
+    /// too short to be made.
     #[inline]
     pub(crate) fn take(&mut self, segment: Segment) -> Option<Segment> {
         self.program_position = segment.end();

@@ -1,7 +1,71 @@
-//! Motion planning: from programmed segments to the state of the machine at every period.
+//! Motion planning: from programmed segments to the state of every axis at every period.
 //!
-//! Pure computation: no I/O, no clock, no shared memory. The same items give the same frames,
-//! whatever the timing or the chunking of the input.
+//! ```text
+//!   glidepath-gcode, -curve ──▶ Item ──▶ Planner (this crate) ──▶ Frame ──▶ glidepath-link
+//!        what the program asks for       push · finish · make_frame      one setpoint a period
+//! ```
+//!
+//! **Entry points.** [`Planner`] takes the items of a program one by one and gives frames as soon
+//! as the motion is settled that far. [`preview`] reads a NURBS ahead: where on it the feedrate is
+//! too fast. [`scurve`] has the closed forms of jerk-limited speed changes, which others need as
+//! well.
+//!
+//! **Invariants.** Pure computation: no I/O, no clock, no shared memory. The same items give the
+//! same frames, whatever the timing or the chunking of the input, in memory that does not grow with
+//! the length of the program. Every frame keeps the limits of every axis and the tolerance of the
+//! path; where no such frame is found, none is given out, and [`PlanError::NoMotion`] says so.
+//!
+//! **Two wings**, each a principle, chosen by [`glidepath_program::Effort`]:
+//!
+//! | wing | what is given | what is planned |
+//! |---|---|---|
+//! | `on_path` | the path, from program and tolerance alone | the time along it |
+//! | `in_tube` | the program and its tolerance, as a tube | geometry and time together |
+//!
+//! Beside them stands what both use: `intake` (the checks of items), `programmed_rate` and
+//! `feed_axes`, `rest`, `grid` (the frames of one period each), [`scurve`]; and above them
+//! `planner`, which chooses the wing, with `guard`, the last look at a frame. `on_path` knows
+//! nothing of `in_tube`.
+//!
+//! Two moves planned, and their frames counted:
+//!
+//! ```
+//! use glidepath_geometry::{AxisVector, Segment};
+//! use glidepath_motion::{PlanError, Planner};
+//! use glidepath_program::{Effort, Item, ItemKind, Limits, PathMode, Rate, Settings, Smoothing};
+//!
+//! let settings = Settings {
+//!     limits: Limits::uniform(200.0, 2000.0, 40_000.0),
+//!     tolerance_mm: 0.02,
+//!     smoothing: Smoothing::Auto,
+//!     period_t: 0.004,
+//!     effort: Effort::Fast,
+//! };
+//! let point = |x, y| {
+//!     let mut point = AxisVector::zeros();
+//!     (point[0], point[1]) = (x, y);
+//!     point
+//! };
+//! let corners = [point(0.0, 0.0), point(10.0, 0.0), point(10.0, 5.0)];
+//! let mut planner = Planner::new(settings, corners[0]);
+//! for (line, ends) in (1..).zip(corners.windows(2)) {
+//!     let kind = ItemKind::Move {
+//!         segment: Segment::line(ends[0], ends[1]),
+//!         rate: Rate::Feed(100.0),
+//!         mode: PathMode::Continuous { tolerance_mm: None },
+//!     };
+//!     planner.push(&Item { line, kind })?;
+//! }
+//! planner.finish();
+//! let mut frames = 0;
+//! while planner.make_frame()? {
+//!     frames += 1;
+//! }
+//! // 15 mm at 100 mm/s take 0.15 s; starting, stopping and the corner take some more.
+//! assert!((38..80).contains(&frames), "{frames}");
+//! assert_eq!(planner.frame().position, corners[2]);
+//! # Ok::<(), PlanError>(())
+//! ```
 //!
 //! Suffixes of local names, declared once for the crate:
 //!

@@ -13,37 +13,7 @@ use glidepath_program::{Effort, Frame, Item, Override, Settings, Smoothing};
 /// alone, not on when they are taken. The first frame is at rest at the start, the last one (flag
 /// `LAST`) at rest at the end.
 ///
-/// ```
-/// use glidepath_geometry::{AxisVector, Segment};
-/// use glidepath_motion::{Effort, Item, ItemKind, Limits, PathMode, Planner, Rate, Settings, Smoothing};
-///
-/// let settings = Settings {
-///     limits: Limits::uniform(200.0, 2000.0, 40_000.0),
-///     tolerance_mm: 0.02,
-///     smoothing: Smoothing::Auto,
-///     period_t: 0.004,
-///     effort: Effort::Optimal,
-/// };
-/// let start = AxisVector::zeros();
-/// let mut end = start;
-/// end[0] = 10.0;
-/// let mut planner = Planner::new(settings, start);
-/// planner.push(&Item {
-///     line: 1,
-///     kind: ItemKind::Move {
-///         segment: Segment::line(start, end),
-///         rate: Rate::Feed(100.0),
-///         mode: PathMode::Continuous { tolerance_mm: None },
-///     },
-/// })?;
-/// planner.finish();
-/// let mut last = None;
-/// while let Some(frame) = planner.pop_frame()? {
-///     last = Some(frame);
-/// }
-/// assert_eq!(last.map(|frame| frame.position), Some(end));
-/// # Ok::<(), glidepath_motion::PlanError>(())
-/// ```
+/// There is an example at [`crate`].
 #[derive(Debug)]
 pub struct Planner {
     engine: Engine,
@@ -88,8 +58,8 @@ impl Planner {
     ///
     /// # Errors
     /// If the item is not finite, does not start where the last one ended, or has a feedrate,
-    /// tolerance or dwell out of range. The planner is then as if the item had not been given. After
-    /// [`Planner::pop_frame`] has failed, its error.
+    /// tolerance or dwell out of range. The planner is then as if the item had not been given.
+    /// After [`Planner::pop_frame`] has failed, its error.
     pub fn push(&mut self, item: &Item) -> Result<(), PlanError> {
         if let Some(error) = self.failed {
             return Err(error);
@@ -112,9 +82,9 @@ impl Planner {
     /// certain point until [`Planner::finish`].
     ///
     /// # Errors
-    /// [`PlanError::NoMotion`] if planning failed inside: there is no frame that continues the motion
-    /// within the limits. No more frames follow, and every call gives the same error. Whoever plays
-    /// the frames must then stop on those it has.
+    /// [`PlanError::NoMotion`] if planning failed inside: there is no frame that continues the
+    /// motion within the limits. No more frames follow, and every call gives the same error.
+    /// Whoever plays the frames must then stop on those it has.
     pub fn pop_frame(&mut self) -> Result<Option<Frame>, PlanError> {
         Ok(self.make_frame()?.then_some(self.frame))
     }
@@ -160,9 +130,9 @@ impl Planner {
     /// Plans what no frame was taken of with another override: rates times their override, limits
     /// unchanged.
     ///
-    /// A lower override takes effect as soon as the speed can be brought down; the on-path engine begins
-    /// at the next place where the motion has no acceleration along the path. Each frame tells the
-    /// override it was planned with: while the speed is brought down, one in between.
+    /// A lower override takes effect as soon as the speed can be brought down; the on-path engine
+    /// begins at the next place where the motion has no acceleration along the path. Each frame
+    /// tells the override it was planned with: while the speed is brought down, one in between.
     ///
     /// # Errors
     /// If a factor is not a positive number, or that of rapids is above 1.

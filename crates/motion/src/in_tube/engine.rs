@@ -240,8 +240,8 @@ impl InTubeEngine {
         true
     }
 
-    /// A frame of the on-path engine as one of this motion. Its first is the one given out last, and at
-    /// its last the rest begins.
+    /// A frame of the on-path engine as one of this motion. Its first is the one given out last,
+    /// and at its last the rest begins.
     fn relay(&mut self, mut frame: Frame) -> Option<Frame> {
         frame.path_s += self.path_s;
         if frame.flags.contains(FrameFlags::LAST)

@@ -5,10 +5,10 @@
 //!  chords  ──merged─────▶ pieces within a small share of the tolerance of them
 //! ```
 //!
-//! Both steps keep what they give within a known distance of what they take, both ways and in order,
-//! so the tolerance of a piece is what is left after the two distances: a motion within that of the
-//! pieces is within the tolerance of the program. Pieces cost the window planner work, and tolerance
-//! gains it time; the shares below leave nearly all of it to the motion.
+//! Both steps keep what they give within a known distance of what they take, both ways and in
+//! order, so the tolerance of a piece is what is left after the two distances: a motion within that
+//! of the pieces is within the tolerance of the program. Pieces cost the window planner work, and
+//! tolerance gains it time; the shares below leave nearly all of it to the motion.
 
 use super::ledger::LedgerEntry;
 use super::merging::Dropped;
@@ -164,8 +164,8 @@ impl Flattener {
 }
 
 impl OpenChord {
-    /// Takes in a chord too short for a piece: what moves too short to be made by themselves have left
-    /// at the end of a stretch.
+    /// Takes in a chord too short for a piece: what moves too short to be made by themselves have
+    /// left at the end of a stretch.
     fn absorb(&mut self, next: &FlatChord) -> bool {
         let left = next.end - next.start;
         let error_mm = self.chord.error_mm + tolerance_norm(&left);
@@ -260,8 +260,8 @@ impl CutMove {
     }
 }
 
-/// How many chords an arc is cut into, and how far they are from it at most: |q″|·h²/8 for chords of
-/// length h, between points of equal path position.
+/// How many chords an arc is cut into, and how far they are from it at most: |q″|·h²/8 for chords
+/// of length h, between points of equal path position.
 fn cuts(arc: &Arc, allowed_mm: f64) -> (u32, f64) {
     let length_s = arc.length();
     let radius_mm = arc.start_radius().max(arc.end_radius());

@@ -45,7 +45,7 @@ impl Ledger {
         }
     }
 
-    /// Adds a entry; returns its tag.
+    /// Adds an entry; returns its tag.
     pub(crate) fn push(&mut self, entry: LedgerEntry) -> u64 {
         self.entries.push_back(entry);
         self.first + self.entries.len() as u64 - 1
@@ -59,7 +59,7 @@ impl Ledger {
         };
     }
 
-    /// The speed wanted on a entry, mm/s; that of the first one kept for those before it.
+    /// The speed wanted on an entry, mm/s; that of the first one kept for those before it.
     pub(crate) fn rate_v(&self, tag: u64) -> f64 {
         let index = usize::try_from(tag.saturating_sub(self.first)).unwrap_or(usize::MAX);
         self.entries.get(index).map_or(f64::MIN_POSITIVE, |entry| {

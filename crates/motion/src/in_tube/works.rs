@@ -39,8 +39,8 @@ pub(crate) struct Works {
     /// Events that wait for the move they happen on.
     events: Vec<(u32, Event)>,
     stretch: StretchKind,
-    /// The last works, not to be done before it is known whether a curve follows: so many, of so much
-    /// time at their feedrates.
+    /// The last works, not to be done before it is known whether a curve follows: so many, of so
+    /// much time at their feedrates.
     held: Option<(usize, f64)>,
     /// Moves since the last curve.
     straight: usize,
@@ -48,9 +48,9 @@ pub(crate) struct Works {
     finished: bool,
 }
 
-/// A stretch with a curve among its first moves is driven as if it began with that: so many moves, and
-/// of so much time, s, that no one waits long for the first of them: who sends a few moves through a
-/// pipe expects them to begin.
+/// A stretch with a curve among its first moves is driven as if it began with that: so many moves,
+/// and of so much time, s, that no one waits long for the first of them: who sends a few moves
+/// through a pipe expects them to begin.
 const MOST_HELD: usize = 4;
 const MOST_HELD_T: f64 = 3.0;
 /// After so many other moves a curve is forgotten, and its stretch ends with a stop.

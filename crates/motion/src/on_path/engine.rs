@@ -1,9 +1,4 @@
-//! The on-path engine: corners replaced by transitions, and closed-form S-curves along the path.
-//!
-//! ```text
-//!  item ──PathFront──▶ pieces, rests ──Scheduler──▶ settled motion ──Refiner──▶ ──Sampler──▶ frames
-//!                                                                  (on curves)
-//! ```
+//! The engine: the path front, look-ahead, refiner and sampler one behind the other.
 
 use super::front::PathFront;
 use super::look_ahead::Scheduler;

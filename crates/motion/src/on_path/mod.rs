@@ -1,10 +1,10 @@
 //! The path given, its time optimised.
 //!
 //! The geometry is settled first, from the program and the tolerance alone: dense chords become a
-//! smooth spline in the tube around them, corners become transitions or stops. Then the motion along
-//! that path is planned: S-curves between junctions of speeds found by look-ahead, made faster where the
-//! limits of the axes leave room, and on curves of the program a time parametrisation that is optimal as
-//! a whole.
+//! smooth spline in the tube around them, corners become transitions or stops. Then the motion
+//! along that path is planned: S-curves between junctions of speeds found by look-ahead, made
+//! faster where the limits of the axes leave room, and on curves of the program a time
+//! parametrisation that is optimal as a whole.
 //!
 //! ```text
 //!   item ──▶ front ──▶ pieces, rests ──▶ look_ahead ──▶ settled motion ──▶ refiner ──▶ sampler ──▶ frames

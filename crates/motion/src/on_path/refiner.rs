@@ -10,13 +10,14 @@ use super::topp::optimise;
 use glidepath_program::Limits;
 use std::collections::VecDeque;
 
-/// Motion that is optimised together, s, as the S-curves drive it, and its most pieces: little enough
-/// for the work to be done while what was published before is executed.
+/// Motion that is optimised together, s, as the S-curves drive it, and its most pieces: little
+/// enough for the work to be done while what was published before is executed.
 const WINDOW_T: f64 = 12.0;
 /// A window ends where the S-curves are slowest, after this share of it: there little is lost.
 const SHORTEST_R: f64 = 0.4;
 const MOST_PIECES: usize = 4096;
-/// How much slower than the S-curves a time parametrisation starts, and passes from one window to the next.
+/// How much slower than the S-curves a time parametrisation starts, and passes from one window to
+/// the next.
 const RATE_R: f64 = 0.85;
 /// Where no parametrisation is found, the window is parted in this share of it, so often at most.
 const MIDDLE_R: [f64; 2] = [0.2, 0.8];
@@ -213,9 +214,9 @@ impl Refiner {
         );
     }
 
-    /// With a time parametrisation that begins and ends at [`RATE_R`] of the speed of the S-curves. If none is found for
-    /// all of it, one is for most of its parts: only where there is none, the S-curves are
-    /// driven slower.
+    /// With a time parametrisation that begins and ends at [`RATE_R`] of the speed of the S-curves.
+    /// If none is found for all of it, one is for most of its parts: only where there is none, the
+    /// S-curves are driven slower.
     fn put_slowed(&self, mut chain: MotionChain, halvings: u32, out: &mut VecDeque<Settled>) {
         let parametrisation = self.parametrisation(&chain.pieces, &chain.legs, &[RATE_R]);
         if parametrisation.is_none()

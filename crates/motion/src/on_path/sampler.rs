@@ -1,8 +1,8 @@
 //! Sampling: settled motion to frames on the period grid.
 //!
 //! The grid runs on through every phase, piece and run: each stretch of motion starts a fraction of
-//! a period before its first frame, and that fraction is carried, never rounded. Times and positions
-//! are kept relative to the stretch, so a long program loses no digits.
+//! a period before its first frame, and that fraction is carried, never rounded. Times and
+//! positions are kept relative to the stretch, so a long program loses no digits.
 
 use super::look_ahead::Settled;
 use super::pieces::{Piece, Shape};

@@ -2,16 +2,17 @@
 //!
 //! Knot span by knot span:
 //!
-//! 1. A bound of the curvature over the whole span, from the coefficients of its polynomials, is below
-//!    the threshold: nothing here, nothing evaluated.
+//! 1. A bound of the curvature over the whole span, from the coefficients of its polynomials, is
+//!    below the threshold: nothing here, nothing evaluated.
 //! 2. Else the extremes of the curvature are isolated by the sign variations of a polynomial, which
 //!    never undercount roots. Between neighbours of them the signed curvature is monotone.
-//! 3. So their values tell where the threshold is crossed; a bracketed search finds the point. The end
-//!    of the bracket outside the region is taken.
+//! 3. So their values tell where the threshold is crossed; a bracketed search finds the point. The
+//!    end of the bracket outside the region is taken.
 //!
-//! Regions are joined over knots, and over an inflection of a curve in a plane between two places that
-//! are too sharp: the little stretch of slight curvature counts as part of the region. Where the tangent itself jumps (a knot as often as the degree) there
-//! is a corner, and where the curve stands still a cusp: both are minima of radius zero.
+//! Regions are joined over knots, and over an inflection of a curve in a plane between two places
+//! that are too sharp: the little stretch of slight curvature counts as part of the region. Where
+//! the tangent itself jumps (a knot as often as the degree) there is a corner, and where the curve
+//! stands still a cusp: both are minima of radius zero.
 //!
 //! *Rounding.* Two roots closer than about 1e-12 of a span may be lost; the curvature between them
 //! changes by a negligible amount.
@@ -125,8 +126,8 @@ impl Sweep<'_> {
     ) {
         let (sharp_from, sharp_to) = (self.is_sharp(from.1), self.is_sharp(to.1));
         if sharp_from != sharp_to {
-            // The threshold is passed once, with the sign of the sharp end. An infinite curvature has
-            // the sign of its neighbourhood.
+            // The threshold is passed once, with the sign of the sharp end. An infinite curvature
+            // has the sign of its neighbourhood.
             let (u, k, other_u) = if sharp_to {
                 (to.0, to.1, from.0)
             } else {
@@ -164,8 +165,8 @@ impl Sweep<'_> {
     }
 
     /// A bracket, no wider than the tolerance, of the point between two points (u, κ) where the
-    /// curvature passes `level`: false position with halved stale ends, a bisection where three steps
-    /// did not halve the bracket. Where the curvature is infinite it has the sign of `level`.
+    /// curvature passes `level`: false position with halved stale ends, a bisection where three
+    /// steps did not halve the bracket. Where the curvature is infinite it has the sign of `level`.
     fn crossing(
         &self,
         probe: &mut Probe<'_>,

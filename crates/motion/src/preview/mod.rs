@@ -35,15 +35,13 @@
 //! retreat* (Chinese patent), for the second method, with the repairs its text needs; the certified
 //! method was derived for Glidepath.
 
-mod advance_retreat;
 mod certified;
 mod probe;
-mod traditional;
+mod published;
 
-pub use advance_retreat::AdvanceRetreat;
 pub use certified::Certified;
 pub use probe::{Probe, Reading};
-pub use traditional::Traditional;
+pub use published::{AdvanceRetreat, Traditional};
 
 use glidepath_geometry::NurbsPath;
 
@@ -85,8 +83,8 @@ impl Demand {
             .max((f * f * f / self.normal_j).sqrt())
     }
 
-    /// Chord error of one tick at speed `v` on a circle of a radius, mm; on a circle the tick does not
-    /// fit into, its radius.
+    /// Chord error of one tick at speed `v` on a circle of a radius, mm; on a circle the tick does
+    /// not fit into, its radius.
     #[must_use]
     pub fn chord_error_mm(&self, v: f64, radius_mm: f64) -> f64 {
         let half = 0.5 * v * self.period_t;

@@ -11,12 +11,13 @@
 //! time: with d = |v1 − v0| it takes 2·t_j + t_a, where t_j = A/J, t_a = d/A − A/J if d ≥ A²/J and
 //! t_j = √(d/J), t_a = 0 otherwise, and it covers exactly ½(v0 + v1)(2·t_j + t_a).
 //!
-//! Two traps, both with numbers in the tests. The speed reachable over a length is *not* monotone in
-//! the speed one starts from, and a full stop can need *less* room than slowing down partly. So no
-//! search here runs over the lower speed of a ramp; and whoever looks ahead for a stop must look
+//! Two traps, both with numbers in the tests. The speed reachable over a length is *not* monotone
+//! in the speed one starts from, and a full stop can need *less* room than slowing down partly. So
+//! no search here runs over the lower speed of a ramp; and whoever looks ahead for a stop must look
 //! [`slowing_horizon`] ahead, not the stopping distance.
 //!
-//! Formulas: the phase table of Gu, Zhou, Lin et al. (seven-phase feed along NURBS), the rest derived.
+//! Formulas: the phase table of Gu, Zhou, Lin et al. (seven-phase feed along NURBS), the rest
+//! derived.
 
 mod phase;
 mod profile;

@@ -308,8 +308,8 @@ fn peak_rise(entry_v: f64, exit_v: f64, length_s: f64, headroom_v: f64, limits: 
     if closed_v - base_v >= knee_v {
         return (closed_v - base_v).min(headroom_v);
     }
-    // In x = √rise the length is smooth, nearly a cubic; Newton inside a bracket. The start is exact
-    // for equal ends.
+    // In x = √rise the length is smooth, nearly a cubic; Newton inside a bracket. The start is
+    // exact for equal ends.
     let room_s = (length_s - ramp_s(low_v, base_v - low_v)).max(0.0);
     let mut x = (reachable_rise(base_v, 0.5 * room_s, limits))
         .min(headroom_v)

@@ -66,8 +66,8 @@ pub fn ramp_length(from_v: f64, to_v: f64, limits: PathLimits) -> f64 {
     0.5 * (from_v + to_v) * ramp_duration(from_v, to_v, limits)
 }
 
-/// True if a ramp between two speeds fits into a length, up to the rounding of the speeds: where they
-/// hardly differ, their difference, and with it the length of the ramp, has few digits left.
+/// True if a ramp between two speeds fits into a length, up to the rounding of the speeds: where
+/// they hardly differ, their difference, and with it the length of the ramp, has few digits left.
 #[must_use]
 pub fn ramp_fits(from_v: f64, to_v: f64, length_s: f64, limits: PathLimits) -> bool {
     let change_v = (to_v - from_v).abs();

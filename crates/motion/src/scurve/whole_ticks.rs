@@ -1,12 +1,12 @@
 //! The published way to plan a speed change in whole periods, for comparison.
 //!
 //! Gu, Zhou, Lin et al. plan the seven phases period by period and plan again where the speed would
-//! exceed its limit: (1) take a period at the jerk of the phase; (2) where, after it, the acceleration
-//! could not be brought to zero below the limit, go back by that period; (3) turn to the opposite jerk,
-//! or the smallest that brings the acceleration to zero within a period; (4) check again, and repeat.
-//! As the phases last whole periods, the speed reached falls short of the limit: by a few percent on
-//! average at 4 ms, in proportion to the period. [`super::Profile`] has the peak speed in closed form
-//! and reaches the limit; nothing here is used by the planner.
+//! exceed its limit: (1) take a period at the jerk of the phase; (2) where, after it, the
+//! acceleration could not be brought to zero below the limit, go back by that period; (3) turn to
+//! the opposite jerk, or the smallest that brings the acceleration to zero within a period; (4)
+//! check again, and repeat. As the phases last whole periods, the speed reached falls short of the
+//! limit: by a few percent on average at 4 ms, in proportion to the period. [`super::Profile`] has
+//! the peak speed in closed form and reaches the limit; nothing here is used by the planner.
 
 use super::ramp::PathLimits;
 

@@ -1,16 +1,16 @@
-//! The race against stopping at every vertex.
+//! The baseline that every window is held against: stopping at every vertex.
 //!
-//! Legs from vertex to vertex are the baseline: when it is where, is known in closed form. A window is
-//! worth as much as the best state in it: from there an S-curve leads straight to rest at the end of
-//! the piece, where legs can take over.
+//! Legs from vertex to vertex are the baseline: when it is where, is known in closed form. A window
+//! is worth as much as the best state in it: from there an S-curve leads straight to rest at the
+//! end of the piece, where legs can take over.
 //!
 //! ```text
 //!   gain = time of the baseline at the end of the piece − (time of the state + S-curve from there)
 //! ```
 //!
 //! At the rest of a window this is exact. Before that it is trusted that the windows to come lose
-//! no more against the S-curve than [`TRUST_PERIODS`]: along one straight piece there is nothing they
-//! could get stuck at.
+//! no more against the S-curve than [`TRUST_PERIODS`]: along one straight piece there is nothing
+//! they could get stuck at.
 
 use super::stop_leg::StopLeg;
 use crate::in_tube::path::top_v;

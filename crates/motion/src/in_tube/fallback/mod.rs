@@ -1,5 +1,5 @@
-//! What always works: straight to the next vertex and to rest there. It is driven where no window is
-//! found, and every window is held against it.
+//! What always works: straight to the next vertex and to rest there. It is driven where no window
+//! is found, and every window is held against it.
 
 mod baseline;
 mod stop_leg;

@@ -1,9 +1,9 @@
 //! The plan that always works: straight to a vertex of the path, at rest at both ends.
 //!
 //! From a place within tolerance of a point of a piece, the straight line to the end of the piece
-//! stays within tolerance of the piece, because distances between two straight motions are convex. So
-//! whatever else fails, a leg brings the motion to the next vertex. Its seven-phase profile keeps the
-//! limits of every axis at every instant, hence all differences over a period.
+//! stays within tolerance of the piece, because distances between two straight motions are convex.
+//! So whatever else fails, a leg brings the motion to the next vertex. Its seven-phase profile
+//! keeps the limits of every axis at every instant, hence all differences over a period.
 
 use crate::in_tube::path::TubePiece;
 use crate::in_tube::path::directional;

@@ -5,8 +5,8 @@ use crate::feed_axes::counted_axes;
 use glidepath_geometry::AxisVector;
 
 /// Speed the feed of a piece allows along a displacement of a feed length. What the piece's feed
-/// counts may be another group of axes than what the displacement's does: beside a rotary move, a way
-/// of a micrometre back to the path is all that XYZ move.
+/// counts may be another group of axes than what the displacement's does: beside a rotary move, a
+/// way of a micrometre back to the path is all that XYZ move.
 pub(crate) fn top_v(piece: &TubePiece, displacement: &AxisVector, length_s: f64) -> f64 {
     let counted_s = counted_length(piece, displacement);
     if counted_s > length_s {

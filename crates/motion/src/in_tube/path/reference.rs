@@ -7,8 +7,8 @@ use glidepath_geometry::AxisVector;
 pub(crate) struct Reference {
     /// Where it ends; it starts where the piece before it ended.
     pub(crate) end: AxisVector,
-    /// Largest path speed, in mm/s of [`glidepath_geometry::feed_length`], > 0 and finite. For a rapid: the speed at
-    /// which some axis is at its limit.
+    /// Largest path speed, in mm/s of [`glidepath_geometry::feed_length`], > 0 and finite. For a
+    /// rapid: the speed at which some axis is at its limit.
     pub(crate) top_v: f64,
     /// How far the motion may be from the path, and each vertex from the motion, in XYZ and in UVW,
     /// mm, > 0. At a vertex the smaller tolerance of both sides holds.

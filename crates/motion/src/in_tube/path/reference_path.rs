@@ -1,9 +1,10 @@
-//! The reference path of a stretch: a ring of straight pieces, dropped when the motion is past them.
+//! The reference path of a stretch: a ring of straight pieces, dropped when the motion is past
+//! them.
 //!
 //! Pieces are numbered from the start of the stretch, so that a number stays valid while the ring
-//! moves on. Pieces far shorter than the tolerance carry no direction worth following and would make
-//! the ring grow without bound: a vertex that lies within [`TINY_R`] tolerances of the vertex before
-//! it is held back until the path leaves that ball, and the tolerance is smaller by as much.
+//! moves on. Pieces far shorter than the tolerance carry no direction worth following and would
+//! make the ring grow without bound: a vertex that lies within [`TINY_R`] tolerances of the vertex
+//! before it is held back until the path leaves that ball, and the tolerance is smaller by as much.
 //!
 //! ```text
 //!        held back:  · ·            a piece starts at the last vertex kept,
@@ -143,7 +144,7 @@ impl ReferencePath {
         self.base + self.pieces.len()
     }
 
-    /// TubePiece `index`, if it is known and not yet dropped.
+    /// Piece `index`, if it is known and not yet dropped.
     pub(crate) fn get(&self, index: usize) -> Option<&TubePiece> {
         self.pieces.get(index.checked_sub(self.base)?)
     }

@@ -1,8 +1,8 @@
 //! Legs from vertex to vertex: what runs where no window is found.
 //!
-//! Legs follow each other without waiting for the next period, so that a chain of them takes no longer
-//! than the sum of their times; only where chords between two periods would cut off too much of a
-//! vertex does the motion rest at it, until the next period or for one more.
+//! Legs follow each other without waiting for the next period, so that a chain of them takes no
+//! longer than the sum of their times; only where chords between two periods would cut off too much
+//! of a vertex does the motion rest at it, until the next period or for one more.
 //!
 //! ```text
 //!        vertex         A chord that begins before the vertex ends up to a period after it: where
@@ -112,7 +112,8 @@ impl PlannerState {
         Some(next)
     }
 
-    /// The furthest of what can be next: past the vertices, at rest at the first one, or still at rest.
+    /// The furthest of what can be next: past the vertices, at rest at the first one, or still at
+    /// rest.
     fn checked(&self, now: LegProgress, passed: LegProgress) -> LegProgress {
         let begins = now.leg_t <= 0.0 || passed.leg.piece != now.leg.piece;
         if !begins || self.can_go_on(&passed) {

@@ -1,7 +1,7 @@
 //! The near time-optimal planner of a stretch of motion between two rests.
 //!
-//! It is given the path as straight pieces with a tolerance and a speed each, and gives the state of
-//! every axis at every period. Geometry and time law come out together: the motion may be anywhere
+//! It is given the path as straight pieces with a tolerance and a speed each, and gives the state
+//! of every axis at every period. Geometry and time come out together: the motion may be anywhere
 //! inside the tolerance.
 //!
 //! ```text
@@ -12,8 +12,8 @@
 //!                      next vertices (StopLeg)
 //! ```
 //!
-//! Whatever leaves this module has passed the check of `follow` (both ways, in order, within tolerance), keeps
-//! every limit, and is continued by a motion that ends at rest.
+//! Whatever leaves this module has passed the check of [`crate::in_tube::verify`] (both ways, in
+//! order, within tolerance), keeps every limit, and is continued by a motion that ends at rest.
 //!
 //! The motion depends on the sequence of calls that change the path or its speed and on how many
 //! periods were taken before a change of speed, on nothing else: a plan is made when a definite

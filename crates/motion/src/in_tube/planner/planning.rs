@@ -7,7 +7,7 @@
 //!                          └──► else: the leg goes on, and some more legs follow
 //! ```
 //!
-//! Whatever is taken keeps the gain over the baseline of [`super::gain`]: a leg does by itself, a window
+//! Whatever is taken keeps the gain over [`Baseline`]: a leg does by itself, a window
 //! is taken if it leads by more than what would be done without it.
 
 use super::state::{ActiveMotion, MOST_LEGS, PlannerState};
@@ -25,7 +25,8 @@ use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC, feed_length};
 const TRIAL_INTERVALS: f64 = 4.0;
 /// Share of a window that is worth handing out by itself.
 const LEAST_COMMIT: usize = 4;
-/// A window that would have to stop in less than one part in so many of the way that takes is not tried.
+/// A window that would have to stop in less than one part in so many of the way that takes is not
+/// tried.
 const FAR_TOO_FAST: f64 = 2.0;
 
 /// A window that may be taken.
@@ -327,8 +328,8 @@ impl PlannerState {
         reachable.is_at_end(&self.reference_path) && end == Some(self.history.last())
     }
 
-    /// The motion from the present state on, as control points: what is left of the last window down
-    /// to its rest, or so many intervals of the leg under way, which need not be a motion.
+    /// The motion from the present state on, as control points: what is left of the last window
+    /// down to its rest, or so many intervals of the leg under way, which need not be a motion.
     fn tail(&self, grid: &Grid, intervals: usize) -> Vec<AxisVector> {
         match &self.active {
             ActiveMotion::Window { points, done, .. } => {

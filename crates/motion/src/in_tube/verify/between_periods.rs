@@ -1,7 +1,8 @@
 //! The motion between two periods, as it is when time runs slower.
 //!
 //! At 100 % the positions at the periods are all there is. Under an override, in a hold, the motion
-//! between two of them is the quintic polynomial through both states, and it bulges out of the chord:
+//! between two of them is the quintic polynomial through both states, and it bulges out of the
+//! chord:
 //!
 //! ```text
 //!        bulge ╭──·──╮      by about a·T²/8 in the middle; in n parts, by 1/n² of that
@@ -9,8 +10,8 @@
 //!            ●─────────●
 //! ```
 //!
-//! And when it has run slower for a while, periods end elsewhere: then chords cut off what the motion
-//! bulges out, and the vertices must be nearer to it by that.
+//! And when it has run slower for a while, periods end elsewhere: then chords cut off what the
+//! motion bulges out, and the vertices must be nearer to it by that.
 
 use crate::in_tube::path::TubePiece;
 use crate::in_tube::period::State;

@@ -1,9 +1,10 @@
 //! Does a motion follow the path? The check that every motion passes before it is handed out.
 //!
-//! The motion is the polyline through its positions at the periods, and, where time runs slower, the
-//! curve between them ([`super::bend`]). It follows the path if both can be run through together, neither ever going back, without being further apart than the tolerance:
-//! that keeps every point of the motion near the path, and every vertex of the path near the motion,
-//! in order. All pairs (point of path, point of motion) that can be reached so are found chord by
+//! The motion is the polyline through its positions at the periods, and, where time runs slower,
+//! the curve between them ([`super::between_periods`]). It follows the path if both can be run
+//! through together, neither ever going back, without being further apart than the tolerance: that
+//! keeps every point of the motion near the path, and every vertex of the path near the motion, in
+//! order. All pairs (point of path, point of motion) that can be reached so are found chord by
 //! chord of the motion:
 //!
 //! ```text
@@ -16,9 +17,9 @@
 //!               motion
 //! ```
 //!
-//! This is the reachable set of the Fréchet distance (Alt and Godau 1995), with the tolerance of each
-//! piece as its threshold. Distances are taken by groups of axes: XYZ together, UVW together, each
-//! rotary axis by itself.
+//! This is the reachable set of the Fréchet distance (Alt and Godau 1995), with the tolerance of
+//! each piece as its threshold. Distances are taken by groups of axes: XYZ together, UVW together,
+//! each rotary axis by itself.
 
 use super::beside::Beside;
 use super::between_periods::BetweenPeriods;
@@ -217,9 +218,9 @@ impl Follower {
     }
 }
 
-/// Goes straight from one position to the next, nearer to vertices than the tolerance by what a chord
-/// that begins a little earlier or later may be further off; `next` is where that leads. False if it
-/// leaves the path.
+/// Goes straight from one position to the next, nearer to vertices than the tolerance by what a
+/// chord that begins a little earlier or later may be further off; `next` is where that leads.
+/// False if it leaves the path.
 fn walk(
     reference_path: &ReferencePath,
     end: usize,
@@ -255,10 +256,11 @@ fn walk(
     !next.ranges.is_empty()
 }
 
-/// What chords may be further off a vertex that begin up to half a step of [`PHASES`] earlier or later.
+/// What chords may be further off a vertex that begin up to half a step of [`PHASES`] earlier or
+/// later.
 ///
-/// Of a motion q of constant acceleration, a chord over one period T is off by e = aT²/2·λ(1 − λ) at
-/// its parameter λ. One that begins by δ·T later has the same time at λ − δ, where it is off by
+/// Of a motion q of constant acceleration, a chord over one period T is off by e = aT²/2·λ(1 − λ)
+/// at its parameter λ. One that begins by δ·T later has the same time at λ − δ, where it is off by
 /// aT²/2·δ(1 − 2λ + δ) less: so much the nearest chords can hide, and most at the ends of a chord.
 /// A change of acceleration adds, to first order in δ, jT³/6·δ/2.
 #[derive(Debug)]
@@ -274,9 +276,9 @@ const HALF_STEP: f64 = 0.0625;
 const MIDDLES: [f64; 3] = [0.5, 0.25, 0.0625];
 
 impl Shift {
-    /// The part of a chord from which the vertex at the end of a piece, beside it, is within `corner_r`
-    /// tolerances, less what holds there. Distance and loss are convex, so it is a range, and the
-    /// parts of it found are joined.
+    /// The part of a chord from which the vertex at the end of a piece, beside it, is within
+    /// `corner_r` tolerances, less what holds there. Distance and loss are convex, so it is a
+    /// range, and the parts of it found are joined.
     fn near_vertex(&self, piece: &TubePiece, corner_r: f64, beside: &Beside) -> ParameterRange {
         let all = self.before.iter().chain(&self.now);
         let sagitta_r = all.fold(0.0_f64, |most, s| most.max(piece.distance_r(s)));

@@ -1,4 +1,4 @@
-//! The last word on a motion before it is handed out.
+//! The positions handed out last, and the last word on a motion that continues them.
 //!
 //! Only positions at the periods count: differences of first, second and third order against the
 //! limits of every axis, the feed, and the way along the path ([`super::follow`]).
@@ -93,8 +93,8 @@ impl History {
         let feed_v = pieces
             .clone()
             .fold(0.0_f64, |most, piece| most.max(piece.top_v));
-        // Counted as the pieces count it: beside a rotary move, the least motion of XYZ is all that the
-        // step's own feed length tells.
+        // Counted as the pieces count it: beside a rotary move, the least motion of XYZ is all that
+        // the step's own feed length tells.
         let mut counted =
             pieces.map(|piece| counted_length(piece, &step) / (piece.top_v * period_t));
         let is_slow = speed_v <= self.overspeed_v || counted.any(|ratio| ratio <= FEED_SLACK);

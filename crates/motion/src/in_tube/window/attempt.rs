@@ -28,8 +28,8 @@ pub(crate) struct View {
 }
 
 impl View {
-    /// What a window needs that starts on piece `index` at parameter `u`, with everything from piece
-    /// `first` on in sight; `None` if that is not known yet.
+    /// What a window needs that starts on piece `index` at parameter `u`, with everything from
+    /// piece `first` on in sight; `None` if that is not known yet.
     pub(crate) fn new(
         limits: &Limits,
         reference_path: &ReferencePath,

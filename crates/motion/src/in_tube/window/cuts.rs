@@ -1,9 +1,9 @@
 //! Balls as planes: what the tube and the corners are cut by, learnt from one solution to the next.
 //!
 //! The tube of a piece is round, and so is the room round a corner. Each is bounded by planes that
-//! touch it where earlier solutions were: outer approximations that close in on the ball. The planes
-//! of the last few rounds are all kept, or else a motion that is pushed back at one side comes out at
-//! another.
+//! touch it where earlier solutions were: outer approximations that close in on the ball. The
+//! planes of the last few rounds are all kept, or else a motion that is pushed back at one side
+//! comes out at another.
 
 use super::samples::{Samples, WORTH_R, sample};
 use super::scaled_path::{SHARP, ScaledPath};
@@ -79,8 +79,8 @@ impl<const D: usize> Cuts<D> {
         self.feeds.clear();
     }
 
-    /// Directions in which the velocity at a first difference was above the feed, as unit vectors of
-    /// what [`velocity_over_feed`] gives.
+    /// Directions in which the velocity at a first difference was above the feed, as unit vectors
+    /// of what [`velocity_over_feed`] gives.
     pub(crate) fn of_feed(&self, k: usize) -> impl Iterator<Item = &[f64; D]> {
         self.feeds
             .get(k)
@@ -180,7 +180,8 @@ impl<const D: usize> Cuts<D> {
     }
 }
 
-/// Periods before and after the one in which samples change pieces, in which a corner may be passed.
+/// Periods before and after the one in which samples change pieces, in which a corner may be
+/// passed.
 const NEAR_PERIODS: usize = 2;
 
 /// Half-way from the motion to a chord that cuts it off, as a part of T² times acceleration.
@@ -277,9 +278,9 @@ fn passing<const D: usize>(
     }
 }
 
-/// How much of what is along the motion does not matter in the period that ends with sample `k`: the
-/// less, the more it turns. The judge knows yes and no only; here that would come and go from round to
-/// round.
+/// How much of what is along the motion does not matter in the period that ends with sample `k`:
+/// the less, the more it turns. The judge knows yes and no only; here that would come and go from
+/// round to round.
 fn straightness<const D: usize>(points: &[[f64; D]], grid: &Grid, k: usize) -> f64 {
     let [before, after] = [k - 1, k].map(|k| {
         let (first, weights) = grid.velocity_site(k);

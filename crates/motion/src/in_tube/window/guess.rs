@@ -1,9 +1,11 @@
-//! A first guess of the time law: seven-phase speed changes between speed caps at the vertices.
+//! A first guess of the time parametrisation: seven-phase speed changes between speed caps at the
+//! vertices.
 //!
-//! Only a guess: it says when the motion should be on which piece, and errs on the side of too fast,
-//! because a sample that was given to a piece too early is corrected at once, one given too late moves
-//! on by a tube length an iteration. The cap at a vertex is the speed at which the turn fits into the
-//! tube: with jerk J a change of velocity takes the time τ, J·τ² = |Δt|·v, and strays by about J·τ³/4.
+//! Only a guess: it says when the motion should be on which piece, and errs on the side of too
+//! fast, because a sample that was given to a piece too early is corrected at once, one given too
+//! late moves on by a tube length an iteration. The cap at a vertex is the speed at which the turn
+//! fits into the tube: with jerk J a change of velocity takes the time τ, J·τ² = |Δt|·v, and strays
+//! by about J·τ³/4.
 
 use super::scaled_path::ScaledPath;
 use crate::scurve::{PathLimits, Profile, reachable_speed};
@@ -11,7 +13,7 @@ use crate::scurve::{PathLimits, Profile, reachable_speed};
 /// Speed at and time of every vertex.
 #[derive(Debug, Default)]
 pub(crate) struct Guess {
-    /// Seconds from the start of the scene, one more than pieces.
+    /// Seconds from the start of the scaled path, one more than pieces.
     times: Vec<f64>,
     speeds: Vec<f64>,
 }

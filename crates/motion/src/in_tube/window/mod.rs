@@ -1,7 +1,7 @@
 //! One window: a motion of near least time through the tube, from the present state to rest.
 //!
 //! ```text
-//!   attempt ──▶ optimiser ──▶ tube, cuts ──▶ solver        geometry and time law come out together
+//!   attempt ──▶ optimiser ──▶ tube, cuts ──▶ solver        geometry and time come out together
 //!     │            ▲              rows        convex
 //!     │            └── samples ◀──────────────┘ problem
 //!     └──▶ verify: every motion, before it is given out

@@ -20,15 +20,16 @@ use super::tube;
 use super::tube::{Extents, FEED_R, Layout, Style};
 use super::window_start::WindowStart;
 
-/// Rounds in which samples change pieces, and rounds in which they do not; what of the radius is used
-/// in them, and how strong the pull to the middle is.
+/// Rounds in which samples change pieces, and rounds in which they do not; what of the radius is
+/// used in them, and how strong the pull to the middle is.
 struct Phase {
     search: usize,
     polish: usize,
     keep_r: f64,
     ridge: f64,
 }
-/// The rounds of one attempt: what comes and goes at the edge of the tube is given more and more room.
+/// The rounds of one attempt: what comes and goes at the edge of the tube is given more and more
+/// room.
 const PHASES: [Phase; 3] = [
     Phase {
         search: 3,
@@ -49,7 +50,8 @@ const PHASES: [Phase; 3] = [
         ridge: 1e-3,
     },
 ];
-/// Paces of the attempts, relative to what is expected; after them comes one that stops at every vertex.
+/// Paces of the attempts, relative to what is expected; after them comes one that stops at every
+/// vertex.
 const PACES: [f64; 3] = [1.0, 0.9, 0.75];
 /// Lengths of the last window that are tried, and rounds for each.
 const FINISHES: usize = 16;
@@ -314,7 +316,8 @@ impl<const D: usize> Optimiser<D> {
         self.interior.solve(&self.problem, points, goal)
     }
 
-    /// If the motion comes to rest at the end of the path: the shortest one that rests exactly there.
+    /// If the motion comes to rest at the end of the path: the shortest one that rests exactly
+    /// there.
     fn finish(
         &mut self,
         path: &ScaledPath<D>,

@@ -46,8 +46,8 @@ pub(crate) struct RoundState<const D: usize> {
 }
 
 impl<const D: usize> RoundState<D> {
-    /// Takes note of how far the last solution stands out of the planes that bound the feed, which it was
-    /// planned with a share of: the next one is expected to stand out as far.
+    /// Takes note of how far the last solution stands out of the planes that bound the feed, which
+    /// it was planned with a share of: the next one is expected to stand out as far.
     ///
     /// On curves velocities turn from round to round, and planes that touch the feed where the last
     /// ones were come a little late for the next.
@@ -56,9 +56,9 @@ impl<const D: usize> RoundState<D> {
         self.feed_r = (ALLOWED_R / excess_r).clamp(LEAST_FEED_R, FEED_R);
     }
 
-    /// The pull to the middle where the feed was not kept: in a wide tube velocities may turn far from
-    /// round to round, and planes of the last ones do not hold the next; near the middle they all point
-    /// along the path.
+    /// The pull to the middle where the feed was not kept: in a wide tube velocities may turn far
+    /// from round to round, and planes of the last ones do not hold the next; near the middle they
+    /// all point along the path.
     pub(crate) fn firm_ridge(&self, ridge: f64) -> f64 {
         if self.speed_r > FEED_SLACK {
             FIRM * ridge

@@ -2,9 +2,9 @@
 //!
 //! Samples are the ends of the periods: what is handed out. With every sample given to a piece, all
 //! that is asked of the motion is convex; after a solution, the samples are given out again by
-//! projecting the motion onto the path, never backwards, and the problem is solved again. A sample in
-//! the overlap of two tubes goes to the later one at once: the motion it has keeps the new rows too,
-//! and the next solution can use the room.
+//! projecting the motion onto the path, never backwards, and the problem is solved again. A sample
+//! in the overlap of two tubes goes to the later one at once: the motion it has keeps the new rows
+//! too, and the next solution can use the room.
 
 use super::scaled_path::ScaledPath;
 use super::solver::{combine, dot};
@@ -17,24 +17,25 @@ const FOLD_COS: f64 = 0.2;
 /// Share of the radius before the end of a piece at which a sample goes over to the next.
 const HOP_R: f64 = 0.3;
 
-/// What the motion bulges out of the chords of half periods, as a part of what it does out of whole ones.
+/// What the motion bulges out of the chords of half periods, as a part of what it does out of whole
+/// ones.
 const OF_HALVES: f64 = 0.25;
 
 /// Samples 0 … count of a window.
 #[derive(Debug, Default, Clone)]
 pub(crate) struct Samples {
-    /// Progress along the scene: where a sample is taken to be.
+    /// Progress along the scaled path: where a sample is taken to be.
     pub(crate) progress: Vec<f64>,
-    /// TubePiece a sample must be given to at least.
+    /// Piece a sample must be given to at least.
     pub(crate) at_least: Vec<usize>,
-    /// TubePiece a sample is given to.
+    /// Piece a sample is given to.
     pub(crate) piece: Vec<usize>,
     /// Factor of the radius: below one where a sample has come out too far off.
     pub(crate) shrink: Vec<f64>,
     /// What the motion bulges out of the chord of the period before a sample.
     bulge: Vec<f64>,
-    /// Whether the tube bounds middles of periods, too: where there are several knots in each. With one,
-    /// windows along short legs are refused for it more often than others gain.
+    /// Whether the tube bounds middles of periods, too: where there are several knots in each. With
+    /// one, windows along short legs are refused for it more often than others gain.
     bounds_middles: bool,
     /// Whether the middle of that period has come near the edge of the tube.
     is_middle_near: Vec<bool>,
@@ -83,9 +84,9 @@ impl Samples {
         self.is_middle_near[k] && self.is_on_one_piece(k)
     }
 
-    /// What the motion bulges, next to sample `k`, out of chords whose ends are bounded: those of periods.
-    /// With their middles bounded those of half periods on one piece, and at a corner of the part of a
-    /// period that is on its side.
+    /// What the motion bulges, next to sample `k`, out of chords whose ends are bounded: those of
+    /// periods. With their middles bounded those of half periods on one piece, and at a corner of
+    /// the part of a period that is on its side.
     pub(crate) fn sagitta<const D: usize>(&self, path: &ScaledPath<D>, k: usize) -> f64 {
         let bulge_after = self.bulge.get(k + 1).copied().unwrap_or(0.0);
         if !self.bounds_middles {

@@ -2,8 +2,8 @@
 //!
 //! Dividing every axis by the tolerance of its group makes the tube round the path a round one of
 //! radius one (unless tolerances change along the path), and distances in it the larger of what the
-//! groups allow: a point within the radius in this space is within tolerance in every group. It also
-//! makes millimetres and degrees, and millimetres and micrometres, the same problem.
+//! groups allow: a point within the radius in this space is within tolerance in every group. It
+//! also makes millimetres and degrees, and millimetres and micrometres, the same problem.
 
 use super::solver::dot;
 use crate::feed_axes::counted_axes;
@@ -13,7 +13,8 @@ use crate::scurve::PathLimits;
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_program::Limits;
 
-/// Turn from which the motion may run back for a moment, as a corner of less than the tolerance does.
+/// Turn from which the motion may run back for a moment, as a corner of less than the tolerance
+/// does.
 pub(crate) const SHARP: f64 = 0.3;
 
 /// A piece of the path in the space of the window.
@@ -23,7 +24,7 @@ pub(crate) struct ScaledSegment<const D: usize> {
     /// Unit vector.
     pub(crate) tangent: [f64; D],
     pub(crate) length: f64,
-    /// Length from the start of the scene to the start of the piece.
+    /// Length from the start of the scaled path to the start of the piece.
     pub(crate) s: f64,
     /// Radius of the tube.
     pub(crate) radius: f64,
@@ -33,13 +34,14 @@ pub(crate) struct ScaledSegment<const D: usize> {
     pub(crate) limits: PathLimits,
     /// Direction in the axes of the feed, such that feed speed over programmed feed is `feed · v`.
     pub(crate) feed: [f64; D],
-    /// Per axis, one over the programmed feed where the feed counts the axis, in units of the window.
+    /// Per axis, one over the programmed feed where the feed counts the axis, in units of the
+    /// window.
     pub(crate) feed_axes: [f64; D],
     /// Across: first in the plane of the corner at its end, then whatever completes the base.
     pub(crate) normals: [[f64; D]; D],
 }
 
-/// The path of a window.
+/// The path of a window, measured in tolerances.
 #[derive(Debug, Clone)]
 pub(crate) struct ScaledPath<const D: usize> {
     /// Number of the first piece.
@@ -187,7 +189,7 @@ impl<const D: usize> ScaledPath<D> {
         }
     }
 
-    /// Length of the whole path of the scene.
+    /// Length of the whole path of the scaled path.
     pub(crate) fn length(&self) -> f64 {
         self.segments
             .last()

@@ -40,8 +40,8 @@ fn widen(weights: [f64; 4], offset: usize) -> [f64; SPAN] {
     wide
 }
 
-/// Steps in which acceleration goes to its limit, at least: jerk changes at knots only, so the fewer
-/// there are, the later the changes come.
+/// Steps in which acceleration goes to its limit, at least: jerk changes at knots only, so the
+/// fewer there are, the later the changes come.
 const RAMP_STEPS: f64 = 10.0;
 /// Most knots in a period.
 const MOST_KNOTS: usize = 4;
@@ -99,8 +99,8 @@ impl Grid {
     }
 
     /// First control point and weights of a point within the period that follows `period`, at
-    /// parameter `lambda`, with a part of the acceleration added: q + `part`·T²·q″. With an eighth it
-    /// is where a chord is that has its middle there.
+    /// parameter `lambda`, with a part of the acceleration added: q + `part`·T²·q″. With an eighth
+    /// it is where a chord is that has its middle there.
     pub(crate) fn inner_site(&self, period: usize, lambda: f64, part: f64) -> (usize, [f64; SPAN]) {
         #[expect(clippy::cast_precision_loss, reason = "hundreds")]
         let steps =
@@ -134,8 +134,8 @@ impl Grid {
         (first, widen(basis_1(u).map(|w| w * ratio), 0))
     }
 
-    /// First control point and weights of the acceleration at the end of a period, times the square of
-    /// the period.
+    /// First control point and weights of the acceleration at the end of a period, times the square
+    /// of the period.
     pub(crate) fn bend_site(&self, period: usize) -> (usize, [f64; SPAN]) {
         let (first, u) = self.interval_of(period);
         let ratio = self.ratio();

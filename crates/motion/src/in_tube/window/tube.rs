@@ -8,13 +8,13 @@
 //!                                     it is far, so that samples need not change pieces at once.
 //! ```
 //!
-//! Samples are bound to the tube and, with several knots in a period, the middles between samples of one
-//! piece where they are near its edge; less what the motion bulges out of the chords between them. A
-//! straight line between two samples of one piece is then in it too, and where the motion goes over to another piece, it must come near
-//! every corner on the way: a point of it between the two samples must be inside the ball round the
-//! corner, and so must a chord that has its middle there. Half-way between both, which is linear in the
-//! control points, each plane that touches the ball is nearer by half the way. Together that is just what
-//! the judge asks.
+//! Samples are bound to the tube and, with several knots in a period, the middles between samples
+//! of one piece where they are near its edge; less what the motion bulges out of the chords between
+//! them. A straight line between two samples of one piece is then in it too, and where the motion
+//! goes over to another piece, it must come near every corner on the way: a point of it between the
+//! two samples must be inside the ball round the corner, and so must a chord that has its middle
+//! there. Half-way between both, which is linear in the control points, each plane that touches the
+//! ball is nearer by half the way. Together that is just what the judge asks.
 //!
 //! The round parts are bounded by planes ([`super::cuts`]).
 
@@ -46,7 +46,8 @@ pub(crate) struct Style {
     pub(crate) is_feed_firm: bool,
     /// Share of the feed that is planned with.
     pub(crate) feed_r: f64,
-    /// Part of the radius that is used: the rest is left to rounding, and to iterates that come and go.
+    /// Part of the radius that is used: the rest is left to rounding, and to iterates that come and
+    /// go.
     pub(crate) keep_r: f64,
     /// Pull towards the middle of the tube, so that a motion at rest has a place there.
     pub(crate) ridge: f64,
@@ -215,8 +216,8 @@ fn add_tube<const D: usize>(
     }
 }
 
-/// The same, but for the ends, for the middle between two samples of one piece. What has bounded the
-/// samples bounds it, too.
+/// The same, but for the ends, for the middle between two samples of one piece. What has bounded
+/// the samples bounds it, too.
 fn add_middle<const D: usize>(
     problem: &mut Problem<D>,
     layout: &Layout<'_, D>,

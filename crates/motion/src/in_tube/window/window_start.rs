@@ -13,7 +13,7 @@ pub(crate) struct WindowStart<'a, const D: usize> {
     pub(crate) tail: &'a [[f64; D]],
     /// The tail keeps the rates: it tells where to start from, and a window is to go further.
     pub(crate) keeps_rates: bool,
-    /// TubePiece of the scene and progress on which it starts.
+    /// Piece of the scaled path and progress on which it starts.
     pub(crate) piece: usize,
     pub(crate) progress: f64,
     /// The motion may have passed the corners before this piece already.

@@ -1,7 +1,7 @@
 //! Segments and what joins them, put together to pieces of path.
 //!
-//! A segment waits until the one after it is known, since the junction between the two tells where each
-//! ends.
+//! A segment waits until the one after it is known, since the junction between the two tells where
+//! each ends.
 
 use super::kept_blocks::KeptBlocks;
 use super::pending::Pending;

@@ -1,7 +1,7 @@
 //! The blocks of a short stretch, kept as they were programmed.
 //!
 //! A stretch of few blocks is planned a second time with a stop at the end of every block
-//! ([`crate::stop_at_each`]); of longer ones, the blocks are not kept.
+//! ([`crate::on_path::look_ahead`]); of longer ones, the blocks are not kept.
 
 use crate::on_path::pieces::{Piece, Shape};
 use glidepath_geometry::{AxisVector, Segment};
@@ -50,9 +50,9 @@ impl KeptBlocks {
         self.is_lost = false;
     }
 
-    /// The blocks up to a rest where one of them ends, if there are several. A path may pass the same
-    /// point twice; then it is not known which of the blocks that end there is meant, and none is
-    /// given.
+    /// The blocks up to a rest where one of them ends, if there are several. A path may pass the
+    /// same point twice; then it is not known which of the blocks that end there is meant, and none
+    /// is given.
     pub(crate) fn take(&mut self, rest: &AxisVector) -> Option<Vec<Piece>> {
         let mut ending = (0..self.pieces.len()).filter(|&i| ends_at(&self.pieces[i], rest));
         let (Some(last), None) = (ending.next(), ending.next()) else {

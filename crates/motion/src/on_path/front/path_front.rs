@@ -2,8 +2,8 @@
 //!
 //! Lines at a feedrate in continuous mode go through the compressor, which makes smooth curves of
 //! dense ones and gives back the lines that stay. These, and every other segment, wait for the next
-//! one, since the junction between the two tells where each ends. What comes out depends on the order
-//! of the items alone.
+//! one, since the junction between the two tells where each ends. What comes out depends on the
+//! order of the items alone.
 
 use super::assembly::{Assembly, chord_speed};
 use super::dense_blocks::DenseBlocks;

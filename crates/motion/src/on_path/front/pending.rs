@@ -22,8 +22,8 @@ pub(crate) struct Pending {
     pub events: Vec<Event>,
     /// How far it is from the program, mm.
     pub error_mm: f64,
-    /// Whether it continues a curve at its start, and is continued by one at its end: then the junction
-    /// at the other end may take all of it.
+    /// Whether it continues a curve at its start, and is continued by one at its end: then the
+    /// junction at the other end may take all of it.
     pub continues: [bool; 2],
 }
 

@@ -3,7 +3,8 @@
 //! A transition takes a length d from both segments. The longer it is, the faster it can be driven
 //! and the further it leaves the program, so d is the largest that keeps within
 //!
-//! * half of each segment (the other half belongs to the junction at its other end, if there is one),
+//! * half of each segment (the other half belongs to the junction at its other end, if there is
+//!   one),
 //! * the tolerance: deviation of the curve plus the chord error of driving it at its top speed,
 //!
 //! and no longer than needed for the programmed rate. Deviation is measured between points of equal
@@ -62,8 +63,8 @@ const REVERSAL_CB: f64 = 0.035;
 const HALVINGS: u32 = 14;
 /// An arc gives at most this angle to a junction, so that the polynomial stays close to it.
 const ARC_SHARE_RAD: f64 = 0.6;
-/// Points at which the deviation and the speed of a general transition are measured, and the margins
-/// for the places between them.
+/// Points at which the deviation and the speed of a general transition are measured, and the
+/// margins for the places between them.
 const DEVIATION_POINTS: u32 = 24;
 const DEVIATION_MARGIN_R: f64 = 1.02;
 const STRETCH_MARGIN_R: f64 = 1.0 + 2e-4;

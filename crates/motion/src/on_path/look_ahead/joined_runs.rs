@@ -27,7 +27,7 @@ impl JoinedRuns {
         }
     }
 
-    /// Takes in the next joined if the last leg of this and the first of that are driven faster
+    /// Takes in the next runs if the last leg of this and the first of that are driven faster
     /// together; gives it back if not.
     pub(crate) fn join(&mut self, mut next: Self, limits: &Limits) -> Option<Self> {
         let count = self.pieces.len();

@@ -10,7 +10,8 @@
 //! that slowing down can take, and on a fixed number of pieces. What comes later nearly always
 //! raises the speeds of the backward pass, but not always: reach is not monotone, and from a speed
 //! from which one could stop, one may be unable to slow down just a little. Then the motion follows
-//! the plan that was made when its speed was settled, which ends at rest, until it meets the new one.
+//! the plan that was made when its speed was settled, which ends at rest, until it meets the new
+//! one.
 
 use super::joined_runs::JoinedRuns;
 use super::settled::Settled;
@@ -216,8 +217,8 @@ impl Scheduler {
         }
     }
 
-    /// Settles a whole stretch between two rests: as planned, or at rest after each piece, whichever
-    /// is faster.
+    /// Settles a whole stretch between two rests: as planned, or at rest after each piece,
+    /// whichever is faster.
     fn settle_stretch(&mut self, pieces: Vec<Piece>, exact: bool, out: &mut VecDeque<Settled>) {
         let mut planned = core::mem::take(&mut self.held);
         self.settle(self.waiting.len(), &mut planned);

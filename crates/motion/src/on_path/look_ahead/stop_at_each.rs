@@ -1,10 +1,10 @@
-//! The other way to drive a stretch between two rests: exactly along the program, with a stop at the
-//! end of every block.
+//! The other way to drive a stretch between two rests: exactly along the program, with a stop at
+//! the end of every block.
 //!
 //! Curves and transitions nearly always win, and by far. But on a path that turns sharply at nearly
 //! every short block, stopping can be faster: the limits of jerk let a machine turn around in no
-//! length at all. Whether it is cannot be told corner by corner. So for stretches of few blocks both
-//! ways are planned, and the faster is taken; of longer ones, the blocks are not kept.
+//! length at all. Whether it is cannot be told corner by corner. So for stretches of few blocks
+//! both ways are planned, and the faster is taken; of longer ones, the blocks are not kept.
 
 use crate::on_path::pieces::Piece;
 use crate::on_path::speed::Leg;

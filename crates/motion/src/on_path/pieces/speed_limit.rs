@@ -149,8 +149,8 @@ impl SpeedRule {
         }
     }
 
-    /// What bounds the speed whatever the axes can do: the rate, mm/s, and the acceleration across the
-    /// path at which the chord of one period uses up the tolerance, mm/s².
+    /// What bounds the speed whatever the axes can do: the rate, mm/s, and the acceleration across
+    /// the path at which the chord of one period uses up the tolerance, mm/s².
     pub(crate) fn caps(&self, wanted: Override) -> (f64, f64) {
         match self {
             Self::Straight { rate, .. } => (rate.under(wanted), f64::INFINITY),
@@ -224,8 +224,8 @@ fn changing_alone(d1: &AxisVector, limits: &Limits) -> PathLimits {
     }
 }
 
-/// A curve driven at constant speed: all of every limit goes into following it. At half the top speed
-/// and below, enough is left to change speed.
+/// A curve driven at constant speed: all of every limit goes into following it. At half the top
+/// speed and below, enough is left to change speed.
 pub(crate) fn constant(bounds: &DerivativeBounds, rate_v: f64, limits: &Limits) -> SpeedLimit {
     let top_v = rate_v
         .min(limit_along(&bounds.d1, &limits.velocity))

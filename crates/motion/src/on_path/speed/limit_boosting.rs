@@ -1,15 +1,15 @@
-//! Faster S-curves over the same path, checked.
+//! Limit boosting: faster S-curves over the same path, checked.
 //!
-//! The limits that speeds are planned with ([`crate::speed_limit`]) hold for any motion below the top
-//! speed of a piece: acceleration, jerk and speed may all be used at once, anywhere on it. A given
-//! S-curve never does that: it is slow where its jerk is large at the start of a ramp, and has no
-//! acceleration where it is fast. So when the speeds at both ends of some path are settled, stronger
-//! limits are tried for the S-curves between them, and what they demand of every axis is computed
-//! piece by piece. The strongest that keeps all limits is taken:
+//! The limits that speeds are planned with ([`crate::on_path::pieces::SpeedLimit`]) hold for any
+//! motion below the top speed of a piece: acceleration, jerk and speed may all be used at once,
+//! anywhere on it. A given S-curve never does that: it is slow where its jerk is large at the start
+//! of a ramp, and has no acceleration where it is fast. So when the speeds at both ends of some
+//! path are settled, stronger limits are tried for the S-curves between them, and what they demand
+//! of every axis is computed piece by piece. The strongest that keeps all limits is taken:
 //!
 //! * for each S-curve by itself ([`boost_limits`]);
-//! * for neighbouring runs together ([`drive_together`]), so that the junction between them need not
-//!   be passed without acceleration.
+//! * for neighbouring runs together ([`drive_together`]), so that the junction between them need
+//!   not be passed without acceleration.
 
 use super::course::{Course, Leg};
 use super::valley_first::{Limiting, Section, ValleyFirst};

@@ -3,7 +3,7 @@
 //! Junctions between runs are passed with zero acceleration along the path. Where the path allows a
 //! useful change of speed within one piece, the piece is a run by itself and nothing is lost. Where
 //! pieces are so short that it does not, many form one run, and the speed inside is found valley
-//! first ([`crate::valley`]).
+//! first ([`super::valley_first`]).
 
 use super::course::{Course, Leg};
 use super::valley_first::{Limiting, SPEED_ROUNDING_R, Section, ValleyFirst};
@@ -134,8 +134,8 @@ impl Run {
         ramp_fits(entry_v, highest_v, self.length_s, self.change).then_some(highest_v)
     }
 
-    /// The S-curves through the run (`course` is that of its pieces), from `entry_v` to `exit_v`, both at most [`Run::low_v`] and
-    /// feasible over its length.
+    /// The S-curves through the run (`course` is that of its pieces), from `entry_v` to `exit_v`,
+    /// both at most [`Run::low_v`] and feasible over its length.
     pub(crate) fn drive(&self, course: &Course<'_>, entry_v: f64, exit_v: f64) -> Vec<Leg> {
         let mut legs = Vec::new();
         if self.constant_above_v < self.low_v {

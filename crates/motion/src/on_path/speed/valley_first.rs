@@ -2,9 +2,9 @@
 //!
 //! 1. Drive the whole run with one S-curve as if nothing but the ends bounded it.
 //! 2. Of the pieces on which it is too fast, take the slowest one, with top speed V.
-//! 3. Drive the run again, nowhere faster than V. It then cruises at V around that piece, or near it.
-//!    What lies before the piece, as far as the cruise, is a run of its own from the old start to V;
-//!    what lies after it likewise from V to the old end. Go on with each from step 1.
+//! 3. Drive the run again, nowhere faster than V. It then cruises at V around that piece, or near
+//!    it. What lies before the piece, as far as the cruise, is a run of its own from the old start
+//!    to V; what lies after it likewise from V to the old end. Go on with each from step 1.
 //!
 //! ```text
 //!   cap  ‾‾‾‾‾‾|__        ____|‾‾‾‾‾‾‾
@@ -140,8 +140,8 @@ impl ValleyFirst<'_> {
         Some(())
     }
 
-    /// The S-curve with only the ends given, by the section's own limits, or by those of the section it
-    /// was cut from where its own make it too fast on a piece slower than its ends.
+    /// The S-curve with only the ends given, by the section's own limits, or by those of the
+    /// section it was cut from where its own make it too fast on a piece slower than its ends.
     fn unbounded(
         &self,
         section: Section,

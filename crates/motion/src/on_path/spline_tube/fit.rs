@@ -27,8 +27,8 @@ pub(super) struct Sample<const D: usize> {
     pub(super) error_mm: f64,
 }
 
-/// The share of the distance to its neighbours' feet that a foot may move in a window. Feet that run
-/// free let the curve fold.
+/// The share of the distance to its neighbours' feet that a foot may move in a window. Feet that
+/// run free let the curve fold.
 const FOOT_SHARE_R: f64 = 0.35;
 
 /// The spline of a window, and what is needed to fit it.

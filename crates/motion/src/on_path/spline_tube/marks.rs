@@ -56,8 +56,8 @@ impl Marks {
         self.waiting.len()
     }
 
-    /// The blocks driven on a part that ends where the next one's foot is at 1. The foot of a length
-    /// is its place on the part: below 0 before it.
+    /// The blocks driven on a part that ends where the next one's foot is at 1. The foot of a
+    /// length is its place on the part: below 0 before it.
     pub(super) fn take(&mut self, mut foot: impl FnMut(f64) -> f64) -> Vec<Cut> {
         let mut cuts = Vec::with_capacity(1);
         while let Some(mark) = self.waiting.front() {

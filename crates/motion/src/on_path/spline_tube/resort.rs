@@ -1,9 +1,10 @@
 //! What is done where a fit stays outside the tube.
 //!
-//! First samples and knots are put into the middle of the worst chord and of its neighbours, and the
-//! fit is made again. At last straight lines are drawn through the samples, with a stop at the first
-//! and behind the last of them, and a new curve starts there. Those lines are in the tube whatever
-//! happens: each leads from a point near a chord to the end of that chord, or along a chord.
+//! First samples and knots are put into the middle of the worst chord and of its neighbours, and
+//! the fit is made again. At last straight lines are drawn through the samples, with a stop at the
+//! first and behind the last of them, and a new curve starts there. Those lines are in the tube
+//! whatever happens: each leads from a point near a chord to the end of that chord, or along a
+//! chord.
 
 use super::fit::Sample;
 use super::knots::DEGREE;

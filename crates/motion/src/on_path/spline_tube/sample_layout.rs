@@ -21,17 +21,17 @@ use super::thinning::MergedChord;
 use super::vector::{add_scaled, between, dot, minus};
 use super::window::{End, Window};
 
-/// Turns, in rad, above which a vertex is a corner: in any case, if the path is straight on one side
-/// of it, and if it is on both sides. 100°, 30°, 15°.
+/// Turns, in rad, above which a vertex is a corner: in any case, if the path is straight on one
+/// side of it, and if it is on both sides. 100°, 30°, 15°.
 const REVERSAL_RAD: f64 = 1.745_329_251_994_33;
 const SHARP_RAD: f64 = core::f64::consts::FRAC_PI_6;
 const GENTLE_RAD: f64 = core::f64::consts::FRAC_PI_6 / 2.0;
 /// Turns to one side and then to the other, each above 55°, are a zigzag.
 const ZIGZAG_RAD: f64 = 0.96;
-/// A zigzag whose chords have at least this length, in tolerances, times the squared sine of half the
-/// turn, is faster with its corners: the curve that is left of it in the tube bends too much. Found by
-/// driving zigzags of 45° to 105° both ways; lengths and times of both go with the cube root of each
-/// other, so that limits do not matter.
+/// A zigzag whose chords have at least this length, in tolerances, times the squared sine of half
+/// the turn, is faster with its corners: the curve that is left of it in the tube bends too much.
+/// Found by driving zigzags of 45° to 105° both ways; lengths and times of both go with the cube
+/// root of each other, so that limits do not matter.
 const ZIGZAG_R: f64 = 1.15;
 /// Lengths in tolerances: of a chord whose middle is a line if it bends, and if it does not; of the
 /// curves beside such a line; of a line beside a corner; the least spacing of samples.
@@ -95,9 +95,9 @@ impl<const D: usize> SampleLayout<D> {
         }
     }
 
-    /// Whether a vertex between chords of these lengths is kept as a corner: it turns back, or a curve
-    /// that bends evenly along the shorter chord leaves the tube; or it turns much, and one that
-    /// bends along the longer chord does.
+    /// Whether a vertex between chords of these lengths is kept as a corner: it turns back, or a
+    /// curve that bends evenly along the shorter chord leaves the tube; or it turns much, and one
+    /// that bends along the longer chord does.
     fn is_corner(&self, turn_rad: f64, before_t: f64, after_t: f64) -> bool {
         let sagitta_mm = |length_t: f64| 0.5 * length_t * (0.25 * turn_rad).tan();
         let least_rad = if sagitta_mm(before_t.min(after_t)) > self.shares.tolerance_mm {

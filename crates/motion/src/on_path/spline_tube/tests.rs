@@ -1,5 +1,5 @@
-//! The compressor against brute force: distances both ways by dense sampling, derivatives and joints
-//! by evaluation.
+//! The compressor against brute force: distances both ways by dense sampling, derivatives and
+//! joints by evaluation.
 
 #![allow(
     clippy::expect_used,

@@ -57,8 +57,8 @@ impl<const D: usize> Thinning<D> {
         }
     }
 
-    /// Takes the next vertex; gives a chord if the vertex is not on the same. With `apart` the chord
-    /// before ends here whatever comes.
+    /// Takes the next vertex; gives a chord if the vertex is not on the same. With `apart` the
+    /// chord before ends here whatever comes.
     pub(super) fn push(&mut self, next: Vertex<D>, apart: bool) -> Option<MergedChord<D>> {
         let done = if apart || !self.reaches(&next.point) {
             self.flush()

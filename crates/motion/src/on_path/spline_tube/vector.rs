@@ -1,5 +1,5 @@
-//! Vectors of a fixed number of axes, so that the kernels of the fit cost no more than the axes that
-//! move.
+//! Vectors of a fixed number of axes, so that the kernels of the fit cost no more than the axes
+//! that move.
 
 /// Sum of a vector and a multiple of another.
 #[inline]

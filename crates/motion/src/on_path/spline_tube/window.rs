@@ -13,7 +13,7 @@
 //!
 //! The weight of a sample rises where the curve leaves the tube and falls where it is well inside,
 //! a few times before the certificate is asked for. Where that fails the weights near the worst
-//! place are raised more, and then [`crate::compress::resort`] is taken.
+//! place are raised more, and then [`super::resort`] is taken.
 
 use super::fit::{Sample, Spline};
 use super::knots::{DEGREE, bezier, greville};

@@ -15,8 +15,8 @@ const HALVINGS: u32 = 40;
 /// What is left to gain in the end, as a share of the time.
 const GAP_R: f64 = 2e-5;
 
-/// Coefficients of a time parametrisation that keeps all limits and takes near the least time, from one that keeps
-/// them with room to spare; `None` if the start does not.
+/// Coefficients of a time parametrisation that keeps all limits and takes near the least time, from
+/// one that keeps them with room to spare; `None` if the start does not.
 pub(crate) fn solve(problem: &Problem, start: Vec<f64>) -> Option<Vec<f64>> {
     let mut x = start;
     let time_t = problem.time(&x);

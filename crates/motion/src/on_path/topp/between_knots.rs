@@ -1,9 +1,10 @@
-//! What a time parametrisation demands of the axes between its knots, where the problem has no constraints.
+//! What a time parametrisation demands of the axes between its knots, where the problem has no
+//! constraints.
 //!
-//! The constraints hold at knots. Where the path bends within the time from one knot to the next, as in the
-//! curve that replaces a corner, acceleration and jerk may be larger between them. So what was
-//! optimised is looked at in between, and where it demands too much the constraints of the intervals around
-//! are given a smaller share of the limits, and the parametrisation is made anew.
+//! The constraints hold at knots. Where the path bends within the time from one knot to the next,
+//! as in the curve that replaces a corner, acceleration and jerk may be larger between them. So
+//! what was optimised is looked at in between, and where it demands too much the constraints of the
+//! intervals around are given a smaller share of the limits, and the parametrisation is made anew.
 
 use super::interval::Interval;
 use super::parametrisation::{MotionPhase, Parametrisation};
@@ -45,8 +46,8 @@ fn worst(
     worst
 }
 
-/// Takes from the shares of the intervals that constraints have of the limits where a time parametrisation exceeds them; true if
-/// it does nowhere. `first`: the phase of the first interval.
+/// Takes from the shares of the intervals that constraints have of the limits where a time
+/// parametrisation exceeds them; true if it does nowhere. `first`: the phase of the first interval.
 pub(crate) fn lessen(
     shares: &mut [f64],
     parametrisation: &Parametrisation,

@@ -1,5 +1,5 @@
-//! The problem: a quadratic spline on a knot_path of knots, and every limit as a constraint over three of its
-//! coefficients.
+//! The problem: a quadratic spline on a track of knots, and every limit as a constraint over three
+//! of its coefficients.
 
 use super::interval::BETWEEN_R;
 use super::knots::KnotPath;

@@ -1,4 +1,5 @@
-//! Where the knots of a time parametrisation are, what the path is there, and the S-curves it starts from.
+//! Where the knots of a time parametrisation are, what the path is there, and the S-curves it
+//! starts from.
 
 use super::interval::{Caps, Interval};
 use super::parabola::Parabola;
@@ -45,7 +46,7 @@ pub(crate) struct KnotPath {
 }
 
 impl KnotPath {
-    /// A knot_path along a course that S-curves drive.
+    /// Knots along a course that S-curves drive.
     pub(crate) fn new(course: &Course<'_>, legs: &[Leg], limits: &Limits) -> Option<Self> {
         let first = legs.first()?.profile;
         let last = legs.last()?.profile;
@@ -81,8 +82,8 @@ impl KnotPath {
         Parabola::new([self.before_s(k), length(k), length(k + 1)])
     }
 
-    /// Path position at which the phase next to the start ends, and that where the one next to the end
-    /// begins.
+    /// Path position at which the phase next to the start ends, and that where the one next to the
+    /// end begins.
     pub(crate) fn inner(&self) -> [f64; 2] {
         let [start_s, end_s] = self
             .rests
@@ -134,8 +135,8 @@ impl KnotPath {
         }
     }
 
-    /// The coefficient of b on an interval, as the S-curves have it: where the tangents of b at the ends
-    /// have the middle, on average. Exact for a parabola.
+    /// The coefficient of b on an interval, as the S-curves have it: where the tangents of b at the
+    /// ends have the middle, on average. Exact for a parabola.
     fn coefficient(&self, interval: &Interval) -> f64 {
         let half_s = 0.5 * interval.length_s;
         let after = |s: f64| self.legs.partition_point(|leg| leg.from_s <= s);

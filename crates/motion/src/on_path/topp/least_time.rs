@@ -1,4 +1,4 @@
-//! The parametrisation of least time along a knot_path of knots.
+//! The parametrisation of least time along a track of knots.
 
 use super::barrier::solve;
 use super::between_knots::lessen;
@@ -12,8 +12,8 @@ use glidepath_program::Limits;
 /// Times a time parametrisation is made anew where it demands too much between its knots.
 const ROUNDS: u32 = 6;
 
-/// The parametrisation near the least time that starts and ends as the S-curves do, `rate_r` times as fast;
-/// `None` if none is found that keeps all limits, also between knots.
+/// The parametrisation near the least time that starts and ends as the S-curves do, `rate_r` times
+/// as fast; `None` if none is found that keeps all limits, also between knots.
 pub(crate) fn optimise(
     knot_path: &KnotPath,
     course: &Course<'_>,

@@ -1,9 +1,10 @@
-//! The time parametrisation along a given path: path position by time, near the least time that all limits allow.
+//! The time parametrisation along a given path: path position by time, near the least time that all
+//! limits allow.
 //!
 //! S-curves between junctions without acceleration are quick to make, but a curve whose curvature
-//! changes all the time binds the speed everywhere, and there they lose a fifth of the time. This parametrisation
-//! is optimised as a whole. With b = v² as a function of path position s, every limit is linear in b
-//! and its derivatives, but for the jerk:
+//! changes all the time binds the speed everywhere, and there they lose a fifth of the time. This
+//! parametrisation is optimised as a whole. With b = v² as a function of path position s, every
+//! limit is linear in b and its derivatives, but for the jerk:
 //!
 //! ```text
 //!   speed          b ≤ cap(s)²                          s̈ = b′/2
@@ -13,16 +14,16 @@
 //!
 //! * **Discretisation.** b is a quadratic spline in s: speed and acceleration are continuous, b″ is
 //!   constant on a span, and on each span ẍ = b′(x)/2 is a linear differential equation, solved by
-//!   hyperbolic or circular functions. So the parametrisation is evaluated exactly, and what was checked on b holds
-//!   for the motion ([`Parametrisation`]). Next to a rest, where b ~ s^(4/3), a short phase of constant jerk
-//!   takes the place of the spline. Between the knots, where there are no constraints, the parametrisation is judged
-//!   afterwards ([`between`]).
-//! * **Optimisation.** Least Σ h/√b with a logarithmic barrier for each limit, by Newton's method; each
-//!   constraint of the problem touches three neighbouring coefficients, so a step costs a banded
-//!   factorisation ([`solver`]). It starts from the S-curves, slowed down, which keeps all
+//!   hyperbolic or circular functions. So the parametrisation is evaluated exactly, and what was
+//!   checked on b holds for the motion ([`Parametrisation`]). Next to a rest, where b ~ s^(4/3), a
+//!   short phase of constant jerk takes the place of the spline. Between the knots, where there are
+//!   no constraints, the parametrisation is judged afterwards ([`between_knots`]).
+//! * **Optimisation.** Least Σ h/√b with a logarithmic barrier for each limit, by Newton's method;
+//!   each constraint of the problem touches three neighbouring coefficients, so a step costs a
+//!   banded factorisation ([`barrier`]). It starts from the S-curves, slowed down, which keeps all
 //!   limits with room to spare: no step ever leaves them.
-//! * **Stretches.** [`Refiner`] takes what the scheduler has settled, from rest to rest or in windows,
-//!   and puts a time parametrisation in place of the S-curves wherever a smooth curve of the program is on the way.
+//!
+//! Where a parametrisation takes the place of S-curves, [`crate::on_path::refiner`] decides.
 
 mod barrier;
 mod between_knots;

@@ -11,7 +11,8 @@ pub(crate) struct Parametrisation {
     end: PathState,
 }
 
-/// A part of a time parametrisation on which acceleration changes by constant jerk, or in proportion to path position.
+/// A part of a time parametrisation on which acceleration changes by constant jerk, or in
+/// proportion to path position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MotionPhase {
     pub(crate) from_t: f64,

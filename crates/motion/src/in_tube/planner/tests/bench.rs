@@ -21,8 +21,8 @@ fn no_period_takes_more_work_than_is_allowed() {
     );
 }
 
-/// Programs, and the time to be held against: the optimum inside the tolerance ("tube"), or along the
-/// exact curve for the chorded ones, s.
+/// Programs, and the time to be held against: the optimum inside the tolerance ("tube"), or along
+/// the exact curve for the chorded ones, s.
 const PROGRAMS: [(&str, bool, f64); 14] = [
     ("seed5_mill", false, 0.1805),
     ("square20_mill", false, 1.0745),
@@ -213,8 +213,9 @@ fn seeds(text: &str) -> Option<core::ops::Range<u64>> {
     Some(first.parse().ok()?..end.parse().ok()?)
 }
 
-/// Many random paths, by hand: `GLIDEPATH_RANDOM_PATHS=1000`, or some: `GLIDEPATH_RANDOM_PATHS=270..280`,
-/// both profiles or one: `GLIDEPATH_RANDOM_PROFILE=mill`. `GLIDEPATH_RANDOM_EACH` prints each.
+/// Many random paths, by hand: `GLIDEPATH_RANDOM_PATHS=1000`, or some:
+/// `GLIDEPATH_RANDOM_PATHS=270..280`, both profiles or one: `GLIDEPATH_RANDOM_PROFILE=mill`.
+/// `GLIDEPATH_RANDOM_EACH` prints each.
 #[test]
 fn random_paths() {
     let chosen = std::env::var("GLIDEPATH_RANDOM_PATHS").ok();

@@ -76,8 +76,8 @@ fn no_path_is_over_at_once() {
     assert!(case.plan().is_empty());
 }
 
-/// The same case in a unit that many times smaller. A power of two, so that every product of lengths
-/// is scaled exactly, and the motions must be alike to the bit.
+/// The same case in a unit that many times smaller. A power of two, so that every product of
+/// lengths is scaled exactly, and the motions must be alike to the bit.
 fn in_smaller_unit(case: &Case, factor: f64) -> Case {
     let mut scaled = case.clone();
     let limits = &mut scaled.limits;

@@ -1,7 +1,7 @@
 //! Symmetric positive matrices of blocks, four blocks to either side of the diagonal: Cholesky.
 //!
-//! A row that acts on at most five consecutive control points couples only those, so the matrix of the
-//! normal equations has this shape, and factoring it costs time linear in the number of points.
+//! A row that acts on at most five consecutive control points couples only those, so the matrix of
+//! the normal equations has this shape, and factoring it costs time linear in the number of points.
 
 /// A block: one control point against another.
 pub(super) type Block<const D: usize> = [[f64; D]; D];
@@ -9,8 +9,8 @@ pub(super) type Block<const D: usize> = [[f64; D]; D];
 /// Blocks on and left of the diagonal.
 const WIDTH: usize = 5;
 
-/// The lower half: `rows[i][d]` is the block of points `i` and `i − d`. After [`Band::factor`] it is
-/// that of the factor, with the inverse on the diagonal of diagonal blocks.
+/// The lower half: `rows[i][d]` is the block of points `i` and `i − d`. After [`Band::factor`] it
+/// is that of the factor, with the inverse on the diagonal of diagonal blocks.
 #[derive(Debug)]
 pub(super) struct Band<const D: usize> {
     rows: Vec<[Block<D>; WIDTH]>,

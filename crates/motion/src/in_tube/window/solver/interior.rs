@@ -11,8 +11,8 @@
 //! weighs w = 1 / (s/l + e/(p − l)). A hard side is an elastic one of infinite price with e = 0, so
 //! that all sides go through the same loops without a branch.
 //!
-//! Each iteration factors once and solves twice: a predictor aims at μ = 0, and how far it gets sets
-//! the μ that the corrector aims at.
+//! Each iteration factors once and solves twice: a predictor aims at μ = 0, and how far it gets
+//! sets the μ that the corrector aims at.
 
 use super::band::{Band, Block};
 use super::problem::{DIFFERENCES, HARD, Problem, SPAN, combine, dot};
@@ -29,8 +29,8 @@ const SPENT_RESIDUAL: f64 = 1e-6;
 const ROW_WORK: usize = 80;
 /// Products of blocks for each block row of the matrix, factored and solved with.
 const FACTOR_PRODUCTS: usize = 16;
-/// Axes from which on multiplications count half: in blocks so large they take half the time of those
-/// in blocks of six.
+/// Axes from which on multiplications count half: in blocks so large they take half the time of
+/// those in blocks of six.
 const LARGE_BLOCK: usize = 7;
 
 /// When to stop.
@@ -84,7 +84,8 @@ impl<const D: usize> Interior<D> {
         }
     }
 
-    /// Allows work from now on: more problems up to `wanted`, and to finish the last one up to `most`.
+    /// Allows work from now on: more problems up to `wanted`, and to finish the last one up to
+    /// `most`.
     pub(in crate::in_tube::window) const fn allow(
         &mut self,
         Allowance { wanted, most }: Allowance,
@@ -150,8 +151,8 @@ impl<const D: usize> Interior<D> {
         mu < goal.mu && residual < RESIDUAL
     }
 
-    /// Multiplications of an iteration: every row goes through both directions and, with its square,
-    /// into the matrix, which is factored once.
+    /// Multiplications of an iteration: every row goes through both directions and, with its
+    /// square, into the matrix, which is factored once.
     fn work_of_iteration(&self, problem: &Problem<D>) -> usize {
         let axis_rows: usize = self.stencils.iter().map(|of| D * of.len()).sum();
         let rows = problem.rows.len();
@@ -191,8 +192,8 @@ impl<const D: usize> Interior<D> {
         pairs
     }
 
-    /// Values of all rows in their order, of the control points or of a step of them, and their bounds,
-    /// handed to `take`.
+    /// Values of all rows in their order, of the control points or of a step of them, and their
+    /// bounds, handed to `take`.
     fn rows_of(&self, problem: &Problem<D>, x: &[[f64; D]], mut take: impl FnMut(f64, [f64; 2])) {
         for order in 0..3 {
             let start = first_difference(order);

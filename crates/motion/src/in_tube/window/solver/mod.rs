@@ -1,6 +1,6 @@
-//! Solver of the convex sub-problem: [`problem`] states it, [`interior`] solves it, [`band`] does the
-//! linear algebra. Everything is linear in the number of knot intervals, and allocates nothing once it
-//! has been used at full size.
+//! Solver of the convex sub-problem: [`problem`] states it, [`interior`] solves it, [`band`] does
+//! the linear algebra. Everything is linear in the number of knot intervals, and allocates nothing
+//! once it has been used at full size.
 
 mod band;
 mod interior;

@@ -1,10 +1,10 @@
 //! The convex sub-problem of a window: a uniform cubic B-spline in time, linear rows.
 //!
-//! Unknown are the control points x₀ … x_{M+2} of M knot intervals; the first three are the state the
-//! window starts from, the last three are equal: the window ends at rest. All limits are bounds of
-//! differences of control points, and hold in continuous time: jerk is constant in an interval and
-//! is the third difference, acceleration is linear between knots, where it is the second difference,
-//! and velocity lies in the hull of first differences.
+//! Unknown are the control points x₀ … x_{M+2} of M knot intervals; the first three are the state
+//! the window starts from, the last three are equal: the window ends at rest. All limits are bounds
+//! of differences of control points, and hold in continuous time: jerk is constant in an interval
+//! and is the third difference, acceleration is linear between knots, where it is the second
+//! difference, and velocity lies in the hull of first differences.
 //!
 //! ```text
 //!     maximise   Σ aim_k · x_k  −  Σ ridge · |offset across the path|²
@@ -12,7 +12,8 @@
 //!                low ≤ normal · Σ wᵢ x_{m+i} ≤ high                      elastic: at a price
 //! ```
 //!
-//! Elastic rows make sure there is always a solution: the rest of the last window keeps the hard ones.
+//! Elastic rows make sure there is always a solution: the rest of the last window keeps the hard
+//! ones.
 
 /// Marks a row that must hold.
 pub(in crate::in_tube::window) const HARD: f64 = 1e300;

@@ -1,7 +1,7 @@
 //! The sides of all rows: slacks, multipliers and excesses, and their steps.
 //!
-//! What they are is told in [`super::interior`]. Both sides of a row lie together and take the same way
-//! through every loop, so that one instruction does for both.
+//! What they are is told in [`super::interior`]. Both sides of a row lie together and take the same
+//! way through every loop, so that one instruction does for both.
 
 use super::problem::HARD;
 

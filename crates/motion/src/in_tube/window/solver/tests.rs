@@ -1,5 +1,5 @@
-//! The solver against all vertices: a linear problem has its best point where as many bounds meet as
-//! there are unknowns, so trying every such point is an oracle that shares nothing with it.
+//! The solver against all vertices: a linear problem has its best point where as many bounds meet
+//! as there are unknowns, so trying every such point is an oracle that shares nothing with it.
 
 use super::interior::{Allowance, Goal, Interior};
 use super::problem::DIFFERENCES;

@@ -1,7 +1,7 @@
 //! The traditional preview: every tick of a motion whose speed follows the curvature.
 
-use super::probe::Probe;
-use super::{Demand, Method, Minimum, Region};
+use crate::preview::Probe;
+use crate::preview::{Demand, Method, Minimum, Region};
 
 /// The slowest advance, relative to the feedrate: at a cusp the allowed speed is zero, and the
 /// reading would never pass it.

@@ -9,17 +9,18 @@
 //!
 //! As published the method cannot be run; what was repaired:
 //!
-//! * retreat and scan test the chord error at the points they move, not at the one they started from;
-//! * the last step is a bisection for the sign of dκ/du. The published one compares the speed with its
-//!   unknown minimum, which it can only ever exceed, so it would always go the same way;
-//! * the number of doublings is bounded, [`AdvanceRetreat::max_growth`]: unbounded steps pass over most
-//!   regions.
+//! * retreat and scan test the chord error at the points they move, not at the one they started
+//!   from;
+//! * the last step is a bisection for the sign of dκ/du. The published one compares the speed with
+//!   its unknown minimum, which it can only ever exceed, so it would always go the same way;
+//! * the number of doublings is bounded, [`AdvanceRetreat::max_growth`]: unbounded steps pass over
+//!   most regions.
 //!
 //! What cannot be repaired: a region shorter than the step that meets it is passed over in silence,
 //! and of several minima in a region only the sharpest is found.
 
-use super::probe::Probe;
-use super::{Demand, Method, Minimum, Region};
+use crate::preview::Probe;
+use crate::preview::{Demand, Method, Minimum, Region};
 
 /// Refinement ends when the allowed speed changes by less than this from step to step, mm/s.
 const REFINED_V: f64 = 1e-3;
