@@ -11,8 +11,7 @@ use crate::grid::{FrameGrid, Moving};
 use crate::on_path::OnPathEngine;
 use crate::rest::Rest;
 use glidepath_geometry::AxisVector;
-use glidepath_program::Override;
-use glidepath_program::{Frame, FrameFlags, Item, Settings};
+use glidepath_program::{Frame, FrameFlags, Item, Override, Settings};
 
 /// The in-tube engine, as [`crate::Planner`] uses it.
 #[derive(Debug)]

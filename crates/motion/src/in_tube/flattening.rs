@@ -15,12 +15,10 @@ use super::merging::Dropped;
 use super::path::Reference;
 use super::works::{Move, Work, Works};
 use crate::intake::SHORTEST_MOVE_MM;
-use crate::programmed_rate::ProgrammedRate;
-use crate::programmed_rate::axes_speed;
+use crate::programmed_rate::{ProgrammedRate, axes_speed};
 use crate::rest::Rest;
 use glidepath_geometry::{Arc, AxisVector, Segment, feed_length};
-use glidepath_program::tolerance_norm;
-use glidepath_program::{Event, Item, Rate, Settings};
+use glidepath_program::{Event, Item, Rate, Settings, tolerance_norm};
 use std::collections::VecDeque;
 
 /// Share of the tolerance that chords of an arc may be away from it.

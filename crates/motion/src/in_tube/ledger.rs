@@ -2,8 +2,7 @@
 
 use crate::grid::Passing;
 use crate::programmed_rate::ProgrammedRate;
-use glidepath_program::Event;
-use glidepath_program::Override;
+use glidepath_program::{Event, Override};
 use std::collections::VecDeque;
 
 /// A piece as the program sees it.
@@ -26,7 +25,7 @@ pub(crate) struct Ledger {
     /// Tag of the first of them, and where it begins.
     first: u64,
     first_s: f64,
-    /// Parts entered.
+    /// Entries entered, counted from the start of the stretch.
     entered: u64,
     wanted: Override,
     /// The override told last. A lower one than wanted is never told.

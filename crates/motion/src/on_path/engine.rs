@@ -1,8 +1,7 @@
 //! The engine: the path front, look-ahead, refiner and sampler one behind the other.
 
 use super::front::PathFront;
-use super::look_ahead::Scheduler;
-use super::look_ahead::Settled;
+use super::look_ahead::{Scheduler, Settled};
 use super::pieces::Element;
 use super::refiner::Refiner;
 use super::sampler::{NextFrame, Sampler};

@@ -1,12 +1,9 @@
 //! Where a time parametrisation takes the place of S-curves.
 
 use super::look_ahead::Settled;
-use super::pieces::Element;
-use super::pieces::Piece;
+use super::pieces::{Element, Piece};
 use super::speed::{Course, Leg};
-use super::topp::KnotPath;
-use super::topp::Parametrisation;
-use super::topp::optimise;
+use super::topp::{KnotPath, Parametrisation, optimise};
 use glidepath_program::Limits;
 use std::collections::VecDeque;
 

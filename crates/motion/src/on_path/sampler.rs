@@ -19,7 +19,7 @@ use std::collections::VecDeque;
 pub(crate) struct Sampler {
     grid: FrameGrid,
     period_t: f64,
-    /// Time from the start of the stretch at hand to its first frame, 0 < t ≤ period.
+    /// Time from the start of the motion at hand to its first frame, 0 < t ≤ period.
     first_frame_t: f64,
     motion: Option<CurrentMotion>,
     /// Path position at the start of the piece at hand.
@@ -33,7 +33,7 @@ pub(crate) struct Sampler {
 pub(crate) enum NextFrame {
     /// A frame was made.
     Frame,
-    /// The next stretch; only if asked to stop there.
+    /// The end of a motion; only if asked to stop there.
     Junction,
     /// Nothing more is settled.
     End,
@@ -41,6 +41,7 @@ pub(crate) enum NextFrame {
     Broken { line: u32 },
 }
 
+/// The motion that frames are made of at present.
 #[derive(Debug)]
 struct CurrentMotion {
     pieces: Vec<Piece>,
@@ -58,7 +59,7 @@ struct CurrentMotion {
 }
 
 impl CurrentMotion {
-    /// Position and speed of the last frame, if it is in the cruise of a stretch of one piece.
+    /// Position and speed of the last frame, if it is in the cruise of a motion of one piece.
     fn cruise(&self, first_frame_t: f64, period_t: f64) -> Option<(f64, f64)> {
         let ([_], [leg]) = (self.pieces.as_slice(), self.legs.as_slice()) else {
             return None;
@@ -143,7 +144,7 @@ impl Sampler {
         }
     }
 
-    /// What is left of the stretch at hand after the last frame, where it is cruising.
+    /// What is left of the motion at hand after the last frame, where it is cruising.
     pub(crate) fn remaining_piece(&self) -> Option<Piece> {
         let motion = self.motion.as_ref()?;
         let (s, _) = motion.cruise(self.first_frame_t, self.period_t)?;
@@ -179,7 +180,7 @@ impl Sampler {
         self.enter_piece();
     }
 
-    /// The next frame of the stretch, or `None` after setting up for the next one.
+    /// The next frame of the motion, or `None` after setting up for the next one.
     fn motion_frame(&mut self, frame: &mut Frame) -> Option<()> {
         loop {
             let motion = self.motion.as_ref()?;
@@ -280,7 +281,7 @@ impl Sampler {
         }
     }
 
-    /// Passes the pieces that no frame fell on, and notes where the stretch ends.
+    /// Passes the pieces that no frame fell on, and notes where the motion ends.
     fn leave_motion(&mut self) {
         while let Some(motion) = &self.motion
             && motion.piece + 1 < motion.pieces.len()

@@ -13,9 +13,7 @@
 //! they could get stuck at.
 
 use super::stop_leg::StopLeg;
-use crate::in_tube::path::top_v;
-use crate::in_tube::path::{Bounds, directional};
-use crate::in_tube::path::{ReferencePath, TubePiece};
+use crate::in_tube::path::{Bounds, ReferencePath, TubePiece, directional, top_v};
 use crate::in_tube::period::State;
 use crate::scurve::Profile;
 use glidepath_geometry::feed_length;

@@ -5,9 +5,7 @@
 //! So whatever else fails, a leg brings the motion to the next vertex. Its seven-phase profile
 //! keeps the limits of every axis at every instant, hence all differences over a period.
 
-use crate::in_tube::path::TubePiece;
-use crate::in_tube::path::directional;
-use crate::in_tube::path::top_v;
+use crate::in_tube::path::{TubePiece, directional, top_v};
 use crate::in_tube::period::Period;
 use crate::scurve::Profile;
 use glidepath_geometry::{AxisVector, feed_length};

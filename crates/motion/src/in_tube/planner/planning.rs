@@ -11,14 +11,10 @@
 //! is taken if it leads by more than what would be done without it.
 
 use super::state::{ActiveMotion, MOST_LEGS, PlannerState};
-use crate::in_tube::fallback::StopLeg;
-use crate::in_tube::fallback::{Baseline, TRUST_PERIODS, arrival_t};
-use crate::in_tube::path::TubePiece;
-use crate::in_tube::path::{Bounds, directional};
+use crate::in_tube::fallback::{Baseline, StopLeg, TRUST_PERIODS, arrival_t};
+use crate::in_tube::path::{Bounds, TubePiece, directional};
 use crate::in_tube::period::State;
-use crate::in_tube::window::Grid;
-use crate::in_tube::window::{FIRST_WORK, PLAN_WORK};
-use crate::in_tube::window::{View, WindowContext, WindowMotion};
+use crate::in_tube::window::{FIRST_WORK, Grid, PLAN_WORK, View, WindowContext, WindowMotion};
 use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC, feed_length};
 
 /// Intervals before a leg brakes at which a window is tried.

@@ -1,12 +1,9 @@
 //! What is known of a stretch: its path, where the motion is, and what moves the machine.
 
-use crate::in_tube::fallback::Baseline;
-use crate::in_tube::fallback::StopLeg;
+use crate::in_tube::fallback::{Baseline, StopLeg};
 use crate::in_tube::path::ReferencePath;
-use crate::in_tube::verify::History;
-use crate::in_tube::verify::{Follower, Reachable};
-use crate::in_tube::window::Grid;
-use crate::in_tube::window::Optimisers;
+use crate::in_tube::verify::{Follower, History, Reachable};
+use crate::in_tube::window::{Grid, Optimisers};
 use glidepath_geometry::AxisVector;
 use glidepath_program::Limits;
 

@@ -5,8 +5,7 @@
 
 use super::between_periods::BetweenPeriods;
 use super::follow::Follower;
-use crate::in_tube::path::ReferencePath;
-use crate::in_tube::path::counted_length;
+use crate::in_tube::path::{ReferencePath, counted_length};
 use crate::in_tube::period::State;
 use glidepath_geometry::{AXES, AxisVector, feed_length};
 use glidepath_program::Limits;

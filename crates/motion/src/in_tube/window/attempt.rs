@@ -4,10 +4,8 @@ use super::optimiser::{Optimiser, Question};
 use super::scaled_path::{ScaledPath, moving_axes};
 use super::spline::Grid;
 use super::window_start::WindowStart;
-use crate::in_tube::path::ReferencePath;
-use crate::in_tube::path::directional;
-use crate::in_tube::verify::Follower;
-use crate::in_tube::verify::History;
+use crate::in_tube::path::{ReferencePath, directional};
+use crate::in_tube::verify::{Follower, History};
 use glidepath_geometry::{AXES, AxisVector};
 use glidepath_program::Limits;
 

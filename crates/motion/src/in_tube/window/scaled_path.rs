@@ -7,8 +7,7 @@
 
 use super::solver::dot;
 use crate::feed_axes::counted_axes;
-use crate::in_tube::path::directional;
-use crate::in_tube::path::{ReferencePath, TubePiece};
+use crate::in_tube::path::{ReferencePath, TubePiece, directional};
 use crate::scurve::PathLimits;
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_program::Limits;

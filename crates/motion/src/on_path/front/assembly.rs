@@ -6,9 +6,7 @@
 use super::kept_blocks::KeptBlocks;
 use super::pending::Pending;
 use crate::on_path::junction::{Junction, chord_error_mm, join};
-use crate::on_path::pieces::Element;
-use crate::on_path::pieces::{CurveRule, SpeedRule};
-use crate::on_path::pieces::{Piece, Shape};
+use crate::on_path::pieces::{CurveRule, Element, Piece, Shape, SpeedRule};
 use crate::programmed_rate::ProgrammedRate;
 use crate::rest::{Rest, RestKind};
 use glidepath_geometry::Segment;

@@ -2,9 +2,7 @@
 
 use super::settled::Settled;
 use crate::on_path::pieces::{Piece, Shape};
-use crate::on_path::speed::Run;
-use crate::on_path::speed::{Course, Leg};
-use crate::on_path::speed::{boost_limits, drive_together};
+use crate::on_path::speed::{Course, Leg, Run, boost_limits, drive_together};
 use glidepath_program::Limits;
 
 /// Runs that are driven together, and how.
@@ -28,7 +26,7 @@ impl JoinedRuns {
     }
 
     /// Takes in the next runs if the last leg of this and the first of that are driven faster
-    /// together; gives it back if not.
+    /// together; gives them back if not.
     pub(crate) fn join(&mut self, mut next: Self, limits: &Limits) -> Option<Self> {
         let count = self.pieces.len();
         let is_bent = |piece: &Piece| matches!(piece.shape, Shape::Spline(_));

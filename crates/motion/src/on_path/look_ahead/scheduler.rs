@@ -16,8 +16,7 @@
 use super::joined_runs::JoinedRuns;
 use super::settled::Settled;
 use super::stop_at_each::drive_each;
-use crate::on_path::pieces::Element;
-use crate::on_path::pieces::Piece;
+use crate::on_path::pieces::{Element, Piece};
 use crate::on_path::speed::Run;
 use crate::rest::{Rest, RestKind};
 use crate::scurve::{PathLimits, slowing_horizon};

@@ -1,7 +1,6 @@
 //! Motion that nothing later changes: path with its speeds, and rests.
 
-use crate::on_path::pieces::Element;
-use crate::on_path::pieces::Piece;
+use crate::on_path::pieces::{Element, Piece};
 use crate::on_path::speed::Leg;
 use crate::on_path::topp::Parametrisation;
 use crate::rest::Rest;

@@ -2,8 +2,7 @@
 
 use super::speed_limit::{SpeedLimit, SpeedRule};
 use glidepath_geometry::{Cubic, Jet, Segment, Transition};
-use glidepath_program::Override;
-use glidepath_program::{Event, Limits};
+use glidepath_program::{Event, Limits, Override};
 
 /// A smooth piece of path with one speed limit.
 #[derive(Debug, Clone)]

@@ -14,9 +14,7 @@
 use crate::programmed_rate::ProgrammedRate;
 use crate::scurve::{Extremes, PathLimits};
 use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds, feed_length, limit_along};
-use glidepath_program::Override;
-use glidepath_program::tolerance_norm;
-use glidepath_program::{Limits, PathBounds};
+use glidepath_program::{Limits, Override, PathBounds, tolerance_norm};
 
 /// What a piece of path allows.
 #[derive(Debug, Clone, Copy, PartialEq)]

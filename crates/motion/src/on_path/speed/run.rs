@@ -7,8 +7,7 @@
 
 use super::course::{Course, Leg};
 use super::valley_first::{Limiting, SPEED_ROUNDING_R, Section, ValleyFirst};
-use crate::on_path::pieces::Piece;
-use crate::on_path::pieces::SpeedLimit;
+use crate::on_path::pieces::{Piece, SpeedLimit};
 use crate::scurve::{PathLimits, Profile, ramp_fits, reachable_speed, slowing_horizon};
 
 /// A stretch of path with zero acceleration along it at both ends.

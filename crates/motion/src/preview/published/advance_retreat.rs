@@ -19,8 +19,7 @@
 //! What cannot be repaired: a region shorter than the step that meets it is passed over in silence,
 //! and of several minima in a region only the sharpest is found.
 
-use crate::preview::Probe;
-use crate::preview::{Demand, Method, Minimum, Region};
+use crate::preview::{Demand, Method, Minimum, Probe, Region};
 
 /// Refinement ends when the allowed speed changes by less than this from step to step, mm/s.
 const REFINED_V: f64 = 1e-3;

@@ -1,7 +1,6 @@
 //! The traditional preview: every tick of a motion whose speed follows the curvature.
 
-use crate::preview::Probe;
-use crate::preview::{Demand, Method, Minimum, Region};
+use crate::preview::{Demand, Method, Minimum, Probe, Region};
 
 /// The slowest advance, relative to the feedrate: at a cusp the allowed speed is zero, and the
 /// reading would never pass it.

@@ -2,8 +2,7 @@
 //! as there are unknowns, so trying every such point is an oracle that shares nothing with it.
 
 use super::interior::{Allowance, Goal, Interior};
-use super::problem::DIFFERENCES;
-use super::problem::{FAR, Problem};
+use super::problem::{DIFFERENCES, FAR, Problem};
 
 /// Intervals; the unknown control points are 3, 4, 5, and 6 with its two copies.
 const INTERVALS: usize = 6;
