@@ -93,6 +93,7 @@ mod tests {
     fn item(segment: Segment) -> Item {
         let mode = PathMode::Continuous { tolerance_mm: None };
         Item {
+            block: 0,
             line: 1,
             kind: ItemKind::Move {
                 segment,

@@ -141,7 +141,14 @@ fn planned() -> Vec<Frame> {
             rate: Rate::Feed(100.0),
             mode: PathMode::Continuous { tolerance_mm: None },
         };
-        if planner.push(&Item { line, kind }).is_err() {
+        if planner
+            .push(&Item {
+                block: 0,
+                line,
+                kind,
+            })
+            .is_err()
+        {
             break;
         }
         at = to;

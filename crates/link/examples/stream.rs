@@ -33,6 +33,7 @@ fn send(port: &mut Port, number: u64, item: &StreamItem) -> Result<SegmentReply,
 
 fn side(line: u32, start: AxisVector, end: AxisVector) -> StreamItem {
     StreamItem::Item(Item {
+        block: 0,
         line,
         kind: ItemKind::Move {
             segment: Segment::line(start, end),

@@ -119,7 +119,11 @@ fn planned(path: &NurbsPath, settings: Settings) -> u32 {
             mode: PathMode::Continuous { tolerance_mm: None },
         };
         // Pieces of a curve are accepted.
-        let _ = planner.push(&Item { line: 1, kind });
+        let _ = planner.push(&Item {
+            block: 0,
+            line: 1,
+            kind,
+        });
     }
     planner.finish();
     let mut frames = 0;

@@ -61,20 +61,3 @@ pub enum PlanError {
         line: u32,
     },
 }
-
-impl PlanError {
-    /// The same error with another line: for a caller that numbers its items otherwise.
-    #[must_use]
-    pub fn map_line(mut self, rename: impl FnOnce(u32) -> u32) -> Self {
-        match &mut self {
-            Self::NotFinite { line }
-            | Self::Gap { line, .. }
-            | Self::Feed { line, .. }
-            | Self::Tolerance { line, .. }
-            | Self::Dwell { line, .. }
-            | Self::NoMotion { line } => *line = rename(*line),
-            Self::Override { .. } => {}
-        }
-        self
-    }
-}

@@ -9,7 +9,7 @@
 
 use super::rest::{Rest, RestKind};
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Event, Frame, FrameFlags};
+use glidepath_program::{Event, Frame, FrameFlags, ProgramLine};
 use std::collections::VecDeque;
 
 /// Makes frames, one for each period.
@@ -31,7 +31,7 @@ pub(crate) struct FrameGrid {
 /// What part of the program the motion is on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Passing {
-    pub line: u32,
+    pub line: ProgramLine,
     pub rapid: bool,
     /// The override it was planned with.
     pub planned_override: f64,
@@ -40,7 +40,7 @@ pub(crate) struct Passing {
 impl Passing {
     /// Before the first move.
     pub(crate) const NONE: Self = Self {
-        line: 0,
+        line: ProgramLine::NONE,
         rapid: false,
         planned_override: 1.0,
     };
@@ -63,7 +63,7 @@ struct Resting {
     of_motion: u64,
     flags: FrameFlags,
     event: Option<Event>,
-    line: u32,
+    line: ProgramLine,
 }
 
 impl FrameGrid {
@@ -74,7 +74,7 @@ impl FrameGrid {
             of_motion: 0,
             flags: FrameFlags::FIRST,
             event: None,
-            line: 0,
+            line: ProgramLine::NONE,
         };
         Self {
             period_t,
@@ -100,13 +100,13 @@ impl FrameGrid {
     }
 
     /// The line passed last.
-    pub(crate) const fn line(&self) -> u32 {
+    pub(crate) const fn line(&self) -> ProgramLine {
         self.passing.line
     }
 
     /// A frame of another grid as the next of this one; its path position is kept.
     pub(crate) const fn relay(&mut self, frame: Frame) -> Frame {
-        self.passing.line = frame.line;
+        self.passing.line = frame.program_line();
         self.passing.planned_override = frame.planned_override;
         self.arrives = false;
         let sequence = self.sequence;
@@ -184,7 +184,7 @@ impl FrameGrid {
         } else {
             resting.flags
         };
-        if resting.line > 0 && !is_of_motion {
+        if resting.line != ProgramLine::NONE && !is_of_motion {
             self.passing.line = resting.line;
         }
         let at_rest = Moving {
@@ -214,7 +214,8 @@ impl FrameGrid {
         self.sequence += 1;
         Frame {
             sequence,
-            line: self.passing.line,
+            line: self.passing.line.number,
+            block: self.passing.line.block,
             flags,
             event,
             planned_override: self.passing.planned_override,

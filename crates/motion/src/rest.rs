@@ -1,6 +1,6 @@
 //! Where the machine comes to rest, and why.
 
-use glidepath_program::Event;
+use glidepath_program::{Event, ProgramLine};
 
 /// Why the machine rests, and for how long.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,5 +21,5 @@ pub(crate) enum RestKind {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rest {
     pub kind: RestKind,
-    pub line: u32,
+    pub line: ProgramLine,
 }

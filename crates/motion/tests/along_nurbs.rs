@@ -159,6 +159,7 @@ fn a_long_curve_is_planned_in_windows_and_hardly_slower() {
 
 fn item(segment: Segment, feed_v: f64) -> Item {
     Item {
+        block: 0,
         line: 1,
         kind: ItemKind::Move {
             segment,

@@ -24,6 +24,7 @@ fn items(points: &[AxisVector], feed_v: impl Fn(usize) -> f64) -> Vec<Item> {
         .enumerate();
     distinct
         .map(|(i, pair)| Item {
+            block: 0,
             line: u32::try_from(i).expect("few points") + 1,
             kind: ItemKind::Move {
                 segment: Segment::line(pair[0], pair[1]),

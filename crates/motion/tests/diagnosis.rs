@@ -18,6 +18,7 @@ use support::{FREE, at, mill};
 
 fn line(number: u32, from: AxisVector, to: AxisVector, rate: Rate, mode: PathMode) -> Item {
     Item {
+        block: 0,
         line: number,
         kind: ItemKind::Move {
             segment: Segment::line(from, to),
@@ -95,6 +96,7 @@ fn a_stop_is_the_slowest_place_and_its_loss_is_that_of_the_motion() {
         line(10, a, b, Rate::Feed(50.0), stop),
         line(20, b, c, Rate::Feed(50.0), stop),
         Item {
+            block: 0,
             line: 30,
             kind: ItemKind::Dwell(0.5),
         },
@@ -147,6 +149,7 @@ fn a_circle_too_fast_for_the_period_is_bound_by_the_chord_error() {
         sweep_rad: TAU * 3.0,
     };
     let items = [Item {
+        block: 0,
         line: 1,
         kind: ItemKind::Move {
             segment: Segment::Arc(arc),

@@ -39,6 +39,7 @@ fn bores() -> Vec<Item> {
     let mut at = point(0.0, 0.0, 3.0);
     let mut go = |segment: Segment, rate: Rate| {
         items.push(Item {
+            block: 0,
             line: u32::try_from(items.len()).expect("few") + 1,
             kind: ItemKind::Move {
                 segment,

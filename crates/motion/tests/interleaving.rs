@@ -24,7 +24,11 @@ fn moves(points: &[AxisVector], feed_v: f64, mode: PathMode) -> Vec<ItemKind> {
 fn numbered(kinds: Vec<ItemKind>) -> Vec<Item> {
     (1..)
         .zip(kinds)
-        .map(|(line, kind)| Item { line, kind })
+        .map(|(line, kind)| Item {
+            block: 0,
+            line,
+            kind,
+        })
         .collect()
 }
 

@@ -59,7 +59,11 @@ fn items(steps: &[Step]) -> Vec<Item> {
     let free = PathMode::Continuous { tolerance_mm: None };
     let mut push = |kind| {
         let line = u32::try_from(items.len()).expect("few items") + 1;
-        items.push(Item { line, kind });
+        items.push(Item {
+            block: 0,
+            line,
+            kind,
+        });
     };
     for step in steps {
         match step {

@@ -17,6 +17,7 @@ use support::{FREE, at, cases, efforts, mill, optimal};
 
 fn item(line: u32, segment: Segment, rate: Rate) -> Item {
     Item {
+        block: 0,
         line,
         kind: ItemKind::Move {
             segment,

@@ -30,7 +30,11 @@ fn moves(points: &[AxisVector], feed_v: f64, mode: PathMode) -> Vec<ItemKind> {
 fn numbered(kinds: Vec<ItemKind>) -> Vec<Item> {
     (1..)
         .zip(kinds)
-        .map(|(line, kind)| Item { line, kind })
+        .map(|(line, kind)| Item {
+            block: 0,
+            line,
+            kind,
+        })
         .collect()
 }
 
@@ -144,7 +148,11 @@ fn first_frames(settings: Settings, count: u32) -> (u32, u32) {
             mode: FREE,
         };
         planner
-            .push(&Item { line: i + 1, kind })
+            .push(&Item {
+                block: 0,
+                line: i + 1,
+                kind,
+            })
             .expect("valid item");
         position = next;
         while planner.pop_frame().expect("a motion").is_some() {

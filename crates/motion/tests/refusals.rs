@@ -15,6 +15,7 @@ fn a_bad_item_is_refused_and_changes_nothing() {
         let mut planner = Planner::new(settings, AxisVector::zeros());
         let segment = Segment::line(at(0.0, 0.0), at(1.0, 0.0));
         let item = |segment, rate, mode| Item {
+            block: 0,
             line: 7,
             kind: ItemKind::Move {
                 segment,
@@ -55,6 +56,7 @@ fn a_bad_item_is_refused_and_changes_nothing() {
             ),
             (
                 Item {
+                    block: 0,
                     line: 7,
                     kind: ItemKind::Dwell(-1.0),
                 },

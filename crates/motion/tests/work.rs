@@ -136,7 +136,11 @@ fn plan(case: &Case, blocks: u32) {
             rate: Rate::Feed(case.feed_v),
             mode: FREE,
         };
-        let item = Item { line: k + 1, kind };
+        let item = Item {
+            block: 0,
+            line: k + 1,
+            kind,
+        };
         planner.push(&item).unwrap();
         if let Some(audit) = &mut audit {
             audit.program(&item);

@@ -92,6 +92,7 @@ impl FileMoves {
             mode,
         };
         let item = Item {
+            block: 0,
             line: self.line,
             kind,
         };

@@ -115,6 +115,7 @@ impl<S: ItemSource> Pipeline<S> {
             source,
             planner,
             item: Item {
+                block: 0,
                 line: 0,
                 kind: ItemKind::Dwell(0.0),
             },
@@ -198,14 +199,14 @@ impl<S: ItemSource> Pipeline<S> {
             Ok(true) => {
                 let frame = self.planner.frame_mut();
                 self.statistics.frames += 1;
-                self.blocks.leave(frame);
+                self.blocks.complete(frame);
                 frame.path_s += self.start_s;
                 return Ok(Step::Frame);
             }
             Ok(false) => {}
             Err(error) => {
                 self.program = Program::Broken;
-                return Err(self.blocks.name(error).into());
+                return Err(error.into());
             }
         }
         match &mut self.program {
@@ -250,8 +251,7 @@ impl<S: ItemSource> Pipeline<S> {
         &mut self.source
     }
 
-    /// Block of the program that the last frame belongs to, 0 before the first; counted as in
-    /// [`glidepath_link::SetpointFrame::block`].
+    /// Block of the program that the last frame belongs to ([`Frame::block`]), 0 before the first.
     #[must_use]
     pub const fn block(&self) -> u32 {
         self.blocks.present()
@@ -281,16 +281,12 @@ impl<S: ItemSource> Pipeline<S> {
     }
 
     fn plan(&mut self, item: Item) -> Step {
-        let item = match &mut self.joints {
+        let mut item = match &mut self.joints {
             Some(joints) => joints.keep(item),
             None => item,
         };
-        let numbered = Item {
-            line: self.blocks.enter(item.line),
-            ..item
-        };
-        if let Err(error) = self.planner.push(&numbered) {
-            let error = self.blocks.name(error);
+        self.blocks.number(&mut item);
+        if let Err(error) = self.planner.push(&item) {
             self.source.unplannable(&error);
             return self.end(Some(error.into()));
         }

@@ -257,7 +257,6 @@ impl<'t> Publisher<'t> {
                 Ok(Step::Frame) => {
                     let frame = pipeline.frame();
                     epoch.in_hand = Some(SetpointFrame {
-                        block: pipeline.block(),
                         program: pipeline.fingerprint(),
                         ..SetpointFrame::from_frame(frame, epoch.number, self.pace.period_ns)
                     });

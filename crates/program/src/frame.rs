@@ -1,6 +1,6 @@
 //! The planner's product: the state of the machine at one instant of program time.
 
-use crate::Event;
+use crate::{Event, ProgramLine};
 use glidepath_geometry::AxisVector;
 
 /// Properties of a frame, one bit each.
@@ -41,6 +41,9 @@ pub struct Frame {
     pub sequence: u64,
     /// Source line of the motion, 0 before the first.
     pub line: u32,
+    /// The block of the motion, as [`Item::block`](crate::Item::block); 0 before the first, and where
+    /// nobody counts them.
+    pub block: u32,
     /// Properties.
     pub flags: FrameFlags,
     /// The event that happens at this instant, at most one a frame.
@@ -60,6 +63,15 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// The line of the program it is on, at the time that it was executed.
+    #[must_use]
+    pub const fn program_line(&self) -> ProgramLine {
+        ProgramLine {
+            number: self.line,
+            block: self.block,
+        }
+    }
+
     /// A place for a frame to be written to: at rest somewhere.
     #[must_use]
     pub fn blank(position: AxisVector) -> Self {
@@ -67,6 +79,7 @@ impl Frame {
         Self {
             sequence: 0,
             line: 0,
+            block: 0,
             flags: FrameFlags::default(),
             event: None,
             planned_override: 1.0,

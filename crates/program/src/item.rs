@@ -115,13 +115,54 @@ impl Event {
     }
 }
 
+/// A line of a program at one of the times it is executed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ProgramLine {
+    /// Number of the line in the source, from 1; 0 before the first.
+    pub number: u32,
+    /// As [`Item::block`].
+    pub block: u32,
+}
+
+impl ProgramLine {
+    /// Before the first line.
+    pub const NONE: Self = Self {
+        number: 0,
+        block: 0,
+    };
+
+    /// Something to do there.
+    #[must_use]
+    pub const fn item(self, kind: ItemKind) -> Item {
+        Item {
+            line: self.number,
+            block: self.block,
+            kind,
+        }
+    }
+}
+
 /// One thing to do, and where the program says so.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Item {
     /// Source line, from 1.
     pub line: u32,
+    /// Which of the items of its program it is, from 1; 0 where nobody counts them. A line in a loop
+    /// is executed many times, so the line alone does not say where a program is.
+    pub block: u32,
     /// What to do.
     pub kind: ItemKind,
+}
+
+impl Item {
+    /// The line it comes from, at the time that it was executed.
+    #[must_use]
+    pub const fn program_line(&self) -> ProgramLine {
+        ProgramLine {
+            number: self.line,
+            block: self.block,
+        }
+    }
 }
 
 /// The kinds of [`Item`].

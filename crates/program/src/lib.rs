@@ -45,7 +45,7 @@ mod settings;
 mod tolerance;
 
 pub use frame::{Frame, FrameFlags};
-pub use item::{Event, Item, ItemKind, PathMode, Rate};
+pub use item::{Event, Item, ItemKind, PathMode, ProgramLine, Rate};
 pub use limits::{Limits, PathBounds};
 pub use override_::Override;
 pub use settings::{Effort, Settings, Smoothing};

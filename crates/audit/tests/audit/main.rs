@@ -33,6 +33,7 @@ fn settings(limit: f64) -> AuditSettings {
 fn item(line: u32, segment: Segment) -> Item {
     let mode = PathMode::Continuous { tolerance_mm: None };
     Item {
+        block: 0,
         line,
         kind: ItemKind::Move {
             segment,

@@ -35,7 +35,14 @@ fn a_smoothed_corner_misses_an_exact_stop() {
     // A dwell and an M code ask for an exact stop.
     for kind in [ItemKind::Dwell(0.0), ItemKind::Event(Event::MCode(8))] {
         let mut program = polygon(&corner);
-        program.insert(1, Item { line: 1, kind });
+        program.insert(
+            1,
+            Item {
+                block: 0,
+                line: 1,
+                kind,
+            },
+        );
         assert!(audit(&program, &exact).is_clean());
         assert!(!audit(&program, &smoothed).is_clean());
     }
@@ -43,6 +50,7 @@ fn a_smoothed_corner_misses_an_exact_stop() {
     program.insert(
         1,
         Item {
+            block: 0,
             line: 1,
             kind: ItemKind::Event(Event::SpindleSpeed(100.0)),
         },

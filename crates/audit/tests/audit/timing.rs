@@ -85,6 +85,7 @@ fn a_gap_is_not_too_fast() {
 fn a_dwell_cut_short_is_found() {
     let path = [point(0.0, 0.0), point(5.0, 0.0), point(5.0, 5.0)];
     let dwell = |dwell_t| Item {
+        block: 0,
         line: 1,
         kind: ItemKind::Dwell(dwell_t),
     };

@@ -145,6 +145,7 @@ impl Interpreter {
     #[inline]
     pub(crate) fn push(&mut self, out: &mut Vec<Item>, kind: ItemKind) {
         let item = Item {
+            block: 0,
             line: self.line,
             kind,
         };

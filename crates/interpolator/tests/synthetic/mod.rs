@@ -162,6 +162,7 @@ pub fn integrate(jerks: &[Vec<f64>], period_t: f64, start: AxisVector) -> Vec<Fr
             (v, a) = (AxisVector::zeros(), AxisVector::zeros());
         }
         frames.push(Frame {
+            block: 0,
             sequence: k as u64,
             line: k as u32 / 50 + 1,
             flags,

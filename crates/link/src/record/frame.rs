@@ -58,7 +58,7 @@ pub struct SetpointFrame {
 }
 
 impl SetpointFrame {
-    /// The record of a planned frame, bit for bit, of an unknown block of an unknown program.
+    /// The record of a planned frame, bit for bit, of an unknown program.
     #[must_use]
     pub fn from_frame(frame: &Frame, epoch: u64, period_ns: u64) -> Self {
         let (event_kind, event_value) = event::encode(frame.event);
@@ -69,7 +69,7 @@ impl SetpointFrame {
             line: frame.line,
             flags: frame.flags.0,
             event_kind,
-            block: 0,
+            block: frame.block,
             event_value,
             path_v: frame.path_v,
             path_s: frame.path_s,
@@ -91,6 +91,7 @@ impl SetpointFrame {
         Ok(Frame {
             sequence: self.sequence,
             line: self.line,
+            block: self.block,
             flags: FrameFlags(self.flags),
             event: self.event()?,
             planned_override: self.planned_override,

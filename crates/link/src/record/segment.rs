@@ -240,6 +240,7 @@ impl SegmentRequest {
         };
         Ok(StreamItem::Item(Item {
             line: self.line,
+            block: 0,
             kind,
         }))
     }

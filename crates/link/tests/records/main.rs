@@ -125,7 +125,15 @@ fn good_segment() -> SegmentRequest {
         rate: Rate::Feed(10.0),
         mode,
     };
-    SegmentRequest::new(1, 1, &StreamItem::Item(Item { line: 1, kind }))
+    SegmentRequest::new(
+        1,
+        1,
+        &StreamItem::Item(Item {
+            block: 0,
+            line: 1,
+            kind,
+        }),
+    )
 }
 
 /// Every number of a good record, from the given offsets on, made not finite in turn.

@@ -38,7 +38,7 @@ prop_compose! {
         (position, velocity, acceleration) in (vector(), vector(), vector()),
     ) -> Frame {
         let flags = FrameFlags(flags);
-        Frame {
+        Frame { block: 0,
             sequence,
             line,
             flags,
@@ -117,7 +117,11 @@ pub(crate) fn item() -> impl Strategy<Value = StreamItem> {
     prop_oneof![
         Just(StreamItem::Open),
         Just(StreamItem::End),
-        (any::<u32>(), kind).prop_map(|(line, kind)| StreamItem::Item(Item { line, kind })),
+        (any::<u32>(), kind).prop_map(|(line, kind)| StreamItem::Item(Item {
+            block: 0,
+            line,
+            kind
+        })),
     ]
 }
 

@@ -115,7 +115,7 @@ impl InTubeEngine {
                 Some(Moved::Exact(frame)) => self.relay(frame),
                 None if self.arrive() => None,
                 None if self.is_stuck() => {
-                    let line = self.grid.line();
+                    let line = self.grid.line().number;
                     return Err(PlanError::NoMotion { line });
                 }
                 None if self.supply()? => None,

@@ -18,7 +18,7 @@ use crate::intake::SHORTEST_MOVE_MM;
 use crate::programmed_rate::{ProgrammedRate, axes_speed};
 use crate::rest::Rest;
 use glidepath_geometry::{Arc, AxisVector, Segment, feed_length};
-use glidepath_program::{Event, Item, Rate, Settings, tolerance_norm};
+use glidepath_program::{Event, Item, ProgramLine, Rate, Settings, tolerance_norm};
 use std::collections::VecDeque;
 
 /// Share of the tolerance that chords of an arc may be away from it.
@@ -68,7 +68,7 @@ struct FlatChord {
     tolerance_mm: f64,
     /// Distance from the program, mm.
     error_mm: f64,
-    line: u32,
+    line: ProgramLine,
     events: Vec<Event>,
 }
 
@@ -77,7 +77,7 @@ struct OpenChord {
     chord: FlatChord,
     dropped: Dropped,
     /// Where further lines begin, mm after its start.
-    lines: Vec<(f64, u32)>,
+    lines: Vec<(f64, ProgramLine)>,
 }
 
 impl Flattener {

@@ -2,16 +2,16 @@
 
 use crate::grid::Passing;
 use crate::programmed_rate::ProgrammedRate;
-use glidepath_program::{Event, Override};
+use glidepath_program::{Event, Override, ProgramLine};
 use std::collections::VecDeque;
 
 /// A piece as the program sees it.
 #[derive(Debug, Clone)]
 pub(crate) struct LedgerEntry {
     /// Line of its start.
-    pub(crate) line: u32,
+    pub(crate) line: ProgramLine,
     /// Where further lines begin, mm after its start, ascending.
-    pub(crate) lines: Vec<(f64, u32)>,
+    pub(crate) lines: Vec<(f64, ProgramLine)>,
     pub(crate) rate: ProgrammedRate,
     pub(crate) length_s: f64,
     /// Events that happen when it is entered, without stopping.

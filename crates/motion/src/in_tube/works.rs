@@ -4,7 +4,7 @@ use crate::PlanError;
 use crate::intake::{Intake, check_dwell};
 use crate::rest::{Rest, RestKind};
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_program::{Event, Item, ItemKind, PathMode, Rate, Settings};
+use glidepath_program::{Event, Item, ItemKind, PathMode, ProgramLine, Rate, Settings};
 use std::collections::VecDeque;
 
 /// One thing to do.
@@ -25,7 +25,7 @@ pub(crate) struct Move {
     pub(crate) segment: Segment,
     pub(crate) rate: Rate,
     pub(crate) tolerance_mm: f64,
-    pub(crate) line: u32,
+    pub(crate) line: ProgramLine,
     /// Events that happen when it is entered.
     pub(crate) events: Vec<Event>,
 }
@@ -37,14 +37,14 @@ pub(crate) struct Works {
     works: VecDeque<Work>,
     intake: Intake,
     /// Events that wait for the move they happen on.
-    events: Vec<(u32, Event)>,
+    events: Vec<(ProgramLine, Event)>,
     stretch: StretchKind,
     /// The last works, not to be done before it is known whether a curve follows: so many, of so
     /// much time at their feedrates.
     held: Option<(usize, f64)>,
     /// Moves since the last curve.
     straight: usize,
-    last: (u32, Rate),
+    last: (ProgramLine, Rate),
     finished: bool,
 }
 
@@ -76,7 +76,7 @@ impl Works {
             stretch: StretchKind::None,
             held: None,
             straight: 0,
-            last: (0, Rate::Rapid),
+            last: (ProgramLine::NONE, Rate::Rapid),
             finished: false,
         }
     }
@@ -92,19 +92,19 @@ impl Works {
 
     /// Takes an item; changes nothing if it is refused.
     pub(crate) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
-        let line = item.line;
+        let line = item.program_line();
         match item.kind {
             ItemKind::Move {
                 segment,
                 rate,
                 mode,
             } => {
-                self.intake.check_move(line, &segment, rate, mode)?;
+                self.intake.check_move(line.number, &segment, rate, mode)?;
                 self.push_move(line, segment, rate, mode);
                 self.last.1 = rate;
             }
             ItemKind::Dwell(dwell_t) => {
-                check_dwell(line, dwell_t)?;
+                check_dwell(line.number, dwell_t)?;
                 self.rest(RestKind::Dwell(dwell_t), line);
             }
             ItemKind::Event(event @ (Event::SpindleSpeed(_) | Event::SelectTool(_))) => {
@@ -123,7 +123,7 @@ impl Works {
         }
     }
 
-    fn push_move(&mut self, line: u32, segment: Segment, rate: Rate, mode: PathMode) {
+    fn push_move(&mut self, line: ProgramLine, segment: Segment, rate: Rate, mode: PathMode) {
         let stretch = match mode {
             PathMode::ExactPath => StretchKind::Exact,
             _ if self.is_curved(&segment) => StretchKind::Curved,
@@ -145,19 +145,15 @@ impl Works {
         self.stretch = stretch;
         let events = core::mem::take(&mut self.events);
         if stretch != StretchKind::Free {
-            let events = events.into_iter().map(|(line, event)| Item {
-                line,
-                kind: ItemKind::Event(event),
-            });
+            let events = events
+                .into_iter()
+                .map(|(line, event)| line.item(ItemKind::Event(event)));
             self.works.extend(events.map(Work::Exact));
-            self.works.push_back(Work::Exact(Item {
-                line,
-                kind: ItemKind::Move {
-                    segment,
-                    rate,
-                    mode,
-                },
-            }));
+            self.works.push_back(Work::Exact(line.item(ItemKind::Move {
+                segment,
+                rate,
+                mode,
+            })));
             if mode == PathMode::ExactStop {
                 self.end_stretch();
                 self.put_rest(RestKind::ExactStop, line);
@@ -215,13 +211,13 @@ impl Works {
             };
             let kinds = events.chain([kind]);
             self.works
-                .extend(kinds.map(|kind| Work::Exact(Item { line, kind })));
+                .extend(kinds.map(|kind| Work::Exact(line.item(kind))));
         }
         self.stretch = StretchKind::Curved;
     }
 
     /// Ends the path at rest.
-    fn rest(&mut self, kind: RestKind, line: u32) {
+    fn rest(&mut self, kind: RestKind, line: ProgramLine) {
         self.end_stretch();
         for (_, event) in core::mem::take(&mut self.events) {
             self.put_rest(RestKind::Event(event), line);
@@ -229,7 +225,7 @@ impl Works {
         self.put_rest(kind, line);
     }
 
-    fn put_rest(&mut self, kind: RestKind, line: u32) {
+    fn put_rest(&mut self, kind: RestKind, line: ProgramLine) {
         self.works.push_back(Work::Rest(Rest { kind, line }));
     }
 
@@ -247,7 +243,7 @@ impl Works {
                     rate,
                     mode,
                 };
-                self.works.push_back(Work::Exact(Item { line, kind }));
+                self.works.push_back(Work::Exact(line.item(kind)));
             }
             self.works.push_back(Work::ExactEnd);
         } else if is_left {

@@ -107,7 +107,7 @@ impl Sampler {
             match settled.pop_front() {
                 Some(Settled::Motion { pieces, legs }) => {
                     if !leads_to_the_end(&pieces, &legs) {
-                        let line = pieces.first().map_or(0, |piece| piece.line);
+                        let line = pieces.first().map_or(0, |piece| piece.line.number);
                         return NextFrame::Broken { line };
                     }
                     self.enter_motion(pieces, legs, None);
@@ -117,7 +117,7 @@ impl Sampler {
                     parametrisation,
                 }) => {
                     if !is_whole(&pieces, parametrisation.length_s()) {
-                        let line = pieces.first().map_or(0, |piece| piece.line);
+                        let line = pieces.first().map_or(0, |piece| piece.line.number);
                         return NextFrame::Broken { line };
                     }
                     self.enter_motion(pieces, Vec::new(), Some(parametrisation));
@@ -327,8 +327,7 @@ mod tests {
     use crate::on_path::pieces::SpeedRule;
     use crate::programmed_rate::ProgrammedRate;
     use glidepath_geometry::Segment;
-    use glidepath_program::Override;
-    use glidepath_program::{Limits, Rate};
+    use glidepath_program::{Limits, Override, ProgramLine, Rate};
 
     #[test]
     fn a_stretch_without_a_motion_to_its_end_is_never_jumped_over() {
@@ -349,7 +348,10 @@ mod tests {
             limit: rule.limit(Override::NONE, &Limits::uniform(200.0, 2000.0, 40_000.0)),
             rule,
             planned: Override::NONE,
-            line: 17,
+            line: ProgramLine {
+                number: 17,
+                block: 3,
+            },
             lines: Vec::new(),
             rapid: false,
             events: Vec::new(),

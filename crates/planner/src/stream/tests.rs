@@ -24,7 +24,11 @@ fn go(segment: Segment) -> StreamItem {
         rate: Rate::Feed(10.0),
         mode,
     };
-    StreamItem::Item(Item { line: 1, kind })
+    StreamItem::Item(Item {
+        block: 0,
+        line: 1,
+        kind,
+    })
 }
 
 fn line(from: f64, to: f64) -> StreamItem {

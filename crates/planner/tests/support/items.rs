@@ -30,6 +30,7 @@ pub(crate) fn polyline(points: &[AxisVector]) -> Vec<Item> {
     let moves = points.windows(2).enumerate();
     moves
         .map(|(i, ends)| Item {
+            block: 0,
             line: u32::try_from(i + 1).unwrap(),
             kind: ItemKind::Move {
                 segment: Segment::line(ends[0], ends[1]),

@@ -298,6 +298,7 @@ impl Compensation {
         }
         self.tool = end;
         out.push(Item {
+            block: 0,
             line: of.line,
             kind: ItemKind::Move {
                 segment,

@@ -118,6 +118,7 @@ impl Interpreter {
     fn give_out(&self, start: &AxisVector, end: &AxisVector, rate: Rate, out: &mut Vec<Item>) {
         let (start, end) = (*start, *end);
         let item = Item {
+            block: 0,
             line: self.line,
             kind: ItemKind::Move {
                 segment: Segment::Line(Line { start, end }),

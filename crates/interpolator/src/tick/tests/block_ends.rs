@@ -126,7 +126,11 @@ fn single_block_rests_where_the_plan_rests() {
         ItemKind::Dwell(0.05),
         along(Segment::line(corner, at(30.0, 35.0, 0.0)), feed),
     ];
-    let items = (1..).zip(kinds).map(|(line, kind)| Item { line, kind });
+    let items = (1..).zip(kinds).map(|(line, kind)| Item {
+        block: 0,
+        line,
+        kind,
+    });
     let items: Vec<_> = items.collect();
     for effort in [Effort::Fast, Effort::Optimal] {
         let frames = planned(&items, effort);

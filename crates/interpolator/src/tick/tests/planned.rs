@@ -40,6 +40,7 @@ pub(super) fn program(seed: u64, moves: usize, effort: Effort) -> Vec<SetpointFr
             mode,
         };
         items.push(Item {
+            block: 0,
             line: line as u32,
             kind,
         });
@@ -120,7 +121,13 @@ fn a_short_period_gets_under_way() {
         mode: PathMode::ExactStop,
     };
     let mut planner = Planner::new(settings, AxisVector::zeros());
-    planner.push(&Item { line: 1, kind }).unwrap();
+    planner
+        .push(&Item {
+            block: 0,
+            line: 1,
+            kind,
+        })
+        .unwrap();
     planner.finish();
     let frames: Vec<_> = std::iter::from_fn(|| planner.pop_frame().unwrap()).collect();
     let mut rig = Rig::new(Config::new(mill(), 900_000));

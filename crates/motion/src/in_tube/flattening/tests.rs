@@ -24,7 +24,14 @@ fn pieces(segments: &[Segment]) -> Vec<(LedgerEntry, Reference)> {
             rate: Rate::Feed(50.0),
             mode: PathMode::Continuous { tolerance_mm: None },
         };
-        assert_eq!(works.push(&Item { line, kind }), Ok(()));
+        assert_eq!(
+            works.push(&Item {
+                line,
+                block: 0,
+                kind
+            }),
+            Ok(())
+        );
     }
     works.finish();
     let mut pieces = Vec::new();
@@ -59,7 +66,7 @@ fn chords_of_a_helix_and_their_tolerance_stay_within_that_of_the_program() {
     let mut from = start;
     let mut worst_mm = 0.0_f64;
     for (entry, reference) in &pieces {
-        assert_eq!(entry.line, 1);
+        assert_eq!(entry.line.number, 1);
         let left_mm = reference.tolerance_mm;
         for k in 0..=2000 {
             let at = arc.jet(arc.length() * f64::from(k) / 2000.0).position;
@@ -101,8 +108,8 @@ fn dense_chords_merge_and_tell_their_lines() {
             .into_iter()
             .chain(entry.lines.iter().copied());
         for (start_s, line) in lines {
-            assert_eq!(line, next_line, "every block in order");
-            let vertex = point(line - 1);
+            assert_eq!(line.number, next_line, "every block in order");
+            let vertex = point(line.number - 1);
             let gap_mm = distance_mm(&from, &reference.end, &vertex);
             assert!(gap_mm + reference.tolerance_mm <= 0.02 + 1e-12, "{gap_mm}");
             assert!(((vertex - from).norm() - start_s).abs() < 1e-3, "{start_s}");
@@ -128,6 +135,12 @@ fn what_moves_too_short_have_left_belongs_to_the_last_piece() {
     let pieces = pieces(&segments);
     let ends: Vec<_> = pieces.iter().map(|(_, piece)| piece.end[0]).collect();
     assert_eq!(ends, [2.5, 2.5e-8]);
-    assert_eq!(pieces[1].0.lines, [(2.5, 3)]);
+    let lines: Vec<_> = pieces[1]
+        .0
+        .lines
+        .iter()
+        .map(|(s, line)| (*s, line.number))
+        .collect();
+    assert_eq!(lines, [(2.5, 3)]);
     assert!(pieces[1].1.tolerance_mm <= 0.02 - 2.5e-8);
 }

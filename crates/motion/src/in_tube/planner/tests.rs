@@ -91,6 +91,7 @@ impl Case {
         });
         for (line, ends) in (1..).zip(self.points.windows(2)) {
             audit.program(&Item {
+                block: 0,
                 line,
                 kind: ItemKind::Move {
                     segment: Segment::line(ends[0], ends[1]),

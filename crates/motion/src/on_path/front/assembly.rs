@@ -10,7 +10,7 @@ use crate::on_path::pieces::{CurveRule, Element, Piece, Shape, SpeedRule};
 use crate::programmed_rate::ProgrammedRate;
 use crate::rest::{Rest, RestKind};
 use glidepath_geometry::Segment;
-use glidepath_program::{Event, Limits, Override, PathMode, Settings};
+use glidepath_program::{Event, Limits, Override, PathMode, ProgramLine, Settings};
 
 /// Puts pieces together.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ pub(crate) struct Assembly {
     /// Events that wait for the move they happen on.
     pub(crate) events: Vec<Event>,
     /// The line taken last.
-    pub(crate) line: u32,
+    pub(crate) line: ProgramLine,
 }
 
 impl Assembly {
@@ -35,7 +35,7 @@ impl Assembly {
             pending: None,
             blocks: KeptBlocks::new(),
             events: Vec::new(),
-            line: 0,
+            line: ProgramLine::NONE,
         }
     }
 
@@ -159,7 +159,7 @@ impl Assembly {
         shape: Shape,
         (from_s, length_s): (f64, f64),
         rule: SpeedRule,
-        line: u32,
+        line: ProgramLine,
     ) -> Piece {
         Piece {
             shape,

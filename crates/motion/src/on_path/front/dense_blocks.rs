@@ -13,7 +13,7 @@ use crate::programmed_rate::{ProgrammedRate, axes_speed};
 use crate::rest::{Rest, RestKind};
 use core::ops::Range;
 use glidepath_geometry::{AxisVector, Cubic, Segment};
-use glidepath_program::{Event, PathMode, Rate, Smoothing};
+use glidepath_program::{Event, PathMode, ProgramLine, Rate, Smoothing};
 
 /// A run of blocks under compression.
 #[derive(Debug)]
@@ -59,7 +59,7 @@ impl DenseBlocks {
     pub(crate) fn compress(
         &mut self,
         assembly: &mut Assembly,
-        (segment, line): (&Segment, u32),
+        (segment, line): (&Segment, ProgramLine),
         rate: Rate,
         mode: PathMode,
         out: &mut Vec<Element>,

@@ -14,7 +14,7 @@ use crate::on_path::pieces::{Element, Shape, SpeedRule};
 use crate::programmed_rate::{ProgrammedRate, axes_speed, axes_speed_along};
 use crate::rest::{Rest, RestKind};
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_program::{Item, ItemKind, Override, PathMode, Rate, Settings};
+use glidepath_program::{Item, ItemKind, Override, PathMode, ProgramLine, Rate, Settings};
 
 /// Turns items into pieces and rests.
 #[derive(Debug)]
@@ -49,18 +49,18 @@ impl PathFront {
                 rate,
                 mode,
             } => {
-                self.push_move(item.line, segment, rate, mode, out)?;
+                self.push_move(item.program_line(), segment, rate, mode, out)?;
             }
             ItemKind::Dwell(dwell_t) => {
                 check_dwell(item.line, dwell_t)?;
-                self.rest(RestKind::Dwell(dwell_t), item.line, out);
+                self.rest(RestKind::Dwell(dwell_t), item.program_line(), out);
             }
             ItemKind::Event(event) if event.is_at_rest() => {
-                self.rest(RestKind::Event(event), item.line, out);
+                self.rest(RestKind::Event(event), item.program_line(), out);
             }
             ItemKind::Event(event) => self.assembly.events.push(event),
         }
-        self.assembly.line = item.line;
+        self.assembly.line = item.program_line();
         Ok(())
     }
 
@@ -71,13 +71,13 @@ impl PathFront {
 
     fn push_move(
         &mut self,
-        line: u32,
+        line: ProgramLine,
         segment: Segment,
         rate: Rate,
         mode: PathMode,
         out: &mut Vec<Element>,
     ) -> Result<(), PlanError> {
-        self.intake.check_move(line, &segment, rate, mode)?;
+        self.intake.check_move(line.number, &segment, rate, mode)?;
         self.last_rate = rate;
         let Some(segment) = self.intake.take(segment) else {
             return Ok(());
@@ -126,7 +126,7 @@ impl PathFront {
     }
 
     /// Ends the path at rest.
-    fn rest(&mut self, kind: RestKind, line: u32, out: &mut Vec<Element>) {
+    fn rest(&mut self, kind: RestKind, line: ProgramLine, out: &mut Vec<Element>) {
         let assembly = &mut self.assembly;
         self.dense.end_run(assembly, out);
         assembly.put_pending(out);

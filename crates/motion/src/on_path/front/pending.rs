@@ -3,7 +3,7 @@
 use crate::on_path::junction::JunctionSide;
 use crate::programmed_rate::ProgrammedRate;
 use glidepath_geometry::Segment;
-use glidepath_program::{Event, PathMode};
+use glidepath_program::{Event, PathMode, ProgramLine};
 
 /// A segment whose end is not decided yet.
 #[derive(Debug)]
@@ -13,9 +13,9 @@ pub(crate) struct Pending {
     pub rate: ProgrammedRate,
     /// The rate under the override at hand, where the segment can be driven at it.
     pub rate_v: f64,
-    pub line: u32,
+    pub line: ProgramLine,
     /// The lines of further blocks on it, and where on it they start.
-    pub lines: Vec<(f64, u32)>,
+    pub lines: Vec<(f64, ProgramLine)>,
     pub mode: PathMode,
     /// Length at the start that the junction before has replaced.
     pub trimmed_s: f64,
@@ -54,7 +54,7 @@ impl Pending {
     }
 
     /// The line of the last block on it.
-    pub(crate) fn last_line(&self) -> u32 {
+    pub(crate) fn last_line(&self) -> ProgramLine {
         self.lines.last().map_or(self.line, |(_, line)| *line)
     }
 }

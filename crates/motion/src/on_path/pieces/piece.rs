@@ -2,7 +2,7 @@
 
 use super::speed_limit::{SpeedLimit, SpeedRule};
 use glidepath_geometry::{Cubic, Jet, Segment, Transition};
-use glidepath_program::{Event, Limits, Override};
+use glidepath_program::{Event, Limits, Override, ProgramLine};
 
 /// A smooth piece of path with one speed limit.
 #[derive(Debug, Clone)]
@@ -16,9 +16,9 @@ pub(crate) struct Piece {
     /// The override that `limit` was computed with.
     pub planned: Override,
     /// Source line at its start.
-    pub line: u32,
+    pub line: ProgramLine,
     /// The lines of further blocks on it, and where in the shape they start.
-    pub lines: Vec<(f64, u32)>,
+    pub lines: Vec<(f64, ProgramLine)>,
     pub rapid: bool,
     /// Events that happen when the piece is entered, without stopping.
     pub events: Vec<Event>,
@@ -85,7 +85,7 @@ impl Piece {
     }
 
     /// The source line `s` after the start of the piece.
-    pub(crate) fn line_at(&self, s: f64) -> u32 {
+    pub(crate) fn line_at(&self, s: f64) -> ProgramLine {
         let passed = self
             .lines
             .partition_point(|(from_s, _)| *from_s <= self.from_s + s);

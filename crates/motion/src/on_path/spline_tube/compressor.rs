@@ -7,7 +7,7 @@ use super::shares::ToleranceShares;
 use super::thinning::{Thinning, Vertex};
 use core::ops::Range;
 use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ};
-use glidepath_program::Settings;
+use glidepath_program::{ProgramLine, Settings};
 
 /// A run of blocks over some of the axes.
 #[derive(Debug)]
@@ -27,7 +27,13 @@ impl<const D: usize> StagesOver<D> {
         }
     }
 
-    fn push(&mut self, end: &AxisVector, line: u32, change: Option<Change>, out: &mut Output) {
+    fn push(
+        &mut self,
+        end: &AxisVector,
+        line: ProgramLine,
+        change: Option<Change>,
+        out: &mut Output,
+    ) {
         let vertex = Vertex {
             point: first_axes(end),
             line,
@@ -95,7 +101,7 @@ impl Compressor {
 
     /// The next block: a line to a point at least a rounding error away. `change` is there for the
     /// first block, and where its rate is another than that of the block before or events happen.
-    pub(crate) fn push(&mut self, end: &AxisVector, line: u32, change: Option<Change>) {
+    pub(crate) fn push(&mut self, end: &AxisVector, line: ProgramLine, change: Option<Change>) {
         match &mut self.stages {
             Stages::Linear(stages) => stages.push(end, line, change, &mut self.output),
             Stages::All(stages) => stages.push(end, line, change, &mut self.output),

@@ -4,7 +4,7 @@
 //! block; rates and events only where they change, for blocks are merged only where they do not.
 
 use crate::programmed_rate::ProgrammedRate;
-use glidepath_program::Event;
+use glidepath_program::{Event, ProgramLine};
 use std::collections::VecDeque;
 
 /// What a block changes when it is entered.
@@ -22,7 +22,7 @@ pub(crate) struct Cut {
     /// Where: 0 at the start of the part, 1 at its end, in its own parameter.
     pub from_u: f64,
     /// Source line of the block.
-    pub line: u32,
+    pub line: ProgramLine,
     /// Its rate and events, if they are others than before.
     pub change: Option<Change>,
 }
@@ -30,7 +30,7 @@ pub(crate) struct Cut {
 #[derive(Debug)]
 struct Mark {
     from_t: f64,
-    line: u32,
+    line: ProgramLine,
     change: Option<Change>,
 }
 
@@ -39,12 +39,12 @@ struct Mark {
 pub(super) struct Marks {
     waiting: VecDeque<Mark>,
     /// The line of the block at hand.
-    line: u32,
+    line: ProgramLine,
 }
 
 impl Marks {
     /// A block begins at a length.
-    pub(super) fn push(&mut self, from_t: f64, line: u32, change: Option<Change>) {
+    pub(super) fn push(&mut self, from_t: f64, line: ProgramLine, change: Option<Change>) {
         self.waiting.push_back(Mark {
             from_t,
             line,
@@ -101,10 +101,16 @@ mod tests {
     fn blocks_are_told_by_the_part_they_begin_on() {
         let mut marks = Marks::default();
         for line in 1..=4 {
-            marks.push(f64::from(line - 1), line, None);
+            let number = ProgramLine {
+                number: line,
+                block: 0,
+            };
+            marks.push(f64::from(line - 1), number, None);
         }
         let lines = |cuts: Vec<Cut>| -> Vec<(f64, u32)> {
-            cuts.into_iter().map(|cut| (cut.from_u, cut.line)).collect()
+            cuts.into_iter()
+                .map(|cut| (cut.from_u, cut.line.number))
+                .collect()
         };
         // A part from 0 to 2.5, then one to 2.75, then the rest.
         let first = lines(marks.take(|t| t / 2.5));

@@ -12,7 +12,7 @@
 use super::*;
 use crate::programmed_rate::ProgrammedRate;
 use glidepath_geometry::{AxisVector, Cubic, LINEAR_XYZ, Segment, feed_length};
-use glidepath_program::{Effort, Limits, Rate, Settings, Smoothing};
+use glidepath_program::{Effort, Limits, ProgramLine, Rate, Settings, Smoothing};
 use proptest::prelude::*;
 
 const TOLERANCE_MM: f64 = 0.02;
@@ -53,7 +53,11 @@ fn compress(points: &[AxisVector], is_linear: bool) -> Vec<Part> {
             continue;
         }
         let first = if i == 0 { change(100.0) } else { None };
-        compressor.push(&pair[1], i as u32 + 1, first);
+        let line = ProgramLine {
+            number: i as u32 + 1,
+            block: 0,
+        };
+        compressor.push(&pair[1], line, first);
         parts.extend(compressor.parts());
     }
     compressor.finish();
@@ -304,7 +308,7 @@ fn every_block_is_told_once_and_in_order() {
         assert!(
             part.cuts[0].from_u == 0.0 && part.cuts.windows(2).all(|c| c[0].from_u < c[1].from_u)
         );
-        lines.extend(part.cuts.iter().map(|cut| cut.line));
+        lines.extend(part.cuts.iter().map(|cut| cut.line.number));
     }
     lines.dedup();
     let all: Vec<u32> = (1..points.len() as u32).collect();

@@ -14,6 +14,7 @@
 use super::vector::{add_scaled, dot, minus, norm, tolerance_square};
 use core::mem;
 use core::ops::Range;
+use glidepath_program::ProgramLine;
 
 /// Most vertices held back, the last one included.
 const MOST_HELD: usize = 32;
@@ -22,7 +23,7 @@ const MOST_HELD: usize = 32;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Vertex<const D: usize> {
     pub(super) point: [f64; D],
-    pub(super) line: u32,
+    pub(super) line: ProgramLine,
 }
 
 /// A merged chord.
@@ -34,7 +35,7 @@ pub(super) struct MergedChord<const D: usize> {
     /// Largest distance of a dropped vertex from it, mm.
     pub(super) error_mm: f64,
     /// The blocks on it: where on it each starts, 0…1, and its source line.
-    pub(super) blocks: Vec<(f64, u32)>,
+    pub(super) blocks: Vec<(f64, ProgramLine)>,
 }
 
 /// Merges chords as they come.
