@@ -75,7 +75,8 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
     }
 }
 
-/// The same diagnostics without all else, for a program that is only to be accepted or refused.
+/// Lists the diagnostics of [`check`] without counts and sums, for a program that is only to be
+/// accepted or refused.
 pub fn diagnostics<R: BufRead>(reader: R, options: Options) -> Diagnostics {
     read(&mut Program::new(reader, options).only_judged(), |_| {}).0
 }

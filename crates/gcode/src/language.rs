@@ -41,15 +41,15 @@
 //! # Order of execution
 //!
 //! Whatever stands where in a line, a block acts in this order: feed mode, F, S, T, tool change,
-//! spindle, coolant, overrides, saved state, inputs and outputs, dwell, plane, units, diameter mode,
-//! cutter radius, tool length, coordinate system, path mode, distance modes, retract mode, then the
-//! codes that are not modal (G10, G28, G30, G52, G92), then the motion, and last the stop.
+//! spindle, coolant, overrides, saved state, inputs and outputs, dwell, plane, units, diameter
+//! mode, cutter radius, tool length, coordinate system, path mode, distance modes, retract mode,
+//! then the codes that are not modal (G10, G28, G30, G52, G92), then the motion, and last the stop.
 //!
 //! # Where it differs from LinuxCNC
 //!
-//! LinuxCNC's own interpreter has judged a collection of programs; verdict, line of the first error,
-//! counts, lengths, times, corners and end points agree in 99.05 % of 1267 figures. The others, each
-//! on purpose:
+//! LinuxCNC's own interpreter has judged a collection of programs; verdict, line of the first
+//! error, counts, lengths, times, corners and end points agree in 99.05 % of 1267 figures. The
+//! others, each on purpose:
 //!
 //! | what | LinuxCNC | here |
 //! |---|---|---|

@@ -9,8 +9,8 @@
 //!            └── parameters ◄─────┘  cycles, compensation, flow
 //! ```
 //!
-//! * `syntax` reads the text of a line into the words of a block. It knows no machine, no modal state
-//!   and no offset.
+//! * `syntax` reads the text of a line into the words of a block. It knows no machine, no modal
+//!   state and no offset.
 //! * `execute` gives blocks their meaning: modes, offsets, tools, canned and lathe cycles, cutter
 //!   radius compensation, subroutines and loops, in each of the dialects.
 //! * `setup` is what a program is read for: the machine, its tools, the folder of its subroutines.

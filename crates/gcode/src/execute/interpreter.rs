@@ -35,8 +35,8 @@ pub(crate) struct State {
     /// Where the program has brought the machine, machine coordinates. With cutter radius
     /// compensation that is the programmed contour, not the tool.
     pub(crate) position: AxisVector,
-    /// End of the last segment made. Within [`crate::execute::motion::settled::MIN_MOVE`] of `position`, unless cutter
-    /// radius compensation is on or was just turned off.
+    /// End of the last segment made. Within [`crate::execute::motion::settled::MIN_MOVE`] of
+    /// `position`, unless cutter radius compensation is on or was just turned off.
     pub(crate) path_end: AxisVector,
     pub(crate) spindle: Spindle,
     pub(crate) coolant: Coolant,
@@ -56,8 +56,8 @@ pub(crate) struct State {
     pub(crate) on_contour: bool,
     /// Cutter radius compensation was turned off and no move has been made since.
     pub(crate) leaving_contour: bool,
-    /// From its end to the control point that continues the last move smoothly, if that was a G5,
-    /// mm.
+    /// The way from the end of the last move to the control point that continues it smoothly, mm;
+    /// `None` if that move was no G5.
     pub(crate) cubic_tail: Option<[f64; 2]>,
 }
 
@@ -77,13 +77,14 @@ pub(crate) struct Interpreter {
     /// The tool table, with what G10 has made of it.
     pub(crate) tools: Option<Arc<ToolTable>>,
     pub(crate) saved_states: SavedStates,
-    /// Of the block executed last.
+    /// What the block executed last has left out.
     pub(crate) zero_length: ZeroLength,
     /// Straight moves of plain lines are judged, and not given out.
     pub(crate) only_judges: bool,
     /// The block executed last was one of them.
     pub(crate) has_judged: bool,
-    /// Of the straight move of a plain line made last; holds as long as nothing else is executed.
+    /// What the straight move of a plain line made last was made with; it holds as long as nothing
+    /// else is executed.
     pub(crate) course: Course,
     /// Line of the block being executed.
     pub(crate) line: u32,

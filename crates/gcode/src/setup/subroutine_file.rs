@@ -65,7 +65,7 @@ pub struct Subroutines {
 
 struct FileCache {
     find: Box<Find>,
-    /// By the name of the file.
+    /// The files that were found, by name.
     found: Mutex<BTreeMap<String, SubroutineFile>>,
 }
 
@@ -119,7 +119,7 @@ impl fmt::Debug for Subroutines {
     }
 }
 
-/// The same if one is a clone of the other.
+/// Two are the same if one is a clone of the other.
 impl PartialEq for Subroutines {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.cache, &other.cache)

@@ -54,11 +54,11 @@ impl Survey {
     fn corner(&mut self, line: u32, segment: &Segment) {
         let direction = |s: f64| {
             let mut d = match segment {
-                // As its jet, without all else.
+                // The first derivative of its jet, without the other ones.
                 Segment::Line(line) => line.displacement() / segment.length(),
                 _ => segment.jet(s).d1,
             };
-            // Of the linear axes alone: a corner of the tool's path.
+            // Only the linear axes count: it is a corner of the tool's path.
             for axis in 3..6 {
                 d[axis] = 0.0;
             }

@@ -179,7 +179,7 @@ impl Block {
         self.parse_any(text, scope)
     }
 
-    /// The same for a line that is not plain, or not known to be.
+    /// Fills the block from the text of a line that is not plain, or not known to be.
     pub(crate) fn parse_any(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
         self.clear();
         self.is_plain = false;

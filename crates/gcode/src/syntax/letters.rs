@@ -26,7 +26,7 @@ const SLOTS: [usize; 26] = {
 pub(crate) struct Slot(u8);
 
 impl Slot {
-    /// That of a letter, in either case.
+    /// The slot of a letter, in either case.
     #[expect(clippy::cast_possible_truncation, reason = "slots are below 26")]
     pub(crate) const fn of(letter: u8) -> Self {
         Self(SLOTS[(letter.to_ascii_uppercase().wrapping_sub(b'A') % 26) as usize] as u8)
@@ -90,7 +90,7 @@ pub(crate) const AXIS_WORDS: Letters = Letters::of(&AXIS_LETTERS);
 pub(crate) struct WordValues {
     /// One bit per letter that has a value.
     present: u32,
-    /// By slot; what is left from another line where a letter has none.
+    /// The values by slot; what is left from another line where a letter has none.
     values: [f64; 26],
 }
 

@@ -94,7 +94,7 @@ impl<R: BufRead> LineSource<R> {
 
     /// Reads the next line; false at the end of the input.
     pub(crate) fn advance(&mut self) -> Outcome<bool> {
-        // Of most lines the end is in the buffer.
+        // The end of most lines is in the buffer.
         if let Some(length) = memchr2(b'\n', b'\r', self.ahead())
             && self.pass(length)
         {

@@ -1,6 +1,7 @@
 //! Plain lines: a block number, G0 to G3, and words with numbers, as nearly all lines of a long
 //! program are. They are read without looking at a byte twice; every other line, and every
-//! diagnostic, is the business of [`crate::syntax::block::Block::parse_any`], with which this agrees.
+//! diagnostic, is the business of [`crate::syntax::block::Block::parse_any`], with which this
+//! agrees.
 //!
 //! Eight bytes are looked at together. A number of at most fifteen digits is a quotient of two
 //! exact doubles, so one division rounds it correctly:
@@ -87,7 +88,7 @@ pub(crate) fn read_plain(text: &[u8], into: &mut impl WordSink) -> Option<usize>
 #[derive(Debug, Clone, Copy)]
 enum ByteClass {
     Blank,
-    /// Of the line.
+    /// The end of the line.
     End,
     /// G.
     Code,
@@ -167,7 +168,8 @@ fn short(text: &[u8], start: usize) -> Option<(f64, usize, usize)> {
     Some((value.into(), decimals, start + bytes(second)))
 }
 
-/// The same for a number of up to [`MOST_DIGITS`] digits: below 2⁵³, so that every step is exact.
+/// As [`short`], for a number of up to [`MOST_DIGITS`] digits: below 2⁵³, so that every step is
+/// exact.
 fn long(text: &[u8], start: usize) -> Option<(f64, usize, usize)> {
     let (whole, mut count) = digits(text, start);
     let (mut value, mut decimals) = (f64::from(whole), 0);

@@ -12,7 +12,7 @@ use crate::syntax::dialect::Dialect;
 use crate::syntax::refused::refused_m;
 use crate::syntax::word_check::whole;
 
-/// Of one override: M50 to M53.
+/// Refuses a code that switches one override: M50 to M53.
 #[cold]
 fn override_refused(code: u32, block: &Block, span: Span) -> Box<Fault> {
     let (what, help) = match code {

@@ -18,7 +18,8 @@
 //! * *Smooth* (the offset elements already meet): joined.
 //! * *Convex*: an arc about the corner at the feedrate of the block after it; in front of a rapid
 //!   move a straight one. Two lines that turn by so little that their extensions meet within
-//!   [`MITRE_MM`](path::MITRE_MM) of the arc are extended instead, so that dense chords do not get an arc each.
+//!   [`MITRE_MM`](path::MITRE_MM) of the arc are extended instead, so that dense chords do not get
+//!   an arc each.
 //! * *Concave*: both are cut off where they meet. If they do not, the tool does not fit, and the
 //!   block is refused: it would cut into the contour.
 //!

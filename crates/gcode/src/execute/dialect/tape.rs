@@ -64,7 +64,7 @@ impl Tape {
 
     /// Goes to the next line, reading it if need be; false behind the end.
     ///
-    /// Of a program that is longer than what is kept the beginning is forgotten: it can still go
+    /// The beginning of a program that is longer than what is kept is forgotten: it can still go
     /// on, but not back there.
     pub(crate) fn advance<R: BufRead>(&mut self, source: &mut LineSource<R>) -> Outcome<bool> {
         if self.bytes > MAX_BYTES && self.next >= self.lines.len() && self.calls.is_empty() {

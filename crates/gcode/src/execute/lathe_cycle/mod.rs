@@ -18,8 +18,9 @@
 //! ```
 //!
 //! The subroutine is called as by `O100 call`, with loops and parameters, but its blocks move
-//! nothing: [`LatheProfile`](profile::LatheProfile) collects what they describe. When it ends the passes are made, all in
-//! program coordinates, and given out as if the block of the cycle had moved so.
+//! nothing: [`LatheProfile`](profile::LatheProfile) collects what they describe. When it ends the
+//! passes are made, all in program coordinates, and given out as if the block of the cycle had
+//! moved so.
 //!
 //! Passes are those of LinuxCNC 2.9. Other than there:
 //!

@@ -18,7 +18,7 @@ pub(crate) struct OpenLatheCycle {
     pub(super) level: usize,
     pub(super) words: LatheCycleWords,
     pub(super) profile: LatheProfile,
-    /// From before the profile.
+    /// The state from before the profile was read.
     pub(super) state: State,
 }
 

@@ -16,7 +16,7 @@ pub struct Feed {
 }
 
 impl Feed {
-    /// That of a straight move.
+    /// The feed of a straight move.
     pub(crate) fn of_line(self, start: &AxisVector, end: &AxisVector) -> f64 {
         if LINEAR_XYZ
             .chain(UVW)
