@@ -17,7 +17,7 @@ use crate::diagnostic::span::Span;
 use crate::execute::compensation::element::{Element, Point};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::lathe_cycle::edge_break::{EdgeBreak, cut};
-use crate::execute::motion::arc::{Ends, center_from_radius, check_radii, sweep};
+use crate::execute::motion::arc_ends::{Ends, center_from_radius, check_radii, sweep};
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::letters::Letters;

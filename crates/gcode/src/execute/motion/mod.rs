@@ -1,6 +1,7 @@
 //! The moves of a block: where its axis words lead, along which segments, and how fast.
 
-pub(crate) mod arc;
+mod arc;
+pub(crate) mod arc_ends;
 mod axis_words;
 mod curve;
 mod feedrate;
