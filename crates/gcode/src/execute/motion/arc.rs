@@ -9,8 +9,6 @@
 //! at most half a turn, a negative R the other. An R that is too small by no more than rounding
 //! (0.00127 mm) makes a half circle.
 
-use core::f64::consts::{PI, TAU};
-
 use glidepath_geometry::{Arc, Axis, AxisVector, LINEAR_XYZ, Plane, Segment};
 use glidepath_program::Item;
 
@@ -19,7 +17,7 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::Span;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::arc_ends::{Ends, center_from_radius, check_radii, sweep};
-use crate::execute::motion::settled::{MIN_MOVE, settled};
+use crate::execute::motion::settled::settled;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::offsets::Offsets;
 use crate::syntax::block::Block;

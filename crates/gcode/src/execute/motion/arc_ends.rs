@@ -1,19 +1,12 @@
 //! The circle through the ends of an arc: its centre from R, the check of its radii, its sweep.
 
+use core::f64::consts::{PI, TAU};
+
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::Span;
-use crate::execute::interpreter::Interpreter;
-use crate::execute::motion::settled::{MIN_MOVE, settled};
-use crate::execute::motion::speed::Pace;
-use crate::execute::state::offsets::Offsets;
+use crate::execute::motion::settled::MIN_MOVE;
 use crate::syntax::block::Block;
-use crate::syntax::letters::Letters;
-use crate::syntax::modes::{Distance, Motion};
-use crate::syntax::word_check::whole;
-use core::f64::consts::{PI, TAU};
-use glidepath_geometry::{Arc, Axis, AxisVector, LINEAR_XYZ, Plane, Segment};
-use glidepath_program::Item;
 
 /// Difference of the radii that is always accepted, mm.
 const RADIUS_TOLERANCE_MM: f64 = 0.0127;
