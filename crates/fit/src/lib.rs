@@ -31,6 +31,25 @@
 //! from the polyline through the points. [`Deviation`] measures it independently of how a curve was
 //! found.
 //!
+//! In the pipeline it serves `glidepath fit` alone: the command gathers the dense runs of a program and
+//! writes the curves that [`fit`] finds as curve files or as a program again. Planning does not pass
+//! through here.
+//!
+//! ```
+//! use glidepath_fit::{Point, Settings, fit};
+//!
+//! // A quarter of a circle of 10 mm, a point every half degree.
+//! let on_circle = |i: u32| {
+//!     let angle = f64::from(i).to_radians() / 2.0;
+//!     Point::new(10.0 * angle.cos(), 10.0 * angle.sin(), 0.0)
+//! };
+//! let points: Vec<Point> = (0..=180).map(on_circle).collect();
+//! let fitted = fit(&points, &Settings::new(0.01), &mut |_share_done| {})?;
+//! assert!(fitted.deviation.max_mm() <= 0.01);
+//! assert!(fitted.curve.control_points().len() < 12);
+//! # Ok::<(), glidepath_fit::FitError>(())
+//! ```
+//!
 //! Everything is deterministic: the searches draw from a generator with a seed, in a fixed order.
 //!
 //! Sources: the foraging method is that of Gu, Zhou, Lin et al. on NURBS fitting by bacterial

@@ -14,8 +14,35 @@
 //! acceleration along time it gives q, q̇ = J ẋ and q̈ = J ẍ + J̇ ẋ without J ever being formed; fed
 //! with unit directions it gives the columns of J. One formula, nothing to keep in step with it.
 //!
-//! Lengths are in mm, angles in degrees at interfaces and radians inside. Joints that a mechanism
-//! does not have are zero. Axes that a mechanism does not use are ignored.
+//! In the pipeline it is met in three places: the configuration builds a [`Mechanism`] with its
+//! [`JointLimits`]; the planner slows the axes where joints are weaker ([`AxisShare`] anywhere in the
+//! travel, [`PathCaps`] place by place) and judges each plan ([`JointWatch`]); the interpolator maps
+//! every setpoint to joints. The mechanisms are [`Trivial`], [`CoreXy`], [`LinearDelta`],
+//! [`RotaryDelta`], [`Scara`], [`FiveAxis`], [`Hexapod`] and [`TranslationalHexapod`].
+//!
+//! What always holds:
+//!
+//! * Lengths are in mm, angles in degrees at interfaces and radians inside.
+//! * Joints that a mechanism does not have are zero. Axes that a mechanism does not use are ignored.
+//! * Evaluation takes bounded time and does not allocate, so the real-time thread may do it.
+//! * A position that is out of reach or too near a singularity is refused, never approximated.
+//!
+//! ```
+//! use glidepath_geometry::{Axis, AxisVector};
+//! use glidepath_kinematics::{Kinematics as _, LinearDelta};
+//!
+//! let axes = [Axis::X, Axis::Y, Axis::Z];
+//! let delta = LinearDelta::new(269.0, 130.25, [90.0, 210.0, 330.0], &axes);
+//! let mut tool = AxisVector::zeros();
+//! (tool[0], tool[2]) = (40.0, 12.0); // mm
+//! let joints = delta.inverse(&tool)?;
+//! let back = delta.forward(&joints, &tool)?;
+//! assert!((back - tool).amax() < 1e-9);
+//!
+//! tool[0] = 500.0;
+//! assert!(delta.admit(&tool).is_err());
+//! # Ok::<(), glidepath_kinematics::KinematicsError>(())
+//! ```
 
 mod axes;
 mod axis_share;

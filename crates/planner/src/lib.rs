@@ -7,8 +7,56 @@
 //!  feed ─┘   (items)      (frames)     (pace)  ◀─ Status
 //! ```
 //!
-//! Frames depend on the items and the settings alone. No clock is read here; a caller lends a way to
-//! wait ([`Control::pause`]).
+//! This crate stands between the readers of programs (`glidepath-gcode`, `glidepath-curve`) and the
+//! planner of motion (`glidepath-motion`) on one side, and the interpolator's queue
+//! (`glidepath-link`) on the other.
+//!
+//! * [`ItemSource`] is whatever gives items: [`FileSource`] a file that was checked before,
+//!   [`PipeSource`] a pipe, [`ProgramSource`] any text, [`CurveSource`] and [`NurbsSource`] curve files.
+//! * [`Pipeline`] turns a source into frames, one after the other; [`PathCaps`] keep the joints of a
+//!   mechanism inside their limits on the way.
+//! * [`Publisher`] hands frames on, no further ahead of the machine than its [`Pace`] says.
+//! * [`listen()`] and [`feed()`] are the two ends of a stream of segments from another process.
+//! * [`Remainder`] is what is left of a program whose planner died, or that was aborted.
+//!
+//! What always holds:
+//!
+//! * Frames depend on the items and the settings alone: the same input gives the same frames to the
+//!   bit, whatever the timing of reads and threads.
+//! * No clock is read here; a caller lends a way to wait ([`Control::pause`]).
+//! * Memory is bounded, however long a program is.
+//! * Whatever a [`Refusal`] or a [`RunError`] is about, the machine comes to rest on the path.
+//!
+//! [`PathCaps`]: glidepath_kinematics::PathCaps
+//!
+//! ```
+//! use glidepath_gcode::Options;
+//! use glidepath_geometry::AxisVector;
+//! use glidepath_planner::{Output, Pipeline, ProgramSource};
+//! use glidepath_program::{Effort, Limits, Settings, Smoothing};
+//!
+//! let settings = Settings {
+//!     limits: Limits::uniform(200.0, 2000.0, 40_000.0), // mm/s, mm/s², mm/s³
+//!     tolerance_mm: 0.02,
+//!     smoothing: Smoothing::Auto,
+//!     period_t: 0.004,
+//!     effort: Effort::Fast,
+//! };
+//! let start = AxisVector::zeros();
+//! let program = "G21 G90\nG1 X10 F3000\nM2\n";
+//! let source = ProgramSource::new(program.as_bytes(), Options::default());
+//! let mut pipeline = Pipeline::new(source, settings, start);
+//! let mut position = start;
+//! loop {
+//!     match pipeline.advance()? {
+//!         Output::Frame(frame) => position = frame.position,
+//!         Output::End => break,
+//!         Output::Item(_) | Output::Pending => {}
+//!     }
+//! }
+//! assert!((position[0] - 10.0).abs() < 1e-9);
+//! # Ok::<(), glidepath_planner::Refusal>(())
+//! ```
 
 mod blocks;
 mod control;
