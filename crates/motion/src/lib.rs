@@ -54,7 +54,7 @@
 //!         rate: Rate::Feed(100.0),
 //!         mode: PathMode::Continuous { tolerance_mm: None },
 //!     };
-//!     planner.push(&Item { line, kind })?;
+//!     planner.push(&Item { block: line, line, kind })?;
 //! }
 //! planner.finish();
 //! let mut frames = 0;
