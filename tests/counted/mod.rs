@@ -1,5 +1,5 @@
-//! Instructions of a test that runs itself under callgrind, as another process: a figure that other load
-//! on the host does not change.
+//! Instructions of a test that runs itself under callgrind, as another process: a figure that
+//! other load on the host does not change.
 
 use std::process::Command;
 

@@ -23,8 +23,8 @@ use glidepath_tests::{Instance, Watchdog, settings};
 /// Between two looks of a subscriber that keeps up.
 const POLL: Duration = Duration::from_millis(1);
 
-/// Setpoints a subscriber may be behind: half a second at 250 µs. A busy host may not run an ordinary
-/// thread for that long.
+/// Setpoints a subscriber may be behind: half a second at 250 µs. A busy host may not run an
+/// ordinary thread for that long.
 const QUEUE: usize = 2_048;
 
 struct Scale {

@@ -1,9 +1,9 @@
 //! One cell of the free-space diagram: where a programmed chord and a chord of the motion are near.
 //!
 //! A programmed chord is parametrised by y and a chord of the motion by x, both over [0, 1]. The
-//! distance is the largest over groups: XYZ together, UVW together, each rotary axis by itself. Where
-//! it is at most a threshold is a convex set of (x, y), and on an edge of the cell (one end of one
-//! chord against the other chord) an interval.
+//! distance is the largest over groups: XYZ together, UVW together, each rotary axis by itself.
+//! Where it is at most a threshold is a convex set of (x, y), and on an edge of the cell (one end
+//! of one chord against the other chord) an interval.
 
 use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 
@@ -82,8 +82,8 @@ impl Chord {
         }
     }
 
-    /// True only if no part is within `threshold` of `point`, told by X, Y and Z one by one: mostly the
-    /// answer, and without a division.
+    /// True only if no part is within `threshold` of `point`, told by X, Y and Z one by one:
+    /// mostly the answer, and without a division.
     #[inline]
     pub(crate) fn is_far(&self, point: &AxisVector, threshold: f64) -> bool {
         let room = threshold * (1.0 + 1e-9) + 1e-9;
@@ -130,8 +130,8 @@ impl Chord {
     }
 }
 
-/// The part of `part` that is near in a group of axes: of each the chord along it, and the offset of
-/// the point from its start.
+/// The part of `part` that is near in a group of axes: of each the chord along it, and the offset
+/// of the point from its start.
 #[inline]
 fn near_group(
     axes: impl Iterator<Item = (f64, f64)> + Clone,

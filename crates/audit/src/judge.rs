@@ -86,10 +86,10 @@ impl Matching {
 
     /// Path speed against the feed of the chords the motion may be on.
     ///
-    /// At the level the motion is matched at, those are fewer than the tolerance allows: next to a vertex
-    /// it may be on the chord behind it already, or still on the one before it. So what seems too fast is
-    /// judged at the tolerance: by the chords from where the period may have begun to where it may have
-    /// ended.
+    /// At the level the motion is matched at, those are fewer than the tolerance allows: next to a
+    /// vertex it may be on the chord behind it already, or still on the one before it. So what
+    /// seems too fast is judged at the tolerance: by the chords from where the period may have
+    /// begun to where it may have ended.
     pub(crate) fn judge_feed(&mut self, spot: &Spot, ticks: u64, first: usize) {
         let Some(column) = self.history.back() else {
             return;

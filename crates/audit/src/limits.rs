@@ -11,9 +11,10 @@ const SLACK: f64 = 1.0 + 1e-6;
 
 /// State of the check.
 ///
-/// Most samples are neither a new largest of anything nor anywhere near a limit. That is told without a
-/// division: per axis and order a threshold for the bare difference is kept, the smaller of the largest
-/// so far and the limit. Only where a difference is above its threshold is everything computed.
+/// Most samples are neither a new largest of anything nor anywhere near a limit. That is told
+/// without a division: per axis and order a threshold for the bare difference is kept, the smaller
+/// of the largest so far and the limit. Only where a difference is above its threshold is
+/// everything computed.
 #[derive(Debug)]
 pub(crate) struct LimitAudit {
     limits: Limits,
@@ -253,7 +254,8 @@ impl LimitAudit {
         };
         let t = self.period_t;
         let [position, velocity, acceleration] = &self.by_jerk;
-        // Without an allowance for rounding, which hardly ever is needed. Not a number does not fit.
+        // Without an allowance for rounding, which hardly ever is needed. Not a number does not
+        // fit.
         let mut fits = true;
         for i in 0..self.axes {
             let [p, v, a] = steps.of(i);

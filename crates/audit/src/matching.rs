@@ -16,12 +16,12 @@
 //!      └─┴────┴────┴────┴─▶ x motion
 //! ```
 //!
-//! The diagram is run through column by column, one sample at a time, keeping only the intervals that
-//! can be reached at the present sample. "Near" means the tolerance of the place, but not more than
-//! the level λ, the width needed so far. Where a column cannot be passed the last columns are tried
-//! again with a larger λ, found by search; so at the end λ is the deviation. If even the tolerance is
-//! not enough, exact stops are relaxed, then everything, until the motion is back on the path: that is
-//! reported, with the width that was needed.
+//! The diagram is run through column by column, one sample at a time, keeping only the intervals
+//! that can be reached at the present sample. "Near" means the tolerance of the place, but not
+//! more than the level λ, the width needed so far. Where a column cannot be passed the last
+//! columns are tried again with a larger λ, found by search; so at the end λ is the deviation. If
+//! even the tolerance is not enough, exact stops are relaxed, then everything, until the motion is
+//! back on the path: that is reported, with the width that was needed.
 
 use crate::column::{Column, Level, Passage, Reach, step};
 use crate::free_space::{Chord, Interval};
@@ -272,8 +272,8 @@ impl Matching {
         true
     }
 
-    /// The last column does not pass at the present level, or the motion is out of tolerance. What can
-    /// be reached is left in the scratch.
+    /// The last column does not pass at the present level, or the motion is out of tolerance. What
+    /// can be reached is left in the scratch.
     fn pass_somehow(&mut self) -> Passage {
         if let Some(Trouble { floor_mm, .. }) = self.trouble {
             let level = Level {

@@ -11,8 +11,8 @@ enum Lap {
     Implicit(ImplicitChords),
 }
 
-/// Chords along a curve over a number of laps. Each lap starts at the curve's own start and takes the
-/// same chords: nothing can drift.
+/// Chords along a curve over a number of laps. Each lap starts at the curve's own start and takes
+/// the same chords: nothing can drift.
 #[derive(Debug, Clone)]
 pub struct Chords {
     first: Lap,

@@ -6,22 +6,23 @@
 //!   f(x,y,z) = 0 = g       ImplicitCurve ───┘              each with a bound on its error
 //! ```
 //!
-//! A chord of length L leads from a point of the curve to the *first* point at distance L. With
-//! L = v·T for every tick, the tool moves at exactly constant speed from setpoint to setpoint. Every
+//! A chord of length L leads from a point of the curve to the *first* point at distance L. With L
+//! = v·T for every tick, the tool moves at exactly constant speed from setpoint to setpoint. Every
 //! end point is computed from the curve itself, not from the point before, so errors do not
 //! accumulate over any number of laps.
 //!
 //! The formulas are read by [`Expression`], which evaluates over any
 //! [`Number`](glidepath_geometry::number::Number): with derivatives for the solvers, over intervals
-//! for the proofs. This is a crate of its own, not part of `geometry`, because curves of text belong to
-//! the reading of programs; the real-time side, which depends on `geometry`, has no use for them.
+//! for the proofs. This is a crate of its own, not part of `geometry`, because curves of text
+//! belong to the reading of programs; the real-time side, which depends on `geometry`, has no use
+//! for them.
 //!
 //! In the pipeline this crate stands beside `glidepath-gcode`: the planner reads a curve file
 //! ([`CurveFile`], or [`NurbsFile`] for control points) and turns its [`Chords`] into items.
 //!
 //! What always holds: a chord's error is bounded by interval arithmetic over the whole arc, not by
-//! samples; no chord crosses a point at which the curve stands still or is not defined; all diagnostics
-//! of a file have their place in the text and a remedy.
+//! samples; no chord crosses a point at which the curve stands still or is not defined; all
+//! diagnostics of a file have their place in the text and a remedy.
 //!
 //! ```
 //! use glidepath_curve::ParametricCurve;
@@ -39,11 +40,11 @@
 //! # Ok::<(), glidepath_curve::CurveError>(())
 //! ```
 //!
-//! Source of the equal chords: Lu, Zhao, Wang, Jiang, *Research on space curve interpolation of equal
-//! chord length for parallel machine tool*, Machinery Design & Manufacture 2010 no. 3. Its methods are
-//! here for comparison ([`published`], [`parametric::Method::Bisection`]); what is used by
-//! default differs where they fail: a bracket that proves the first crossing, a corrector that puts
-//! implicit points on the curve, and an error bound that holds over the whole arc.
+//! Source of the equal chords: Lu, Zhao, Wang, Jiang, *Research on space curve interpolation of
+//! equal chord length for parallel machine tool*, Machinery Design & Manufacture 2010 no. 3. Its
+//! methods are here for comparison ([`published`], [`parametric::Method::Bisection`]); what is
+//! used by default differs where they fail: a bracket that proves the first crossing, a corrector
+//! that puts implicit points on the curve, and an error bound that holds over the whole arc.
 
 mod expression;
 mod file;

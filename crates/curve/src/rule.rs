@@ -29,9 +29,9 @@ pub struct Chord {
     pub chord_mm: f64,
     /// Bound on the distance between the chord and the curve, both ways and in order, mm.
     pub error_mm: f64,
-    /// Whether interval arithmetic proved the bound. Only where two surfaces nearly touch, but neither
-    /// cross cleanly nor meet in a node within the rounding of their formulas, chords are not proven;
-    /// they are at most 0.01 mm long, and bounded by their curvature.
+    /// Whether interval arithmetic proved the bound. Only where two surfaces nearly touch, but
+    /// neither cross cleanly nor meet in a node within the rounding of their formulas, chords are
+    /// not proven; they are at most 0.01 mm long, and bounded by their curvature.
     pub is_proven: bool,
 }
 

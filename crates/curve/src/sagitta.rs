@@ -7,8 +7,8 @@
 //!            L             turn of that circle, stays within h of its chord (Schur).
 //! ```
 
-/// Largest distance of an arc of curvature at most `curvature_k` (1/mm) from its chord, mm. Infinite
-/// if the chord is not shorter than the circle's diameter.
+/// Largest distance of an arc of curvature at most `curvature_k` (1/mm) from its chord, mm.
+/// Infinite if the chord is not shorter than the circle's diameter.
 #[must_use]
 pub fn sagitta_mm(curvature_k: f64, chord_mm: f64) -> f64 {
     let half_turn = 0.5 * curvature_k * chord_mm;

@@ -53,7 +53,8 @@ fn both_kinds_give_the_same_laps() {
             last = chord.point;
             back += u32::from((last - start).norm() < 1e-9);
         }
-        // Once a lap; the parametric curve starts on its node and meets it in the middle of a lap too.
+        // Once a lap; the parametric curve starts on its node and meets it in the middle of a lap
+        // too.
         assert!(back >= 10, "{back}");
         assert!((last - start).norm() < 1e-9);
         laps.push(length);

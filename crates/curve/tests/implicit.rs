@@ -114,8 +114,8 @@ fn curvature_and_nodes() {
     ));
 }
 
-/// Over many laps every chord is equal and every point on the curve, though no point is ever set right
-/// from outside.
+/// Over many laps every chord is equal and every point on the curve, though no point is ever set
+/// right from outside.
 #[test]
 fn ten_laps_without_drift() {
     for (curve, start, ahead, lap_mm) in [

@@ -1,5 +1,5 @@
-//! Equal chords through nodes: every chord of its length, every end on the curve, every error proven and
-//! kept, judged by formulas of the same curves with a parameter.
+//! Equal chords through nodes: every chord of its length, every end on the curve, every error
+//! proven and kept, judged by formulas of the same curves with a parameter.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
 
@@ -37,8 +37,8 @@ impl Case {
 #[derive(Debug, Default)]
 struct Seen {
     chords: u32,
-    /// Chords before the first that is not as long as all are to be: only what is left at the end is
-    /// shorter.
+    /// Chords before the first that is not as long as all are to be: only what is left at the end
+    /// is shorter.
     equal: u32,
     unproven: u32,
     /// Largest error over its bound.
@@ -58,8 +58,8 @@ fn nearest(curve: &ParametricCurve, p: &Vector3<f64>, guess: f64) -> f64 {
     t
 }
 
-/// Follows a curve lap after lap, forwards or backwards, each lap beginning where the last one ended;
-/// judges every chord.
+/// Follows a curve lap after lap, forwards or backwards, each lap beginning where the last one
+/// ended; judges every chord.
 fn follow(case: &Case, start_t: f64, is_back: bool, rule: ChordRule, laps: u32) -> Seen {
     let sign = if is_back { -1.0 } else { 1.0 };
     let at = case.oracle.local(start_t);
@@ -329,8 +329,8 @@ fn an_isolated_point_is_no_node() {
     assert!(matches!(chords, Err(CurveError::Singular { .. })));
 }
 
-/// A sphere a little too large or too small pulls the branches apart: what was a crossing is two sharp
-/// turns. They are followed as finely as they need; hardly any of it is without proof.
+/// A sphere a little too large or too small pulls the branches apart: what was a crossing is two
+/// sharp turns. They are followed as finely as they need; hardly any of it is without proof.
 #[test]
 fn branches_that_do_not_quite_cross_are_told_apart() {
     for excess in [0.01, -0.01, 1e-4] {

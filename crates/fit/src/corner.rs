@@ -13,9 +13,9 @@ pub(crate) fn distinct(points: &[Point]) -> Vec<Point> {
     kept
 }
 
-/// Indices at which to split: both ends, and between them every point where the polyline turns by more
-/// than the angle. Of neighbouring points only the one that turns most: a sharp tip that was sampled
-/// shows as several corners in a row.
+/// Indices at which to split: both ends, and between them every point where the polyline turns by
+/// more than the angle. Of neighbouring points only the one that turns most: a sharp tip that was
+/// sampled shows as several corners in a row.
 pub(crate) fn split_at_tips(points: &[Point], angle_rad: f64) -> Vec<usize> {
     let turns = turns(points, angle_rad);
     let tips = turns

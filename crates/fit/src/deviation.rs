@@ -1,8 +1,8 @@
 //! How far a curve and a polyline are apart, both ways, in order.
 //!
-//! It looks only at the finished curve, with none of the machinery that made it: the curve is sampled
-//! densely, and everything near in path is compared with everything near. The curve is parametrised by
-//! the chord length of the points; a window of chord lengths says what is near.
+//! It looks only at the finished curve, with none of the machinery that made it: the curve is
+//! sampled densely, and everything near in path is compared with everything near. The curve is
+//! parametrised by the chord length of the points; a window of chord lengths says what is near.
 
 use crate::part::to_chord;
 use crate::point::Point;
@@ -15,7 +15,8 @@ const WINDOW: usize = 6;
 /// Part of the farthest sample from which a summit between samples is looked for: a summit is never
 /// much higher than the sample beside it.
 const MAY_BE_HIGHEST: f64 = 0.5;
-/// Golden sections of the interval of a summit: down to a thousandth of it, the summit to a millionth.
+/// Golden sections of the interval of a summit: down to a thousandth of it, the summit to a
+/// millionth.
 const SECTIONS: usize = 16;
 
 /// Largest distances between a curve and a polyline, mm.
@@ -67,8 +68,9 @@ fn at(curve: &Nurbs, u: f64) -> Point {
     curve.jet(u).position.fixed_rows::<3>(0).into_owned()
 }
 
-/// Distance of the point of a curve that is farthest from a polyline: the samples, and between those
-/// that are farther than their neighbours a search for the summit, where it may be the highest.
+/// Distance of the point of a curve that is farthest from a polyline: the samples, and between
+/// those that are farther than their neighbours a search for the summit, where it may be the
+/// highest.
 fn farthest_mm(curve: &Nurbs, samples: &[(usize, f64, Point)], points: &[Point]) -> f64 {
     let to_polyline = |chord: usize, sample: &Point| {
         let low = chord.saturating_sub(WINDOW);

@@ -1,14 +1,14 @@
 //! How many knots, and where.
 //!
-//! 1. *Greedy*: every span whose error exceeds the tolerance gets a knot at the point that halves its
-//!    squared error, until none does.
-//! 2. Where that comes to a standstill (the points allow no further knot), *equidistribution*: knots
-//!    with the density |c''''|^¼ of the curve so far, as many as it takes, by bisection.
-//! 3. *Removal*: the knots whose jump of c''' matters least, |jump|·gap³, in batches, then one by one,
-//!    as long as the fit stays within the tolerance.
+//! 1. *Greedy*: every span whose error exceeds the tolerance gets a knot at the point that halves
+//!    its squared error, until none does.
+//! 2. Where that comes to a standstill (the points allow no further knot), *equidistribution*:
+//!    knots with the density |c''''|^¼ of the curve so far, as many as it takes, by bisection.
+//! 3. *Removal*: the knots whose jump of c''' matters least, |jump|·gap³, in batches, then one by
+//!    one, as long as the fit stays within the tolerance.
 //!
-//! Sources: the density is de Boor's `newknot` (*A Practical Guide to Splines*, chapter 12); the cost
-//! of a knot follows Lyche and Mørken, *Knot removal for parametric B-spline curves*, 1987.
+//! Sources: the density is de Boor's `newknot` (*A Practical Guide to Splines*, chapter 12); the
+//! cost of a knot follows Lyche and Mørken, *Knot removal for parametric B-spline curves*, 1987.
 
 use crate::least_squares;
 use crate::part::{Candidate, Part};
@@ -59,8 +59,8 @@ pub(crate) fn place_within(part: Part) -> Result<Placed, Part> {
     Err(part)
 }
 
-/// The best spline where the chords are too long for any smooth curve to stay that near to them: they
-/// are allowed to bulge.
+/// The best spline where the chords are too long for any smooth curve to stay that near to them:
+/// they are allowed to bulge.
 pub(crate) fn place_bulging(part: Part) -> Placed {
     let fitted = part.bulging();
     let candidate = within(&fitted)

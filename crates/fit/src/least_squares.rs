@@ -102,8 +102,8 @@ fn cholesky(band: &mut [[f64; 4]], right: &mut [Point]) -> bool {
     true
 }
 
-/// True if every B-spline over the knots can be given a parameter of its own, in order (the condition
-/// of Schoenberg and Whitney).
+/// True if every B-spline over the knots can be given a parameter of its own, in order (the
+/// condition of Schoenberg and Whitney).
 pub(crate) fn determined(x: &[f64], knots: &[f64]) -> bool {
     let mut next = 1;
     // The first and the last B-spline have the ends.

@@ -6,8 +6,8 @@
 //!             more than 18°)                                         multiplicity three)
 //! ```
 //!
-//! For given knots and parameters of the points, the best control points are the solution of a linear
-//! system; what remains to be found is how many knots and where. Three methods:
+//! For given knots and parameters of the points, the best control points are the solution of a
+//! linear system; what remains to be found is how many knots and where. Three methods:
 //!
 //! | method | searches | result |
 //! |---|---|---|
@@ -24,16 +24,16 @@
 //! | hybrid | 144 | 9.6 and 9.9 µm | 1.1 s |
 //! | foraging, 496 iterations | 149 | 92 and 93 µm | 2.2 s |
 //!
-//! The published search reduces the sum of squares of a part from 34 mm² to 0.4 mm², where least squares
-//! has 0.01 mm². (`cargo run --release -p glidepath-fit --example fit_table all`)
+//! The published search reduces the sum of squares of a part from 34 mm² to 0.4 mm², where least
+//! squares has 0.01 mm². (`cargo run --release -p glidepath-fit --example fit_table all`)
 //!
 //! The error that counts is the distance both ways: of every point from the curve, and of the curve
 //! from the polyline through the points. [`Deviation`] measures it independently of how a curve was
 //! found.
 //!
-//! In the pipeline it serves `glidepath fit` alone: the command gathers the dense runs of a program and
-//! writes the curves that [`fit`] finds as curve files or as a program again. Planning does not pass
-//! through here.
+//! In the pipeline it serves `glidepath fit` alone: the command gathers the dense runs of a
+//! program and writes the curves that [`fit`] finds as curve files or as a program again. Planning
+//! does not pass through here.
 //!
 //! ```
 //! use glidepath_fit::{Point, Settings, fit};

@@ -25,8 +25,8 @@ pub(crate) struct Part {
 #[derive(Debug, Clone)]
 pub(crate) struct Candidate {
     pub(crate) spline: Spline,
-    /// For each point its distance from the curve, or that of the curve beyond it from the chord to the
-    /// next point less what is allowed there, whichever is larger, mm.
+    /// For each point its distance from the curve, or that of the curve beyond it from the chord
+    /// to the next point less what is allowed there, whichever is larger, mm.
     pub(crate) errors_mm: Vec<f64>,
     /// Parameters of the points of the curve nearest to the points.
     feet: Vec<f64>,
@@ -66,9 +66,9 @@ impl Part {
         Self::new(&points, self.tolerance_mm)
     }
 
-    /// The same, with the curve allowed to leave the chords by what a smooth curve through the points does: h²κ/8 over
-    /// a chord of length h, with the turn at its ends for hκ. For points that are too far apart for
-    /// the tolerance.
+    /// The same, with the curve allowed to leave the chords by what a smooth curve through the
+    /// points does: h²κ/8 over a chord of length h, with the turn at its ends for hκ. For points
+    /// that are too far apart for the tolerance.
     pub(crate) fn bulging(&self) -> Self {
         let turn = |i: usize| match self.points.get(i.wrapping_sub(1)..i + 2) {
             Some([a, b, c]) => (b - a).angle(&(c - b)),

@@ -61,8 +61,8 @@ pub struct Arc {
     pub plane: Plane,
     /// Centre: coordinates on the first and second axis of the plane, mm.
     pub center: [f64; 2],
-    /// Signed sweep in radians, positive from the plane's first axis to its second; not zero; a full
-    /// turn is ±2π.
+    /// Signed sweep in radians, positive from the plane's first axis to its second; not zero; a
+    /// full turn is ±2π.
     pub sweep_rad: f64,
 }
 

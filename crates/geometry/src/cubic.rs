@@ -8,8 +8,8 @@
 //! q′ = C′/√w      q″ = P/w²,  P = C″·w − ½C′·w′      q‴ = Q/(w³·√w),  Q = P′·w − 2P·w′
 //! ```
 //!
-//! P and Q are polynomials (degrees 5 and 8), so their Bernstein coefficients, with those of w, bound
-//! q″ and q‴ everywhere on the span, not just at sampled places.
+//! P and Q are polynomials (degrees 5 and 8), so their Bernstein coefficients, with those of w,
+//! bound q″ and q‴ everywhere on the span, not just at sampled places.
 
 use crate::bernstein;
 use crate::quadrature::gauss_12;
@@ -183,7 +183,8 @@ impl Cubic {
         u
     }
 
-    /// Position and derivatives at path position `s`, which is clamped to the span. Never allocates.
+    /// Position and derivatives at path position `s`, which is clamped to the span. Never
+    /// allocates.
     #[must_use]
     pub fn jet(&self, s: f64) -> Jet {
         let at = Place::new(self, self.parameter_at(s));

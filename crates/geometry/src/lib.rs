@@ -1,7 +1,7 @@
 //! Curves of a toolpath: pure mathematics, no I/O, no clock, and no allocation in evaluation.
 //!
-//! Everything above this crate speaks of paths in its words, and it knows nothing of any of them: no
-//! G-code, no time, no machine.
+//! Everything above this crate speaks of paths in its words, and it knows nothing of any of them:
+//! no G-code, no time, no machine.
 //!
 //! * [`AxisVector`]: a position over all nine axes, X Y Z A B C U V W.
 //! * [`Segment`]: a piece of a programmed path, a [`Line`], an [`Arc`] (helices included) or a
@@ -11,8 +11,8 @@
 //! * [`number`]: formulas over plain numbers, Taylor series, gradients and intervals alike.
 //!
 //! What always holds: a [`Jet`] is position and exact derivatives, never differences; bounds
-//! ([`DerivativeBounds`]) are never below the true maximum; what is out of a curve's range is clamped to
-//! its ends, not extrapolated.
+//! ([`DerivativeBounds`]) are never below the true maximum; what is out of a curve's range is
+//! clamped to its ends, not extrapolated.
 //!
 //! ```
 //! use glidepath_geometry::{AxisVector, Segment, Transition};

@@ -1,5 +1,5 @@
-//! Segments made ready to be evaluated many times: what does not depend on path position is computed
-//! once. The values are those of [`Segment::jet`], bit for bit.
+//! Segments made ready to be evaluated many times: what does not depend on path position is
+//! computed once. The values are those of [`Segment::jet`], bit for bit.
 
 use crate::{Arc, AxisVector, Jet, Line, Segment, feed_length};
 

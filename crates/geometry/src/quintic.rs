@@ -1,9 +1,9 @@
 //! A polynomial of degree five by path position: what a smooth curve is cut into.
 //!
 //! Six conditions per axis determine it: place, direction and curvature at both ends. Pieces that
-//! share these where they meet follow each other without a step in velocity or acceleration, and none
-//! of them needs more than a few multiplications to be evaluated: no parameter is to be found for a
-//! path position.
+//! share these where they meet follow each other without a step in velocity or acceleration, and
+//! none of them needs more than a few multiplications to be evaluated: no parameter is to be found
+//! for a path position.
 //!
 //! ```text
 //!   start, C′, C″ ●─────────────────● end, C′, C″        x = s / length
@@ -36,8 +36,8 @@ pub struct Quintic {
 /// Halvings before a hull is read.
 const HULL_LEVELS: u32 = 2;
 
-/// How far a smooth curve moves while its parameter goes from 0 to 1, from a start at zero: by powers
-/// of the parameter. `d` and `e` are its first and second derivative at start and end.
+/// How far a smooth curve moves while its parameter goes from 0 to 1, from a start at zero: by
+/// powers of the parameter. `d` and `e` are its first and second derivative at start and end.
 fn powers(way: f64, d: [f64; 2], e: [f64; 2]) -> [f64; 5] {
     let [d0, d1] = d;
     let [e0, e1] = e;

@@ -1,9 +1,9 @@
 //! Segments: the pieces a program is made of, each a curve over all nine axes.
 //!
 //! A segment is parametrised by *path position* `s`, from 0 to [`Segment::length`]. Its length is
-//! the feed length of RS274/NGC: the XYZ length if any of X, Y, Z moves, else the UVW length if any
-//! of those moves, else the length of the rotary motion in degrees. The feedrate is the rate of `s`,
-//! so a rotary axis that turns along with a linear move does not slow the tool.
+//! the feed length of RS274/NGC: the XYZ length if any of X, Y, Z moves, else the UVW length if
+//! any of those moves, else the length of the rotary motion in degrees. The feedrate is the rate
+//! of `s`, so a rotary axis that turns along with a linear move does not slow the tool.
 
 use crate::{Arc, AxisVector, Jet, LINEAR_XYZ, Quintic, ROTARY_ABC, UVW};
 

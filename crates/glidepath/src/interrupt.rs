@@ -16,8 +16,8 @@ pub struct Interrupt {
 }
 
 impl Interrupt {
-    /// Takes over SIGINT, SIGTERM and SIGHUP. However often they come, the process ends in good order:
-    /// a machine in motion is to be brought to rest first.
+    /// Takes over SIGINT, SIGTERM and SIGHUP. However often they come, the process ends in good
+    /// order: a machine in motion is to be brought to rest first.
     ///
     /// # Errors
     /// The system refuses the handlers.

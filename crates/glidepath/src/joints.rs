@@ -1,10 +1,10 @@
 //! What a program asks of the joints, where they are not the axes.
 //!
-//! Along the path: reach, singularities and ranges of the joints, at places at most [`STEP`] apart, so
-//! that `check` needs no plan. Over the plan: velocity, acceleration and jerk of every joint, too, by
-//! finite differences at the period. Speeds, accelerations and jerks of the axes were kept where joints
-//! can follow when the plan was made (`AxisShare`, `PathCaps`); should a program ask more of a joint all
-//! the same, it is refused before anything moves.
+//! Along the path: reach, singularities and ranges of the joints, at places at most [`STEP`]
+//! apart, so that `check` needs no plan. Over the plan: velocity, acceleration and jerk of every
+//! joint, too, by finite differences at the period. Speeds, accelerations and jerks of the axes
+//! were kept where joints can follow when the plan was made (`AxisShare`, `PathCaps`); should a
+//! program ask more of a joint all the same, it is refused before anything moves.
 
 use crate::config::MachineConfig;
 use glidepath_gcode::{Diagnostic, DiagnosticCode};
@@ -126,8 +126,8 @@ impl PlanWatch {
         Ok(())
     }
 
-    /// How far joints that go straight from setpoint to setpoint are from where they should be half-way
-    /// between them, at most, mm or degrees.
+    /// How far joints that go straight from setpoint to setpoint are from where they should be
+    /// half-way between them, at most, mm or degrees.
     pub(crate) const fn line_error(&self) -> f64 {
         self.most_error
     }

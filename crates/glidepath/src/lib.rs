@@ -11,13 +11,14 @@
 //!             └─▶ output, progress, exit             the terminal
 //! ```
 //!
-//! Arrows point down only: a module knows no command, and no error of a module knows those of others.
-//! Entry points are [`cli::Cli`] with [`command::main`] for the program, [`config::load`] and
+//! Arrows point down only: a module knows no command, and no error of a module knows those of
+//! others. Entry points are [`cli::Cli`] with [`command::main`] for the program, [`config::load`]
+//! and
 //! [`config::parse`] for a machine, [`plot::Plot`] for a picture.
 //!
-//! What always holds: results go to standard output, all else to standard error; `--json` prints one
-//! object whatever happens; a configuration is either right in every value or refused with all that is
-//! to be mended.
+//! What always holds: results go to standard output, all else to standard error; `--json` prints
+//! one object whatever happens; a configuration is either right in every value or refused with all
+//! that is to be mended.
 //!
 //! ```
 //! use glidepath::config;

@@ -1,5 +1,5 @@
-//! Items as the text of a G-code program: millimetres, absolute machine coordinates, numbers that read
-//! back bit for bit.
+//! Items as the text of a G-code program: millimetres, absolute machine coordinates, numbers that
+//! read back bit for bit.
 
 use core::f64::consts::TAU;
 use core::fmt::Write as _;
@@ -79,7 +79,8 @@ impl ProgramText {
             }
             let _ = write!(self.text, "K{knot}");
             if let (Some(point), Some(weight)) = (points.get(i), curve.weights().get(i)) {
-                // Of each point the axes that differ from the one before; the first names its place.
+                // Of each point the axes that differ from the one before; the first names its
+                // place.
                 for axis in Axis::ALL {
                     let value = point[axis.index()];
                     if value.to_bits() != last[axis.index()].to_bits()

@@ -1,10 +1,10 @@
 //! Telling the service manager that the interpolator works.
 //!
-//! systemd gives a service the name of a socket (`NOTIFY_SOCKET`) and, with `WatchdogSec=`, a time in
-//! which it wants to hear from it (`WATCHDOG_USEC`); see `sd_notify(3)`. A thread of ordinary priority
-//! looks at the status that the interpolator publishes, as any other process would, and speaks only
-//! while its tick counter moves: silence of the real-time thread, of the ports thread, or of the shared
-//! memory between processes is then silence towards the manager too.
+//! systemd gives a service the name of a socket (`NOTIFY_SOCKET`) and, with `WatchdogSec=`, a time
+//! in which it wants to hear from it (`WATCHDOG_USEC`); see `sd_notify(3)`. A thread of ordinary
+//! priority looks at the status that the interpolator publishes, as any other process would, and
+//! speaks only while its tick counter moves: silence of the real-time thread, of the ports thread,
+//! or of the shared memory between processes is then silence towards the manager too.
 
 use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_link::{Ipc, LinkConfig, LinkError, Transport as _};
@@ -64,8 +64,8 @@ impl ServiceManager {
         let _ = self.socket.send(what.as_bytes());
     }
 
-    /// Watches the interpolator of an instance until `over` is set: tells when it is ready, then that it
-    /// is alive, three times as often as the manager wants to hear, as long as it ticks.
+    /// Watches the interpolator of an instance until `over` is set: tells when it is ready, then
+    /// that it is alive, three times as often as the manager wants to hear, as long as it ticks.
     ///
     /// # Errors
     /// The status cannot be received.

@@ -78,8 +78,8 @@ impl Shares {
     }
 }
 
-/// Plays a program while the operator gives a command, or none, after the setpoint of each tick; the
-/// shares used.
+/// Plays a program while the operator gives a command, or none, after the setpoint of each tick;
+/// the shares used.
 fn play(
     machine: &MachineConfig,
     frames: &[SetpointFrame],

@@ -29,8 +29,8 @@ impl Host {
         let folder = tempfile::tempdir().unwrap();
         let open = std::fs::Permissions::from_mode(0o755);
         std::fs::set_permissions(folder.path(), open).unwrap();
-        // By another process: a program is busy while anybody has it open for writing, and a child that
-        // another test has just forked would have it open, too.
+        // By another process: a program is busy while anybody has it open for writing, and a child
+        // that another test has just forked would have it open, too.
         let copied = Command::new("cp")
             .arg(env!("CARGO_BIN_EXE_glidepath"))
             .arg(folder.path().join("program"))

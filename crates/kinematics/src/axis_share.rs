@@ -1,21 +1,23 @@
-//! How much of their acceleration and jerk axes may use, so that no joint has to do more than it can.
+//! How much of their acceleration and jerk axes may use, so that no joint has to do more than it
+//! can.
 //!
-//! Axes are limited one by one, so at a corner all of them may accelerate at once, in any direction:
-//! the accelerations possible are a box. A joint sees a projection of it:
+//! Axes are limited one by one, so at a corner all of them may accelerate at once, in any
+//! direction: the accelerations possible are a box. A joint sees a projection of it:
 //!
 //! ```text
 //!   q̈ = J ẍ + ẋᵀH ẋ            |J ẍ| ≤ Σ_k |J_k| A_k      the box, at a place
 //!   q⃛ = J x⃛ + 3 ẋᵀH ẍ + …      |J x⃛| ≤ Σ_k |J_k| J_k
 //! ```
 //!
-//! The share is what every axis' limit is multiplied by so that the first term leaves a part of every
-//! joint's limit ([`BENDS_A`], [`BENDS_J`]) for the bends of the mechanism, the other terms, anywhere in the travel of the axes.
-//! These grow with speed and are kept by [`PathCaps`](crate::PathCaps), place by place. Since the
-//! share belongs to the machine, not to a program, what the interpolator does by itself (holds,
-//! overrides, stops) keeps the joints' limits too.
+//! The share is what every axis' limit is multiplied by so that the first term leaves a part of
+//! every joint's limit ([`BENDS_A`], [`BENDS_J`]) for the bends of the mechanism, the other terms,
+//! anywhere in the travel of the axes. These grow with speed and are kept by
+//! [`PathCaps`](crate::PathCaps), place by place. Since the share belongs to the machine, not to a
+//! program, what the interpolator does by itself (holds, overrides, stops) keeps the joints'
+//! limits too.
 //!
-//! The travel is searched at a fixed set of places: the lattice of ends and middles, and points spread
-//! evenly between them. What they miss is found by whoever judges the motion itself.
+//! The travel is searched at a fixed set of places: the lattice of ends and middles, and points
+//! spread evenly between them. What they miss is found by whoever judges the motion itself.
 
 use crate::{JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism};
 use glidepath_geometry::{Axis, AxisVector};

@@ -9,11 +9,12 @@
 //!   table, head   q = c₀ + Rz(γ)(w − c₀) + L (Rt(θ) ẑ − ẑ)
 //! ```
 //!
-//! θ and γ are the programmed angles times the sign of their axis. In all of them q is w, shifted by
-//! constants, when both angles are zero. Signs, order, pivots and offsets are data of the machine.
+//! θ and γ are the programmed angles times the sign of their axis. In all of them q is w, shifted
+//! by constants, when both angles are zero. Signs, order, pivots and offsets are data of the
+//! machine.
 //!
-//! The map from axes to joints is regular everywhere. What has a pole is the way from a *direction* of
-//! the tool to the two angles: with the tool along the rotary axis every γ will do
+//! The map from axes to joints is regular everywhere. What has a pole is the way from a
+//! *direction* of the tool to the two angles: with the tool along the rotary axis every γ will do
 //! ([`FiveAxis::angles_deg`]).
 
 use crate::machine::{AxisSeries, Conditioning, JointSeries, JointVector, Kinematics};
@@ -56,8 +57,8 @@ pub enum Rotaries {
     },
 }
 
-/// A five-axis machine. J0…J2 are its linear joints, mm, J3 the tilt (A or B) and J4 the rotary axis
-/// C, degrees as programmed.
+/// A five-axis machine. J0…J2 are its linear joints, mm, J3 the tilt (A or B) and J4 the rotary
+/// axis C, degrees as programmed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FiveAxis {
     /// What the rotary axes carry.
@@ -165,8 +166,8 @@ impl FiveAxis {
         }
     }
 
-    /// The programmed angles (tilt, C) that give the tool a direction: of the two branches that next
-    /// to `near_deg`, with C unwrapped to it. Along the rotary axis C stays as it is.
+    /// The programmed angles (tilt, C) that give the tool a direction: of the two branches that
+    /// next to `near_deg`, with C unwrapped to it. Along the rotary axis C stays as it is.
     #[must_use]
     pub fn angles_deg(&self, tool_axis: &Vector3<f64>, near_deg: (f64, f64)) -> (f64, f64) {
         let (t, r) = self.signs();

@@ -1,29 +1,32 @@
 //! From the axes of a program to the joints of a mechanism and back.
 //!
-//! A program speaks of the tool: X Y Z of its tip, A B C of its orientation. A drive moves a *joint*:
-//! the length of a strut, the height of a carriage, the angle of a table. This crate holds the maps
-//! between the two, one file for each mechanism, all behind one trait, [`Kinematics`].
+//! A program speaks of the tool: X Y Z of its tip, A B C of its orientation. A drive moves a
+//! *joint*: the length of a strut, the height of a carriage, the angle of a table. This crate
+//! holds the maps between the two, one file for each mechanism, all behind one trait,
+//! [`Kinematics`].
 //!
 //! ```text
 //!   axes x(t) ──inverse──▶ joints q(t)        every tick: bounded, without allocation
 //!   joints q  ──forward──▶ axes x             for status and tests: closed form or bounded Newton
 //! ```
 //!
-//! **Rates are exact.** An inverse is written once, for [`Series`](glidepath_geometry::number::Series):
-//! truncated Taylor series. Fed with positions it gives positions; fed with position, velocity and
-//! acceleration along time it gives q, q̇ = J ẋ and q̈ = J ẍ + J̇ ẋ without J ever being formed; fed
-//! with unit directions it gives the columns of J. One formula, nothing to keep in step with it.
+//! **Rates are exact.** An inverse is written once, for
+//! [`Series`](glidepath_geometry::number::Series): truncated Taylor series. Fed with positions it
+//! gives positions; fed with position, velocity and acceleration along time it gives q, q̇ = J ẋ
+//! and q̈ = J ẍ + J̇ ẋ without J ever being formed; fed with unit directions it gives the columns
+//! of J. One formula, nothing to keep in step with it.
 //!
 //! In the pipeline it is met in three places: the configuration builds a [`Mechanism`] with its
 //! [`JointLimits`]; the planner slows the axes where joints are weaker ([`AxisShare`] anywhere in the
-//! travel, [`PathCaps`] place by place) and judges each plan ([`JointWatch`]); the interpolator maps
-//! every setpoint to joints. The mechanisms are [`Trivial`], [`CoreXy`], [`LinearDelta`],
+//! travel, [`PathCaps`] place by place) and judges each plan ([`JointWatch`]); the interpolator
+//! maps every setpoint to joints. The mechanisms are [`Trivial`], [`CoreXy`], [`LinearDelta`],
 //! [`RotaryDelta`], [`Scara`], [`FiveAxis`], [`Hexapod`] and [`TranslationalHexapod`].
 //!
 //! What always holds:
 //!
 //! * Lengths are in mm, angles in degrees at interfaces and radians inside.
-//! * Joints that a mechanism does not have are zero. Axes that a mechanism does not use are ignored.
+//! * Joints that a mechanism does not have are zero. Axes that a mechanism does not use are
+//!   ignored.
 //! * Evaluation takes bounded time and does not allocate, so the real-time thread may do it.
 //! * A position that is out of reach or too near a singularity is refused, never approximated.
 //!

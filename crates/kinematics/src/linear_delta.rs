@@ -19,16 +19,16 @@ use glidepath_geometry::number::{Number, Series};
 use glidepath_geometry::{Axis, AxisVector};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-/// A linear delta. J0…J2 are the heights of the carriage pivots above the plane z = 0 of the effector
-/// pivots, mm; every axis besides X Y Z has a drive of its own, from J3 on.
+/// A linear delta. J0…J2 are the heights of the carriage pivots above the plane z = 0 of the
+/// effector pivots, mm; every axis besides X Y Z has a drive of its own, from J3 on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearDelta {
     /// Length of the rods between pivots, mm, > 0.
     pub rod_mm: f64,
     /// Radius of the towers less that of the effector less the carriages' offset, mm, > 0.
     pub radius_mm: f64,
-    /// Direction of each tower, degrees from +X. Controls differ in their order: 90, 210, 330 has the
-    /// first tower at x = 0; 210, 330, 90 is common too.
+    /// Direction of each tower, degrees from +X. Controls differ in their order: 90, 210, 330 has
+    /// the first tower at x = 0; 210, 330, 90 is common too.
     pub tower_deg: [f64; 3],
     /// The machine's axes besides X Y Z.
     pub others: AxisList,

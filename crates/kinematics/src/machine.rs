@@ -8,7 +8,8 @@ use nalgebra::{SMatrix, SVector};
 /// Most joints a mechanism has: those a setpoint has room for.
 pub const JOINTS: usize = 9;
 
-/// One value per joint, mm or degrees (and their time derivatives); 0 beyond the mechanism's joints.
+/// One value per joint, mm or degrees (and their time derivatives); 0 beyond the mechanism's
+/// joints.
 pub type JointVector = SVector<f64, JOINTS>;
 
 /// The nine axes along one parameter.

@@ -9,9 +9,10 @@
 //!   |q⃛| ≤ Σ_k |J_k| J_k + 3 Σ_k |H d|_k A_k v + |T d d d| v³                     ≤ J
 //! ```
 //!
-//! with H and T the second and third derivatives of a joint by the axes. The first terms of the last
-//! two lines are kept below the limits by [`AxisShare`](crate::AxisShare); the rest is what the speed
-//! may take. The acceleration of the axes that a curve itself asks for is in the first terms.
+//! with H and T the second and third derivatives of a joint by the axes. The first terms of the
+//! last two lines are kept below the limits by [`AxisShare`](crate::AxisShare); the rest is what
+//! the speed may take. The acceleration of the axes that a curve itself asks for is in the first
+//! terms.
 
 use crate::{
     AxisRates, JOINTS, JointLimits, JointVector, Kinematics as _, KinematicsError, Mechanism,
@@ -23,8 +24,9 @@ use nalgebra::SMatrix;
 /// Part of every limit that is left for what these bounds do not see: the change of derivatives
 /// between places, the tolerance of the path, differences in place of derivatives.
 const SPARE_R: f64 = 0.01;
-/// The same of the velocities where rotary axes turn along with linear ones: the feed is that of the
-/// linear ones, and within the tolerance the others may for moments be faster than along the path.
+/// The same of the velocities where rotary axes turn along with linear ones: the feed is that of
+/// the linear ones, and within the tolerance the others may for moments be faster than along the
+/// path.
 const TURNING_SPARE_R: f64 = 0.05;
 /// Least part of a limit that is used for bends where axes leave none.
 const LEAST_R: f64 = 0.01;

@@ -1,7 +1,7 @@
 //! Three arms on a fixed base swing forearms that hold a platform which does not turn.
 //!
-//! In the vertical plane of one arm, with u outwards and w across, the knee is on a circle of the upper
-//! arm's length and at the forearm's length from the platform's joint:
+//! In the vertical plane of one arm, with u outwards and w across, the knee is on a circle of the
+//! upper arm's length and at the forearm's length from the platform's joint:
 //!
 //! ```text
 //!   a cos θ − z sin θ = K,   a = u + e − f,   K = (a² + w² + z² + rf² − re²) / (2 rf)
@@ -14,8 +14,8 @@ use glidepath_geometry::AxisVector;
 use glidepath_geometry::number::{Number, Series};
 use nalgebra::{Matrix3, Vector3};
 
-/// A rotary delta below its base, z up. J0…J2 are the angles of the upper arms, degrees: 0 horizontal
-/// outwards, positive with the knee down. The knees point outwards.
+/// A rotary delta below its base, z up. J0…J2 are the angles of the upper arms, degrees: 0
+/// horizontal outwards, positive with the knee down. The knees point outwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RotaryDelta {
     /// Radius f at which the arms pivot, mm.

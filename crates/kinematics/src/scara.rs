@@ -16,9 +16,9 @@ pub enum Elbow {
     Negative,
 }
 
-/// A SCARA arm. Axes X Y Z and the tool's heading C; J0 shoulder, J1 elbow, degrees, J2 the lift, mm,
-/// downwards, J3 the wrist, degrees. The shoulder's angle is given from −180° to 180°: the arm does
-/// not sweep through the half-line behind it.
+/// A SCARA arm. Axes X Y Z and the tool's heading C; J0 shoulder, J1 elbow, degrees, J2 the lift,
+/// mm, downwards, J3 the wrist, degrees. The shoulder's angle is given from −180° to 180°: the arm
+/// does not sweep through the half-line behind it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scara {
     /// Upper arm, mm.

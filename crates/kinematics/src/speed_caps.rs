@@ -1,9 +1,9 @@
 //! Speed along a path that joints allow.
 //!
-//! Along a path with position s, a joint moves by q̇ = q′ ṡ and q̈ = q′ s̈ + q″ ṡ². Velocity limits cap
-//! ṡ at once. Acceleration limits leave, at each ṡ, an interval of s̈ for every joint; intervals on a
-//! line have a common point iff every two of them have, so the highest speed at which any s̈ is
-//! possible is a minimum over pairs of joints.
+//! Along a path with position s, a joint moves by q̇ = q′ ṡ and q̈ = q′ s̈ + q″ ṡ². Velocity
+//! limits cap ṡ at once. Acceleration limits leave, at each ṡ, an interval of s̈ for every joint;
+//! intervals on a line have a common point iff every two of them have, so the highest speed at
+//! which any s̈ is possible is a minimum over pairs of joints.
 
 use crate::{JOINTS, JointLimits, JointVector, Kinematics, KinematicsError, axis_series};
 use glidepath_geometry::{AxisVector, Jet};

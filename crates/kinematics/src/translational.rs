@@ -1,16 +1,18 @@
 //! Six struts whose universal joints keep the platform from turning (6-UPU).
 //!
 //! With the outer axes of all universal joints parallel, and the inner ones, the platform only
-//! translates: three degrees of freedom, held by six drives of which three are redundant. The lengths
-//! of the struts of two similar regular hexagons then obey three identities whatever the position,
-//! which [`TranslationalHexapod::closure_mm`] checks, and forward kinematics is a closed form:
+//! translates: three degrees of freedom, held by six drives of which three are redundant. The
+//! lengths of the struts of two similar regular hexagons then obey three identities whatever the
+//! position, which [`TranslationalHexapod::closure_mm`] checks, and forward kinematics is a closed
+//! form:
 //!
 //! ```text
 //!   l_k = |p − Δ e_k|,  Δ = base radius − platform radius,  e_k = (cos 60°k, sin 60°k, 0)
 //!   p_xy = −Σ l_k² e_k / (6 Δ)        p_z = √(mean l² − Δ² − |p_xy|²)
 //! ```
 //!
-//! A 6-UPU with joint axes in general position cannot move at all, and one whose nuts may rotate is a
+//! A 6-UPU with joint axes in general position cannot move at all, and one whose nuts may rotate
+//! is a
 //! [`Hexapod`](crate::Hexapod); this type is neither.
 
 use crate::machine::{AxisSeries, Conditioning, JointSeries, JointVector, Kinematics};

@@ -17,8 +17,8 @@ pub enum JointFault {
     Limit(JointViolation),
 }
 
-/// Judges positions that follow each other by a period: reach, singularities, and the limits of every
-/// joint by finite differences of its positions, which is what its drive makes of them.
+/// Judges positions that follow each other by a period: reach, singularities, and the limits of
+/// every joint by finite differences of its positions, which is what its drive makes of them.
 ///
 /// Bounded work, no allocation.
 #[derive(Debug, Clone, Copy)]

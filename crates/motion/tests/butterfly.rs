@@ -1,5 +1,5 @@
-//! The S-curve driven along a curve with sharp tips: speeds capped by its curvature, stations at the
-//! critical points of the cap, as in Gu, Zhou, Lin et al. Totals are compared with those of an
+//! The S-curve driven along a curve with sharp tips: speeds capped by its curvature, stations at
+//! the critical points of the cap, as in Gu, Zhou, Lin et al. Totals are compared with those of an
 //! independent implementation; the caps come from an evaluation of the NURBS made only for this.
 
 #![allow(
@@ -146,8 +146,8 @@ impl Cap {
         }
     }
 
-    /// The critical points, where the curvature is greatest around, with the cap there; rest at both
-    /// ends.
+    /// The critical points, where the curvature is greatest around, with the cap there; rest at
+    /// both ends.
     fn stations(&self) -> Vec<(f64, f64)> {
         let mut stations = vec![(0.0, 0.0)];
         for (i, around) in self.radius_mm.windows(3).enumerate() {

@@ -317,7 +317,8 @@ fn keeps_limits(steps: &[Step], settings: &Settings) -> Result<(), TestCaseError
     Ok(())
 }
 
-/// A leg that a window leaves beside the last move, which turns A and C, has a little way back in XYZ.
+/// A leg that a window leaves beside the last move, which turns A and C, has a little way back in
+/// XYZ.
 #[test]
 fn rotary_moves_keep_their_feed_beside_the_path() {
     let line = |xyz: [f64; 3], ac: [f64; 2], uv: [f64; 2], feed_v| Step::Line {

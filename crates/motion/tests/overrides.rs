@@ -271,7 +271,8 @@ fn keeps_limits_and_path(
         .iter()
         .for_each(|frame| audit.sample(&Sample::from(frame)));
     let report = audit.finish();
-    // The auditor knows the programmed feed, not the overrides: twice that, and the auditor's own slack.
+    // The auditor knows the programmed feed, not the overrides: twice that, and the auditor's own
+    // slack.
     let is_fast = |kind: &ViolationKind| matches!(kind, ViolationKind::Feed { ratio } if *ratio <= 2.0 * (1.0 + 1e-3));
     let found: Vec<_> = report
         .violations

@@ -1,4 +1,5 @@
-//! What a plan promises besides the limits: order, stops, events, and nothing but the program in it.
+//! What a plan promises besides the limits: order, stops, events, and nothing but the program in
+//! it.
 
 #![allow(
     clippy::expect_used,
@@ -389,8 +390,9 @@ proptest! {
         let stopping = Settings { smoothing: Smoothing::ExactStop, ..settings };
         let (smooth_t, stop_t) =
             (time_t(&plan(&items, settings, 1)), time_t(&plan(&items, stopping, 1)));
-        // Stretches of so few blocks are planned both ways, where they take less than about a second.
-        // Longer ones may end in a bend that is slower than a stop. A rest falls between two ticks.
+        // Stretches of so few blocks are planned both ways, where they take less than about a
+        // second. Longer ones may end in a bend that is slower than a stop. A rest falls between
+        // two ticks.
         prop_assert!(smooth_t <= 1.02 * stop_t + 1.0, "{smooth_t} ticks against {stop_t}");
     }
 }

@@ -1,8 +1,9 @@
-//! How much work planning is: instructions for a block, and for a period of motion. Figures that other
-//! load on the host does not change.
+//! How much work planning is: instructions for a block, and for a period of motion. Figures that
+//! other load on the host does not change.
 //!
-//! The test runs itself under callgrind, with a length of path and with twice as much; the difference
-//! is what the path took. It counts optimised code only, and is skipped without valgrind:
+//! The test runs itself under callgrind, with a length of path and with twice as much; the
+//! difference is what the path took. It counts optimised code only, and is skipped without
+//! valgrind:
 //!
 //! ```text
 //! cargo test --release -p glidepath-motion --test work -- --nocapture

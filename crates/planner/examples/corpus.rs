@@ -5,9 +5,9 @@
 //! ```
 //!
 //! The arguments are folders in it. The first segments of each program are planned for the milling
-//! machine, at most [`MOST_SEGMENTS`], and judged by the auditor. Planning is timed by the processor
-//! time of the process, parsing and audit included. Tools are 50 mm long and 6 mm thick, an extruder is
-//! axis U. `corpus.md` keeps what came out.
+//! machine, at most [`MOST_SEGMENTS`], and judged by the auditor. Planning is timed by the
+//! processor time of the process, parsing and audit included. Tools are 50 mm long and 6 mm thick,
+//! an extruder is axis U. `corpus.md` keeps what came out.
 #![allow(clippy::print_stdout, reason = "a table")]
 
 use std::error::Error;
@@ -48,7 +48,8 @@ fn settings(effort: Effort, smoothing: Smoothing) -> Settings {
 
 /// Processor time of the process so far.
 fn processor_time() -> Duration {
-    // Fields 14 and 15, user and system time in hundredths of a second; the name before has no blanks.
+    // Fields 14 and 15, user and system time in hundredths of a second; the name before has no
+    // blanks.
     let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     let ticks = text.split_whitespace().skip(13).take(2);
     let sum: u64 = ticks.filter_map(|field| field.parse::<u64>().ok()).sum();

@@ -1,5 +1,5 @@
-//! How long a program takes to begin: dense lines in a file, from opening it to the first frame. All of
-//! the file is read and checked before.
+//! How long a program takes to begin: dense lines in a file, from opening it to the first frame.
+//! All of the file is read and checked before.
 //!
 //! ```text
 //! cargo run --release -p glidepath-planner --example first_frame

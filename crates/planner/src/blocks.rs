@@ -1,8 +1,8 @@
 //! Which block of a program the frames of a pipeline belong to.
 //!
-//! A line can be executed many times, in a loop or a subprogram, so it does not say where a program
-//! is; the number of the item does. Items get it here, in the order in which they are taken, and the
-//! motion planner hands it on to the frames of their motion together with the line.
+//! A line can be executed many times, in a loop or a subprogram, so it does not say where a
+//! program is; the number of the item does. Items get it here, in the order in which they are
+//! taken, and the motion planner hands it on to the frames of their motion together with the line.
 
 use glidepath_program::{Frame, Item, ProgramLine};
 
@@ -13,8 +13,8 @@ pub(crate) struct Blocks {
     next: u32,
     /// Block of the last frame.
     present: u32,
-    /// The furthest line that a frame has been on. A rest inside a blend may belong to a later block
-    /// than the frames behind it; the line that is told does not go back for that.
+    /// The furthest line that a frame has been on. A rest inside a blend may belong to a later
+    /// block than the frames behind it; the line that is told does not go back for that.
     furthest: ProgramLine,
 }
 

@@ -1,7 +1,7 @@
 //! The client of a listening planner: streams the items of any source, as another program would.
 //!
-//! Requests go out in rounds of as many as the link lets be unanswered. What a round's answers do not
-//! accept, because the planner has no room, goes out again in the next.
+//! Requests go out in rounds of as many as the link lets be unanswered. What a round's answers do
+//! not accept, because the planner has no room, goes out again in the next.
 
 use std::collections::VecDeque;
 use std::hash::{BuildHasher, Hasher, RandomState};
@@ -163,8 +163,8 @@ impl Feeder {
         })
     }
 
-    /// Opens the stream, and makes sure that the machine is where the program was opened for. Waits a
-    /// while for a planner or machine that is not ready yet.
+    /// Opens the stream, and makes sure that the machine is where the program was opened for.
+    /// Waits a while for a planner or machine that is not ready yet.
     fn open(&mut self, position: AxisVector, control: &mut Control<'_>) -> Result<(), FeedError> {
         let mut waited = Duration::ZERO;
         loop {

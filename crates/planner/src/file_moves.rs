@@ -23,7 +23,8 @@ pub(crate) struct FileMoves {
 }
 
 impl FileMoves {
-    /// Moves of the curve that stands at `place` in a text, for a machine at the start of the options.
+    /// Moves of the curve that stands at `place` in a text, for a machine at the start of the
+    /// options.
     pub(crate) fn new(text: String, place: core::ops::Range<usize>, options: Options) -> Self {
         let before = text.get(..place.start).unwrap_or_default();
         Self {

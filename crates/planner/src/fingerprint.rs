@@ -5,8 +5,8 @@ use std::io::{self, Read};
 
 use twox_hash::XxHash64;
 
-/// Reads on, and takes the fingerprint of what is read (XXH64, seed 0: Collet). It takes a tenth of the
-/// time that reading the file takes.
+/// Reads on, and takes the fingerprint of what is read (XXH64, seed 0: Collet). It takes a tenth
+/// of the time that reading the file takes.
 #[derive(Debug)]
 pub(crate) struct Fingerprinting<R> {
     inner: R,

@@ -6,10 +6,10 @@
 //!
 //! An item keeps its rate where no override could make joints too fast.
 //!
-//! The motion may leave the path by the tolerance e, and so differ from its direction: where the path
-//! has curvature κ, a smoother one cuts it by e over a length of √(8e/κ), at whose ends it differs by an
-//! angle of about √(2eκ). For items that follow each other, κ is the change of direction over the length
-//! of an item.
+//! The motion may leave the path by the tolerance e, and so differ from its direction: where the
+//! path has curvature κ, a smoother one cuts it by e over a length of √(8e/κ), at whose ends it
+//! differs by an angle of about √(2eκ). For items that follow each other, κ is the change of
+//! direction over the length of an item.
 
 use glidepath_geometry::{Axis, AxisVector, ROTARY_ABC, Segment, limit_along};
 use glidepath_kinematics::{Heading, PathCaps, PlaceCaps};
@@ -25,7 +25,8 @@ const STEPS_PER_OCTAVE: f64 = 16.0;
 pub(crate) struct JointSpeed {
     caps: PathCaps,
     settings: Settings,
-    /// The direction in which the last item ended, and how curved it was, in linear and rotary axes.
+    /// The direction in which the last item ended, and how curved it was, in linear and rotary
+    /// axes.
     last: Option<(AxisVector, [f64; 2])>,
     /// The place that was looked at last.
     place: Option<(AxisVector, PlaceCaps)>,

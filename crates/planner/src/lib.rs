@@ -13,8 +13,8 @@
 //!
 //! * [`ItemSource`] is whatever gives items: [`FileSource`] a file that was checked before,
 //!   [`PipeSource`] a pipe, [`ProgramSource`] any text, [`CurveSource`] and [`NurbsSource`] curve files.
-//! * [`Pipeline`] turns a source into frames, one after the other; [`PathCaps`] keep the joints of a
-//!   mechanism inside their limits on the way.
+//! * [`Pipeline`] turns a source into frames, one after the other; [`PathCaps`] keep the joints of
+//!   a mechanism inside their limits on the way.
 //! * [`Publisher`] hands frames on, no further ahead of the machine than its [`Pace`] says.
 //! * [`listen()`] and [`feed()`] are the two ends of a stream of segments from another process.
 //! * [`Remainder`] is what is left of a program whose planner died, or that was aborted.

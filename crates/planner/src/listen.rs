@@ -1,12 +1,13 @@
 //! The listening planner: programs that other processes stream segment by segment.
 //!
-//! One stream at a time; each is one epoch, from rest to rest. Between streams the planner waits for
-//! the next client. The rules of a stream are in the module `stream`; here they meet the ports.
+//! One stream at a time; each is one epoch, from rest to rest. Between streams the planner waits
+//! for the next client. The rules of a stream are in the module `stream`; here they meet the
+//! ports.
 //!
 //! A client that dies leaves no trace in the transport that would be noticed in time, and one that
-//! hangs leaves none at all. So a stream lives by its requests: after [`CLIENT_SILENCE`] without one
-//! it is over, and the machine comes to rest at the end of what was accepted. A client with nothing to
-//! send repeats its last request.
+//! hangs leaves none at all. So a stream lives by its requests: after [`CLIENT_SILENCE`] without
+//! one it is over, and the machine comes to rest at the end of what was accepted. A client with
+//! nothing to send repeats its last request.
 
 use std::time::Duration;
 
@@ -45,8 +46,8 @@ pub struct Listening {
 
 /// Serves streams until the stop flag is set.
 ///
-/// A stream that ends badly (abort, fault, a client that died) is told to its client and in a notice;
-/// then the next one may come.
+/// A stream that ends badly (abort, fault, a client that died) is told to its client and in a
+/// notice; then the next one may come.
 ///
 /// # Errors
 /// [`RunError::Interrupted`] by the stop flag, [`RunError::PeriodMismatch`], or a failure of the link.

@@ -46,7 +46,8 @@ pub(crate) struct Machine {
     status: Box<dyn Subscriber<Status>>,
     commands: Box<dyn Client<CommandRequest, CommandReply>>,
     latest: Option<Status>,
-    /// Whether a status was heard that is newer than the first, which may be a dead process' legacy.
+    /// Whether a status was heard that is newer than the first, which may be a dead process'
+    /// legacy.
     alive: bool,
     /// Time waited since the last news.
     silent: Duration,
@@ -161,7 +162,8 @@ impl Machine {
         self.status().map_or(0, |status| status.line)
     }
 
-    /// Waits for news again before anything is believed: what was last heard is from before a change.
+    /// Waits for news again before anything is believed: what was last heard is from before a
+    /// change.
     pub(crate) fn forget(&mut self) {
         self.latest = None;
         self.alive = false;

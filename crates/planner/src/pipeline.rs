@@ -154,8 +154,9 @@ impl<S: ItemSource> Pipeline<S> {
     ///
     /// # Errors
     /// The reason why the program ended early, once, after the last frame of the motion that stops
-    /// at the last good item. If planning failed inside ([`Refusal::leaves_motion_open`]), it comes
-    /// at once, and the frames given out do not end at rest. From then on the pipeline is at its end.
+    /// at the last good item. If planning failed inside ([`Refusal::leaves_motion_open`]), it
+    /// comes at once, and the frames given out do not end at rest. From then on the pipeline is at
+    /// its end.
     pub fn advance(&mut self) -> Result<Output, Refusal> {
         Ok(match self.step()? {
             Step::Item => Output::Item(self.item),

@@ -91,8 +91,8 @@ impl<R: BufRead> ItemSource for ProgramSource<R> {
     }
 }
 
-/// A program from a pipe. It is read in a thread of its own, so that a pipe that is slow never keeps
-/// the planner from looking after the motion.
+/// A program from a pipe. It is read in a thread of its own, so that a pipe that is slow never
+/// keeps the planner from looking after the motion.
 #[derive(Debug)]
 pub struct PipeSource {
     pieces: Receiver<Supply>,

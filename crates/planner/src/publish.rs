@@ -8,21 +8,21 @@
 //!
 //! * **Start.** An epoch starts at rest where the machine stands, so the publisher waits until the
 //!   interpolator lives (its status changes) and is idle, and takes the position from the status.
-//! * **Pace.** Frame *n* is offered when *n* < executed + horizon. What is not yet published can still
-//!   be planned otherwise; what is published lets the machine run on while the planner is held up.
-//!   If the interpolator rests for want of frames though it has them all, it gets more than the
-//!   horizon, little by little, so that the two can never wait for each other.
+//! * **Pace.** Frame *n* is offered when *n* < executed + horizon. What is not yet published can
+//!   still be planned otherwise; what is published lets the machine run on while the planner is
+//!   held up. If the interpolator rests for want of frames though it has them all, it gets more
+//!   than the horizon, little by little, so that the two can never wait for each other.
 //! * **No loss.** The frame in hand is given up only when the transport says that it is in the
 //!   interpolator's queue; a queue that is full, or not connected yet, gets the same frame again.
-//! * **Slow input.** While the source has nothing, the last frame is offered again now and then. The
-//!   interpolator, which rests for want of frames, knows the frame already and learns from it that its
-//!   planner lives.
-//! * **End.** The last frame carries the flag `LAST`; the run is over when the interpolator says that
-//!   it has executed the epoch, or why not.
-//! * **Stop flag.** The publisher sends an abort: the interpolator comes to rest on the path at once
-//!   and drops what it has queued, instead of playing up to a horizon of motion that nobody wants any
-//!   more. If the command cannot be sent, no more frames come, and the interpolator stops by
-//!   starvation, later but as safely.
+//! * **Slow input.** While the source has nothing, the last frame is offered again now and then.
+//!   The interpolator, which rests for want of frames, knows the frame already and learns from it
+//!   that its planner lives.
+//! * **End.** The last frame carries the flag `LAST`; the run is over when the interpolator says
+//!   that it has executed the epoch, or why not.
+//! * **Stop flag.** The publisher sends an abort: the interpolator comes to rest on the path at
+//!   once and drops what it has queued, instead of playing up to a horizon of motion that nobody
+//!   wants any more. If the command cannot be sent, no more frames come, and the interpolator
+//!   stops by starvation, later but as safely.
 
 use std::time::Duration;
 
@@ -173,8 +173,8 @@ impl<'t> Publisher<'t> {
         ResumePoint::of(status)
     }
 
-    /// Publishes all frames of a pipeline that starts where [`Publisher::wait_until_ready`] said, and
-    /// waits until they are executed.
+    /// Publishes all frames of a pipeline that starts where [`Publisher::wait_until_ready`] said,
+    /// and waits until they are executed.
     ///
     /// # Errors
     /// Why the motion ended before the end of the program. A refusal of the program comes when the

@@ -10,7 +10,8 @@ use thiserror::Error;
 /// A program that was refused, as a whole or from some point on.
 #[derive(Debug, Error)]
 pub enum Refusal {
-    /// The text has errors: all of them if the whole file was checked before motion, else the first.
+    /// The text has errors: all of them if the whole file was checked before motion, else the
+    /// first.
     #[error("the program has {} error(s), the first in {}", .diagnostics.len(), place(.diagnostics.first()))]
     Program {
         /// In the order of the text, at least one.

@@ -1,9 +1,9 @@
 //! Going on with a program in the middle: after its planner died, or after an abort.
 //!
-//! The interpolator knows where it stands: the block, how far it has come on it, and the position. The
-//! program is read from its beginning again, without motion, up to that block; the path that it
-//! programs from there on is searched for the point where the machine stands; and what follows that
-//! point is handed on.
+//! The interpolator knows where it stands: the block, how far it has come on it, and the position.
+//! The program is read from its beginning again, without motion, up to that block; the path that
+//! it programs from there on is searched for the point where the machine stands; and what follows
+//! that point is handed on.
 //!
 //! ```text
 //!            block 7                 8           9
@@ -12,9 +12,9 @@
 //!            read, not run   └─ what is run: the rest of 7, 8, 9, …
 //! ```
 //!
-//! The machine need not stand on the programmed path: on a curve that replaces a corner, or on a chord
-//! that replaces several, it is off by up to the tolerance. From there it goes straight to the end of
-//! the block, and comes to rest there, so that no second curve adds to that distance.
+//! The machine need not stand on the programmed path: on a curve that replaces a corner, or on a
+//! chord that replaces several, it is off by up to the tolerance. From there it goes straight to
+//! the end of the block, and comes to rest there, so that no second curve adds to that distance.
 //!
 //! A path may pass a point more than once (a full circle begins where it ends). Of the points near
 //! enough, the one is taken that is as far from the beginning of the block as the machine has

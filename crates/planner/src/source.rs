@@ -1,9 +1,9 @@
 //! Where the items of a program come from.
 //!
 //! A source hands over one [`Item`] at a time, in program order, and says when there is none *yet*
-//! ([`Supply::Pending`]) as opposed to none *ever again* ([`Supply::End`]). What is planned depends on
-//! the sequence of items alone, never on how often a source was pending: the same program from a
-//! file, a pipe or a client of the listening planner gives the same frames.
+//! ([`Supply::Pending`]) as opposed to none *ever again* ([`Supply::End`]). What is planned
+//! depends on the sequence of items alone, never on how often a source was pending: the same
+//! program from a file, a pipe or a client of the listening planner gives the same frames.
 
 use std::time::Duration;
 

@@ -10,8 +10,8 @@
 //!
 //! Every request is numbered and answered. A request that was accepted before is answered in the
 //! same way again, so a client repeats what it got no answer to, and a client with nothing to send
-//! repeats its last request to show that it lives. A refused request changes nothing; the client may
-//! mend it and send it under the same number.
+//! repeats its last request to show that it lives. A refused request changes nothing; the client
+//! may mend it and send it under the same number.
 //!
 //! What was accepted is executed: if the client dies or falls silent, the stream ends where it is,
 //! and the machine comes to rest on the path at the last accepted segment.

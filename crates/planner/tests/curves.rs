@@ -1,4 +1,5 @@
-//! Curve files to frames: the whole way from a formula to setpoints keeps the tolerance, lap after lap.
+//! Curve files to frames: the whole way from a formula to setpoints keeps the tolerance, lap after
+//! lap.
 
 #![allow(
     clippy::unwrap_used,
@@ -80,8 +81,8 @@ fn planned(text: &str, start: [f64; 3]) -> Vec<Frame> {
     frames
 }
 
-/// Distance of a frame from a curve: over the residual, corrected by the angle of the surfaces, which
-/// away from nodes is the distance to first order.
+/// Distance of a frame from a curve: over the residual, corrected by the angle of the surfaces,
+/// which away from nodes is the distance to first order.
 fn off_mm(frame: &Frame, curve: &ParametricCurve, near_t: &mut f64) -> f64 {
     let p: Vector3<f64> = frame.position.fixed_rows::<3>(0).into_owned();
     for _ in 0..30 {

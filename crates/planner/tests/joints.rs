@@ -1,5 +1,6 @@
-//! Machines whose joints are weaker than their axes: speeds, accelerations and jerks are kept where
-//! the joints can follow, so that nothing of the motion has to be refused. Minutes, for more programs:
+//! Machines whose joints are weaker than their axes: speeds, accelerations and jerks are kept
+//! where the joints can follow, so that nothing of the motion has to be refused. Minutes, for more
+//! programs:
 //!
 //! ```text
 //! GLIDEPATH_JOINTS=100 cargo test --release -p glidepath-planner --test joints
@@ -150,8 +151,8 @@ fn program(machine: &Machine, places: &[([f64; 6], u8)]) -> String {
     text
 }
 
-/// What is used of velocity, acceleration and jerk of the joints, 1 for all of it, by differences of
-/// their positions.
+/// What is used of velocity, acceleration and jerk of the joints, 1 for all of it, by differences
+/// of their positions.
 struct Used<'a> {
     machine: &'a Machine,
     last: [JointVector; 3],

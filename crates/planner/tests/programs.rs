@@ -37,8 +37,8 @@ const SEED: Profile = Profile {
     tolerance_mm: 0.05,
 };
 
-/// Program, machine, and times in s: of a motion that stops at every corner, and of the optimal plan
-/// kept.
+/// Program, machine, and times in s: of a motion that stops at every corner, and of the optimal
+/// plan kept.
 const BENCH: [(&str, Profile, f64, f64); 14] = [
     ("seed5_seed", SEED, 0.10079, 0.06),
     ("seed5_mill", MILL, 0.29472, 0.188),
@@ -76,7 +76,8 @@ fn data(path: &str) -> PathBuf {
         .join(path)
 }
 
-/// Plans a program and audits it; `each` sees every frame. The error is the first diagnostic's code.
+/// Plans a program and audits it; `each` sees every frame. The error is the first diagnostic's
+/// code.
 fn plan(
     path: &Path,
     settings: Settings,
@@ -220,7 +221,8 @@ fn scaled(text: &str, factor: f64) -> String {
     text.lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Positions at every period of a bench program on its machine, both told in another unit of length.
+/// Positions at every period of a bench program on its machine, both told in another unit of
+/// length.
 fn motion_in_unit(
     name: &str,
     profile: Profile,
@@ -245,9 +247,9 @@ fn motion_in_unit(
     positions
 }
 
-/// No length is built into the planner: where the unit changes by a power of two, so that nothing is
-/// rounded otherwise, motion is the same to the bit. By a thousand (micrometres), rounding decides some
-/// of the optimiser's choices otherwise: up to a per cent of the time.
+/// No length is built into the planner: where the unit changes by a power of two, so that nothing
+/// is rounded otherwise, motion is the same to the bit. By a thousand (micrometres), rounding
+/// decides some of the optimiser's choices otherwise: up to a per cent of the time.
 #[test]
 fn motion_does_not_depend_on_the_unit_of_length() {
     for (name, profile, ..) in BENCH {
@@ -339,7 +341,8 @@ fn corpus_programs_keep_limits_and_tolerance() {
     assert!(planned > 30, "only {planned} programs planned");
 }
 
-/// Ends that differ from the reference: there G92 and G92.1 move the reported position, and nothing else.
+/// Ends that differ from the reference: there G92 and G92.1 move the reported position, and
+/// nothing else.
 const DIFFERENT_ENDS: [(&str, char); 2] = [
     ("axes/4axis-rotary-xza-51k.ngc", 'A'),
     ("spline/quadratic-g51-text.ngc", 'X'),

@@ -41,8 +41,8 @@ pub struct Frame {
     pub sequence: u64,
     /// Source line of the motion, 0 before the first.
     pub line: u32,
-    /// The block of the motion, as [`Item::block`](crate::Item::block); 0 before the first, and where
-    /// nobody counts them.
+    /// The block of the motion, as [`Item::block`](crate::Item::block); 0 before the first, and
+    /// where nobody counts them.
     pub block: u32,
     /// Properties.
     pub flags: FrameFlags,

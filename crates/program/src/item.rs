@@ -10,8 +10,8 @@ pub enum Rate {
     Rapid,
     /// Feedrate: the rate of path position, mm/s (°/s for a move of rotary axes alone), > 0.
     Feed(f64),
-    /// As [`Rate::Rapid`], but never above a speed, > 0, that no override lifts: that of joints, where
-    /// they are not axes.
+    /// As [`Rate::Rapid`], but never above a speed, > 0, that no override lifts: that of joints,
+    /// where they are not axes.
     RapidUpTo(f64),
     /// As [`Rate::Feed`] with `feed_v`, but never above `most_v`, > 0, that no override lifts.
     FeedUpTo {
@@ -147,8 +147,8 @@ impl ProgramLine {
 pub struct Item {
     /// Source line, from 1.
     pub line: u32,
-    /// Which of the items of its program it is, from 1; 0 where nobody counts them. A line in a loop
-    /// is executed many times, so the line alone does not say where a program is.
+    /// Which of the items of its program it is, from 1; 0 where nobody counts them. A line in a
+    /// loop is executed many times, so the line alone does not say where a program is.
     pub block: u32,
     /// What to do.
     pub kind: ItemKind,

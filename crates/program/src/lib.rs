@@ -6,19 +6,20 @@
 //!                     Settings, Override                         Limits
 //! ```
 //!
-//! The crates above speak to each other in these words and know nothing else of one another: a reader
-//! of programs does not compile against a planner, nor does an interpolator. That is why nothing here
-//! computes a motion. It holds
+//! The crates above speak to each other in these words and know nothing else of one another: a
+//! reader of programs does not compile against a planner, nor does an interpolator. That is why
+//! nothing here computes a motion. It holds
 //!
-//! * [`Item`]: a segment with its rate and [`PathMode`], a dwell, or an [`Event`], in program order;
+//! * [`Item`]: a segment with its rate and [`PathMode`], a dwell, or an [`Event`], in program
+//!   order;
 //! * [`Frame`]: position, velocity and acceleration of every axis at one instant of program time;
 //! * [`Limits`] of the axes and [`PathBounds`] of the motion along the path;
 //! * [`Settings`], all that a plan depends on besides the program, and the operator's [`Override`];
 //! * [`tolerance_norm`], the distance that a tolerance bounds, so that all who judge a deviation
 //!   measure the same.
 //!
-//! Everything is in mm, degrees and seconds, in machine coordinates. Values are plain: whoever takes
-//! them from outside checks them (the planner its items, the interpolator its frames).
+//! Everything is in mm, degrees and seconds, in machine coordinates. Values are plain: whoever
+//! takes them from outside checks them (the planner its items, the interpolator its frames).
 //!
 //! ```
 //! use glidepath_geometry::{AxisVector, Segment};

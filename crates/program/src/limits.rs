@@ -4,7 +4,8 @@ use glidepath_geometry::AxisVector;
 
 /// Largest speed, acceleration and jerk of every axis, each > 0, in any direction of motion.
 ///
-/// An axis the machine does not have keeps the values of [`Limits::UNLIMITED`]; no program moves it.
+/// An axis the machine does not have keeps the values of [`Limits::UNLIMITED`]; no program moves
+/// it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// mm/s or °/s.
@@ -33,8 +34,8 @@ impl Limits {
     }
 }
 
-/// Limits of the motion along the path, beside those of the axes, each > 0. With κ the curvature, and
-/// speed, acceleration and jerk those of path position:
+/// Limits of the motion along the path, beside those of the axes, each > 0. With κ the curvature,
+/// and speed, acceleration and jerk those of path position:
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathBounds {
     /// Largest acceleration along the path, mm/s².

@@ -21,12 +21,12 @@ pub enum Smoothing {
 /// How much work planning may cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Effort {
-    /// Geometry and time are optimised together, in the tube that the tolerance makes around the path:
-    /// near the least time that the limits and the tolerance allow.
+    /// Geometry and time are optimised together, in the tube that the tolerance makes around the
+    /// path: near the least time that the limits and the tolerance allow.
     #[default]
     Optimal,
-    /// The path is settled first, with transitions at corners, and its time is optimised along it by
-    /// closed-form S-curves: some hundred times less work.
+    /// The path is settled first, with transitions at corners, and its time is optimised along it
+    /// by closed-form S-curves: some hundred times less work.
     Fast,
 }
 

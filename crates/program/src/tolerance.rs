@@ -5,8 +5,8 @@ use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 /// The distance that a tolerance bounds: the XYZ part, the UVW part, or a rotary axis, whichever is
 /// largest.
 ///
-/// Lengths and angles are not added: a tolerance of 0.02 allows 0.02 mm to the tool centre and 0.02° to
-/// each rotary axis.
+/// Lengths and angles are not added: a tolerance of 0.02 allows 0.02 mm to the tool centre and
+/// 0.02° to each rotary axis.
 #[inline]
 #[must_use]
 pub fn tolerance_norm(difference: &AxisVector) -> f64 {

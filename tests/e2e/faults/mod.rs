@@ -1,7 +1,7 @@
 //! The fault matrix: everything that can go wrong, at every kind of moment.
 //!
-//! Each case runs a program on a machine of real processes, lets one thing go wrong at a moment that
-//! chance decides, and follows the machine to its rest. Then
+//! Each case runs a program on a machine of real processes, lets one thing go wrong at a moment
+//! that chance decides, and follows the machine to its rest. Then
 //!
 //! * what a subscriber got is audited: limits, deviation both ways as far as the motion went, feed;
 //! * the status tells the right cause, or the program has come to its end, where it can;
@@ -9,10 +9,11 @@
 //! * a program from where the machine stands takes it home, after a reset where one is needed;
 //! * shared memory holds no more than before.
 //!
-//! A sample runs by default. `GLIDEPATH_FAULTS=256 cargo test -p glidepath-tests whatever_goes_wrong -- --nocapture`
-//! runs so many cases, every cell of the matrix as often as the others, and prints a table;
-//! `GLIDEPATH_FAULTS_SEED` chooses other moments. The seed decides what is tried, and when it is meant
-//! to happen; what is under way then is up to the machine's clock.
+//! A sample runs by default. `GLIDEPATH_FAULTS=256 cargo test -p glidepath-tests
+//! whatever_goes_wrong -- --nocapture` runs so many cases, every cell of the matrix as often as
+//! the others, and prints a table; `GLIDEPATH_FAULTS_SEED` chooses other moments. The seed decides
+//! what is tried, and when it is meant to happen; what is under way then is up to the machine's
+//! clock.
 
 mod bench;
 mod case;

@@ -1,7 +1,7 @@
 //! Which crate depends on which.
 //!
-//! `crates/README.md` says it in two blocks: `arrows` lists for every crate those that it uses, `never`
-//! the pairs that must not know each other, with the reason.
+//! `crates/README.md` says it in two blocks: `arrows` lists for every crate those that it uses,
+//! `never` the pairs that must not know each other, with the reason.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;

@@ -54,7 +54,8 @@ impl Differences {
             .all(|difference| difference.abs() <= STILL_MM)
     }
 
-    /// The axis that uses most of its velocity, acceleration and jerk in the period, and what share.
+    /// The axis that uses most of its velocity, acceleration and jerk in the period, and what
+    /// share.
     pub(super) fn ratios(&self) -> [Option<(Axis, f64)>; 3] {
         let [velocity, acceleration, jerk] = &self.most;
         [

@@ -38,8 +38,8 @@ pub(super) struct Follow {
 /// The program near a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Nearby {
-    /// The speed wanted, overrides included, mm/s; infinite for a rapid at 100 %, and where there is
-    /// no program.
+    /// The speed wanted, overrides included, mm/s; infinite for a rapid at 100 %, and where there
+    /// is no program.
     pub(super) feed_v: f64,
     pub(super) tolerance_mm: f64,
 }

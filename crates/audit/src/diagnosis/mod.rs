@@ -1,9 +1,10 @@
 //! Diagnosis: which limit keeps a motion from being faster, where, and what that costs.
 //!
-//! Fed with the program and the frames, each in order, like the [auditor](crate::Audit), it tells for
-//! every period which limit is used fully ([`Binding`]), and in the end the share of time of each and
-//! the places where most time is lost against the programmed feed. It judges what it sees, whoever
-//! planned it: positions by finite differences, the deviation from the program, the speed told.
+//! Fed with the program and the frames, each in order, like the [auditor](crate::Audit), it tells
+//! for every period which limit is used fully ([`Binding`]), and in the end the share of time of
+//! each and the places where most time is lost against the programmed feed. It judges what it
+//! sees, whoever planned it: positions by finite differences, the deviation from the program, the
+//! speed told.
 //!
 //! Work is linear in frames and items; memory is bounded by how far the program is fed ahead.
 
@@ -39,7 +40,8 @@ pub struct Diagnosis {
 pub struct Summary {
     /// Share of the time for which each limit binds, largest first; those that never do left out.
     pub shares: Vec<(Binding, f64)>,
-    /// The places where most time is lost against the programmed feed, the worst first, at most ten.
+    /// The places where most time is lost against the programmed feed, the worst first, at most
+    /// ten.
     pub slowest: Vec<Place>,
 }
 
@@ -114,9 +116,9 @@ impl Diagnosis {
     }
 }
 
-/// What binds in a period: of the limits that are used fully, the one whose change would help first.
-/// The feed and the velocity of an axis bind whatever else does; acceleration and jerk bind only
-/// until a speed is reached; the tolerance binds where none of them does.
+/// What binds in a period: of the limits that are used fully, the one whose change would help
+/// first. The feed and the velocity of an axis bind whatever else does; acceleration and jerk bind
+/// only until a speed is reached; the tolerance binds where none of them does.
 fn classify(path_v: f64, used: &Differences, (nearby, follow): (&Nearby, &Follow)) -> Binding {
     if path_v >= FULLY_R * nearby.feed_v {
         return Binding::Feed;

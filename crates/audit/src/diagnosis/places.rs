@@ -7,8 +7,8 @@
 //!                  place 1      2    3
 //! ```
 //!
-//! A place is a valley of the speed: it begins where the speed leaves the feed, or at the top between
-//! two valleys, and ends likewise. Its line is that of the bottom.
+//! A place is a valley of the speed: it begins where the speed leaves the feed, or at the top
+//! between two valleys, and ends likewise. Its line is that of the bottom.
 
 use super::binding::{Binding, COUNT};
 

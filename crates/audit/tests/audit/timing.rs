@@ -115,7 +115,8 @@ fn a_dwell_cut_short_is_found() {
     }
 }
 
-/// The verdict on a motion along two chords with feeds of 1 mm/s and 50 mm/s, in this order or the other.
+/// The verdict on a motion along two chords with feeds of 1 mm/s and 50 mm/s, in this order or the
+/// other.
 fn is_clean_past_a_vertex(chords: [&[AxisVector]; 2], feeds_v: [f64; 2]) -> bool {
     let mut program = polygon(&[point(0.0, 0.0), point(1.0, 0.0), point(1.0, 1.0)]);
     for (item, feed_v) in program.iter_mut().zip(feeds_v) {
@@ -133,7 +134,8 @@ fn is_clean_past_a_vertex(chords: [&[AxisVector]; 2], feeds_v: [f64; 2]) -> bool
     audit.finish().is_clean()
 }
 
-/// Next to a vertex the motion may be on the chord behind it, with its feed; farther away it may not.
+/// Next to a vertex the motion may be on the chord behind it, with its feed; farther away it may
+/// not.
 #[test]
 fn within_tolerance_of_a_vertex_the_next_feed_holds() {
     let fast = walk(&[point(1.0, 0.0), point(1.0, 1.0)], 0.1);

@@ -12,9 +12,9 @@
 //! sinh cosh tanh exp ln log10 sqrt`. There is nothing in the language that is not smooth (`abs`,
 //! `min`, `floor`, …), because every curve's derivatives are needed.
 //!
-//! A formula is evaluated over any [`Number`]: plain, with derivatives, over intervals. That, places in
-//! error messages, and the usual meaning of `-x^2` are why this is not one of the expression libraries
-//! on crates.io: `exmex`, the one that differentiates, lacks all three.
+//! A formula is evaluated over any [`Number`]: plain, with derivatives, over intervals. That,
+//! places in error messages, and the usual meaning of `-x^2` are why this is not one of the
+//! expression libraries on crates.io: `exmex`, the one that differentiates, lacks all three.
 
 mod error;
 mod parse;
@@ -38,8 +38,8 @@ impl Expression {
         parse::parse(text, variables).map(Self)
     }
 
-    /// The value for values of the variables, in the order in which they were named. Not finite where
-    /// the formula is not defined.
+    /// The value for values of the variables, in the order in which they were named. Not finite
+    /// where the formula is not defined.
     #[must_use]
     pub fn eval<T: Number>(&self, variables: &[T]) -> T {
         self.0.eval(variables)

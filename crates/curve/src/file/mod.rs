@@ -19,8 +19,8 @@
 //! end = "closed"                 # or a point [x, y, z], or the length along the curve, mm
 //! ```
 //!
-//! In both kinds, optional: `name`; `tolerance`, mm, everything included; `chord`, the longest chord,
-//! mm; `laps` of a closed curve.
+//! In both kinds, optional: `name`; `tolerance`, mm, everything included; `chord`, the longest
+//! chord, mm; `laps` of a closed curve.
 
 mod curve_file;
 mod diagnostic;

@@ -1,8 +1,9 @@
 //! One of the branches that cross at a node.
 //!
-//! At a node N the surfaces touch, ∇f = μ ∇g, and f = g = 0 does not determine the curve: F = f − μ g
-//! vanishes there with its gradient. Its lowest terms, a quadratic form on the common tangent plane, are
-//! what tells the branches from each other. So the curve is sought along its own tangent t,
+//! At a node N the surfaces touch, ∇f = μ ∇g, and f = g = 0 does not determine the curve: F = f −
+//! μ g vanishes there with its gradient. Its lowest terms, a quadratic form on the common tangent
+//! plane, are what tells the branches from each other. So the curve is sought along its own
+//! tangent t,
 //!
 //! ```text
 //!   r(s) = N + s d,   d = t + u m + w n        n across both surfaces, m across t in their plane;
@@ -10,17 +11,18 @@
 //!   F(r(s)) / s² = 0,   g(r(s)) / s = 0        ("blowing up" the node)
 //! ```
 //!
-//! and both quotients are functions as smooth as f and g: with the Taylor coefficients of f and g along d,
-//! F / s² = F₂ + F₃ s + F₄ s² …, g / s = g₁ + g₂ s …. At s = 0 their Jacobian by u and w is that of
-//! tᵀ (Hf − μ Hg) m and |∇g|, regular where the branches cross at an angle. Near a node the curve is thus
-//! the solution of two well-conditioned equations for every s, through s = 0 and on both sides.
+//! and both quotients are functions as smooth as f and g: with the Taylor coefficients of f and g
+//! along d, F / s² = F₂ + F₃ s + F₄ s² …, g / s = g₁ + g₂ s …. At s = 0 their Jacobian by u and w
+//! is that of tᵀ (Hf − μ Hg) m and |∇g|, regular where the branches cross at an angle. Near a node
+//! the curve is thus the solution of two well-conditioned equations for every s, through s = 0 and
+//! on both sides.
 //!
-//! Over intervals of s and d the series are enclosed with Lagrange's remainder, its coefficient taken
-//! over all points between N and the curve. That proves where the branch is (`passage.rs`).
+//! Over intervals of s and d the series are enclosed with Lagrange's remainder, its coefficient
+//! taken over all points between N and the curve. That proves where the branch is (`passage.rs`).
 //!
-//! No computation can prove that two surfaces touch: the least change of one pulls the branches apart.
-//! What is proven is said of the surfaces moved by the rounding of their formulas at N (10⁻¹² mm, or a
-//! few units in the last place of the coordinates), so that N is a node.
+//! No computation can prove that two surfaces touch: the least change of one pulls the branches
+//! apart. What is proven is said of the surfaces moved by the rounding of their formulas at N
+//! (10⁻¹² mm, or a few units in the last place of the coordinates), so that N is a node.
 
 use super::ImplicitCurve;
 use super::node::{node, touching_point};
@@ -109,7 +111,8 @@ impl Branch {
         2.0 * self.rate.norm()
     }
 
-    /// The quotients at s and d, with the last coefficients of the series `around` other points than N.
+    /// The quotients at s and d, with the last coefficients of the series `around` other points
+    /// than N.
     pub(super) fn quotients<T: Number>(
         &self,
         curve: &ImplicitCurve,
@@ -227,8 +230,8 @@ impl Branch {
         (off <= SAME_MM).then_some(s)
     }
 
-    /// The end of a chord of a length from the point at `from_s`: the next after it at that distance,
-    /// and s there.
+    /// The end of a chord of a length from the point at `from_s`: the next after it at that
+    /// distance, and s there.
     pub(super) fn step(
         &self,
         curve: &ImplicitCurve,

@@ -41,8 +41,8 @@ pub struct ImplicitChords {
     rule: ChordRule,
     /// Where it ends, if at a point.
     target: Option<Vector3<f64>>,
-    /// Tangents of the branch by which a closed curve left a node, and of the other: passing the node on
-    /// the other is not its end.
+    /// Tangents of the branch by which a closed curve left a node, and of the other: passing the
+    /// node on the other is not its end.
     branches: Option<[Vector3<f64>; 2]>,
     /// Length along the curve at which it ends, mm.
     until_mm: f64,
@@ -237,8 +237,8 @@ impl ImplicitChords {
             .max_by(|(a, _), (b, _)| straight(a).total_cmp(&straight(b)))
     }
 
-    /// Curvature at a point, 1/mm: that of the branch at a node where surfaces nearly touch, because it
-    /// is lost in rounding there.
+    /// Curvature at a point, 1/mm: that of the branch at a node where surfaces nearly touch,
+    /// because it is lost in rounding there.
     fn bend_k(&self, point: &Vector3<f64>) -> f64 {
         if self.curve.contact(point).sine() >= TOUCHING_SINE {
             return curvature_k(&self.curve, point);
@@ -286,7 +286,8 @@ impl ImplicitChords {
         chord
     }
 
-    /// The end point, if a chord passes it: it is then inside the sphere over the chord, next to it.
+    /// The end point, if a chord passes it: it is then inside the sphere over the chord, next to
+    /// it.
     fn passed(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> Option<Vector3<f64>> {
         let target = self.target.filter(|_| self.travelled_mm > 0.0)?;
         let along = to - from;

@@ -60,9 +60,9 @@ fn hessian(curve: &ImplicitCurve, point: &Vector3<f64>, mu: f64) -> Matrix3<f64>
     hessian
 }
 
-/// The point within `reach_mm` of a guess at which both surfaces meet and touch, but for the rounding
-/// of their formulas: f = g = 0 and ∇f = μ ∇g. These are five equations for four unknowns; at a
-/// node they agree, and Gauss-Newton steps converge to it quadratically.
+/// The point within `reach_mm` of a guess at which both surfaces meet and touch, but for the
+/// rounding of their formulas: f = g = 0 and ∇f = μ ∇g. These are five equations for four
+/// unknowns; at a node they agree, and Gauss-Newton steps converge to it quadratically.
 pub(super) fn touching_point(
     curve: &ImplicitCurve,
     guess: &Vector3<f64>,

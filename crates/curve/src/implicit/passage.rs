@@ -8,13 +8,13 @@
 //!                            ``·---....__·  q
 //! ```
 //!
-//! The arc is cut into pieces. For each, interval Newton on the equations of the branch (`branch.rs`)
-//! proves that for every s of the piece there is one (u, w) in a box. The tangent t + a m + b n of the
-//! curve is normal to ∇F / s and ∇g there, which encloses the slopes a and b. A
-//! function whose slopes are in an interval of width ω is within ω ℓ / 4 of the chord of its graph over a
-//! length ℓ. So the arc is no farther from the chord than the ends of the pieces are, and that. If all
-//! tangents are within 45° of the chord, the distance from p grows all along: q is the first crossing,
-//! and the arc is passed in order.
+//! The arc is cut into pieces. For each, interval Newton on the equations of the branch
+//! (`branch.rs`) proves that for every s of the piece there is one (u, w) in a box. The tangent t
+//! + a m + b n of the curve is normal to ∇F / s and ∇g there, which encloses the slopes a and b. A
+//! function whose slopes are in an interval of width ω is within ω ℓ / 4 of the chord of its graph
+//! over a length ℓ. So the arc is no farther from the chord than the ends of the pieces are, and
+//! that. If all tangents are within 45° of the chord, the distance from p grows all along: q is
+//! the first crossing, and the arc is passed in order.
 
 use super::ImplicitCurve;
 use super::across::Across;
@@ -108,8 +108,9 @@ impl Passage<'_> {
 
     /// Slopes (a, b) of the curve for all s of an interval.
     ///
-    /// Interval Newton, from the solution in the middle: if it maps a box into itself, the box holds one
-    /// solution for every s, and the slopes of all of them are found from the gradients over the box.
+    /// Interval Newton, from the solution in the middle: if it maps a box into itself, the box
+    /// holds one solution for every s, and the slopes of all of them are found from the gradients
+    /// over the box.
     fn slopes(&self, s: Interval, middle: &Vector2<f64>) -> Option<[Interval; 2]> {
         let point = [0, 1].map(|i: usize| Interval::constant(middle[i]));
         let Quotients {

@@ -1,14 +1,14 @@
 //! One chord along an implicit curve.
 //!
-//! Three equations for the end q of a chord from p: f(q) = 0, g(q) = 0, |q − p| = L. The predictor is
-//! the last chord mirrored in the tangent, d = 2 (T·u) T − u: exact on circles, off by O(L³) else, and
-//! free. Newton's method corrects, until the residuals are as small as the angle of the surfaces needs:
-//! a residual r is a distance of about r / sin(angle).
+//! Three equations for the end q of a chord from p: f(q) = 0, g(q) = 0, |q − p| = L. The predictor
+//! is the last chord mirrored in the tangent, d = 2 (T·u) T − u: exact on circles, off by O(L³)
+//! else, and free. Newton's method corrects, until the residuals are as small as the angle of the
+//! surfaces needs: a residual r is a distance of about r / sin(angle).
 //!
-//! Where the surfaces (nearly) touch, the tangent is not to be had from the gradients: two branches may
-//! cross there. The chord is then continued from the last two, d = 2 d₁ − d₂, and corrected by
-//! Gauss-Newton steps in the directions the equations do determine. That stays on the branch it came by;
-//! `branch.rs` does better where the surfaces touch exactly, and proves it.
+//! Where the surfaces (nearly) touch, the tangent is not to be had from the gradients: two
+//! branches may cross there. The chord is then continued from the last two, d = 2 d₁ − d₂, and
+//! corrected by Gauss-Newton steps in the directions the equations do determine. That stays on the
+//! branch it came by; `branch.rs` does better where the surfaces touch exactly, and proves it.
 
 use super::{Contact, ImplicitCurve};
 use crate::CurveError;

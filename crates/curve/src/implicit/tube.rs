@@ -7,15 +7,15 @@
 //!             └──────────────────────────────┘
 //! ```
 //!
-//! If over the whole tube |v|, |w| ≤ r the surfaces' Jacobian J by (v, w) is regular, the curve inside is
-//! a graph over u. Its slopes are ξ′ = −J⁻¹ (f_u, g_u), and its second derivatives −J⁻¹ (ξᵀ Hf ξ, ξᵀ Hg ξ)
-//! with ξ = (1, v′, w′); interval arithmetic encloses both. A function with v(0) = v(L) = 0 and |v″| ≤ b
-//! is within b L²/8 of zero. If that is smaller than r, the curve cannot leave the tube, and since J is
-//! regular there is only one in it: the chord's. Slopes below 1 also make the distance from p grow all
-//! along: q is the first crossing.
+//! If over the whole tube |v|, |w| ≤ r the surfaces' Jacobian J by (v, w) is regular, the curve
+//! inside is a graph over u. Its slopes are ξ′ = −J⁻¹ (f_u, g_u), and its second derivatives −J⁻¹
+//! (ξᵀ Hf ξ, ξᵀ Hg ξ) with ξ = (1, v′, w′); interval arithmetic encloses both. A function with
+//! v(0) = v(L) = 0 and |v″| ≤ b is within b L²/8 of zero. If that is smaller than r, the curve
+//! cannot leave the tube, and since J is regular there is only one in it: the chord's. Slopes
+//! below 1 also make the distance from p grow all along: q is the first crossing.
 //!
-//! Gradients are taken from the tube's middle with the mean value theorem, ∇f ∈ ∇f(c) + H (x − c): over
-//! the axis-parallel box around a slanting tube they would vary much more than in the tube.
+//! Gradients are taken from the tube's middle with the mean value theorem, ∇f ∈ ∇f(c) + H (x − c):
+//! over the axis-parallel box around a slanting tube they would vary much more than in the tube.
 
 use super::ImplicitCurve;
 use super::across::Across;
@@ -23,7 +23,8 @@ use glidepath_geometry::number::{Interval, Number, Series};
 use nalgebra::Vector3;
 
 /// A bound on the distance between the curve and the chord from `from` to `to`, both points of the
-/// curve, mm: both ways, and in order. `None` if no tube of a few times the `expected_mm` gives a proof.
+/// curve, mm: both ways, and in order. `None` if no tube of a few times the `expected_mm` gives a
+/// proof.
 #[must_use]
 pub fn chord_error_mm(
     curve: &ImplicitCurve,

@@ -11,9 +11,9 @@
 //! knots = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0]
 //! ```
 //!
-//! A point has two to nine coordinates, in the order X Y Z A B C U V W; all points as many. JSON has
-//! the same keys. A file that begins with `{` is JSON. `units`, `source`, `status` and `note` say
-//! where a curve comes from; they change nothing, but `units` other than "mm" are refused.
+//! A point has two to nine coordinates, in the order X Y Z A B C U V W; all points as many. JSON
+//! has the same keys. A file that begins with `{` is JSON. `units`, `source`, `status` and `note`
+//! say where a curve comes from; they change nothing, but `units` other than "mm" are refused.
 
 mod place;
 mod raw;
@@ -42,8 +42,8 @@ pub struct NurbsFile {
 }
 
 impl NurbsFile {
-    /// True if the text of a curve file is meant to be that of a NURBS: it is JSON, or has a key that
-    /// only these have.
+    /// True if the text of a curve file is meant to be that of a NURBS: it is JSON, or has a key
+    /// that only these have.
     #[must_use]
     pub fn is_meant(text: &str) -> bool {
         let has = |key: &str| !place(text, key, None).is_empty();

@@ -5,8 +5,8 @@
 
 use core::ops::Range;
 
-/// Bytes of element `index` of the list of a key; of the key's name if there is no such element; empty
-/// if there is no such key.
+/// Bytes of element `index` of the list of a key; of the key's name if there is no such element;
+/// empty if there is no such key.
 pub(super) fn place(text: &str, key: &str, index: Option<usize>) -> Range<usize> {
     let Some(name) = key_range(text, key) else {
         return 0..0;

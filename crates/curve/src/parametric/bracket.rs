@@ -1,14 +1,13 @@
 //! Where the *first* crossing of a sphere around a point of the curve is.
 //!
-//! The end of a chord of length L from C(t) is the first point at distance L. A curve may come back to
-//! the sphere (a helix of small pitch), or leave it behind (a closed curve has distance 0 after a
-//! period): a change of sign proves neither that a crossing is the first nor that there is none. Two
-//! facts do:
+//! The end of a chord of length L from C(t) is the first point at distance L. A curve may come
+//! back to the sphere (a helix of small pitch), or leave it behind (a closed curve has distance 0
+//! after a period): a change of sign proves neither that a crossing is the first nor that there is
+//! none. Two facts do:
 //!
-//! 1. If on [t, t + m] the curvature is at most κ < 2/L and s_lo ≤ |C′| ≤ s_hi, the distance grows all
-//!    along an arc of length π/κ, and the crossing is in
-//!    `dt ∈ [ L/s_hi, (2/κ) asin(κL/2)/s_lo ]`, alone, if that interval is inside the window and
-//!    `(s_hi/s_lo) · 2 asin(κL/2) ≤ π`.
+//! 1. If on [t, t + m] the curvature is at most κ < 2/L and s_lo ≤ |C′| ≤ s_hi, the distance grows
+//!    all along an arc of length π/κ, and the crossing is in `dt ∈ [ L/s_hi, (2/κ) asin(κL/2)/s_lo
+//!    ]`, alone, if that interval is inside the window and `(s_hi/s_lo) · 2 asin(κL/2) ≤ π`.
 //! 2. Distance changes no faster than arc length: from a point at distance d < L the crossing is at
 //!    least (L − d)/s_hi away. Steps of that size never jump over it, whatever the curve does.
 //!

@@ -84,8 +84,8 @@ impl ParametricCurve {
         core::array::from_fn(|k| core::array::from_fn(|i| series[i].derivative(k)))
     }
 
-    /// What holds all over a range of the parameter; `None` if nothing can be said because the curve
-    /// or a derivative is not defined or not bounded there.
+    /// What holds all over a range of the parameter; `None` if nothing can be said because the
+    /// curve or a derivative is not defined or not bounded there.
     #[must_use]
     pub fn bounds(&self, from: f64, to: f64) -> Option<Bounds> {
         let [point, d1, d2] = self.enclosure(from, to);
@@ -110,11 +110,11 @@ impl ParametricCurve {
         })
     }
 
-    /// A bound on the distance between the curve over a range of the parameter and its chord, mm; both
-    /// ways, and in order. `None` if there is none.
+    /// A bound on the distance between the curve over a range of the parameter and its chord, mm;
+    /// both ways, and in order. `None` if there is none.
     ///
-    /// The smaller of two bounds: linear interpolation over Δt is within |C″| Δt²/8 of the curve, and
-    /// an arc within the sagitta of its sharpest curvature.
+    /// The smaller of two bounds: linear interpolation over Δt is within |C″| Δt²/8 of the curve,
+    /// and an arc within the sagitta of its sharpest curvature.
     #[must_use]
     pub fn chord_error_mm(&self, from: f64, to: f64) -> Option<f64> {
         let bounds = self.bounds(from, to)?;

@@ -1,9 +1,10 @@
 //! One chord along a parametric curve.
 //!
-//! The equation is d(x) = |C(t + x) − C(t)| = L. The published method bisects F = d² − L² on [0, m]:
-//! safe once m is (see [`bracket`]), but 30 to 35 evaluations. The default solves d − L, which is
-//! nearly linear in x, by Newton's method from a second-order guess: two to three evaluations. A step
-//! that would leave the bracket is replaced by a bisection, so the bracket's guarantee stays.
+//! The equation is d(x) = |C(t + x) − C(t)| = L. The published method bisects F = d² − L² on [0,
+//! m]: safe once m is (see [`bracket`]), but 30 to 35 evaluations. The default solves d − L, which
+//! is nearly linear in x, by Newton's method from a second-order guess: two to three evaluations.
+//! A step that would leave the bracket is replaced by a bisection, so the bracket's guarantee
+//! stays.
 
 use super::bracket::{Bracket, bracket};
 use super::{Local, ParametricCurve};

@@ -4,9 +4,9 @@
 //!   ∇f · d = −f(p),   ∇g · d = −g(p),   |d| = L
 //! ```
 //!
-//! Read with zeros on the right, it is Euler's method: on a circle every step adds L² to the square of
-//! the radius, about π L a lap whatever the radius. With the residuals it does not accumulate, but every
-//! point stays κ L²/2 off the curve, four times the sagitta.
+//! Read with zeros on the right, it is Euler's method: on a circle every step adds L² to the
+//! square of the radius, about π L a lap whatever the radius. With the residuals it does not
+//! accumulate, but every point stays κ L²/2 off the curve, four times the sagitta.
 
 use crate::ImplicitCurve;
 use nalgebra::{Matrix2, Vector2, Vector3};

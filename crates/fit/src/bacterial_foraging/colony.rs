@@ -1,10 +1,10 @@
 //! Bacterial foraging: a search for a minimum of a function of many variables, without derivatives.
 //!
-//! Every bacterium is a point. It *tumbles* into a random direction and takes a step; if that was for
-//! the better it *swims* on, some steps at most. After some rounds of this (chemotaxis) the half with
-//! the smaller sum of values splits in place of the other half, and steps become shorter
-//! (reproduction); after some of those, each bacterium but the best may be put down anew near the best
-//! point so far (elimination and dispersal).
+//! Every bacterium is a point. It *tumbles* into a random direction and takes a step; if that was
+//! for the better it *swims* on, some steps at most. After some rounds of this (chemotaxis) the
+//! half with the smaller sum of values splits in place of the other half, and steps become shorter
+//! (reproduction); after some of those, each bacterium but the best may be put down anew near the
+//! best point so far (elimination and dispersal).
 
 use super::random::Random;
 
@@ -58,8 +58,8 @@ struct ForagingRun<'a> {
     direction: Vec<f64>,
 }
 
-/// Searches from `start`. A value of −∞ ends the search at once. `progress` is told the share of the
-/// iterations done.
+/// Searches from `start`. A value of −∞ ends the search at once. `progress` is told the share of
+/// the iterations done.
 pub(crate) fn forage(
     start: &[f64],
     colony: Colony,

@@ -1,9 +1,10 @@
 //! Bacterial foraging on the control points, as published.
 //!
-//! The knots are given, the variables are the coordinates of the control points but the two ends, the
-//! value is the sum of the squared distances at the points' parameters, plus the tolerance squared for
-//! each control point (constant here, as their number is). 50 bacteria, 31 · 4 · 4 = 496 iterations.
-//! Least squares solves the same problem exactly, which is what the report compares with.
+//! The knots are given, the variables are the coordinates of the control points but the two ends,
+//! the value is the sum of the squared distances at the points' parameters, plus the tolerance
+//! squared for each control point (constant here, as their number is). 50 bacteria, 31 · 4 · 4 =
+//! 496 iterations. Least squares solves the same problem exactly, which is what the report
+//! compares with.
 
 use super::colony::{Colony, forage};
 use super::report::Foraging;
@@ -24,8 +25,8 @@ const PUBLISHED: Colony = Colony {
     shrink: 0.7,
 };
 
-/// The first steps, in root mean squares of the distances at the start. Not published; with longer and
-/// with shorter ones the search ends higher.
+/// The first steps, in root mean squares of the distances at the start. Not published; with longer
+/// and with shorter ones the search ends higher.
 const STEP: f64 = 0.25;
 
 pub(crate) fn on_control_points(

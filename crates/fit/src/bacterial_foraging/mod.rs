@@ -1,8 +1,8 @@
 //! The published method, kept for comparison: bacterial foraging.
 //!
-//! *On the control points*, as Gu, Zhou, Lin et al. published it: what least squares solves exactly, so
-//! it can only come near to that (`control_points`). *On the knots*: the same search where no exact
-//! solution is known (`knots`). The search itself is `colony`.
+//! *On the control points*, as Gu, Zhou, Lin et al. published it: what least squares solves
+//! exactly, so it can only come near to that (`control_points`). *On the knots*: the same search
+//! where no exact solution is known (`knots`). The search itself is `colony`.
 
 mod colony;
 mod control_points;

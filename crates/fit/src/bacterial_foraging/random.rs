@@ -1,8 +1,8 @@
 //! The source of chance of the searches: SplitMix64.
 //!
 //! A counter in steps of an odd constant, its bits mixed by two multiplications: every seed gives
-//! another sequence of period 2⁶⁴, the same on every machine and in every version. Source: Steele, Lea,
-//! Flood, *Fast splittable pseudorandom number generators*, 2014.
+//! another sequence of period 2⁶⁴, the same on every machine and in every version. Source: Steele,
+//! Lea, Flood, *Fast splittable pseudorandom number generators*, 2014.
 
 #[derive(Debug, Clone)]
 pub(crate) struct Random {
@@ -28,8 +28,8 @@ impl Random {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// A direction of length 1 in as many dimensions as there are places: the corner-heavy choice of
-    /// the foraging method, evenly from a cube and then normalised.
+    /// A direction of length 1 in as many dimensions as there are places: the corner-heavy choice
+    /// of the foraging method, evenly from a cube and then normalised.
     pub(crate) fn direction(&mut self, places: &mut [f64]) {
         let mut square = 0.0;
         for place in places.iter_mut() {

@@ -9,8 +9,8 @@
 //! | [`Gradient`] | the value and its partial derivatives by x, y, z |
 //! | [`Interval`] | an interval that holds every value for arguments in intervals |
 //!
-//! and as any of the first three over the others: a [`Series`] of [`Interval`]s encloses derivatives
-//! over a whole range of the parameter, which is what makes an error bound a proof.
+//! and as any of the first three over the others: a [`Series`] of [`Interval`]s encloses
+//! derivatives over a whole range of the parameter, which is what makes an error bound a proof.
 
 mod gradient;
 mod interval;
@@ -23,8 +23,8 @@ pub use series::Series;
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Arithmetic and the smooth elementary functions. Where a function is not defined the result is not
-/// finite ([`Number::is_finite`]), never a panic.
+/// Arithmetic and the smooth elementary functions. Where a function is not defined the result is
+/// not finite ([`Number::is_finite`]), never a panic.
 pub trait Number:
     Copy
     + Debug

@@ -6,9 +6,9 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 /// The first `N` Taylor coefficients of a function of one parameter: `coefficient k` is the k-th
 /// derivative divided by k!. `N` is at least 1.
 ///
-/// Arithmetic uses the recurrences every power series obeys: products convolve, quotients, roots and
-/// elementary functions solve their defining (differential) equation coefficient by coefficient.
-/// Nothing is approximated, the result is the series of the result.
+/// Arithmetic uses the recurrences every power series obeys: products convolve, quotients, roots
+/// and elementary functions solve their defining (differential) equation coefficient by
+/// coefficient. Nothing is approximated, the result is the series of the result.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Series<const N: usize, T = f64>([T; N]);
 

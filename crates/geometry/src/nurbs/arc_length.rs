@@ -2,14 +2,16 @@
 //!
 //! The curve is cut into pieces, by halving knot spans, until on each
 //!
-//! * one panel of Gauss quadrature gives its length to 1e-13 mm (compared with two half panels), and
+//! * one panel of Gauss quadrature gives its length to 1e-13 mm (compared with two half panels),
+//!   and
 //! * the quintic polynomial through u, du/ds, d²u/ds² of both ends is within 1e-6 mm of u(s).
 //!
-//! Evaluation finds the piece by bisection of a table, takes the quintic's value, and corrects it by
-//! one Newton step on s(u) − s = 0, s(u) by one panel from the start of the piece. Newton squares the
-//! relative error, so what is left is rounding, and nothing drifts: every value stands for itself.
-//! Where the curve stands still (a cusp) du/ds is infinite; pieces shrink towards it, 2⁻⁴⁰ of the
-//! span the smallest, and the last has a straight line in place of the quintic and more Newton steps.
+//! Evaluation finds the piece by bisection of a table, takes the quintic's value, and corrects it
+//! by one Newton step on s(u) − s = 0, s(u) by one panel from the start of the piece. Newton
+//! squares the relative error, so what is left is rounding, and nothing drifts: every value stands
+//! for itself. Where the curve stands still (a cusp) du/ds is infinite; pieces shrink towards it,
+//! 2⁻⁴⁰ of the span the smallest, and the last has a straight line in place of the quintic and
+//! more Newton steps.
 
 use super::{Nurbs, Span};
 use crate::Jet;
@@ -105,8 +107,9 @@ impl NurbsPath {
         self.find(s).1
     }
 
-    /// Position and derivatives by path position at `s`, which is clamped to the curve. At a knot the
-    /// derivatives are those of one of its sides. Never allocates; the cost does not depend on `s`.
+    /// Position and derivatives by path position at `s`, which is clamped to the curve. At a knot
+    /// the derivatives are those of one of its sides. Never allocates; the cost does not depend on
+    /// `s`.
     #[must_use]
     pub fn jet(&self, s: f64) -> Jet {
         let (span, u) = self.find(s);
@@ -204,7 +207,8 @@ fn cut(part: &Part<'_>, pieces: &mut Vec<Piece>) {
     }
 }
 
-/// The polynomial through u and two derivatives by s at both ends; none where the curve stands still.
+/// The polynomial through u and two derivatives by s at both ends; none where the curve stands
+/// still.
 fn quintic(piece: &Piece, span: &Span) -> Option<[f64; 6]> {
     let length = piece.length;
     let end = |u: f64| {
@@ -225,8 +229,8 @@ fn quintic(piece: &Piece, span: &Span) -> Option<[f64; 6]> {
     seed.iter().all(|c| c.is_finite()).then_some(seed)
 }
 
-/// Largest error of a piece's seed at some points between, mm. The error of a Hermite quintic has the
-/// shape x³(1−x)³, largest in the middle.
+/// Largest error of a piece's seed at some points between, mm. The error of a Hermite quintic has
+/// the shape x³(1−x)³, largest in the middle.
 fn seed_error_s(piece: &Piece, span: &Span) -> f64 {
     [0.25, 0.5, 0.75]
         .map(|x| (piece.s_to(span, piece.seed_at(x)) - x * piece.length).abs())

@@ -1,4 +1,5 @@
-//! Curvature of a rational Bézier span as polynomials: where it is extreme, and how large it can be.
+//! Curvature of a rational Bézier span as polynomials: where it is extreme, and how large it can
+//! be.
 //!
 //! With homogeneous points (wᵢPᵢ, wᵢ), A = Σwᵢ·Pᵢ·Bᵢ and w = Σwᵢ·Bᵢ, all by the local parameter t:
 //!
@@ -22,8 +23,8 @@
 //! sign), and the same with |B|² in place of B and 1 in place of 2 in space. Between two
 //! neighbouring roots of E the curvature is monotone.
 //!
-//! *Bound.* On the whole span κ ≤ max|B_k|·(max w)³ / (min n·N_k)³ for any unit vector n, here that of
-//! ΣN_k; no bound if the minimum is not positive.
+//! *Bound.* On the whole span κ ≤ max|B_k|·(max w)³ / (min n·N_k)³ for any unit vector n, here
+//! that of ΣN_k; no bound if the minimum is not positive.
 //!
 //! Source of the rational hodograph: Saito, Wang, Sederberg, *Hodographs and normals of rational
 //! curves and surfaces*, 1995.
@@ -98,8 +99,9 @@ impl SpanCurvature {
         }
     }
 
-    /// The curvature at `u`, which is clamped to the span, 1/mm. For a curve in a coordinate plane it
-    /// has a sign that tells left from right, else it is ≥ 0. Infinite where the curve stands still.
+    /// The curvature at `u`, which is clamped to the span, 1/mm. For a curve in a coordinate plane
+    /// it has a sign that tells left from right, else it is ≥ 0. Infinite where the curve stands
+    /// still.
     #[must_use]
     pub fn at(&self, u: f64) -> f64 {
         let t = ((u - self.from_u) / (self.to_u - self.from_u)).clamp(0.0, 1.0);
@@ -146,9 +148,10 @@ impl SpanCurvature {
         largest_turning * (self.weight.max() / least).powi(3)
     }
 
-    /// Gives, ascending, every `u` inside the span where the curvature is extreme (with its sign, if it
-    /// has one), and perhaps points where it is not. Between two neighbours of them, and between them
-    /// and the ends of the span, the curvature is monotone. A circular arc gives none.
+    /// Gives, ascending, every `u` inside the span where the curvature is extreme (with its sign,
+    /// if it has one), and perhaps points where it is not. Between two neighbours of them, and
+    /// between them and the ends of the span, the curvature is monotone. A circular arc gives
+    /// none.
     pub fn critical(&self, mut found: impl FnMut(f64)) {
         let (from_u, h) = (self.from_u, self.to_u - self.from_u);
         let still = self.standstills();

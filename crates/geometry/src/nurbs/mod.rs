@@ -6,10 +6,10 @@
 //!            Σ N_i(u)·w_i            the curve runs over [u_p, u_(m−p)], m the last knot's index
 //! ```
 //!
-//! When a curve is made, every interior knot is inserted until it is there p times. What comes out is
-//! one rational Bézier curve for each knot span, and everything is computed on those: evaluation
-//! needs no basis functions and no search but that of the span, never allocates, and inside a span
-//! the curve is smooth, so that curvature has polynomials (see [`SpanCurvature`]).
+//! When a curve is made, every interior knot is inserted until it is there p times. What comes out
+//! is one rational Bézier curve for each knot span, and everything is computed on those:
+//! evaluation needs no basis functions and no search but that of the span, never allocates, and
+//! inside a span the curve is smooth, so that curvature has polynomials (see [`SpanCurvature`]).
 //!
 //! The *feed length* of a curve is measured as for every segment: in X, Y, Z if one of them moves,
 //! else in U, V, W, else in degrees of A, B, C. Speed, curvature and arc length are those of the
@@ -50,8 +50,8 @@ pub struct Nurbs {
 
 impl Nurbs {
     /// A curve of degree 1 to [`MAX_DEGREE`] with one weight for each control point, and control
-    /// points + degree + 1 knots. Control points in mm and degrees. The ends need not be clamped: the
-    /// curve runs between the (degree + 1)-th knot from either end.
+    /// points + degree + 1 knots. Control points in mm and degrees. The ends need not be clamped:
+    /// the curve runs between the (degree + 1)-th knot from either end.
     ///
     /// # Errors
     /// Whatever makes these numbers no continuous curve.
@@ -135,8 +135,8 @@ impl Nurbs {
         self.spans[self.span_index(u)].speed(u)
     }
 
-    /// Curvature in the axes that measure the feed, 1/mm, ≥ 0; infinite where the curve stands still
-    /// and is not straight. At an interior knot that of the right-hand side.
+    /// Curvature in the axes that measure the feed, 1/mm, ≥ 0; infinite where the curve stands
+    /// still and is not straight. At an interior knot that of the right-hand side.
     #[must_use]
     pub fn curvature(&self, u: f64) -> f64 {
         let jet = self.jet(u);
@@ -187,9 +187,9 @@ impl Nurbs {
         Ok(spans)
     }
 
-    /// Bézier point number `ends` of span `k`, homogeneous and relative to `origin`: what remains of
-    /// the control points when knots are inserted at the start of the span and, `ends` times, at its
-    /// end.
+    /// Bézier point number `ends` of span `k`, homogeneous and relative to `origin`: what remains
+    /// of the control points when knots are inserted at the start of the span and, `ends` times,
+    /// at its end.
     fn blossom(&self, k: usize, ends: usize, origin: AxisVector) -> (AxisVector, f64) {
         let (p, knots) = (self.degree, &self.knots);
         let mut d = [(AxisVector::zeros(), 0.0); MAX_DEGREE + 1];

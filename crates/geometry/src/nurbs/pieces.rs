@@ -1,13 +1,13 @@
 //! A NURBS as segments: pieces by path position that a planner can follow one by one.
 //!
 //! Each knot span is halved, by path position, until the polynomial of degree five through place,
-//! direction and curvature of both ends ([`Quintic`]) is close to the curve, in place and in speed.
-//! Its error has the shape x³(1−x)³: largest in the middle, and in its derivative at 0.28 and 0.72; it
-//! is measured there and at places between. Neighbours share the ends, so the pieces of a span, and of
-//! spans that join smoothly, follow each other with continuous curvature.
+//! direction and curvature of both ends ([`Quintic`]) is close to the curve, in place and in
+//! speed. Its error has the shape x³(1−x)³: largest in the middle, and in its derivative at 0.28
+//! and 0.72; it is measured there and at places between. Neighbours share the ends, so the pieces
+//! of a span, and of spans that join smoothly, follow each other with continuous curvature.
 //!
-//! Where the curve comes to a stand (a cusp), and where other axes than X, Y, Z move along, there are
-//! straight lines instead.
+//! Where the curve comes to a stand (a cusp), and where other axes than X, Y, Z move along, there
+//! are straight lines instead.
 
 use super::{NurbsPath, Span};
 use crate::{AxisVector, Jet, LINEAR_XYZ, Line, Quintic, Segment, feed_length};
@@ -40,8 +40,8 @@ struct Cutting<'a> {
 }
 
 impl NurbsPath {
-    /// Appends the segments of a knot span, by its index: from `at`, where those of the span before end,
-    /// none farther from the curve than the tolerance, > 0.
+    /// Appends the segments of a knot span, by its index: from `at`, where those of the span
+    /// before end, none farther from the curve than the tolerance, > 0.
     pub fn cut_span(
         &self,
         index: usize,
@@ -184,8 +184,8 @@ impl Cutting<'_> {
     }
 }
 
-/// Distance of a point from a chord, in the feed length of what is left when the part along the chord
-/// is taken away.
+/// Distance of a point from a chord, in the feed length of what is left when the part along the
+/// chord is taken away.
 fn distance(point: &AxisVector, chord: &Line) -> f64 {
     let (way, offset) = (chord.displacement(), point - chord.start);
     let square = way.norm_squared();

@@ -1,9 +1,9 @@
 //! Polynomials in Bernstein form on [0, 1] with a degree known only at run time, and their roots.
 //!
-//! Roots are isolated by the variations of sign of the coefficients: a polynomial has at most as many
-//! roots in (0, 1) as its coefficients change sign, and exactly one if they change once. Halving the
-//! interval brings every simple root into a part of the second kind. Nothing is missed: the count is
-//! never below the number of roots.
+//! Roots are isolated by the variations of sign of the coefficients: a polynomial has at most as
+//! many roots in (0, 1) as its coefficients change sign, and exactly one if they change once.
+//! Halving the interval brings every simple root into a part of the second kind. Nothing is
+//! missed: the count is never below the number of roots.
 
 use core::ops::{Add, Mul};
 
@@ -149,8 +149,9 @@ impl Polynomial {
         count
     }
 
-    /// Gives every root in (0, 1), ascending; a root of even multiplicity may come out as none, one or
-    /// two points, all within 1e-12 of it. Points that are no roots never matter to the callers.
+    /// Gives every root in (0, 1), ascending; a root of even multiplicity may come out as none,
+    /// one or two points, all within 1e-12 of it. Points that are no roots never matter to the
+    /// callers.
     pub(super) fn roots(&self, found: &mut impl FnMut(f64)) {
         self.roots_between(0.0, 1.0, MAX_HALVINGS, found);
     }

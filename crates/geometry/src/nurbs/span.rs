@@ -89,7 +89,8 @@ impl Span {
         &self.feed[..=self.degree]
     }
 
-    /// Position and derivatives by `u`, which is clamped to the span; at its ends those of its side.
+    /// Position and derivatives by `u`, which is clamped to the span; at its ends those of its
+    /// side.
     #[must_use]
     pub fn jet(&self, u: f64) -> NurbsJet {
         let h = self.to_u - self.from_u;
@@ -130,8 +131,8 @@ impl Span {
         }
         let derivative = p[1] - p[0];
         let value = p[0] + derivative * t;
-        // C' = (A'w − Aw')/w², and with the last two points of the scheme, (a0, w0) and (a1, w1), the
-        // numerator is degree·(a1·w0 − a0·w1) for every t.
+        // C' = (A'w − Aw')/w², and with the last two points of the scheme, (a0, w0) and (a1, w1),
+        // the numerator is degree·(a1·w0 − a0·w1) for every t.
         let numerator = (p[1].xyz() * p[0].w - p[0].xyz() * p[1].w) * self.degree as f64;
         numerator.norm() / (value.w * value.w * (self.to_u - self.from_u))
     }

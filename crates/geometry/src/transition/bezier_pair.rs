@@ -6,12 +6,12 @@
 //! half A:  P − d·T1,  P − d·T1/2,  P − d·T1/4,  P + d·(T2 − T1)/8      weights s1, 1, 1, s2
 //! ```
 //!
-//! With unit weights the two are one cubic, P − d·T1·(1−u)³ + d·T2·u³, cut in the middle. The deviation
-//! δ = d·sin β/4 does not depend on the weights. Curvature meets that of the lines (zero), its
-//! derivative does not: at speed v the jerk steps there by v³ times
+//! With unit weights the two are one cubic, P − d·T1·(1−u)³ + d·T2·u³, cut in the middle. The
+//! deviation δ = d·sin β/4 does not depend on the weights. Curvature meets that of the lines
+//! (zero), its derivative does not: at speed v the jerk steps there by v³ times
 //! [`PairShape::end_curvature_rate`]. At the junction the derivative is continuous exactly if
-//! s2·(4 − s1) = 3. (The conditions printed in the paper hold for any symmetric pair and do not imply
-//! it; nor does continuous torsion, which is zero for every planar curve.)
+//! s2·(4 − s1) = 3. (The conditions printed in the paper hold for any symmetric pair and do not
+//! imply it; nor does continuous torsion, which is zero for every planar curve.)
 //!
 //! The speed along the parameter changes by 2/cos β and more, so the curve is run by arc length:
 //! lengths up to graded parameter values are tabulated, then Newton's method on a Gauss rule.
@@ -74,7 +74,8 @@ impl BezierPair {
         2.0 * self.table[PANELS]
     }
 
-    /// Arc length up to parameter `t` of the first half, mm; `t` from 0, the line, to 1, the junction.
+    /// Arc length up to parameter `t` of the first half, mm; `t` from 0, the line, to 1, the
+    /// junction.
     #[must_use]
     pub fn arc_length_at(&self, t: f64) -> f64 {
         let panel = (0..PANELS)

@@ -7,12 +7,12 @@
 //! g = 10u³ − 15u⁴ + 6u⁵                  f = 5u⁴ − 6u⁵ + 2u⁶
 //! ```
 //!
-//! This is the sextic Bézier curve whose seven control points are evenly spaced along the two sides.
-//! Run at constant ds/dt = V the velocity joins that of the lines; it dips to V·cos β in the middle
-//! of the corner. Acceleration and jerk point along the fixed direction T2 − T1, so limits per axis
-//! are exact and nothing has to be sampled, and no arc length has to be inverted. They
-//! start and end at zero: no jerk step at the lines. Regular for every turn, reversal included
-//! (there it turns back δ short of the tip).
+//! This is the sextic Bézier curve whose seven control points are evenly spaced along the two
+//! sides. Run at constant ds/dt = V the velocity joins that of the lines; it dips to V·cos β in
+//! the middle of the corner. Acceleration and jerk point along the fixed direction T2 − T1, so
+//! limits per axis are exact and nothing has to be sampled, and no arc length has to be inverted.
+//! They start and end at zero: no jerk step at the lines. Regular for every turn, reversal
+//! included (there it turns back δ short of the tip).
 
 use super::bounds::DerivativeBounds;
 use crate::turn::{feed_group, norm_in};
@@ -116,7 +116,8 @@ impl Blend {
     /// The blend that takes `d[0]` before and `d[1]` after the corner, both > 0.
     ///
     /// It leaves and joins the lines at rates of path position in the ratio d\[0\] : d\[1\], with
-    /// the same continuity. Deviation: at most that of the symmetric blend of length √(d\[0\]·d\[1\]).
+    /// the same continuity. Deviation: at most that of the symmetric blend of length
+    /// √(d\[0\]·d\[1\]).
     #[must_use]
     pub fn asymmetric(corner: AxisVector, t1: AxisVector, t2: AxisVector, d: [f64; 2]) -> Self {
         Self {

@@ -12,10 +12,10 @@
 //! dr/ds = t = cos φ·m + sin φ·n     d²r/ds² = k·(−sin φ·m + cos φ·n)     d³r/ds³ = k'·(…) − k²·t
 //! ```
 //!
-//! An axis sees one linear functional of that. Its largest magnitude is enclosed by branch and bound:
-//! a piece of the curve yields intervals for k, k' and φ, hence an upper bound, and its ends yield
-//! values that are attained; a piece whose upper bound is not worth more than the best attained value
-//! is done, others are halved.
+//! An axis sees one linear functional of that. Its largest magnitude is enclosed by branch and
+//! bound: a piece of the curve yields intervals for k, k' and φ, hence an upper bound, and its
+//! ends yield values that are attained; a piece whose upper bound is not worth more than the best
+//! attained value is done, others are halved.
 
 use super::bounds::DerivativeBounds;
 use super::error::TransitionError;
@@ -37,8 +37,8 @@ pub(super) struct Frame {
     pub(super) turn: Turn,
 }
 
-/// Coordinates along `along` and `across`, value and three derivatives by arc length: the lengths of
-/// the basis are cos β and sin β, so nothing is ever divided by them.
+/// Coordinates along `along` and `across`, value and three derivatives by arc length: the lengths
+/// of the basis are cos β and sin β, so nothing is ever divided by them.
 pub(super) type PlanarJet = [[f64; 2]; 4];
 
 impl Frame {

@@ -1,8 +1,8 @@
 //! Septic Hermite transition: through position and three derivatives at both ends.
 //!
 //! For corners and tangent joints where an arc takes part. Eight conditions per axis determine a
-//! polynomial of degree seven in s; its Bézier points follow from the Taylor expansions at the ends,
-//! and the hull of the Bézier points of a derivative bounds that derivative.
+//! polynomial of degree seven in s; its Bézier points follow from the Taylor expansions at the
+//! ends, and the hull of the Bézier points of a derivative bounds that derivative.
 
 use super::bounds::DerivativeBounds;
 use crate::bernstein;

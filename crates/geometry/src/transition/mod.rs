@@ -73,8 +73,9 @@ impl Transition {
         BezierPair::new(corner, t1, t2, d, shape).map(Self::BezierPair)
     }
 
-    /// The septic polynomial that leaves `from` and arrives at `to` with all their derivatives, its
-    /// path position running over `length` > 0. Between two lines, with length 2d, it is the sextic.
+    /// The septic polynomial that leaves `from` and arrives at `to` with all their derivatives,
+    /// its path position running over `length` > 0. Between two lines, with length 2d, it is the
+    /// sextic.
     #[must_use]
     pub fn hermite(from: &Jet, to: &Jet, length: f64) -> Self {
         Self::Hermite(Hermite::new(from, to, length))

@@ -91,8 +91,9 @@ pub struct PlannerArgs {
     pub listen: bool,
     /// Go on with the program from where the machine stands on its path
     ///
-    /// For a program whose planner died, or that was aborted. Motion starts at once. Refused if the
-    /// machine does not stand on the path, or the text is not that of the program that was under way.
+    /// For a program whose planner died, or that was aborted. Motion starts at once. Refused if
+    /// the machine does not stand on the path, or the text is not that of the program that was
+    /// under way.
     #[arg(long, conflicts_with = "listen")]
     pub resume: bool,
     /// How the program is read.

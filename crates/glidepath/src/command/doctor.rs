@@ -9,8 +9,8 @@ use glidepath_realtime::Host;
 use glidepath_realtime::doctor::{Check, Demand, Verdict, examine};
 use serde_json::{Value, json};
 
-/// Examines the host for the processor and priority of the configuration. The exit code says whether
-/// anything required is missing.
+/// Examines the host for the processor and priority of the configuration. The exit code says
+/// whether anything required is missing.
 pub(super) fn doctor(args: &DoctorArgs, config: &MachineConfig) -> Exit {
     let demand = Demand {
         cpu: config.interpolator.cpu,

@@ -115,8 +115,8 @@ fn fit_runs(runs: &[&Run], settings: &Settings) -> Vec<Result<Fit, FitError>> {
     results
 }
 
-/// The text of the output file: a curve file of the one run, or a program with every run that could be
-/// fitted as a curve.
+/// The text of the output file: a curve file of the one run, or a program with every run that
+/// could be fitted as a curve.
 fn written(
     path: &Path,
     pieces: &[Piece],

@@ -43,7 +43,8 @@ pub(super) fn overrides(args: &OverrideArgs, config: &MachineConfig) -> Result<E
     commands(&args.operator, config, "override", &given)
 }
 
-/// Sends commands one after the other, up to the first that is refused, and reports the last answer.
+/// Sends commands one after the other, up to the first that is refused, and reports the last
+/// answer.
 fn commands(
     args: &OperatorArgs,
     config: &MachineConfig,

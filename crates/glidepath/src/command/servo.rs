@@ -78,7 +78,8 @@ fn relay(args: &ServoArgs, config: &MachineConfig, interrupt: &Interrupt) -> Res
     Ok(interrupt.exit())
 }
 
-/// Plays setpoints and hands over every one, until `take` gives false or the process is asked to end.
+/// Plays setpoints and hands over every one, until `take` gives false or the process is asked to
+/// end.
 fn play(
     args: &ServoArgs,
     config: &MachineConfig,

@@ -26,7 +26,8 @@ pub fn read(path: &Path) -> Result<NurbsFile, CurveFileError> {
     Ok(parse(&path.display().to_string(), &text)?)
 }
 
-/// Judges the text of a curve file; `name` is the file's, for reports and for a curve without a name.
+/// Judges the text of a curve file; `name` is the file's, for reports and for a curve without a
+/// name.
 ///
 /// # Errors
 /// The first thing that has to be mended.

@@ -1,7 +1,7 @@
 //! cyclictest of the rt-tests, the usual measure of a host's latency, run beside the loop.
 //!
-//! Both threads have the same priority on the same processor and the same period, and run in the same
-//! time, but never wake together: see `section`.
+//! Both threads have the same priority on the same processor and the same period, and run in the
+//! same time, but never wake together: see `section`.
 
 use super::section::Section;
 use super::setup::Setup;

@@ -33,8 +33,8 @@ pub struct Measurement {
     pub grants: Grants,
     /// Beats the calling thread was too slow for; they are in no figure.
     pub lost_beats: u64,
-    /// What cyclictest saw in the same time. It refuses to run without the right to `SCHED_FIFO`: then
-    /// it is left out.
+    /// What cyclictest saw in the same time. It refuses to run without the right to `SCHED_FIFO`:
+    /// then it is left out.
     pub cyclictest: Option<Latencies>,
 }
 

@@ -1,4 +1,5 @@
-//! A motion for the interpolator to work on: a curve of short lines in all axes, run again and again.
+//! A motion for the interpolator to work on: a curve of short lines in all axes, run again and
+//! again.
 
 use super::beat::Load;
 use crate::config::MachineConfig;

@@ -1,9 +1,9 @@
 //! When the loop wakes, and when cyclictest does.
 //!
 //! Two threads that wake on one processor are not measured alike at any distance. One that wakes
-//! shortly after the other finds the processor awake still; one that wakes together with the kernel's
-//! own tick (on whole multiples of 1/HZ, 4 ms on many kernels) has to wait for it. At arbitrary
-//! distances the medians of two idle loops differed by up to 18 µs on a virtual machine.
+//! shortly after the other finds the processor awake still; one that wakes together with the
+//! kernel's own tick (on whole multiples of 1/HZ, 4 ms on many kernels) has to wait for it. At
+//! arbitrary distances the medians of two idle loops differed by up to 18 µs on a virtual machine.
 //!
 //! ```text
 //! kernel's tick    |               |               |          first half    second half
@@ -13,8 +13,8 @@
 //!
 //! So one wakes a quarter of a period after the whole second and its divisions, the other three
 //! quarters, half a period apart and neither with the tick, and after half the time they change
-//! places. What is left of the difference of the two places counts for both. (With a period that does
-//! not divide a second the places drift, but stay half a period apart.)
+//! places. What is left of the difference of the two places counts for both. (With a period that
+//! does not divide a second the places drift, but stay half a period apart.)
 
 const NS_PER_S: u64 = 1_000_000_000;
 
@@ -55,7 +55,8 @@ impl Section {
         (now_ns / NS_PER_S + 1) * NS_PER_S
     }
 
-    /// An origin at or after `earliest_ns` for a timer with a lead, so that the loop wakes at its place.
+    /// An origin at or after `earliest_ns` for a timer with a lead, so that the loop wakes at its
+    /// place.
     pub(super) const fn origin_ns(&self, earliest_ns: u64, period_ns: u64, lead_ns: u64) -> u64 {
         let place_ns = self.offset_ns + lead_ns;
         // The place by the whole second before, and the periods from there on.

@@ -1,6 +1,6 @@
-//! A picture of a motion: the tool path coloured by the limit that binds, or by feed where that is not
-//! known; and feed, velocity, acceleration and jerk of each axis, and of each joint where joints are not
-//! axes, against time with their limits, as one SVG file.
+//! A picture of a motion: the tool path coloured by the limit that binds, or by feed where that is
+//! not known; and feed, velocity, acceleration and jerk of each axis, and of each joint where
+//! joints are not axes, against time with their limits, as one SVG file.
 //!
 //! Samples are taken one by one and kept in bounded memory, so that a motion of any length gives a
 //! file of at most about 2 MB. Velocity, acceleration and jerk are finite differences of the

@@ -5,8 +5,8 @@ use glidepath_gcode::Diagnostic;
 use miette::{LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 use serde_json::{Value, json};
 
-/// A diagnostic as miette prints it: file:line:column, the source line with a mark under the word, the
-/// reason and the remedy.
+/// A diagnostic as miette prints it: file:line:column, the source line with a mark under the word,
+/// the reason and the remedy.
 #[derive(Debug)]
 pub struct ProgramDiagnostic<'a> {
     name: &'a str,

@@ -55,11 +55,12 @@ pub struct MotionReport {
     pub max_jerk_ratio: f64,
     /// Largest path speed, as a share of the programmed feedrate.
     pub max_feed_ratio: f64,
-    /// How far joints that go straight between setpoints are off half-way, at most, mm or degrees; of
-    /// a plan, where joints are not axes.
+    /// How far joints that go straight between setpoints are off half-way, at most, mm or degrees;
+    /// of a plan, where joints are not axes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_joint_line_error: Option<f64>,
-    /// Breaches of limits, tolerance or order the auditor found. More than none is a defect of ours.
+    /// Breaches of limits, tolerance or order the auditor found. More than none is a defect of
+    /// ours.
     pub violation_count: u64,
     /// The first of them.
     pub violations: Vec<String>,

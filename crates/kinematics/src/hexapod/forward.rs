@@ -1,8 +1,8 @@
 //! Pose from strut lengths.
 //!
 //! Newton's method on position and rotation: solve J δ = l − l(pose), move by the first three
-//! components and turn by the rotation vector of the last three, R ← exp(δω) R. Turning by a rotation
-//! vector, not adding to angles, keeps convergence quadratic away from level.
+//! components and turn by the rotation vector of the last three, R ← exp(δω) R. Turning by a
+//! rotation vector, not adding to angles, keeps convergence quadratic away from level.
 //!
 //! Up to forty real poses have the same lengths. Only the one next to the last known pose is the
 //! machine's, so a step that leaves its neighbourhood is a failure, not progress.

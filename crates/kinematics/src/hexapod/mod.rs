@@ -9,9 +9,9 @@
 //! ```
 //!
 //! All six degrees of freedom are held only if the joints are arranged well. Two similar regular
-//! hexagons, one above the other, are the worst case: at every level pose the six struts leave three
-//! rotations free, and one remains free however the platform is tilted. Joints in pairs, base pairs
-//! opposite the gaps between platform pairs, are good. [`Hexapod::conditioning`] tells.
+//! hexagons, one above the other, are the worst case: at every level pose the six struts leave
+//! three rotations free, and one remains free however the platform is tilted. Joints in pairs,
+//! base pairs opposite the gaps between platform pairs, are good. [`Hexapod::conditioning`] tells.
 //!
 //! [`Hexapod::conditioning`]: crate::Kinematics::conditioning
 
@@ -74,8 +74,9 @@ impl Kinematics for Hexapod {
     }
 }
 
-/// The rows of Rz(C) Ry(B) Rx(A) along a parameter, from the angles A, B, C in degrees. Written out, it
-/// takes a third of the products three turns one after the other take: it is computed at every tick.
+/// The rows of Rz(C) Ry(B) Rx(A) along a parameter, from the angles A, B, C in degrees. Written
+/// out, it takes a third of the products three turns one after the other take: it is computed at
+/// every tick.
 fn rotation_rows<const N: usize>(angles_deg: [Series<N>; 3]) -> [Point<N>; 3] {
     let [(sa, ca), (sb, cb), (sc, cc)] = angles_deg.map(|angle| angle.scale(RAD).sin_cos());
     let (cc_sb, sc_sb) = (cc * sb, sc * sb);

@@ -74,8 +74,8 @@ impl Hexapod {
         core::array::from_fn(|i| pose.position + pose.rotation * self.platform[i] - self.base[i])
     }
 
-    /// Derivative of the strut lengths by velocity (mm) and angular velocity (rad) of the platform's
-    /// origin, both in the fixed frame: rows `[nᵀ, (R b × n)ᵀ]`.
+    /// Derivative of the strut lengths by velocity (mm) and angular velocity (rad) of the
+    /// platform's origin, both in the fixed frame: rows `[nᵀ, (R b × n)ᵀ]`.
     #[must_use]
     pub fn strut_jacobian(&self, axes: &AxisVector) -> Matrix6<f64> {
         self.rows(&self.pose(axes))

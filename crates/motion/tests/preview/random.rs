@@ -18,7 +18,8 @@ fn curves() -> impl Strategy<Value = Definition> {
             let mut knots = vec![0.0; degree + 1];
             let mut run = degree + 1;
             for gap in &gaps[1..] {
-                // A knot as often as the degree would be a corner, which has no curvature to sample.
+                // A knot as often as the degree would be a corner, which has no curvature to
+                // sample.
                 let gap = if run + 1 >= degree {
                     gap.max(0.05)
                 } else {
@@ -45,8 +46,8 @@ fn curves() -> impl Strategy<Value = Definition> {
     })
 }
 
-/// What is wrong with a preview according to sampling: `samples` points in each knot span and as many
-/// around each minimum.
+/// What is wrong with a preview according to sampling: `samples` points in each knot span and as
+/// many around each minimum.
 fn contradiction(path: &NurbsPath, found: &Preview, demand: &Demand) -> Option<String> {
     let critical_mm = demand.critical_radius_mm();
     let curve = path.curve();

@@ -143,8 +143,8 @@ fn the_published_example() {
     }
 }
 
-/// The same example to full precision, for the pair and the sextic, with the split and with the whole
-/// tolerance allowed to each.
+/// The same example to full precision, for the pair and the sextic, with the split and with the
+/// whole tolerance allowed to each.
 #[test]
 fn the_published_example_to_all_digits() {
     const A: f64 = 1e4;

@@ -4,8 +4,8 @@
 //! `a` strays from its own curve by at most a·T²/8 (*chord error*), whatever its speed Blend:: That
 //! and the deviation δ of the transition share the tolerance ε: δ + e ≤ ε.
 //!
-//! A larger δ makes a gentler transition: its curvature is k = c/δ with a constant of the family and
-//! the turn, so the corner speed is limited by
+//! A larger δ makes a gentler transition: its curvature is k = c/δ with a constant of the family
+//! and the turn, so the corner speed is limited by
 //!
 //! ```text
 //! v² ≤ A·δ/c  (acceleration)        v² ≤ 8·e·δ/(c·T²)  (chords)
@@ -14,8 +14,8 @@
 //! The first rises with δ, the second is largest at δ = e = ε/2. If the acceleration limit keeps
 //! the chords below half the tolerance, A·T²/8 ≤ ε/2, the best is where the two meet, e = A·T²/8;
 //! otherwise it is ε/2 each. Two corrections to the published rule: a transition that is short of
-//! length uses less than its share and the rest belongs to the chords; and where the feed or the jerk
-//! limits the corner, the acceleration and with it the chord error stay below A·T²/8, so the
+//! length uses less than its share and the rest belongs to the chords; and where the feed or the
+//! jerk limits the corner, the acceleration and with it the chord error stay below A·T²/8, so the
 //! transition may use more.
 
 use glidepath_geometry::Blend;
@@ -71,8 +71,8 @@ impl ToleranceSplit {
         }
     }
 
-    /// The split of a transition that is short of length and deviates by less than its share; `None`
-    /// if it deviates by more than the tolerance.
+    /// The split of a transition that is short of length and deviates by less than its share;
+    /// `None` if it deviates by more than the tolerance.
     #[must_use]
     pub(crate) fn with_deviation(tolerance_mm: f64, deviation_mm: f64) -> Option<Self> {
         (deviation_mm <= tolerance_mm).then_some(Self {
@@ -81,11 +81,11 @@ impl ToleranceSplit {
         })
     }
 
-    /// The split that allows the highest speed through a uniform blend when feed and jerk may bind as
-    /// well. `sb` is the sine of half the turn, > 0.
+    /// The split that allows the highest speed through a uniform blend when feed and jerk may bind
+    /// as well. `sb` is the sine of half the turn, > 0.
     ///
-    /// It solves δ + e(δ) = ε for the largest δ, where the acceleration that makes e is the smallest
-    /// of three: the limit; that at full feed, ∝ 1/δ; that at the jerk cap, ∝ ∛δ.
+    /// It solves δ + e(δ) = ε for the largest δ, where the acceleration that makes e is the
+    /// smallest of three: the limit; that at full feed, ∝ 1/δ; that at the jerk cap, ∝ ∛δ.
     #[must_use]
     pub(crate) fn for_blend(
         sb: f64,

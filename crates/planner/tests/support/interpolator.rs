@@ -1,5 +1,6 @@
 //! An interpolator that executes one frame a tick and tells its status: no scaling, no checks, no
-//! clock. It is driven by the planner's own pauses, so tests run as fast as they can and always alike.
+//! clock. It is driven by the planner's own pauses, so tests run as fast as they can and always
+//! alike.
 
 use std::collections::VecDeque;
 use std::time::Duration;

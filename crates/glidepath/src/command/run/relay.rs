@@ -136,7 +136,8 @@ impl Judge {
         }
         while self.told_s < setpoint.path_s + AHEAD_MM && self.tell() {}
         self.audit.sample(&audit::Sample {
-            // Not the tick of the clock: after a missed tick the next setpoint is the next of the path.
+            // Not the tick of the clock: after a missed tick the next setpoint is the next of the
+            // path.
             tick: setpoint.number,
             line: setpoint.line,
             position: AxisVector::from(setpoint.position),
