@@ -29,6 +29,7 @@
 //! end[0] = 10.0;
 //! let item = Item {
 //!     line: 3,
+//!     block: 1,
 //!     kind: ItemKind::Move {
 //!         segment: Segment::line(start, end),
 //!         rate: Rate::Feed(50.0), // mm/s
