@@ -1,7 +1,7 @@
 //! One column of the free-space diagram: a chord of the motion against the chords of the program.
 
 use crate::free_space::{Chord, Interval, distance};
-use crate::program::{Presence, Row, Rows};
+use crate::program::{DiagramRow, DiagramRows, Presence};
 
 /// How near an exact stop must be met, mm.
 pub(crate) const EXACT_MM: f64 = 1e-6;
@@ -86,12 +86,12 @@ impl Level {
         }
     }
 
-    pub(crate) fn along(&self, row: &Row) -> f64 {
+    pub(crate) fn along(&self, row: &DiagramRow) -> f64 {
         row.tolerance_mm.min(self.lambda_mm).max(self.floor_mm)
     }
 
     /// At the end of a row, for a chord of the motion.
-    fn at_end(&self, row: &Row, chord: &Chord) -> f64 {
+    fn at_end(&self, row: &DiagramRow, chord: &Chord) -> f64 {
         let tolerance = row.exact_end.map_or(row.end_tolerance_mm, |exact| {
             let cut_mm = exact.cut(distance(&chord.displacement()));
             (self.exact_mm + cut_mm).min(row.end_tolerance_mm)
@@ -123,7 +123,7 @@ pub(crate) enum Passage {
 
 /// Carries what can be reached at the start of a chord of the motion over to its end, `next`.
 pub(crate) fn step(
-    rows: &mut Rows,
+    rows: &mut DiagramRows,
     now: &Reach,
     chord: &Chord,
     level: &Level,

@@ -25,7 +25,7 @@
 
 use crate::column::{Column, Level, Passage, Reach, step};
 use crate::free_space::{Chord, Interval};
-use crate::program::{Presence, Rows, SMALLEST_TOLERANCE_MM};
+use crate::program::{DiagramRows, Presence, SMALLEST_TOLERANCE_MM};
 use crate::sample::Seen;
 use crate::settings::AuditSettings;
 use crate::violation::{ViolationKind, ViolationList, Worst};
@@ -83,7 +83,7 @@ struct Waiting {
 /// The matching under way.
 #[derive(Debug)]
 pub(crate) struct Matching {
-    pub(crate) rows: Rows,
+    pub(crate) rows: DiagramRows,
     pub(crate) violations: ViolationList,
     /// The deviation in mm, as `ratio`, and where it was met.
     pub(crate) max_deviation: Worst,
@@ -123,7 +123,7 @@ pub(crate) struct Matching {
 impl Matching {
     pub(crate) fn new(settings: &AuditSettings) -> Self {
         Self {
-            rows: Rows::new(settings.tolerance_mm),
+            rows: DiagramRows::new(settings.tolerance_mm),
             violations: ViolationList::default(),
             max_deviation: Worst::default(),
             max_feed: Worst::default(),

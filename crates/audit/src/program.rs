@@ -51,7 +51,7 @@ impl ExactEnd {
 
 /// A chord of the programmed path.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Row {
+pub(crate) struct DiagramRow {
     pub(crate) chord: Chord,
     /// Tolerance along it, mm.
     pub(crate) tolerance_mm: f64,
@@ -87,7 +87,7 @@ struct Move {
 /// Whether a chord is there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Presence {
-    /// It can be had with [`Rows::get`].
+    /// It can be had with [`DiagramRows::get`].
     Here,
     /// The program has not been fed that far.
     NotYet,
@@ -97,8 +97,8 @@ pub(crate) enum Presence {
 
 /// A window on the chords of the program.
 #[derive(Debug)]
-pub(crate) struct Rows {
-    window: VecDeque<Row>,
+pub(crate) struct DiagramRows {
+    window: VecDeque<DiagramRow>,
     /// Index of the first chord of the window.
     base: usize,
     /// Moves fed whose chords have not all been made, and the last one as long as it is open.
@@ -116,7 +116,7 @@ pub(crate) struct Rows {
     path_length_mm: f64,
 }
 
-impl Rows {
+impl DiagramRows {
     pub(crate) fn new(tolerance_mm: f64) -> Self {
         let tolerance_mm = tolerance_mm.max(SMALLEST_TOLERANCE_MM);
         Self {
@@ -305,7 +305,7 @@ impl Rows {
                 let prepared = self.prepared.get_or_insert_with(|| next.segment.prepared());
                 inner_point(next, prepared, self.done)
             };
-            self.window.push_back(Row {
+            self.window.push_back(DiagramRow {
                 chord: Chord::new(start, end),
                 tolerance_mm: next.tolerance_mm,
                 end_tolerance_mm: if is_last {
@@ -336,7 +336,7 @@ impl Rows {
     }
 
     /// Chord `index`, if it is in the window.
-    pub(crate) fn get(&self, index: usize) -> Option<&Row> {
+    pub(crate) fn get(&self, index: usize) -> Option<&DiagramRow> {
         self.window.get(index.checked_sub(self.base)?)
     }
 

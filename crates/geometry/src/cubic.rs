@@ -31,7 +31,7 @@ pub struct Cubic {
 }
 
 /// A place on a span: derivatives by its parameter there.
-struct Place {
+struct ParameterJet {
     u: f64,
     steps: [AxisVector; 3],
     c1: AxisVector,
@@ -41,7 +41,7 @@ struct Place {
     root: f64,
 }
 
-impl Place {
+impl ParameterJet {
     #[inline]
     fn new(span: &Cubic, u: f64) -> Self {
         let v = 1.0 - u;
@@ -187,7 +187,7 @@ impl Cubic {
     /// allocates.
     #[must_use]
     pub fn jet(&self, s: f64) -> Jet {
-        let at = Place::new(self, self.parameter_at(s));
+        let at = ParameterJet::new(self, self.parameter_at(s));
         let [e0, e1, e2] = at.steps;
         let c3 = (e2 - e1 * 2.0 + e0) * 6.0;
         let w2 = 2.0 * (self.dot(&at.c2, &at.c2) + self.dot(&at.c1, &c3));
@@ -203,7 +203,7 @@ impl Cubic {
     /// As [`Cubic::jet`], without the third derivative, which is zero instead.
     #[must_use]
     pub fn state(&self, s: f64) -> Jet {
-        let at = Place::new(self, self.parameter_at(s));
+        let at = ParameterJet::new(self, self.parameter_at(s));
         Jet {
             position: at.position(self),
             d1: at.d1(),

@@ -10,7 +10,7 @@ const FEWEST: usize = 16;
 /// A piece of a program.
 #[allow(clippy::large_enum_variant, reason = "nearly every piece is an item")]
 #[derive(Debug, Clone, PartialEq)]
-pub enum Piece {
+pub enum ProgramPiece {
     /// Lines in X, Y and Z one after the other, at one feedrate in one path mode.
     Run(Run),
     /// Anything else.
@@ -56,7 +56,7 @@ impl Run {
 /// Sorts the items of a program.
 #[derive(Debug, Default)]
 pub struct Runs {
-    pieces: Vec<Piece>,
+    pieces: Vec<ProgramPiece>,
     run: Option<Run>,
 }
 
@@ -65,7 +65,7 @@ impl Runs {
     pub fn push(&mut self, item: Item) {
         let Some((feed_v, mode)) = short_line(&item) else {
             self.end_run();
-            self.pieces.push(Piece::Item(item));
+            self.pieces.push(ProgramPiece::Item(item));
             return;
         };
         let same = |run: &&mut Run| run.feed_v.to_bits() == feed_v.to_bits() && run.mode == mode;
@@ -83,7 +83,7 @@ impl Runs {
 
     /// The whole program.
     #[must_use]
-    pub fn finish(mut self) -> Vec<Piece> {
+    pub fn finish(mut self) -> Vec<ProgramPiece> {
         self.end_run();
         self.pieces
     }
@@ -91,9 +91,10 @@ impl Runs {
     fn end_run(&mut self) {
         let Some(run) = self.run.take() else { return };
         if run.items.len() >= FEWEST {
-            self.pieces.push(Piece::Run(run));
+            self.pieces.push(ProgramPiece::Run(run));
         } else {
-            self.pieces.extend(run.items.into_iter().map(Piece::Item));
+            self.pieces
+                .extend(run.items.into_iter().map(ProgramPiece::Item));
         }
     }
 }

@@ -14,7 +14,7 @@ mod follow;
 mod places;
 
 pub use binding::Binding;
-pub use places::Place;
+pub use places::SlowPlace;
 
 use crate::AuditSettings;
 use binding::COUNT;
@@ -42,7 +42,7 @@ pub struct Summary {
     pub shares: Vec<(Binding, f64)>,
     /// The places where most time is lost against the programmed feed, the worst first, at most
     /// ten.
-    pub slowest: Vec<Place>,
+    pub slowest: Vec<SlowPlace>,
 }
 
 impl Diagnosis {

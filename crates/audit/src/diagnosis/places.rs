@@ -21,7 +21,7 @@ const KEPT: usize = 10;
 
 /// A place where time is lost.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct SlowPlace {
     /// Source line of the slowest period, and of the first and the last one.
     pub line: u32,
     /// Source line where it begins.
@@ -74,7 +74,7 @@ pub(super) struct Places {
     valley: Option<Valley>,
     behind: Option<Valley>,
     top_v: f64,
-    kept: Vec<Place>,
+    kept: Vec<SlowPlace>,
 }
 
 impl Valley {
@@ -116,7 +116,7 @@ impl Valley {
         }
     }
 
-    fn place(&self, period_t: f64) -> Place {
+    fn place(&self, period_t: f64) -> SlowPlace {
         let most = Binding::all()
             .zip(self.counts)
             .reduce(|a, b| if b.1 > a.1 { b } else { a });
@@ -125,7 +125,7 @@ impl Valley {
             reason = "2^53 periods are a million years"
         )]
         let seconds = |periods: u64| periods as f64 * period_t;
-        Place {
+        SlowPlace {
             line: self.bottom.line,
             first_line: self.first_line,
             last_line: self.last_line,
@@ -209,7 +209,7 @@ impl Places {
         }
     }
 
-    pub(super) fn finish(mut self) -> Vec<Place> {
+    pub(super) fn finish(mut self) -> Vec<SlowPlace> {
         self.close();
         self.kept
     }

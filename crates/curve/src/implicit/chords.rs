@@ -3,7 +3,7 @@
 use super::branch::Branch;
 use super::node::touching_point;
 use super::passage::Passage;
-use super::step::{ImplicitStep, ImplicitStepper, Place, onto_curve};
+use super::step::{ImplicitStep, ImplicitStepper, StepperState, onto_curve};
 use super::tube::chord_error_mm;
 use super::{ImplicitCurve, curvature_k};
 use crate::{Chord, ChordRule, CurveError, arc_over_chord, chord_mm, sagitta_mm};
@@ -37,7 +37,7 @@ pub enum End {
 #[derive(Debug, Clone)]
 pub struct ImplicitChords {
     curve: ImplicitCurve,
-    place: Place,
+    place: StepperState,
     rule: ChordRule,
     /// Where it ends, if at a point.
     target: Option<Vector3<f64>>,
@@ -104,7 +104,7 @@ impl ImplicitChords {
                 let [branch, other] = leaving(&curve, &point, ahead)?;
                 start = *branch.node();
                 branches = Some([*branch.along(), *other.along()]);
-                Place::new(&curve, start, *branch.along())
+                StepperState::new(&curve, start, *branch.along())
             }
             stepper => stepper?.place(),
         };

@@ -43,12 +43,12 @@ pub struct ImplicitStep {
 #[derive(Debug, Clone)]
 pub struct ImplicitStepper<'a> {
     curve: &'a ImplicitCurve,
-    place: Place,
+    place: StepperState,
 }
 
 /// Where a stepper stands, and how it came there.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct StepperState {
     pub(super) point: Vector3<f64>,
     contact: Contact,
     /// The last two chords, the newer first; before the first chord, the direction to take.
@@ -56,7 +56,7 @@ pub(super) struct Place {
     ahead: Vector3<f64>,
 }
 
-impl Place {
+impl StepperState {
     /// At the start of a curve that leads `ahead`.
     pub(super) fn new(curve: &ImplicitCurve, point: Vector3<f64>, ahead: Vector3<f64>) -> Self {
         Self {
@@ -161,17 +161,17 @@ impl<'a> ImplicitStepper<'a> {
         if along.dot(ahead) <= 1e-6 * ahead.norm() {
             return Err(CurveError::Sideways);
         }
-        let place = Place::new(curve, point, along);
+        let place = StepperState::new(curve, point, along);
         Ok(Self { curve, place })
     }
 
     /// Goes on where another one stood.
-    pub(super) const fn resume(curve: &'a ImplicitCurve, place: Place) -> Self {
+    pub(super) const fn resume(curve: &'a ImplicitCurve, place: StepperState) -> Self {
         Self { curve, place }
     }
 
     /// Where it stands, to go on from later.
-    pub(super) const fn place(&self) -> Place {
+    pub(super) const fn place(&self) -> StepperState {
         self.place
     }
 

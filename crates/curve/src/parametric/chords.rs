@@ -1,6 +1,6 @@
 //! A parametric curve as a sequence of chords whose error is proven.
 
-use super::step::{ParametricStepper, Step};
+use super::step::{ChordEnd, ParametricStepper};
 use super::{Local, ParametricCurve, breaks};
 use crate::{Chord, ChordRule, CurveError, chord_mm};
 use nalgebra::Vector3;
@@ -75,7 +75,7 @@ impl ParametricChords {
         }
     }
 
-    fn take(&mut self, step: &Step, wanted: f64, error_mm: f64) -> Chord {
+    fn take(&mut self, step: &ChordEnd, wanted: f64, error_mm: f64) -> Chord {
         // The way back from a cusp begins as slowly as the way to it ended.
         self.last_mm = wanted;
         (self.t, self.local) = (step.t, step.local);

@@ -9,7 +9,7 @@ pub use bracket::{Bracket, bracket, certify_bracket};
 pub use breaks::breaks;
 pub use chords::ParametricChords;
 pub(crate) use step::inside;
-pub use step::{Method, ParametricStepper, Step};
+pub use step::{ChordEnd, Method, ParametricStepper};
 
 use crate::sagitta_mm;
 use crate::{Expression, ExpressionError};

@@ -25,7 +25,7 @@ pub enum Method {
 
 /// The end of a chord, or of the curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
+pub struct ChordEnd {
     /// Parameter.
     pub t: f64,
     /// The point there, with derivatives.
@@ -93,10 +93,10 @@ impl<'a> ParametricStepper<'a> {
     ///
     /// # Errors
     /// The curve is not defined or not bounded there.
-    pub fn look(&self, chord_mm: f64, limit: f64) -> Result<Step, CurveError> {
+    pub fn look(&self, chord_mm: f64, limit: f64) -> Result<ChordEnd, CurveError> {
         let Some(bracket) = bracket(self.curve, self.t, &self.local, chord_mm, limit)? else {
             let local = self.curve.local(limit);
-            return Ok(Step {
+            return Ok(ChordEnd {
                 t: limit,
                 local,
                 chord_mm: (local.point - self.local.point).norm(),
@@ -118,13 +118,13 @@ impl<'a> ParametricStepper<'a> {
     }
 
     /// Moves to the end of a chord.
-    pub fn advance(&mut self, step: &Step) {
+    pub fn advance(&mut self, step: &ChordEnd) {
         self.t = step.t;
         self.local = step.local;
     }
 
-    fn step(&self, t: f64, local: Local, evaluations: u32, bracket: &Bracket) -> Step {
-        Step {
+    fn step(&self, t: f64, local: Local, evaluations: u32, bracket: &Bracket) -> ChordEnd {
+        ChordEnd {
             t,
             local,
             chord_mm: (local.point - self.local.point).norm(),
@@ -147,7 +147,7 @@ impl<'a> ParametricStepper<'a> {
         halvings + 2
     }
 
-    fn newton(&self, bracket: &Bracket, chord_mm: f64) -> Step {
+    fn newton(&self, bracket: &Bracket, chord_mm: f64) -> ChordEnd {
         let (mut low, mut high) = (bracket.low, bracket.high);
         let precision = precision_mm(&self.local.point);
         let mut t = (self.t + self.local.guess(chord_mm)).clamp(low, high);
@@ -173,7 +173,7 @@ impl<'a> ParametricStepper<'a> {
         self.step(t, there, evaluations, bracket)
     }
 
-    fn secant(&self, bracket: &Bracket, chord_mm: f64) -> Step {
+    fn secant(&self, bracket: &Bracket, chord_mm: f64) -> ChordEnd {
         let (mut low, mut high) = (bracket.low, bracket.high);
         let precision = precision_mm(&self.local.point);
         let mut t = (self.t + self.local.guess(chord_mm)).clamp(low, high);
@@ -198,7 +198,7 @@ impl<'a> ParametricStepper<'a> {
     }
 
     /// As published, from the start point on.
-    fn bisection(&self, bracket: &Bracket, chord_mm: f64) -> Step {
+    fn bisection(&self, bracket: &Bracket, chord_mm: f64) -> ChordEnd {
         let (mut low, mut high) = (self.t, bracket.high);
         let whole = Bracket { low, ..*bracket };
         let mut evaluations = 0;

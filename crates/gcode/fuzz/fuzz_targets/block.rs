@@ -26,11 +26,11 @@ fuzz_target!(|bytes: &[u8]| {
         let report = check(program.as_slice(), options);
         assert!(report.final_position.iter().all(|p| p.abs() <= MAX_NUMBER));
         for diagnostic in &report.diagnostics {
-            assert!((1..=4).contains(&diagnostic.line), "{finding:?}");
+            assert!((1..=4).contains(&diagnostic.line), "{diagnostic:?}");
             let length = if diagnostic.line == 2 { line.len() } else { 13 };
-            assert!(diagnostic.column as usize <= length + 1, "{finding:?}");
+            assert!(diagnostic.column as usize <= length + 1, "{diagnostic:?}");
             let shown = diagnostic.excerpt.text.chars().count();
-            assert!(diagnostic.excerpt.caret <= shown.max(1), "{finding:?}");
+            assert!(diagnostic.excerpt.caret <= shown.max(1), "{diagnostic:?}");
         }
     }
 });

@@ -17,7 +17,7 @@ fuzz_target!(|bytes: &[u8]| {
         for diagnostic in &report.diagnostics {
             assert!(diagnostic.line >= 1 && diagnostic.line <= 4);
             let shown = diagnostic.excerpt.text.chars().count();
-            assert!(diagnostic.excerpt.caret <= shown.max(1), "{finding:?}");
+            assert!(diagnostic.excerpt.caret <= shown.max(1), "{diagnostic:?}");
         }
     }
 });

@@ -1,6 +1,6 @@
 //! The part of a source line that a diagnostic shows.
 
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 
 /// Longest excerpt of a source line kept in a [`Diagnostic`](crate::Diagnostic), characters.
 pub(crate) const EXCERPT_CHARS: usize = 120;
@@ -22,7 +22,7 @@ pub struct Excerpt {
 }
 
 /// Cuts a window out of a line that shows the span.
-pub(crate) fn excerpt(text: &[u8], span: Span) -> Excerpt {
+pub(crate) fn excerpt(text: &[u8], span: SourceSpan) -> Excerpt {
     // Only a stretch around the span is decoded: the line may be long.
     let lead = span.start.min(text.len()).saturating_sub(4 * EXCERPT_LEAD);
     let from = if lead == 0 { 0 } else { lead };

@@ -3,12 +3,12 @@
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::excerpt::excerpt;
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 
 /// A diagnostic that does not know its line yet.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Fault {
-    pub(crate) span: Span,
+    pub(crate) span: SourceSpan,
     pub(crate) code: DiagnosticCode,
     message: String,
     reason: String,
@@ -19,7 +19,11 @@ pub(crate) struct Fault {
 pub(crate) type Outcome<T> = Result<T, Box<Fault>>;
 
 impl Fault {
-    pub(crate) fn new(code: DiagnosticCode, span: Span, message: impl Into<String>) -> Box<Self> {
+    pub(crate) fn new(
+        code: DiagnosticCode,
+        span: SourceSpan,
+        message: impl Into<String>,
+    ) -> Box<Self> {
         let message = message.into();
         Box::new(Self {
             span,
@@ -75,7 +79,7 @@ impl Diagnostic {
         let start = before.len() - line_start;
         let end = at.end.saturating_sub(line_start).min(line_text.len());
         let fault = Fault {
-            span: Span::new(start, end.max(start)),
+            span: SourceSpan::new(start, end.max(start)),
             code,
             message,
             reason: String::new(),
@@ -94,7 +98,12 @@ mod tests {
     use crate::diagnostic::excerpt::{EXCERPT_CHARS, Excerpt};
 
     fn diagnose(text: &[u8], start: usize, length: usize) -> Diagnostic {
-        Fault::new(DiagnosticCode::BadCharacter, Span { start, length }, "bad").at(7, text)
+        Fault::new(
+            DiagnosticCode::BadCharacter,
+            SourceSpan { start, length },
+            "bad",
+        )
+        .at(7, text)
     }
 
     #[test]

@@ -4,7 +4,7 @@ use glidepath_program::PathMode;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::{AXIS_WORDS, Letters};
@@ -138,7 +138,7 @@ pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> 
     Ok(())
 }
 
-pub(crate) fn require_axes(block: &Block, span: Span, code: &str) -> Outcome<()> {
+pub(crate) fn require_axes(block: &Block, span: SourceSpan, code: &str) -> Outcome<()> {
     if block.has_axes() {
         return Ok(());
     }

@@ -34,7 +34,7 @@ use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::spindle::SpindleDirection;
@@ -127,7 +127,7 @@ impl Interpreter {
     /// Refuses cycles that cannot be made.
     fn check_cycle(&self, block: &Block, cycle: CannedCycle) -> Outcome<()> {
         let span = block.motion_span();
-        let refuse = |span: Span, message: String, reason: &str, help: &str| {
+        let refuse = |span: SourceSpan, message: String, reason: &str, help: &str| {
             Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
                 .because(reason)
                 .help(help))

@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::expression::scope::{LOCALS, Parameter, no_parameter};
 
 /// Largest number that can be assigned.
@@ -89,7 +89,7 @@ impl Parameters {
     }
 
     /// Refuses an assignment that is not possible.
-    pub(crate) fn check_assignable(&self, parameter: &Parameter, span: Span) -> Outcome<()> {
+    pub(crate) fn check_assignable(&self, parameter: &Parameter, span: SourceSpan) -> Outcome<()> {
         match parameter {
             Parameter::Numbered(number) if *number > MAX_NUMBERED => {
                 Err(no_parameter(span, f64::from(*number)))
@@ -158,7 +158,7 @@ impl Parameters {
     }
 }
 
-fn read_only(span: Span) -> Box<Fault> {
+fn read_only(span: SourceSpan) -> Box<Fault> {
     Fault::new(
         DiagnosticCode::Parameter,
         span,

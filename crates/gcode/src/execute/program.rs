@@ -7,7 +7,7 @@ use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::tape::Tape;
 use crate::execute::flow::activation::Flow;
 use crate::execute::interpreter::Interpreter;
@@ -238,7 +238,7 @@ pub(crate) fn is_percent(text: &[u8]) -> bool {
 
 fn endless(lines: u32) -> Box<Fault> {
     let message = format!("{lines} lines of a loop without a move");
-    Fault::new(DiagnosticCode::EndlessLoop, Span::default(), message)
+    Fault::new(DiagnosticCode::EndlessLoop, SourceSpan::default(), message)
         .because("a loop that moves nothing for so long would hold up the machine for ever")
         .help("check the condition that should end it")
 }

@@ -23,7 +23,7 @@ use glidepath_geometry::AxisVector;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::diagnostic::{Diagnostic, MAX_DIAGNOSTICS};
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::cursor::Cursor;
@@ -150,8 +150,8 @@ impl ToolTable {
 /// What a line says so far.
 #[derive(Debug, Default)]
 struct ToolLine {
-    number: Option<(u32, Span)>,
-    first: Option<Span>,
+    number: Option<(u32, SourceSpan)>,
+    first: Option<SourceSpan>,
     tool: Tool,
 }
 
@@ -160,7 +160,7 @@ impl ToolLine {
         let start = cursor.at();
         cursor.advance();
         let value = cursor.number(start)?;
-        let span = Span::new(start, cursor.end_of_word());
+        let span = SourceSpan::new(start, cursor.end_of_word());
         self.first.get_or_insert(span);
         if let Some(axis) = AXIS_LETTERS.iter().position(|axis| *axis == letter) {
             self.tool.offset[axis] = value;
@@ -189,7 +189,7 @@ impl ToolLine {
 }
 
 /// A whole number from 0 to `max`.
-fn whole(value: f64, max: u32, span: Span) -> Outcome<u32> {
+fn whole(value: f64, max: u32, span: SourceSpan) -> Outcome<u32> {
     if value.fract() == 0.0 && (0.0..=f64::from(max)).contains(&value) {
         #[expect(
             clippy::cast_possible_truncation,

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Fault;
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 
 /// A byte that can start nothing, at `at`.
 #[cold]
@@ -11,7 +11,7 @@ pub(crate) fn bad_byte(text: &[u8], at: usize) -> Box<Fault> {
     match rest.first() {
         Some(0) => {
             let run = rest.iter().take_while(|b| **b == 0).count();
-            let span = Span::new(at, at + run);
+            let span = SourceSpan::new(at, at + run);
             let bytes = if run == 1 {
                 "a NUL byte".into()
             } else {
@@ -29,13 +29,17 @@ pub(crate) fn bad_byte(text: &[u8], at: usize) -> Box<Fault> {
         Some(&byte) => {
             let shown = char::from(byte).escape_default().to_string();
             let message = format!("`{shown}` has no meaning here");
-            Fault::new(DiagnosticCode::BadCharacter, Span::new(at, at + 1), message)
-                .because("a block is made of words: a letter and a number each")
-                .help("remove it, or put it into a comment")
+            Fault::new(
+                DiagnosticCode::BadCharacter,
+                SourceSpan::new(at, at + 1),
+                message,
+            )
+            .because("a block is made of words: a letter and a number each")
+            .help("remove it, or put it into a comment")
         }
         None => Fault::new(
             DiagnosticCode::BadCharacter,
-            Span::new(at, at + 1),
+            SourceSpan::new(at, at + 1),
             "the line ends too early",
         ),
     }
@@ -53,7 +57,7 @@ fn non_ascii(rest: &[u8], at: usize) -> Box<Fault> {
         let message = format!("byte 0x{byte:02X} is not text");
         return Fault::new(
             DiagnosticCode::NonAsciiCharacter,
-            Span::new(at, at + 1),
+            SourceSpan::new(at, at + 1),
             message,
         )
         .because("outside comments a program is ASCII")
@@ -67,7 +71,7 @@ fn non_ascii(rest: &[u8], at: usize) -> Box<Fault> {
         '\u{ff10}'..='\u{ff19}' => "write ASCII digits",
         _ => "remove it, or put it into a comment",
     };
-    let span = Span::new(at, at + c.len_utf8());
+    let span = SourceSpan::new(at, at + c.len_utf8());
     let message = format!("`{c}` (U+{:04X}) is not ASCII", u32::from(c));
     Fault::new(DiagnosticCode::NonAsciiCharacter, span, message)
         .because("outside comments a program is ASCII")

@@ -7,7 +7,7 @@ use glidepath_geometry::Axis;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::codes::{Coded, Codes};
 use crate::syntax::cursor::Cursor;
@@ -36,7 +36,7 @@ pub(crate) struct Block {
     pub(crate) codes: Codes,
     pub(crate) words: WordValues,
     /// Where the words stand, by slot.
-    spans: [Span; 26],
+    spans: [SourceSpan; 26],
     /// Nothing but what [`Block::parse_plain`] reads was put into it since it was cleared: its
     /// codes have a motion at most.
     is_plain: bool,
@@ -52,7 +52,7 @@ pub(crate) struct Block {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PolarWord {
     pub(crate) value: f64,
-    pub(crate) span: Span,
+    pub(crate) span: SourceSpan,
 }
 
 /// `#1=2`: takes effect after everything else of its block.
@@ -60,7 +60,7 @@ pub(crate) struct PolarWord {
 pub(crate) struct Assignment {
     pub(crate) parameter: Parameter,
     pub(crate) value: f64,
-    pub(crate) span: Span,
+    pub(crate) span: SourceSpan,
 }
 
 impl Block {
@@ -78,9 +78,9 @@ impl Block {
     }
 
     /// Where a word stands; an empty span if the block does not have it.
-    pub(crate) const fn span(&self, letter: u8) -> Span {
+    pub(crate) const fn span(&self, letter: u8) -> SourceSpan {
         if self.words.get(letter).is_none() {
-            Span {
+            SourceSpan {
                 start: 0,
                 length: 0,
             }
@@ -106,12 +106,12 @@ impl Block {
     }
 
     /// Where an axis word stands.
-    pub(crate) const fn axis_span(&self, axis: Axis) -> Span {
+    pub(crate) const fn axis_span(&self, axis: Axis) -> SourceSpan {
         self.span(AXIS_LETTERS[axis.index()])
     }
 
     /// The first word, from the left, that is not among `used`.
-    pub(crate) fn unused(&self, used: Letters) -> Option<(char, Span)> {
+    pub(crate) fn unused(&self, used: Letters) -> Option<(char, SourceSpan)> {
         let left = self.words.beside(used);
         if left.is_empty() {
             return None;
@@ -123,7 +123,7 @@ impl Block {
     }
 
     /// Where the first word with a value stands.
-    pub(crate) fn first_span(&self) -> Span {
+    pub(crate) fn first_span(&self) -> SourceSpan {
         let code = self.codes.motion.map(|motion| motion.span);
         let word = self.unused(Letters::of(b"")).map(|(_, span)| span);
         let first = code.into_iter().chain(word).min_by_key(|span| span.start);
@@ -131,7 +131,7 @@ impl Block {
     }
 
     /// Where a diagnostic about the motion of the block points.
-    pub(crate) fn motion_span(&self) -> Span {
+    pub(crate) fn motion_span(&self) -> SourceSpan {
         let code = self.codes.motion.map(|motion| motion.span);
         let axes = self.axes().map(|(axis, _)| self.axis_span(axis));
         let polar = self.polar.into_iter().flatten().map(|word| word.span);
@@ -223,7 +223,7 @@ impl Block {
         match cursor.next_visible() {
             None => Ok(()),
             Some(_) => {
-                let span = Span::new(cursor.at(), cursor.at() + 1);
+                let span = SourceSpan::new(cursor.at(), cursor.at() + 1);
                 Err(Fault::new(
                     DiagnosticCode::StrayPercent,
                     span,
@@ -238,7 +238,7 @@ impl Block {
     fn assignment(&mut self, cursor: &mut Cursor<'_>, scope: &dyn Scope) -> Outcome<()> {
         let start = cursor.at();
         let parameter = parameter(cursor, scope)?;
-        let span = Span::new(start, cursor.end_of_word());
+        let span = SourceSpan::new(start, cursor.end_of_word());
         if cursor.next_visible() != Some(b'=') {
             return Err(Fault::new(
                 DiagnosticCode::Expression,
@@ -271,7 +271,7 @@ impl Block {
         let start = cursor.at();
         cursor.advance();
         let value = value(cursor, start, scope)?;
-        let span = Span::new(start, cursor.end_of_word());
+        let span = SourceSpan::new(start, cursor.end_of_word());
         if self.polar[which].is_some() {
             return Err(duplicate(if which == 0 { '@' } else { '^' }, span));
         }
@@ -294,7 +294,7 @@ impl Block {
             b'O' => {
                 return Err(Fault::new(
                     DiagnosticCode::FlowStructure,
-                    Span::new(start, start + 1),
+                    SourceSpan::new(start, start + 1),
                     "an O word inside a block",
                 )
                 .because("an O word has a line of its own")
@@ -303,7 +303,7 @@ impl Block {
             _ => {}
         }
         let value = value(cursor, start, scope)?;
-        let span = Span::new(start, cursor.end_of_word());
+        let span = SourceSpan::new(start, cursor.end_of_word());
         self.any = true;
         match letter {
             b'G' => self.codes.add_g(value, span),
@@ -318,7 +318,7 @@ impl Block {
 
 impl WordSink for Block {
     #[inline]
-    fn add_motion(&mut self, motion: Motion, span: Span) -> Option<()> {
+    fn add_motion(&mut self, motion: Motion, span: SourceSpan) -> Option<()> {
         if self.codes.motion.is_some() {
             return None;
         }
@@ -331,7 +331,7 @@ impl WordSink for Block {
     }
 
     #[inline]
-    fn add_value(&mut self, slot: Slot, value: f64, span: Span) -> Option<()> {
+    fn add_value(&mut self, slot: Slot, value: f64, span: SourceSpan) -> Option<()> {
         self.words.add(slot, value)?;
         self.any = true;
         self.spans[slot.index()] = span;
@@ -340,7 +340,7 @@ impl WordSink for Block {
 }
 
 #[cold]
-fn duplicate(letter: char, span: Span) -> Box<Fault> {
+fn duplicate(letter: char, span: SourceSpan) -> Box<Fault> {
     Fault::new(
         DiagnosticCode::DuplicateWord,
         span,
@@ -352,7 +352,7 @@ fn duplicate(letter: char, span: Span) -> Box<Fault> {
 
 fn block_number(cursor: &mut Cursor<'_>, start: usize, first: bool) -> Outcome<()> {
     let value = cursor.number(start)?;
-    let span = Span::new(start, cursor.end_of_word());
+    let span = SourceSpan::new(start, cursor.end_of_word());
     if !first {
         let message = "a block number that is not at the start of the line";
         return Err(
@@ -373,7 +373,7 @@ fn block_number(cursor: &mut Cursor<'_>, start: usize, first: bool) -> Outcome<(
 
 #[cold]
 fn odd_character(text: &[u8], at: usize, byte: u8) -> Box<Fault> {
-    let span = Span::new(at, at + 1);
+    let span = SourceSpan::new(at, at + 1);
     match byte {
         b')' => Fault::new(DiagnosticCode::BadCharacter, span, "`)` closes no comment")
             .because("no comment is open here")

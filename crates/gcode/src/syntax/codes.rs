@@ -7,7 +7,7 @@ use glidepath_program::PathMode;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::marlin::is_function;
 use crate::syntax::modes::{
     CannedCycle, CutterRadius, Distance, FeedMode, LatheCycle, Motion, NonModal, Pockets, Probe,
@@ -19,7 +19,7 @@ use crate::syntax::refused::{refused_g, refused_m, unknown_g, unknown_m};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Coded<T> {
     pub(crate) code: T,
-    pub(crate) span: Span,
+    pub(crate) span: SourceSpan,
 }
 
 /// The codes of one block, by modal group.
@@ -62,7 +62,7 @@ pub(crate) struct Codes {
 
 impl Codes {
     /// Adds a G word; `value` is its number.
-    pub(crate) fn add_g(&mut self, value: f64, span: Span) -> Outcome<()> {
+    pub(crate) fn add_g(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
         let tenths = code_number(value * 10.0).ok_or_else(|| unknown_g(value, span))?;
         match tenths {
             0 => self.set_motion(Some(Motion::Rapid), span),
@@ -150,7 +150,7 @@ impl Codes {
 
     /// G80 may stand beside another motion code, as in the first line of many programs; that
     /// code then is the mode.
-    fn set_motion(&mut self, motion: Option<Motion>, span: Span) -> Outcome<()> {
+    fn set_motion(&mut self, motion: Option<Motion>, span: SourceSpan) -> Outcome<()> {
         match (self.motion, motion) {
             (Some(Coded { code: Some(_), .. }), None) => Ok(()),
             (Some(Coded { code: None, .. }), Some(_)) => {
@@ -162,7 +162,7 @@ impl Codes {
     }
 
     /// Adds an M word of a printer's program.
-    pub(crate) fn add_printer_m(&mut self, value: f64, span: Span) -> Outcome<()> {
+    pub(crate) fn add_printer_m(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
         match code_number(value) {
             Some(number @ (82 | 83)) => set(&mut self.extruder, number == 83, span),
             Some(number) if is_function(number) => set(&mut self.function, number, span),
@@ -171,7 +171,7 @@ impl Codes {
     }
 
     /// Adds an M word.
-    pub(crate) fn add_m(&mut self, value: f64, span: Span) -> Outcome<()> {
+    pub(crate) fn add_m(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
         let Some(number) = code_number(value) else {
             return Err(unknown_m(value, span));
         };
@@ -289,7 +289,7 @@ fn code_number(value: f64) -> Option<u32> {
     whole.then_some(nearest as u32)
 }
 
-fn set<T>(slot: &mut Option<Coded<T>>, code: T, span: Span) -> Outcome<()> {
+fn set<T>(slot: &mut Option<Coded<T>>, code: T, span: SourceSpan) -> Outcome<()> {
     if let Some(first) = slot {
         let column = first.span.start + 1;
         let message = format!("a second code of the modal group of the one at column {column}");

@@ -9,7 +9,7 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::bad_byte::bad_byte;
 
 /// Largest magnitude of a number in a program. Far beyond any machine, and small enough for sums
@@ -94,7 +94,7 @@ impl<'a> Cursor<'a> {
                     return Ok(());
                 }
                 b'(' => {
-                    let span = Span::new(offset, offset + 1);
+                    let span = SourceSpan::new(offset, offset + 1);
                     return Err(Fault::new(
                         DiagnosticCode::NestedComment,
                         span,
@@ -106,7 +106,7 @@ impl<'a> Cursor<'a> {
                 _ => {}
             }
         }
-        let span = Span::new(start, self.text.len());
+        let span = SourceSpan::new(start, self.text.len());
         Err(Fault::new(
             DiagnosticCode::UnclosedComment,
             span,
@@ -117,7 +117,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The bytes of the span, as text for a message.
-    pub(crate) fn quote(&self, span: Span) -> String {
+    pub(crate) fn quote(&self, span: SourceSpan) -> String {
         let bytes = self
             .text
             .get(span.start..span.start + span.length)
@@ -175,7 +175,7 @@ impl<'a> Cursor<'a> {
             _ => self.long_number(start, end),
         };
         if value > MAX_NUMBER {
-            let span = Span::new(start, end);
+            let span = SourceSpan::new(start, end);
             return Err(Fault::new(
                 DiagnosticCode::NumberOutOfRange,
                 span,
@@ -205,7 +205,9 @@ impl<'a> Cursor<'a> {
     /// Explains why no number starts at `start`.
     #[cold]
     fn no_number(&self, word: usize, start: usize) -> Box<Fault> {
-        let letter = self.quote(Span::new(word, word + 1)).to_ascii_uppercase();
+        let letter = self
+            .quote(SourceSpan::new(word, word + 1))
+            .to_ascii_uppercase();
         let rest = self.text.get(start..).unwrap_or_default();
         let unsigned = match rest {
             [b'+' | b'-', tail @ ..] => tail,
@@ -217,11 +219,11 @@ impl<'a> Cursor<'a> {
                 .is_some_and(|t| t.eq_ignore_ascii_case(name.as_bytes()))
             {
                 let end = start + rest.len() - unsigned.len() + 3;
-                let shown = self.quote(Span::new(start, end));
+                let shown = self.quote(SourceSpan::new(start, end));
                 let message = format!("`{shown}` is not a number");
                 return Fault::new(
                     DiagnosticCode::MalformedNumber,
-                    Span::new(start, end),
+                    SourceSpan::new(start, end),
                     message,
                 )
                 .because("a failed computation in the program that wrote this left it here")
@@ -233,7 +235,7 @@ impl<'a> Cursor<'a> {
         }
         let end = start + usize::from(unsigned.len() < rest.len()) + self.tail_length(unsigned);
         if end > start {
-            let span = Span::new(start, end);
+            let span = SourceSpan::new(start, end);
             let message = format!("`{}` is not a number", self.quote(span));
             return Fault::new(DiagnosticCode::MalformedNumber, span, message).because(
                 "a number is an optional sign, digits, and at most one decimal point among them",
@@ -242,7 +244,7 @@ impl<'a> Cursor<'a> {
         }
         let is_word = |c: char| c.is_ascii_alphabetic() || matches!(c, '@' | '^');
         if !letter.starts_with(is_word) {
-            let span = Span::new(word, word + 1);
+            let span = SourceSpan::new(word, word + 1);
             return Fault::new(
                 DiagnosticCode::Expression,
                 span,
@@ -253,7 +255,7 @@ impl<'a> Cursor<'a> {
         }
         Fault::new(
             DiagnosticCode::MissingNumber,
-            Span::new(word, word + 1),
+            SourceSpan::new(word, word + 1),
             format!("{letter} has no number"),
         )
         .because("a letter and its number make a word")
@@ -292,7 +294,7 @@ impl<'a> Cursor<'a> {
             }
             _ => {}
         }
-        let span = Span::new(start, self.at + length);
+        let span = SourceSpan::new(start, self.at + length);
         let message = format!("`{}` is not a number", self.quote(span));
         Err(Fault::new(DiagnosticCode::MalformedNumber, span, message)
             .because(reason)

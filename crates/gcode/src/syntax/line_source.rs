@@ -15,7 +15,7 @@ use memchr::memchr2;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 
 /// Longest line accepted, bytes without the line end.
 pub const MAX_LINE_BYTES: usize = 64 * 1024;
@@ -186,7 +186,7 @@ impl<R: BufRead> LineSource<R> {
         if marked || unmarked {
             return Err(Fault::new(
                 DiagnosticCode::WrongEncoding,
-                Span::new(0, 2),
+                SourceSpan::new(0, 2),
                 "the file is UTF-16 text",
             )
             .because("a program is read as ASCII or UTF-8; here every second byte is no text")
@@ -197,7 +197,7 @@ impl<R: BufRead> LineSource<R> {
 }
 
 fn too_long() -> Box<Fault> {
-    let span = Span::new(MAX_LINE_BYTES, MAX_LINE_BYTES + 1);
+    let span = SourceSpan::new(MAX_LINE_BYTES, MAX_LINE_BYTES + 1);
     let message = format!("the line is longer than {MAX_LINE_BYTES} bytes");
     Fault::new(DiagnosticCode::LineTooLong, span, message)
         .because("a line is one block, and a block has each word once")
@@ -207,7 +207,7 @@ fn too_long() -> Box<Fault> {
 fn read_failed(error: &std::io::Error) -> Box<Fault> {
     Fault::new(
         DiagnosticCode::ReadFailed,
-        Span::default(),
+        SourceSpan::default(),
         format!("cannot read the program: {error}"),
     )
 }

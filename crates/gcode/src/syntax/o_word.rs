@@ -7,7 +7,7 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::expression::name::name;
@@ -81,7 +81,7 @@ pub(crate) struct OWord {
     /// `None`: a program number, without effect.
     pub(crate) keyword: Option<Keyword>,
     /// From the O to the end of the label.
-    pub(crate) span: Span,
+    pub(crate) span: SourceSpan,
     /// Where the label starts.
     label_at: usize,
     /// Where the values start.
@@ -122,11 +122,11 @@ pub(crate) fn o_word(text: &[u8]) -> Outcome<Option<OWord>> {
             let number = cursor.literal(start)?;
             Label::Number(label_number(
                 number,
-                Span::new(start, cursor.end_of_word()),
+                SourceSpan::new(start, cursor.end_of_word()),
             )?)
         }
     };
-    let span = Span::new(start, cursor.end_of_word());
+    let span = SourceSpan::new(start, cursor.end_of_word());
     cursor.next_visible();
     let keyword = KEYWORDS.into_iter().find(|(name, _)| cursor.eat_word(name));
     let keyword = keyword.map(|(_, keyword)| keyword);
@@ -150,7 +150,7 @@ pub(crate) fn o_word(text: &[u8]) -> Outcome<Option<OWord>> {
     }))
 }
 
-fn label_number(value: f64, span: Span) -> Outcome<u32> {
+fn label_number(value: f64, span: SourceSpan) -> Outcome<u32> {
     let nearest = value.round();
     if (value - nearest).abs() > 1e-4 || !(0.0..=f64::from(u32::MAX)).contains(&nearest) {
         let message = format!("{value} is no label");
@@ -195,7 +195,7 @@ fn end_of_line(mut cursor: Cursor<'_>, text: &[u8]) -> Outcome<()> {
             None | Some(b';') => return Ok(()),
             Some(b'(') => cursor.skip_comment()?,
             Some(byte) if byte.is_ascii_graphic() => {
-                let span = Span::new(cursor.at(), text.len());
+                let span = SourceSpan::new(cursor.at(), text.len());
                 return Err(Fault::new(
                     DiagnosticCode::FlowStructure,
                     span,
@@ -253,7 +253,7 @@ impl OWord {
         while cursor.next_visible() == Some(b'[') {
             if all.len() == MAX_ARGUMENTS {
                 let message = format!("more than {MAX_ARGUMENTS} arguments");
-                let span = Span::new(cursor.at(), cursor.at() + 1);
+                let span = SourceSpan::new(cursor.at(), cursor.at() + 1);
                 return Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
                     .because("the arguments become the parameters #1 to #30"));
             }

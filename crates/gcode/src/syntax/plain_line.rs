@@ -12,7 +12,7 @@
 //!                                  (12 · 10⁴ + 3456) / 10⁴
 //! ```
 
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::cursor::POWERS;
 use crate::syntax::letters::Slot;
 use crate::syntax::modes::Motion;
@@ -29,11 +29,11 @@ const POINT: u64 = (b'.' ^ b'0') as u64;
 /// Takes what a plain line says, word by word, and `None` where it does not want it.
 pub(crate) trait WordSink {
     /// A motion code and where it stands; a second one is not wanted.
-    fn add_motion(&mut self, motion: Motion, span: Span) -> Option<()>;
+    fn add_motion(&mut self, motion: Motion, span: SourceSpan) -> Option<()>;
 
     /// A word, by the slot of its letter, and where it stands; a second one of that letter is not
     /// wanted.
-    fn add_value(&mut self, slot: Slot, value: f64, span: Span) -> Option<()>;
+    fn add_value(&mut self, slot: Slot, value: f64, span: SourceSpan) -> Option<()>;
 }
 
 /// Reads a plain line, of which `text` has all and may have more: where it ends, at a CR, an LF, or
@@ -59,7 +59,7 @@ pub(crate) fn read_plain(text: &[u8], into: &mut impl WordSink) -> Option<usize>
             ByteClass::Word(slot) | ByteClass::Exponent(slot) => {
                 let value;
                 (value, end) = number(text, at + 1)?;
-                into.add_value(slot, value, Span::new(at, end))?;
+                into.add_value(slot, value, SourceSpan::new(at, end))?;
             }
             ByteClass::End => return Some(at),
             ByteClass::Code => {
@@ -70,7 +70,7 @@ pub(crate) fn read_plain(text: &[u8], into: &mut impl WordSink) -> Option<usize>
                 };
                 let motion = *MOTIONS.get(usize::from(digit - b'0'))?;
                 end = at + 1 + length;
-                into.add_motion(motion, Span::new(at, end))?;
+                into.add_motion(motion, SourceSpan::new(at, end))?;
             }
             ByteClass::Number if end == 0 => {
                 let (_, digits) = digits(text, at + 1);

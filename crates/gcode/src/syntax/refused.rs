@@ -2,10 +2,10 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Fault;
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 
 #[cold]
-pub(crate) fn unknown_g(value: f64, span: Span) -> Box<Fault> {
+pub(crate) fn unknown_g(value: f64, span: SourceSpan) -> Box<Fault> {
     Fault::new(
         DiagnosticCode::UnknownGCode,
         span,
@@ -16,7 +16,7 @@ pub(crate) fn unknown_g(value: f64, span: Span) -> Box<Fault> {
 }
 
 #[cold]
-pub(crate) fn unknown_m(value: f64, span: Span) -> Box<Fault> {
+pub(crate) fn unknown_m(value: f64, span: SourceSpan) -> Box<Fault> {
     Fault::new(
         DiagnosticCode::UnknownMCode,
         span,
@@ -28,7 +28,7 @@ pub(crate) fn unknown_m(value: f64, span: Span) -> Box<Fault> {
 
 /// G codes that exist and are not supported, each with what it is.
 #[cold]
-pub(crate) fn refused_g(tenths: u32, value: f64, span: Span) -> Box<Fault> {
+pub(crate) fn refused_g(tenths: u32, value: f64, span: SourceSpan) -> Box<Fault> {
     let (what, help) = match tenths {
         330 | 331 | 760 => (
             "motion synchronised with the spindle",
@@ -60,7 +60,7 @@ pub(crate) fn refused_g(tenths: u32, value: f64, span: Span) -> Box<Fault> {
 
 /// M codes that exist and are not supported, each with what it is.
 #[cold]
-pub(crate) fn refused_m(number: u32, value: f64, span: Span) -> Box<Fault> {
+pub(crate) fn refused_m(number: u32, value: f64, span: SourceSpan) -> Box<Fault> {
     let what = match number {
         50..=53 => "overrides switched by the program",
         70..=73 => "saved modal state",

@@ -1,6 +1,6 @@
 //! Lines that say nothing but a straight move, which nearly all lines of a long program are.
 
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::letters::{AXIS_WORDS, Letters, Slot, WordValues};
 use crate::syntax::modes::Motion;
 use crate::syntax::plain_line::WordSink;
@@ -29,14 +29,14 @@ impl StraightLine {
 
 impl WordSink for StraightLine {
     #[inline]
-    fn add_motion(&mut self, motion: Motion, _: Span) -> Option<()> {
+    fn add_motion(&mut self, motion: Motion, _: SourceSpan) -> Option<()> {
         self.says_more = self.motion.is_some() || !is_straight(motion);
         self.motion = Some(motion);
         (!self.says_more).then_some(())
     }
 
     #[inline]
-    fn add_value(&mut self, slot: Slot, value: f64, _: Span) -> Option<()> {
+    fn add_value(&mut self, slot: Slot, value: f64, _: SourceSpan) -> Option<()> {
         self.says_more = !WORDS.holds(slot) || self.words.add(slot, value).is_none();
         (!self.says_more).then_some(())
     }

@@ -2,11 +2,11 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::block::Block;
 
 #[cold]
-pub(crate) fn unused(letter: char, span: Span) -> Box<Fault> {
+pub(crate) fn unused(letter: char, span: SourceSpan) -> Box<Fault> {
     if letter == 'E' {
         return Fault::new(
             DiagnosticCode::UnknownWord,
@@ -26,7 +26,7 @@ pub(crate) fn unused(letter: char, span: Span) -> Box<Fault> {
 }
 
 #[cold]
-pub(crate) fn missing(span: Span, code: &str, word: &str, meaning: &str) -> Box<Fault> {
+pub(crate) fn missing(span: SourceSpan, code: &str, word: &str, meaning: &str) -> Box<Fault> {
     Fault::new(
         DiagnosticCode::MissingWord,
         span,

@@ -31,12 +31,12 @@ const STEPS_AT_STANDSTILL: u32 = 16;
 #[derive(Debug, Clone, PartialEq)]
 pub struct NurbsPath {
     curve: Nurbs,
-    pieces: Vec<Piece>,
+    pieces: Vec<LengthPiece>,
     length: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Piece {
+struct LengthPiece {
     span: usize,
     from_s: f64,
     length: f64,
@@ -55,7 +55,7 @@ impl NurbsPath {
         for (index, span) in curve.spans().iter().enumerate() {
             let whole = gauss_12(span.from_u(), span.to_u(), |u| span.speed(u));
             cut(
-                &Part {
+                &MeasuredPart {
                     index,
                     span,
                     from_u: span.from_u(),
@@ -127,7 +127,7 @@ impl NurbsPath {
     }
 }
 
-impl Piece {
+impl LengthPiece {
     /// Length from the start of the piece to `u`.
     fn s_to(&self, span: &Span, u: f64) -> f64 {
         gauss_12(self.from_u, u, |u| span.speed(u))
@@ -157,7 +157,7 @@ impl Piece {
 }
 
 /// A stretch of a span whose length is known by one panel.
-struct Part<'a> {
+struct MeasuredPart<'a> {
     index: usize,
     span: &'a Span,
     from_u: f64,
@@ -167,14 +167,14 @@ struct Part<'a> {
 }
 
 /// Appends the pieces of a part.
-fn cut(part: &Part<'_>, pieces: &mut Vec<Piece>) {
+fn cut(part: &MeasuredPart<'_>, pieces: &mut Vec<LengthPiece>) {
     let span = part.span;
     let middle = 0.5 * (part.from_u + part.to_u);
     let lengths = [(part.from_u, middle), (middle, part.to_u)]
         .map(|(a, b)| gauss_12(a, b, |u| span.speed(u)));
     let settled = (lengths[0] + lengths[1] - part.length).abs() <= LENGTH_MM * (1.0 + part.length);
     if settled || part.halvings == 0 {
-        let mut piece = Piece {
+        let mut piece = LengthPiece {
             span: part.index,
             from_s: 0.0,
             length: lengths[0] + lengths[1],
@@ -196,7 +196,7 @@ fn cut(part: &Part<'_>, pieces: &mut Vec<Piece>) {
         (part.from_u, middle, lengths[0]),
         (middle, part.to_u, lengths[1]),
     ] {
-        let half = Part {
+        let half = MeasuredPart {
             from_u,
             to_u,
             length,
@@ -209,7 +209,7 @@ fn cut(part: &Part<'_>, pieces: &mut Vec<Piece>) {
 
 /// The polynomial through u and two derivatives by s at both ends; none where the curve stands
 /// still.
-fn quintic(piece: &Piece, span: &Span) -> Option<[f64; 6]> {
+fn quintic(piece: &LengthPiece, span: &Span) -> Option<[f64; 6]> {
     let length = piece.length;
     let end = |u: f64| {
         let (s1, s2) = span.speed_and_change(u);
@@ -231,7 +231,7 @@ fn quintic(piece: &Piece, span: &Span) -> Option<[f64; 6]> {
 
 /// Largest error of a piece's seed at some points between, mm. The error of a Hermite quintic has
 /// the shape x³(1−x)³, largest in the middle.
-fn seed_error_s(piece: &Piece, span: &Span) -> f64 {
+fn seed_error_s(piece: &LengthPiece, span: &Span) -> f64 {
     [0.25, 0.5, 0.75]
         .map(|x| (piece.s_to(span, piece.seed_at(x)) - x * piece.length).abs())
         .into_iter()

@@ -23,7 +23,7 @@ const MARGIN_R: f64 = 1.1;
 
 /// A place on a span.
 #[derive(Clone, Copy)]
-struct Place {
+struct SpanPosition {
     s: f64,
     u: f64,
     jet: Jet,
@@ -53,7 +53,7 @@ impl NurbsPath {
         let Some(span) = spans.get(index) else {
             return;
         };
-        let place = |s: f64, u: f64| Place {
+        let place = |s: f64, u: f64| SpanPosition {
             s,
             u,
             jet: span.jet(u).by_path_position(self.curve().feed_axes()),
@@ -103,7 +103,7 @@ impl NurbsPath {
 }
 
 impl Cutting<'_> {
-    fn at_s(&self, s: f64) -> Place {
+    fn at_s(&self, s: f64) -> SpanPosition {
         let u = self
             .path
             .u_at(s)
@@ -112,14 +112,14 @@ impl Cutting<'_> {
             .span
             .jet(u)
             .by_path_position(self.path.curve().feed_axes());
-        Place { s, u, jet }
+        SpanPosition { s, u, jet }
     }
 
-    fn between(&self, from: &Place, to: &Place) -> Place {
+    fn between(&self, from: &SpanPosition, to: &SpanPosition) -> SpanPosition {
         self.at_s(0.5 * (from.s + to.s))
     }
 
-    fn curve(&mut self, from: &Place, to: &Place, halvings: u32) {
+    fn curve(&mut self, from: &SpanPosition, to: &SpanPosition, halvings: u32) {
         let middle = self.between(from, to);
         let is_divisible = halvings > 0 && from.u < middle.u && middle.u < to.u;
         match self.quintic(from, to) {
@@ -133,7 +133,7 @@ impl Cutting<'_> {
     }
 
     /// The piece between two places, if it is close enough to the curve.
-    fn quintic(&self, from: &Place, to: &Place) -> Option<Quintic> {
+    fn quintic(&self, from: &SpanPosition, to: &SpanPosition) -> Option<Quintic> {
         let length = to.s - from.s;
         let ends = [from, to];
         let vector = |v: &AxisVector| v.fixed_rows::<3>(0).into_owned();
@@ -159,7 +159,7 @@ impl Cutting<'_> {
         (length > 0.0).then_some(piece)
     }
 
-    fn chord(&mut self, from: &Place, to: &Place, halvings: u32) {
+    fn chord(&mut self, from: &SpanPosition, to: &SpanPosition, halvings: u32) {
         let middle = self.between(from, to);
         let chord = Line {
             start: from.jet.position,

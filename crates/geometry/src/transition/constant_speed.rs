@@ -106,7 +106,7 @@ impl Frame {
             functionals[2 * axis + 1] = Functional::new(-c_m, c_n);
         }
         if sb > 0.0 {
-            let mut search = Search { functionals };
+            let mut search = BoundSearch { functionals };
             search.visit(half, &half.root(), MAX_DEPTH);
             for axis in 0..AXES {
                 let pair = [
@@ -223,11 +223,11 @@ fn product(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     ]
 }
 
-struct Search {
+struct BoundSearch {
     functionals: [Functional; 2 * AXES],
 }
 
-impl Search {
+impl BoundSearch {
     fn visit<H: Half>(&mut self, half: &H, piece: &H::Piece, depth: u32) {
         let enclosure = half.enclose(piece);
         for functional in &mut self.functionals {

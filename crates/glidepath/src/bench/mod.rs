@@ -5,4 +5,4 @@ mod anchors;
 mod report;
 
 pub use anchors::{Anchors, Catalogue, CatalogueError, Entry, OtherControl};
-pub use report::{BenchReport, Row};
+pub use report::{BenchReport, BenchRow};

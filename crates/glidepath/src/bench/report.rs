@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 /// A program, planned, beside what is known of it.
 #[derive(Debug)]
-pub struct Row {
+pub struct BenchRow {
     /// The program's name.
     pub program: String,
     /// The machine it was planned for.
@@ -24,7 +24,7 @@ pub struct Row {
 #[derive(Debug, Default)]
 pub struct BenchReport {
     /// In the order of the catalogue.
-    pub rows: Vec<Row>,
+    pub rows: Vec<BenchRow>,
 }
 
 const HEAD: &str = "\
@@ -39,7 +39,7 @@ stop: with a stop at every corner   LinuxCNC: its fastest run with jerk limit, a
 v a j: largest share of each limit   CPU: processor time of planning, as a share of the cycle time
 ";
 
-impl Row {
+impl BenchRow {
     fn over(&self, time_s: Option<f64>) -> Option<f64> {
         time_s.map(|time_s| self.motion.cycle_time_s / time_s)
     }
@@ -180,7 +180,7 @@ impl BenchReport {
     /// The table as an object.
     #[must_use]
     pub fn object(&self) -> Value {
-        let rows: Vec<_> = self.rows.iter().map(Row::object).collect();
+        let rows: Vec<_> = self.rows.iter().map(BenchRow::object).collect();
         json!({ "programs": rows })
     }
 

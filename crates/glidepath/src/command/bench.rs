@@ -2,7 +2,7 @@
 
 use super::check;
 use super::plan::{Pass, title};
-use crate::bench::{BenchReport, Catalogue, Entry, Row};
+use crate::bench::{BenchReport, BenchRow, Catalogue, Entry};
 use crate::cli::BenchArgs;
 use crate::clock;
 use crate::command::failure::Failure;
@@ -41,7 +41,7 @@ fn row(
     entry: &Entry,
     given: &MachineConfig,
     interrupt: &Interrupt,
-) -> Result<Row, Failure> {
+) -> Result<BenchRow, Failure> {
     let of_profile;
     let config = if args.basic.config.is_some() {
         given
@@ -59,7 +59,7 @@ fn row(
         }
     }
     let jerk_j = config.axes.first().map_or(0.0, |axis| axis.max_jerk);
-    Ok(Row {
+    Ok(BenchRow {
         program: title(&entry.file).trim_end_matches(".ngc").to_owned(),
         profile: entry.profile.clone(),
         anchors: entry.anchors(jerk_j, config.path.tolerance_mm),

@@ -8,7 +8,7 @@ use crate::clock;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::curve_file;
-use crate::dense_runs::{Piece, Run, Runs};
+use crate::dense_runs::{ProgramPiece, Run, Runs};
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::output;
@@ -73,7 +73,7 @@ pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failur
     Ok(Exit::Done)
 }
 
-fn read(path: &Path, config: &MachineConfig) -> Result<Vec<Piece>, Failure> {
+fn read(path: &Path, config: &MachineConfig) -> Result<Vec<ProgramPiece>, Failure> {
     let file = File::open(path).map_err(FileError::open(path))?;
     let options = config.program_options(config.home());
     let mut runs = Runs::default();
@@ -89,10 +89,10 @@ fn read(path: &Path, config: &MachineConfig) -> Result<Vec<Piece>, Failure> {
     Ok(runs.finish())
 }
 
-const fn run(piece: &Piece) -> Option<&Run> {
+const fn run(piece: &ProgramPiece) -> Option<&Run> {
     match piece {
-        Piece::Run(run) => Some(run),
-        Piece::Item(_) => None,
+        ProgramPiece::Run(run) => Some(run),
+        ProgramPiece::Item(_) => None,
     }
 }
 
@@ -119,7 +119,7 @@ fn fit_runs(runs: &[&Run], settings: &Settings) -> Vec<Result<Fit, FitError>> {
 /// could be fitted as a curve.
 fn written(
     path: &Path,
-    pieces: &[Piece],
+    pieces: &[ProgramPiece],
     runs: &[&Run],
     results: &[Result<Fit, FitError>],
     config: &MachineConfig,
@@ -142,8 +142,8 @@ fn written(
     let mut results = results.iter();
     for piece in pieces {
         match piece {
-            Piece::Item(item) => text.item(item)?,
-            Piece::Run(run) => match results.next() {
+            ProgramPiece::Item(item) => text.item(item)?,
+            ProgramPiece::Run(run) => match results.next() {
                 Some(Ok(fit)) if fit.deviation.max_mm() <= tolerance_mm => {
                     text.curve(&fit.curve, run.feed_v, run.mode);
                 }

@@ -42,9 +42,9 @@ fn cyclictest_times(latencies: &Latencies) -> impl Iterator<Item = (f64, u64)> +
 
 /// p50, p99, p99.9 and max in µs.
 #[derive(Debug, Clone, Copy)]
-struct Row([f64; 4]);
+struct QuantileRow([f64; 4]);
 
-impl Row {
+impl QuantileRow {
     const NAMES: [&'static str; 4] = ["p50", "p99", "p999", "max"];
 
     fn of(q: &Quantiles) -> Self {
@@ -93,10 +93,10 @@ impl<'a> JitterReport<'a> {
         }
     }
 
-    fn difference(&self) -> Option<Row> {
+    fn difference(&self) -> Option<QuantileRow> {
         let cyclictest = self.measured.cyclictest.as_ref()?;
-        let own = Row::of(&self.measured.windows.all.quantiles());
-        Some(own.minus(Row::of_cyclictest(cyclictest)))
+        let own = QuantileRow::of(&self.measured.windows.all.quantiles());
+        Some(own.minus(QuantileRow::of_cyclictest(cyclictest)))
     }
 
     /// The report as one JSON object.
@@ -104,13 +104,13 @@ impl<'a> JitterReport<'a> {
     pub fn object(&self) -> Value {
         let windows = &self.measured.windows;
         let all = windows.all.quantiles();
-        let mut latency = Row::of(&all).object();
+        let mut latency = QuantileRow::of(&all).object();
         latency["min"] = us(windows.all.min_ns()).into();
-        let mut clean = Row::of(&windows.clean.quantiles()).object();
+        let mut clean = QuantileRow::of(&windows.clean.quantiles()).object();
         clean["ticks"] = windows.clean.quantiles().count.into();
         clean["missed_ticks"] = windows.clean_missed.into();
         let cyclictest = self.measured.cyclictest.as_ref().map(|latencies| {
-            let mut object = Row::of_cyclictest(latencies).object();
+            let mut object = QuantileRow::of_cyclictest(latencies).object();
             object["ticks"] = latencies.total().into();
             object["histogram"] = bins(rebin(cyclictest_times(latencies), FINE));
             object
@@ -127,15 +127,15 @@ impl<'a> JitterReport<'a> {
             "lost_samples": self.measured.lost_beats,
             "latency_us": latency,
             "latency_without_steal_us": clean,
-            "lateness_us": Row::of(&windows.lateness.quantiles()).object(),
-            "work_us": Row::of(&windows.work.quantiles()).object(),
+            "lateness_us": QuantileRow::of(&windows.lateness.quantiles()).object(),
+            "work_us": QuantileRow::of(&windows.work.quantiles()).object(),
             "windows": windows.count,
             "windows_with_steal": windows.with_steal,
             "steal_ms": windows.steal.map(|ticks| ticks * 10),
             "realtime": grants_object(&self.measured.grants),
             "histogram": bins(rebin(times(&windows.all), FINE)),
             "cyclictest": cyclictest,
-            "difference_us": self.difference().map(Row::object),
+            "difference_us": self.difference().map(QuantileRow::object),
         })
     }
 
@@ -196,26 +196,29 @@ impl<'a> JitterReport<'a> {
             "  {:24}{:>10}{:>10}{:>10}{:>10}\n",
             "µs", "p50", "p99", "p99.9", "max"
         );
-        let mut row = |name: &str, row: Row| {
+        let mut row = |name: &str, row: QuantileRow| {
             let _ = writeln!(text, "  {name:24}{}", row.text());
         };
-        let all = Row::of(&windows.all.quantiles());
+        let all = QuantileRow::of(&windows.all.quantiles());
         row("latency of waking", all);
         if windows.with_steal > 0 && windows.with_steal < windows.count {
             row(
                 "  windows without steal",
-                Row::of(&windows.clean.quantiles()),
+                QuantileRow::of(&windows.clean.quantiles()),
             );
         }
         if let Some(latencies) = &self.measured.cyclictest {
-            row("cyclictest", Row::of_cyclictest(latencies));
+            row("cyclictest", QuantileRow::of_cyclictest(latencies));
         }
         if let Some(difference) = self.difference() {
             row("  latency − cyclictest", difference);
         }
-        row("lateness of ticks", Row::of(&windows.lateness.quantiles()));
+        row(
+            "lateness of ticks",
+            QuantileRow::of(&windows.lateness.quantiles()),
+        );
         if self.setup.motion.is_some() {
-            row("work of a tick", Row::of(&windows.work.quantiles()));
+            row("work of a tick", QuantileRow::of(&windows.work.quantiles()));
         }
         let least = us(windows.all.min_ns());
         let _ = writeln!(text, "  least latency {least:.1} µs");

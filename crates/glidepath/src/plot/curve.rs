@@ -3,7 +3,7 @@
 use super::colour::{INK, LIMIT, QUIET};
 use super::legend;
 use super::svg::{Anchor, Area, Svg};
-use super::track::{Track, TrackPoint};
+use super::track::{MotionTrace, TrackPoint};
 use super::view::{self, View};
 use glidepath_geometry::AxisVector;
 
@@ -22,7 +22,7 @@ pub enum Mark {
 /// A picture of a curve as it grows.
 #[derive(Debug, Default)]
 pub struct CurvePlot {
-    track: Track,
+    track: MotionTrace,
     marks: Vec<([f64; 3], Mark)>,
 }
 

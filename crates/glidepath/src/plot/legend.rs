@@ -4,10 +4,10 @@ use super::bound::Bound;
 use super::colour::{self, QUIET, RAPID};
 use super::svg::{Anchor, Area, Svg};
 use super::ticks::{label, ticks};
-use super::track::{Track, TrackPoint};
+use super::track::{MotionTrace, TrackPoint};
 
 /// Names the colours that a track has.
-pub(super) fn of_bounds(svg: &mut Svg, track: &Track, area: &Area) {
+pub(super) fn of_bounds(svg: &mut Svg, track: &MotionTrace, area: &Area) {
     let text = format!("fill=\"{QUIET}\" font-size=\"10\"");
     let below = area.bottom() - 1.0;
     svg.text(area.x - 8.0, below, Anchor::End, &text, "bound by");

@@ -30,7 +30,7 @@ pub use lateness::{Series, lateness};
 use quantities::{PositionCurves, Quantities};
 use strip::{Strip, TimeAxis};
 use svg::{Anchor, Area, Svg};
-use track::{Track, TrackPoint};
+use track::{MotionTrace, TrackPoint};
 use view::View;
 
 const WIDTH: f64 = 1280.0;
@@ -45,7 +45,7 @@ pub struct Plot {
     axes: Quantities,
     joints: Quantities,
     period_t: f64,
-    track: Track,
+    track: MotionTrace,
     feed: Envelope,
     first_tick: Option<u64>,
     ticks: u64,
@@ -69,7 +69,7 @@ impl Plot {
             axes: Quantities::new(rows.collect()),
             joints: Quantities::new(Vec::new()),
             period_t,
-            track: Track::default(),
+            track: MotionTrace::default(),
             feed: Envelope::new(),
             first_tick: None,
             ticks: 0,

@@ -23,14 +23,14 @@ pub(super) struct TrackPoint {
 }
 
 #[derive(Debug, Clone, Default)]
-pub(super) struct Track {
+pub(super) struct MotionTrace {
     points: Vec<TrackPoint>,
     max_feed_v: f64,
     low: [f64; 3],
     high: [f64; 3],
 }
 
-impl Track {
+impl MotionTrace {
     pub(super) fn push(&mut self, point: TrackPoint) {
         #[allow(
             clippy::float_cmp,
@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn corners_outlive_the_points_of_straight_lines() {
-        let mut track = Track::default();
+        let mut track = MotionTrace::default();
         let side = 40_000_u32;
         for i in 0..=side {
             track.push(point(f64::from(i) / 1000.0, 0.0));
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn rest_is_one_point() {
-        let mut track = Track::default();
+        let mut track = MotionTrace::default();
         (0..9).for_each(|_| track.push(point(1.0, 2.0)));
         assert_eq!(track.points().len(), 1);
     }

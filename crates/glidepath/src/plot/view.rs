@@ -4,7 +4,7 @@ use super::bound::Bound;
 use super::colour::{self, FRAME, GRID, INK, QUIET, RAPID};
 use super::svg::{Anchor, Area, Path, Svg};
 use super::ticks::{label, ticks};
-use super::track::{Track, TrackPoint};
+use super::track::{MotionTrace, TrackPoint};
 
 /// From where the path is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl View {
     }
 
     /// Smallest and largest right and up of a track.
-    fn extent(self, track: &Track) -> ((f64, f64), (f64, f64)) {
+    fn extent(self, track: &MotionTrace) -> ((f64, f64), (f64, f64)) {
         const NOTHING: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
         let points = track.points().iter().map(|point| self.project(point.at));
         let (x, y) = points.fold((NOTHING, NOTHING), |(x, y), (px, py)| {
@@ -92,7 +92,7 @@ impl Scale {
 }
 
 /// Draws a view of the track into an area.
-pub(super) fn draw(svg: &mut Svg, view: View, track: &Track, area: &Area) {
+pub(super) fn draw(svg: &mut Svg, view: View, track: &MotionTrace, area: &Area) {
     let scale = Scale::fit(area, view.extent(track));
     if view != View::Isometric {
         grid(svg, &scale, area);
@@ -163,7 +163,7 @@ pub(super) fn draw(svg: &mut Svg, view: View, track: &Track, area: &Area) {
 }
 
 /// Where a point of the view stands, in pixels.
-pub(super) fn pixel(view: View, track: &Track, area: &Area, at: [f64; 3]) -> (f64, f64) {
+pub(super) fn pixel(view: View, track: &MotionTrace, area: &Area, at: [f64; 3]) -> (f64, f64) {
     let scale = Scale::fit(area, view.extent(track));
     let (x, y) = view.project(at);
     (scale.x(x), scale.y(y))

@@ -2,7 +2,7 @@
 
 use super::quantity::seconds;
 use core::fmt::Write as _;
-use glidepath_audit::diagnosis::{Place, Summary};
+use glidepath_audit::diagnosis::{SlowPlace, Summary};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -44,8 +44,8 @@ pub struct PlaceReport {
     pub lost_s: f64,
 }
 
-impl From<&Place> for PlaceReport {
-    fn from(place: &Place) -> Self {
+impl From<&SlowPlace> for PlaceReport {
+    fn from(place: &SlowPlace) -> Self {
         Self {
             line: place.line,
             first_line: place.first_line,

@@ -171,7 +171,11 @@ impl Profile {
 
     /// A bound of speed, acceleration and jerk, as magnitudes, on the path interval from `from` to
     /// `to_s`, and the place where it ends.
-    pub(crate) fn extremes(&self, from: &Place, to_s: f64) -> (Extremes, Place) {
+    pub(crate) fn extremes(
+        &self,
+        from: &ProfilePosition,
+        to_s: f64,
+    ) -> (Extremes, ProfilePosition) {
         let mut phase = from.phase;
         while phase < 6 && self.phases[phase + 1].position_s <= to_s {
             phase += 1;
@@ -198,12 +202,12 @@ impl Profile {
                 most.accel_a = most.accel_a.max(passed.accel_a.abs());
             }
         }
-        (most, Place { phase, state })
+        (most, ProfilePosition { phase, state })
     }
 
     /// The place where the profile starts.
-    pub(crate) fn start(&self) -> Place {
-        Place {
+    pub(crate) fn start(&self) -> ProfilePosition {
+        ProfilePosition {
             phase: 0,
             state: self.phases[0].at(0.0),
         }
@@ -274,7 +278,7 @@ impl Outline {
 
 /// A place on a profile.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct ProfilePosition {
     phase: usize,
     state: PathState,
 }

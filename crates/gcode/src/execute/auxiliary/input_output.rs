@@ -14,7 +14,7 @@ use glidepath_program::{Event, Item, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::setup::options::Connections;
 use crate::syntax::block::Block;
@@ -64,7 +64,7 @@ impl Interpreter {
     }
 
     /// The words of M66.
-    fn check_wait(&self, block: &Block, span: Span) -> Outcome<()> {
+    fn check_wait(&self, block: &Block, span: SourceSpan) -> Outcome<()> {
         let digital = whole(block, b'P', MAX_PORT)?;
         let analog = whole(block, b'E', MAX_PORT)?;
         if digital.is_some() == analog.is_some() {
@@ -95,7 +95,7 @@ impl Interpreter {
     }
 
     /// Refuses what the machine does not have connected.
-    pub(crate) fn require_connection(&self, span: Span, what: &str) -> Outcome<()> {
+    pub(crate) fn require_connection(&self, span: SourceSpan, what: &str) -> Outcome<()> {
         if self.options.connections == Connections::Simulated {
             return Ok(());
         }

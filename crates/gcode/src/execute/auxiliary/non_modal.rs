@@ -5,7 +5,7 @@ use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::block_words::require_axes;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::offsets::overlay;
@@ -57,7 +57,7 @@ impl Interpreter {
         Ok(())
     }
 
-    fn check_machine_coordinates(&self, span: Span, motion: Option<Motion>) -> Outcome<()> {
+    fn check_machine_coordinates(&self, span: SourceSpan, motion: Option<Motion>) -> Outcome<()> {
         let fault = |message: &str| Fault::new(DiagnosticCode::MachineCoordinates, span, message);
         match motion {
             Some(Motion::Rapid | Motion::Linear) => {}
@@ -76,7 +76,7 @@ impl Interpreter {
     }
 
     /// G10.
-    fn set_data(&mut self, block: &Block, span: Span) -> Outcome<()> {
+    fn set_data(&mut self, block: &Block, span: SourceSpan) -> Outcome<()> {
         let kind = whole(block, b'L', 99)?.ok_or_else(|| {
             let meaning = "2 or 20 for a coordinate system, 1, 10 or 11 for a tool";
             missing(span, "G10", "L", meaning)

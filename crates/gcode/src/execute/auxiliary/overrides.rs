@@ -4,7 +4,7 @@ use glidepath_program::{Event, Item, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
@@ -14,7 +14,7 @@ use crate::syntax::word_check::whole;
 
 /// Refuses a code that switches one override: M50 to M53.
 #[cold]
-fn override_refused(code: u32, block: &Block, span: Span) -> Box<Fault> {
+fn override_refused(code: u32, block: &Block, span: SourceSpan) -> Box<Fault> {
     let (what, help) = match code {
         50 => ("the feed override", "remove it, or write M48 after an M49"),
         51 => (

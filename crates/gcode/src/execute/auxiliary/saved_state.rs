@@ -19,7 +19,7 @@ use glidepath_program::{Event, Item, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::modal::Modal;
@@ -65,7 +65,11 @@ impl Interpreter {
     }
 
     /// A subroutine returns, by the O word at `span`: restores what it saved by M73.
-    pub(crate) fn restore_on_return(&mut self, span: Span, out: &mut Vec<Item>) -> Outcome<()> {
+    pub(crate) fn restore_on_return(
+        &mut self,
+        span: SourceSpan,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
         match self.saved_states.calls.pop() {
             Some(SavedLevel {
                 saved: Some(saved),
@@ -87,7 +91,7 @@ impl Interpreter {
         }
     }
 
-    fn restore(&mut self, saved: &Saved, span: Span, out: &mut Vec<Item>) -> Outcome<()> {
+    fn restore(&mut self, saved: &Saved, span: SourceSpan, out: &mut Vec<Item>) -> Outcome<()> {
         if let Some(open) = &self.open_spline {
             return Err(interrupted(open, span));
         }
@@ -138,7 +142,7 @@ impl Interpreter {
     fn restore_compensation(
         &mut self,
         saved: &Saved,
-        span: Span,
+        span: SourceSpan,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let present = self.compensated();

@@ -7,7 +7,7 @@ use glidepath_program::{Event, Item, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::offsets::overlay;
 use crate::setup::tool_table::{MAX_TOOL, Tool};
@@ -45,7 +45,7 @@ impl Interpreter {
     }
 
     /// A tool of the table; tool 0 is no tool: without length, diameter or offset.
-    pub(crate) fn tool_of(&self, number: u32, span: Span) -> Outcome<Tool> {
+    pub(crate) fn tool_of(&self, number: u32, span: SourceSpan) -> Outcome<Tool> {
         if number == 0 {
             return Ok(Tool::default());
         }
@@ -67,7 +67,7 @@ impl Interpreter {
     }
 
     /// The tool a block names by `letter`, or else the one in the spindle.
-    pub(crate) fn named_tool(&self, block: &Block, letter: u8, span: Span) -> Outcome<Tool> {
+    pub(crate) fn named_tool(&self, block: &Block, letter: u8, span: SourceSpan) -> Outcome<Tool> {
         match whole(block, letter, MAX_TOOL)? {
             Some(number) => self.tool_of(number, block.span(letter)),
             None => self.tool_of(self.state.tool, span),
@@ -97,7 +97,7 @@ impl Interpreter {
     }
 
     /// G10 L1, L10 and L11: changes the tool table, until the program ends.
-    pub(crate) fn set_tool(&mut self, block: &Block, kind: u32, span: Span) -> Outcome<()> {
+    pub(crate) fn set_tool(&mut self, block: &Block, kind: u32, span: SourceSpan) -> Outcome<()> {
         let number = whole(block, b'P', MAX_TOOL)?
             .ok_or_else(|| missing(span, "G10", "P", "the tool's number"))?;
         let mut tool = self.tool_of(number, block.span(b'P'))?;

@@ -5,7 +5,7 @@ use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::compensation::path::{Compensated, Compensation, MAX_HELD};
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
@@ -47,7 +47,7 @@ impl Interpreter {
     fn begin_compensation(
         &mut self,
         block: &Block,
-        span: Span,
+        span: SourceSpan,
         side: Side,
         radius: f64,
         orientation: u8,
@@ -154,7 +154,7 @@ impl Interpreter {
             .is_some_and(Compensation::is_overfull)
         {
             let message = format!("more than {} blocks without a move in the plane", MAX_HELD);
-            return Err(Fault::new(DiagnosticCode::CutterRadius, Span::default(), message)
+            return Err(Fault::new(DiagnosticCode::CutterRadius, SourceSpan::default(), message)
                 .because(
                     "with cutter radius compensation on they wait for the next move in the plane",
                 )

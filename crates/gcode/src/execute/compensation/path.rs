@@ -5,7 +5,7 @@ use glidepath_program::{Item, ItemKind, PathMode};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::compensation::element::{Element, Point, distance, lines, meet, minus, turn};
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Speed;
@@ -32,7 +32,7 @@ pub(crate) struct ContourMove {
     pub(crate) speed: Speed,
     pub(crate) mode: PathMode,
     /// Where a diagnostic points.
-    pub(crate) span: Span,
+    pub(crate) span: SourceSpan,
 }
 
 /// The move held back.
@@ -310,7 +310,7 @@ impl Compensation {
 }
 
 #[cold]
-pub(super) fn too_small(span: Span, radius: f64) -> Box<Fault> {
+pub(super) fn too_small(span: SourceSpan, radius: f64) -> Box<Fault> {
     let message = format!("the arc is too small for a tool radius of {radius} mm inside it");
     Fault::new(DiagnosticCode::Gouge, span, message)
         .because("the tool is on the inner side of the arc and would cut into it all along")
@@ -318,7 +318,7 @@ pub(super) fn too_small(span: Span, radius: f64) -> Box<Fault> {
 }
 
 #[cold]
-fn gouge(span: Span, radius: f64) -> Box<Fault> {
+fn gouge(span: SourceSpan, radius: f64) -> Box<Fault> {
     let message = format!("a tool radius of {radius} mm does not fit into the corner");
     Fault::new(DiagnosticCode::Gouge, span, message)
         .because(

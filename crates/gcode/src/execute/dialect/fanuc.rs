@@ -14,7 +14,7 @@ use std::io::BufRead;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::tape::SubprogramCall;
 use crate::execute::flow::activation::MAX_CALLS;
 use crate::execute::program::Program;
@@ -38,7 +38,7 @@ fn without_head(text: &[u8], length: usize) -> Vec<u8> {
     rest
 }
 
-fn fault(span: Span, message: impl Into<String>) -> Box<Fault> {
+fn fault(span: SourceSpan, message: impl Into<String>) -> Box<Fault> {
     Fault::new(DiagnosticCode::FlowStructure, span, message)
         .because("IF, WHILE, GOTO and the calls have a line of their own each, in a fixed form")
 }
@@ -97,7 +97,7 @@ impl<R: BufRead> Program<R> {
                     self.tape
                         .search_back(index, |line| is_loop(line, b"DO", number), is_label);
                 self.tape.next = start.ok_or_else(|| {
-                    fault(Span::new(at, text.len()), "an END without its DO")
+                    fault(SourceSpan::new(at, text.len()), "an END without its DO")
                         .help("give both the same number")
                 })?;
             }
@@ -117,10 +117,10 @@ impl<R: BufRead> Program<R> {
         let number = value(&mut cursor, at.saturating_sub(1), &self.scope())?;
         let behind = cursor.next_visible();
         if last && !matches!(behind, None | Some(b'(' | b';')) {
-            let span = Span::new(cursor.at(), text.len());
+            let span = SourceSpan::new(cursor.at(), text.len());
             return Err(fault(span, "text behind the statement").help("remove it"));
         }
-        let span = Span::new(at, cursor.end_of_word());
+        let span = SourceSpan::new(at, cursor.end_of_word());
         if number.fract() != 0.0 || !(0.0..=99_999_999.0).contains(&number) {
             let message = format!("{number} is no block, loop or program number");
             return Err(fault(span, message).help("write a whole number"));
@@ -138,10 +138,11 @@ impl<R: BufRead> Program<R> {
         let mut cursor = Cursor::new(text);
         cursor.seek(at);
         if cursor.next_visible() != Some(b'[') {
-            return Err(
-                fault(Span::new(at, cursor.at() + 1), "a condition is missing")
-                    .help("write it in brackets: [#1 EQ 2]"),
-            );
+            return Err(fault(
+                SourceSpan::new(at, cursor.at() + 1),
+                "a condition is missing",
+            )
+            .help("write it in brackets: [#1 EQ 2]"));
         }
         let holds = value(&mut cursor, at, &self.scope())? != 0.0;
         cursor.next_visible();
@@ -163,7 +164,7 @@ impl<R: BufRead> Program<R> {
             return Ok(holds.then_some(then + 4));
         }
         Err(fault(
-            Span::new(then, text.len().max(then + 1)),
+            SourceSpan::new(then, text.len().max(then + 1)),
             "IF without GOTO or THEN",
         )
         .help("write `IF [condition] GOTO n` or `IF [condition] THEN #i = value`"))
@@ -177,7 +178,7 @@ impl<R: BufRead> Program<R> {
             let (holds, then) = self.fanuc_condition(text, at)?;
             if !starts_with_word(text.get(then..).unwrap_or_default(), b"DO") {
                 return Err(fault(
-                    Span::new(then, text.len().max(then + 1)),
+                    SourceSpan::new(then, text.len().max(then + 1)),
                     "WHILE without DO",
                 )
                 .help("write `WHILE [condition] DO 1` and `END 1`"));
@@ -195,7 +196,7 @@ impl<R: BufRead> Program<R> {
             is_label,
         )?;
         self.tape.next = 1 + end.ok_or_else(|| {
-            fault(Span::new(at, text.len()), "a loop without its END")
+            fault(SourceSpan::new(at, text.len()), "a loop without its END")
                 .help(format!("add `END {number}`"))
         })?;
         Ok(())
@@ -209,14 +210,15 @@ impl<R: BufRead> Program<R> {
         let found = ahead.or_else(|| self.tape.search_back(index + 1, wanted, is_label));
         self.tape.next = found.ok_or_else(|| {
             let message = format!("there is no block N{number} in the program");
-            fault(Span::new(at, at + 4), message).help("add the block number, or correct the jump")
+            fault(SourceSpan::new(at, at + 4), message)
+                .help("add the block number, or correct the jump")
         })?;
         Ok(())
     }
 
     /// G65 and M98.
     fn fanuc_call(&mut self, text: &[u8], at: usize, is_macro: bool) -> Outcome<()> {
-        let span = Span::new(body(text), at);
+        let span = SourceSpan::new(body(text), at);
         let mut arguments = [0.0; LOCALS];
         let (mut program, mut turns) = (None, 1);
         let mut cursor = Cursor::new(text);
@@ -242,7 +244,7 @@ impl<R: BufRead> Program<R> {
                 }
                 _ if is_macro && slot > 0 => arguments[slot - 1] = argument,
                 _ => {
-                    let span = Span::new(start, cursor.end_of_word());
+                    let span = SourceSpan::new(start, cursor.end_of_word());
                     return Err(unused(char::from(letter), span));
                 }
             }
@@ -285,7 +287,7 @@ impl<R: BufRead> Program<R> {
         let mut cursor = Cursor::new(text);
         cursor.seek(at);
         if !matches!(cursor.next_visible(), None | Some(b'(' | b';' | b'%')) {
-            let span = Span::new(cursor.at(), text.len());
+            let span = SourceSpan::new(cursor.at(), text.len());
             return Err(Fault::new(DiagnosticCode::NotSupported, span, "words behind M99")
                 .because("a return leads to behind the call, and a program that repeats itself never ends")
                 .help("write M99 alone; use GOTO inside the caller"));

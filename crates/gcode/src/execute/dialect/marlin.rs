@@ -4,7 +4,7 @@ use glidepath_program::{Event, Item, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
 
@@ -19,7 +19,7 @@ impl Interpreter {
         &mut self,
         block: &Block,
         number: u32,
-        span: Span,
+        span: SourceSpan,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let other = block.codes.motion.map(|c| c.span);

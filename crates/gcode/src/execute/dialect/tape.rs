@@ -4,7 +4,7 @@ use std::io::BufRead;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::line_source::LineSource;
 
 /// Most text kept while there are no jumps, bytes; with jumps it may be twice as much.
@@ -121,7 +121,7 @@ impl Tape {
 
 fn too_long() -> Box<Fault> {
     let message = format!("a program with jumps longer than {MAX_BYTES} bytes");
-    Fault::new(DiagnosticCode::FlowTooLong, Span::default(), message)
+    Fault::new(DiagnosticCode::FlowTooLong, SourceSpan::default(), message)
         .because("what may be jumped to is kept in memory, up to that bound")
         .help("split the program, or write its jumps out")
 }

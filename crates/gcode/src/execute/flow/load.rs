@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::flow::kept_lines::KeptLines;
 use crate::execute::flow::recorder::Recorder;
 use crate::execute::line_origin::{LineOrigin, SourceLine};
@@ -27,7 +27,7 @@ enum Broken {
 
 impl<R: BufRead> Program<R> {
     /// A subroutine that the program does not define; `span` is what calls it.
-    pub(crate) fn load(&mut self, label: &Label, span: Span) -> Outcome<Arc<KeptLines>> {
+    pub(crate) fn load(&mut self, label: &Label, span: SourceSpan) -> Outcome<Arc<KeptLines>> {
         let stem = match label {
             Label::Name(name) => name.clone(),
             Label::Number(number) => number.to_string(),
@@ -136,12 +136,12 @@ enum Recorded {
     End,
 }
 
-fn unknown(label: &Label, span: Span) -> Box<Fault> {
+fn unknown(label: &Label, span: SourceSpan) -> Box<Fault> {
     let message = format!("there is no subroutine {label}");
     Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
 }
 
-fn no_file_name(label: &Label, span: Span) -> Box<Fault> {
+fn no_file_name(label: &Label, span: SourceSpan) -> Box<Fault> {
     let message = format!("there is no subroutine {label}, and that cannot be a file's name");
     Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
         .because(
@@ -151,7 +151,7 @@ fn no_file_name(label: &Label, span: Span) -> Box<Fault> {
         .help("name the subroutine and its file alone, and add the folder to the search path")
 }
 
-fn not_taken(label: &Label, name: &str, span: Span, why: NotTaken) -> Box<Fault> {
+fn not_taken(label: &Label, name: &str, span: SourceSpan, why: NotTaken) -> Box<Fault> {
     match why {
         NotTaken::None(NoSubroutineFile::Missing { looked_in }) if looked_in.is_empty() => unknown(
             label, span,
@@ -190,7 +190,7 @@ fn not_taken(label: &Label, name: &str, span: Span, why: NotTaken) -> Box<Fault>
     }
 }
 
-fn absent(label: &Label, file: &SubroutineFile, span: Span) -> Box<Fault> {
+fn absent(label: &Label, file: &SubroutineFile, span: SourceSpan) -> Box<Fault> {
     let message = format!("{} does not define {label}", file.name);
     Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
         .because("the file of a subroutine has its `sub` and `endsub`, with the same name")

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::flow::activation::{Activation, MAX_CALLS};
 use crate::execute::flow::kept_lines::{KeptLine, KeptLines};
 use crate::execute::flow::recorder::{Recorder, misplaced};
@@ -195,7 +195,7 @@ impl<R: BufRead> Program<R> {
     }
 
     /// Restores the modal state a subroutine has saved by M73; `span` is what ends it.
-    fn restore_on_return(&mut self, span: Span) -> Outcome<()> {
+    fn restore_on_return(&mut self, span: SourceSpan) -> Outcome<()> {
         let mut items = Vec::new();
         self.interpreter.restore_on_return(span, &mut items)?;
         if !items.is_empty() {
@@ -209,7 +209,7 @@ impl<R: BufRead> Program<R> {
         &mut self,
         part: &Arc<KeptLines>,
         arguments: &[f64],
-        span: Span,
+        span: SourceSpan,
     ) -> Outcome<()> {
         if self.parameters.call_level() >= MAX_CALLS {
             let message = format!("more than {MAX_CALLS} calls in each other");

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::flow::kept_lines::{KeptLine, KeptLines};
 use crate::setup::subroutine_file::MAX_KEPT_BYTES;
 use crate::syntax::o_word::{Keyword, Label, OWord};
@@ -33,11 +33,16 @@ pub(crate) struct Recorder {
     open: Vec<OpenStructure>,
     bytes: usize,
     /// The line of the `sub` or of the first O word, for a message.
-    pub(crate) first: (u32, Box<[u8]>, Span),
+    pub(crate) first: (u32, Box<[u8]>, SourceSpan),
 }
 
 impl Recorder {
-    pub(crate) fn new(subroutine: Option<Label>, number: u32, text: &[u8], span: Span) -> Self {
+    pub(crate) fn new(
+        subroutine: Option<Label>,
+        number: u32,
+        text: &[u8],
+        span: SourceSpan,
+    ) -> Self {
         Self {
             subroutine,
             part: KeptLines::default(),
@@ -65,7 +70,7 @@ impl Recorder {
         if kept + self.bytes > MAX_KEPT_BYTES {
             return Err(Fault::new(
                 DiagnosticCode::FlowTooLong,
-                Span::new(0, text.len()),
+                SourceSpan::new(0, text.len()),
                 "the subroutines and loops are too long",
             )
             .because(format!(

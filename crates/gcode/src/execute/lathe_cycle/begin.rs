@@ -5,7 +5,7 @@ use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::compensation::element::Point;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::lathe_cycle::open::LatheCycleWords;
@@ -58,7 +58,7 @@ impl Interpreter {
     /// Refuses a cycle that cannot be made here.
     fn check_lathe_cycle(&self, block: &Block) -> Outcome<()> {
         let span = block.motion_span();
-        let refuse = |span: Span, message: &str, reason: &str, help: &str| {
+        let refuse = |span: SourceSpan, message: &str, reason: &str, help: &str| {
             Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
                 .because(reason)
                 .help(help))

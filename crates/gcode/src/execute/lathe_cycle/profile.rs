@@ -13,7 +13,7 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::compensation::element::{Element, Point};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::lathe_cycle::edge_break::{EdgeBreak, cut};
@@ -159,7 +159,7 @@ impl LatheProfile {
         self.push(next, span)
     }
 
-    fn push(&mut self, mut next: Element, span: Span) -> Outcome<()> {
+    fn push(&mut self, mut next: Element, span: SourceSpan) -> Outcome<()> {
         if self.elements.len() >= MAX_ELEMENTS {
             let message = format!("a profile of more than {MAX_ELEMENTS} elements");
             return Err(refused(span, &message).help("leave out what cannot be seen"));
@@ -250,13 +250,13 @@ fn arc(
     Ok((center, sweep(ends, center, left, 1.0)))
 }
 
-fn refused(span: Span, message: &str) -> Box<Fault> {
+fn refused(span: SourceSpan, message: &str) -> Box<Fault> {
     Fault::new(DiagnosticCode::CannedCycle, span, message)
         .because("a profile is drawn by G0, G1, G2 and G3 alone")
 }
 
 /// Where a code stands that is another than the one in force.
-fn other_than<T: PartialEq>(coded: Option<Coded<T>>, now: T) -> Option<Span> {
+fn other_than<T: PartialEq>(coded: Option<Coded<T>>, now: T) -> Option<SourceSpan> {
     coded.filter(|coded| coded.code != now).map(|c| c.span)
 }
 

@@ -14,7 +14,7 @@ use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::arc_ends::{Ends, center_from_radius, check_radii, sweep};
 use crate::execute::motion::settled::settled;
@@ -176,7 +176,7 @@ fn turns(block: &Block) -> Outcome<f64> {
 }
 
 #[cold]
-fn arc_off_contour(span: Span) -> Box<Fault> {
+fn arc_off_contour(span: SourceSpan) -> Box<Fault> {
     let message = "an arc as the first move after cutter radius compensation";
     Fault::new(DiagnosticCode::CutterRadius, span, message)
         .because("the tool stands beside the programmed point, where the arc does not begin")

@@ -4,7 +4,7 @@ use core::f64::consts::{PI, TAU};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::syntax::block::Block;
 
@@ -56,7 +56,7 @@ pub(crate) fn check_radii(block: &Block, ends: Ends, center: [f64; 2]) -> Outcom
 }
 
 /// Where a diagnostic about the centre points.
-fn center_span(block: &Block) -> Span {
+fn center_span(block: &Block) -> SourceSpan {
     let words = [b'I', b'J', b'K'].map(|letter| block.span(letter));
     let present = words.into_iter().filter(|span| span.length > 0);
     present

@@ -4,7 +4,7 @@ use glidepath_geometry::{AXES, Axis};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
@@ -168,7 +168,7 @@ pub(crate) fn axis_value(axis: Axis, word: f64, scale: f64) -> f64 {
 }
 
 #[cold]
-fn conflict(span: Span) -> Box<Fault> {
+fn conflict(span: SourceSpan) -> Box<Fault> {
     Fault::new(
         DiagnosticCode::AxisWordsConflict,
         span,

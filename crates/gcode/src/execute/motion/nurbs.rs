@@ -5,7 +5,7 @@ use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::open_spline::OpenSpline;
 use crate::syntax::block::Block;
@@ -204,7 +204,7 @@ impl Interpreter {
         &mut self,
         block: &Block,
         open: &OpenSpline,
-        span: Span,
+        span: SourceSpan,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let degree = open.order as usize - 1;
@@ -246,7 +246,7 @@ fn positive_weight(block: &Block, letter: u8) -> Outcome<f64> {
     }
 }
 
-fn no_curve(open: &OpenSpline, error: &NurbsError, span: Span) -> Box<Fault> {
+fn no_curve(open: &OpenSpline, error: &NurbsError, span: SourceSpan) -> Box<Fault> {
     let message = format!("the NURBS begun in line {} is no curve", open.line);
     let help = match error {
         NurbsError::TooFewPoints { .. } => "write more control points, or a lower order",

@@ -18,7 +18,7 @@ use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::settled;
 use crate::execute::motion::speed::Pace;
@@ -172,7 +172,7 @@ impl Interpreter {
     pub(crate) fn check_spline_complete(&self) -> Outcome<()> {
         self.open_spline
             .as_ref()
-            .map_or(Ok(()), |open| Err(interrupted(open, Span::default())))
+            .map_or(Ok(()), |open| Err(interrupted(open, SourceSpan::default())))
     }
 }
 

@@ -4,7 +4,7 @@ use glidepath_geometry::AxisVector;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Fault;
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::block::Block;
 use crate::syntax::letters::Letters;
 use crate::syntax::modes::{Motion, Spline};
@@ -75,7 +75,7 @@ impl OpenSpline {
 }
 
 /// Refuses a block between the blocks of a NURBS.
-pub(crate) fn interrupted(open: &OpenSpline, span: Span) -> Box<Fault> {
+pub(crate) fn interrupted(open: &OpenSpline, span: SourceSpan) -> Box<Fault> {
     let message = format!("the NURBS begun in line {} is not complete", open.line);
     Fault::new(DiagnosticCode::Spline, span, message)
         .because(open.lacks())

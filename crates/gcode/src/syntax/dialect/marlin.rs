@@ -2,7 +2,7 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::line_body::body;
 
 /// True if a line, without blanks and in upper case, is of a printer's program.
@@ -44,7 +44,7 @@ pub(crate) fn verified(text: &[u8]) -> Outcome<&[u8]> {
     if said == Some(sum) {
         return Ok(line);
     }
-    let span = Span::new(star, star + 1 + digits.len());
+    let span = SourceSpan::new(star, star + 1 + digits.len());
     let message = format!("the checksum of the line is {sum}");
     Err(Fault::new(DiagnosticCode::Checksum, span, message)
         .because("the line was damaged on its way, or changed by hand")

@@ -2,9 +2,9 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 
-pub(crate) fn finite(value: f64, span: Span) -> Outcome<f64> {
+pub(crate) fn finite(value: f64, span: SourceSpan) -> Outcome<f64> {
     if value.is_finite() {
         return Ok(value);
     }

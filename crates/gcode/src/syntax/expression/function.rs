@@ -1,7 +1,7 @@
 //! Functions of expressions.
 
 use crate::diagnostic::fault::Outcome;
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::expression::finite::finite;
 
@@ -45,7 +45,7 @@ pub(crate) fn evaluate(
     function: Function,
     x: f64,
     second: Option<f64>,
-    span: Span,
+    span: SourceSpan,
 ) -> Outcome<f64> {
     let value = match function {
         Function::Abs => x.abs(),

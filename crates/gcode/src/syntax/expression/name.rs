@@ -2,7 +2,7 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::cursor::Cursor;
 
 /// Longest name of a parameter or subroutine, bytes.
@@ -24,7 +24,7 @@ pub(crate) fn name(cursor: &mut Cursor<'_>) -> Outcome<String> {
                 cursor.advance();
             }
             _ => {
-                let span = Span::new(start, cursor.at());
+                let span = SourceSpan::new(start, cursor.at());
                 return Err(
                     Fault::new(DiagnosticCode::Expression, span, "the name is not closed")
                         .because(format!(

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::expression::finite::finite;
 
 /// Differences below this are equality.
@@ -47,7 +47,7 @@ pub(crate) const OPERATORS: [(&[u8], Operator, u8); 15] = [
 ];
 
 /// Value of an operation; its span is that of the operator and its right side.
-pub(crate) fn apply(operator: Operator, left: f64, right: f64, span: Span) -> Outcome<f64> {
+pub(crate) fn apply(operator: Operator, left: f64, right: f64, span: SourceSpan) -> Outcome<f64> {
     let truth = |t: bool| f64::from(u8::from(t));
     let value = match operator {
         Operator::Power => left.powf(right),

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::expression::function::{Function, evaluate, function};
 use crate::syntax::expression::name::name;
@@ -24,7 +24,7 @@ impl Reader<'_, '_, '_> {
         if self.depth <= MAX_DEPTH {
             return Ok(());
         }
-        let span = Span::new(self.cursor.at(), self.cursor.at() + 1);
+        let span = SourceSpan::new(self.cursor.at(), self.cursor.at() + 1);
         let message = format!("more than {MAX_DEPTH} levels of brackets");
         Err(Fault::new(DiagnosticCode::Expression, span, message)
             .because("the depth of expressions is bounded")
@@ -68,7 +68,7 @@ impl Reader<'_, '_, '_> {
         let nearest = number.round();
         if (number - nearest).abs() > 1e-4 || !(1.0..=f64::from(u32::MAX)).contains(&nearest) {
             return Err(no_parameter(
-                Span::new(start, self.cursor.end_of_word()),
+                SourceSpan::new(start, self.cursor.end_of_word()),
                 number,
             ));
         }
@@ -83,7 +83,7 @@ impl Reader<'_, '_, '_> {
     fn parameter_value(&mut self) -> Outcome<f64> {
         let start = self.cursor.at();
         let parameter = self.parameter()?;
-        let span = Span::new(start, self.cursor.end_of_word());
+        let span = SourceSpan::new(start, self.cursor.end_of_word());
         match parameter {
             Parameter::Numbered(number) => self
                 .scope
@@ -112,7 +112,7 @@ impl Reader<'_, '_, '_> {
             self.cursor.advance();
             return Ok(value);
         }
-        let span = Span::new(start, self.cursor.at().max(start + 1));
+        let span = SourceSpan::new(start, self.cursor.at().max(start + 1));
         Err(Fault::new(
             DiagnosticCode::Expression,
             span,
@@ -144,7 +144,12 @@ impl Reader<'_, '_, '_> {
                 self.level(own + 1)?
             };
             self.depth -= 1;
-            left = apply(operator, left, right, Span::new(start, self.cursor.at()))?;
+            left = apply(
+                operator,
+                left,
+                right,
+                SourceSpan::new(start, self.cursor.at()),
+            )?;
         }
     }
 
@@ -158,7 +163,7 @@ impl Reader<'_, '_, '_> {
         if function == Function::Atan {
             self.cursor.next_visible();
             if !self.cursor.eat_word(b"/") || self.cursor.next_visible() != Some(b'[') {
-                let span = Span::new(start, self.cursor.at());
+                let span = SourceSpan::new(start, self.cursor.at());
                 return Err(
                     Fault::new(DiagnosticCode::Expression, span, "ATAN with one argument")
                         .because("ATAN takes two, so that it knows the quadrant")
@@ -167,7 +172,12 @@ impl Reader<'_, '_, '_> {
             }
             second = Some(self.bracket()?);
         }
-        evaluate(function, x, second, Span::new(start, self.cursor.at()))
+        evaluate(
+            function,
+            x,
+            second,
+            SourceSpan::new(start, self.cursor.at()),
+        )
     }
 
     fn exists(&mut self, start: usize) -> Outcome<f64> {
@@ -180,7 +190,7 @@ impl Reader<'_, '_, '_> {
             self.cursor.advance();
             return Ok(f64::from(u8::from(self.scope.named(&name).is_some())));
         }
-        let span = Span::new(start, self.cursor.at());
+        let span = SourceSpan::new(start, self.cursor.at());
         Err(Fault::new(
             DiagnosticCode::Expression,
             span,

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Fault;
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 
 /// Parameters local to a subroutine call, `#1` to `#30`: its arguments at first.
 pub(crate) const LOCALS: usize = 30;
@@ -23,7 +23,7 @@ pub(crate) enum Parameter {
 }
 
 #[cold]
-pub(crate) fn no_parameter(span: Span, number: f64) -> Box<Fault> {
+pub(crate) fn no_parameter(span: SourceSpan, number: f64) -> Box<Fault> {
     Fault::new(
         DiagnosticCode::Parameter,
         span,

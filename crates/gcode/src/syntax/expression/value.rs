@@ -2,7 +2,7 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::cursor::{Cursor, MAX_NUMBER};
 use crate::syntax::expression::function::function;
 use crate::syntax::expression::reader::Reader;
@@ -41,7 +41,7 @@ pub(crate) fn open_expression(cursor: &mut Cursor<'_>, scope: &dyn Scope) -> Out
 
 fn in_range(value: f64, start: usize, cursor: &Cursor<'_>) -> Outcome<f64> {
     if value.abs() > MAX_NUMBER {
-        let span = Span::new(start, cursor.end_of_word());
+        let span = SourceSpan::new(start, cursor.end_of_word());
         let message = format!("the value is {value}, which is too large");
         return Err(Fault::new(DiagnosticCode::NumberOutOfRange, span, message)
             .because(format!(

@@ -8,7 +8,7 @@ use super::pending::Pending;
 use crate::feed_axes::feed_axes;
 use crate::on_path::junction::chord_error_mm;
 use crate::on_path::pieces::{CurveRule, Element, Shape, SpeedRule};
-use crate::on_path::spline_tube::{Change, Compressor, Cut, Part, PartShape};
+use crate::on_path::spline_tube::{Change, Compressor, Cut, PartShape, SplinePart};
 use crate::programmed_rate::{ProgrammedRate, axes_speed};
 use crate::rest::{Rest, RestKind};
 use core::ops::Range;
@@ -133,12 +133,12 @@ impl DenseBlocks {
 
     fn put_part(
         &mut self,
-        part: Part,
+        part: SplinePart,
         manner: &Manner,
         assembly: &mut Assembly,
         out: &mut Vec<Element>,
     ) {
-        let Part { shape, cuts } = part;
+        let SplinePart { shape, cuts } = part;
         let mode = manner.mode;
         match shape {
             PartShape::Line {

@@ -1,7 +1,7 @@
 //! Runs of blocks through the stages of the compressor.
 
 use super::marks::Change;
-use super::output::{Output, Part};
+use super::output::{Output, SplinePart};
 use super::sample_layout::SampleLayout;
 use super::shares::ToleranceShares;
 use super::thinning::{Thinning, Vertex};
@@ -117,7 +117,7 @@ impl Compressor {
     }
 
     /// The parts that are decided, in order.
-    pub(crate) fn parts(&mut self) -> std::vec::Drain<'_, Part> {
+    pub(crate) fn parts(&mut self) -> std::vec::Drain<'_, SplinePart> {
         self.output.parts.drain(..)
     }
 }

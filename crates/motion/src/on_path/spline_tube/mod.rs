@@ -38,4 +38,4 @@ mod window;
 
 pub(crate) use compressor::Compressor;
 pub(crate) use marks::{Change, Cut};
-pub(crate) use output::{Part, PartShape};
+pub(crate) use output::{PartShape, SplinePart};

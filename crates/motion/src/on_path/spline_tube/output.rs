@@ -5,7 +5,7 @@ use glidepath_geometry::AxisVector;
 
 /// A part of a compressed path.
 #[derive(Debug, Clone)]
-pub(crate) struct Part {
+pub(crate) struct SplinePart {
     pub shape: PartShape,
     /// The blocks driven on it, in order, the first from its start.
     pub cuts: Vec<Cut>,
@@ -41,7 +41,7 @@ pub(super) struct Output {
     /// What merging used of the tolerance, mm.
     merged_mm: f64,
     pub(super) marks: Marks,
-    pub(super) parts: Vec<Part>,
+    pub(super) parts: Vec<SplinePart>,
 }
 
 impl Output {
@@ -82,7 +82,7 @@ impl Output {
             continues,
         };
         let cuts = self.marks.take(|t| (t - from_t) / (to_t - from_t));
-        self.parts.push(Part { shape, cuts });
+        self.parts.push(SplinePart { shape, cuts });
     }
 
     /// A span that is within a distance of the merged chords; `foot` gives the place on it of a
@@ -98,12 +98,12 @@ impl Output {
             error_mm: error_mm + self.merged_mm,
         };
         let cuts = self.marks.take(foot);
-        self.parts.push(Part { shape, cuts });
+        self.parts.push(SplinePart { shape, cuts });
     }
 
     /// A stop.
     pub(super) fn stop(&mut self) {
-        self.parts.push(Part {
+        self.parts.push(SplinePart {
             shape: PartShape::Stop,
             cuts: Vec::new(),
         });

@@ -44,7 +44,7 @@ fn change(feed_v: f64) -> Option<Change> {
 }
 
 /// The parts of a path through points; block i ends at point i.
-fn compress(points: &[AxisVector], is_linear: bool) -> Vec<Part> {
+fn compress(points: &[AxisVector], is_linear: bool) -> Vec<SplinePart> {
     let mut compressor =
         Compressor::new(points[0], LINEAR_XYZ, is_linear, TOLERANCE_MM, &settings());
     let mut parts = Vec::new();
@@ -65,7 +65,7 @@ fn compress(points: &[AxisVector], is_linear: bool) -> Vec<Part> {
     parts
 }
 
-fn cubic(part: &Part) -> Option<(Cubic, f64)> {
+fn cubic(part: &SplinePart) -> Option<(Cubic, f64)> {
     match &part.shape {
         PartShape::Span { control, error_mm } => {
             let cubic = Cubic::new(*control, LINEAR_XYZ).expect("a regular span");
@@ -76,7 +76,7 @@ fn cubic(part: &Part) -> Option<(Cubic, f64)> {
 }
 
 /// Points along the parts, close together.
-fn sampled(parts: &[Part]) -> Vec<AxisVector> {
+fn sampled(parts: &[SplinePart]) -> Vec<AxisVector> {
     let mut points = Vec::new();
     for part in parts {
         match &part.shape {
@@ -135,7 +135,7 @@ fn farthest(points: &[AxisVector], polyline: &[AxisVector]) -> f64 {
 }
 
 /// Checks everything that must hold for any input, and counts spans, lines and stops.
-fn judged(points: &[AxisVector], parts: &[Part]) -> (usize, usize, usize) {
+fn judged(points: &[AxisVector], parts: &[SplinePart]) -> (usize, usize, usize) {
     let motion = sampled(parts);
     let certified_mm = parts
         .iter()
@@ -166,8 +166,8 @@ fn judged(points: &[AxisVector], parts: &[Part]) -> (usize, usize, usize) {
 }
 
 /// Neighbours meet, and where no corner is, with the same derivatives.
-fn joints(parts: &[Part]) {
-    let ends = |part: &Part| match &part.shape {
+fn joints(parts: &[SplinePart]) {
+    let ends = |part: &SplinePart| match &part.shape {
         PartShape::Line { start, end, .. } => {
             let line = Segment::line(*start, *end);
             Some([line.jet(0.0), line.jet(line.length())])
@@ -178,7 +178,7 @@ fn joints(parts: &[Part]) {
         }
         PartShape::Stop => None,
     };
-    let is_span = |part: &Part| matches!(part.shape, PartShape::Span { .. });
+    let is_span = |part: &SplinePart| matches!(part.shape, PartShape::Span { .. });
     for pair in parts.windows(2) {
         let (Some([_, before]), Some([after, _])) = (ends(&pair[0]), ends(&pair[1])) else {
             continue;
@@ -243,7 +243,7 @@ fn noise_becomes_a_line_and_shape_stays() {
             .map(|i| at(0.1 * f64::from(i), if i % 2 == 0 { 0.0 } else { height }))
             .collect()
     };
-    let most_bent = |parts: &[Part]| {
+    let most_bent = |parts: &[SplinePart]| {
         let spans = parts.iter().filter_map(cubic);
         spans.map(|(c, _)| c.bounds().d2.norm()).fold(0.0, f64::max)
     };

@@ -56,7 +56,7 @@ impl Method for AdvanceRetreat {
     fn regions(&self, probe: &mut Probe<'_>, demand: &Demand) -> Vec<Region> {
         let (first, last) = probe.path().curve().domain();
         let length = probe.path().length();
-        let mut search = Search {
+        let mut search = RegionSearch {
             demand,
             critical_mm: demand.critical_radius_mm(),
             first_step: (last - first) * demand.feed_v * demand.period_t / length,
@@ -87,7 +87,7 @@ impl Method for AdvanceRetreat {
     }
 }
 
-struct Search<'a, 'p> {
+struct RegionSearch<'a, 'p> {
     demand: &'a Demand,
     critical_mm: f64,
     first_step: f64,
@@ -95,7 +95,7 @@ struct Search<'a, 'p> {
     probe: &'a mut Probe<'p>,
 }
 
-impl Search<'_, '_> {
+impl RegionSearch<'_, '_> {
     fn radius_mm(&mut self, u: f64) -> f64 {
         self.probe.at(u).radius_mm
     }

@@ -15,7 +15,7 @@
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::dialect::line_body::body;
 use crate::syntax::dialect::siemens::rewritten::Rewritten;
@@ -191,13 +191,13 @@ impl Writer<'_> {
             (b"CR", true) => return self.value_of(start, behind, b"R", b""),
             (b"TURN", true) => return self.value_of(start, behind, b"P", b"+1"),
             ([b'R', digits @ ..], true) if letters == 1 && !digits.is_empty() => {
-                let parameter = r_parameter(digits, Span::new(start, start + length))?;
+                let parameter = r_parameter(digits, SourceSpan::new(start, start + length))?;
                 return self.value_of(start, behind, format!("#{parameter}=").as_bytes(), b"");
             }
             ([letter], true) => return self.value_of(start, behind, &[*letter], b""),
             _ if letters == 1 && !assigned => self.address(start, length, &name, dwell)?,
             _ => {
-                let span = Span::new(start, start + length);
+                let span = SourceSpan::new(start, start + length);
                 let shown = String::from_utf8_lossy(&name).into_owned();
                 return Err(Fault::new(
                     DiagnosticCode::NotSupported,
@@ -231,7 +231,7 @@ impl Writer<'_> {
                     _ => ("no coordinate system", "write G54 to G57"),
                 };
                 let shown = String::from_utf8_lossy(name).into_owned();
-                let span = Span::new(start, start + length);
+                let span = SourceSpan::new(start, start + length);
                 return Err(Fault::new(
                     DiagnosticCode::NotSupported,
                     span,
@@ -298,7 +298,7 @@ impl Writer<'_> {
                     self.copy();
                 }
                 b'"' => {
-                    let span = Span::new(self.at, self.text.len());
+                    let span = SourceSpan::new(self.at, self.text.len());
                     return Err(
                         Fault::new(DiagnosticCode::NotSupported, span, "a name in quotes")
                             .because("tools have numbers here, and there are no other names")
@@ -318,7 +318,7 @@ impl Writer<'_> {
         let start = self.at;
         let name = self.name_ahead();
         let length = name.len();
-        let span = Span::new(start, start + length);
+        let span = SourceSpan::new(start, start + length);
         if let [b'R', digits @ ..] = name.as_slice()
             && !digits.is_empty()
             && digits.iter().all(u8::is_ascii_digit)
@@ -343,7 +343,7 @@ impl Writer<'_> {
     fn tolerance_cycle(&mut self, start: usize, length: usize) -> Outcome<()> {
         self.at = start + length;
         self.skip_blanks();
-        let span = Span::new(start, start + length);
+        let span = SourceSpan::new(start, start + length);
         self.out.push(b"G64 ", start);
         if self.peek(0) != Some(b'(') {
             return Err(missing(span, "CYCLE832", "( )", "the tolerance"));
@@ -372,7 +372,7 @@ impl Writer<'_> {
 }
 
 /// Number of the parameter an R parameter is kept in.
-fn r_parameter(digits: &[u8], span: Span) -> Outcome<u32> {
+fn r_parameter(digits: &[u8], span: SourceSpan) -> Outcome<u32> {
     let number = core::str::from_utf8(digits)
         .ok()
         .and_then(|d| d.parse::<u32>().ok());

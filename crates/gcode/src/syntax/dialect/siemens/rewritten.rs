@@ -1,6 +1,6 @@
 //! A rewritten line that knows where its bytes came from.
 
-use crate::diagnostic::span::Span;
+use crate::diagnostic::span::SourceSpan;
 
 /// A line in RS274/NGC words, and where each byte of it came from.
 #[derive(Debug, Clone, Default)]
@@ -16,11 +16,11 @@ impl Rewritten {
     }
 
     /// The same span in the line as it was written.
-    pub(crate) fn origin(&self, span: Span) -> Span {
+    pub(crate) fn origin(&self, span: SourceSpan) -> SourceSpan {
         let at = |index: usize| self.origin.get(index).copied();
         let last = self.origin.last().map_or(0, |last| last + 1);
         let start = at(span.start).unwrap_or(last);
         let end = at(span.start + span.length.saturating_sub(1)).map_or(last, |end| end + 1);
-        Span::new(start, end.max(start + usize::from(span.length > 0)))
+        SourceSpan::new(start, end.max(start + usize::from(span.length > 0)))
     }
 }

@@ -55,5 +55,8 @@ fn places_lead_back_to_the_line() {
         .iter()
         .position(|byte| *byte == b'Q')
         .expect("Q");
-    assert_eq!(rewritten.origin(Span::new(at, at + 2)), Span::new(10, 12));
+    assert_eq!(
+        rewritten.origin(SourceSpan::new(at, at + 2)),
+        SourceSpan::new(10, 12)
+    );
 }
