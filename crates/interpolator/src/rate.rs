@@ -12,13 +12,13 @@
 //! computed from the present alone is therefore safe: the rate may start to fall where there is
 //! room, and then find that it cannot be released where there is none.
 //!
-//! The way out is that the future is known. A change of the rate is a [`Ramp`] from the present
-//! rate and slope to another steady rate. Before a ramp is chosen it is *played through* on the
-//! frames at hand: the positions it would publish are computed, tick by tick to three ticks past
-//! its end, and their differences compared with the limits. Only a ramp that passes is committed,
-//! and a committed ramp is followed until a better one passes. Hence the invariant that makes this
-//! safe: **at every tick, following what is committed breaks no limit and needs no frame that is
-//! not here.** A steady rate r ≤ 1 is inside the limits because the plan is.
+//! The way out is that the future is known. A change of the rate is a [`Ramp`](crate::ramp::Ramp)
+//! from the present rate and slope to another steady rate. Before a ramp is chosen it is *played
+//! through* on the frames at hand: the positions it would publish are computed, tick by tick to
+//! three ticks past its end, and their differences compared with the limits. Only a ramp that
+//! passes is committed, and a committed ramp is followed until a better one passes. Hence the
+//! invariant that makes this safe: **at every tick, following what is committed breaks no limit and
+//! needs no frame that is not here.** A steady rate r ≤ 1 is inside the limits because the plan is.
 //!
 //! What is tried, in this order, until one passes or the tick's budget of samples is used up (the
 //! next tick then goes on from there):

@@ -1,23 +1,22 @@
 //! Program time, its rate, and what is known of how both go on: the states of the rate.
 //!
 //! ```text
-//!                    rest_at, begin_at: program time is held
-//!                                      │
-//!          ┌───────────────────────────▼──────────────────────────┐
-//!     ┌───►│ steady (`ramp` is none)                              │◄───┐
-//!     │    │ `reserve.kept` counts down, and is replaced by later │    │
-//!     │    │ stops or by one that arrives at the end of a block   │    │
-//!     │    └──┬─────────────────────────┬──────────────────────┬──┘    │
-//!     │  choose_ramp,             the reserve begins,    the reserve   │
-//!     │  or a little slower       it arrives nowhere     begins, it    │ end of the
-//!     │  to save the reserve      │                      arrives at    │ ramp: the
-//!     │       │                   │                      a frame       │ rate stays
-//!     │    ┌──▼─────────────┐  ┌──▼──────────────────┐  ┌──▼────────┐  │
-//!     │    │ ramp, `Chosen` │  │ ramp, `ReserveStop` │  │ ramp,     ├──┤
-//!     │    │                │◄─┤                     │  │ `Arrival` │  │
-//!     │    └──┬─────────▲───┘  └──┬──────────────────┘  └──┬────────┘  │
-//!     │       │         └─────────┼── choose_ramp: a better one ───────┘
-//!     └───────┴───────────────────┘          (from `Arrival` only a stop before the frame)
+//!               rest_at, begin_at: program time is held
+//!                                  │
+//!   ┌──────────────────────────────▼───────────────────────────┐
+//!   │ steady: `ramp` is none                                   │◄────────────┐
+//!   │ `reserve.kept` counts down, and later stops replace it   │             │
+//!   └───┬───────────────────────┬─────────────────────────┬────┘             │ end of
+//!       │ choose_ramp, or       │ the reserve begins,     │ the reserve      │ the ramp
+//!       │ slow_down_a_little    │ and arrives nowhere     │ begins, and      │
+//!       │                       │                         │ arrives at       │
+//!       │                       │                         │ a frame          │
+//!   ┌───▼────┐ choose_ramp ┌────▼────────┐            ┌───▼─────┐            │
+//!   │ Chosen │◄────────────┤ ReserveStop │            │ Arrival │            │
+//!   └───┬────┘             └────┬────────┘            └───┬─────┘            │
+//!       └───────────────────────┴─────────────────────────┴──────────────────┘
+//!   On a ramp that is `Chosen` a better one may replace it; in an `Arrival` only a stop before
+//!   the frame may.
 //! ```
 //!
 //! * While the rate is **steady**, it has a stop in reserve unless the frames hold the motion, and
