@@ -15,6 +15,6 @@ fuzz_target!(|bytes: &[u8]| {
             assert!(low.iter().zip(high.iter()).all(|(low, high)| low < high));
             assert!(config.home().iter().all(|p| p.is_finite()));
         }
-        Err(error) => assert!(!error.findings().is_empty()),
+        Err(error) => assert!(!error.diagnostics().is_empty()),
     }
 });
