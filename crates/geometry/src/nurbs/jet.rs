@@ -18,7 +18,8 @@ pub struct NurbsJet {
 
 impl NurbsJet {
     /// The same by path position instead of `u`, the feed measured in `axes` (see
-    /// [`Nurbs::feed_axes`]). Where the curve stands still there is no such derivative: all are zero.
+    /// [`Nurbs::feed_axes`](crate::Nurbs::feed_axes)). Where the curve stands still there is no such
+    /// derivative: all are zero.
     #[must_use]
     pub fn by_path_position(&self, axes: Range<usize>) -> Jet {
         let dot = |a: &AxisVector, b: &AxisVector| axes.clone().map(|i| a[i] * b[i]).sum::<f64>();

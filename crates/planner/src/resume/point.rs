@@ -16,7 +16,7 @@ pub struct ResumePoint {
     pub position: AxisVector,
     /// Where it stood when the program began: what the program is read with.
     pub program_start: AxisVector,
-    /// Which program: see [`ItemSource::fingerprint`].
+    /// Which program: see [`ItemSource::fingerprint`](crate::ItemSource::fingerprint).
     pub program: u64,
     /// The block being executed: see [`glidepath_link::SetpointFrame::block`].
     pub block: u32,
