@@ -2,7 +2,6 @@
 //!
 //! * [`Instance`]: shared memory of its own for each test, one test at a time, and the proof that
 //!   nothing of it is left behind;
-//! * [`Faulty`]: a receiving end that loses, repeats and spoils what it receives;
 //! * [`Watchdog`]: ends a test that hangs;
 //! * [`Process`]: processes of the real binary, which [`glidepath`] finds and builds;
 //! * [`Services`]: an interpolator and a servo as processes;
@@ -17,7 +16,6 @@
 )]
 
 mod binary;
-mod faulty;
 mod instance;
 mod machine;
 mod process;
@@ -26,7 +24,6 @@ mod setpoint_file;
 mod watchdog;
 
 pub use binary::glidepath;
-pub use faulty::{Fault, Faulty};
 pub use instance::Instance;
 pub use machine::{Machine, Recording, Watch, audit, plan, program, program_from, settings};
 pub use process::{Output, Process};
