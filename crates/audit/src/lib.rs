@@ -14,7 +14,8 @@
 //! * exact stops, dwells, the programmed feed, and that the path was run to its end.
 //!
 //! Memory is bounded by how far the program is fed ahead of the samples; work is linear in both.
-//! What keeps a motion from being faster is told by [`diagnosis`], fed in the same way.
+//! What keeps a motion from being faster is told by [`diagnosis`], fed in the same way, and how smooth
+//! it is by [`smoothness`].
 //!
 //! ```
 //! use glidepath_audit::{Audit, AuditSettings, Sample, ViolationKind};
@@ -47,6 +48,7 @@ mod program;
 mod report;
 mod sample;
 mod settings;
+pub mod smoothness;
 mod violation;
 mod widen;
 

@@ -4,7 +4,8 @@
 //! for every period which limit is used fully ([`Binding`]), and in the end the share of time of
 //! each and the places where most time is lost against the programmed feed. It judges what it
 //! sees, whoever planned it: positions by finite differences, the deviation from the program, the
-//! speed told.
+//! speed told. Beside that it tells how smooth the motion is, in all and where the feed binds
+//! ([`crate::smoothness`]).
 //!
 //! Work is linear in frames and items; memory is bounded by how far the program is fed ahead.
 
@@ -17,6 +18,7 @@ pub use binding::Binding;
 pub use places::SlowPlace;
 
 use crate::AuditSettings;
+use crate::smoothness::{Smoothness, SmoothnessReport};
 use binding::COUNT;
 use differences::Differences;
 use follow::{Follow, Nearby};
@@ -33,6 +35,7 @@ pub struct Diagnosis {
     follow: Follow,
     counts: [u64; COUNT],
     places: Places,
+    smoothness: Smoothness,
 }
 
 /// What came of it.
@@ -43,6 +46,8 @@ pub struct Summary {
     /// The places where most time is lost against the programmed feed, the worst first, at most
     /// ten.
     pub slowest: Vec<SlowPlace>,
+    /// How smooth the motion is, in all and where the feed binds.
+    pub smoothness: SmoothnessReport,
 }
 
 impl Diagnosis {
@@ -54,6 +59,7 @@ impl Diagnosis {
             follow: Follow::new(settings),
             counts: [0; COUNT],
             places: Places::new(settings.period_t),
+            smoothness: Smoothness::new(settings.period_t),
         }
     }
 
@@ -74,6 +80,10 @@ impl Diagnosis {
         } else {
             classify(frame.path_v, &self.differences, (&nearby, &self.follow))
         };
+        let deviation_mm = self.follow.deviation_mm();
+        let is_at_feed = binding == Binding::Feed;
+        self.smoothness
+            .next(&frame.position, is_at_feed, deviation_mm);
         if let Some(count) = self.counts.get_mut(binding.index())
             && !is_first
         {
@@ -112,6 +122,7 @@ impl Diagnosis {
         Summary {
             shares,
             slowest: self.places.finish(),
+            smoothness: self.smoothness.report(),
         }
     }
 }

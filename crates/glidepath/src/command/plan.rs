@@ -12,7 +12,7 @@ use crate::joints::PlanWatch;
 use crate::output;
 use crate::progress::Progress;
 use crate::recording::Recording;
-use crate::report::{MotionReport, Planning, peak_rss_bytes};
+use crate::report::{DiagnosisReport, MotionReport, Planning, peak_rss_bytes};
 use crate::sample::Sample;
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::{Audit, AuditSettings};
@@ -182,7 +182,7 @@ impl Pass {
         };
         let mut report = MotionReport::new(&planning, &self.audit.finish(), config);
         report.max_joint_line_error = self.joints.map(|joints| joints.line_error());
-        report.diagnosis = Some((&self.diagnosis.finish()).into());
+        report.diagnosis = Some(DiagnosisReport::new(&self.diagnosis.finish(), config));
         report
     }
 }

@@ -1,6 +1,8 @@
 //! What keeps a motion from being faster, in reports.
 
 use super::quantity::seconds;
+use super::smoothness::SmoothnessFigures;
+use crate::config::MachineConfig;
 use core::fmt::Write as _;
 use glidepath_audit::diagnosis::{SlowPlace, Summary};
 use serde::Serialize;
@@ -19,6 +21,8 @@ pub struct DiagnosisReport {
     pub binding: BTreeMap<String, f64>,
     /// Where most time is lost against the programmed feed, the worst first.
     pub slowest: Vec<PlaceReport>,
+    /// How smooth the motion is: `whole`, and `at_feed`, where the programmed feed binds.
+    pub smoothness: BTreeMap<&'static str, SmoothnessFigures>,
 }
 
 /// A place where time is lost.
@@ -60,19 +64,27 @@ impl From<&SlowPlace> for PlaceReport {
     }
 }
 
-impl From<&Summary> for DiagnosisReport {
-    fn from(summary: &Summary) -> Self {
+impl DiagnosisReport {
+    /// The report of what was found on a machine.
+    #[must_use]
+    pub fn new(summary: &Summary, config: &MachineConfig) -> Self {
         let shares = summary.shares.iter();
+        let axes: Vec<_> = config.axes.iter().map(|axis| axis.axis).collect();
+        let smoothness = [
+            ("whole", &summary.smoothness.whole),
+            ("at_feed", &summary.smoothness.at_feed),
+        ];
         Self {
             binding: shares
                 .map(|(binding, share)| (binding.to_string(), *share))
                 .collect(),
             slowest: summary.slowest.iter().map(PlaceReport::from).collect(),
+            smoothness: smoothness
+                .map(|(part, figures)| (part, SmoothnessFigures::new(figures, &axes)))
+                .into(),
         }
     }
-}
 
-impl DiagnosisReport {
     /// The report for people. Lines end with a line feed.
     #[must_use]
     pub fn text(&self) -> String {
@@ -95,6 +107,11 @@ impl DiagnosisReport {
                 place.feed_mm_s,
                 place.limit
             );
+        }
+        for (title, part) in [("smoothness", "whole"), ("  at feed", "at_feed")] {
+            if let Some(figures) = self.smoothness.get(part) {
+                text.push_str(&figures.text(title));
+            }
         }
         text
     }

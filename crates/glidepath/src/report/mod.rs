@@ -7,6 +7,7 @@ mod memory;
 mod motion;
 mod quantity;
 mod run;
+mod smoothness;
 mod status;
 
 pub use diagnosis::{DiagnosisReport, PlaceReport};
@@ -16,6 +17,7 @@ pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};
 pub use quantity::{grouped, seconds};
 pub use run::RunReport;
+pub use smoothness::{AxisFigures, SmoothnessFigures};
 pub use status::{
     fault_text, quantiles_object, quantiles_text, realtime_object, realtime_text, state_name,
     status_object, status_text, timing_text,
