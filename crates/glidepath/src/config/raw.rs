@@ -177,14 +177,10 @@ pub(super) struct RawFiveAxis {
     #[serde(default)]
     pub(super) rotary_reversed: bool,
     pub(super) tool: Spanned<f64>,
-    #[serde(default)]
-    pub(super) tilt_point: [f64; 3],
-    #[serde(default)]
-    pub(super) rotary_point: [f64; 3],
-    #[serde(default)]
-    pub(super) rotary_to_tilt: [f64; 3],
-    #[serde(default)]
-    pub(super) tilt_to_spindle: [f64; 3],
+    pub(super) tilt_point: Optional<[f64; 3]>,
+    pub(super) rotary_point: Optional<[f64; 3]>,
+    pub(super) rotary_to_tilt: Optional<[f64; 3]>,
+    pub(super) tilt_to_spindle: Optional<[f64; 3]>,
 }
 
 #[derive(Debug, Deserialize)]

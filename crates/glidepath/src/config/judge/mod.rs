@@ -20,6 +20,7 @@ use super::machine::{AxisConfig, MachineConfig};
 use super::raw::RawConfig;
 use axis_share::axis_share;
 use glidepath_geometry::Axis;
+use glidepath_kinematics::AxisShare;
 use values::Judge;
 
 /// Judges every value.
@@ -47,7 +48,12 @@ pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<ConfigDiagnosti
     let names: Vec<Axis> = axes.iter().map(|axis| axis.axis).collect();
     let mechanism = judge.mechanism(&raw.machine, &names);
     let joint_limits = judge.joints(&raw.joint, &mechanism);
-    let axis_share = axis_share(&mechanism, &joint_limits, &axes);
+    // Looked for all over the travel, so only of a machine that can be.
+    let axis_share = if judge.diagnostics.is_empty() {
+        axis_share(&mechanism, &joint_limits, &axes)
+    } else {
+        AxisShare::FULL
+    };
     // Stops take as long as joints let them.
     let braking: Vec<AxisConfig> = axes
         .iter()

@@ -18,6 +18,8 @@ pub(super) struct Judge {
 }
 
 impl Judge {
+    /// A number, which is in its range in any case: the nearest one that is stands for one that is
+    /// not, so that whatever is computed from it before the file is refused comes to an end.
     pub(super) fn number(&mut self, key: &str, value: &Spanned<f64>, range: &Range) -> f64 {
         let number = *value.as_ref();
         // Not a number is in no range.
@@ -35,7 +37,22 @@ impl Judge {
                 span: Some(value.span()),
             });
         }
-        number
+        // `max` before `min`: what is no number becomes the least.
+        number.max(range.min).min(range.max)
+    }
+
+    /// The same for each of three numbers.
+    pub(super) fn three(
+        &mut self,
+        key: &str,
+        value: &Optional<[f64; 3]>,
+        range: &Range,
+        default: [f64; 3],
+    ) -> [f64; 3] {
+        value.as_ref().map_or(default, |value| {
+            let each = |number| self.number(key, &Spanned::new(value.span(), number), range);
+            value.as_ref().map(each)
+        })
     }
 
     pub(super) fn number_or(

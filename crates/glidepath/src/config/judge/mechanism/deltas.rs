@@ -1,6 +1,6 @@
 //! `[machine.linear-delta]` and `[machine.rotary-delta]`.
 
-use super::ranges::LENGTH;
+use super::ranges::{DIRECTION, LENGTH};
 use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::judge::values::Judge;
 use crate::config::raw::{RawLinearDelta, RawRotaryDelta};
@@ -8,6 +8,8 @@ use glidepath_geometry::Axis;
 use glidepath_kinematics::{LinearDelta, Mechanism, RotaryDelta};
 use toml::Spanned;
 
+/// Where towers and arms stand unless the file says otherwise, degrees.
+const THIRDS_DEG: [f64; 3] = [90.0, 210.0, 330.0];
 /// Least angle between two arms of a rotary delta, degrees.
 const LEAST_APART_DEG: f64 = 10.0;
 
@@ -20,10 +22,12 @@ impl Judge {
         let raw = raw.as_ref();
         let rod = self.number("machine.linear-delta.rod", &raw.rod, &LENGTH);
         let radius = self.number("machine.linear-delta.radius", &raw.radius, &LENGTH);
-        let towers = raw
-            .tower_angles
-            .as_ref()
-            .map_or([90.0, 210.0, 330.0], |a| *a.as_ref());
+        let towers = self.three(
+            "machine.linear-delta.tower_angles",
+            &raw.tower_angles,
+            &DIRECTION,
+            THIRDS_DEG,
+        );
         Mechanism::LinearDelta(LinearDelta::new(rod, radius, towers, axes))
     }
 
@@ -37,10 +41,12 @@ impl Judge {
             platform_radius_mm: length("platform_radius", &raw.platform_radius),
             upper_arm_mm: length("upper_arm", &raw.upper_arm),
             forearm_mm: length("forearm", &raw.forearm),
-            arm_deg: raw
-                .arm_angles
-                .as_ref()
-                .map_or([90.0, 210.0, 330.0], |angles| *angles.as_ref()),
+            arm_deg: self.three(
+                "machine.rotary-delta.arm_angles",
+                &raw.arm_angles,
+                &DIRECTION,
+                THIRDS_DEG,
+            ),
         };
         self.reach_of_arms(&delta, raw);
         if let Some(angles) = &raw.arm_angles {

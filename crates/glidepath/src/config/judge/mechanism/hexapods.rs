@@ -2,9 +2,8 @@
 
 use super::ranges::{ANGLE, LENGTH, OFFSET};
 use crate::config::judge::values::{Judge, Range};
-use crate::config::raw::{Optional, RawHexapod, RawTranslational};
+use crate::config::raw::{RawHexapod, RawTranslational};
 use glidepath_kinematics::{Guards, Hexapod, Mechanism, TranslationalHexapod};
-use nalgebra::Vector3;
 use toml::Spanned;
 
 impl Judge {
@@ -25,7 +24,9 @@ impl Judge {
         for joint in &mut hexapod.base {
             joint.z = base_z;
         }
-        hexapod.tool = self.vector(&key("tool"), &raw.tool);
+        hexapod.tool = self
+            .three(&key("tool"), &raw.tool, &OFFSET, [0.0; 3])
+            .into();
         let free = Guards::NONE;
         hexapod.guards = Guards {
             max_base_angle_deg: self.number_or(
@@ -58,16 +59,5 @@ impl Judge {
             radius_difference_mm: self.number(&difference, &raw.radius_difference, &LENGTH),
             base_z_mm: self.number_or(&key("base_z"), &raw.base_z, &OFFSET, 0.0),
         })
-    }
-
-    fn vector(&mut self, key: &str, value: &Optional<[f64; 3]>) -> Vector3<f64> {
-        let Some(value) = value else {
-            return Vector3::zeros();
-        };
-        for coordinate in value.as_ref() {
-            let spanned = Spanned::new(value.span(), *coordinate);
-            self.number(key, &spanned, &OFFSET);
-        }
-        Vector3::from(*value.as_ref())
     }
 }

@@ -20,3 +20,9 @@ pub(super) const ANGLE: Range = Range {
     unit: "°",
     help: "an angle of the mechanism",
 };
+pub(super) const DIRECTION: Range = Range {
+    min: -360.0,
+    max: 360.0,
+    unit: "°",
+    help: "a direction in the plane, counted from X towards Y",
+};
