@@ -33,6 +33,7 @@ impl Judge {
 
     pub(super) fn rotary_delta(&mut self, raw: &Spanned<RawRotaryDelta>) -> Mechanism {
         let raw = raw.as_ref();
+        let before = self.diagnostics.len();
         let mut length = |name: &str, value: &Spanned<f64>| {
             self.number(&format!("machine.rotary-delta.{name}"), value, &LENGTH)
         };
@@ -48,9 +49,13 @@ impl Judge {
                 THIRDS_DEG,
             ),
         };
-        self.reach_of_arms(&delta, raw);
-        if let Some(angles) = &raw.arm_angles {
-            self.directions_of_arms(&delta.arm_deg, angles);
+        // What is said of numbers together would be said of others than those in the file, if one of
+        // them is in no range.
+        if self.diagnostics.len() == before {
+            self.reach_of_arms(&delta, raw);
+            if let Some(angles) = &raw.arm_angles {
+                self.directions_of_arms(&delta.arm_deg, angles);
+            }
         }
         Mechanism::RotaryDelta(delta)
     }
@@ -79,7 +84,6 @@ impl Judge {
             let turn = (a - b).rem_euclid(360.0);
             turn.min(360.0 - turn)
         };
-        // A direction that is not a number is apart from none.
         let is_apart = |(a, b)| apart_deg(a, b) >= LEAST_APART_DEG;
         if ![(a, b), (b, c), (c, a)].into_iter().all(is_apart) {
             self.diagnostics.push(ConfigDiagnostic {
