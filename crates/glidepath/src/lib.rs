@@ -48,6 +48,7 @@ pub mod jitter;
 mod joints;
 pub mod output;
 pub mod plot;
+pub mod program_file;
 pub mod program_text;
 pub mod progress;
 pub mod recording;

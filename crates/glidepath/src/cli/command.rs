@@ -8,8 +8,8 @@ use super::motion::{
 };
 use super::operator::{OperatorArgs, OverrideArgs, SingleBlockArgs};
 use super::program::ProgramArgs;
+use crate::program_file::ProgramFile;
 use clap::Subcommand;
-use std::path::PathBuf;
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]
@@ -118,7 +118,7 @@ impl Command {
 
     /// The program the command reads, if it does, and how.
     #[must_use]
-    pub const fn program(&self) -> Option<(Option<&PathBuf>, &ProgramArgs)> {
+    pub const fn program(&self) -> Option<(Option<&ProgramFile>, &ProgramArgs)> {
         match self {
             Self::Run(args) => Some((Some(&args.file), &args.program)),
             Self::Plan(args) => Some((Some(&args.file), &args.program)),

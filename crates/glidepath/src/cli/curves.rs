@@ -1,6 +1,8 @@
 //! Arguments of the commands about curves.
 
 use super::basic::BasicArgs;
+use super::program::program_file;
+use crate::program_file::ProgramFile;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -66,8 +68,9 @@ impl FitMethod {
 /// Arguments of `fit`.
 #[derive(Debug, Args)]
 pub struct FitArgs {
-    /// The G-code program
-    pub file: PathBuf,
+    /// The G-code program; `-` is standard input
+    #[arg(value_parser = program_file())]
+    pub file: ProgramFile,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,

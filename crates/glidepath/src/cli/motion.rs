@@ -1,15 +1,17 @@
 //! Arguments of the commands that check, plan and run programs, and of the processes by themselves.
 
 use super::basic::{BasicArgs, InstanceArgs};
-use super::program::ProgramArgs;
+use super::program::{ProgramArgs, program_file};
+use crate::program_file::ProgramFile;
 use clap::Args;
 use std::path::PathBuf;
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
 pub struct RunArgs {
-    /// The G-code program
-    pub file: PathBuf,
+    /// The G-code program; `-` is standard input
+    #[arg(value_parser = program_file())]
+    pub file: ProgramFile,
     /// How the program is read.
     #[command(flatten)]
     pub program: ProgramArgs,
@@ -33,8 +35,9 @@ pub struct RunArgs {
 /// Arguments of `plan`.
 #[derive(Debug, Args)]
 pub struct PlanArgs {
-    /// The G-code program
-    pub file: PathBuf,
+    /// The G-code program; `-` is standard input
+    #[arg(value_parser = program_file())]
+    pub file: ProgramFile,
     /// How the program is read.
     #[command(flatten)]
     pub program: ProgramArgs,
@@ -52,9 +55,9 @@ pub struct PlanArgs {
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub struct CheckArgs {
-    /// The G-code programs
-    #[arg(required = true)]
-    pub files: Vec<PathBuf>,
+    /// The G-code programs; `-` is standard input
+    #[arg(required = true, value_parser = program_file())]
+    pub files: Vec<ProgramFile>,
     /// How the program is read.
     #[command(flatten)]
     pub program: ProgramArgs,
@@ -84,8 +87,8 @@ pub struct InterpolatorArgs {
 #[derive(Debug, Args)]
 pub struct PlannerArgs {
     /// The G-code program, or `-` for standard input
-    #[arg(required_unless_present = "listen", conflicts_with = "listen")]
-    pub file: Option<PathBuf>,
+    #[arg(required_unless_present = "listen", conflicts_with = "listen", value_parser = program_file())]
+    pub file: Option<ProgramFile>,
     /// Take segments from other processes instead of a program
     #[arg(long)]
     pub listen: bool,
@@ -133,8 +136,9 @@ pub struct ServoArgs {
 /// Arguments of `feed`.
 #[derive(Debug, Args)]
 pub struct FeedArgs {
-    /// The G-code program
-    pub file: PathBuf,
+    /// The G-code program; `-` is standard input
+    #[arg(value_parser = program_file())]
+    pub file: ProgramFile,
     /// How the program is read.
     #[command(flatten)]
     pub program: ProgramArgs,

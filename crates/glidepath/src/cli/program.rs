@@ -1,6 +1,8 @@
 //! Arguments of the commands that read programs.
 
+use crate::program_file::ProgramFile;
 use clap::Args;
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use glidepath_gcode::Dialect;
 use std::path::PathBuf;
 
@@ -17,6 +19,11 @@ pub struct ProgramArgs {
     /// Language of the program: linuxcnc, marlin, fanuc or siemens; else told by its beginning
     #[arg(long, value_name = "NAME", value_parser = dialect)]
     pub dialect: Option<Dialect>,
+}
+
+/// A program by its name.
+pub(super) fn program_file() -> impl TypedValueParser<Value = ProgramFile> {
+    PathBufValueParser::new().map(ProgramFile::named)
 }
 
 fn dialect(name: &str) -> Result<Dialect, &'static str> {

@@ -10,6 +10,7 @@ use crate::config::{self, MachineConfig};
 use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
+use crate::program_file::ProgramFile;
 use crate::progress::Progress;
 use crate::recording::Recording;
 
@@ -50,7 +51,7 @@ fn row(
         &of_profile
     };
     let path = args.folder.join(&entry.file);
-    check::accepted(&path, config)?;
+    check::accepted(&ProgramFile::named(&path), config)?;
     let mut recording = Recording::create(config, None, None)?;
     let mut pass = Pass::start(&path, config, clock::processor)?;
     while pass.turn(&mut recording)? {

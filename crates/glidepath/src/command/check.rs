@@ -9,12 +9,12 @@ use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::joints;
 use crate::output;
+use crate::program_file::ProgramFile;
 use crate::report::{diagnostic_object, grouped};
 use glidepath_gcode::Report;
 use glidepath_geometry::Axis;
 use glidepath_planner::{check_file, find_in_file};
 use serde_json::{Value, json};
-use std::path::Path;
 
 /// Reads every program to its end.
 ///
@@ -22,8 +22,9 @@ use std::path::Path;
 /// A file cannot be opened.
 pub(super) fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let mut reports = Vec::new();
-    for path in &args.files {
-        reports.push((path.display().to_string(), read(path, config)?));
+    for file in &args.files {
+        file.open()?;
+        reports.push((file.name().display().to_string(), read(file, config)?));
     }
     if args.basic.json {
         output::object(&object(&reports));
@@ -40,14 +41,17 @@ pub(super) fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Fa
 ///
 /// # Errors
 /// The file cannot be opened.
-fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
-    let config = &for_program(path, config);
+fn read(file: &ProgramFile, config: &MachineConfig) -> Result<Report, Failure> {
+    let config = &for_program(file, config);
     let options = config.program_options(config.home());
-    let report = check_file(path, options, &config.settings()).map_err(FileError::open(path))?;
+    let report = check_file(file.path(), options, &config.settings())
+        .map_err(FileError::open(file.name()))?;
     if !report.is_accepted() {
         return Ok(report);
     }
-    let diagnostics = joints::check_path(path, config)?.into_iter().collect();
+    let diagnostics = joints::check_path(file.path(), config)?
+        .into_iter()
+        .collect();
     Ok(Report {
         diagnostics,
         ..report
@@ -58,19 +62,21 @@ fn read(path: &Path, config: &MachineConfig) -> Result<Report, Failure> {
 ///
 /// # Errors
 /// The file cannot be opened, or the program has something to mend.
-pub(super) fn accepted(path: &Path, config: &MachineConfig) -> Result<u32, Failure> {
-    let config = &for_program(path, config);
+pub(super) fn accepted(file: &ProgramFile, config: &MachineConfig) -> Result<u32, Failure> {
+    let config = &for_program(file, config);
     let options = config.program_options(config.home());
-    let mut found =
-        find_in_file(path, options, &config.settings()).map_err(FileError::open(path))?;
+    let mut found = find_in_file(file.path(), options, &config.settings())
+        .map_err(FileError::open(file.name()))?;
     if found.diagnostics.is_empty() {
-        found.diagnostics = joints::check_path(path, config)?.into_iter().collect();
+        found.diagnostics = joints::check_path(file.path(), config)?
+            .into_iter()
+            .collect();
     }
     if found.diagnostics.is_empty() {
         return Ok(found.lines);
     }
     Err(Failure::Rejected {
-        program: path.display().to_string(),
+        program: file.name().display().to_string(),
         diagnostics: found.diagnostics,
         more: found.more,
         moved: false,

@@ -17,7 +17,7 @@ use serde_json::json;
 /// # Errors
 /// The program is rejected, nobody listens, or the motion ended before the program did.
 pub(super) fn feed(args: &FeedArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    std::fs::File::open(&args.file).map_err(FileError::open(&args.file))?;
+    std::fs::File::open(args.file.path()).map_err(FileError::open(args.file.name()))?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let transport = session::join(&args.instance, config)?;
     let mut notify = |_: &Notice<'_>| {};
@@ -26,10 +26,10 @@ pub(super) fn feed(args: &FeedArgs, config: &MachineConfig) -> Result<Exit, Fail
         pause: &mut std::thread::sleep,
         notify: &mut notify,
     };
-    let name = args.file.display().to_string();
+    let name = args.file.name().display().to_string();
     let open = |start| {
         FileSource::open(
-            &args.file,
+            args.file.path(),
             config.program_options(start),
             &config.settings(),
         )

@@ -30,9 +30,10 @@ const STEPS: f64 = 1000.0;
 /// # Errors
 /// The program is rejected, has no run, or a file cannot be written.
 pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    args.file.open()?;
     let config = &for_program(&args.file, config);
     check::accepted(&args.file, config)?;
-    let pieces = read(&args.file, config)?;
+    let pieces = read(args.file.path(), config)?;
     let runs: Vec<&Run> = pieces.iter().filter_map(run).collect();
     let settings = Settings {
         method: match args.method {
@@ -51,12 +52,12 @@ pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failur
         std::fs::write(path, text).map_err(FileError::file("write", path))?;
     }
     if let Some(path) = &args.plot {
-        let text = plot(&title(&args.file), &runs, &results);
+        let text = plot(&title(args.file.name()), &runs, &results);
         std::fs::write(path, text).map_err(FileError::file("write", path))?;
     }
     let fitted = runs.iter().zip(&results);
     let report = FitReport {
-        program: args.file.display().to_string(),
+        program: args.file.name().display().to_string(),
         tolerance_mm: args.tolerance,
         method: args.method.name(),
         seed: args.seed,

@@ -36,7 +36,7 @@ pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Fail
     let mut recording = Recording::create(config, csv, plot)?;
     let progress = Progress::lines(lines.into());
     progress.doing("planning");
-    let mut pass = Pass::start(&args.file, config, clock::elapsed)?;
+    let mut pass = Pass::start(args.file.path(), config, clock::elapsed)?;
     while pass.turn(&mut recording)? {
         progress.at(pass.pipeline.statistics().lines);
         if interrupt.is_set() {
@@ -46,10 +46,10 @@ pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Fail
     progress.finish();
 
     let mut report = pass.report(config);
-    report.program = args.file.display().to_string();
+    report.program = args.file.name().display().to_string();
     report.setpoints.clone_from(&args.setpoints);
     report.plot.clone_from(&args.plot);
-    recording.finish(&title(&args.file), &report.caption())?;
+    recording.finish(&title(args.file.name()), &report.caption())?;
     if args.basic.json {
         output::object(&report);
     } else {

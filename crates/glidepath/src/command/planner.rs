@@ -18,7 +18,6 @@ use glidepath_planner::{
     Remainder, RunError, SoftLimits, Statistics, listen,
 };
 use serde_json::{Value, json};
-use std::path::Path;
 
 /// Plans and publishes until the motion is executed, or, with `--listen`, until asked to end.
 ///
@@ -38,8 +37,8 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
     let Some(file) = &args.file else {
         return serve(&transport, config, &mut control, &interrupt);
     };
-    let name = file.display().to_string();
-    let statistics = if file == Path::new("-") {
+    let name = file.name().display().to_string();
+    let statistics = if file.is_standard_input() {
         if args.resume {
             return Err(Failure::ResumePipe);
         }
@@ -48,6 +47,7 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
         })
     } else {
         // A file that does not exist is told at once, not when the machine is ready.
+        let file = file.path();
         std::fs::File::open(file).map_err(FileError::open(file))?;
         let open = |start| {
             joints::check_plan(file, config, start)?;

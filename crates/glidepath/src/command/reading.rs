@@ -6,6 +6,7 @@ use crate::command::failure::Failure;
 use crate::config::{MachineConfig, ProgramConfig};
 use crate::file_error::FileError;
 use crate::output;
+use crate::program_file::ProgramFile;
 use glidepath_gcode::{Dialect, ToolTable};
 use glidepath_kinematics::AxisShare;
 use std::fs::File;
@@ -46,20 +47,22 @@ pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<()
         tell_share(&config.axis_share);
     }
     if let Some(file) = file {
+        // `planner -` begins to move before its input ends.
+        if !(matches!(command, Command::Planner(_)) && file.is_standard_input()) {
+            file.open()?;
+        }
         *config = for_program(file, config);
     }
     Ok(())
 }
 
 /// The configuration for one program: its dialect is settled, and where its subroutines are.
-pub(super) fn for_program(path: &Path, config: &MachineConfig) -> MachineConfig {
+pub(super) fn for_program(file: &ProgramFile, config: &MachineConfig) -> MachineConfig {
     let program = &config.program;
-    // `planner -` reads a pipe, which is in no folder.
-    let file = (path != Path::new("-")).then_some(path);
-    let found = || subroutines(file, &program.subroutine_path);
+    let found = || subroutines(file.in_folder(), &program.subroutine_path);
     MachineConfig {
         program: ProgramConfig {
-            dialect: Some(dialect(path, config)),
+            dialect: Some(dialect(file, config)),
             subroutines: Some(program.subroutines.clone().unwrap_or_else(found)),
             ..program.clone()
         },
@@ -95,13 +98,13 @@ fn tool_table(path: &Path) -> Result<ToolTable, Failure> {
 }
 
 /// The dialect of a program: the one asked for, or the one its beginning is in, which is said.
-fn dialect(path: &Path, config: &MachineConfig) -> Dialect {
+fn dialect(program: &ProgramFile, config: &MachineConfig) -> Dialect {
     if let Some(dialect) = config.program.dialect {
         return dialect;
     }
     let mut beginning = Vec::new();
     // A file that cannot be read is reported where it is opened to be executed.
-    if let Ok(file) = File::open(path) {
+    if let Ok(file) = File::open(program.path()) {
         file.take(BEGINNING).read_to_end(&mut beginning).ok();
     }
     let (dialect, line) = Dialect::detect(&beginning);
@@ -109,7 +112,7 @@ fn dialect(path: &Path, config: &MachineConfig) -> Dialect {
         output::note(&format!(
             "{}: read as a program of the dialect {dialect}, because of line {line}; --dialect says \
              otherwise",
-            path.display()
+            program.name().display()
         ));
     }
     dialect

@@ -44,14 +44,14 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// The program is rejected, real time is not granted, a process failed, or the user interrupted.
 pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let lines = check::accepted(&args.file, config)?;
-    let program = args.file.display().to_string();
-    joints::check_plan(&args.file, config, config.home())
+    let program = args.file.name().display().to_string();
+    joints::check_plan(args.file.path(), config, config.home())
         .map_err(|refusal| Failure::refused(&program, refusal, false))?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let plot = plot_path(args);
     let recording = Recording::create(config, args.setpoints.as_deref(), plot.as_deref())?;
     let progress = Progress::lines(lines.into());
-    let played = Desk {
+    let played = Supervisor {
         args,
         config,
         interrupt: &interrupt,
@@ -72,12 +72,12 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
         &status,
         config,
     );
-    report.motion.program = args.file.display().to_string();
+    report.motion.program = args.file.name().display().to_string();
     report.motion.setpoints.clone_from(&args.setpoints);
     report.motion.plot = plot;
     received
         .recording
-        .finish(&title(&args.file), &report.motion.caption())?;
+        .finish(&title(args.file.name()), &report.motion.caption())?;
     if args.basic.json {
         output::object(&report);
     } else {
@@ -89,7 +89,12 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
 /// Where the plot goes: for people always somewhere.
 fn plot_path(args: &RunArgs) -> Option<PathBuf> {
     let temporary = || {
-        let stem = args.file.file_stem().unwrap_or_default().to_string_lossy();
+        let stem = args
+            .file
+            .name()
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy();
         let name = format!("glidepath-{stem}-{}.svg", std::process::id());
         let path = std::env::temp_dir().join(name);
         // The folder is everybody's: never write to what somebody else put there.
@@ -125,14 +130,14 @@ impl Drop for Leftovers {
     }
 }
 
-struct Desk<'a> {
+struct Supervisor<'a> {
     args: &'a RunArgs,
     config: &'a MachineConfig,
     interrupt: &'a Interrupt,
     progress: &'a Progress,
 }
 
-impl Desk<'_> {
+impl Supervisor<'_> {
     /// Starts the processes, waits for the end of the motion, and ends them. Locals go in the order
     /// opposite to that in which they came: processes, ports, shared memory.
     fn play(&self, recording: Recording) -> Result<Played, Failure> {
@@ -157,7 +162,7 @@ impl Desk<'_> {
         let output = servo
             .take_output()
             .ok_or(Failure::Thread("the servo's output"))?;
-        let relay = Relay::start(output, &self.args.file, self.config, recording)?;
+        let relay = Relay::start(output, self.args.file.path(), self.config, recording)?;
         self.wait_for(&mut servo, || Ok(relay.seen.received() > 0))?;
 
         self.progress.doing("running");
@@ -184,7 +189,7 @@ impl Desk<'_> {
         let mut args: Vec<OsString> = vec!["--instance".into(), instance.into()];
         match name {
             "planner" => {
-                args.extend([self.args.file.clone().into(), "--json".into()]);
+                args.extend([self.args.file.path().into(), "--json".into()]);
                 args.extend(self.program_args());
             }
             "servo" => args.push("--relay".into()),

@@ -1,0 +1,98 @@
+//! A program on the command line: its name, and where it can be read as often as needed.
+//!
+//! A program is read more than once: its beginning tells its dialect, then it is checked as a whole,
+//! then it is planned, by `run` in another process. A pipe can be read once. What comes through one
+//! is therefore kept in a file without a name, which is gone with this process, and read from there:
+//! `-`, `/dev/stdin`, a FIFO and `<(…)` are the same program as a file with their text.
+
+use crate::file_error::FileError;
+use std::fs::File;
+use std::io;
+use std::os::fd::AsRawFd as _;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+/// A program as it is named on the command line; [`ProgramFile::open`] comes before
+/// [`ProgramFile::path`].
+#[derive(Debug, Clone)]
+pub struct ProgramFile {
+    name: PathBuf,
+    kept: OnceLock<Arc<Kept>>,
+}
+
+/// The text of a pipe.
+#[derive(Debug)]
+struct Kept {
+    /// Held so that the path stays good.
+    _file: File,
+    /// By which this process and those it starts can open the file.
+    path: PathBuf,
+}
+
+impl ProgramFile {
+    /// A program of a name, which is not looked at yet. `-` is standard input.
+    pub fn named(name: impl Into<PathBuf>) -> Self {
+        Self {
+            name: name.into(),
+            kept: OnceLock::new(),
+        }
+    }
+
+    /// What the user calls it.
+    #[must_use]
+    pub fn name(&self) -> &Path {
+        &self.name
+    }
+
+    /// True for `-`.
+    #[must_use]
+    pub fn is_standard_input(&self) -> bool {
+        self.name == Path::new("-")
+    }
+
+    /// Where it can be read.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        self.kept.get().map_or(&self.name, |kept| &kept.path)
+    }
+
+    /// The file that has a folder, in which subroutines may stand; none for a pipe.
+    #[must_use]
+    pub fn in_folder(&self) -> Option<&Path> {
+        (self.kept.get().is_none() && !self.is_standard_input()).then_some(&*self.name)
+    }
+
+    /// Keeps what comes through a pipe. Of files nothing is read.
+    ///
+    /// # Errors
+    /// The pipe cannot be read, or its text not be kept. A file that does not exist is no error here,
+    /// but where it is opened to be read.
+    pub fn open(&self) -> Result<(), FileError> {
+        let is_pipe = || {
+            // What cannot be looked at is told where it is opened to be read.
+            let file = self.name.metadata();
+            file.is_ok_and(|file| !file.is_file() && !file.is_dir())
+        };
+        if self.kept.get().is_some() || !(self.is_standard_input() || is_pipe()) {
+            return Ok(());
+        }
+        let kept = self.keep().map_err(FileError::file("read", &self.name))?;
+        // Nobody else opens it meanwhile: commands open programs before anything else.
+        self.kept.set(Arc::new(kept)).ok();
+        Ok(())
+    }
+
+    fn keep(&self) -> io::Result<Kept> {
+        let mut file = tempfile::tempfile()?;
+        if self.is_standard_input() {
+            io::copy(&mut io::stdin().lock(), &mut file)?;
+        } else {
+            io::copy(&mut File::open(&self.name)?, &mut file)?;
+        }
+        let path = format!("/proc/{}/fd/{}", std::process::id(), file.as_raw_fd());
+        Ok(Kept {
+            _file: file,
+            path: path.into(),
+        })
+    }
+}
