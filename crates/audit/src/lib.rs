@@ -14,8 +14,8 @@
 //! * exact stops, dwells, the programmed feed, and that the path was run to its end.
 //!
 //! Memory is bounded by how far the program is fed ahead of the samples; work is linear in both.
-//! What keeps a motion from being faster is told by [`diagnosis`], fed in the same way, and how smooth
-//! it is by [`smoothness`].
+//! What keeps a motion from being faster is told by [`diagnosis`], fed in the same way, and how
+//! smooth it is by [`smoothness`].
 //!
 //! ```
 //! use glidepath_audit::{Audit, AuditSettings, Sample, ViolationKind};

@@ -31,7 +31,7 @@ pub(crate) struct LimitAudit {
     magnitude: f64,
     /// Up to these, differences of first to third order tell nothing new, mm.
     thresholds: [AxisVector; 3],
-    /// The same for the limits alone.
+    /// Up to these, differences are inside the limits, mm.
     limit_thresholds: [AxisVector; 3],
     /// What a period with the full jerk makes of position, velocity and acceleration.
     by_jerk: [AxisVector; 3],

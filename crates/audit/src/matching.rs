@@ -104,7 +104,7 @@ pub(crate) struct Matching {
     pub(crate) at: Option<AxisVector>,
     pub(crate) reach: Reach,
     pub(crate) history: VecDeque<Column>,
-    /// Those of columns that were dropped.
+    /// What could be reached in columns that were dropped: memory to be used again.
     spare: Vec<Reach>,
     /// Travel of the motion over the history, mm.
     travel_mm: f64,

@@ -11,7 +11,7 @@ use std::collections::VecDeque;
 
 /// Distance between an arc and its chords, as a part of the tolerance.
 pub(crate) const FLATTENING: f64 = 1e-5;
-/// The same for other curves.
+/// Distance between another curve and its chords, as a part of the tolerance.
 pub(crate) const CURVE_FLATTENING: f64 = 1e-3;
 /// A tolerance of zero would leave no room for rounding, mm.
 pub(crate) const SMALLEST_TOLERANCE_MM: f64 = 1e-6;

@@ -22,9 +22,9 @@ const SECTIONS: usize = 16;
 /// Largest distances between a curve and a polyline, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
-    /// Of a point of the run from the curve.
+    /// The largest distance of a point of the run from the curve.
     pub points_to_curve_mm: f64,
-    /// Of a point of the curve from the polyline through the points.
+    /// The largest distance of a point of the curve from the polyline through the points.
     pub curve_to_points_mm: f64,
 }
 

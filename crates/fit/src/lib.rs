@@ -126,7 +126,7 @@ pub enum FitError {
     /// A coordinate that is infinite or no number.
     #[error("point {index} is not finite")]
     NotFinite {
-        /// Which.
+        /// Its index.
         index: usize,
     },
     /// The curve would have more control points than the run has points.

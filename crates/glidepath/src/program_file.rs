@@ -1,9 +1,10 @@
 //! A program on the command line: its name, and where it can be read as often as needed.
 //!
-//! A program is read more than once: its beginning tells its dialect, then it is checked as a whole,
-//! then it is planned, by `run` in another process. A pipe can be read once. What comes through one
-//! is therefore kept in a file without a name, which is gone with this process, and read from there:
-//! `-`, `/dev/stdin`, a FIFO and `<(…)` are the same program as a file with their text.
+//! A program is read more than once: its beginning tells its dialect, then it is checked as a
+//! whole, then it is planned, by `run` in another process. A pipe can be read once. What comes
+//! through one is therefore kept in a file without a name, which is gone with this process, and
+//! read from there: `-`, `/dev/stdin`, a FIFO and `<(…)` are the same program as a file with their
+//! text.
 
 use crate::file_error::FileError;
 use std::fs::File;
@@ -65,8 +66,8 @@ impl ProgramFile {
     /// Keeps what comes through a pipe. Of files nothing is read.
     ///
     /// # Errors
-    /// The pipe cannot be read, or its text not be kept. A file that does not exist is no error here,
-    /// but where it is opened to be read.
+    /// The pipe cannot be read, or its text not be kept. A file that does not exist is no error
+    /// here, but where it is opened to be read.
     pub fn open(&self) -> Result<(), FileError> {
         let is_pipe = || {
             // What cannot be looked at is told where it is opened to be read.

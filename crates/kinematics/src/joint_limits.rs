@@ -63,7 +63,7 @@ impl fmt::Display for Quantity {
 /// A limit that was not kept.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointViolation {
-    /// Which joint.
+    /// The joint.
     pub joint: usize,
     /// Which of its limits.
     pub quantity: Quantity,

@@ -29,7 +29,7 @@ pub struct SpeedCaps {
 }
 
 impl PathRates {
-    /// Of a mechanism at a point of a path.
+    /// The rates of a mechanism at a point of a path.
     ///
     /// # Errors
     /// The point is out of reach.

@@ -38,7 +38,7 @@ pub enum RunError {
     /// The interpolator would not do what the planner needs.
     #[error("the interpolator refused the command {command:?}: {refusal:?} {message}")]
     CommandRefused {
-        /// Which.
+        /// The command.
         command: CommandKind,
         /// Why.
         refusal: CommandRefusal,
@@ -48,7 +48,7 @@ pub enum RunError {
     /// The interpolator did not answer.
     #[error("the interpolator did not answer the command {command:?}")]
     CommandUnanswered {
-        /// Which.
+        /// The command.
         command: CommandKind,
     },
     /// The program cannot be taken up again.

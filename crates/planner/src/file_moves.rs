@@ -42,7 +42,7 @@ impl FileMoves {
         &self.text
     }
 
-    /// That of the text: see [`crate::ItemSource::fingerprint`].
+    /// The fingerprint of the text: see [`crate::ItemSource::fingerprint`].
     pub(crate) const fn fingerprint(&self) -> u64 {
         self.fingerprint
     }

@@ -14,7 +14,7 @@ pub struct Limits {
     pub acceleration: AxisVector,
     /// mm/s³ or °/s³.
     pub jerk: AxisVector,
-    /// Of the path itself.
+    /// The limits of the motion along the path, beside those of the axes.
     pub path: PathBounds,
 }
 

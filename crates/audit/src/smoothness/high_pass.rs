@@ -1,8 +1,8 @@
 //! What of a signal is faster than a frequency.
 //!
 //! A Butterworth high pass of fourth order: two sections of second order in a row, by the bilinear
-//! transform, with the corner where it is wanted (prewarped). Nothing of a constant passes, −24 dB an
-//! octave below the corner, everything above it.
+//! transform, with the corner where it is wanted (prewarped). Nothing of a constant passes, −24 dB
+//! an octave below the corner, everything above it.
 
 use core::f64::consts::PI;
 use glidepath_geometry::AxisVector;
@@ -24,8 +24,8 @@ struct Section {
 }
 
 impl HighPass {
-    /// A filter for samples at a period, its corner at a frequency. Where the period is too long for
-    /// the corner (at half the sampling rate or above), nothing passes.
+    /// A filter for samples at a period, its corner at a frequency. Where the period is too long
+    /// for the corner (at half the sampling rate or above), nothing passes.
     pub(super) fn new(corner_hz: f64, period_t: f64) -> Self {
         // Quality of the two pairs of poles of the fourth order.
         let quality = |angle_rad: f64| 0.5 / angle_rad.cos();

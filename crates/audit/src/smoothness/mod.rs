@@ -1,16 +1,16 @@
 //! How smooth a motion is, in figures: what a plot shows at a glance, and limits do not.
 //!
-//! A motion may keep every limit and tremble all the way: an axis that wanders by micrometres with its
-//! jerk at the limit is inside all of them. These figures tell such a motion from a good one:
+//! A motion may keep every limit and tremble all the way: an axis that wanders by micrometres with
+//! its jerk at the limit is inside all of them. These figures tell such a motion from a good one:
 //!
 //! * rms and peak jerk of every axis;
-//! * rms acceleration above 30 Hz: what the structure of a machine rings to, beside the acceleration
-//!   that the path needs, which is slower;
+//! * rms acceleration above 30 Hz: what the structure of a machine rings to, beside the
+//!   acceleration that the path needs, which is slower;
 //! * reversals of every axis: each is a passage through the backlash and the stiction of its drive;
 //! * mean and rms deviation from the programmed path: how much of the tolerance is in use.
 //!
-//! All are told twice: for the whole motion, and for those periods in which the programmed feed binds,
-//! where nothing but the curvature of the path asks for acceleration.
+//! All are told twice: for the whole motion, and for those periods in which the programmed feed
+//! binds, where nothing but the curvature of the path asks for acceleration.
 //!
 //! Positions are differentiated by backward differences, as a drive does it. Work is linear, memory
 //! constant.
@@ -101,8 +101,8 @@ impl Smoothness {
         }
     }
 
-    /// The next position, whether the feed binds in the period that it ends, and its distance from the
-    /// programmed path. Before the first one the machine is at rest there.
+    /// The next position, whether the feed binds in the period that it ends, and its distance from
+    /// the programmed path. Before the first one the machine is at rest there.
     pub fn next(&mut self, position: &AxisVector, is_at_feed: bool, deviation_mm: f64) {
         let Some([last, first, second]) = self.last else {
             self.last = Some([*position, AxisVector::zeros(), AxisVector::zeros()]);

@@ -29,7 +29,7 @@ struct Parser<'a> {
     text: &'a str,
     at: usize,
     variables: &'a [&'a str],
-    /// Of the tree so far, on the way to what is read now.
+    /// How deep in the tree what is read now stands.
     depth: usize,
 }
 

@@ -22,7 +22,7 @@ pub enum Shape {
         curve: ImplicitCurve,
         /// A point of the curve, mm.
         start: Vector3<f64>,
-        /// Which way to go.
+        /// The direction in which the curve is followed from there.
         direction: Vector3<f64>,
         /// Where it ends.
         end: End,

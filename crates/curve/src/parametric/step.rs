@@ -197,7 +197,7 @@ impl<'a> ParametricStepper<'a> {
         self.step(t, self.curve.local(t), evaluations + 1, bracket)
     }
 
-    /// As published, from the start point on.
+    /// The published bisection, from the start point on.
     fn bisection(&self, bracket: &Bracket, chord_mm: f64) -> ChordEnd {
         let (mut low, mut high) = (self.t, bracket.high);
         let whole = Bracket { low, ..*bracket };

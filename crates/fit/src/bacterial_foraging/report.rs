@@ -9,7 +9,7 @@ pub struct Foraging {
     pub evaluations: u64,
     /// Sum of the squared distances at the parameters, at the start, mm².
     pub start_mm2: f64,
-    /// The same for least squares over the same knots, mm².
+    /// Sum of the squared distances for least squares over the same knots, mm².
     pub least_squares_mm2: f64,
     /// Largest distance for least squares over the same knots, mm.
     pub least_squares_max_mm: f64,

@@ -233,7 +233,7 @@ fn eight(text: &[u8], at: usize) -> u64 {
         .map_or_else(|| tail(rest), |bytes| u64::from_le_bytes(*bytes))
 }
 
-/// The same near the end.
+/// The next eight bytes where fewer are left: the others are zero.
 #[cold]
 fn tail(rest: &[u8]) -> u64 {
     let mut bytes = [0; 8];

@@ -99,7 +99,7 @@ impl Interval {
         Self { low, high }
     }
 
-    /// Of a function that never decreases.
+    /// The values of a function that never decreases.
     fn rising(self, f: impl Fn(f64) -> f64) -> Self {
         Self::outward(f(self.low), f(self.high), LIBRARY_ULPS)
     }

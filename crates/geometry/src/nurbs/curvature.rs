@@ -63,7 +63,7 @@ pub struct SpanCurvature {
 enum Turning {
     /// A straight span of degree 1.
     None,
-    /// Of a curve in a coordinate plane: the one component.
+    /// The one component that a curve in a coordinate plane has.
     Planar(Polynomial),
     Spatial([Polynomial; 3]),
 }

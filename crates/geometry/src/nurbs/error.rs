@@ -36,13 +36,13 @@ pub enum NurbsError {
     /// A coordinate that is infinite or no number.
     #[error("control point {index} is not finite")]
     Point {
-        /// Which.
+        /// Its index.
         index: usize,
     },
     /// A weight that is not positive and finite.
     #[error("weight {index} is {weight}: weights are greater than zero")]
     Weight {
-        /// Which.
+        /// Its index.
         index: usize,
         /// Its value.
         weight: f64,
@@ -50,7 +50,7 @@ pub enum NurbsError {
     /// A knot that is infinite, no number, or below the one before it.
     #[error("knot {index} is {knot}: knots are finite and never descend")]
     KnotOrder {
-        /// Which.
+        /// Its index.
         index: usize,
         /// Its value.
         knot: f64,

@@ -8,10 +8,10 @@ use crate::AxisVector;
 /// `v` of path position, axis `i` needs `v·d1[i]`, `v²·d2[i]` and `v³·d3[i]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DerivativeBounds {
-    /// Of the first derivative, axis unit per mm.
+    /// The largest absolute first derivative, axis unit per mm.
     pub d1: AxisVector,
-    /// Of the second derivative, axis unit per mm².
+    /// The largest absolute second derivative, axis unit per mm².
     pub d2: AxisVector,
-    /// Of the third derivative, axis unit per mm³.
+    /// The largest absolute third derivative, axis unit per mm³.
     pub d3: AxisVector,
 }

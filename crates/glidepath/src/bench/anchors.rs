@@ -129,7 +129,7 @@ impl Entry {
                 .filter(|anchor| anchor.jerk.is_some_and(|jerk| is_same(jerk, jerk_j)))
         };
         let mut ordered: Vec<_> = of_jerk().collect();
-        // Those of the machine's tolerance first.
+        // The anchors of the machine's tolerance come first.
         ordered.sort_by_key(|anchor| !is_same(anchor.tolerance_mm, tolerance_mm));
         let first = |of: fn(&Anchor) -> Option<f64>| {
             ordered

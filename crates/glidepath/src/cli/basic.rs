@@ -15,7 +15,7 @@ pub struct BasicArgs {
     pub json: bool,
 }
 
-/// Which shared memory.
+/// The instance, by which processes find each other.
 #[derive(Debug, Clone, Args)]
 pub struct InstanceArgs {
     /// Name of the machine's shared memory; overrides `link.instance` of the configuration

@@ -18,7 +18,7 @@ pub struct RunArgs {
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
-    /// Which shared memory.
+    /// The instance, by which processes find each other.
     #[command(flatten)]
     pub instance: InstanceArgs,
     /// Run without real-time privileges too; the report says what was granted
@@ -72,7 +72,7 @@ pub struct InterpolatorArgs {
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
-    /// Which shared memory.
+    /// The instance, by which processes find each other.
     #[command(flatten)]
     pub instance: InstanceArgs,
     /// Move without real-time privileges too
@@ -105,7 +105,7 @@ pub struct PlannerArgs {
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
-    /// Which shared memory.
+    /// The instance, by which processes find each other.
     #[command(flatten)]
     pub instance: InstanceArgs,
     /// End when the process with this number, which started this one, ends
@@ -119,7 +119,7 @@ pub struct ServoArgs {
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
-    /// Which shared memory.
+    /// The instance, by which processes find each other.
     #[command(flatten)]
     pub instance: InstanceArgs,
     /// Write the setpoints received as CSV
@@ -145,7 +145,7 @@ pub struct FeedArgs {
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
-    /// Which shared memory.
+    /// The instance, by which processes find each other.
     #[command(flatten)]
     pub instance: InstanceArgs,
 }

@@ -9,7 +9,7 @@ pub struct OperatorArgs {
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
-    /// Which shared memory.
+    /// The instance, by which processes find each other.
     #[command(flatten)]
     pub instance: InstanceArgs,
 }
@@ -24,7 +24,7 @@ pub struct OverrideArgs {
     /// Percent of the speed of rapids, 0 to 100
     #[arg(long, value_name = "PERCENT", value_parser = rapid_percent, group = "factor")]
     pub rapid: Option<f64>,
-    /// Which interpolator.
+    /// The interpolator that is meant.
     #[command(flatten)]
     pub operator: OperatorArgs,
 }
@@ -43,7 +43,7 @@ pub enum Switch {
 pub struct SingleBlockArgs {
     /// Whether to rest at the end of every block
     pub switch: Switch,
-    /// Which interpolator.
+    /// The interpolator that is meant.
     #[command(flatten)]
     pub operator: OperatorArgs,
 }

@@ -35,7 +35,7 @@ pub(super) fn command(
 /// Sets the overrides that are given.
 ///
 /// # Errors
-/// As [`command`].
+/// The errors of [`command`].
 pub(super) fn overrides(args: &OverrideArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let feed = args.percent.map(|p| Command::FeedOverride(p / 100.0));
     let rapid = args.rapid.map(|p| Command::RapidOverride(p / 100.0));

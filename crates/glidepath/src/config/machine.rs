@@ -12,7 +12,7 @@ use glidepath_program::{Effort, Limits, PathBounds, Settings, Smoothing};
 /// One axis: mm, or degrees for A, B and C.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisConfig {
-    /// Which.
+    /// The axis.
     pub axis: Axis,
     /// Soft limits in machine coordinates, `None` for a rotary axis that turns without end.
     pub travel: Option<(f64, f64)>,

@@ -8,7 +8,7 @@ pub enum RecordError {
     /// The bytes are of another length: another version, or cut short.
     #[error("{record}: {actual} bytes, expected {expected}")]
     Size {
-        /// Which record.
+        /// The record.
         record: &'static str,
         /// Its size.
         expected: usize,
@@ -18,9 +18,9 @@ pub enum RecordError {
     /// A number is infinite or not a number.
     #[error("{record}: {field}[{index}] is not finite")]
     NotFinite {
-        /// Which record.
+        /// The record.
         record: &'static str,
-        /// Which field.
+        /// The field.
         field: &'static str,
         /// Element of an array field, 0 for a single number.
         index: usize,
@@ -28,9 +28,9 @@ pub enum RecordError {
     /// A number is outside its range.
     #[error("{record}: {field} is {value}, allowed are {low} to {high}")]
     OutOfRange {
-        /// Which record.
+        /// The record.
         record: &'static str,
-        /// Which field.
+        /// The field.
         field: &'static str,
         /// What was found.
         value: f64,
@@ -42,9 +42,9 @@ pub enum RecordError {
     /// A code this version does not know.
     #[error("{record}: {field} has the unknown code {code}")]
     UnknownCode {
-        /// Which record.
+        /// The record.
         record: &'static str,
-        /// Which field.
+        /// The field.
         field: &'static str,
         /// What was found.
         code: u32,
@@ -52,9 +52,9 @@ pub enum RecordError {
     /// Flag bits this version does not know.
     #[error("{record}: {field} has the unknown bits {bits:#x}")]
     UnknownFlags {
-        /// Which record.
+        /// The record.
         record: &'static str,
-        /// Which field.
+        /// The field.
         field: &'static str,
         /// The unknown bits alone.
         bits: u32,
@@ -62,17 +62,17 @@ pub enum RecordError {
     /// A text is not UTF-8.
     #[error("{record}: {field} is not UTF-8")]
     NotText {
-        /// Which record.
+        /// The record.
         record: &'static str,
-        /// Which field.
+        /// The field.
         field: &'static str,
     },
     /// A field that must be zero in this version is not.
     #[error("{record}: {field} must be zero")]
     NotZero {
-        /// Which record.
+        /// The record.
         record: &'static str,
-        /// Which field.
+        /// The field.
         field: &'static str,
     },
 }

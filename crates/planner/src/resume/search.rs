@@ -16,7 +16,7 @@ const SLACK_R: f64 = 0.05;
 /// A point of the program at which the machine may stand.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Standpoint {
-    /// Which item from the block on.
+    /// The index of the item, counted from the block on.
     pub(super) item: usize,
     /// Part of its length.
     pub(super) part: f64,

@@ -15,7 +15,7 @@ pub(crate) trait Scope {
     fn named(&self, name: &str) -> Option<f64>;
 }
 
-/// Which parameter.
+/// The parameter that is meant.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Parameter {
     Numbered(u32),

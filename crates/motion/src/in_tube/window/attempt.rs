@@ -75,7 +75,7 @@ pub(crate) struct WindowMotion {
     pub(crate) points: Vec<AxisVector>,
     /// Rests at the end of the last piece in view.
     pub(crate) is_rest: bool,
-    /// Which is the end of the path.
+    /// True if that rest is at the end of the path.
     pub(crate) is_end: bool,
 }
 

@@ -49,8 +49,8 @@ impl Judge {
                 THIRDS_DEG,
             ),
         };
-        // What is said of numbers together would be said of others than those in the file, if one of
-        // them is in no range.
+        // What is said of numbers together would be said of others than those in the file, if one
+        // of them is in no range.
         if self.diagnostics.len() == before {
             self.reach_of_arms(&delta, raw);
             if let Some(angles) = &raw.arm_angles {

@@ -34,7 +34,7 @@ pub(super) struct TwoSides {
 }
 
 impl TwoSides {
-    /// Of a row that may be violated at a price.
+    /// The sides of a row that may be violated at a price.
     pub(super) fn of(price: f64) -> Self {
         Self {
             price: [price; 2],
