@@ -9,12 +9,12 @@
 //! ```
 //!
 //! The arc is cut into pieces. For each, interval Newton on the equations of the branch
-//! (`branch.rs`) proves that for every s of the piece there is one (u, w) in a box. The tangent t
-//! + a m + b n of the curve is normal to ∇F / s and ∇g there, which encloses the slopes a and b. A
-//! function whose slopes are in an interval of width ω is within ω ℓ / 4 of the chord of its graph
-//! over a length ℓ. So the arc is no farther from the chord than the ends of the pieces are, and
-//! that. If all tangents are within 45° of the chord, the distance from p grows all along: q is
-//! the first crossing, and the arc is passed in order.
+//! (`branch.rs`) proves that for every s of the piece there is one (u, w) in a box. The tangent is
+//! t + a m + b n, normal to ∇F / s and ∇g there, which encloses the slopes a and b. A function
+//! whose slopes are in an interval of width ω is within ω ℓ / 4 of the chord of its graph over a
+//! length ℓ. So the arc is no farther from the chord than the ends of the pieces are, and that. If
+//! all tangents are within 45° of the chord, the distance from p grows all along: q is the first
+//! crossing, and the arc is passed in order.
 
 use super::ImplicitCurve;
 use super::across::Across;
