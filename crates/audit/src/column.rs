@@ -1,7 +1,8 @@
 //! One column of the free-space diagram: a chord of the motion against the chords of the program.
 
-use crate::free_space::{Chord, Interval, distance};
+use crate::free_space::{Chord, Interval};
 use crate::program::{DiagramRow, DiagramRows, Presence};
+use glidepath_program::tolerance_norm;
 
 /// How near an exact stop must be met, mm.
 pub(crate) const EXACT_MM: f64 = 1e-6;
@@ -93,7 +94,7 @@ impl Level {
     /// At the end of a row, for a chord of the motion.
     fn at_end(&self, row: &DiagramRow, chord: &Chord) -> f64 {
         let tolerance = row.exact_end.map_or(row.end_tolerance_mm, |exact| {
-            let cut_mm = exact.cut(distance(&chord.displacement()));
+            let cut_mm = exact.cut(tolerance_norm(&chord.displacement()));
             (self.exact_mm + cut_mm).min(row.end_tolerance_mm)
         });
         tolerance.min(self.lambda_mm).max(self.floor_mm)

@@ -170,15 +170,3 @@ fn near_group(
         high: foot + half,
     })
 }
-
-/// Length of a displacement in the sense of the tolerance: the largest over the groups.
-pub(crate) fn distance(displacement: &AxisVector) -> f64 {
-    let norm = |axes: core::ops::Range<usize>| {
-        axes.map(|i| displacement[i] * displacement[i])
-            .sum::<f64>()
-            .sqrt()
-    };
-    ROTARY_ABC
-        .map(|i| displacement[i].abs())
-        .fold(norm(LINEAR_XYZ).max(norm(UVW)), f64::max)
-}

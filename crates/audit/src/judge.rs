@@ -1,11 +1,12 @@
 //! Verdicts that come with the matching: start, end, and feed.
 
 use crate::column::{EXACT_MM, Level, Passage, Reach};
-use crate::free_space::{Interval, distance};
+use crate::free_space::Interval;
 use crate::matching::{Goal, Matching, Spot};
 use crate::program::Presence;
 use crate::violation::{ViolationKind, Worst};
 use glidepath_geometry::{AxisVector, feed_length};
+use glidepath_program::tolerance_norm;
 
 /// The programmed feed counts as kept up to this factor.
 const FEED_SLACK: f64 = 1.0 + 1e-3;
@@ -19,7 +20,7 @@ impl Matching {
             return false;
         }
         if let Some(row) = self.rows.get(0) {
-            let deviation_mm = distance(&(spot.position - row.chord.from));
+            let deviation_mm = tolerance_norm(&(spot.position - row.chord.from));
             if deviation_mm > EXACT_MM {
                 let kind = ViolationKind::ExactStop { deviation_mm };
                 self.violations.push(spot.tick, spot.line, kind);
@@ -47,7 +48,7 @@ impl Matching {
             .map_or((0, 0), |column| (column.tick, column.line));
         let is_reached = self.trouble.is_none() && self.includes_end(&self.reach.clone(), &at);
         // Where the motion ends at the right place it is a question of deviation.
-        let is_there = distance(&(at - end)) <= EXACT_MM;
+        let is_there = tolerance_norm(&(at - end)) <= EXACT_MM;
         self.is_complete = is_reached || (is_there && self.widen(Goal::End) == Passage::Passed);
         if self.trouble.is_some() {
             self.settle(if self.is_complete {
@@ -71,7 +72,7 @@ impl Matching {
         let is_last = self.rows.reach(self.reach.end()) == Presence::Never;
         let row = self.rows.get(last);
         let line = row.map_or(line, |row| row.line);
-        let missed = row.map(|row| (distance(&(at - row.chord.to)), row.tolerance_mm));
+        let missed = row.map(|row| (tolerance_norm(&(at - row.chord.to)), row.tolerance_mm));
         let kind = match missed {
             Some((deviation_mm, tolerance_mm))
                 if is_last && !is_there && deviation_mm <= tolerance_mm =>
@@ -147,7 +148,7 @@ impl Matching {
         let Some(row) = self.rows.get(last) else {
             return false;
         };
-        is_last && reach.get(last).high >= 1.0 && distance(&(at - row.chord.to)) <= EXACT_MM
+        is_last && reach.get(last).high >= 1.0 && tolerance_norm(&(at - row.chord.to)) <= EXACT_MM
     }
 
     /// Keeps in mind that the motion rested somewhere.
@@ -172,7 +173,7 @@ impl Matching {
         let Some(row) = self.rows.get(index).filter(|row| row.dwell_t > 0.0) else {
             return;
         };
-        let is_here = |at: &AxisVector| distance(&(at - row.chord.to)) <= EXACT_MM;
+        let is_here = |at: &AxisVector| tolerance_norm(&(at - row.chord.to)) <= EXACT_MM;
         let ticks = self
             .rests
             .iter()

@@ -66,4 +66,4 @@ pub use segment::{Line, Segment, feed_length};
 pub use transition::{
     BezierPair, Blend, DerivativeBounds, Hermite, PairShape, Transition, TransitionError,
 };
-pub use turn::{Turn, limit_along, tolerance_half_turn};
+pub use turn::{Turn, limit_along, tolerance_half_turn, tolerance_norm};

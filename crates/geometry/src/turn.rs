@@ -49,10 +49,20 @@ impl Turn {
 /// proportional to it, and it is [`Turn::sb`] for a corner of XYZ alone.
 #[must_use]
 pub fn tolerance_half_turn(t1: &AxisVector, t2: &AxisVector) -> f64 {
-    let change = t2 - t1;
-    let rotary = ROTARY_ABC.map(|i| change[i].abs()).fold(0.0, f64::max);
-    0.5 * norm_in(&change, LINEAR_XYZ)
-        .max(norm_in(&change, UVW))
+    0.5 * tolerance_norm(&(t2 - t1))
+}
+
+/// The distance that a tolerance bounds, mm: the XYZ part, the UVW part, or a rotary axis (then in
+/// degrees), whichever is largest.
+///
+/// Lengths and angles are not added: a tolerance of 0.02 allows 0.02 mm to the tool centre and
+/// 0.02° to each rotary axis.
+#[inline]
+#[must_use]
+pub fn tolerance_norm(difference: &AxisVector) -> f64 {
+    let rotary = ROTARY_ABC.map(|i| difference[i].abs()).fold(0.0, f64::max);
+    norm_in(difference, LINEAR_XYZ)
+        .max(norm_in(difference, UVW))
         .max(rotary)
 }
 
@@ -79,6 +89,7 @@ pub(crate) fn feed_group(t1: &AxisVector, t2: &AxisVector) -> Range<usize> {
 }
 
 /// Euclidean norm over some of the axes.
+#[inline]
 pub(crate) fn norm_in(vector: &AxisVector, axes: Range<usize>) -> f64 {
     axes.map(|i| vector[i] * vector[i]).sum::<f64>().sqrt()
 }

@@ -8,10 +8,15 @@
 
 use crate::file_error::FileError;
 use std::fs::File;
-use std::io;
+use std::io::{self, Read};
 use std::os::fd::AsRawFd as _;
+use std::os::unix::fs::FileTypeExt as _;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
+
+/// The most that is kept of a pipe, bytes: a program of some hundred million lines. An endless one
+/// must not fill the disk.
+const MOST_BYTES: u64 = 4 << 30;
 
 /// A program as it is named on the command line; [`ProgramFile::open`] comes before
 /// [`ProgramFile::path`].
@@ -71,8 +76,8 @@ impl ProgramFile {
     pub fn open(&self) -> Result<(), FileError> {
         let is_pipe = || {
             // What cannot be looked at is told where it is opened to be read.
-            let file = self.name.metadata();
-            file.is_ok_and(|file| !file.is_file() && !file.is_dir())
+            let kind = self.name.metadata().map(|file| file.file_type());
+            kind.is_ok_and(|kind| kind.is_fifo() || kind.is_socket())
         };
         if self.kept.get().is_some() || !(self.is_standard_input() || is_pipe()) {
             return Ok(());
@@ -86,9 +91,9 @@ impl ProgramFile {
     fn keep(&self) -> io::Result<Kept> {
         let mut file = tempfile::tempfile()?;
         if self.is_standard_input() {
-            io::copy(&mut io::stdin().lock(), &mut file)?;
+            copy(io::stdin().lock(), &mut file)?;
         } else {
-            io::copy(&mut File::open(&self.name)?, &mut file)?;
+            copy(File::open(&self.name)?, &mut file)?;
         }
         let path = format!("/proc/{}/fd/{}", std::process::id(), file.as_raw_fd());
         Ok(Kept {
@@ -96,4 +101,13 @@ impl ProgramFile {
             path: path.into(),
         })
     }
+}
+
+/// Copies all of a pipe.
+fn copy(pipe: impl Read, file: &mut File) -> io::Result<()> {
+    if io::copy(&mut pipe.take(MOST_BYTES + 1), file)? > MOST_BYTES {
+        let message = "a program from a pipe has at most 4 GiB; put a longer one into a file";
+        return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+    }
+    Ok(())
 }

@@ -10,8 +10,7 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-/// Longer than what is read to tell the dialect, with something to mend at the end, and a
-/// subroutine's worth of lines before it.
+/// A program longer than what is read to tell its dialect, which ends with a line.
 fn long(last: &str) -> String {
     let mut text = String::from("G21 G90 G64\nF600\n");
     for i in 0..6_000 {

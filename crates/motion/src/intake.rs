@@ -42,7 +42,36 @@ impl Intake {
         rate: Rate,
         mode: PathMode,
     ) -> Result<(), PlanError> {
-        check(line, segment, rate, mode, &self.program_position)
+        let finite = segment
+            .start()
+            .iter()
+            .chain(segment.end().iter())
+            .all(|x| x.is_finite())
+            && segment.length().is_finite();
+        if !finite {
+            return Err(PlanError::NotFinite { line });
+        }
+        let gap_mm = (segment.start() - self.program_position).amax();
+        if gap_mm > SHORTEST_MOVE_MM {
+            return Err(PlanError::Gap { line, gap_mm });
+        }
+        // Not a number is no rate either.
+        let wrong = [rate.feed_v(), Some(rate.most_v().min(f64::MAX))];
+        if let Some(feed_v) = wrong
+            .into_iter()
+            .flatten()
+            .find(|v| !(*v > 0.0 && v.is_finite()))
+        {
+            return Err(PlanError::Feed { line, feed_v });
+        }
+        if let PathMode::Continuous {
+            tolerance_mm: Some(tolerance_mm),
+        } = mode
+            && !(tolerance_mm > 0.0 && tolerance_mm.is_finite())
+        {
+            return Err(PlanError::Tolerance { line, tolerance_mm });
+        }
+        Ok(())
     }
 
     /// Takes a move that was checked: its segment from where the last one ended; `None` if it is
@@ -90,44 +119,4 @@ fn starting_at(mut segment: Segment, start: AxisVector) -> Segment {
         Segment::Curve(curve) => curve.start = start,
     }
     segment
-}
-
-/// Refuses a move that cannot be planned.
-fn check(
-    line: u32,
-    segment: &Segment,
-    rate: Rate,
-    mode: PathMode,
-    program_position: &AxisVector,
-) -> Result<(), PlanError> {
-    let finite = segment
-        .start()
-        .iter()
-        .chain(segment.end().iter())
-        .all(|x| x.is_finite())
-        && segment.length().is_finite();
-    if !finite {
-        return Err(PlanError::NotFinite { line });
-    }
-    let gap_mm = (segment.start() - program_position).amax();
-    if gap_mm > SHORTEST_MOVE_MM {
-        return Err(PlanError::Gap { line, gap_mm });
-    }
-    // Not a number is no rate either.
-    let wrong = [rate.feed_v(), Some(rate.most_v().min(f64::MAX))];
-    if let Some(feed_v) = wrong
-        .into_iter()
-        .flatten()
-        .find(|v| !(*v > 0.0 && v.is_finite()))
-    {
-        return Err(PlanError::Feed { line, feed_v });
-    }
-    if let PathMode::Continuous {
-        tolerance_mm: Some(tolerance_mm),
-    } = mode
-        && !(tolerance_mm > 0.0 && tolerance_mm.is_finite())
-    {
-        return Err(PlanError::Tolerance { line, tolerance_mm });
-    }
-    Ok(())
 }

@@ -1,6 +1,5 @@
 //! What a planner is fed: segments, dwells and events, in program order.
 
-use crate::Settings;
 use glidepath_geometry::Segment;
 
 /// How a segment's speed is given.
@@ -185,15 +184,15 @@ pub enum ItemKind {
 }
 
 impl PathMode {
-    /// The tolerance in force, mm: of the mode, or that of the settings.
+    /// The tolerance in force, mm: that of the mode, or the configured one where it gives none.
     #[inline]
     #[must_use]
-    pub fn tolerance_mm(self, settings: &Settings) -> f64 {
+    pub fn tolerance_mm(self, configured_mm: f64) -> f64 {
         match self {
             Self::Continuous {
                 tolerance_mm: Some(tolerance_mm),
             } => tolerance_mm,
-            _ => settings.tolerance_mm,
+            _ => configured_mm,
         }
     }
 }

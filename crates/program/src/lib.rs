@@ -44,11 +44,11 @@ mod item;
 mod limits;
 mod override_;
 mod settings;
-mod tolerance;
 
 pub use frame::{Frame, FrameFlags};
 pub use item::{Event, Item, ItemKind, PathMode, ProgramLine, Rate};
 pub use limits::{Limits, PathBounds};
 pub use override_::Override;
 pub use settings::{Effort, Settings, Smoothing};
-pub use tolerance::tolerance_norm;
+// Who judges a deviation measures it as everybody else does.
+pub use glidepath_geometry::tolerance_norm;

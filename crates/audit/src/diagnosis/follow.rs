@@ -7,7 +7,7 @@
 use crate::AuditSettings;
 use glidepath_geometry::{AxisVector, Prepared, feed_length, limit_along};
 use glidepath_program::tolerance_norm;
-use glidepath_program::{Frame, Item, ItemKind, Limits, PathMode, Rate};
+use glidepath_program::{Frame, Item, ItemKind, Limits, Rate};
 use std::collections::VecDeque;
 
 /// A programmed move.
@@ -69,12 +69,7 @@ impl Follow {
         if length_s <= 0.0 {
             return;
         }
-        let tolerance_mm = match mode {
-            PathMode::Continuous {
-                tolerance_mm: Some(tolerance_mm),
-            } => tolerance_mm,
-            _ => self.tolerance_mm,
-        };
+        let tolerance_mm = mode.tolerance_mm(self.tolerance_mm);
         self.moves.push_back(Move {
             segment: segment.prepared(),
             length_s,

@@ -1,6 +1,6 @@
-//! What a search did.
+//! What a search by bacterial foraging did.
 
-/// What a search did.
+/// The effort of a search by bacterial foraging, and its start beside least squares.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Foraging {
     /// Iterations of all its runs.

@@ -23,6 +23,9 @@ pub struct SmoothnessFigures {
 /// The smoothness of an axis; degrees instead of mm where it is rotary.
 #[derive(Debug, Clone, Serialize)]
 pub struct AxisFigures {
+    /// The unit of its position: "mm" or "°".
+    #[serde(skip)]
+    pub unit: &'static str,
     /// Rms jerk, mm/s³.
     pub rms_jerk: f64,
     /// Largest jerk, mm/s³.
@@ -40,6 +43,7 @@ impl SmoothnessFigures {
         let of = |axis: &Axis| {
             let index = axis.index();
             let figures = AxisFigures {
+                unit: if axis.is_rotary() { "°" } else { "mm" },
                 rms_jerk: figures.rms_jerk_j[index],
                 peak_jerk: figures.peak_jerk_j[index],
                 acceleration_above_30_hz: figures.ringing_a[index],
@@ -76,9 +80,10 @@ impl SmoothnessFigures {
             self.rms_deviation_mm
         );
         for (axis, figures) in &self.axes {
+            let unit = figures.unit;
             let _ = writeln!(
                 text,
-                "    {axis}           jerk {} rms, {} peak; acceleration above {RINGING_HZ} Hz {:.1} rms; {} reversals",
+                "    {axis}           jerk {} {unit}/s³ rms, {} peak; acceleration above {RINGING_HZ} Hz {:.1} {unit}/s² rms; {} reversals",
                 whole(figures.rms_jerk),
                 whole(figures.peak_jerk),
                 figures.acceleration_above_30_hz,

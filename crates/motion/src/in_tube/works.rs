@@ -163,7 +163,7 @@ impl Works {
         self.works.push_back(Work::Move(Move {
             segment,
             rate,
-            tolerance_mm: mode.tolerance_mm(&self.settings),
+            tolerance_mm: mode.tolerance_mm(self.settings.tolerance_mm),
             line,
             events: events.into_iter().map(|(_, event)| event).collect(),
         }));

@@ -182,7 +182,7 @@ pub(crate) fn chord_speed(segment: &Segment, mode: PathMode, settings: &Settings
         Segment::Line(_) => return f64::INFINITY,
         Segment::Arc(arc) => arc,
         Segment::Curve(curve) => {
-            let left_mm = mode.tolerance_mm(settings) - curve.error_mm;
+            let left_mm = mode.tolerance_mm(settings.tolerance_mm) - curve.error_mm;
             let at_unit_mm = chord_error_mm(&curve.bounds(), 1.0, settings.period_t);
             return (left_mm.max(0.0) / at_unit_mm).sqrt();
         }
@@ -190,5 +190,5 @@ pub(crate) fn chord_speed(segment: &Segment, mode: PathMode, settings: &Settings
     let radius_mm = arc.start_radius().max(arc.end_radius());
     let omega = arc.sweep_rad / arc.length();
     let curvature_k = radius_mm * omega * omega;
-    (8.0 * mode.tolerance_mm(settings) / curvature_k).sqrt() / settings.period_t
+    (8.0 * mode.tolerance_mm(settings.tolerance_mm) / curvature_k).sqrt() / settings.period_t
 }

@@ -88,7 +88,7 @@ impl DenseBlocks {
         let mut is_new = false;
         let mut run = run.unwrap_or_else(|| {
             is_new = true;
-            let tolerance_mm = mode.tolerance_mm(&assembly.settings);
+            let tolerance_mm = mode.tolerance_mm(assembly.settings.tolerance_mm);
             let (start, settings) = (block.start, &assembly.settings);
             DenseRun {
                 compressor: Compressor::new(
@@ -162,8 +162,8 @@ impl DenseBlocks {
             PartShape::Stop => {
                 assembly.put_pending(out);
                 // The chord of one period must not cut off more than the fit left over.
-                let is_exact =
-                    assembly.stop_cut_mm() > 0.05 * mode.tolerance_mm(&assembly.settings);
+                let is_exact = assembly.stop_cut_mm()
+                    > 0.05 * mode.tolerance_mm(assembly.settings.tolerance_mm);
                 let kind = if is_exact {
                     RestKind::ExactStop
                 } else {
@@ -230,7 +230,8 @@ impl DenseBlocks {
             return;
         };
         let bounds = span.bounds();
-        let left_mm = (manner.mode.tolerance_mm(&assembly.settings) - error_mm).max(0.0);
+        let left_mm =
+            (manner.mode.tolerance_mm(assembly.settings.tolerance_mm) - error_mm).max(0.0);
         let at_unit_mm = chord_error_mm(&bounds, 1.0, assembly.settings.period_t);
         let curve = CurveRule {
             bounds,

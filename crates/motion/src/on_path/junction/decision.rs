@@ -81,13 +81,13 @@ pub(crate) fn join(from: JunctionSide<'_>, to: JunctionSide<'_>, settings: &Sett
     let rate_v = from.rate_v.min(to.rate_v);
     let jet_in = from.segment.jet(from.length_s);
     let jet_out = to.segment.jet(0.0);
-    let tolerance_mm = from.mode.tolerance_mm(settings);
+    let tolerance_mm = from.mode.tolerance_mm(settings.tolerance_mm);
     let stop_wanted = match from.mode {
         PathMode::ExactStop => return Junction::Stop { exact: true },
         // A chord from a loose stretch must not reach into a tight one.
         PathMode::Continuous { .. }
             if tolerance_mm
-                .total_cmp(&to.mode.tolerance_mm(settings))
+                .total_cmp(&to.mode.tolerance_mm(settings.tolerance_mm))
                 .is_ne() =>
         {
             return Junction::Stop { exact: true };
