@@ -156,7 +156,7 @@ impl Machine<'_> {
     ///
     /// # Errors
     /// The planner's.
-    pub fn publish<S: ItemSource>(
+    pub fn publish<S: ItemSource + Send>(
         &self,
         stop: &AtomicBool,
         make_source: impl FnOnce(AxisVector) -> S,

@@ -13,7 +13,7 @@ use glidepath_program::{Event, Frame, FrameFlags, ProgramLine};
 use std::collections::VecDeque;
 
 /// Makes frames, one for each period.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct FrameGrid {
     period_t: f64,
     sequence: u64,

@@ -9,7 +9,7 @@ use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ};
 use glidepath_program::{Frame, Limits, Settings};
 
 /// Follows the frames.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Guard {
     /// Largest first, second and third difference of each axis, mm or degrees.
     most: [AxisVector; 3],

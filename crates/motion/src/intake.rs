@@ -13,7 +13,7 @@ use glidepath_program::{PathMode, Rate};
 pub(crate) const SHORTEST_MOVE_MM: f64 = 1e-6;
 
 /// How far the program has come, and how far what was made of it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Intake {
     /// Where the segments taken so far end.
     position: AxisVector,

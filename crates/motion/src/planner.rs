@@ -14,7 +14,7 @@ use glidepath_program::{Effort, Frame, Item, Override, Settings, Smoothing};
 /// `LAST`) at rest at the end.
 ///
 /// There is an example at [`crate`].
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Planner {
     engine: Engine,
     guard: Guard,
@@ -25,7 +25,7 @@ pub struct Planner {
 }
 
 /// How motion is planned.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 enum Engine {
     OnPath(Box<OnPathEngine>),
     InTube(Box<InTubeEngine>),

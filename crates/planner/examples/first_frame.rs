@@ -1,22 +1,27 @@
-//! How long a program takes to begin: dense lines in a file, from opening it to the first frame.
-//! All of the file is read and checked before.
+//! How long a program takes to begin: dense lines in a file, from opening it to the first frame,
+//! pulled from a pipeline and published as the planner process does. All of the file is read and
+//! checked before.
 //!
 //! ```text
 //! cargo run --release -p glidepath-planner --example first_frame
 //! ```
 #![allow(clippy::print_stdout, reason = "a table")]
 
+use std::cell::RefCell;
 use std::error::Error;
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use glidepath_gcode::{Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_planner::{Pipeline, ProgramSource};
+use glidepath_link::{InProcess, MachineState, Status, Transport as _};
+use glidepath_planner::{Control, Notice, Pace, Pipeline, ProgramSource, Publisher, RunError};
 use glidepath_program::{Effort, Limits, Settings, Smoothing};
 
+const PERIOD_NS: u64 = 4_000_000;
 /// Times each is measured; the median counts.
 const TURNS: usize = 9;
 
@@ -60,14 +65,62 @@ fn dense(file: &File, lines: u32) -> std::io::Result<()> {
     file.flush()
 }
 
-/// From the start until the file is checked, and until the first frame.
-fn begin(path: &Path, effort: Effort) -> Result<(Duration, Duration), Box<dyn Error>> {
+/// From the start until the file is checked, until the first frame is planned, and, the same
+/// again, until it is published.
+fn begin(path: &Path, effort: Effort) -> Result<[Duration; 3], Box<dyn Error>> {
     let start = Instant::now();
     let source = ProgramSource::open(path, options())?;
     let checked = start.elapsed();
     let mut pipeline = Pipeline::new(source, settings(effort), AxisVector::zeros());
     pipeline.next_frame()?.ok_or("no frame")?;
-    Ok((checked, start.elapsed()))
+    Ok([checked, start.elapsed(), publish(path, effort)?])
+}
+
+/// From the start until the first frame is in the queue of an interpolator.
+fn publish(path: &Path, effort: Effort) -> Result<Duration, Box<dyn Error>> {
+    let transport = InProcess::default();
+    let sink = transport.status_sink()?;
+    let (sink, mut status): (_, Status) = (RefCell::new(sink), bytemuck::Zeroable::zeroed());
+    (status.period_ns, status.state) = (PERIOD_NS, MachineState::Idle.code());
+    let stop = AtomicBool::new(false);
+    let mut pause = |time| {
+        status.updated_ns += 1;
+        // A queue that is full has enough of them.
+        let _ = sink.borrow_mut().publish(&status);
+        // Nobody answers what comes after.
+        if !stop.load(Ordering::Relaxed) {
+            std::thread::sleep(time);
+        }
+    };
+    let mut published = None;
+    let mut publisher = Publisher::connect(&transport, Pace::new(PERIOD_NS, 0.6))?;
+    let mut none = |_: &Notice<'_>| {};
+    let position = publisher.wait_until_ready(&mut Control {
+        stop: &stop,
+        pause: &mut pause,
+        notify: &mut none,
+    })?;
+    let start = Instant::now();
+    let mut notify = |notice: &Notice<'_>| {
+        if matches!(notice, Notice::Started { .. }) {
+            published = Some(start.elapsed());
+            stop.store(true, Ordering::Relaxed);
+        }
+    };
+    let source = ProgramSource::open(path, options())?;
+    let mut pipeline = Pipeline::new(source, settings(effort), position);
+    let ended = publisher.publish(
+        &mut pipeline,
+        &mut Control {
+            stop: &stop,
+            pause: &mut pause,
+            notify: &mut notify,
+        },
+    );
+    match ended {
+        Err(RunError::Interrupted) => published.ok_or_else(|| "no frame".into()),
+        other => Err(format!("{other:?}").into()),
+    }
 }
 
 fn median(mut times: Vec<Duration>) -> f64 {
@@ -84,24 +137,21 @@ fn peak() -> Option<String> {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    println!("| lines | checked, ms | first frame, fast, ms | first frame, optimal, ms |");
-    println!("|---|---|---|---|");
+    println!("| lines | effort | checked, ms | first frame planned, ms | published, ms |");
+    println!("|---|---|---|---|---|");
     for lines in [10_000, 100_000, 1_000_000] {
         let file = tempfile::NamedTempFile::new()?;
         dense(file.as_file(), lines)?;
-        let (mut checked, mut fast, mut optimal) = (Vec::new(), Vec::new(), Vec::new());
-        for _ in 0..TURNS {
-            let (check, frame) = begin(file.path(), Effort::Fast)?;
-            checked.push(check);
-            fast.push(frame);
-            optimal.push(begin(file.path(), Effort::Optimal)?.1);
+        for effort in [Effort::Fast, Effort::Optimal] {
+            let mut times = [const { Vec::new() }; 3];
+            for _ in 0..TURNS {
+                for (times, time) in times.iter_mut().zip(begin(file.path(), effort)?) {
+                    times.push(time);
+                }
+            }
+            let [checked, planned, published] = times.map(median);
+            println!("| {lines} | {effort:?} | {checked:.1} | {planned:.1} | {published:.1} |");
         }
-        println!(
-            "| {lines} | {:.1} | {:.1} | {:.1} |",
-            median(checked),
-            median(fast),
-            median(optimal)
-        );
     }
     println!("\n{} at most in memory", peak().unwrap_or_default());
     Ok(())

@@ -7,7 +7,7 @@
 use glidepath_program::{Frame, Item, ProgramLine};
 
 /// The blocks between the planner's input and its output.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Blocks {
     /// Number of the next item.
     next: u32,

@@ -10,6 +10,15 @@ use crate::{Progress, Refusal, Statistics};
 /// Frames beyond the horizon for an interpolator that cannot go on with what it has.
 const MORE_FRAMES: u64 = 8;
 
+/// How far to plan ahead of what is published. A host whose cores are all taken by others keeps the
+/// planner from running for tenths of a second, and a stretch that is hard to plan takes as long:
+/// this is many times as much. What is beyond it would be planned for nothing whenever an override
+/// changes.
+const AHEAD: Duration = Duration::from_secs(10);
+
+/// The same in frames where periods are short: 5 MB.
+const MOST_AHEAD: usize = 16 * 1024;
+
 /// How frames are paced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pace {
@@ -34,6 +43,12 @@ impl Pace {
             period_ns,
             horizon_frames: (frames as u64).max(1),
         }
+    }
+
+    /// How far to plan ahead of what is published, frames.
+    pub(crate) fn frames_ahead(&self) -> usize {
+        let frames = AHEAD.as_nanos() / u128::from(self.period_ns.max(1));
+        usize::try_from(frames).map_or(MOST_AHEAD, |frames| frames.min(MOST_AHEAD))
     }
 }
 

@@ -54,6 +54,9 @@ pub enum RunError {
     /// The program cannot be taken up again.
     #[error(transparent)]
     Resume(#[from] ResumeError),
+    /// The thread that plans cannot be started.
+    #[error("the thread that plans cannot be started: {0}; let this user have more threads")]
+    NoThread(#[source] std::io::Error),
     /// A port failed.
     #[error(transparent)]
     Link(#[from] LinkError),

@@ -3,8 +3,9 @@
 //!
 //! ```text
 //!  file ─┐
-//!  pipe ─┼─ ItemSource ─▶ Pipeline ─▶ Publisher ─▶ FrameSink
-//!  feed ─┘   (items)      (frames)     (pace)  ◀─ Status
+//!  pipe ─┼─ ItemSource ─▶ Pipeline ─▶ queue ─▶ Publisher ─▶ FrameSink
+//!  feed ─┘   (items)      (frames,             (pace)  ◀─ Status
+//!                          a thread)
 //! ```
 //!
 //! This crate stands between the readers of programs (`glidepath-gcode`, `glidepath-curve`) and the
@@ -15,7 +16,8 @@
 //!   [`PipeSource`] a pipe, [`ProgramSource`] any text, [`CurveSource`] and [`NurbsSource`] curve files.
 //! * [`Pipeline`] turns a source into frames, one after the other; [`PathCaps`] keep the joints of
 //!   a mechanism inside their limits on the way.
-//! * [`Publisher`] hands frames on, no further ahead of the machine than its [`Pace`] says.
+//! * [`Publisher`] hands frames on, no further ahead of the machine than its [`Pace`] says. They are
+//!   planned further ahead than that, in a thread of their own.
 //! * [`listen()`] and [`feed()`] are the two ends of a stream of segments from another process.
 //! * [`Remainder`] is what is left of a program whose planner died, or that was aborted.
 //!
@@ -58,6 +60,7 @@
 //! # Ok::<(), glidepath_planner::Refusal>(())
 //! ```
 
+mod ahead;
 mod blocks;
 mod control;
 mod curve;
@@ -67,11 +70,13 @@ mod feed;
 mod file;
 mod file_moves;
 mod fingerprint;
+mod history;
 mod joint_speed;
 mod listen;
 mod machine;
 mod nurbs;
 mod pipeline;
+mod planning;
 mod program;
 mod publish;
 mod refusal;

@@ -9,6 +9,7 @@
 //! one it is over, and the machine comes to rest at the end of what was accepted. A client with
 //! nothing to send repeats its last request.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
@@ -159,11 +160,23 @@ impl Listener<'_> {
         listening: &Listening,
         control: &mut Control<'_>,
     ) -> Result<Statistics, RunError> {
-        let source = StreamSource::new(self.server.as_mut(), stream);
-        let mut pipeline =
-            Pipeline::new(source, listening.settings, position).with_joints(listening.joints);
-        let outcome = self.publisher.publish(&mut pipeline, control);
-        let mut stream = pipeline.into_source().stream;
+        let received = Mutex::new(Received {
+            stream,
+            broken: None,
+        });
+        let mut attendant = Attendant {
+            server: self.server.as_mut(),
+            received: &received,
+            silent: Duration::ZERO,
+        };
+        let mut pipeline = Pipeline::new(StreamSource(&received), listening.settings, position)
+            .with_joints(listening.joints);
+        let mut attend = |waited| attendant.attend(waited);
+        let outcome = self
+            .publisher
+            .publish_and_attend(&mut pipeline, &mut attend, control);
+        let received = received.into_inner();
+        let mut stream = received.unwrap_or_else(PoisonError::into_inner).stream;
         match &outcome {
             Ok(_) => stream.close(
                 SegmentRefusal::NotOpen,
@@ -176,26 +189,15 @@ impl Listener<'_> {
     }
 }
 
-/// The items of a stream, received while they are planned.
-struct StreamSource<'s> {
-    server: &'s mut Segments,
+/// What has been received of a stream: items come in on one side while they are planned on the
+/// other, in another thread.
+struct Received {
     stream: Stream,
-    /// Time since the last request of the stream.
-    silent: Duration,
     /// Why the stream ended without its client saying so.
     broken: Option<Refusal>,
 }
 
-impl<'s> StreamSource<'s> {
-    const fn new(server: &'s mut Segments, stream: Stream) -> Self {
-        Self {
-            server,
-            stream,
-            silent: Duration::ZERO,
-            broken: None,
-        }
-    }
-
+impl Received {
     /// Ends the stream here: what was accepted is executed.
     fn give_up(&mut self, broken: Refusal) {
         if self.stream.is_open() {
@@ -204,17 +206,45 @@ impl<'s> StreamSource<'s> {
             self.broken = Some(broken);
         }
     }
+}
+
+fn lock(received: &Mutex<Received>) -> MutexGuard<'_, Received> {
+    // Nothing is left half done where a thread can panic.
+    received.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The side to which items come in.
+struct Attendant<'s> {
+    server: &'s mut Segments,
+    received: &'s Mutex<Received>,
+    /// Time since the last request of the stream.
+    silent: Duration,
+}
+
+impl Attendant<'_> {
+    /// Answers the client, and notices when it is gone.
+    fn attend(&mut self, waited: Duration) {
+        self.silent = self.silent.saturating_add(waited);
+        let served = self.serve();
+        let mut received = lock(self.received);
+        if let Err(error) = served {
+            received.give_up(Refusal::StreamFailed(error));
+        } else if received.stream.is_open() && self.silent >= CLIENT_SILENCE {
+            let accepted = received.stream.accepted();
+            received.give_up(Refusal::ClientLost { accepted });
+        }
+    }
 
     /// Answers what came in.
     fn serve(&mut self) -> Result<(), LinkError> {
         let Self {
             server,
-            stream,
+            received,
             silent,
-            ..
         } = self;
         for _ in 0..REQUESTS_PER_TURN {
             let any = server.serve(&mut |request| {
+                let stream = &mut lock(received).stream;
                 if request.session == stream.session() {
                     *silent = Duration::ZERO;
                 }
@@ -228,38 +258,32 @@ impl<'s> StreamSource<'s> {
     }
 }
 
+/// The side on which items are planned.
+struct StreamSource<'s>(&'s Mutex<Received>);
+
 impl ItemSource for StreamSource<'_> {
     fn next_item(&mut self) -> Supply {
-        if let Some(item) = self.stream.pop() {
+        let mut received = lock(self.0);
+        if let Some(item) = received.stream.pop() {
             return Supply::Item(item);
         }
-        if let Some(broken) = self.broken.take() {
+        if let Some(broken) = received.broken.take() {
             return Supply::Refused(broken);
         }
-        if self.stream.is_open() {
+        if received.stream.is_open() {
             Supply::Pending
         } else {
             Supply::End
         }
     }
 
-    fn attend(&mut self, waited: Duration) {
-        self.silent = self.silent.saturating_add(waited);
-        if let Err(error) = self.serve() {
-            self.give_up(Refusal::StreamFailed(error));
-        } else if self.stream.is_open() && self.silent >= CLIENT_SILENCE {
-            self.give_up(Refusal::ClientLost {
-                accepted: self.stream.accepted(),
-            });
-        }
-    }
-
     fn unplannable(&mut self, error: &PlanError) {
-        self.stream
+        lock(self.0)
+            .stream
             .close(SegmentRefusal::Unplannable, error.to_string());
     }
 
     fn lines_read(&self) -> u64 {
-        self.stream.accepted()
+        lock(self.0).stream.accepted()
     }
 }

@@ -96,6 +96,11 @@ impl Machine {
     /// Waits a little, and counts it as silence until the next news.
     pub(crate) fn pause(&mut self, time: Duration, control: &mut Control<'_>) {
         (control.pause)(time);
+        self.count_silence(time);
+    }
+
+    /// Counts time that was waited otherwise.
+    pub(crate) fn count_silence(&mut self, time: Duration) {
         self.silent = self.silent.saturating_add(time);
         if self.silent >= SILENCE {
             self.alive = false;

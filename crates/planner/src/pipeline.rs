@@ -6,7 +6,8 @@
 //!
 //! Nothing runs ahead of the caller: an item is taken from the source only when the planner has no
 //! frame left to give, so the memory in use is the planner's look-ahead, whatever the length of the
-//! program.
+//! program. A caller that works ahead itself (the module `ahead`) lets the pipeline keep a history,
+//! and can then have it go back to an earlier frame.
 //!
 //! If the source fails midway (an error in a pipe, a client that died) the planner is told that the
 //! program ends at the last good item. The motion then comes to rest there, on the path, and the
@@ -16,11 +17,12 @@ use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::PathCaps;
-use glidepath_motion::Planner;
 use glidepath_program::{Frame, Item, ItemKind, Override, Settings};
 
 use crate::blocks::Blocks;
+use crate::history::History;
 use crate::joint_speed::JointSpeed;
+use crate::planning::{Planning, Stage};
 use crate::{ItemSource, Refusal, Remainder, Supply};
 
 /// One step of a pipeline.
@@ -64,31 +66,22 @@ pub struct Statistics {
     pub planning: Duration,
 }
 
-/// Whether the program can still grow.
-#[derive(Debug)]
-enum Program {
-    Open,
-    /// No more items; frames may remain. Holds the reason if the program ended early.
-    Ended(Option<Refusal>),
-    /// Planning failed inside: there are no more frames.
-    Broken,
-}
-
 /// Source and planner, joined.
 #[derive(Debug)]
 pub struct Pipeline<S> {
     source: S,
-    planner: Planner,
+    planning: Planning,
     /// The item taken last.
     item: Item,
-    program: Program,
+    /// The source gives no more items.
+    is_exhausted: bool,
+    /// Why the program ended early, until that is told.
+    refusal: Option<Refusal>,
     statistics: Statistics,
     clock: Option<fn() -> Duration>,
-    wanted: Override,
-    blocks: Blocks,
-    /// Path position at the start, mm.
-    start_s: f64,
     settings: Settings,
+    /// For going back to an earlier frame.
+    history: Option<History>,
     /// What keeps joints inside their limits.
     joints: Option<JointSpeed>,
 }
@@ -97,12 +90,9 @@ impl<S: ItemSource> Pipeline<Remainder<S>> {
     /// A pipeline for the rest of a program, from where the machine stands.
     #[must_use]
     pub fn resuming(rest: Remainder<S>, settings: Settings) -> Self {
-        let (point, first) = (*rest.point(), rest.first_block());
-        Self {
-            blocks: Blocks::from(first),
-            start_s: point.path_s,
-            ..Self::new(rest, settings, point.position)
-        }
+        let (point, blocks) = (*rest.point(), Blocks::from(rest.first_block()));
+        let planning = Planning::new(settings, point.position, blocks, point.path_s);
+        Self::from(rest, settings, planning)
     }
 }
 
@@ -110,22 +100,31 @@ impl<S: ItemSource> Pipeline<S> {
     /// A pipeline for a machine at rest at `start` (mm, degrees).
     #[must_use]
     pub fn new(source: S, settings: Settings, start: AxisVector) -> Self {
-        let planner = Planner::new(settings, start);
+        let planning = Planning::new(settings, start, Blocks::whole(), 0.0);
+        Self::from(source, settings, planning)
+    }
+
+    const fn from(source: S, settings: Settings, planning: Planning) -> Self {
         Self {
             source,
-            planner,
+            planning,
             item: Item {
                 block: 0,
                 line: 0,
                 kind: ItemKind::Dwell(0.0),
             },
-            program: Program::Open,
-            statistics: Statistics::default(),
+            is_exhausted: false,
+            refusal: None,
+            statistics: Statistics {
+                lines: 0,
+                segments: 0,
+                others: 0,
+                frames: 0,
+                planning: Duration::ZERO,
+            },
             clock: None,
-            wanted: Override::NONE,
-            blocks: Blocks::whole(),
-            start_s: 0.0,
             settings,
+            history: None,
             joints: None,
         }
     }
@@ -171,13 +170,18 @@ impl<S: ItemSource> Pipeline<S> {
     /// # Errors
     /// As [`Pipeline::advance`].
     pub fn step(&mut self) -> Result<Step, Refusal> {
+        self.timed(Self::go_on)
+    }
+
+    /// Counts the time of some work as planning.
+    fn timed<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
         let Some(clock) = self.clock else {
-            return self.go_on();
+            return work(self);
         };
         let before = clock();
-        let step = self.go_on();
+        let result = work(self);
         self.statistics.planning += clock().saturating_sub(before);
-        step
+        result
     }
 
     /// The item that the planner took last; before the first an empty dwell.
@@ -189,31 +193,18 @@ impl<S: ItemSource> Pipeline<S> {
     /// The frame made last; before the first one at rest at the start.
     #[must_use]
     pub const fn frame(&self) -> &Frame {
-        self.planner.frame()
+        self.planning.frame()
     }
 
     fn go_on(&mut self) -> Result<Step, Refusal> {
-        if matches!(self.program, Program::Broken) {
-            return Ok(Step::End);
+        if self.planning.make_frame()? {
+            self.remember();
+            return Ok(Step::Frame);
         }
-        match self.planner.make_frame() {
-            Ok(true) => {
-                let frame = self.planner.frame_mut();
-                self.statistics.frames += 1;
-                self.blocks.complete(frame);
-                frame.path_s += self.start_s;
-                return Ok(Step::Frame);
-            }
-            Ok(false) => {}
-            Err(error) => {
-                self.program = Program::Broken;
-                return Err(error.into());
-            }
-        }
-        match &mut self.program {
-            Program::Broken => Ok(Step::End),
-            Program::Open => Ok(self.take_item()),
-            Program::Ended(refusal) => refusal.take().map_or(Ok(Step::End), Err),
+        match self.planning.stage() {
+            Stage::Broken => Ok(Step::End),
+            Stage::Open => self.take_item(),
+            Stage::Ended => self.refusal.take().map_or(Ok(Step::End), Err),
         }
     }
 
@@ -235,27 +226,54 @@ impl<S: ItemSource> Pipeline<S> {
 
     /// Plans what no frame was given out of with this override, if it is another than before.
     pub fn follow_override(&mut self, wanted: Override) {
-        // A refusal cannot be: status records with overrides out of range are not accepted.
-        if wanted != self.wanted && self.planner.set_override(wanted).is_ok() {
-            self.wanted = wanted;
+        self.planning.follow_override(wanted);
+    }
+
+    /// From now on keeps what [`Pipeline::replan`] needs.
+    pub(crate) fn keep_history(&mut self) {
+        self.history = Some(History::new(&self.planning, self.settings.period_t));
+    }
+
+    /// Forgets what is needed to go back to where fewer frames than these were made.
+    pub(crate) fn forget_before(&mut self, frames: u64) {
+        if let Some(history) = &mut self.history {
+            history.forget_before(frames);
         }
     }
 
-    /// The source, where the pipeline is no longer wanted.
-    #[must_use]
-    pub fn into_source(self) -> S {
-        self.source
+    /// True if the history is long enough.
+    pub(crate) fn remembers_enough(&self) -> bool {
+        self.history.as_ref().is_some_and(History::is_full)
     }
 
-    /// The source.
-    pub(crate) fn source(&mut self) -> &mut S {
-        &mut self.source
+    /// Goes back to where so many frames were made, and plans what follows with this override. An
+    /// error that was told meanwhile is told again in its place. Needs the history from there on.
+    pub(crate) fn replan(&mut self, frames: u64, wanted: Override, told: Option<Refusal>) {
+        // An error of the planner may not come again; if it does, it comes by itself.
+        let told = told.filter(|refusal| !refusal.leaves_motion_open());
+        self.refusal = self.refusal.take().or(told);
+        self.timed(|pipeline| {
+            let Some(history) = &mut pipeline.history else {
+                return;
+            };
+            pipeline.planning = history.back_to(frames);
+            while pipeline.planning.frames() < frames {
+                // All of this went well before.
+                if matches!(pipeline.go_on(), Ok(Step::End) | Err(_)) {
+                    break;
+                }
+            }
+            if let Some(history) = &mut pipeline.history {
+                history.mark_override(&pipeline.planning, wanted);
+            }
+            pipeline.planning.follow_override(wanted);
+        });
     }
 
     /// Block of the program that the last frame belongs to ([`Frame::block`]), 0 before the first.
     #[must_use]
     pub const fn block(&self) -> u32 {
-        self.blocks.present()
+        self.planning.block()
     }
 
     /// Which program it is: see [`ItemSource::fingerprint`].
@@ -268,41 +286,66 @@ impl<S: ItemSource> Pipeline<S> {
     pub fn statistics(&self) -> Statistics {
         Statistics {
             lines: self.source.lines_read(),
+            frames: self.planning.frames(),
             ..self.statistics
         }
     }
 
-    fn take_item(&mut self) -> Step {
+    fn take_item(&mut self) -> Result<Step, Refusal> {
+        let known = self.history.as_ref();
+        if let Some(item) = known.and_then(|known| known.item_after(self.planning.items())) {
+            self.item = self.planning.take(item)?;
+            self.remember();
+            return Ok(Step::Item);
+        }
+        if self.is_exhausted {
+            return self.end();
+        }
         match self.source.next_item() {
             Supply::Item(item) => self.plan(item),
-            Supply::Pending => Step::Pending,
-            Supply::End => self.end(None),
-            Supply::Refused(refusal) => self.end(Some(refusal)),
+            Supply::Pending => Ok(Step::Pending),
+            Supply::End => self.end(),
+            Supply::Refused(refusal) => {
+                self.refusal = Some(refusal);
+                self.end()
+            }
         }
     }
 
-    fn plan(&mut self, item: Item) -> Step {
-        let mut item = match &mut self.joints {
+    fn plan(&mut self, item: Item) -> Result<Step, Refusal> {
+        let item = match &mut self.joints {
             Some(joints) => joints.keep(item),
             None => item,
         };
-        self.blocks.number(&mut item);
-        if let Err(error) = self.planner.push(&item) {
-            self.source.unplannable(&error);
-            return self.end(Some(error.into()));
+        match self.planning.take(item) {
+            Ok(numbered) => self.item = numbered,
+            Err(error) => {
+                self.source.unplannable(&error);
+                self.refusal = Some(error.into());
+                return self.end();
+            }
         }
         match item.kind {
             ItemKind::Move { .. } => self.statistics.segments += 1,
             ItemKind::Dwell(_) | ItemKind::Event(_) => self.statistics.others += 1,
         }
-        self.item = item;
-        Step::Item
+        if let Some(history) = &mut self.history {
+            history.keep(item);
+        }
+        self.remember();
+        Ok(Step::Item)
     }
 
-    /// Closes the program at the last good item.
-    fn end(&mut self, refusal: Option<Refusal>) -> Step {
-        self.planner.finish();
-        self.program = Program::Ended(refusal);
-        Step::Pending
+    fn remember(&mut self) {
+        if let Some(history) = &mut self.history {
+            history.follow(&self.planning);
+        }
+    }
+
+    /// Closes the program at the last good item, and goes on with what is left of its motion.
+    fn end(&mut self) -> Result<Step, Refusal> {
+        self.is_exhausted = true;
+        self.planning.finish();
+        self.go_on()
     }
 }

@@ -12,6 +12,8 @@
 //!   still be planned otherwise; what is published lets the machine run on while the planner is
 //!   held up. If the interpolator rests for want of frames though it has them all, it gets more
 //!   than the horizon, little by little, so that the two can never wait for each other.
+//! * **Planned ahead.** Frames come from a thread that works far ahead of the horizon (the module
+//!   `ahead`); on a change of override what it is ahead by is planned again.
 //! * **No loss.** The frame in hand is given up only when the transport says that it is in the
 //!   interpolator's queue; a queue that is full, or not connected yet, gets the same frame again.
 //! * **Slow input.** While the source has nothing, the last frame is offered again now and then.
@@ -30,13 +32,15 @@ use glidepath_geometry::AxisVector;
 use glidepath_link::{
     Command, Delivery, FaultCause, FrameSink, LinkError, MachineState, SetpointFrame, Transport,
 };
+use glidepath_program::Override;
 
+use crate::ahead::{FrameQueue, Next, planned_ahead};
 use crate::epoch::Epoch;
 use crate::machine::{HUNGRY_POLL, Machine, POLL, SILENCE, Standing};
-use crate::{Control, ItemSource, Notice, Pace, Pipeline, ResumePoint, RunError, Statistics, Step};
+use crate::{Control, ItemSource, Notice, Pace, Pipeline, ResumePoint, RunError, Statistics};
 
-/// Steps of the pipeline between two looks at status and stop flag.
-const STEPS_PER_TURN: u32 = 512;
+/// Frames offered between two looks at status and stop flag.
+const FRAMES_PER_TURN: u32 = 512;
 
 /// Between two notices of progress.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
@@ -76,8 +80,19 @@ enum Turn {
     Busy,
     /// Nothing to do until the source has more.
     Hungry,
+    /// Waited for frames that are still being planned.
+    Waited,
     /// Nothing to do until the interpolator has gone on.
     Wait,
+}
+
+/// What an epoch gives out.
+struct Plan<'q> {
+    queue: &'q FrameQueue,
+    /// The fingerprint of the program.
+    program: u64,
+    /// The override it is planned with.
+    wanted: Override,
 }
 
 impl<'t> Publisher<'t> {
@@ -174,17 +189,50 @@ impl<'t> Publisher<'t> {
     }
 
     /// Publishes all frames of a pipeline that starts where [`Publisher::wait_until_ready`] said,
-    /// and waits until they are executed.
+    /// and waits until they are executed. They are planned in a thread of its own.
     ///
     /// # Errors
     /// Why the motion ended before the end of the program. A refusal of the program comes when the
     /// motion up to the last good item is executed.
-    pub fn publish<S: ItemSource>(
+    pub fn publish<S: ItemSource + Send>(
         &mut self,
         pipeline: &mut Pipeline<S>,
         control: &mut Control<'_>,
     ) -> Result<Statistics, RunError> {
-        let mut epoch = self.next_epoch()?;
+        self.publish_and_attend(pipeline, &mut |_| {}, control)
+    }
+
+    /// As [`Publisher::publish`], for a source that has others to answer to: `attend` is called
+    /// every few milliseconds, with the time waited since the last call.
+    pub(crate) fn publish_and_attend<S: ItemSource + Send>(
+        &mut self,
+        pipeline: &mut Pipeline<S>,
+        attend: &mut dyn FnMut(Duration),
+        control: &mut Control<'_>,
+    ) -> Result<Statistics, RunError> {
+        let epoch = self.next_epoch()?;
+        let wanted = self.machine.wanted_override().unwrap_or(Override::NONE);
+        pipeline.follow_override(wanted);
+        let program = pipeline.fingerprint();
+        let published = planned_ahead(pipeline, self.pace.frames_ahead(), |queue| {
+            let plan = Plan {
+                queue,
+                program,
+                wanted,
+            };
+            self.publish_planned(plan, epoch, attend, control)
+        });
+        published.map_err(RunError::NoThread)??;
+        Ok(pipeline.statistics())
+    }
+
+    fn publish_planned(
+        &mut self,
+        mut plan: Plan<'_>,
+        mut epoch: Epoch,
+        attend: &mut dyn FnMut(Duration),
+        control: &mut Control<'_>,
+    ) -> Result<(), RunError> {
         let mut waited = Duration::ZERO;
         loop {
             if control.is_stopped() {
@@ -192,33 +240,41 @@ impl<'t> Publisher<'t> {
                 return Err(RunError::Interrupted);
             }
             self.machine.observe()?;
-            if let Some(wanted) = self.machine.wanted_override() {
-                pipeline.follow_override(wanted);
-            }
-            pipeline.source().attend(waited);
+            attend(waited);
             epoch.follow(self.standing(&epoch)?);
             if epoch.is_over() {
-                self.report(&epoch, pipeline, control);
-                if let Some(Err(refusal)) = epoch.ended {
-                    return Err(refusal.into());
-                }
-                return Ok(pipeline.statistics());
+                self.report(&epoch, &plan, control);
+                return match epoch.ended {
+                    Some(Err(refusal)) => Err(refusal.into()),
+                    _ => Ok(()),
+                };
             }
-            waited = match self.turn(pipeline, &mut epoch, control)? {
+            if let Some(wanted) = self.machine.wanted_override()
+                && wanted != plan.wanted
+                && epoch.ended.is_none()
+            {
+                plan.wanted = wanted;
+                plan.queue.replan(wanted);
+            }
+            plan.queue.ask_again();
+            let turn = self.turn(&plan, &mut epoch, control)?;
+            waited = match turn {
                 Turn::Busy => Duration::ZERO,
                 Turn::Hungry => {
                     self.show_life(&mut epoch)?;
                     HUNGRY_POLL
                 }
-                Turn::Wait => POLL,
+                Turn::Waited | Turn::Wait => POLL,
             };
-            if !waited.is_zero() {
-                self.machine.pause(waited, control);
-                epoch.since_progress += waited;
+            match turn {
+                Turn::Busy => {}
+                Turn::Waited => self.machine.count_silence(waited),
+                Turn::Hungry | Turn::Wait => self.machine.pause(waited, control),
             }
+            epoch.since_progress += waited;
             if epoch.since_progress >= PROGRESS_INTERVAL {
                 epoch.since_progress = Duration::ZERO;
-                self.report(&epoch, pipeline, control);
+                self.report(&epoch, &plan, control);
             }
         }
     }
@@ -229,14 +285,14 @@ impl<'t> Publisher<'t> {
         Ok(Epoch::new(status.boot_id, number, self.pace.horizon_frames))
     }
 
-    /// Plans and offers frames until there is nothing to do or it is time to look around.
-    fn turn<S: ItemSource>(
+    /// Offers frames until there is nothing to do or it is time to look around.
+    fn turn(
         &mut self,
-        pipeline: &mut Pipeline<S>,
+        plan: &Plan<'_>,
         epoch: &mut Epoch,
         control: &mut Control<'_>,
     ) -> Result<Turn, RunError> {
-        for _ in 0..STEPS_PER_TURN {
+        for _ in 0..FRAMES_PER_TURN {
             if let Some(frame) = epoch.in_hand {
                 if frame.sequence >= epoch.limit()
                     || self.sink.offer(&frame)? != Delivery::Delivered
@@ -253,22 +309,26 @@ impl<'t> Publisher<'t> {
             if epoch.ended.is_some() {
                 return Ok(Turn::Wait);
             }
-            match pipeline.step() {
-                Ok(Step::Frame) => {
-                    let frame = pipeline.frame();
+            match plan.queue.next() {
+                Next::Frame(frame) => {
                     epoch.in_hand = Some(SetpointFrame {
-                        program: pipeline.fingerprint(),
-                        ..SetpointFrame::from_frame(frame, epoch.number, self.pace.period_ns)
+                        program: plan.program,
+                        ..SetpointFrame::from_frame(&frame, epoch.number, self.pace.period_ns)
                     });
                 }
-                Ok(Step::Item) => {}
-                Ok(Step::Pending) => return Ok(Turn::Hungry),
-                Ok(Step::End) => epoch.ended = Some(Ok(())),
-                Err(refusal) if refusal.leaves_motion_open() => {
+                Next::Busy if plan.queue.wait(POLL) => {}
+                Next::Busy => return Ok(Turn::Waited),
+                Next::Pending => return Ok(Turn::Hungry),
+                Next::End(Err(refusal)) if refusal.leaves_motion_open() => {
                     self.abort(epoch, control)?;
                     return Err(refusal.into());
                 }
-                Err(refusal) => epoch.ended = Some(Err(refusal)),
+                Next::End(end) => epoch.ended = Some(end),
+                Next::Died => {
+                    // Why is told by the panic of that thread, which is handed on.
+                    self.abort(epoch, control)?;
+                    return Err(RunError::Interrupted);
+                }
             }
         }
         Ok(Turn::Busy)
@@ -279,14 +339,9 @@ impl<'t> Publisher<'t> {
             .standing(epoch.boot_id, epoch.number, epoch.is_known())
     }
 
-    fn report<S: ItemSource>(
-        &self,
-        epoch: &Epoch,
-        pipeline: &Pipeline<S>,
-        control: &mut Control<'_>,
-    ) {
+    fn report(&self, epoch: &Epoch, plan: &Plan<'_>, control: &mut Control<'_>) {
         let line = self.machine.line();
-        let progress = epoch.progress(pipeline.statistics(), line, self.pace.period_ns);
+        let progress = epoch.progress(plan.queue.statistics(), line, self.pace.period_ns);
         (control.notify)(&Notice::Progress(progress));
     }
 

@@ -29,7 +29,6 @@ pub use point::ResumePoint;
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
-use std::time::Duration;
 
 use glidepath_geometry::{Arc, AxisVector, Segment};
 use glidepath_motion::PlanError;
@@ -159,10 +158,6 @@ impl<S: ItemSource> ItemSource for Remainder<S> {
             return Supply::Item(item);
         }
         self.last.take().unwrap_or_else(|| self.source.next_item())
-    }
-
-    fn attend(&mut self, waited: Duration) {
-        self.source.attend(waited);
     }
 
     fn unplannable(&mut self, error: &PlanError) {

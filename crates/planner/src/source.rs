@@ -5,8 +5,6 @@
 //! depends on the sequence of items alone, never on how often a source was pending: the same
 //! program from a file, a pipe or a client of the listening planner gives the same frames.
 
-use std::time::Duration;
-
 use glidepath_motion::PlanError;
 use glidepath_program::Item;
 
@@ -32,12 +30,6 @@ pub trait ItemSource {
     /// The next item, if there is one.
     fn next_item(&mut self) -> Supply;
 
-    /// Called every few milliseconds, whether items are wanted or not, for sources that have others
-    /// to answer to. `waited` is the time since the last call, as far as the planner waited.
-    fn attend(&mut self, waited: Duration) {
-        let _ = waited;
-    }
-
     /// The item handed over last cannot be planned; no more are asked for.
     fn unplannable(&mut self, error: &PlanError) {
         let _ = error;
@@ -46,7 +38,7 @@ pub trait ItemSource {
     /// Lines of program text read so far; for a source without text, items received.
     fn lines_read(&self) -> u64;
 
-    /// Identifies the text of the program, 0 if it cannot be read again. Every frame asks for it.
+    /// Identifies the text of the program, 0 if it cannot be read again.
     fn fingerprint(&self) -> u64 {
         0
     }

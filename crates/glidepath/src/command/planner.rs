@@ -68,7 +68,7 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
 }
 
 /// One program, from where the machine stands.
-fn run<S: ItemSource>(
+fn run<S: ItemSource + Send>(
     transport: &Ipc,
     config: &MachineConfig,
     control: &mut Control<'_>,
@@ -91,7 +91,7 @@ fn run<S: ItemSource>(
 }
 
 /// The rest of a program, from where the machine stands on its path.
-fn resume<S: ItemSource>(
+fn resume<S: ItemSource + Send>(
     transport: &Ipc,
     config: &MachineConfig,
     control: &mut Control<'_>,

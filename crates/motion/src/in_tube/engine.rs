@@ -14,7 +14,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, FrameFlags, Item, Override, Settings};
 
 /// The in-tube engine, as [`crate::Planner`] uses it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct InTubeEngine {
     settings: Settings,
     wanted: Override,
@@ -28,7 +28,7 @@ pub(crate) struct InTubeEngine {
 }
 
 /// What moves the machine.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 #[allow(
     clippy::large_enum_variant,
     reason = "there is one, and it is replaced at a rest only"
@@ -41,7 +41,7 @@ enum Drive {
 }
 
 /// A stretch between two rests.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Stretch {
     planner: TubePlanner,
     ledger: Ledger,
@@ -52,7 +52,7 @@ struct Stretch {
 }
 
 /// A stretch to be passed exactly.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct ExactPath {
     engine: OnPathEngine,
     /// Where its last frame is, once that is taken.

@@ -29,7 +29,7 @@ const MERGING_R: f64 = 0.1;
 const LARGEST_TURN_RAD: f64 = 0.5;
 
 /// What the program comes down to.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 #[allow(clippy::large_enum_variant, reason = "short-lived, one at a time")]
 pub(crate) enum Product {
     /// A straight piece. Its tag and its speed are for the taker to fill in.
@@ -40,7 +40,7 @@ pub(crate) enum Product {
 }
 
 /// Makes pieces of moves, as they are asked for.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Flattener {
     settings: Settings,
     flattening: Option<CutMove>,
@@ -50,7 +50,7 @@ pub(crate) struct Flattener {
 }
 
 /// A move that is being cut into chords.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct CutMove {
     of: Move,
     /// Where the chords made so far end.
@@ -60,7 +60,7 @@ struct CutMove {
     error_mm: f64,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct FlatChord {
     start: AxisVector,
     end: AxisVector,
@@ -72,7 +72,7 @@ struct FlatChord {
     events: Vec<Event>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct OpenChord {
     chord: FlatChord,
     dropped: Dropped,

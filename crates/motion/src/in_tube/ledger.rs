@@ -19,7 +19,7 @@ pub(crate) struct LedgerEntry {
 }
 
 /// The entries of a stretch that are not passed yet.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Ledger {
     entries: VecDeque<LedgerEntry>,
     /// Tag of the first of them, and where it begins.

@@ -31,7 +31,7 @@ pub(crate) struct Move {
 }
 
 /// Takes items and keeps what they ask for until it is done.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Works {
     settings: Settings,
     works: VecDeque<Work>,

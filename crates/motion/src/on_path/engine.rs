@@ -12,7 +12,7 @@ use glidepath_program::{Frame, Item, ItemKind, Limits, Override, Settings};
 use std::collections::VecDeque;
 
 /// The on-path engine, as [`crate::Planner`] uses it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct OnPathEngine {
     front: PathFront,
     scheduler: Scheduler,

@@ -23,7 +23,7 @@ const HALVINGS: u32 = 6;
 const RATES: [f64; 4] = [RATE_R, 0.7, 0.55, 0.4];
 
 /// Takes what is settled and gives it on, some of it driven faster.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Refiner {
     limits: Limits,
     /// A curve has come: what is still to be driven gets parametrisations, from the next rest on.
@@ -36,7 +36,7 @@ pub(crate) struct Refiner {
 }
 
 /// Motions one after the other, as they were settled.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 struct MotionChain {
     pieces: Vec<Piece>,
     legs: Vec<Leg>,

@@ -15,7 +15,7 @@ use glidepath_program::Frame;
 use std::collections::VecDeque;
 
 /// Makes frames of settled motion, one at a time.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Sampler {
     grid: FrameGrid,
     period_t: f64,
@@ -42,7 +42,7 @@ pub(crate) enum NextFrame {
 }
 
 /// The motion that frames are made of at present.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct CurrentMotion {
     pieces: Vec<Piece>,
     /// How it is driven: by a time parametrisation, or else by S-curves.

@@ -26,7 +26,7 @@ pub(crate) const TRUST_PERIODS: f64 = 1.0;
 const ASIDE: f64 = 0.02;
 
 /// When legs from vertex to vertex are at the end of which piece, s from the start of the stretch.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Baseline {
     first: usize,
     ends_t: VecDeque<f64>,

@@ -67,7 +67,7 @@ impl TubePiece {
 }
 
 /// The part of the path that is known and not yet passed.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct ReferencePath {
     pieces: VecDeque<TubePiece>,
     /// Number of the first piece of the ring.

@@ -11,7 +11,7 @@ use glidepath_program::Limits;
 pub(crate) const MOST_LEGS: usize = 8;
 
 /// What moves the machine.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) enum ActiveMotion {
     /// At rest.
     Nothing,
@@ -33,7 +33,7 @@ pub(crate) enum ActiveMotion {
 }
 
 /// A stretch that is being planned.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct PlannerState {
     pub(crate) limits: Limits,
     pub(crate) period_t: f64,

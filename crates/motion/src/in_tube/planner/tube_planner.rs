@@ -8,7 +8,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_program::Limits;
 
 /// Plans one stretch of motion between two rests.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct TubePlanner {
     pub(crate) state: PlannerState,
 }

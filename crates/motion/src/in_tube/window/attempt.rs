@@ -100,7 +100,7 @@ pub(crate) struct WindowContext<'a> {
 }
 
 /// Optimisers by number of axes, made when first needed.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Optimisers {
     two: Option<Box<Optimiser<2>>>,
     three: Option<Box<Optimiser<3>>>,

@@ -11,7 +11,7 @@ use super::scaled_path::ScaledPath;
 use crate::scurve::{PathLimits, Profile, reachable_speed};
 
 /// Speed at and time of every vertex.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Guess {
     /// Seconds from the start of the scaled path, one more than pieces.
     times: Vec<f64>,

@@ -83,7 +83,7 @@ pub(crate) enum Question {
 }
 
 /// The optimisation, with its memory.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Optimiser<const D: usize> {
     pub(crate) interior: Interior<D>,
     problem: Problem<D>,

@@ -58,7 +58,7 @@ pub(crate) struct Style {
 }
 
 /// Extent of each piece's line beyond its ends, found when first asked for.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Extents {
     spans: Vec<Option<[f64; 2]>>,
 }

@@ -13,7 +13,7 @@ use glidepath_geometry::Segment;
 use glidepath_program::{Event, Limits, Override, PathMode, ProgramLine, Settings};
 
 /// Puts pieces together.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Assembly {
     pub(crate) settings: Settings,
     pub(crate) wanted: Override,

@@ -16,7 +16,7 @@ use glidepath_geometry::{AxisVector, Cubic, Segment};
 use glidepath_program::{Event, PathMode, ProgramLine, Rate, Smoothing};
 
 /// A run of blocks under compression.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct DenseRun {
     compressor: Compressor,
     manner: Manner,
@@ -33,7 +33,7 @@ struct Manner {
 }
 
 /// Dense blocks on their way through the compressor.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct DenseBlocks {
     /// The run of blocks under compression.
     run: Option<DenseRun>,

@@ -11,7 +11,7 @@ use std::collections::VecDeque;
 const MOST_BLOCKS: usize = 64;
 
 /// The blocks since the last rest, as pieces.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct KeptBlocks {
     pieces: VecDeque<Piece>,
     /// Some were not kept.

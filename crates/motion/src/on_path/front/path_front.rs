@@ -17,7 +17,7 @@ use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Item, ItemKind, Override, PathMode, ProgramLine, Rate, Settings};
 
 /// Turns items into pieces and rests.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct PathFront {
     intake: Intake,
     /// Dense blocks go through the compressor on their way to the assembly.

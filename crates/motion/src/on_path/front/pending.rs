@@ -6,7 +6,7 @@ use glidepath_geometry::Segment;
 use glidepath_program::{Event, PathMode, ProgramLine};
 
 /// A segment whose end is not decided yet.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Pending {
     pub segment: Segment,
     pub length_s: f64,

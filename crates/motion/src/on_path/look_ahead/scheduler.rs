@@ -35,7 +35,7 @@ const WHOLE_T: f64 = 1.0;
 const ROUNDING_R: f64 = 1.0 + 1e-9;
 
 /// Gives speeds to pieces of path.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Scheduler {
     /// The run that may still grow.
     open: Option<Run>,

@@ -10,7 +10,7 @@ use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ};
 use glidepath_program::{ProgramLine, Settings};
 
 /// A run of blocks over some of the axes.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct StagesOver<const D: usize> {
     thinning: Thinning<D>,
     layout: SampleLayout<D>,
@@ -59,7 +59,7 @@ fn first_axes<const D: usize>(point: &AxisVector) -> [f64; D] {
 }
 
 /// A run, over as many axes as need be.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 #[allow(clippy::large_enum_variant, reason = "there is one of them")]
 enum Stages {
     Linear(StagesOver<3>),
@@ -67,7 +67,7 @@ enum Stages {
 }
 
 /// Compresses runs of blocks.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Compressor {
     stages: Stages,
     output: Output,

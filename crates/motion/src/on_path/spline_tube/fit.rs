@@ -32,7 +32,7 @@ pub(super) struct Sample<const D: usize> {
 const FOOT_SHARE_R: f64 = 0.35;
 
 /// The spline of a window, and what is needed to fit it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Spline<const D: usize> {
     /// Knots, those at the end repeated.
     pub(super) knots: Vec<f64>,

@@ -27,7 +27,7 @@ pub(crate) struct Cut {
     pub change: Option<Change>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Mark {
     from_t: f64,
     line: ProgramLine,
@@ -35,7 +35,7 @@ struct Mark {
 }
 
 /// The blocks of a run that have not been put out.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Marks {
     waiting: VecDeque<Mark>,
     /// The line of the block at hand.

@@ -34,7 +34,7 @@ pub(crate) enum PartShape {
 }
 
 /// Where parts go.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Output {
     /// Position of the axes that do not take part in the fit.
     base: AxisVector,

@@ -44,7 +44,7 @@ const LEAST_SPACING_R: f64 = 1.5;
 const MOST_GRADED: usize = 24;
 
 /// Makes lines and samples of chords, each as soon as the next is known.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct SampleLayout<const D: usize> {
     shares: ToleranceShares,
     window: Window<D>,

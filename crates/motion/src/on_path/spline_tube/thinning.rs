@@ -39,7 +39,7 @@ pub(super) struct MergedChord<const D: usize> {
 }
 
 /// Merges chords as they come.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Thinning<const D: usize> {
     /// Largest distance of a dropped vertex, mm.
     allowed_mm: f64,

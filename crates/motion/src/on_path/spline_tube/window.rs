@@ -50,7 +50,7 @@ const LEAST_FACTOR: f64 = 0.03;
 const MOST_FACTOR: f64 = 100.0;
 
 /// The window.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Window<const D: usize> {
     pub(super) shares: ToleranceShares,
     pub(super) samples: Vec<Sample<D>>,

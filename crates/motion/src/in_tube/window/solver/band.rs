@@ -11,7 +11,7 @@ const WIDTH: usize = 5;
 
 /// The lower half: `rows[i][d]` is the block of points `i` and `i − d`. After [`Band::factor`] it
 /// is that of the factor, with the inverse on the diagonal of diagonal blocks.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Band<const D: usize> {
     rows: Vec<[Block<D>; WIDTH]>,
 }

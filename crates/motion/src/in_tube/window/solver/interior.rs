@@ -51,7 +51,7 @@ pub(in crate::in_tube::window) struct Allowance {
 }
 
 /// The method, with its memory.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(in crate::in_tube::window) struct Interior<const D: usize> {
     sides: Sides,
     band: Band<D>,

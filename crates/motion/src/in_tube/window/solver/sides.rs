@@ -83,7 +83,7 @@ impl TwoSides {
 }
 
 /// The sides of all rows.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Sides {
     pub(super) rows: Vec<TwoSides>,
 }

@@ -1,0 +1,270 @@
+//! The frames between the planning thread and the publishing thread, and what the two tell each
+//! other.
+
+use std::collections::VecDeque;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use glidepath_program::{Frame, Override};
+
+use crate::{Refusal, Statistics};
+
+/// What the publishing thread is given.
+#[allow(clippy::large_enum_variant, reason = "nearly every one is a frame")]
+#[derive(Debug)]
+pub(crate) enum Next {
+    /// The next frame.
+    Frame(Frame),
+    /// None yet: it is being planned.
+    Busy,
+    /// None yet: the source has no items.
+    Pending,
+    /// There are no more.
+    End(Result<(), Refusal>),
+    /// The planning thread died.
+    Died,
+}
+
+/// What the planning thread is to do.
+#[derive(Debug)]
+pub(crate) enum Work {
+    /// Plan on. So many frames were given out.
+    Plan {
+        /// They will not be planned again.
+        given: u64,
+    },
+    /// Plan again what follows after so many frames.
+    Replan {
+        /// How many were given out.
+        given: u64,
+        /// The override to plan with.
+        wanted: Override,
+        /// The error that stood at the end of the frames dropped.
+        told: Option<Refusal>,
+    },
+    /// No more frames are wanted.
+    Stop,
+}
+
+/// What the planning thread is at.
+#[derive(Debug)]
+enum Activity {
+    Planning,
+    /// The source has nothing; it is asked again when the publishing thread says so.
+    Pending,
+    Ended(Result<(), Refusal>),
+    Died,
+}
+
+#[derive(Debug)]
+struct Shared {
+    frames: VecDeque<Frame>,
+    given: u64,
+    activity: Activity,
+    /// What to plan anew with, from the frame given out last.
+    wanted: Option<Override>,
+    is_closed: bool,
+    statistics: Statistics,
+    /// The publishing thread sleeps until there is news.
+    is_awaited: bool,
+    /// The planning thread sleeps until only so many frames wait.
+    room_at: Option<usize>,
+}
+
+impl Shared {
+    /// True if there may be frames without anything else happening before.
+    const fn is_busy(&self) -> bool {
+        self.wanted.is_some() || matches!(self.activity, Activity::Planning)
+    }
+}
+
+/// A bounded queue of planned frames.
+#[derive(Debug)]
+pub(crate) struct FrameQueue {
+    capacity: usize,
+    shared: Mutex<Shared>,
+    /// For the publishing thread.
+    news: Condvar,
+    /// For the planning thread.
+    work: Condvar,
+}
+
+impl FrameQueue {
+    /// An empty queue of at most so many frames, at least 1.
+    pub(crate) fn new(capacity: usize) -> Self {
+        Self {
+            capacity: capacity.max(1),
+            shared: Mutex::new(Shared {
+                frames: VecDeque::new(),
+                given: 0,
+                activity: Activity::Planning,
+                wanted: None,
+                is_closed: false,
+                statistics: Statistics::default(),
+                is_awaited: false,
+                room_at: None,
+            }),
+            news: Condvar::new(),
+            work: Condvar::new(),
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Shared> {
+        // Nothing is left half done where a thread can panic.
+        self.shared.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    // For the publishing thread.
+
+    /// The next frame, or why there is none.
+    pub(crate) fn next(&self) -> Next {
+        let mut shared = self.lock();
+        if let Some(frame) = shared.frames.pop_front() {
+            shared.given += 1;
+            if shared.room_at == Some(shared.frames.len()) {
+                shared.room_at = None;
+                self.work.notify_one();
+            }
+            return Next::Frame(frame);
+        }
+        if shared.is_busy() {
+            return Next::Busy;
+        }
+        match &mut shared.activity {
+            Activity::Planning => Next::Busy,
+            Activity::Pending => Next::Pending,
+            Activity::Ended(end) => Next::End(std::mem::replace(end, Ok(()))),
+            Activity::Died => Next::Died,
+        }
+    }
+
+    /// Waits for news of a planning thread that was busy; false if there was none for so long.
+    pub(crate) fn wait(&self, most: Duration) -> bool {
+        let mut shared = self.lock();
+        shared.is_awaited = true;
+        let waited = self.news.wait_timeout_while(shared, most, |shared| {
+            shared.frames.is_empty() && shared.is_busy()
+        });
+        let (mut shared, outcome) = waited.unwrap_or_else(PoisonError::into_inner);
+        shared.is_awaited = false;
+        !outcome.timed_out()
+    }
+
+    /// Drops the frames that wait: they are planned again, with another override.
+    pub(crate) fn replan(&self, wanted: Override) {
+        let mut shared = self.lock();
+        shared.frames.clear();
+        shared.wanted = Some(wanted);
+        self.work.notify_one();
+    }
+
+    /// Has a source asked again that had nothing.
+    pub(crate) fn ask_again(&self) {
+        let mut shared = self.lock();
+        if matches!(shared.activity, Activity::Pending) {
+            shared.activity = Activity::Planning;
+            self.work.notify_one();
+        }
+    }
+
+    /// Frames that wait.
+    #[cfg(test)]
+    pub(crate) fn waiting(&self) -> usize {
+        self.lock().frames.len()
+    }
+
+    /// What the planning thread has done so far.
+    pub(crate) fn statistics(&self) -> Statistics {
+        self.lock().statistics
+    }
+
+    /// No more frames are wanted.
+    pub(crate) fn close(&self) {
+        let mut shared = self.lock();
+        shared.is_closed = true;
+        self.work.notify_one();
+    }
+
+    // For the planning thread.
+
+    /// Waits until there is something to do, or no longer too much is planned. `is_sated`: more is
+    /// planned only for want of frames.
+    pub(crate) fn next_work(&self, is_sated: bool) -> Work {
+        let mut shared = self.lock();
+        let mut has_waited = false;
+        loop {
+            if shared.is_closed {
+                return Work::Stop;
+            }
+            let given = shared.given;
+            if let Some(wanted) = shared.wanted.take() {
+                return Work::Replan {
+                    given,
+                    wanted,
+                    told: shared.activity.begin_anew(),
+                };
+            }
+            if matches!(shared.activity, Activity::Planning) {
+                let waiting = shared.frames.len();
+                let is_full = waiting >= self.capacity;
+                if !is_full && (!is_sated || has_waited || waiting == 0) {
+                    return Work::Plan { given };
+                }
+                // Room for some at once, so that the thread does not rise for every frame.
+                shared.room_at = Some(waiting - waiting.div_ceil(8));
+            }
+            has_waited = true;
+            shared = self
+                .work
+                .wait(shared)
+                .unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// The next frame, unless frames are to be planned anew.
+    pub(crate) fn add(&self, frame: &Frame, statistics: Statistics) {
+        let mut shared = self.lock();
+        if shared.wanted.is_none() {
+            shared.frames.push_back(*frame);
+            shared.statistics = statistics;
+            self.tell(&shared);
+        }
+    }
+
+    /// The source has nothing.
+    pub(crate) fn pending(&self) {
+        self.rest(Activity::Pending);
+    }
+
+    /// There are no more frames, or no more because of an error.
+    pub(crate) fn end(&self, end: Result<(), Refusal>) {
+        self.rest(Activity::Ended(end));
+    }
+
+    /// The planning thread is gone.
+    pub(crate) fn died(&self) {
+        self.rest(Activity::Died);
+    }
+
+    fn rest(&self, activity: Activity) {
+        let mut shared = self.lock();
+        shared.activity = activity;
+        self.tell(&shared);
+    }
+
+    fn tell(&self, shared: &Shared) {
+        if shared.is_awaited {
+            self.news.notify_one();
+        }
+    }
+}
+
+impl Activity {
+    /// Plans again; the error that stood at the end.
+    fn begin_anew(&mut self) -> Option<Refusal> {
+        match std::mem::replace(self, Self::Planning) {
+            Self::Ended(end) => end.err(),
+            Self::Planning | Self::Pending | Self::Died => None,
+        }
+    }
+}

@@ -1,0 +1,345 @@
+//! Frames planned ahead are those of a planner that does not work ahead, to the bit.
+
+#![allow(
+    clippy::panic,
+    clippy::print_stderr,
+    reason = "a test that fails may panic, and a skipped one says so"
+)]
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+use glidepath_gcode::Options;
+use glidepath_geometry::{AxisVector, Segment};
+use glidepath_motion::PlanError;
+use glidepath_program::{
+    Effort, Frame, Item, ItemKind, Limits, Override, PathMode, Rate, Settings, Smoothing,
+};
+use proptest::prelude::*;
+
+use super::{FrameQueue, Next, planned_ahead};
+use crate::{FileSource, ItemSource, Pipeline, Refusal, Step, Supply};
+
+fn settings(effort: Effort) -> Settings {
+    Settings {
+        limits: Limits::uniform(200.0, 2000.0, 40_000.0),
+        tolerance_mm: 0.02,
+        smoothing: Smoothing::Auto,
+        period_t: 0.004,
+        effort,
+    }
+}
+
+/// Another override after so many frames.
+#[derive(Debug, Clone, Copy)]
+struct Change {
+    after: u64,
+    wanted: Override,
+}
+
+fn change(after: u64, feed_r: f64, rapid_r: f64) -> Change {
+    let wanted = Override { feed_r, rapid_r };
+    Change { after, wanted }
+}
+
+/// What became of a program.
+#[derive(Debug, PartialEq)]
+struct Planned {
+    frames: Vec<Frame>,
+    refusal: Option<String>,
+}
+
+/// Pulled frame by frame; the override changes right after a frame was made.
+fn pulled<S: ItemSource>(mut pipeline: Pipeline<S>, changes: &[Change], most: usize) -> Planned {
+    let mut frames = Vec::new();
+    let mut is_new = true;
+    let refusal = loop {
+        if is_new {
+            let at = |change: &&Change| change.after == frames.len() as u64;
+            // Of several after the same frame only the last has an effect.
+            if let Some(change) = changes.iter().rfind(at) {
+                pipeline.follow_override(change.wanted);
+            }
+        }
+        is_new = false;
+        match pipeline.step() {
+            _ if frames.len() == most => break None,
+            Ok(Step::Frame) => {
+                frames.push(*pipeline.frame());
+                is_new = true;
+            }
+            Ok(Step::Item | Step::Pending) => {}
+            Ok(Step::End) => break None,
+            Err(refusal) => break Some(refusal.to_string()),
+        }
+    };
+    Planned { frames, refusal }
+}
+
+/// Planned ahead, and taken with a pause after each frame.
+fn ahead<S: ItemSource + Send>(
+    mut pipeline: Pipeline<S>,
+    changes: &[Change],
+    most: usize,
+    capacity: usize,
+    mut pause: impl FnMut(&FrameQueue, usize),
+) -> Planned {
+    let take = |queue: &FrameQueue| {
+        let mut frames = Vec::new();
+        let mut changes = changes.iter().peekable();
+        loop {
+            while let Some(change) = changes.next_if(|change| change.after <= frames.len() as u64) {
+                if change.after == frames.len() as u64 {
+                    queue.replan(change.wanted);
+                }
+            }
+            if frames.len() == most {
+                return (frames, None);
+            }
+            queue.ask_again();
+            match queue.next() {
+                Next::Frame(frame) => {
+                    frames.push(frame);
+                    pause(queue, frames.len());
+                }
+                Next::Busy => {
+                    queue.wait(Duration::from_millis(50));
+                }
+                Next::Pending => std::thread::yield_now(),
+                Next::End(end) => return (frames, end.err().map(|refusal| refusal.to_string())),
+                Next::Died => panic!("the planning thread died"),
+            }
+        }
+    };
+    let (frames, refusal) = planned_ahead(&mut pipeline, capacity, take).unwrap();
+    Planned { frames, refusal }
+}
+
+/// Programs of the bench and, where there are some, of other origin.
+fn programs() -> Vec<PathBuf> {
+    let bench = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/data/bench");
+    let mut programs: Vec<PathBuf> = ["butterfly_g1_mill", "zigzag_mill", "star_mill"]
+        .iter()
+        .map(|name| bench.join(name).with_extension("ngc"))
+        .collect();
+    match std::env::var_os("GLIDEPATH_CORPUS").map(PathBuf::from) {
+        Some(corpus) => programs.extend(
+            [
+                "dense/trochoidal.ngc",
+                "dense/random-lines-0.001in.ngc",
+                "dense/finish-flower-mold.nc",
+                "spline/nurbs-g52-dolphin.ngc",
+                "laser/arcs-arrows.nc",
+                "macro/qpocket.ngc",
+                "tp-regress/rgh.ngc",
+            ]
+            .map(|name| corpus.join(name)),
+        ),
+        None => eprintln!("GLIDEPATH_CORPUS is not set: no programs of other origin"),
+    }
+    programs
+}
+
+fn pipeline(program: &Path, effort: Effort) -> Pipeline<FileSource> {
+    let options = Options {
+        default_feed_mm_min: Some(3000.0),
+        ..Options::default()
+    };
+    let settings = settings(effort);
+    let source = FileSource::unchecked(program, options, &settings).unwrap();
+    Pipeline::new(source, settings, AxisVector::zeros())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(40) })]
+
+    /// Overrides change at random while the queue is as full as may be, and as empty.
+    #[test]
+    fn frames_do_not_depend_on_how_far_planning_is_ahead(
+        program in any::<prop::sample::Index>(),
+        is_fast in any::<bool>(),
+        drawn in prop::collection::vec((0_u64..1500, 1_u8..9, 1_u8..5), 0..8),
+        capacity in prop::sample::select(vec![1, 7, 60, 400, 3000]),
+        slow_every in 1_usize..200,
+    ) {
+        const MOST: usize = 1500;
+        let programs = programs();
+        let program = &programs[program.index(programs.len())];
+        let effort = if is_fast { Effort::Fast } else { Effort::Optimal };
+        let mut changes: Vec<Change> = drawn
+            .into_iter()
+            .map(|(after, feed, rapid)| {
+                change(after, 0.25 * f64::from(feed), 0.25 * f64::from(rapid))
+            })
+            .collect();
+        changes.sort_by_key(|change| change.after);
+        // One more at the same frame, which the next one makes void.
+        if let Some(&first) = changes.first() {
+            changes.insert(0, change(first.after, 0.1, 0.1));
+        }
+        let expected = pulled(pipeline(program, effort), &changes, MOST);
+        prop_assert!(!expected.frames.is_empty() || expected.refusal.is_some());
+        let found = ahead(pipeline(program, effort), &changes, MOST, capacity, |_, taken| {
+            if taken.is_multiple_of(slow_every) {
+                std::thread::sleep(Duration::from_millis(2));
+            }
+        });
+        let differs = expected.frames.iter().zip(&found.frames).position(|(a, b)| a != b);
+        prop_assert_eq!(differs, None, "{} {:?} {:?}", program.display(), effort, changes);
+        prop_assert_eq!(expected.frames.len(), found.frames.len());
+        prop_assert_eq!(expected.refusal, found.refusal);
+    }
+}
+
+#[test]
+fn an_override_that_is_taken_back_before_a_frame_leaves_no_trace() {
+    for effort in [Effort::Fast, Effort::Optimal] {
+        let program = &programs()[0];
+        let expected = pulled(pipeline(program, effort), &[], usize::MAX);
+        let changes =
+            [100, 200, 300].map(|after| [change(after, 0.5, 1.0), change(after, 1.0, 1.0)]);
+        let found = ahead(
+            pipeline(program, effort),
+            changes.as_flattened(),
+            usize::MAX,
+            2500,
+            |_, _| {},
+        );
+        assert!(expected == found, "{effort:?}");
+    }
+}
+
+/// Lines of a thousandth of a millimetre, without end, and how many were taken.
+struct Endless<'c> {
+    taken: &'c AtomicU64,
+    step_mm: f64,
+}
+
+impl ItemSource for Endless<'_> {
+    fn next_item(&mut self) -> Supply {
+        let number = self.taken.fetch_add(1, Ordering::Relaxed);
+        #[allow(clippy::cast_precision_loss, reason = "exact for any test")]
+        let at = |number: u64| {
+            let mut at = AxisVector::zeros();
+            let x = number as f64 * self.step_mm;
+            (at[0], at[1]) = (x, (0.1 * x).sin());
+            at
+        };
+        Supply::Item(Item {
+            block: 0,
+            line: 1,
+            kind: ItemKind::Move {
+                segment: Segment::line(at(number), at(number + 1)),
+                rate: Rate::Feed(50.0),
+                mode: PathMode::Continuous { tolerance_mm: None },
+            },
+        })
+    }
+
+    fn unplannable(&mut self, error: &PlanError) {
+        panic!("{error}");
+    }
+
+    fn lines_read(&self) -> u64 {
+        self.taken.load(Ordering::Relaxed)
+    }
+}
+
+/// What may be taken ahead: what the history keeps, and what the planner looks ahead by.
+const MOST_TAKEN: u64 = 16_384 + 2 * 4096 + 8192;
+
+#[test]
+fn what_is_planned_ahead_is_bounded_in_frames_and_in_items() {
+    // Very short moves, of which very many make a second; and long ones.
+    for (step_mm, capacity) in [(1e-3, 2500), (1.0, 2500)] {
+        let taken = AtomicU64::new(0);
+        let source = Endless {
+            taken: &taken,
+            step_mm,
+        };
+        let pipeline = Pipeline::new(source, settings(Effort::Fast), AxisVector::zeros());
+        let (mut fullest, mut most_taken) = (0, 0);
+        let planned = ahead(pipeline, &[], 4000, capacity, |queue, number| {
+            if !number.is_multiple_of(500) {
+                return;
+            }
+            // Until the planning thread is as far ahead as it gets.
+            let mut before = u64::MAX;
+            while taken.load(Ordering::Relaxed) != before {
+                before = taken.load(Ordering::Relaxed);
+                std::thread::sleep(Duration::from_millis(50));
+            }
+            fullest = fullest.max(queue.waiting());
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                clippy::cast_precision_loss,
+                reason = "small numbers"
+            )]
+            let executed = (number as f64 * 0.004 * 50.0 / step_mm) as u64;
+            most_taken = most_taken.max(before.saturating_sub(executed));
+        });
+        assert_eq!(planned.frames.len(), 4000);
+        assert!(fullest <= capacity, "{fullest} frames wait");
+        if step_mm < 0.01 {
+            assert!(most_taken <= MOST_TAKEN, "{most_taken} items ahead");
+            assert!(most_taken > 16_384, "the test does not reach the bound");
+        } else {
+            assert_eq!(fullest, capacity, "the test does not reach the bound");
+        }
+    }
+}
+
+/// A source that ends with an error, and then is not to be asked again.
+struct Failing(Vec<Item>);
+
+impl ItemSource for Failing {
+    fn next_item(&mut self) -> Supply {
+        if self.0.is_empty() {
+            return Supply::Refused(Refusal::Read(std::io::Error::other("the pipe burst")));
+        }
+        Supply::Item(self.0.remove(0))
+    }
+
+    fn lines_read(&self) -> u64 {
+        0
+    }
+}
+
+#[test]
+fn an_error_met_ahead_comes_after_the_last_frame_and_only_once() {
+    let line = |from: f64, to: f64| {
+        let at = |x: f64| {
+            let mut at = AxisVector::zeros();
+            at[0] = x;
+            at
+        };
+        Item {
+            block: 0,
+            line: 1,
+            kind: ItemKind::Move {
+                segment: Segment::line(at(from), at(to)),
+                rate: Rate::Feed(50.0),
+                mode: PathMode::Continuous { tolerance_mm: None },
+            },
+        }
+    };
+    // The pipe bursts; the last item has a gap before it.
+    for last in [vec![], vec![line(70.0, 80.0)]] {
+        let mut items = vec![line(0.0, 50.0), line(50.0, 60.0)];
+        items.extend(last);
+        let settings = settings(Effort::Fast);
+        let make = || Pipeline::new(Failing(items.clone()), settings, AxisVector::zeros());
+        // The error is known long before the override changes.
+        let changes = [change(50, 0.5, 1.0), change(120, 2.0, 1.0)];
+        let expected = pulled(make(), &changes, usize::MAX);
+        let found = ahead(make(), &changes, usize::MAX, 2500, |_, number| {
+            if number == 50 || number == 120 {
+                std::thread::sleep(Duration::from_millis(50));
+            }
+        });
+        assert!(expected.refusal.is_some());
+        assert!(expected == found, "{:?}", found.refusal);
+    }
+}

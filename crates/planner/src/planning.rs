@@ -1,0 +1,124 @@
+//! Where planning is: all that the frames to come depend on, beside the items to come.
+
+use glidepath_geometry::AxisVector;
+use glidepath_motion::{PlanError, Planner};
+use glidepath_program::{Frame, Item, Override, Settings};
+
+use crate::blocks::Blocks;
+
+/// Whether there will be more frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Stage {
+    /// More items may come.
+    Open,
+    /// No more items; frames may remain.
+    Ended,
+    /// Planning failed inside: there are no more frames.
+    Broken,
+}
+
+/// Planner of motion and numbers of blocks, at one place of a program. A copy that is given the
+/// same items makes the same frames.
+#[derive(Debug, Clone)]
+pub(crate) struct Planning {
+    planner: Planner,
+    blocks: Blocks,
+    stage: Stage,
+    wanted: Override,
+    /// Path position at the start, mm.
+    start_s: f64,
+    frames: u64,
+    items: u64,
+    /// Items taken since the last frame.
+    items_since: u64,
+}
+
+impl Planning {
+    /// From a machine at rest at `start`, `start_s` along the path of the program.
+    pub(crate) fn new(settings: Settings, start: AxisVector, blocks: Blocks, start_s: f64) -> Self {
+        Self {
+            planner: Planner::new(settings, start),
+            blocks,
+            stage: Stage::Open,
+            wanted: Override::NONE,
+            start_s,
+            frames: 0,
+            items: 0,
+            items_since: 0,
+        }
+    }
+
+    /// Makes the next frame, if the motion is settled that far.
+    pub(crate) fn make_frame(&mut self) -> Result<bool, PlanError> {
+        if self.stage == Stage::Broken {
+            return Ok(false);
+        }
+        match self.planner.make_frame() {
+            Ok(true) => {
+                let frame = self.planner.frame_mut();
+                self.blocks.complete(frame);
+                frame.path_s += self.start_s;
+                self.frames += 1;
+                self.items_since = 0;
+                Ok(true)
+            }
+            Ok(false) => Ok(false),
+            Err(error) => {
+                self.stage = Stage::Broken;
+                Err(error)
+            }
+        }
+    }
+
+    /// Takes the next item; returns it with the number of its block.
+    pub(crate) fn take(&mut self, mut item: Item) -> Result<Item, PlanError> {
+        self.blocks.number(&mut item);
+        self.planner.push(&item)?;
+        self.items += 1;
+        self.items_since += 1;
+        Ok(item)
+    }
+
+    /// There are no more items.
+    pub(crate) fn finish(&mut self) {
+        self.planner.finish();
+        self.stage = Stage::Ended;
+    }
+
+    /// Plans what no frame was made of with this override, if it is another than before.
+    pub(crate) fn follow_override(&mut self, wanted: Override) {
+        // A refusal cannot be: status records with overrides out of range are not accepted.
+        if wanted != self.wanted && self.planner.set_override(wanted).is_ok() {
+            self.wanted = wanted;
+        }
+    }
+
+    pub(crate) const fn stage(&self) -> Stage {
+        self.stage
+    }
+
+    /// The frame made last; before the first one at rest at the start.
+    pub(crate) const fn frame(&self) -> &Frame {
+        self.planner.frame()
+    }
+
+    /// Block of the last frame, 0 before the first.
+    pub(crate) const fn block(&self) -> u32 {
+        self.blocks.present()
+    }
+
+    /// Frames made.
+    pub(crate) const fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// Items taken.
+    pub(crate) const fn items(&self) -> u64 {
+        self.items
+    }
+
+    /// Items taken since the last frame.
+    pub(crate) const fn items_since_frame(&self) -> u64 {
+        self.items_since
+    }
+}
