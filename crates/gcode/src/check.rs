@@ -19,9 +19,10 @@ pub struct Report {
     pub diagnostics: Vec<Diagnostic>,
     /// Diagnostics beyond those listed.
     pub more: u32,
-    /// False if the program was not read to its end, because its loops go on for longer than
-    /// [`crate::LoopLimits`] allow; the part that was read is judged.
-    pub complete: bool,
+    /// The line at which the check was given up, because the loops of the program go on for longer
+    /// than [`crate::LoopLimits::checked_lines`]. What the program does from there on is not
+    /// judged, and counts and sums are of what was. `None`: everything is.
+    pub given_up_at: Option<u32>,
     /// Counts and sums over the blocks without diagnostics.
     pub totals: Totals,
     /// What was seen along the path.
@@ -31,10 +32,17 @@ pub struct Report {
 }
 
 impl Report {
-    /// True if the program may run.
+    /// True if nothing wrong was found. All of the program may run if it was also
+    /// [checked to its end](Report::is_complete).
     #[must_use]
     pub const fn is_accepted(&self) -> bool {
         self.diagnostics.is_empty()
+    }
+
+    /// True if everything the program does was judged.
+    #[must_use]
+    pub const fn is_complete(&self) -> bool {
+        self.given_up_at.is_none()
     }
 
     /// Moves, among the diagnostics listed, that leave the travel of an axis.
@@ -52,6 +60,8 @@ pub struct Diagnostics {
     pub diagnostics: Vec<Diagnostic>,
     /// As [`Report::more`].
     pub more: u32,
+    /// As [`Report::given_up_at`].
+    pub given_up_at: Option<u32>,
     /// Lines read, as [`Totals::lines`].
     pub lines: u32,
 }
@@ -64,11 +74,11 @@ pub struct Diagnostics {
 pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
     let mut survey = Survey::default();
     let mut program = Program::new(reader, options);
-    let (found, complete) = read(&mut program, |item| survey.add(item));
+    let found = read(&mut program, |item| survey.add(item));
     Report {
         diagnostics: found.diagnostics,
         more: found.more,
-        complete,
+        given_up_at: found.given_up_at,
         totals: *program.totals(),
         survey,
         final_position: *program.position(),
@@ -78,14 +88,18 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
 /// Lists the diagnostics of [`check`] without counts and sums, for a program that is only to be
 /// accepted or refused.
 pub fn diagnostics<R: BufRead>(reader: R, options: Options) -> Diagnostics {
-    read(&mut Program::new(reader, options).only_judged(), |_| {}).0
+    read(&mut Program::new(reader, options).only_judged(), |_| {})
 }
 
-/// Reads a program to its end; false beside the diagnostics if its loops go on for too long.
-fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> (Diagnostics, bool) {
+/// Reads a program to its end, or for as long as its loops may go on.
+fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> Diagnostics {
     let most = program.interpreter.options.loops.checked_lines;
     let mut found = Diagnostics::default();
-    while program.kept_lines() < most {
+    loop {
+        if program.kept_lines() >= most {
+            found.given_up_at = Some(program.line_of_program());
+            break;
+        }
         match program.next_line() {
             Some(Ok(())) => program.items().iter().for_each(&mut see),
             Some(Err(diagnostic)) if found.diagnostics.len() < MAX_DIAGNOSTICS => {
@@ -96,5 +110,5 @@ fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> (Di
         }
     }
     found.lines = program.totals().lines;
-    (found, program.kept_lines() < most)
+    found
 }

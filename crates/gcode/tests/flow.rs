@@ -192,7 +192,7 @@ fn memory_of_kept_lines_is_bounded() {
 fn an_endless_program_with_motion_is_checked_in_part() {
     let text = "G91 F1000\no1 while [1]\nG1 X1\nX-1\no1 endwhile\n";
     let report = check(text.as_bytes(), Options::default());
-    assert!(report.is_accepted() && !report.complete);
+    assert!(report.is_accepted() && !report.is_complete());
     assert_eq!(
         Program::new(text.as_bytes(), Options::default())
             .take(1000)

@@ -86,7 +86,7 @@ fn compare(text: &str) {
     let rest = |report: &Report| {
         format!(
             "{} {} {:?} {:?} {:?}",
-            report.more, report.complete, report.totals, report.survey, report.final_position
+            report.more, report.given_up_at, report.totals, report.survey, report.final_position
         )
     };
     assert_eq!(rest(&plain), rest(&general));
@@ -181,12 +181,16 @@ fn moves_that_are_only_judged_are_moves_of_a_loop() {
     let loops = LoopLimits {
         idle_lines: 10,
         checked_lines: 1000,
+        ..LoopLimits::default()
     };
     let options = Options { loops, ..options() };
     let report = check(text.as_bytes(), options.clone());
-    assert!(report.is_accepted() && !report.complete);
+    assert!(report.is_accepted() && !report.is_complete());
     let found = diagnostics(text.as_bytes(), options);
     assert_eq!(found.diagnostics, []);
+    // The loop without end begins in line 8.
+    assert!(matches!(report.given_up_at, Some(8..=10)));
+    assert_eq!(found.given_up_at, report.given_up_at);
 }
 
 /// Every file below a folder.

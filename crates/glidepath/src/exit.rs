@@ -18,6 +18,8 @@ pub enum Exit {
     NotRealTime = 4,
     /// Something failed while running; the machine is at rest.
     Fault = 5,
+    /// The program could not be checked to its end, and nothing wrong was found before.
+    Unchecked = 6,
     /// Interrupted from the keyboard or by a signal.
     Interrupted = 130,
 }

@@ -48,6 +48,7 @@ impl FileSource {
         if !is_curve(path) {
             return Ok(Self::Program(Box::new(ProgramSource::open(path, options)?)));
         }
+        // A curve ends, so that all of it is checked.
         let report = check_file(path, options.clone(), settings)?;
         if !report.diagnostics.is_empty() {
             return Err(Refusal::Program {
@@ -104,7 +105,7 @@ pub fn check_file(path: &Path, options: Options, settings: &Settings) -> io::Res
         Err(Refusal::Program { diagnostics, .. }) => Ok(Report {
             diagnostics,
             more: 0,
-            complete: true,
+            given_up_at: None,
             totals: glidepath_gcode::Totals::default(),
             survey: glidepath_gcode::Survey::default(),
             final_position,
@@ -126,6 +127,7 @@ pub fn find_in_file(path: &Path, options: Options, settings: &Settings) -> io::R
     Ok(Diagnostics {
         diagnostics: report.diagnostics,
         more: report.more,
+        given_up_at: report.given_up_at,
         lines: report.totals.lines,
     })
 }

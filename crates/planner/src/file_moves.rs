@@ -107,7 +107,7 @@ impl FileMoves {
         Report {
             diagnostics,
             more: 0,
-            complete: true,
+            given_up_at: None,
             totals: self.totals,
             survey,
             final_position: self.position,

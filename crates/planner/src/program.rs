@@ -2,7 +2,7 @@
 //! cannot be.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read, Seek};
+use std::io::{self, BufRead, BufReader, Read, Seek};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -42,7 +42,8 @@ impl ProgramSource<BufReader<File>> {
     /// the execution, an error then ends the motion as it does with a pipe.
     ///
     /// # Errors
-    /// All diagnostics, if there is any; or why the file cannot be read.
+    /// All diagnostics, if there is any; that the program could not be checked to its end, unless
+    /// it may be run all the same; or why the file cannot be read.
     pub fn open(path: &Path, options: Options) -> Result<Self, Refusal> {
         let mut file = File::open(path)?;
         let mut reader = Fingerprinting::new(&mut file);
@@ -50,6 +51,8 @@ impl ProgramSource<BufReader<File>> {
             BufReader::with_capacity(BUFFER, &mut reader),
             options.clone(),
         );
+        // What stands behind the end of the program, or what was not reached, belongs to the text.
+        io::copy(&mut reader, &mut io::sink())?;
         // The subroutines it calls in other files belong to the program.
         for (name, file) in options.subroutines.iter().flat_map(Subroutines::read) {
             reader.add(name.as_bytes());
@@ -61,6 +64,10 @@ impl ProgramSource<BufReader<File>> {
                 diagnostics: found.diagnostics,
                 unlisted: found.more,
             });
+        }
+        let may_run = options.loops.may_run_unchecked;
+        if let Some(line) = found.given_up_at.filter(|_| !may_run) {
+            return Err(Refusal::Unchecked { line });
         }
         file.rewind()?;
         Ok(Self {
@@ -140,7 +147,7 @@ impl ItemSource for PipeSource {
             Ok(supply) => supply,
             Err(TryRecvError::Empty) => Supply::Pending,
             Err(TryRecvError::Disconnected) => Supply::Refused(Refusal::Read(
-                std::io::Error::other("the thread that reads the program died"),
+                io::Error::other("the thread that reads the program died"),
             )),
         }
     }

@@ -19,6 +19,15 @@ pub enum Refusal {
         /// Further diagnostics that are not listed.
         unlisted: u32,
     },
+    /// The loops of the program go on for too long to be checked to their end.
+    #[error(
+        "the program is not checked beyond line {line}: its loops go on for too long; give \
+         --allow-unchecked to run it all the same, each line judged only when it comes to it"
+    )]
+    Unchecked {
+        /// Where the check was given up.
+        line: u32,
+    },
     /// An item cannot be planned.
     #[error(transparent)]
     Plan(#[from] PlanError),

@@ -34,6 +34,7 @@ fn options() -> Options {
         loops: LoopLimits {
             idle_lines: 2_000,
             checked_lines: 4_000,
+            may_run_unchecked: false,
         },
         ..Options::default()
     }
@@ -62,7 +63,7 @@ fuzz_target!(|bytes: &[u8]| {
                 ItemKind::Dwell(seconds) => assert!(seconds >= 0.0),
                 ItemKind::Event(_) => {}
             },
-            Err(diagnostic) if report.complete => {
+            Err(diagnostic) if report.is_complete() => {
                 assert_eq!(report.diagnostics.first(), Some(&diagnostic));
             }
             Err(_) => {}

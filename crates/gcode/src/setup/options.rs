@@ -56,14 +56,18 @@ pub struct LoopLimits {
     pub idle_lines: u32,
     /// Most of their lines executed by [`crate::check`], each as often as it is.
     pub checked_lines: u64,
+    /// Whether a program whose loops go on for longer than that may be run: what it does then is
+    /// judged only when it comes to it.
+    pub may_run_unchecked: bool,
 }
 
 impl Default for LoopLimits {
-    /// A million idle lines, twenty million checked ones.
+    /// A million idle lines, twenty million checked ones, and no more than those may run.
     fn default() -> Self {
         Self {
             idle_lines: 1_000_000,
             checked_lines: 20_000_000,
+            may_run_unchecked: false,
         }
     }
 }

@@ -19,6 +19,10 @@ pub struct ProgramArgs {
     /// Language of the program: linuxcnc, marlin, fanuc or siemens; else told by its beginning
     #[arg(long, value_name = "NAME", value_parser = dialect)]
     pub dialect: Option<Dialect>,
+    /// Take a program whose loops go on for too long to be checked to their end (20 million lines):
+    /// what it does behind that is judged only when it comes to it
+    #[arg(long)]
+    pub allow_unchecked: bool,
 }
 
 /// A program by its name.

@@ -33,8 +33,13 @@ pub(super) fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Fa
             print(name, report);
         }
     }
-    let accepted = reports.iter().all(|(_, report)| report.is_accepted());
-    Ok(if accepted { Exit::Done } else { Exit::Rejected })
+    let reports = || reports.iter().map(|(_, report)| report);
+    let whole = reports().all(|report| report.is_complete() || config.program.may_run_unchecked);
+    Ok(match (reports().all(Report::is_accepted), whole) {
+        (false, _) => Exit::Rejected,
+        (true, false) => Exit::Unchecked,
+        (true, true) => Exit::Done,
+    })
 }
 
 /// Checks one program for a machine at its home.
@@ -46,7 +51,8 @@ fn read(file: &ProgramFile, config: &MachineConfig) -> Result<Report, Failure> {
     let options = config.program_options(config.home());
     let report = check_file(file.path(), options, &config.settings())
         .map_err(FileError::open(file.name()))?;
-    if !report.is_accepted() {
+    // A program whose loops do not end would have joints judged for ever.
+    if !report.is_accepted() || !report.is_complete() {
         return Ok(report);
     }
     let diagnostics = joints::check_path(file.path(), config)?
@@ -61,12 +67,25 @@ fn read(file: &ProgramFile, config: &MachineConfig) -> Result<Report, Failure> {
 /// Checks a program that is to be run; the number of its lines.
 ///
 /// # Errors
-/// The file cannot be opened, or the program has something to mend.
+/// The file cannot be opened, the program has something to mend, or it is not checked to its end
+/// and may not be run so.
 pub(super) fn accepted(file: &ProgramFile, config: &MachineConfig) -> Result<u32, Failure> {
     let config = &for_program(file, config);
     let options = config.program_options(config.home());
     let mut found = find_in_file(file.path(), options, &config.settings())
         .map_err(FileError::open(file.name()))?;
+    if let Some(line) = found.given_up_at.filter(|_| found.diagnostics.is_empty()) {
+        let has_joints = config.joint_watch().is_some();
+        if config.program.may_run_unchecked && !has_joints {
+            output::note(&not_checked(&file.name().display().to_string(), line));
+            return Ok(found.lines);
+        }
+        return Err(Failure::Unchecked {
+            program: file.name().display().to_string(),
+            line,
+            has_joints,
+        });
+    }
     if found.diagnostics.is_empty() {
         found.diagnostics = joints::check_path(file.path(), config)?
             .into_iter()
@@ -87,7 +106,8 @@ fn print(name: &str, report: &Report) {
     print_diagnostics(name, &report.diagnostics, report.more);
     let totals = &report.totals;
     let verdict = match report.diagnostics.len() + usize::try_from(report.more).unwrap_or(0) {
-        0 => "no findings".to_owned(),
+        0 if report.is_complete() => "no findings".to_owned(),
+        0 => "no findings as far as it was checked".to_owned(),
         1 => "1 finding".to_owned(),
         count => format!("{count} findings"),
     };
@@ -102,6 +122,14 @@ fn print(name: &str, report: &Report) {
         totals.rapid_length_mm
     ));
     output::result(&survey(report));
+    if let Some(line) = report.given_up_at {
+        output::result(&(not_checked(name, line) + "; the figures above are of what was\n"));
+    }
+}
+
+/// That a program was not checked to its end.
+fn not_checked(name: &str, line: u32) -> String {
+    format!("{name}: not checked beyond line {line}, because its loops go on for too long")
 }
 
 /// Where the program goes and how long it takes at its feedrates.
@@ -159,7 +187,9 @@ fn program(name: &str, report: &Report) -> Value {
         .collect();
     json!({
         "program": name,
-        "accepted": report.is_accepted(),
+        "accepted": report.is_accepted() && report.is_complete(),
+        "checked_to_end": report.is_complete(),
+        "not_checked_beyond_line": report.given_up_at,
         "lines": totals.lines,
         "straight_moves": totals.straight_feeds,
         "arcs": totals.arcs,

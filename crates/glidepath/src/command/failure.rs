@@ -37,6 +37,24 @@ pub(super) enum Failure {
         /// Whether the part in front of the first of them was run.
         moved: bool,
     },
+    /// A program could not be checked to its end.
+    #[error(
+        "{program} is not checked beyond line {line}, because its loops go on for too long; nothing \
+         moved; {}", if *has_joints {
+            "this machine's joints are judged over the whole of a program, so that it cannot be run \
+             unchecked: end its loops"
+        } else {
+            "--allow-unchecked runs it all the same, each line judged only when it comes to it"
+        }
+    )]
+    Unchecked {
+        /// The program.
+        program: String,
+        /// Where the check was given up.
+        line: u32,
+        /// Whether the machine has joints that are not its axes.
+        has_joints: bool,
+    },
     /// A curve file has something to mend.
     #[error("the curve is rejected: {0}")]
     Curve(Box<CurveDiagnostic>),
@@ -161,6 +179,10 @@ impl Failure {
     pub(super) const fn exit(&self) -> Exit {
         match self {
             Self::Configuration(_) => Exit::Configuration,
+            Self::Unchecked { .. }
+            | Self::Refused(Refusal::Unchecked { .. })
+            | Self::Planner(planner::RunError::Refused(Refusal::Unchecked { .. }))
+            | Self::Feed(FeedError::Refused(Refusal::Unchecked { .. })) => Exit::Unchecked,
             Self::ResumePipe
             | Self::File(FileError::Open { .. })
             | Self::Catalogue(_)

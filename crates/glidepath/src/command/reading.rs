@@ -39,6 +39,7 @@ pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<()
     }
     config.program.subroutine_path = path;
     config.program.dialect = args.dialect.or(config.program.dialect);
+    config.program.may_run_unchecked = args.allow_unchecked;
     if let Some(path) = &config.program.tool_table {
         config.program.tools = Some(Arc::new(tool_table(path)?));
     }

@@ -1,7 +1,7 @@
 //! A configuration that has been judged: what the rest of the program works with.
 
 use super::program::ProgramConfig;
-use glidepath_gcode::{Machine, Options, Travel};
+use glidepath_gcode::{LoopLimits, Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{
     AxisRates, AxisShare, JointLimits, JointWatch, Kinematics as _, Mechanism, PathCaps,
@@ -197,6 +197,10 @@ impl MachineConfig {
             extruder: self.program.extruder,
             connections: self.program.connections,
             spline_tolerance_mm: SPLINE_SHARE * self.path.tolerance_mm,
+            loops: LoopLimits {
+                may_run_unchecked: self.program.may_run_unchecked,
+                ..LoopLimits::default()
+            },
             ..Options::default()
         }
     }

@@ -23,4 +23,6 @@ pub struct ProgramConfig {
     pub connections: Connections,
     /// The axis E words move.
     pub extruder: Option<Axis>,
+    /// Whether a program may run that could not be checked to its end.
+    pub may_run_unchecked: bool,
 }

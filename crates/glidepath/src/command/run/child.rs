@@ -151,6 +151,7 @@ impl Process {
             Some(1) => Exit::Rejected,
             Some(3) => Exit::Configuration,
             Some(4) => Exit::NotRealTime,
+            Some(6) => Exit::Unchecked,
             _ => Exit::Fault,
         };
         let reason = match (report["error"].as_str(), status.code(), status.signal()) {

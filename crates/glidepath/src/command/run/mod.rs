@@ -217,6 +217,11 @@ impl Supervisor<'_> {
         for folder in &program.subroutine_path {
             args.extend(["--subroutine-path".into(), folder.into()]);
         }
+        args.extend(
+            program
+                .may_run_unchecked
+                .then(|| "--allow-unchecked".into()),
+        );
         args
     }
 

@@ -34,6 +34,7 @@ impl Judge {
             subroutines: None,
             connections: self.choice("program.inputs_outputs", raw.inputs_outputs, &connections),
             extruder: self.choice("program.extruder", raw.extruder, &extruders),
+            may_run_unchecked: false,
         }
     }
 }
