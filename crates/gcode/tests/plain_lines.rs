@@ -85,7 +85,7 @@ fn compare(text: &str) {
     assert_eq!(places(&plain.diagnostics), places(&general.diagnostics));
     let rest = |report: &Report| {
         format!(
-            "{} {} {:?} {:?} {:?}",
+            "{} {:?} {:?} {:?} {:?}",
             report.more, report.given_up_at, report.totals, report.survey, report.final_position
         )
     };

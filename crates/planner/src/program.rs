@@ -146,9 +146,9 @@ impl ItemSource for PipeSource {
         match self.pieces.try_recv() {
             Ok(supply) => supply,
             Err(TryRecvError::Empty) => Supply::Pending,
-            Err(TryRecvError::Disconnected) => Supply::Refused(Refusal::Read(
-                io::Error::other("the thread that reads the program died"),
-            )),
+            Err(TryRecvError::Disconnected) => Supply::Refused(Refusal::Read(io::Error::other(
+                "the thread that reads the program died",
+            ))),
         }
     }
 
