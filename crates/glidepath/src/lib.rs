@@ -56,3 +56,4 @@ pub mod report;
 pub mod sample;
 pub mod service_manager;
 pub mod setpoints;
+pub mod text_file;

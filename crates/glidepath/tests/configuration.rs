@@ -196,8 +196,115 @@ fn syntax_and_types_are_refused_with_their_place() {
     let (_, place, _) = only("[axis.X\n");
     assert_eq!(place.map(|(line, _)| line), Some(1));
     let (message, place, _) = only(&AXIS.replace("max_jerk = 10000", "max_jerk = \"fast\""));
-    assert_eq!(message, "invalid type: string \"fast\", expected f64");
+    assert_eq!(message, "axis.X.max_jerk is text, not a number");
     assert_eq!(place, Some((6, 12)));
+    for (line, told) in [
+        (
+            "path.tolerance = true",
+            "path.tolerance is true or false, not a number",
+        ),
+        (
+            "interpolator.period_us = 4000.0",
+            "interpolator.period_us is a number with a decimal point, not a whole number",
+        ),
+        (
+            "interpolator.cpu = \"1\"",
+            "interpolator.cpu is text, not a whole number",
+        ),
+        (
+            "path.effort = 1",
+            "path.effort is a whole number, not text in quotes",
+        ),
+        ("path = 5", "path is a whole number, not a table"),
+        (
+            "program.subroutine_path = \"lib\"",
+            "program.subroutine_path is text, not a list",
+        ),
+        ("axis.X = 3", "axis.X is a whole number, not a table"),
+    ] {
+        let rest = if line.starts_with("axis") { "" } else { AXIS };
+        let (message, place, help) = only(&format!("{line}\n{rest}"));
+        assert_eq!(message, told);
+        assert_eq!(place.map(|(line, _)| line), Some(1), "{line}");
+        assert!(!help.is_empty(), "{line}");
+    }
+}
+
+#[test]
+fn what_is_wrong_is_told_at_once_whatever_it_is() {
+    let text = AXIS
+        .replace("max_velocity", "max_velocty")
+        .replace("max_jerk = 10000", "max_jerk = -1");
+    let text = format!(
+        "{text}[path]\ntolerance = \"0.02\"\neffort = \"best\"\nqqqq = 1\n[interpolator]\n\
+         horizon_s = 99\npriority = 200\n"
+    );
+    let mut told: Vec<String> = findings(&text).into_iter().map(|found| found.0).collect();
+    told.sort();
+    assert_eq!(
+        told,
+        [
+            "axis.X.max_jerk = -1 mm/s³ is out of range",
+            "interpolator.horizon_s = 99 s is out of range",
+            "interpolator.priority = 200 is out of range",
+            "path.effort = \"best\" is not known",
+            "path.tolerance is text, not a number",
+            "unknown key `max_velocty`",
+            "unknown key `qqqq`",
+        ]
+    );
+}
+
+#[test]
+fn a_velocity_per_minute_is_called_that() {
+    // The settings of grbl, in mm/min, on the machine that is shipped.
+    let text = config::EMBEDDED.replace("max_velocity = 200.0", "max_velocity = 12000.0");
+    let found = findings(&text);
+    assert_eq!(found.len(), 3, "{found:?}");
+    for (axis, (message, place, help)) in ["X", "Y", "Z"].into_iter().zip(found) {
+        assert_eq!(
+            message,
+            format!(
+                "axis.{axis}.max_velocity = 12000 mm/s is 720 m/min, and 6.0 s to stop: mm/min?"
+            )
+        );
+        let (line, column) = place.expect("a place");
+        let line = text.lines().nth(line - 1).expect("a line");
+        assert!(line.starts_with("max_velocity = 12000"), "{line}");
+        assert_eq!(column, 16);
+        let help = help.expect("a remedy");
+        assert!(
+            help.contains("12000 mm/min is max_velocity = 200.0"),
+            "{help}"
+        );
+    }
+    // The defaults of grbl; and a jerk that is none.
+    let slow = AXIS.replace("max_velocity = 100", "max_velocity = 500");
+    let (message, ..) = only(&slow.replace("1000\n", "10\n"));
+    assert!(
+        message.ends_with("is 30 m/min, and 50.0 s to stop: mm/min?"),
+        "{message}"
+    );
+    let (message, ..) = only(&AXIS.replace("max_jerk = 10000", "max_jerk = 10"));
+    assert_eq!(
+        message,
+        "axis.X.max_jerk = 10 mm/s³ takes 100.0 s to build up max_acceleration = 1000 mm/s²"
+    );
+}
+
+#[test]
+fn no_more_is_read_of_a_file_than_it_may_have() {
+    let error = config::load(Some("/dev/zero".as_ref())).expect_err("no configuration");
+    assert!(
+        error.to_string().contains("more than 1048576 bytes"),
+        "{error}"
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("m.toml");
+    std::fs::write(&path, AXIS.to_owned() + &"#\n".repeat(1 << 19)).expect("written");
+    assert!(config::load(Some(&path)).is_err());
+    std::fs::write(&path, AXIS.to_owned() + &"#\n".repeat(1 << 18)).expect("written");
+    assert!(config::load(Some(&path)).is_ok());
 }
 
 #[test]

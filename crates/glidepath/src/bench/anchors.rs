@@ -3,6 +3,7 @@
 //! A bound holds for one jerk limit and one tolerance. Where the study has none for the machine's
 //! tolerance, that for another tolerance and the same jerk stands in, and the row says so.
 
+use crate::text_file;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -100,6 +101,9 @@ pub struct OtherControl {
     pub deviation_mm: Option<f64>,
 }
 
+/// Largest catalogue, bytes.
+const MOST_BYTES: u64 = 1 << 20;
+
 impl Catalogue {
     /// Reads the catalogue of a folder.
     ///
@@ -107,7 +111,7 @@ impl Catalogue {
     /// The file cannot be read, or is not a catalogue.
     pub fn read(folder: &Path) -> Result<Self, CatalogueError> {
         let path = folder.join("bench.json");
-        let text = match std::fs::read_to_string(&path) {
+        let text = match text_file::read(&path, MOST_BYTES) {
             Ok(text) => text,
             Err(source) => return Err(CatalogueError::Unreadable { path, source }),
         };

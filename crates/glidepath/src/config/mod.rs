@@ -15,6 +15,7 @@ mod machine;
 mod parse;
 mod program;
 mod raw;
+mod tree;
 
 pub use diagnostic::{ConfigDiagnostic, ConfigError, DiagnosticReport};
 pub use instance::{INSTANCE_RULE, is_instance_name};
@@ -22,7 +23,11 @@ pub use judge::MAX_FRAMES_AHEAD;
 pub use machine::{AxisConfig, InterpolatorConfig, MachineConfig, PathConfig};
 pub use program::ProgramConfig;
 
+use crate::text_file;
 use std::path::Path;
+
+/// Largest configuration file, bytes: the longest machine is described in a hundredth of it.
+const MOST_BYTES: u64 = 1 << 20;
 
 /// The machine that is used without `--config`.
 pub const EMBEDDED: &str = include_str!("../../../../config/mill.toml");
@@ -39,7 +44,7 @@ pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
         return parse("built-in machine", EMBEDDED);
     };
     let name = path.display().to_string();
-    match std::fs::read_to_string(path) {
+    match text_file::read(path, MOST_BYTES) {
         Ok(text) => {
             let mut config = parse(&name, &text)?;
             // The tool table and folders are named from where the configuration is.
@@ -60,12 +65,38 @@ pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
 /// # Errors
 /// Everything in the text that has to be mended.
 pub fn parse(path: &str, text: &str) -> Result<MachineConfig, ConfigError> {
-    parse::parse(text)
-        .map_err(|diagnostic| vec![diagnostic])
-        .and_then(judge::judge)
-        .map_err(|diagnostics| ConfigError::Refused {
-            path: path.to_owned(),
-            text: text.to_owned(),
-            diagnostics,
-        })
+    let (raw, found) = parse::parse(text);
+    let early = found.len();
+    let judged = match raw {
+        Some(raw) => judge::judge(raw, found),
+        None => Err(found),
+    };
+    judged.map_err(|diagnostics| ConfigError::Refused {
+        path: path.to_owned(),
+        text: text.to_owned(),
+        diagnostics: real(text, diagnostics, early),
+    })
+}
+
+/// The diagnostics without those of values that only stand for what was found wrong `early`.
+fn real(text: &str, mut diagnostics: Vec<ConfigDiagnostic>, early: usize) -> Vec<ConfigDiagnostic> {
+    let table = |key: &str| {
+        key.rsplit_once('.')
+            .map_or("", |(table, _)| table)
+            .to_owned()
+    };
+    let mut late = diagnostics.split_off(early);
+    let broken: Vec<String> = diagnostics.iter().map(|d| table(&d.key)).collect();
+    // Values of such a table cannot be judged together; each by itself can.
+    late.retain(|d| {
+        let is_broken = broken.contains(&d.key) || broken.contains(&table(&d.key));
+        let by_itself = ["out of range", "is not known", "is missing"];
+        !is_broken || by_itself.iter().any(|words| d.message.contains(words))
+    });
+    diagnostics.append(&mut late);
+    diagnostics.retain(|d| {
+        let replaced = |span| tree::Tree::is_replaced(text, span);
+        !d.span.as_ref().is_some_and(replaced)
+    });
+    diagnostics
 }

@@ -1,51 +1,158 @@
-//! Text to [`RawConfig`]: the syntax and the names of keys.
+//! Text to [`RawConfig`]: the syntax, the names of keys, and the types of values.
+//!
+//! Reading ends at the first thing that does not fit. That is put aside and the text is read again,
+//! until all of it fits: so everything that is wrong is told at once.
 
 use super::diagnostic::ConfigDiagnostic;
 use super::raw::RawConfig;
+use super::tree::Tree;
+use core::ops::Range;
+use serde::Deserialize as _;
 
-/// Reads the text.
-///
-/// # Errors
-/// The first thing that is not TOML, not a known key, or not of the key's type.
-pub(super) fn parse(text: &str) -> Result<RawConfig, ConfigDiagnostic> {
-    toml::from_str(text).map_err(|error| {
-        let message = error
-            .message()
-            .lines()
-            .next()
-            .unwrap_or_default()
-            .to_owned();
-        let (message, help) = explain(&message);
-        ConfigDiagnostic {
-            key: String::new(),
-            message,
-            help,
-            span: error.span(),
+/// Most things of this stage that are told at once.
+const MOST: usize = 50;
+
+/// Reads the text: what is there, and what is wrong with it. Nothing is there if it is not TOML.
+pub(super) fn parse(text: &str) -> (Option<RawConfig>, Vec<ConfigDiagnostic>) {
+    let mut found = Vec::new();
+    let mut tree = match Tree::parse(text) {
+        Ok(tree) => tree,
+        Err(error) => {
+            let help =
+                "the file is TOML: tables such as [axis.X], and lines such as max_jerk = 40000.0";
+            found.push(ConfigDiagnostic {
+                key: String::new(),
+                message: first_line(error.message()),
+                help: Some(help.to_owned()),
+                span: error.span(),
+            });
+            return (None, found);
         }
+    };
+    loop {
+        let error = match RawConfig::deserialize(toml::de::Deserializer::from(tree.root.clone())) {
+            Ok(raw) => return (Some(raw), found),
+            Err(error) => error,
+        };
+        let message = first_line(error.message());
+        let at = error.span().unwrap_or(0..0);
+        // A key that was misspelt is not missing, too.
+        let is_misspelt = missing(&message).is_some_and(|key| {
+            let meant = format!("did you mean `{key}`");
+            let helps = found
+                .iter()
+                .filter_map(|told: &ConfigDiagnostic| told.help.as_ref());
+            helps.into_iter().any(|help| help.starts_with(&meant))
+        });
+        if !is_misspelt {
+            found.push(told(&tree, &message, &at));
+        }
+        if found.len() >= MOST || !put_aside(&mut tree, &message, &at) {
+            return (None, found);
+        }
+    }
+}
+
+fn first_line(message: &str) -> String {
+    message.lines().next().unwrap_or_default().to_owned()
+}
+
+/// Changes the tree so that reading gets beyond an error; false if that is not possible.
+fn put_aside(tree: &mut Tree<'_>, message: &str, at: &Range<usize>) -> bool {
+    if message.starts_with("unknown field") {
+        return tree.take_out(at);
+    }
+    if let Some(key) = missing(message) {
+        let value = match key {
+            "axis" => "{}",
+            "layout" => "'table-table'",
+            "tilt" => "'A'",
+            _ => "1.0",
+        };
+        return tree.add(at, key, value);
+    }
+    expected(message).is_some_and(|(_, value)| tree.replace(at, value))
+}
+
+/// The key that a message says is missing.
+fn missing(message: &str) -> Option<&str> {
+    message.strip_prefix("missing field `")?.split('`').next()
+}
+
+/// What a message says is wanted, in words, and a value of that kind.
+fn expected(message: &str) -> Option<(&'static str, &'static str)> {
+    let wanted = message.split("expected ").nth(1)?;
+    let is = |word: &str| wanted.contains(word);
+    Some(if is("array of length 3") || is("tuple of size 3") {
+        ("a list of three numbers", "[1.0, 1.0, 1.0]")
+    } else if is("sequence") || is("array") {
+        ("a list", "[]")
+    } else if is("struct") || is("map") || is("table") {
+        ("a table", "{}")
+    } else if is("string") {
+        ("text in quotes", "''")
+    } else if is("bool") {
+        ("true or false", "false")
+    } else if is("f64") || is("float") {
+        ("a number", "1.0")
+    } else if is("i64") || is("integer") {
+        ("a whole number", "1")
+    } else {
+        return None;
     })
 }
 
-/// Turns serde's message into what, and how to mend it. serde gives the names between backquotes:
+/// serde's message as what is wrong, and how to mend it. serde gives names between backquotes:
 /// first the one that was found, then those it knows.
-fn explain(message: &str) -> (String, Option<String>) {
+fn told(tree: &Tree<'_>, message: &str, at: &Range<usize>) -> ConfigDiagnostic {
+    let (key, kind) = tree.described(at);
     let names: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    if let (true, [unknown, known @ ..]) = (message.starts_with("unknown field"), names.as_slice())
-    {
-        let list = known.join(", ");
-        let help = nearest(unknown, known).map_or_else(
-            || format!("the keys here are: {list}"),
-            |name| format!("did you mean `{name}`? The keys here are: {list}"),
-        );
-        return (format!("unknown key `{unknown}`"), Some(help));
+    let unknown = message.starts_with("unknown field");
+    let (key, message, help) = match (unknown, names.as_slice(), missing(message)) {
+        (true, [unknown, known @ ..], _) => {
+            let list = known.join(", ");
+            let help = nearest(unknown, known).map_or_else(
+                || format!("the keys here are: {list}"),
+                |name| format!("did you mean `{name}`? The keys here are: {list}"),
+            );
+            (key, format!("unknown key `{unknown}`"), Some(help))
+        }
+        (_, _, Some(missing)) => {
+            let help = match missing {
+                "axis" => {
+                    "a machine has at least one axis: add a table such as [axis.X]".to_owned()
+                }
+                key => {
+                    format!("add `{key} = …` to this table; config/mill.toml explains every key")
+                }
+            };
+            let table = tree.table(at);
+            let key = [table.as_str(), missing].join(if table.is_empty() { "" } else { "." });
+            (key, format!("the key `{missing}` is missing"), Some(help))
+        }
+        _ => match expected(message) {
+            Some((wanted, _)) if !key.is_empty() => {
+                let name = key.rsplit('.').next().unwrap_or_default();
+                let help = match wanted {
+                    "a number" => format!("write it without quotes, such as {name} = 100.0"),
+                    "a table" => format!("give it a table of its own: [{key}]"),
+                    wanted => format!("write {wanted}"),
+                };
+                (
+                    key.clone(),
+                    format!("{key} is {kind}, not {wanted}"),
+                    Some(help),
+                )
+            }
+            _ => (key, message.to_owned(), None),
+        },
+    };
+    ConfigDiagnostic {
+        key,
+        message,
+        help,
+        span: Some(at.clone()),
     }
-    if let (true, [missing, ..]) = (message.starts_with("missing field"), names.as_slice()) {
-        let help = match *missing {
-            "axis" => "a machine has at least one axis: add a table such as [axis.X]".to_owned(),
-            key => format!("add `{key} = …` to this table; config/mill.toml explains every key"),
-        };
-        return (format!("the key `{missing}` is missing"), Some(help));
-    }
-    (message.to_owned(), None)
 }
 
 /// The known name that is most like the unknown one, if any is alike.

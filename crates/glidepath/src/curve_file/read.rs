@@ -2,9 +2,13 @@
 
 use super::diagnostic::CurveDiagnostic;
 use crate::file_error::FileError;
+use crate::text_file;
 use glidepath_curve::NurbsFile;
 use std::path::Path;
 use thiserror::Error;
+
+/// Largest curve file, bytes: a hundred thousand control points.
+const MOST_BYTES: u64 = 16 << 20;
 
 /// Why a curve file cannot be used.
 #[derive(Debug, Error)]
@@ -22,7 +26,7 @@ pub enum CurveFileError {
 /// # Errors
 /// The file cannot be read, or something in it has to be mended.
 pub fn read(path: &Path) -> Result<NurbsFile, CurveFileError> {
-    let text = std::fs::read_to_string(path).map_err(FileError::open(path))?;
+    let text = text_file::read(path, MOST_BYTES).map_err(FileError::open(path))?;
     Ok(parse(&path.display().to_string(), &text)?)
 }
 

@@ -12,17 +12,19 @@ use crate::config::machine::{AxisConfig, InterpolatorConfig};
 pub const MAX_FRAMES_AHEAD: u32 = 512;
 
 /// Stops from full speed that the horizon covers at least.
-const STOPS: f64 = 3.0;
+pub(super) const STOPS: f64 = 3.0;
 
 /// The horizon where the file gives none, s: longer only for a machine that needs more.
 const USUAL_T: f64 = 0.6;
 
+/// What an axis takes to stop from full speed, s.
+pub(super) fn stop_t(axis: &AxisConfig) -> f64 {
+    axis.max_velocity / axis.max_acceleration + axis.max_acceleration / axis.max_jerk
+}
+
 /// The shortest horizon a machine can do with, s.
 pub(super) fn shortest_t(axes: &[AxisConfig]) -> f64 {
-    let stop = |axis: &AxisConfig| {
-        axis.max_velocity / axis.max_acceleration + axis.max_acceleration / axis.max_jerk
-    };
-    STOPS * axes.iter().map(stop).fold(0.0, f64::max)
+    STOPS * axes.iter().map(stop_t).fold(0.0, f64::max)
 }
 
 /// The horizon where the file gives none, s.

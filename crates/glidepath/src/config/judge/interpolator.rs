@@ -1,16 +1,21 @@
 //! `[interpolator]`: the real-time side.
 
 use super::horizon;
+use super::stops;
 use super::values::{Judge, Range};
 use crate::config::machine::{AxisConfig, InterpolatorConfig};
-use crate::config::raw::RawInterpolator;
+use crate::config::raw::{RawAxis, RawInterpolator};
 use toml::Spanned;
+
+/// The longest period there may be, µs.
+pub(super) const LONGEST_PERIOD_US: i64 = 20_000;
 
 impl Judge {
     pub(super) fn interpolator(
         &mut self,
         raw: &RawInterpolator,
         axes: &[AxisConfig],
+        raw_axes: &[&RawAxis],
     ) -> InterpolatorConfig {
         let range = Range {
             min: 0.05,
@@ -22,7 +27,7 @@ impl Judge {
             self.whole(
                 "interpolator.period_us",
                 value,
-                (250, 20_000),
+                (250, LONGEST_PERIOD_US),
                 "µs between two setpoints",
             )
         });
@@ -56,6 +61,9 @@ impl Judge {
             max_missed_ticks: missed.unwrap_or(10),
             horizon_t,
         };
+        if self.diagnostics.is_empty() {
+            self.stops(axes, raw_axes, &config);
+        }
         // Only numbers that are good by themselves can be judged together.
         if self.diagnostics.is_empty()
             && let Some(mut diagnostic) = horizon::diagnostic(&config, axes)
@@ -68,5 +76,32 @@ impl Judge {
             self.diagnostics.push(diagnostic);
         }
         config
+    }
+
+    /// Axes that take longer to stop than can be planned ahead.
+    fn stops(
+        &mut self,
+        axes: &[AxisConfig],
+        raw_axes: &[&RawAxis],
+        interpolator: &InterpolatorConfig,
+    ) {
+        for (axis, raw) in axes.iter().zip(raw_axes) {
+            // The values of the file, not what joints leave of them.
+            let axis = AxisConfig {
+                max_acceleration: *raw.max_acceleration.as_ref(),
+                max_jerk: *raw.max_jerk.as_ref(),
+                ..*axis
+            };
+            if let Some(mut diagnostic) = stops::diagnostic(&axis, interpolator) {
+                let is_jerk = diagnostic.key.ends_with("max_jerk");
+                let value = if is_jerk {
+                    &raw.max_jerk
+                } else {
+                    &raw.max_velocity
+                };
+                diagnostic.span = Some(value.span());
+                self.diagnostics.push(diagnostic);
+            }
+        }
     }
 }

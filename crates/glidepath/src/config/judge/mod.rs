@@ -11,6 +11,7 @@ mod mechanism;
 mod path;
 mod preview;
 mod program;
+mod stops;
 mod values;
 
 pub use horizon::MAX_FRAMES_AHEAD;
@@ -21,21 +22,23 @@ use super::raw::RawConfig;
 use axis_share::axis_share;
 use glidepath_geometry::Axis;
 use glidepath_kinematics::AxisShare;
+use toml::Spanned;
 use values::Judge;
 
-/// Judges every value.
+/// Judges every value, beside what was found wrong with the text before.
 ///
 /// # Errors
 /// All diagnostics, in the order of the tables.
-pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<ConfigDiagnostic>> {
-    let mut judge = Judge {
-        diagnostics: Vec::new(),
-    };
+pub(super) fn judge(
+    raw: RawConfig,
+    found: Vec<ConfigDiagnostic>,
+) -> Result<MachineConfig, Vec<ConfigDiagnostic>> {
+    let mut judge = Judge { diagnostics: found };
     let axes_span = raw.axis.span();
-    let axes: Vec<AxisConfig> = Axis::ALL
-        .into_iter()
-        .zip(raw.axis.into_inner().in_order())
-        .filter_map(|(axis, raw)| Some(judge.axis(axis, &raw?)))
+    let raw_axes = raw.axis.into_inner().in_order();
+    let raw_axes = || Axis::ALL.into_iter().zip(&raw_axes);
+    let axes: Vec<AxisConfig> = raw_axes()
+        .filter_map(|(axis, raw)| Some(judge.axis(axis, raw.as_ref()?)))
         .collect();
     if axes.is_empty() {
         judge.diagnostics.push(ConfigDiagnostic {
@@ -63,7 +66,12 @@ pub(super) fn judge(raw: RawConfig) -> Result<MachineConfig, Vec<ConfigDiagnosti
             ..*axis
         })
         .collect();
-    let interpolator = judge.interpolator(&raw.interpolator, &braking);
+    let interpolator = {
+        let raw_axes: Vec<_> = raw_axes()
+            .filter_map(|(_, raw)| raw.as_ref().map(Spanned::as_ref))
+            .collect();
+        judge.interpolator(&raw.interpolator, &braking, &raw_axes)
+    };
     let config = MachineConfig {
         mechanism,
         joint_limits,

@@ -1,0 +1,26 @@
+//! Files that are read as a whole: no more of them than they may have.
+
+use std::fs::File;
+use std::io::{self, Read as _};
+use std::path::Path;
+
+/// The text of a file of at most so many bytes. Of a longer one, or a device that gives bytes
+/// without end, nothing more is read.
+///
+/// # Errors
+/// The file cannot be read, is too long, or is no UTF-8.
+pub fn read(path: &Path, most_bytes: u64) -> io::Result<String> {
+    let mut text = Vec::new();
+    File::open(path)?
+        .take(most_bytes + 1)
+        .read_to_end(&mut text)?;
+    if text.len() as u64 > most_bytes {
+        let message = format!("it has more than {most_bytes} bytes, the most that are read");
+        return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+    }
+    String::from_utf8(text).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let message = format!("it is no UTF-8 text from byte {at} on");
+        io::Error::new(io::ErrorKind::InvalidData, message)
+    })
+}
