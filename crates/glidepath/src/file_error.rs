@@ -25,9 +25,26 @@ pub enum FileError {
         /// What the system said.
         source: io::Error,
     },
+    /// The file may not be overwritten.
+    #[error("{path} is not written: {reason}", path = path.display())]
+    Guarded {
+        /// The file.
+        path: PathBuf,
+        /// Why, and what to do.
+        reason: String,
+    },
 }
 
 impl FileError {
+    /// A file that may not be overwritten.
+    #[must_use]
+    pub fn guarded(path: &Path, reason: String) -> Self {
+        Self::Guarded {
+            path: path.to_owned(),
+            reason,
+        }
+    }
+
     /// For `map_err` of opening a file.
     pub fn open(path: &Path) -> impl FnOnce(io::Error) -> Self {
         |source| Self::Open {

@@ -47,6 +47,7 @@ pub mod interrupt;
 pub mod jitter;
 mod joints;
 pub mod output;
+pub mod output_file;
 pub mod plot;
 pub mod program_file;
 pub mod program_text;

@@ -3,11 +3,27 @@
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
-use std::io::{IsTerminal as _, Write as _};
+use std::io::{ErrorKind, IsTerminal as _, Write as _};
+use std::sync::OnceLock;
 
-/// Writes text to standard output. A reader that went away (`| head`) is no fault of ours.
+/// Why a result was not written.
+static UNWRITTEN: OnceLock<String> = OnceLock::new();
+
+/// Writes text to standard output. A reader that went away (`| head`) is no fault of ours; any
+/// other failure is kept for the end of the command ([`unwritten`]).
 pub fn result(text: &str) {
-    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+    let mut out = std::io::stdout().lock();
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    if let Err(error) = written
+        && error.kind() != ErrorKind::BrokenPipe
+    {
+        UNWRITTEN.get_or_init(|| error.to_string());
+    }
+}
+
+/// Why a result of this process was not written to standard output, if one was not.
+pub fn unwritten() -> Option<&'static str> {
+    UNWRITTEN.get().map(String::as_str)
 }
 
 /// Writes the one JSON object of a `--json` command.

@@ -2,55 +2,62 @@
 
 use crate::config::MachineConfig;
 use crate::file_error::FileError;
+use crate::output_file::{Guard, OutputFile, OutputKind};
 use crate::plot::Plot;
 use crate::report::state_name;
 use crate::sample::Sample;
 use crate::setpoints::CsvWriter;
 use glidepath_link::MachineState;
-use std::fs::File;
-use std::io::BufWriter;
+use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 /// The files of a motion as they grow.
 #[derive(Debug)]
 pub struct Recording {
-    csv: Option<(PathBuf, CsvWriter<BufWriter<File>>)>,
-    plot: Option<(PathBuf, Plot)>,
+    csv: Option<CsvWriter<BufWriter<OutputFile>>>,
+    plot: Option<(OutputFile, Plot)>,
+    csv_path: PathBuf,
 }
 
 impl Recording {
-    /// Creates the files that were asked for.
+    /// Begins the files that were asked for.
     ///
     /// # Errors
-    /// A file cannot be created.
+    /// A file may not be written, or cannot be.
     pub fn create(
         config: &MachineConfig,
         csv: Option<&Path>,
         plot: Option<&Path>,
+        guard: &Guard,
     ) -> Result<Self, FileError> {
         let axes = config.axis_names();
-        let csv = csv
-            .map(|path| {
-                let file = File::create(path).map_err(FileError::open(path))?;
-                let writer = CsvWriter::new(
-                    BufWriter::with_capacity(1 << 16, file),
-                    &axes,
-                    config.joints(),
-                )
-                .map_err(FileError::file("write", path))?;
-                Ok::<_, FileError>((path.to_owned(), writer))
-            })
-            .transpose()?;
-        let plot = plot
-            .map(|path| {
-                // Now, so that a path that cannot be written is known before an hour of motion.
-                File::create(path).map_err(FileError::open(path))?;
-                let plot = Plot::new(&axes, config.limits(), config.period_t())
-                    .with_joints(&config.joint_limits, config.joints());
-                Ok::<_, FileError>((path.to_owned(), plot))
-            })
-            .transpose()?;
-        Ok(Self { csv, plot })
+        let csv_path = csv.unwrap_or(Path::new("")).to_owned();
+        let begin = |path: Option<&Path>, kind| {
+            path.map(|path| OutputFile::create(path, kind, guard))
+                .transpose()
+        };
+        // Both now, so that a path that cannot be written is known before an hour of motion.
+        let csv = begin(csv, OutputKind::Setpoints)?;
+        let plot = begin(plot, OutputKind::Plot)?;
+        if let (Some(csv), Some(plot)) = (&csv, &plot)
+            && csv.has_place_of(plot)
+        {
+            let reason = "setpoints and plot cannot go to the same file".to_owned();
+            return Err(FileError::guarded(csv.path(), reason));
+        }
+        let writer = |file| CsvWriter::new(BufWriter::new(file), &axes, config.joints());
+        let csv = csv.map(writer).transpose();
+        let csv = csv.map_err(FileError::file("write", &csv_path))?;
+        let plot = plot.map(|file| {
+            let plot = Plot::new(&axes, config.limits(), config.period_t())
+                .with_joints(&config.joint_limits, config.joints());
+            (file, plot)
+        });
+        Ok(Self {
+            csv,
+            plot,
+            csv_path,
+        })
     }
 
     /// Whether anything is kept.
@@ -64,8 +71,9 @@ impl Recording {
     /// # Errors
     /// The CSV cannot be written.
     pub fn push(&mut self, sample: &Sample) -> Result<(), FileError> {
-        if let Some((path, csv)) = &mut self.csv {
-            csv.row(sample).map_err(FileError::file("write", path))?;
+        if let Some(csv) = &mut self.csv {
+            let written = csv.row(sample);
+            written.map_err(FileError::file("write", &self.csv_path))?;
         }
         // Waiting before and after the program is no part of the picture.
         let shown = sample.state != state_name(MachineState::Idle);
@@ -80,12 +88,19 @@ impl Recording {
     /// # Errors
     /// A file cannot be written.
     pub fn finish(self, title: &str, caption: &str) -> Result<(), FileError> {
-        if let Some((path, csv)) = self.csv {
-            csv.finish().map_err(FileError::file("write", &path))?;
+        let in_csv = FileError::file("write", &self.csv_path);
+        if let Some(csv) = self.csv {
+            let buffered = csv.finish().map_err(in_csv)?;
+            let flushed = buffered.into_inner();
+            let flushed = flushed.map_err(std::io::IntoInnerError::into_error);
+            flushed
+                .map_err(FileError::file("write", &self.csv_path))?
+                .finish()?;
         }
-        if let Some((path, plot)) = self.plot {
-            std::fs::write(&path, plot.render(title, caption))
-                .map_err(FileError::file("write", &path))?;
+        if let Some((mut file, plot)) = self.plot {
+            let written = file.write_all(plot.render(title, caption).as_bytes());
+            written.map_err(FileError::file("write", file.path()))?;
+            file.finish()?;
         }
         Ok(())
     }

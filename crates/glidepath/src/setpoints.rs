@@ -68,12 +68,13 @@ impl<W: Write> CsvWriter<W> {
         self.out.write_all(b"\n")
     }
 
-    /// Writes what is still buffered.
+    /// Writes what is still buffered, and gives the output back.
     ///
     /// # Errors
     /// The output does not take it.
-    pub fn finish(mut self) -> io::Result<()> {
-        self.out.flush()
+    pub fn finish(mut self) -> io::Result<W> {
+        self.out.flush()?;
+        Ok(self.out)
     }
 }
 

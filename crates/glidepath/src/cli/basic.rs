@@ -15,6 +15,14 @@ pub struct BasicArgs {
     pub json: bool,
 }
 
+/// Which files may be overwritten.
+#[derive(Debug, Clone, Copy, Args)]
+pub struct OverwriteArgs {
+    /// Overwrite files that are not of the kind that is written; never one that is read
+    #[arg(long)]
+    pub force: bool,
+}
+
 /// The instance, by which processes find each other.
 #[derive(Debug, Clone, Args)]
 pub struct InstanceArgs {

@@ -1,6 +1,6 @@
 //! Arguments of the commands about curves.
 
-use super::basic::BasicArgs;
+use super::basic::{BasicArgs, OverwriteArgs};
 use super::program::program_file;
 use crate::program_file::ProgramFile;
 use clap::{Args, ValueEnum};
@@ -40,6 +40,9 @@ pub struct PreviewArgs {
     /// Write a plot of the curve, coloured by the speed it allows (SVG)
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
+    /// Which files may be overwritten.
+    #[command(flatten)]
+    pub overwrite: OverwriteArgs,
 }
 
 /// How `fit` finds a curve.
@@ -89,6 +92,9 @@ pub struct FitArgs {
     /// Write a plot of the curves with their control points (SVG)
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
+    /// Which files may be overwritten.
+    #[command(flatten)]
+    pub overwrite: OverwriteArgs,
 }
 
 fn fit_output(text: &str) -> Result<PathBuf, &'static str> {

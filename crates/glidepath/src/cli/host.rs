@@ -1,6 +1,6 @@
 //! Arguments of the commands that measure: the host, the real-time loop, the benchmark programs.
 
-use super::basic::BasicArgs;
+use super::basic::{BasicArgs, OverwriteArgs};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -55,4 +55,7 @@ pub struct JitterArgs {
     /// Write a plot of the latency (SVG)
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
+    /// Which files may be overwritten.
+    #[command(flatten)]
+    pub overwrite: OverwriteArgs,
 }

@@ -8,7 +8,7 @@ mod motion;
 mod operator;
 mod program;
 
-pub use basic::{BasicArgs, InstanceArgs};
+pub use basic::{BasicArgs, InstanceArgs, OverwriteArgs};
 pub use command::Command;
 pub use curves::{FitArgs, FitMethod, PreviewArgs, PreviewMethod};
 pub use host::{BenchArgs, DoctorArgs, JitterArgs};

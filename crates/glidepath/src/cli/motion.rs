@@ -1,6 +1,6 @@
 //! Arguments of the commands that check, plan and run programs, and of the processes by themselves.
 
-use super::basic::{BasicArgs, InstanceArgs};
+use super::basic::{BasicArgs, InstanceArgs, OverwriteArgs};
 use super::program::{ProgramArgs, program_file};
 use crate::program_file::ProgramFile;
 use clap::Args;
@@ -27,9 +27,13 @@ pub struct RunArgs {
     /// Write the setpoints the mock servo received as CSV
     #[arg(long, value_name = "CSV")]
     pub setpoints: Option<PathBuf>,
-    /// Write a plot of the motion (SVG); without it the plot goes to the temporary folder
+    /// Write a plot of the motion (SVG); without it the plot goes to NAME.svg in the present folder,
+    /// if no other file has that name
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
+    /// Which files may be overwritten.
+    #[command(flatten)]
+    pub overwrite: OverwriteArgs,
 }
 
 /// Arguments of `plan`.
@@ -50,6 +54,9 @@ pub struct PlanArgs {
     /// Write a plot of the motion (SVG)
     #[arg(long, value_name = "SVG")]
     pub plot: Option<PathBuf>,
+    /// Which files may be overwritten.
+    #[command(flatten)]
+    pub overwrite: OverwriteArgs,
 }
 
 /// Arguments of `check`.
@@ -125,6 +132,9 @@ pub struct ServoArgs {
     /// Write the setpoints received as CSV
     #[arg(long, value_name = "CSV")]
     pub setpoints: Option<PathBuf>,
+    /// Which files may be overwritten.
+    #[command(flatten)]
+    pub overwrite: OverwriteArgs,
     /// Write every record received to standard output, for the process that started this one
     #[arg(long, hide = true, conflicts_with_all = ["setpoints", "json"])]
     pub relay: bool,

@@ -10,6 +10,7 @@ use crate::config::{self, MachineConfig};
 use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
+use crate::output_file::Guard;
 use crate::program_file::ProgramFile;
 use crate::progress::Progress;
 use crate::recording::Recording;
@@ -52,7 +53,7 @@ fn row(
     };
     let path = args.folder.join(&entry.file);
     check::accepted(&ProgramFile::named(&path), config)?;
-    let mut recording = Recording::create(config, None, None)?;
+    let mut recording = Recording::create(config, None, None, &Guard::default())?;
     let mut pass = Pass::start(&path, config, clock::processor)?;
     while pass.turn(&mut recording)? {
         if interrupt.is_set() {

@@ -184,7 +184,7 @@ impl Failure {
             | Self::Planner(planner::RunError::Refused(Refusal::Unchecked { .. }))
             | Self::Feed(FeedError::Refused(Refusal::Unchecked { .. })) => Exit::Unchecked,
             Self::ResumePipe
-            | Self::File(FileError::Open { .. })
+            | Self::File(FileError::Open { .. } | FileError::Guarded { .. })
             | Self::Catalogue(_)
             | Self::NoFeed
             | Self::NotOneCurve { .. }

@@ -3,6 +3,7 @@
 use super::check;
 use super::plan::title;
 use super::reading::for_program;
+use super::session;
 use crate::cli::{FitArgs, FitMethod};
 use crate::clock;
 use crate::command::failure::Failure;
@@ -12,6 +13,7 @@ use crate::dense_runs::{ProgramPiece, Run, Runs};
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::output;
+use crate::output_file::{self, OutputKind};
 use crate::plot::curve::{CurvePlot, Mark};
 use crate::program_text::ProgramText;
 use crate::progress::Progress;
@@ -44,16 +46,22 @@ pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failur
         seed: args.seed,
         ..Settings::new(args.tolerance)
     };
+    let guard = session::guard(Some(&args.file), &args.basic, config, args.overwrite);
     let start = clock::elapsed();
     let results = fit_runs(&runs, &settings);
     let wall_s = (clock::elapsed() - start).as_secs_f64();
     if let Some(path) = &args.output {
         let text = written(path, &pieces, &runs, &results, config, args.tolerance)?;
-        std::fs::write(path, text).map_err(FileError::file("write", path))?;
+        let kind = if is_curve_file(path) {
+            OutputKind::Curve
+        } else {
+            OutputKind::Program
+        };
+        output_file::write(path, kind, &guard, &text)?;
     }
     if let Some(path) = &args.plot {
         let text = plot(&title(args.file.name()), &runs, &results);
-        std::fs::write(path, text).map_err(FileError::file("write", path))?;
+        output_file::write(path, OutputKind::Plot, &guard, &text)?;
     }
     let fitted = runs.iter().zip(&results);
     let report = FitReport {
@@ -126,10 +134,7 @@ fn written(
     config: &MachineConfig,
     tolerance_mm: f64,
 ) -> Result<String, Failure> {
-    if path
-        .extension()
-        .is_some_and(|extension| extension == "toml")
-    {
+    if is_curve_file(path) {
         let ([run], [Ok(fit)]) = (runs, results) else {
             return Err(Failure::NotOneCurve { runs: runs.len() });
         };
@@ -153,6 +158,12 @@ fn written(
         }
     }
     Ok(text.finish())
+}
+
+/// Whether an output is to be a curve file, by its name.
+fn is_curve_file(path: &Path) -> bool {
+    let extension = path.extension();
+    extension.is_some_and(|extension| extension == "toml")
 }
 
 /// The curves with their control points.

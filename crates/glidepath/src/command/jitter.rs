@@ -1,17 +1,16 @@
 //! `glidepath jitter`: how late does the real-time loop wake on this host?
 
-use super::interpolator;
+use super::{interpolator, session};
 use crate::cli::JitterArgs;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
-use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::jitter::{JitterReport, Motion, Setup, measure};
 use crate::output;
+use crate::output_file::{self, OutputKind};
 use crate::progress::Progress;
 use glidepath_realtime::Item;
-use std::path::Path;
 
 /// Measures, reports and draws. An interrupted measurement is reported as far as it went.
 ///
@@ -32,7 +31,8 @@ pub(super) fn jitter(args: &JitterArgs, config: &MachineConfig) -> Result<Exit, 
     }
     let report = JitterReport::new(&setup, &measured);
     if let Some(path) = &args.plot {
-        write(path, &report.plot())?;
+        let guard = session::guard(None, &args.basic, config, args.overwrite);
+        output_file::write(path, OutputKind::Plot, &guard, &report.plot())?;
     }
     if args.basic.json {
         output::object(&report.object());
@@ -43,10 +43,6 @@ pub(super) fn jitter(args: &JitterArgs, config: &MachineConfig) -> Result<Exit, 
         return Ok(Exit::Interrupted);
     }
     Ok(Exit::Done)
-}
-
-fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    Ok(std::fs::write(path, text).map_err(FileError::file("write", path))?)
 }
 
 fn setup(args: &JitterArgs, config: &MachineConfig) -> Result<Setup, Failure> {

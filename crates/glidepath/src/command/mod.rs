@@ -23,6 +23,7 @@ mod subroutines;
 use crate::cli::{Cli, Command, Switch};
 use crate::config;
 use crate::exit::Exit;
+use crate::output;
 use failure::Failure;
 use glidepath_link as link;
 
@@ -30,7 +31,15 @@ use glidepath_link as link;
 #[must_use]
 pub fn main(cli: &Cli) -> Exit {
     let basic = cli.command.basic();
-    dispatch(&cli.command).unwrap_or_else(|failure| failure_report::report(&failure, basic.json))
+    let done = dispatch(&cli.command);
+    let exit = done.unwrap_or_else(|failure| failure_report::report(&failure, basic.json));
+    match output::unwritten() {
+        Some(cause) if exit == Exit::Done => {
+            output::note(&format!("error: cannot write to standard output: {cause}"));
+            Exit::Fault
+        }
+        _ => exit,
+    }
 }
 
 fn dispatch(command: &Command) -> Result<Exit, Failure> {

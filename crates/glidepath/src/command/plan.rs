@@ -1,6 +1,6 @@
 //! `glidepath plan`: the motion of a program without waiting for the clock.
 
-use super::check;
+use super::{check, session};
 use crate::cli::PlanArgs;
 use crate::clock;
 use crate::command::failure::Failure;
@@ -32,8 +32,9 @@ const STEPS_PER_TURN: usize = 64;
 pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let lines = check::accepted(&args.file, config)?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
+    let guard = session::guard(Some(&args.file), &args.basic, config, args.overwrite);
     let (csv, plot) = (args.setpoints.as_deref(), args.plot.as_deref());
-    let mut recording = Recording::create(config, csv, plot)?;
+    let mut recording = Recording::create(config, csv, plot, &guard)?;
     let progress = Progress::lines(lines.into());
     progress.doing("planning");
     let mut pass = Pass::start(args.file.path(), config, clock::elapsed)?;

@@ -6,8 +6,8 @@ use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::curve_file;
 use crate::exit::Exit;
-use crate::file_error::FileError;
 use crate::output;
+use crate::output_file::{self, Guard, OutputKind};
 use crate::plot::curve::{CurvePlot, Mark};
 use crate::report::seconds;
 use core::fmt::Write as _;
@@ -47,7 +47,13 @@ pub(super) fn preview(args: &PreviewArgs, config: &MachineConfig) -> Result<Exit
         wall_s,
     };
     if let Some(plot) = &args.plot {
-        std::fs::write(plot, report.plot()).map_err(FileError::file("write", plot))?;
+        let guard = Guard {
+            inputs: core::iter::once(args.file.clone())
+                .chain(args.basic.config.clone())
+                .collect(),
+            force: args.overwrite.force,
+        };
+        output_file::write(plot, OutputKind::Plot, &guard, &report.plot())?;
     }
     if args.basic.json {
         output::object(&report.object());

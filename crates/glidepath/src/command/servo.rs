@@ -35,7 +35,8 @@ pub(super) fn servo(args: &ServoArgs, config: &MachineConfig) -> Result<Exit, Fa
     if args.relay {
         return relay(args, config, &interrupt);
     }
-    let mut recording = Recording::create(config, args.setpoints.as_deref(), None)?;
+    let guard = session::guard(None, &args.basic, config, args.overwrite);
+    let mut recording = Recording::create(config, args.setpoints.as_deref(), None, &guard)?;
     let period_t = config.period_t();
     let counts = play(args, config, &interrupt, |setpoint| {
         recording.push(&Sample::received(setpoint, period_t))?;

@@ -1,10 +1,13 @@
 //! Which instance a process takes part in.
 
-use crate::cli::InstanceArgs;
+use crate::cli::{BasicArgs, InstanceArgs, OverwriteArgs};
 use crate::command::failure::Failure;
 use crate::config::{MAX_FRAMES_AHEAD, MachineConfig};
+use crate::output_file::Guard;
+use crate::program_file::ProgramFile;
 use glidepath_link::{Ipc, LinkConfig};
 use glidepath_planner::Pace;
+use std::path::PathBuf;
 
 /// The instance asked for: on the command line, else in the configuration, else the default one.
 pub(super) fn instance(args: &InstanceArgs, config: &MachineConfig) -> String {
@@ -12,6 +15,27 @@ pub(super) fn instance(args: &InstanceArgs, config: &MachineConfig) -> String {
         .clone()
         .or_else(|| config.instance.clone())
         .unwrap_or_else(|| MachineConfig::DEFAULT_INSTANCE.to_owned())
+}
+
+/// What a command that reads these files may not overwrite.
+pub(super) fn guard(
+    program: Option<&ProgramFile>,
+    basic: &BasicArgs,
+    config: &MachineConfig,
+    overwrite: OverwriteArgs,
+) -> Guard {
+    let named = program.map(|program| {
+        if program.is_standard_input() {
+            PathBuf::from("/dev/stdin")
+        } else {
+            program.name().to_owned()
+        }
+    });
+    let inputs = named.into_iter().chain(basic.config.clone());
+    Guard {
+        inputs: inputs.chain(config.program.tool_table.clone()).collect(),
+        force: overwrite.force,
+    }
 }
 
 /// How the processes of an instance meet.

@@ -21,6 +21,7 @@ use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::joints;
 use crate::output;
+use crate::output_file::{Guard, OutputFile, OutputKind};
 use crate::progress::Progress;
 use crate::recording::Recording;
 use crate::report::{Planning, RunReport};
@@ -29,7 +30,6 @@ use glidepath_link::{Ipc, LinkConfig, Status, remove_leftovers};
 use monitor::Monitor;
 use relay::{Received, Relay};
 use std::ffi::OsString;
-use std::fs::File;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -48,8 +48,10 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
     joints::check_plan(args.file.path(), config, config.home())
         .map_err(|refusal| Failure::refused(&program, refusal, false))?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
-    let plot = plot_path(args);
-    let recording = Recording::create(config, args.setpoints.as_deref(), plot.as_deref())?;
+    let guard = session::guard(Some(&args.file), &args.basic, config, args.overwrite);
+    let plot = plot_path(args, &guard);
+    let csv = args.setpoints.as_deref();
+    let recording = Recording::create(config, csv, plot.as_deref(), &guard)?;
     let progress = Progress::lines(lines.into());
     let played = Supervisor {
         args,
@@ -86,23 +88,30 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
     Ok(report.motion.exit())
 }
 
-/// Where the plot goes: for people always somewhere.
-fn plot_path(args: &RunArgs) -> Option<PathBuf> {
-    let temporary = || {
-        let stem = args
-            .file
-            .name()
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy();
-        let name = format!("glidepath-{stem}-{}.svg", std::process::id());
-        let path = std::env::temp_dir().join(name);
-        // The folder is everybody's: never write to what somebody else put there.
-        File::create_new(&path).is_ok().then_some(path)
+/// Where the plot goes: for people always somewhere, beside nobody's file.
+fn plot_path(args: &RunArgs, guard: &Guard) -> Option<PathBuf> {
+    if args.plot.is_some() || args.basic.json {
+        return args.plot.clone();
+    }
+    let name = args.file.name();
+    let stem = if args.file.is_standard_input() {
+        "stdin".into()
+    } else {
+        name.file_stem().unwrap_or_default().to_string_lossy()
     };
-    args.plot
-        .clone()
-        .or_else(|| if args.basic.json { None } else { temporary() })
+    let path = PathBuf::from(format!("{stem}.svg"));
+    // What nobody asked for overwrites nothing, and fails without harm.
+    let guard = Guard {
+        force: false,
+        ..guard.clone()
+    };
+    match OutputFile::create(&path, OutputKind::Plot, &guard) {
+        Ok(_) => Some(path),
+        Err(error) => {
+            output::note(&format!("no plot: {error}"));
+            None
+        }
+    }
 }
 
 /// A name for the shared memory that no other run has.
@@ -171,7 +180,9 @@ impl Supervisor<'_> {
         let played = self.watch(&mut planner, others, &mut monitor, &relay);
         if let Err(failure) = played {
             rest(&mut monitor);
-            return Err(failure);
+            // A file that cannot be written, most often.
+            let cause = relay.is_over().then(|| relay.finish().err()).flatten();
+            return Err(cause.unwrap_or(failure));
         }
         let planning = planner.planning()?;
         let status = last_status(&mut monitor)?;
@@ -257,11 +268,12 @@ impl Supervisor<'_> {
             if self.interrupt.is_set() {
                 return Err(Failure::Interrupted);
             }
-            for other in &mut others {
-                other.must_live()?;
-            }
+            // Before the servo, which ends when nobody takes what it gives.
             if relay.is_over() {
                 return Err(Failure::Thread("the thread that receives setpoints"));
+            }
+            for other in &mut others {
+                other.must_live()?;
             }
             if planner.is_done()? {
                 return Ok(());

@@ -11,6 +11,9 @@ use crate::config::machine::{AxisConfig, InterpolatorConfig};
 /// Most frames published ahead of the machine: fewer than the interpolator can hold.
 pub const MAX_FRAMES_AHEAD: u32 = 512;
 
+/// The longest period there may be, µs.
+pub(super) const LONGEST_PERIOD_US: i64 = 20_000;
+
 /// Stops from full speed that the horizon covers at least.
 pub(super) const STOPS: f64 = 3.0;
 

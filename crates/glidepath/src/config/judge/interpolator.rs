@@ -1,14 +1,11 @@
 //! `[interpolator]`: the real-time side.
 
-use super::horizon;
+use super::horizon::{self, LONGEST_PERIOD_US};
 use super::stops;
 use super::values::{Judge, Range};
 use crate::config::machine::{AxisConfig, InterpolatorConfig};
 use crate::config::raw::{RawAxis, RawInterpolator};
 use toml::Spanned;
-
-/// The longest period there may be, µs.
-pub(super) const LONGEST_PERIOD_US: i64 = 20_000;
 
 impl Judge {
     pub(super) fn interpolator(

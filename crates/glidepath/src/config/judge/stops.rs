@@ -3,8 +3,7 @@
 //! Frames are published ahead for three stops from full speed. Where no period that may be chosen
 //! has them, it is not the period that is to be mended.
 
-use super::horizon::{MAX_FRAMES_AHEAD, STOPS, stop_t};
-use super::interpolator::LONGEST_PERIOD_US;
+use super::horizon::{LONGEST_PERIOD_US, MAX_FRAMES_AHEAD, STOPS, stop_t};
 use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::machine::{AxisConfig, InterpolatorConfig};
 
