@@ -7,6 +7,7 @@
 
 mod faults;
 mod libraries;
+mod load;
 mod operator;
 mod programs;
 mod resume;

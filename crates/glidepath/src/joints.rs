@@ -133,7 +133,10 @@ impl PlanWatch {
     }
 }
 
-/// Plans a file from a position, and judges the plan.
+/// Frames between two notices of how far a plan was judged.
+const FRAMES_PER_NOTICE: u64 = 256;
+
+/// Plans a file from a position, and judges the plan. `told` hears the lines read.
 ///
 /// # Errors
 /// All that is wrong with the file, or what its joints cannot do.
@@ -141,6 +144,7 @@ pub(crate) fn check_plan(
     path: &Path,
     config: &MachineConfig,
     start: AxisVector,
+    told: &mut dyn FnMut(u64),
 ) -> Result<(), Refusal> {
     let Some(mut watch) = config.joint_watch() else {
         return Ok(());
@@ -149,6 +153,9 @@ pub(crate) fn check_plan(
     let source = FileSource::open(path, config.program_options(start), &settings)?;
     let mut pipeline = Pipeline::new(source, settings, start).with_joints(config.path_caps());
     while let Some(frame) = pipeline.next_frame()? {
+        if frame.sequence.is_multiple_of(FRAMES_PER_NOTICE) {
+            told(pipeline.statistics().lines);
+        }
         watch.take(&frame.position).map_err(|fault| {
             let axes = config.axis_names();
             refusal(diagnostic(

@@ -6,7 +6,8 @@
 //!   main ─▶ command      one file for each subcommand; every error becomes a failure, with its exit code
 //!             │
 //!             ├─▶ cli, config                        what the user wants, judged
-//!             ├─▶ joints, jitter, bench, recording   what commands share
+//!             ├─▶ joints, jitter, bench, recording,
+//!             │   play_time                          what commands share
 //!             ├─▶ report, plot, setpoints            results as text, JSON, SVG and CSV
 //!             └─▶ output, progress, exit             the terminal
 //! ```
@@ -48,6 +49,7 @@ pub mod jitter;
 mod joints;
 pub mod output;
 pub mod output_file;
+pub mod play_time;
 pub mod plot;
 pub mod program_file;
 pub mod program_text;

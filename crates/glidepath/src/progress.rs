@@ -2,17 +2,37 @@
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// A bar that counts the lines of a program.
+/// A file shorter than this is read before anybody could look at a bar.
+const LONG_BYTES: u64 = 1 << 20;
+
+/// A bar, and what stands beside it.
 #[derive(Debug)]
 pub struct Progress(ProgressBar);
 
 impl Progress {
-    /// A bar for `total` lines.
+    /// A bar that counts the lines of a program, with the time to go; none with `--json`.
     #[must_use]
-    pub fn lines(total: u64) -> Self {
-        // Hides itself where standard error is not a terminal.
-        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
-        let style = "{msg:10} {wide_bar} line {human_pos} of {human_len}, {elapsed}";
+    pub fn lines(total: u64, json: bool) -> Self {
+        let style = "{msg:10} {wide_bar} line {human_pos} of {human_len}, {elapsed}, {eta} to go";
+        Self::counting(total, style, json)
+    }
+
+    /// A bar that counts the bytes of a file being read, with the time to go; none with `--json`,
+    /// and none for a file that is read at once.
+    #[must_use]
+    pub fn bytes(total: u64, json: bool) -> Self {
+        let style = "{msg:10} {wide_bar} {bytes} of {total_bytes}, {elapsed}, {eta} to go";
+        Self::counting(total, style, json || total < LONG_BYTES)
+    }
+
+    fn counting(total: u64, style: &str, is_hidden: bool) -> Self {
+        let target = if is_hidden {
+            ProgressDrawTarget::hidden()
+        } else {
+            // Hides itself where standard error is not a terminal.
+            ProgressDrawTarget::stderr()
+        };
+        let bar = ProgressBar::with_draw_target(Some(total), target);
         if let Ok(style) = ProgressStyle::with_template(style) {
             bar.set_style(style);
         }
@@ -44,6 +64,11 @@ impl Progress {
     /// What is being done.
     pub fn doing(&self, what: &'static str) {
         self.0.set_message(what);
+    }
+
+    /// The count and its time begin anew.
+    pub fn start_again(&self) {
+        self.0.reset();
     }
 
     /// The line or second reached.

@@ -12,6 +12,7 @@ pub(crate) struct Counters {
     late_ticks: u64,
     reports_lost: u64,
     reserve_stops: u64,
+    starved_ticks: u64,
     /// The timing of the tick before.
     timing: Timing,
     period_ns: u64,
@@ -29,6 +30,7 @@ impl Counters {
             late_ticks: 0,
             reports_lost: 0,
             reserve_stops: 0,
+            starved_ticks: 0,
             timing: Timing::default(),
             period_ns: config.period_ns,
             // A wake-up is never quite on time: late is what eats a quarter of the period.
@@ -87,6 +89,16 @@ impl Counters {
     /// How often the stop in reserve was begun.
     pub(crate) const fn reserve_stops(&self) -> u64 {
         self.reserve_stops
+    }
+
+    /// A motion that had begun slows or stands for want of frames.
+    pub(crate) const fn count_starved_tick(&mut self) {
+        self.starved_ticks += 1;
+    }
+
+    /// In how many ticks that was so.
+    pub(crate) const fn starved_ticks(&self) -> u64 {
+        self.starved_ticks
     }
 
     /// A report found no room in its ring.

@@ -163,6 +163,7 @@ pub(crate) struct Report {
     pub(crate) rapid_override: f64,
     pub(crate) single_block: bool,
     pub(crate) reserve_stops: u64,
+    pub(crate) starved_ticks: u64,
 }
 
 impl Report {
@@ -182,6 +183,7 @@ impl Report {
             rapid_override: 0.0,
             single_block: false,
             reserve_stops: 0,
+            starved_ticks: 0,
         }
     }
 }

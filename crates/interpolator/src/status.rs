@@ -115,6 +115,7 @@ impl StatusBook {
         status.late_ticks = report.late_ticks;
         status.setpoints_lost = report.reports_lost;
         status.reserve_stops = report.reserve_stops;
+        status.starved_ticks = report.starved_ticks;
         status.single_block = report.single_block.into();
         status.lateness = quantiles(&self.lateness);
         status.work = quantiles(&self.work);

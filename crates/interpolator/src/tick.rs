@@ -416,6 +416,11 @@ impl<'a> Interpolator<'a> {
             });
             self.state = to;
         }
+        // Before the motion begins, frames are few by nature.
+        let has_begun = self.rate.now().time.sequence > 0;
+        if has_begun && matches!(to, MachineState::Starving | MachineState::Starved) {
+            self.counters.count_starved_tick();
+        }
     }
 
     /// Writes the state after this tick, and what the ports thread must know.
@@ -435,6 +440,7 @@ impl<'a> Interpolator<'a> {
         (report.feed_override, report.rapid_override) = (feed_override, rapid_override);
         report.single_block = self.requests.is_single_block();
         report.reserve_stops = self.counters.reserve_stops();
+        report.starved_ticks = self.counters.starved_ticks();
     }
 }
 

@@ -34,7 +34,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v2", 568, {
     effective_override: 128, position: 136, velocity: 208, acceleration: 280, joint_position: 352,
     joint_velocity: 424, joint_acceleration: 496,
 });
-layout!(status, Status, "glidepath.Status.v3", 872, {
+layout!(status, Status, "glidepath.Status.v4", 880, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_sequence: 88, fault_value: 96,
@@ -42,8 +42,9 @@ layout!(status, Status, "glidepath.Status.v3", 872, {
     program_start: 136, position: 208, path_s: 280, block_path_s: 288, feed_v: 296,
     feed_override: 304, rapid_override: 312, effective_override: 320, ticks: 328,
     missed_ticks: 336, late_ticks: 344, setpoints_published: 352, setpoints_lost: 360,
-    reserve_stops: 368, commands_served: 376, commands_refused: 384, frames_refused: 392,
-    lateness: 488, work: 520, latency: 552, response: 584, last_error: 616, last_event: 744,
+    reserve_stops: 368, starved_ticks: 376, commands_served: 384, commands_refused: 392,
+    frames_refused: 400, lateness: 496, work: 528, latency: 560, response: 592, last_error: 624,
+    last_event: 752,
 });
 layout!(command_request, CommandRequest, "glidepath.CommandRequest.v2", 32, {
     client: 0, number: 8, value: 16, kind: 24, reserved: 28,

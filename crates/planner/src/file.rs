@@ -49,7 +49,7 @@ impl FileSource {
             return Ok(Self::Program(Box::new(ProgramSource::open(path, options)?)));
         }
         // A curve ends, so that all of it is checked.
-        let report = check_file(path, options.clone(), settings)?;
+        let report = check_file(path, options.clone(), settings, &mut |_| {})?;
         if !report.diagnostics.is_empty() {
             return Err(Refusal::Program {
                 diagnostics: report.diagnostics,
@@ -87,15 +87,48 @@ fn is_curve(path: &Path) -> bool {
         .is_some_and(|extension| extension == "toml" || extension == "json")
 }
 
-/// Finds everything wrong with a file, without motion.
+/// Reads a file, and tells how far it has come.
+struct Watched<'w> {
+    file: File,
+    read: u64,
+    watch: &'w mut dyn FnMut(u64),
+}
+
+impl<'w> Watched<'w> {
+    fn open(path: &Path, watch: &'w mut dyn FnMut(u64)) -> io::Result<BufReader<Self>> {
+        let file = File::open(path)?;
+        let watched = Self {
+            file,
+            read: 0,
+            watch,
+        };
+        Ok(BufReader::with_capacity(BUFFER, watched))
+    }
+}
+
+impl io::Read for Watched<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.file.read(buffer)?;
+        self.read += count as u64;
+        (self.watch)(self.read);
+        Ok(count)
+    }
+}
+
+/// Finds everything wrong with a file, without motion. `watch` is told now and then how many bytes
+/// of a program have been read.
 ///
 /// # Errors
 /// The file cannot be read.
-pub fn check_file(path: &Path, options: Options, settings: &Settings) -> io::Result<Report> {
+pub fn check_file(
+    path: &Path,
+    options: Options,
+    settings: &Settings,
+    watch: &mut dyn FnMut(u64),
+) -> io::Result<Report> {
     let final_position = options.start;
     if !is_curve(path) {
-        let file = File::open(path)?;
-        return Ok(check(BufReader::with_capacity(BUFFER, file), options));
+        return Ok(check(Watched::open(path, watch)?, options));
     }
     match FileSource::curve(path, options, settings) {
         Ok(FileSource::Curve(source)) => Ok(source.check()),
@@ -118,12 +151,16 @@ pub fn check_file(path: &Path, options: Options, settings: &Settings) -> io::Res
 ///
 /// # Errors
 /// The file cannot be read.
-pub fn find_in_file(path: &Path, options: Options, settings: &Settings) -> io::Result<Diagnostics> {
+pub fn find_in_file(
+    path: &Path,
+    options: Options,
+    settings: &Settings,
+    watch: &mut dyn FnMut(u64),
+) -> io::Result<Diagnostics> {
     if !is_curve(path) {
-        let file = File::open(path)?;
-        return Ok(diagnostics(BufReader::with_capacity(BUFFER, file), options));
+        return Ok(diagnostics(Watched::open(path, watch)?, options));
     }
-    let report = check_file(path, options, settings)?;
+    let report = check_file(path, options, settings, watch)?;
     Ok(Diagnostics {
         diagnostics: report.diagnostics,
         more: report.more,

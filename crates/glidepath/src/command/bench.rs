@@ -22,7 +22,7 @@ use crate::recording::Recording;
 pub(super) fn bench(args: &BenchArgs, given: &MachineConfig) -> Result<Exit, Failure> {
     let catalogue = Catalogue::read(&args.folder)?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
-    let progress = Progress::lines(catalogue.bench.len() as u64);
+    let progress = Progress::lines(catalogue.bench.len() as u64, args.basic.json);
     let mut report = BenchReport::default();
     for (done, entry) in (0..).zip(&catalogue.bench) {
         progress.at(done);
@@ -52,7 +52,7 @@ fn row(
         &of_profile
     };
     let path = args.folder.join(&entry.file);
-    check::accepted(&ProgramFile::named(&path), config)?;
+    check::accepted(&ProgramFile::named(&path), config, true)?;
     let mut recording = Recording::create(config, None, None, &Guard::default())?;
     let mut pass = Pass::start(&path, config, clock::processor)?;
     while pass.turn(&mut recording)? {

@@ -10,6 +10,7 @@ use crate::file_error::FileError;
 use crate::joints;
 use crate::output;
 use crate::program_file::ProgramFile;
+use crate::progress::Progress;
 use crate::report::{diagnostic_object, grouped};
 use glidepath_gcode::Report;
 use glidepath_geometry::Axis;
@@ -24,7 +25,8 @@ pub(super) fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Fa
     let mut reports = Vec::new();
     for file in &args.files {
         file.open()?;
-        reports.push((file.name().display().to_string(), read(file, config)?));
+        let report = read(file, config, args.basic.json)?;
+        reports.push((file.name().display().to_string(), report));
     }
     if args.basic.json {
         output::object(&object(&reports));
@@ -46,11 +48,15 @@ pub(super) fn check(args: &CheckArgs, config: &MachineConfig) -> Result<Exit, Fa
 ///
 /// # Errors
 /// The file cannot be opened.
-fn read(file: &ProgramFile, config: &MachineConfig) -> Result<Report, Failure> {
+fn read(file: &ProgramFile, config: &MachineConfig, json: bool) -> Result<Report, Failure> {
     let config = &for_program(file, config);
     let options = config.program_options(config.home());
-    let report = check_file(file.path(), options, &config.settings())
-        .map_err(FileError::open(file.name()))?;
+    let progress = progress(file, json);
+    let report = check_file(file.path(), options, &config.settings(), &mut |bytes| {
+        progress.at(bytes);
+    });
+    progress.finish();
+    let report = report.map_err(FileError::open(file.name()))?;
     // A program whose loops do not end would have joints judged for ever.
     if !report.is_accepted() || !report.is_complete() {
         return Ok(report);
@@ -69,11 +75,19 @@ fn read(file: &ProgramFile, config: &MachineConfig) -> Result<Report, Failure> {
 /// # Errors
 /// The file cannot be opened, the program has something to mend, or it is not checked to its end
 /// and may not be run so.
-pub(super) fn accepted(file: &ProgramFile, config: &MachineConfig) -> Result<u32, Failure> {
+pub(super) fn accepted(
+    file: &ProgramFile,
+    config: &MachineConfig,
+    json: bool,
+) -> Result<u32, Failure> {
     let config = &for_program(file, config);
     let options = config.program_options(config.home());
-    let mut found = find_in_file(file.path(), options, &config.settings())
-        .map_err(FileError::open(file.name()))?;
+    let progress = progress(file, json);
+    let found = find_in_file(file.path(), options, &config.settings(), &mut |bytes| {
+        progress.at(bytes);
+    });
+    progress.finish();
+    let mut found = found.map_err(FileError::open(file.name()))?;
     if let Some(line) = found.given_up_at.filter(|_| found.diagnostics.is_empty()) {
         let has_joints = config.joint_watch().is_some();
         if config.program.may_run_unchecked && !has_joints {
@@ -100,6 +114,14 @@ pub(super) fn accepted(file: &ProgramFile, config: &MachineConfig) -> Result<u32
         more: found.more,
         moved: false,
     })
+}
+
+/// A bar for the check of a file.
+fn progress(file: &ProgramFile, json: bool) -> Progress {
+    let bytes = std::fs::metadata(file.path()).map_or(0, |metadata| metadata.len());
+    let progress = Progress::bytes(bytes, json);
+    progress.doing("checking");
+    progress
 }
 
 fn print(name: &str, report: &Report) {

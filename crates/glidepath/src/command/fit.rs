@@ -34,7 +34,7 @@ const STEPS: f64 = 1000.0;
 pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     args.file.open()?;
     let config = &for_program(&args.file, config);
-    check::accepted(&args.file, config)?;
+    check::accepted(&args.file, config, args.basic.json)?;
     let pieces = read(args.file.path(), config)?;
     let runs: Vec<&Run> = pieces.iter().filter_map(run).collect();
     let settings = Settings {

@@ -30,12 +30,12 @@ const STEPS_PER_TURN: usize = 64;
 /// # Errors
 /// The program is rejected, a file cannot be read or written, or the user interrupted.
 pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let lines = check::accepted(&args.file, config)?;
+    let lines = check::accepted(&args.file, config, args.basic.json)?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let guard = session::guard(Some(&args.file), &args.basic, config, args.overwrite);
     let (csv, plot) = (args.setpoints.as_deref(), args.plot.as_deref());
     let mut recording = Recording::create(config, csv, plot, &guard)?;
-    let progress = Progress::lines(lines.into());
+    let progress = Progress::lines(lines.into(), args.basic.json);
     progress.doing("planning");
     let mut pass = Pass::start(args.file.path(), config, clock::elapsed)?;
     while pass.turn(&mut recording)? {

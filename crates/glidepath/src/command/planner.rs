@@ -50,7 +50,7 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
         let file = file.path();
         std::fs::File::open(file).map_err(FileError::open(file))?;
         let open = |start| {
-            joints::check_plan(file, config, start)?;
+            joints::check_plan(file, config, start, &mut |_| {})?;
             FileSource::open(file, config.program_options(start), &config.settings())
         };
         if args.resume {

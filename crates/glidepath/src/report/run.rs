@@ -3,6 +3,7 @@
 use super::motion::{MotionReport, Planning};
 use super::status::{quantiles_object, realtime_object, timing_text};
 use crate::config::MachineConfig;
+use crate::play_time::PlayedTime;
 use glidepath_audit::{Report, ViolationKind};
 use glidepath_link::Status;
 use glidepath_link::servo::ServoCounts;
@@ -15,6 +16,11 @@ pub struct RunReport {
     /// The motion, as the servo received it.
     #[serde(flatten)]
     pub motion: MotionReport,
+    /// How long it took, and why longer than planned.
+    #[serde(flatten)]
+    pub played: PlayedTime,
+    /// Ticks in which the motion slowed or stood for want of frames.
+    pub starved_ticks: u64,
     /// Ticks of the interpolator.
     pub ticks: u64,
     /// Ticks it missed.
@@ -44,7 +50,7 @@ impl RunReport {
     #[must_use]
     pub fn new(
         planning: &Planning,
-        audit: &Report,
+        (audit, played): (&Report, PlayedTime),
         servo: &ServoCounts,
         status: &Status,
         config: &MachineConfig,
@@ -61,6 +67,8 @@ impl RunReport {
             .collect();
         Self {
             motion,
+            played,
+            starved_ticks: status.starved_ticks,
             ticks: status.ticks,
             missed_ticks: status.missed_ticks,
             late_ticks: status.late_ticks,
@@ -79,8 +87,9 @@ impl RunReport {
     #[must_use]
     pub fn text(&self) -> String {
         format!(
-            "{}{}  servo         {} setpoints received, {} lost\n{}",
+            "{}{}{}  servo         {} setpoints received, {} lost\n{}",
             self.motion.text(),
+            self.played.text(),
             timing_text(&self.status),
             super::quantity::grouped(self.received_setpoints),
             super::quantity::grouped(self.lost_setpoints),

@@ -165,6 +165,7 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
         "setpoints_published": status.setpoints_published,
         "setpoints_lost": status.setpoints_lost,
         "reserve_stops": status.reserve_stops,
+        "starved_ticks": status.starved_ticks,
         "frames_refused": status.frames_refused.iter().sum::<u64>(),
         "lateness_us": quantiles_object(&status.lateness),
         "work_us": quantiles_object(&status.work),
@@ -228,10 +229,11 @@ pub fn status_text(instance: &str, status: &Status) -> String {
 #[must_use]
 pub fn timing_text(status: &Status) -> String {
     format!(
-        "  ticks         {}, {} missed, {} late\n  waking        {}\n  lateness      {}\n  handed over   {}\n  work          {}\n  real time     {}\n",
+        "  ticks         {}, {} missed, {} late, {} starved\n  waking        {}\n  lateness      {}\n  handed over   {}\n  work          {}\n  real time     {}\n",
         grouped(status.ticks),
         grouped(status.missed_ticks),
         grouped(status.late_ticks),
+        grouped(status.starved_ticks),
         quantiles_text(&status.latency),
         quantiles_text(&status.lateness),
         quantiles_text(&status.response),

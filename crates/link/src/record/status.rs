@@ -57,7 +57,7 @@ pub struct Quantiles {
 /// What the interpolator does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v3")]
+#[type_name("glidepath.Status.v4")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -136,6 +136,8 @@ pub struct Status {
     pub setpoints_lost: u64,
     /// Stops in reserve that were begun: for want of frames, or because no later stop was found.
     pub reserve_stops: u64,
+    /// Ticks in which a motion that had begun slowed or stood for want of frames.
+    pub starved_ticks: u64,
     /// Commands served.
     pub commands_served: u64,
     /// Commands refused, among those served.
@@ -202,7 +204,7 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v3";
+    const NAME: &'static str = "glidepath.Status.v4";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);

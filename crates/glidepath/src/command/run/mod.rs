@@ -43,16 +43,20 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// # Errors
 /// The program is rejected, real time is not granted, a process failed, or the user interrupted.
 pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let lines = check::accepted(&args.file, config)?;
+    let lines = check::accepted(&args.file, config, args.basic.json)?;
     let program = args.file.name().display().to_string();
-    joints::check_plan(args.file.path(), config, config.home())
+    let progress = Progress::lines(lines.into(), args.basic.json);
+    progress.doing("judging");
+    let watch = &mut |lines| progress.at(lines);
+    joints::check_plan(args.file.path(), config, config.home(), watch)
         .map_err(|refusal| Failure::refused(&program, refusal, false))?;
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let guard = session::guard(Some(&args.file), &args.basic, config, args.overwrite);
     let plot = plot_path(args, &guard);
     let csv = args.setpoints.as_deref();
     let recording = Recording::create(config, csv, plot.as_deref(), &guard)?;
-    let progress = Progress::lines(lines.into());
+    // From here on a line counts when it is executed.
+    progress.start_again();
     let played = Supervisor {
         args,
         config,
@@ -69,7 +73,7 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
 
     let mut report = RunReport::new(
         &planning,
-        &received.audit,
+        (&received.audit, received.played),
         &received.counts,
         &status,
         config,

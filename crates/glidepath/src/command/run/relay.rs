@@ -2,6 +2,7 @@
 
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
+use crate::play_time::{PlayTime, PlayedTime};
 use crate::recording::Recording;
 use crate::sample::Sample;
 use glidepath_audit as audit;
@@ -44,6 +45,7 @@ impl Seen {
 pub(super) struct Received {
     pub(super) counts: ServoCounts,
     pub(super) audit: audit::Report,
+    pub(super) played: PlayedTime,
     pub(super) recording: Recording,
 }
 
@@ -91,7 +93,9 @@ fn receive(
     let replay = Replay::<Setpoint, _>::new(BufReader::new(from))?;
     // Only its counts are wanted: the servo process has played these setpoints in its own time.
     let mut servo = Servo::new(Box::new(replay), ServoSettings::default());
+    let mut play_time = PlayTime::new(period_t);
     while let Some(setpoint) = servo.receive(0)? {
+        play_time.take(&setpoint);
         judge.take(&setpoint);
         recording.push(&Sample::received(&setpoint, period_t))?;
         seen.line.store(setpoint.line, Ordering::Relaxed);
@@ -101,6 +105,7 @@ fn receive(
     Ok(Received {
         counts,
         audit: judge.finish(),
+        played: play_time.played(),
         recording,
     })
 }

@@ -1,0 +1,85 @@
+//! A program beside others who take every core.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use glidepath_tests::{Instance, Process, SetpointFile, Watchdog, planned};
+
+/// Seconds of motion, unless `GLIDEPATH_LOAD` says otherwise: some hundred for a long check.
+const SHORT_S: u32 = 6;
+
+/// Corners of every kind, which take long to plan: rows of a pocket, with waves on them.
+fn pocket(seconds: u32) -> String {
+    let mut text = "G21 G90 G64 P0.02 F2400\n".to_owned();
+    // About 40 mm a second.
+    for row in 0..seconds {
+        let y = 0.4 * f64::from(row);
+        for step in 0..=40_u32 {
+            let along = if row % 2 == 0 { step } else { 40 - step };
+            let wave = 0.15 * f64::from((step * 7 + row * 3) % 5);
+            let _ = writeln!(text, "G1 X{along} Y{:.3}", y + wave);
+        }
+    }
+    text + "M2\n"
+}
+
+/// Spins on every core until it is dropped.
+fn beside_load<R>(work: impl FnOnce() -> R) -> R {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let stop = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        for _ in 0..cores {
+            scope.spawn(|| {
+                while !stop.load(Ordering::Relaxed) {
+                    std::hint::spin_loop();
+                }
+            });
+        }
+        let end = OnDrop(|| stop.store(true, Ordering::Relaxed));
+        let result = work();
+        drop(end);
+        result
+    })
+}
+
+struct OnDrop<F: Fn()>(F);
+
+impl<F: Fn()> Drop for OnDrop<F> {
+    fn drop(&mut self) {
+        (self.0)();
+    }
+}
+
+#[test]
+fn a_run_beside_load_on_every_core_is_the_plan_and_does_not_starve() {
+    let seconds = std::env::var("GLIDEPATH_LOAD").map_or(SHORT_S, |text| text.parse().unwrap());
+    let patience = Duration::from_secs(240 + 4 * u64::from(seconds));
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(patience));
+    let program = instance.file("program.ngc", &pocket(seconds));
+    let csv = instance.path("run.csv");
+    let run = [
+        "run",
+        &program,
+        "--best-effort",
+        "--setpoints",
+        &csv,
+        "--json",
+    ];
+    let report = beside_load(|| Process::start(&instance, &run).wait().expect(0).json());
+    for key in [
+        "planned_s",
+        "played_s",
+        "starved_ticks",
+        "missed_ticks",
+        "time_lost_s",
+    ] {
+        eprintln!("{key}: {}", report[key]);
+    }
+    assert_eq!(report["starved_ticks"], 0, "{report:#}");
+    assert_eq!(report["time_lost_s"]["starvation"], 0.0, "{report:#}");
+    assert_eq!(report["lost_setpoints"], 0, "{report:#}");
+    let received = SetpointFile::read(Path::new(&csv));
+    assert_eq!(received.moving(), planned(&instance, &program).moving());
+}
