@@ -16,6 +16,9 @@ use glidepath_program::{FrameFlags, Limits};
 
 /// Share of a limit that may be exceeded: what an audit allows.
 const ALLOWANCE: f64 = 1e-6;
+/// By how much the number of an epoch may be above that of the last. Planners count by one; a frame
+/// that took the highest number of all would leave none for the planners after it.
+const EPOCH_STEP_MAX: u64 = 1 << 16;
 /// Rounding of positions and their differences, mm.
 const ROUNDING: f64 = 1e-12;
 
@@ -143,6 +146,9 @@ impl Admission {
 
     /// The first frame of a new epoch.
     fn open(&mut self, frame: &SetpointFrame, machine: &Machine) -> Verdict {
+        if frame.epoch - self.epoch > EPOCH_STEP_MAX {
+            return Verdict::Refused(FrameRefusal::Epoch);
+        }
         let pending = self.epoch > machine.epoch && !self.broken;
         let moves = machine.is_open && machine.state != MachineState::Starved;
         if pending || moves {

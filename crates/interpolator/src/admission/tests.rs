@@ -191,6 +191,22 @@ fn a_new_epoch_waits_until_the_machine_stands() {
     assert_eq!(admission.judge(&frames(3)[0], &aborted), Verdict::Pass);
 }
 
+#[test]
+fn no_epoch_leaves_no_number_for_the_next_planner() {
+    let refused = Verdict::Refused(FrameRefusal::Epoch);
+    for highest in [u64::MAX, u64::MAX - 1, 1 << 32, 2 + EPOCH_STEP_MAX] {
+        let mut admission = Admission::new(&config());
+        assert_eq!(admission.judge(&frames(1)[0], &idle()), Verdict::Pass);
+        // Neither while another epoch is under way nor after it: the motion is not disturbed.
+        assert_eq!(admission.judge(&frames(highest)[0], &running(1)), refused);
+        assert_eq!(admission.judge(&frames(1)[1], &running(1)), Verdict::Pass);
+        let ended = Machine { epoch: 1, ..idle() };
+        assert_eq!(admission.judge(&frames(highest)[0], &ended), refused);
+        assert_eq!(admission.epoch(), 1);
+        assert_eq!(admission.judge(&frames(2)[0], &ended), Verdict::Pass);
+    }
+}
+
 /// The verdict on a motion of axes one of whose joints has a limit.
 fn with_joint_limit(limit: JointLimit) -> Option<(FrameRefusal, f64, f64)> {
     let mut config = config();

@@ -24,7 +24,8 @@ pub(crate) const FRAME_FLAGS: u32 = FrameFlags::FIRST
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
 #[type_name("glidepath.SetpointFrame.v2")]
 pub struct SetpointFrame {
-    /// Which trajectory this belongs to: a new one for every start from rest, > 0, rising.
+    /// Which trajectory this belongs to: a new one for every start from rest, > 0, rising. Planners
+    /// take the number after that of the last; one that is more than 65 536 above it is refused.
     pub epoch: u64,
     /// Index on the grid of program time, from 0, without gaps inside an epoch.
     pub sequence: u64,
