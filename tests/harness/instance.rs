@@ -32,7 +32,7 @@ impl Instance {
         alone.lock().unwrap();
         let root = tempfile::Builder::new()
             .prefix("glidepath-e2e")
-            .tempdir()
+            .tempdir_in("/dev/shm")
             .unwrap();
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
         let mut config = LinkConfig::new(&format!("e2e-{}-{count}", std::process::id()));
@@ -90,15 +90,11 @@ impl Instance {
     /// runtime directory.
     #[must_use]
     pub fn shared_memory(&self) -> Vec<String> {
-        let prefix = self.config.prefix();
-        let of_directory = prefix
-            .trim_start_matches("gp_")
-            .trim_start_matches(&self.config.instance);
-        let files = std::fs::read_dir("/dev/shm").unwrap();
+        let instances = std::fs::read_dir(&self.config.root).into_iter().flatten();
+        let directories = instances.filter_map(|instance| Some(instance.ok()?.path()));
+        let files = directories.flat_map(|path| std::fs::read_dir(path).into_iter().flatten());
         let names = files.filter_map(|file| file.ok()?.file_name().into_string().ok());
-        names
-            .filter(|name| name.starts_with("gp_") && name.contains(of_directory))
-            .collect()
+        names.filter(|name| name.starts_with("gp_")).collect()
     }
 }
 

@@ -8,8 +8,9 @@
     reason = "a test that fails may panic"
 )]
 
+use glidepath_link::LinkConfig;
 use serde_json::Value;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
@@ -66,14 +67,10 @@ fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
-/// Files of an instance in shared memory.
-fn leftovers(instance: &str) -> Vec<String> {
-    let prefix = format!("gp_{instance}_");
-    std::fs::read_dir("/dev/shm")
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .filter(|name| name.starts_with(&prefix))
-        .collect()
+/// What an instance left.
+fn leftovers(instance: &str) -> Option<PathBuf> {
+    let directory = LinkConfig::new(instance).directory();
+    directory.exists().then_some(directory)
 }
 
 /// Position, velocity and acceleration of every row that is not idle, as text.
@@ -138,7 +135,7 @@ fn run_plays_what_plan_plans_and_reports_every_key_of_the_contract() {
         "{}",
         stderr(&output)
     );
-    assert!(leftovers(&name).is_empty());
+    assert_eq!(leftovers(&name), None);
     let report = object(&output);
     for key in [
         "lines",
@@ -216,10 +213,10 @@ fn an_interrupted_run_ends_with_130_and_leaves_nothing() {
     let output = finish(child);
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
     assert_eq!(object(&output)["exit_code"], 130);
-    assert!(leftovers(&name).is_empty());
+    assert_eq!(leftovers(&name), None);
     let output = run(&["status", "--instance", &name]);
     assert_eq!(output.status.code(), Some(5), "no interpolator is left");
-    assert!(leftovers(&name).is_empty());
+    assert_eq!(leftovers(&name), None);
 }
 
 #[test]
@@ -247,7 +244,7 @@ fn the_death_of_a_process_ends_the_run_with_5_and_leaves_nothing() {
     assert_eq!(output.status.code(), Some(5), "{}", stderr(&output));
     let error = object(&output)["error"].as_str().unwrap().to_owned();
     assert!(error.contains("ended"), "{error}");
-    assert!(leftovers(&name).is_empty());
+    assert_eq!(leftovers(&name), None);
 }
 
 #[test]
@@ -310,7 +307,7 @@ fn an_operator_holds_resumes_and_aborts() {
         "SIGTERM is the regular end of a service"
     );
     assert_eq!(object(&output)["end_of_epoch"], "aborted");
-    assert!(leftovers(name).is_empty());
+    assert_eq!(leftovers(name), None);
 }
 
 #[test]
@@ -325,5 +322,5 @@ fn commands_without_an_interpolator_say_so() {
             stderr(&output)
         );
     }
-    assert!(leftovers(&name).is_empty());
+    assert_eq!(leftovers(&name), None);
 }

@@ -1,6 +1,8 @@
 //! What can go wrong with a port.
 
 use crate::{RecordError, RecordingError};
+use std::io;
+use std::path::Path;
 
 /// An error of the transport underneath.
 pub type BoxedError = Box<dyn core::error::Error + Send + Sync>;
@@ -17,7 +19,27 @@ pub enum LinkError {
         /// The directory.
         path: String,
         /// What the system says.
-        source: std::io::Error,
+        source: io::Error,
+    },
+    /// A file has no room in its file system, which is memory.
+    #[error(
+        "{path}: no room{} in the file system it is on, which is memory: free some (`df -h`, `du -ax`), \
+         or set XDG_RUNTIME_DIR to a directory on another, for all processes of the instance",
+        needed(*.bytes)
+    )]
+    NoRoom {
+        /// The file, or the directory it was to be in.
+        path: String,
+        /// How much it needs, 0 where that is not known.
+        bytes: u64,
+    },
+    /// A file of the instance cannot be used.
+    #[error("{path}: {source}{}", remedy(.source))]
+    File {
+        /// The file.
+        path: String,
+        /// What the system says.
+        source: io::Error,
     },
     /// A name in the configuration has characters or a length that file names cannot have.
     #[error(
@@ -82,7 +104,43 @@ pub enum LinkError {
     },
 }
 
+fn needed(bytes: u64) -> String {
+    match bytes {
+        0 => String::new(),
+        bytes => format!(" for {bytes} bytes"),
+    }
+}
+
+fn remedy(error: &io::Error) -> &'static str {
+    use rustix::io::Errno;
+    match Errno::from_io_error(error) {
+        Some(Errno::MFILE) => "; raise the limit of open files (ulimit -n, LimitNOFILE=)",
+        Some(Errno::NFILE) => "; all files of the system are open: end what opened so many",
+        _ => "",
+    }
+}
+
 impl LinkError {
+    /// Why a file of so many bytes (0 where it is there already) cannot be had.
+    pub(crate) fn no_file(path: &Path, bytes: u64, source: io::Error) -> Self {
+        use io::ErrorKind::{OutOfMemory, QuotaExceeded, StorageFull};
+        match source.kind() {
+            StorageFull | QuotaExceeded | OutOfMemory => Self::no_room(path, bytes),
+            _ => Self::File {
+                path: path.display().to_string(),
+                source,
+            },
+        }
+    }
+
+    /// No room for a file of so many bytes.
+    pub(crate) fn no_room(path: &Path, bytes: u64) -> Self {
+        Self::NoRoom {
+            path: path.display().to_string(),
+            bytes,
+        }
+    }
+
     /// Why a port could not be made: no place is left at the service, or something else.
     pub(crate) fn no_port(
         service: &'static str,

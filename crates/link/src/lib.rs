@@ -12,6 +12,7 @@
 //!
 //! * [`Transport`] makes the ports of an instance: [`Ipc`] between processes, over shared memory,
 //!   and [`InProcess`] between the threads of one, with the same order, back-pressure and loss;
+//! * [`Operator`] commands an interpolator by a way that needs no shared memory;
 //! * the ports are [`Publisher`] and [`Subscriber`], [`FrameSink`] (which is told when nobody takes
 //!   its frames), [`Client`] and [`Server`];
 //! * the records: [`SetpointFrame`], [`Setpoint`], [`Status`], [`CommandRequest`],
@@ -57,7 +58,7 @@ mod service;
 
 pub use error::{BoxedError, LinkError};
 pub use in_process::InProcess;
-pub use ipc::{Ipc, LinkConfig, remove_leftovers};
+pub use ipc::{InterpolatorProcess, Ipc, LinkConfig, Operator, remove_leftovers};
 pub use port::{
     Client, Delivery, FrameSink, MAX_UNANSWERED, Publisher, Server, Subscriber, Transport,
 };

@@ -6,7 +6,7 @@ use super::host::{BenchArgs, DoctorArgs, JitterArgs};
 use super::motion::{
     CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
 };
-use super::operator::{OperatorArgs, OverrideArgs, SingleBlockArgs};
+use super::operator::{AbortArgs, OperatorArgs, OverrideArgs, SingleBlockArgs};
 use super::program::ProgramArgs;
 use crate::program_file::ProgramFile;
 use clap::Subcommand;
@@ -60,8 +60,8 @@ pub enum Command {
     #[command(after_help = "Examples: glidepath override 80 · glidepath override --rapid 25")]
     Override(OverrideArgs),
     /// Come to rest on the path and drop the rest of the program
-    #[command(after_help = "Example: glidepath abort")]
-    Abort(OperatorArgs),
+    #[command(after_help = "Examples: glidepath abort · glidepath abort --signal")]
+    Abort(AbortArgs),
     /// Find where a NURBS is too sharp for its feedrate
     #[command(
         after_help = "Example: glidepath preview butterfly.json --method certified --feed 6000 \
@@ -104,8 +104,8 @@ impl Command {
             | Self::Hold(args)
             | Self::Resume(args)
             | Self::Step(args)
-            | Self::StopAtBlockEnd(args)
-            | Self::Abort(args) => &args.basic,
+            | Self::StopAtBlockEnd(args) => &args.basic,
+            Self::Abort(args) => &args.operator.basic,
             Self::SingleBlock(args) => &args.operator.basic,
             Self::Override(args) => &args.operator.basic,
             Self::Fit(args) => &args.basic,

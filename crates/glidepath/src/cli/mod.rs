@@ -15,7 +15,7 @@ pub use host::{BenchArgs, DoctorArgs, JitterArgs};
 pub use motion::{
     CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
 };
-pub use operator::{OperatorArgs, OverrideArgs, SingleBlockArgs, Switch};
+pub use operator::{AbortArgs, OperatorArgs, OverrideArgs, SingleBlockArgs, Switch};
 pub use program::ProgramArgs;
 
 use clap::Parser;

@@ -14,6 +14,17 @@ pub struct OperatorArgs {
     pub instance: InstanceArgs,
 }
 
+/// Arguments of `abort`.
+#[derive(Debug, Args)]
+pub struct AbortArgs {
+    /// By SIGTERM: needs no shared memory, and the interpolator ends. The last resort
+    #[arg(long)]
+    pub signal: bool,
+    /// The interpolator that is meant.
+    #[command(flatten)]
+    pub operator: OperatorArgs,
+}
+
 /// Arguments of `override`.
 #[derive(Debug, Args)]
 #[group(id = "factor", required = true, multiple = true)]

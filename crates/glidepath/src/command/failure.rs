@@ -89,6 +89,42 @@ pub(super) enum Failure {
         /// The instance.
         instance: String,
     },
+    /// The interpolator lives, and does not answer.
+    #[error(
+        "the interpolator of the instance \"{instance}\" (process {process}) has not answered in \
+         {waited_s} s"
+    )]
+    Silent {
+        /// The instance.
+        instance: String,
+        /// The interpolator.
+        process: i32,
+        /// How long it was waited for.
+        waited_s: u64,
+    },
+    /// A command that brings the machine to rest did not arrive.
+    #[error(
+        "{command}: the command did not arrive: {source}. If the machine moves, the last resort is \
+         `glidepath abort --signal`, or SIGTERM to the interpolator: it comes to rest on the path \
+         and ends"
+    )]
+    NotStopped {
+        /// The command.
+        command: &'static str,
+        /// Why.
+        source: Box<Self>,
+    },
+    /// The interpolator was signalled, and still runs.
+    #[error(
+        "the interpolator (process {pid}) has not ended {waited_s} s after SIGTERM: if the machine \
+         moves, cut its power; then `kill -KILL {pid}`"
+    )]
+    DoesNotEnd {
+        /// The interpolator.
+        pid: i32,
+        /// How long it was waited for.
+        waited_s: u64,
+    },
     /// The interpolator refused a command.
     #[error("{command}: refused, the machine is {state}: {reason}")]
     CommandRefused {
@@ -174,6 +210,18 @@ impl Failure {
         }
     }
 
+    /// A failure to deliver a command; of one that brings the machine to rest, with what is left.
+    #[must_use]
+    pub(super) fn of_command(self, command: &'static str) -> Self {
+        let stops = matches!(command, "hold" | "abort" | "stop-at-block-end");
+        if stops && !matches!(self, Self::NoInterpolator { .. }) {
+            let source = Box::new(self);
+            Self::NotStopped { command, source }
+        } else {
+            self
+        }
+    }
+
     /// The exit code.
     #[must_use]
     pub(super) const fn exit(&self) -> Exit {
@@ -205,6 +253,9 @@ impl Failure {
             | Self::Signals(_)
             | Self::NoInterpolator { .. }
             | Self::CommandRefused { .. }
+            | Self::Silent { .. }
+            | Self::NotStopped { .. }
+            | Self::DoesNotEnd { .. }
             | Self::Interpolator(_)
             | Self::Planner(_)
             | Self::Feed(_)

@@ -67,7 +67,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
             let command = link::Command::SingleBlock(args.switch == Switch::On);
             operator::command(&args.operator, &config, "single-block", command)
         }
-        Command::Abort(args) => operator::command(args, &config, "abort", link::Command::Abort),
+        Command::Abort(args) => operator::abort(args, &config),
         Command::Override(args) => operator::overrides(args, &config),
         Command::Bench(args) => bench::bench(args, &config),
         Command::Doctor(args) => Ok(doctor::doctor(args, &config)),

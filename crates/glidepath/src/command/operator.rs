@@ -1,22 +1,25 @@
 //! What an operator does: `glidepath hold`, `resume`, `step`, `stop-at-block-end`, `single-block`,
-//! `override`, `abort` and `status`, talking to a running interpolator.
+//! `override`, `abort` and `status`, talking to a running interpolator by its panel, and
+//! `abort --signal`, which reaches the process itself.
 
 use super::session;
-use crate::cli::{OperatorArgs, OverrideArgs};
+use crate::cli::{AbortArgs, OperatorArgs, OverrideArgs};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::output;
 use crate::report::{state_name, status_object, status_text};
 use glidepath_link::{
-    Command, CommandRefusal, CommandReply, CommandRequest, LinkError, Record as _, Status,
-    Transport,
+    Command, CommandRefusal, CommandReply, CommandRequest, InterpolatorProcess, LinkConfig,
+    LinkError, Operator,
 };
 use serde_json::json;
 use std::time::{Duration, Instant};
 
 /// How long an interpolator may take to answer.
 const PATIENCE: Duration = Duration::from_secs(2);
+/// How long one that was signalled may take to end: 5 s to come to rest, and to clean up.
+const END_PATIENCE: Duration = Duration::from_secs(10);
 const POLL: Duration = Duration::from_millis(2);
 
 /// Sends a command and reports the answer.
@@ -52,10 +55,11 @@ fn commands(
     commands: &[Command],
 ) -> Result<Exit, Failure> {
     let instance = session::instance(&args.instance, config);
-    let transport = session::join(&args.instance, config)?;
+    let link = session::link(&instance, config);
+    let operator = reach(&link).map_err(|failure| failure.of_command(name))?;
     let mut state = "";
     for command in commands {
-        let reply = send(&transport, &instance, *command)?;
+        let reply = send(&operator, &link, *command).map_err(|failure| failure.of_command(name))?;
         state = state_name(reply.state().map_err(LinkError::from)?);
         if let Err(refusal) = reply.outcome().map_err(LinkError::from)? {
             let reason = refusal_text(refusal, reply.message.as_str());
@@ -79,26 +83,82 @@ fn commands(
     Ok(Exit::Done)
 }
 
+/// Finds the interpolator of an instance.
+///
+/// # Errors
+/// None runs, or it cannot be reached.
+pub(super) fn reach(link: &LinkConfig) -> Result<Operator, Failure> {
+    Operator::find(link).map_err(|error| of_link(error, link))
+}
+
 /// Sends a command and waits for the answer.
 ///
 /// # Errors
-/// No interpolator runs, or it does not answer.
+/// The interpolator ended, or it does not answer.
 pub(super) fn send(
-    transport: &dyn Transport,
-    instance: &str,
+    operator: &Operator,
+    link: &LinkConfig,
     command: Command,
 ) -> Result<CommandReply, Failure> {
-    let nobody = || Failure::NoInterpolator {
-        instance: instance.to_owned(),
-    };
     let request = CommandRequest::new(u64::from(std::process::id()), 1, command);
-    let reply = match transport.command_client()?.call(&request, PATIENCE) {
-        Ok(reply) => reply.ok_or_else(nobody)?,
-        Err(LinkError::NoServer { .. }) => return Err(nobody()),
-        Err(error) => return Err(error.into()),
-    };
-    reply.check().map_err(LinkError::from)?;
-    Ok(reply)
+    let reply = operator.call(&request, PATIENCE);
+    let reply = reply.map_err(|error| of_link(error, link))?;
+    reply.ok_or_else(|| silent(operator, link))
+}
+
+fn of_link(error: LinkError, link: &LinkConfig) -> Failure {
+    match error {
+        LinkError::NoServer { .. } => Failure::NoInterpolator {
+            instance: link.instance.clone(),
+        },
+        error => error.into(),
+    }
+}
+
+fn silent(operator: &Operator, link: &LinkConfig) -> Failure {
+    Failure::Silent {
+        instance: link.instance.clone(),
+        process: operator.interpolator().id(),
+        waited_s: PATIENCE.as_secs(),
+    }
+}
+
+/// Brings the machine to rest on the path: by a command, or by a signal that needs nothing but the
+/// process.
+///
+/// # Errors
+/// The errors of [`command`], or the process does not end.
+pub(super) fn abort(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    if !args.signal {
+        return command(&args.operator, config, "abort", Command::Abort);
+    }
+    let instance = session::instance(&args.operator.instance, config);
+    let found = InterpolatorProcess::find(&session::link(&instance, config))?;
+    let process = found.ok_or_else(|| Failure::NoInterpolator {
+        instance: instance.clone(),
+    })?;
+    let pid = process.id();
+    process.terminate()?;
+    let started = Instant::now();
+    while process.lives()? {
+        if started.elapsed() >= END_PATIENCE {
+            let waited_s = END_PATIENCE.as_secs();
+            return Err(Failure::DoesNotEnd { pid, waited_s });
+        }
+        std::thread::sleep(POLL);
+    }
+    if args.operator.basic.json {
+        output::object(&json!({
+            "command": "abort",
+            "instance": instance,
+            "signalled": pid,
+            "ended": true,
+        }));
+    } else {
+        let text = format!("abort: the interpolator (process {pid}) was signalled and has ended\n");
+        output::result(&text);
+    }
+    Ok(Exit::Done)
 }
 
 fn refusal_text(refusal: CommandRefusal, message: &str) -> String {
@@ -119,35 +179,18 @@ fn refusal_text(refusal: CommandRefusal, message: &str) -> String {
 /// Shows the state of the interpolator.
 ///
 /// # Errors
-/// No interpolator runs.
+/// No interpolator runs, or it shows none.
 pub(super) fn status(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let instance = session::instance(&args.instance, config);
-    let transport = session::join(&args.instance, config)?;
-    let status = live_status(&transport)?.ok_or_else(|| Failure::NoInterpolator {
-        instance: instance.clone(),
-    })?;
+    let link = session::link(&instance, config);
+    let operator = reach(&link)?;
+    let shown = operator.status(PATIENCE);
+    let shown = shown.map_err(|error| of_link(error, &link))?;
+    let status = shown.ok_or_else(|| silent(&operator, &link))?;
     if args.basic.json {
         output::object(&status_object(&instance, &status));
     } else {
         output::result(&status_text(&instance, &status));
     }
     Ok(Exit::Done)
-}
-
-/// Waits for a status of an interpolator that lives: one that is newer than the first, which a dead
-/// one may have left.
-fn live_status(transport: &dyn Transport) -> Result<Option<Status>, Failure> {
-    let mut source = transport.status_source()?;
-    let started = Instant::now();
-    let mut first = None;
-    while started.elapsed() < PATIENCE {
-        if let Some(status) = source.take()? {
-            status.check().map_err(LinkError::from)?;
-            if *first.get_or_insert(status.updated_ns) != status.updated_ns {
-                return Ok(Some(status));
-            }
-        }
-        std::thread::sleep(POLL);
-    }
-    Ok(None)
 }

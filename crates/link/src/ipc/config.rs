@@ -1,8 +1,9 @@
 //! Where an instance keeps its files.
 
+use super::directory;
 use crate::{Capacity, LinkError};
 use std::io;
-use std::os::unix::fs::{DirBuilderExt, MetadataExt};
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
 /// Longest name of an instance.
@@ -32,8 +33,8 @@ impl LinkConfig {
         }
     }
 
-    /// `$XDG_RUNTIME_DIR/glidepath` where that is a directory of this user, else
-    /// `/tmp/glidepath-<uid>`.
+    /// `$XDG_RUNTIME_DIR/glidepath` where that is a directory of this user in memory, else
+    /// `/dev/shm/glidepath-<uid>`.
     #[must_use]
     pub fn default_root() -> PathBuf {
         let user = rustix::process::geteuid().as_raw();
@@ -41,8 +42,9 @@ impl LinkConfig {
             .map(PathBuf::from)
             .filter(|path| path.is_absolute())
             .filter(|path| path.metadata().is_ok_and(|m| m.is_dir() && m.uid() == user))
+            .filter(|path| directory::is_in_memory(path))
             .map_or_else(
-                || PathBuf::from(format!("/tmp/glidepath-{user}")),
+                || PathBuf::from(format!("/dev/shm/glidepath-{user}")),
                 |path| path.join("glidepath"),
             )
     }
@@ -53,18 +55,16 @@ impl LinkConfig {
         self.root.join(&self.instance)
     }
 
-    /// What the names of the instance's files in `/dev/shm` begin with: the same for all processes
-    /// of the instance, and no other instance's. A subscriber that does not use this crate needs it
-    /// and [`LinkConfig::directory`] for its own configuration of iceoryx2.
-    #[must_use]
-    pub fn prefix(&self) -> String {
-        // Two users, or two root paths, may each have an instance of the same name.
-        let hash = fnv1a(self.root.as_os_str().as_encoded_bytes());
-        format!("gp_{}_{hash:08x}_", self.instance)
-    }
-
     /// Checks the name and makes the directories.
     pub(super) fn prepare(&self) -> Result<(), LinkError> {
+        self.check_name()?;
+        for path in [&self.root, &self.directory()] {
+            directory::make(path).map_err(failed(path))?;
+        }
+        Ok(())
+    }
+
+    fn check_name(&self) -> Result<(), LinkError> {
         let allowed = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
         let name = &self.instance;
         if name.is_empty() || name.len() > NAME_MAX || !name.chars().all(allowed) {
@@ -75,45 +75,27 @@ impl LinkConfig {
                 longest,
             });
         }
-        private_directory(&self.root)?;
-        private_directory(&self.directory())
+        Ok(())
     }
-}
 
-/// Makes a directory that only this user can enter, or checks that it is one.
-fn private_directory(path: &Path) -> Result<(), LinkError> {
-    let failed = |source| LinkError::Root {
-        path: path.display().to_string(),
-        source,
-    };
-    if !path.is_absolute() {
-        return Err(failed(io::Error::new(
-            io::ErrorKind::InvalidInput,
-            "the path is not absolute",
-        )));
-    }
-    match std::fs::DirBuilder::new()
-        .mode(0o700)
-        .recursive(false)
-        .create(path)
-    {
-        Ok(()) => Ok(()),
-        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-            let found = path.symlink_metadata().map_err(failed)?;
-            let own = found.uid() == rustix::process::geteuid().as_raw();
-            if found.is_dir() && own && found.mode() & 0o077 == 0 {
-                Ok(())
-            } else {
-                let why = "it exists, but is not a directory of mode 0700 of this user";
-                Err(failed(io::Error::new(io::ErrorKind::PermissionDenied, why)))
+    /// Checks that the directories are this user's alone, without making them. None where there is
+    /// no instance is no failure.
+    pub(super) fn check(&self) -> Result<(), LinkError> {
+        self.check_name()?;
+        for path in [&self.root, &self.directory()] {
+            match directory::check(path) {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+                checked => checked.map_err(failed(path))?,
             }
         }
-        Err(error) => Err(failed(error)),
+        Ok(())
     }
 }
 
-/// FNV-1a, 32 bits: short, and the same in every process and version.
-fn fnv1a(bytes: &[u8]) -> u32 {
-    let mix = |hash: u32, byte: &u8| (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193);
-    bytes.iter().fold(0x811c_9dc5, mix)
+fn failed(path: &Path) -> impl Fn(io::Error) -> LinkError {
+    let path = path.display().to_string();
+    move |source| LinkError::Root {
+        path: path.clone(),
+        source,
+    }
 }

@@ -1,8 +1,8 @@
 //! The transport between processes: iceoryx2 over shared memory.
 //!
-//! Each instance has names of its own in `/dev/shm` and a directory of its own that only its user
-//! can enter; the machine's or user's configuration of iceoryx2 is never read. Nothing here waits
-//! longer than it takes to make or clean up a connection.
+//! Each instance has a directory of its own, in memory, that only its user can enter, and nothing
+//! outside of it; the machine's or user's configuration of iceoryx2 is never read. Nothing here
+//! waits longer than it takes to make or clean up a connection.
 //!
 //! What the services rely on, all of it checked by the tests:
 //!
@@ -13,13 +13,24 @@
 //!   [`Transport::clean_up_dead_peers`].
 
 mod config;
+mod directory;
+mod interpolator_lock;
+mod mapping;
 mod node;
+mod operator;
+mod panel;
 mod presence;
 mod request;
+mod service;
 mod settings;
+mod stamped;
+mod storage;
 mod topic;
+mod trouble;
 
 pub use config::LinkConfig;
+pub use interpolator_lock::InterpolatorProcess;
+pub use operator::Operator;
 pub use presence::remove_leftovers;
 
 use crate::service::{COMMANDS, Capacity, FRAMES, SEGMENTS, SETPOINTS, STATUS};
@@ -27,7 +38,9 @@ use crate::{
     Client, CommandReply, CommandRequest, FrameSink, LinkError, Publisher, Record, SegmentReply,
     SegmentRequest, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
 };
+use interpolator_lock::InterpolatorLock;
 use node::{Session, TopicSettings};
+use panel::{Panel, StatusBoard};
 use std::rc::Rc;
 
 /// One thread's part in an instance. It and its ports stay in that thread.
@@ -144,7 +157,11 @@ impl Transport for Ipc {
     }
 
     fn status_sink(&self) -> Result<Box<dyn Publisher<Status>>, LinkError> {
-        self.publisher(STATUS, self.status())
+        let service = self.session.topic(STATUS, self.status())?;
+        let make = || topic::Sink::new(STATUS, &service, &self.session);
+        let port = self.session.claim(make)?;
+        let board = StatusBoard::make(self.session.config())?;
+        Ok(Box::new(StatusSink { board, port }))
     }
 
     fn status_source(&self) -> Result<Box<dyn Subscriber<Status>>, LinkError> {
@@ -156,7 +173,14 @@ impl Transport for Ipc {
     }
 
     fn command_server(&self) -> Result<Box<dyn Server<CommandRequest, CommandReply>>, LinkError> {
-        self.server(COMMANDS)
+        let service = self.session.exchange(COMMANDS)?;
+        let make = || request::Answering::new(COMMANDS, &service, &self.session);
+        let port = self.session.claim(make)?;
+        // Last: it is released if anything after it opens the file once more.
+        let config = self.session.config();
+        let panel = Panel::make(config)?;
+        let _lock = InterpolatorLock::take(config, COMMANDS)?;
+        Ok(Box::new(CommandServer { panel, port, _lock }))
     }
 
     fn segment_client(&self) -> Result<Box<dyn Client<SegmentRequest, SegmentReply>>, LinkError> {
@@ -169,5 +193,39 @@ impl Transport for Ipc {
 
     fn clean_up_dead_peers(&self) -> Result<usize, LinkError> {
         Ok(self.session.clean_up())
+    }
+}
+
+/// The status for everybody, and on the panel.
+struct StatusSink {
+    board: StatusBoard,
+    port: topic::Sink<Status>,
+}
+
+impl Publisher<Status> for StatusSink {
+    fn publish(&mut self, status: &Status) -> Result<(), LinkError> {
+        self.board.show(status).and(self.port.publish(status))
+    }
+
+    fn refresh(&mut self) -> Result<(), LinkError> {
+        self.port.refresh()
+    }
+}
+
+/// Commands from the panel, and from those that joined.
+struct CommandServer {
+    panel: Panel,
+    port: request::Answering<CommandRequest, CommandReply>,
+    _lock: InterpolatorLock,
+}
+
+impl Server<CommandRequest, CommandReply> for CommandServer {
+    fn serve(
+        &mut self,
+        answer: &mut dyn FnMut(&CommandRequest) -> CommandReply,
+    ) -> Result<bool, LinkError> {
+        // The panel first: whatever is wrong with the port, it serves.
+        let served = self.panel.serve(answer)?;
+        Ok(served || self.port.serve(answer)?)
     }
 }

@@ -2,24 +2,24 @@
 
 use super::config::LinkConfig;
 use super::presence::Presence;
+use super::service::PrivateIpc;
 use super::settings::settings;
+use super::trouble::explained;
 use crate::service::{CLIENTS, SENDERS};
 use crate::{BoxedError, LinkError, MAX_UNANSWERED, Record};
 use core::cell::Cell;
 use core::time::Duration;
 use iceoryx2::prelude::{
-    LogLevel, Node, NodeBuilder, ServiceName, SignalHandlingMode, ipc, set_log_level,
+    LogLevel, Node, NodeBuilder, ServiceName, SignalHandlingMode, set_log_level,
 };
 use iceoryx2::service::builder::publish_subscribe::PublishSubscribeOpenOrCreateError as TopicError;
 use iceoryx2::service::builder::request_response::RequestResponseOpenOrCreateError as ExchangeError;
 use iceoryx2::service::port_factory::{publish_subscribe, request_response};
 use std::fs::File;
-use std::fs::Permissions;
-use std::os::unix::fs::PermissionsExt as _;
 use std::time::Instant;
 
-pub(super) type TopicService<R> = publish_subscribe::PortFactory<ipc::Service, R, ()>;
-pub(super) type ExchangeService<Q, A> = request_response::PortFactory<ipc::Service, Q, (), A, ()>;
+pub(super) type TopicService<R> = publish_subscribe::PortFactory<PrivateIpc, R, ()>;
+pub(super) type ExchangeService<Q, A> = request_response::PortFactory<PrivateIpc, Q, (), A, ()>;
 
 /// How long to try again when a service is being made or removed by another process.
 const SETTLE: Duration = Duration::from_secs(2);
@@ -31,7 +31,7 @@ const NODES: usize = 64;
 /// What all ports of a thread share. Dropped after the last of them.
 #[derive(Debug)]
 pub(super) struct Session {
-    node: Node<ipc::Service>,
+    node: Node<PrivateIpc>,
     searched: Cell<Option<Instant>>,
     /// After the node, so that its files are gone when the last one out looks.
     presence: Presence,
@@ -46,14 +46,15 @@ impl Session {
             NodeBuilder::new()
                 .config(&settings)
                 .signal_handling_mode(SignalHandlingMode::Disabled)
-                .create::<ipc::Service>()
+                .create::<PrivateIpc>()
         };
-        let node = settle(create, |_| true).map_err(|error| LinkError::Transport {
-            service: "instance",
-            action: "joining it",
-            detail: error.into(),
+        let node = explained(&config.directory(), || {
+            settle(create, |_| true).map_err(|error| LinkError::Transport {
+                service: "instance",
+                action: "joining it",
+                detail: error.into(),
+            })
         })?;
-        keep_private(&config.prefix());
         Ok(Self {
             node,
             searched: Cell::new(None),
@@ -82,13 +83,18 @@ impl Session {
     /// Makes a port; if all places are taken, once more after the dead have given up theirs.
     /// Another process may be cleaning up just then, which made that of joining pass over them.
     pub(super) fn claim<T>(&self, make: impl Fn() -> Result<T, LinkError>) -> Result<T, LinkError> {
-        match make() {
+        explained(&self.config().directory(), || match make() {
             Err(LinkError::Taken { .. }) => {
                 self.node.blocking_cleanup_dead_nodes(SETTLE);
                 make()
             }
             made => made,
-        }
+        })
+    }
+
+    /// The instance.
+    pub(super) const fn config(&self) -> &LinkConfig {
+        self.presence.config()
     }
 
     /// Claims a part in a service that one process at a time may play.
@@ -120,8 +126,11 @@ impl Session {
                 .max_nodes(NODES)
                 .open_or_create()
         };
-        settle(open, is_topic_in_flux)
-            .map_err(|error| mismatch(service, R::NAME, is_topic_mismatch(&error), error.into()))
+        explained(&self.config().directory(), || {
+            settle(open, is_topic_in_flux).map_err(|error| {
+                mismatch(service, R::NAME, is_topic_mismatch(&error), error.into())
+            })
+        })
     }
 
     /// Opens a request-response service.
@@ -143,8 +152,11 @@ impl Session {
                 .max_nodes(NODES)
                 .open_or_create()
         };
-        settle(open, is_exchange_in_flux)
-            .map_err(|error| mismatch(service, Q::NAME, is_exchange_mismatch(&error), error.into()))
+        explained(&self.config().directory(), || {
+            settle(open, is_exchange_in_flux).map_err(|error| {
+                mismatch(service, Q::NAME, is_exchange_mismatch(&error), error.into())
+            })
+        })
     }
 }
 
@@ -159,23 +171,6 @@ pub(super) struct TopicSettings {
     pub(super) history: usize,
     /// Most subscribers.
     pub(super) subscribers: usize,
-}
-
-/// iceoryx2 lets everybody write one of the files that it makes: the bookkeeping that the processes
-/// of an instance share. Only their owner is to have a say in it.
-fn keep_private(prefix: &str) {
-    let files = std::fs::read_dir("/dev/shm")
-        .into_iter()
-        .flatten()
-        .flatten();
-    for file in files {
-        let name = file.file_name();
-        let name = name.to_string_lossy();
-        if name.starts_with(prefix) && name.ends_with(".global_mgmt") {
-            // Gone, or private already because somebody else of this instance did it.
-            let _ = std::fs::set_permissions(file.path(), Permissions::from_mode(0o600));
-        }
-    }
 }
 
 fn service_name(service: &'static str) -> Result<ServiceName, LinkError> {
@@ -309,4 +304,56 @@ fn is_exchange_mismatch(error: &ExchangeError) -> bool {
                 | Open::VersionMismatch
         )
     )
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test")]
+    #![allow(
+        unsafe_code,
+        reason = "the derive expands to an unsafe impl, and checks the fields"
+    )]
+
+    use super::*;
+    use crate::Setpoint;
+    use iceoryx2::prelude::ZeroCopySend;
+
+    /// A setpoint of a version to come.
+    #[repr(C)]
+    #[derive(Debug, Clone, Copy, ZeroCopySend)]
+    #[type_name("glidepath.Setpoint.v3")]
+    struct SetpointToCome([f64; 71]);
+
+    #[test]
+    fn another_version_of_a_record_is_a_clear_error() {
+        let root = tempfile::tempdir_in("/dev/shm").unwrap();
+        let config = LinkConfig {
+            root: root.path().join("link"),
+            ..LinkConfig::new("versions")
+        };
+        let session = Session::open(&config).unwrap();
+        let service = session
+            .node
+            .service_builder(&"glidepath/setpoints".try_into().unwrap())
+            .publish_subscribe::<SetpointToCome>()
+            .open_or_create()
+            .unwrap();
+        let wanted = TopicSettings {
+            overflow: true,
+            depth: 1,
+            history: 1,
+            subscribers: 1,
+        };
+        let open = || session.topic::<Setpoint>("glidepath/setpoints", wanted);
+        let error = open().err().unwrap();
+        assert!(
+            matches!(error, LinkError::VersionMismatch { .. }),
+            "{error}"
+        );
+        let text = error.to_string();
+        assert!(text.contains("glidepath.Setpoint.v2"), "{text}");
+        assert!(text.contains("IncompatibleTypes"), "{text}");
+        drop(service);
+        open().unwrap();
+    }
 }

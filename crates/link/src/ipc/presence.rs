@@ -2,21 +2,17 @@
 //!
 //! Every process of an instance holds a shared lock on a file of the instance for as long as it has
 //! ports; the kernel releases it however the process ends. Whoever gets the exclusive lock knows
-//! that no other is there, and removes what the instance left in `/dev/shm` and in its directory.
-//! The lock file is removed last, under the lock, and a newcomer makes sure that the file it locked
+//! that no other is there, and removes what the instance left in its directory. The lock file is removed last, under the lock, and a newcomer makes sure that the file it locked
 //! still is the one the name stands for.
 
 use super::config::LinkConfig;
-use super::settings::settings;
+use super::directory::{is_still, open};
 use crate::LinkError;
-use iceoryx2::prelude::{CallbackProgression, Node, NodeState, ipc};
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, TryLockError};
 use std::io;
-use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-const SHARED_MEMORY: &str = "/dev/shm";
 /// How long a newcomer waits for one that is removing leftovers.
 const PATIENCE: Duration = Duration::from_secs(2);
 
@@ -53,7 +49,7 @@ impl Presence {
         let lock = open(&path).map_err(failed)?;
         lock.try_lock_shared()
             .map_err(|error| failed(error.into()))?;
-        if same_file(&lock, &path).map_err(failed)? {
+        if is_still(&lock, &path).map_err(failed)? {
             Ok(Self {
                 lock,
                 config: config.clone(),
@@ -65,6 +61,11 @@ impl Presence {
 }
 
 impl Presence {
+    /// Which instance it is.
+    pub(super) const fn config(&self) -> &LinkConfig {
+        &self.config
+    }
+
     /// Claims a part that one process at a time may play, until the file is dropped or the process
     /// ends, however it does. `None` if another plays it.
     pub(super) fn claim(&self, part: &str) -> Result<Option<File>, LinkError> {
@@ -111,7 +112,7 @@ pub fn remove_leftovers(config: &LinkConfig) -> Result<bool, LinkError> {
     };
     let file = open(&path).map_err(failed)?;
     match file.try_lock() {
-        Ok(()) if same_file(&file, &path).map_err(failed)? => sweep(config).map_err(failed),
+        Ok(()) if is_still(&file, &path).map_err(failed)? => sweep(config).map_err(failed),
         // Somebody is there, or came since.
         Ok(()) | Err(TryLockError::WouldBlock) => Ok(false),
         Err(TryLockError::Error(source)) => Err(failed(source)),
@@ -120,20 +121,6 @@ pub fn remove_leftovers(config: &LinkConfig) -> Result<bool, LinkError> {
 
 /// Removes the files of an instance. To be called with the exclusive lock.
 fn sweep(config: &LinkConfig) -> io::Result<bool> {
-    if foreigner_lives(config) {
-        return Ok(false);
-    }
-    let prefix = config.prefix();
-    for entry in std::fs::read_dir(SHARED_MEMORY)? {
-        let entry = entry?;
-        if entry
-            .file_name()
-            .as_encoded_bytes()
-            .starts_with(prefix.as_bytes())
-        {
-            ignore_missing(std::fs::remove_file(entry.path()))?;
-        }
-    }
     let (directory, lock) = (config.directory(), lock_path(config));
     for entry in std::fs::read_dir(&directory)? {
         let path = entry?.path();
@@ -152,41 +139,8 @@ fn sweep(config: &LinkConfig) -> io::Result<bool> {
     Ok(true)
 }
 
-/// Whether a process lives that does not use this crate, and hence holds no lock.
-fn foreigner_lives(config: &LinkConfig) -> bool {
-    let mut lives = false;
-    let Ok(settings) = settings(config) else {
-        return false;
-    };
-    let listed = Node::<ipc::Service>::list(&settings, |node| {
-        lives |= matches!(node, NodeState::Alive(_));
-        CallbackProgression::Continue
-    });
-    lives && listed.is_ok()
-}
-
 fn lock_path(config: &LinkConfig) -> PathBuf {
     config.directory().join("lock")
-}
-
-fn open(path: &Path) -> io::Result<File> {
-    OpenOptions::new()
-        .read(true)
-        .write(true)
-        .create(true)
-        .truncate(false)
-        .mode(0o600)
-        .open(path)
-}
-
-/// Whether a name still stands for an open file.
-fn same_file(file: &File, path: &Path) -> io::Result<bool> {
-    let open = file.metadata()?;
-    match path.metadata() {
-        Ok(named) => Ok((named.dev(), named.ino()) == (open.dev(), open.ino())),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
-        Err(error) => Err(error),
-    }
 }
 
 fn is_passing(error: &io::Error) -> bool {

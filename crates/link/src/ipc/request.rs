@@ -1,24 +1,25 @@
 //! Commands and segments over request-response.
 
 use super::node::{ExchangeService, Session};
+use super::service::PrivateIpc;
 use crate::{Client, LinkError, MAX_UNANSWERED, Record, Server};
 use iceoryx2::pending_response::PendingResponse;
 use iceoryx2::port::client::{Client as RawClient, RequestSendError};
 use iceoryx2::port::server::Server as RawServer;
 use iceoryx2::port::{BackpressureAction, DegradationAction, SendError};
-use iceoryx2::prelude::{BackpressureStrategy, ipc};
+use iceoryx2::prelude::BackpressureStrategy;
 use iceoryx2::service::port_factory::{client::ClientCreateError, server::ServerCreateError};
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-type Pending<Q, A> = PendingResponse<ipc::Service, Q, (), A, ()>;
+type Pending<Q, A> = PendingResponse<PrivateIpc, Q, (), A, ()>;
 
 /// The asking end.
 pub(super) struct Asking<Q: Record, A: Record> {
     service: &'static str,
     /// Requests without an answer, oldest first. Before the port, which must outlive them.
     pending: VecDeque<Pending<Q, A>>,
-    port: RawClient<ipc::Service, Q, (), A, ()>,
+    port: RawClient<PrivateIpc, Q, (), A, ()>,
     session: Rc<Session>,
 }
 
@@ -114,7 +115,7 @@ impl<Q: Record, A: Record> Client<Q, A> for Asking<Q, A> {
 /// The answering end.
 pub(super) struct Answering<Q: Record, A: Record> {
     service: &'static str,
-    port: RawServer<ipc::Service, Q, (), A, ()>,
+    port: RawServer<PrivateIpc, Q, (), A, ()>,
     _session: Rc<Session>,
 }
 

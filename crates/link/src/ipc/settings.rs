@@ -9,6 +9,9 @@ use iceoryx2::prelude::{Config, FileName, Path, SemanticString as _};
 /// to the retries of a session, which the ports' callers never pay.
 const CREATION_TIMEOUT: Duration = Duration::from_millis(100);
 
+/// What the names of the transport's files begin with; no two instances share a directory.
+const PREFIX: &[u8] = b"gp_";
+
 /// The settings of the transport for an instance; never those of the user or the machine.
 pub(super) fn settings(config: &LinkConfig) -> Result<Config, LinkError> {
     let directory = config.directory();
@@ -18,8 +21,8 @@ pub(super) fn settings(config: &LinkConfig) -> Result<Config, LinkError> {
         detail,
     };
     let mut settings = Config::default();
-    settings.global.prefix = FileName::new(config.prefix().as_bytes())
-        .map_err(|error| failed(format!("{error:?}").into()))?;
+    settings.global.prefix =
+        FileName::new(PREFIX).map_err(|error| failed(format!("{error:?}").into()))?;
     let root = Path::new(directory.as_os_str().as_encoded_bytes())
         .map_err(|error| failed(format!("{error:?}").into()))?;
     settings.global.set_root_path(&root);

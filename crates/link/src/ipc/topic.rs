@@ -1,19 +1,20 @@
 //! Frames, setpoints and status over publish-subscribe.
 
 use super::node::{Session, TopicService};
+use super::service::PrivateIpc;
 use crate::{Delivery, FrameSink, LinkError, Publisher, Record, SetpointFrame, Subscriber};
 use iceoryx2::port::publisher::{Publisher as RawPublisher, PublisherCreateError};
 use iceoryx2::port::subscriber::{Subscriber as RawSubscriber, SubscriberCreateError};
 use iceoryx2::port::update_connections::UpdateConnections;
 use iceoryx2::port::{BackpressureAction, DegradationAction, SendError};
-use iceoryx2::prelude::{BackpressureStrategy, ipc};
+use iceoryx2::prelude::BackpressureStrategy;
 use std::fs::File;
 use std::rc::Rc;
 
 fn make_publisher<R: Record>(
     service: &'static str,
     factory: &TopicService<R>,
-) -> Result<RawPublisher<ipc::Service, R, ()>, LinkError> {
+) -> Result<RawPublisher<PrivateIpc, R, ()>, LinkError> {
     factory
         .publisher_builder()
         // Waiting is for the callers. A queue that does not overflow reports that it is full.
@@ -30,7 +31,7 @@ fn make_publisher<R: Record>(
 /// The planner's end of the frame queue.
 pub(super) struct Frames {
     service: &'static str,
-    port: RawPublisher<ipc::Service, SetpointFrame, ()>,
+    port: RawPublisher<PrivateIpc, SetpointFrame, ()>,
     /// Held while this is the planner: the frames of two would mix. The service has room for two
     /// publishers, because a dead one keeps its place until it is cleaned up.
     _part: File,
@@ -75,7 +76,7 @@ impl FrameSink for Frames {
 /// The sending end of a topic.
 pub(super) struct Sink<R: Record> {
     service: &'static str,
-    port: RawPublisher<ipc::Service, R, ()>,
+    port: RawPublisher<PrivateIpc, R, ()>,
     _session: Rc<Session>,
 }
 
@@ -119,7 +120,7 @@ impl<R: Record> Publisher<R> for Sink<R> {
 /// The receiving end of a topic or of the frames.
 pub(super) struct Source<R: Record> {
     service: &'static str,
-    port: RawSubscriber<ipc::Service, R, ()>,
+    port: RawSubscriber<PrivateIpc, R, ()>,
     _session: Rc<Session>,
 }
 

@@ -27,7 +27,7 @@ struct BetweenProcesses {
 
 impl BetweenProcesses {
     fn new() -> Self {
-        let root = tempfile::tempdir().unwrap();
+        let root = tempfile::tempdir_in("/dev/shm").unwrap();
         let config = LinkConfig {
             instance: "conformance".to_owned(),
             root: root.path().join("link"),

@@ -20,7 +20,7 @@ pub(crate) struct Instance {
 
 impl Instance {
     pub(crate) fn new() -> Self {
-        let root = tempfile::tempdir().unwrap();
+        let root = tempfile::tempdir_in("/dev/shm").unwrap();
         let config = LinkConfig {
             instance: "processes".to_owned(),
             root: root.path().join("link"),
@@ -36,19 +36,10 @@ impl Instance {
         Ipc::connect(&self.config).unwrap()
     }
 
-    /// What the instance has in shared memory and in its directory.
+    /// What the instance has: its directory, if there is anything.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
-        let prefix = self.config.prefix();
-        let is_ours = |path: &PathBuf| {
-            let name = path.file_name().unwrap_or_default().as_encoded_bytes();
-            name.starts_with(prefix.as_bytes())
-        };
-        let in_memory = std::fs::read_dir("/dev/shm")
-            .unwrap()
-            .map(|entry| entry.unwrap().path());
-        let mut files: Vec<_> = in_memory.filter(is_ours).collect();
-        files.extend(self.config.root.exists().then(|| self.config.root.clone()));
-        files
+        let root = &self.config.root;
+        root.exists().then(|| root.clone()).into_iter().collect()
     }
 }
 

@@ -2,51 +2,7 @@
 
 use crate::instance::{Instance, frame, take, wait_for};
 use glidepath_link::{Delivery, Ipc, LinkConfig, LinkError, Transport, remove_leftovers};
-use iceoryx2::prelude::{
-    Config, FileName, Node, NodeBuilder, Path, SemanticString, ZeroCopySend, ipc,
-};
 use std::os::unix::fs::PermissionsExt;
-
-/// A setpoint of a version to come.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, ZeroCopySend)]
-#[type_name("glidepath.Setpoint.v3")]
-#[allow(
-    unsafe_code,
-    reason = "the derive expands to an unsafe impl, and checks the fields"
-)]
-struct SetpointToCome([f64; 71]);
-
-/// A process of the instance that does not use this crate.
-fn foreign_node(config: &LinkConfig) -> Node<ipc::Service> {
-    let mut settings = Config::default();
-    settings.global.prefix = FileName::new(config.prefix().as_bytes()).unwrap();
-    let directory = config.directory();
-    let root = Path::new(directory.as_os_str().as_encoded_bytes()).unwrap();
-    settings.global.set_root_path(&root);
-    NodeBuilder::new()
-        .config(&settings)
-        .create::<ipc::Service>()
-        .unwrap()
-}
-
-#[test]
-fn nothing_is_removed_under_a_process_that_does_not_use_this_crate() {
-    let instance = Instance::new();
-    let link = instance.connect();
-    let foreigner = foreign_node(&instance.config);
-    drop(link);
-    assert!(!instance.files().is_empty());
-    assert!(!remove_leftovers(&instance.config).unwrap());
-    let setpoints = "glidepath/setpoints".try_into().unwrap();
-    foreigner
-        .service_builder(&setpoints)
-        .publish_subscribe::<u64>()
-        .create()
-        .unwrap();
-    drop(foreigner);
-    assert!(remove_leftovers(&instance.config).unwrap());
-}
 
 #[test]
 fn an_instance_that_comes_and_goes_is_always_there_when_wanted() {
@@ -66,36 +22,6 @@ fn an_instance_that_comes_and_goes_is_always_there_when_wanted() {
             });
         }
     });
-}
-
-#[test]
-fn another_version_of_a_record_is_a_clear_error() {
-    let instance = Instance::new();
-    let link = instance.connect();
-    let mut settings = Config::default();
-    settings.global.prefix = FileName::new(instance.config.prefix().as_bytes()).unwrap();
-    let directory = instance.config.directory();
-    let root = Path::new(directory.as_os_str().as_encoded_bytes()).unwrap();
-    settings.global.set_root_path(&root);
-    let node = NodeBuilder::new()
-        .config(&settings)
-        .create::<ipc::Service>()
-        .unwrap();
-    let service = node
-        .service_builder(&"glidepath/setpoints".try_into().unwrap())
-        .publish_subscribe::<SetpointToCome>()
-        .open_or_create()
-        .unwrap();
-    let error = link.setpoint_source().err().unwrap();
-    assert!(
-        matches!(error, LinkError::VersionMismatch { .. }),
-        "{error}"
-    );
-    let text = error.to_string();
-    assert!(text.contains("glidepath.Setpoint.v2"), "{text}");
-    assert!(text.contains("IncompatibleTypes"), "{text}");
-    drop((service, node));
-    link.setpoint_source().unwrap();
 }
 
 #[test]

@@ -9,6 +9,7 @@
 #![allow(clippy::print_stdout, reason = "a child tells its parent what it does")]
 
 mod instance;
+mod intruder;
 mod isolation;
 mod kill;
 mod peer;

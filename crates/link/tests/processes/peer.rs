@@ -1,12 +1,14 @@
 //! The other processes.
 
 use crate::instance::{frame, reply_to, take, wait_for};
+use crate::intruder::intrude;
 use bytemuck::Zeroable;
 use core::time::Duration;
 use glidepath_link::{
     Capacity, Command, CommandRequest, Delivery, Ipc, LinkConfig, Setpoint, Transport,
 };
 use std::io::{BufRead, BufReader, Lines};
+use std::path::PathBuf;
 use std::process::{Child, ChildStdout, Stdio};
 
 const ROLE: &str = "GLIDEPATH_TEST_ROLE";
@@ -29,7 +31,27 @@ pub(crate) struct Peer {
 impl Peer {
     /// Starts a process in one of the roles of [`child`].
     pub(crate) fn start(role: &str, config: &LinkConfig) -> Self {
-        let mut process = std::process::Command::new(std::env::current_exe().unwrap())
+        let program = std::env::current_exe().unwrap();
+        Self::spawn(std::process::Command::new(program), role, config)
+    }
+
+    /// The same as another user, who may have no way to where this program is.
+    pub(crate) fn start_as(user: u32, role: &str, config: &LinkConfig) -> Self {
+        let mut program = std::process::Command::new("setpriv");
+        let (user, group) = (format!("--reuid={user}"), format!("--regid={user}"));
+        let copy = config.root.with_file_name("program");
+        // By another process: a program is busy while anybody has it open for writing, and a child
+        // that another test has just forked would have it open, too.
+        let copied = std::process::Command::new("cp")
+            .args([&std::env::current_exe().unwrap(), &copy])
+            .status();
+        assert!(copied.unwrap().success());
+        program.args([&user, &group, "--clear-groups"]).arg(copy);
+        Self::spawn(program, role, config)
+    }
+
+    fn spawn(mut program: std::process::Command, role: &str, config: &LinkConfig) -> Self {
+        let mut process = program
             .args(["peer::child", "--exact", "--ignored", "--nocapture"])
             .env(ROLE, role)
             .env(ROOT, &config.root)
@@ -64,7 +86,7 @@ impl Drop for Peer {
     }
 }
 
-fn say(what: &str) {
+pub(crate) fn say(what: &str) {
     println!("{MARK}{what}");
 }
 
@@ -79,7 +101,10 @@ fn child() {
     let Ok(role) = std::env::var(ROLE) else {
         return;
     };
-    let root = std::env::var_os(ROOT).unwrap().into();
+    let root: PathBuf = std::env::var_os(ROOT).unwrap().into();
+    if role == "intruder" {
+        return intrude(&root);
+    }
     let config = LinkConfig {
         instance: "processes".to_owned(),
         root,

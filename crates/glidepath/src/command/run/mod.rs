@@ -163,7 +163,7 @@ impl Supervisor<'_> {
         let instance = named.unwrap_or_else(own_instance);
         let leftovers = Leftovers(session::link(&instance, self.config));
         let transport = Ipc::connect(&leftovers.0)?;
-        let mut monitor = Monitor::new(&transport, &instance)?;
+        let mut monitor = Monitor::new(&transport, &leftovers.0)?;
 
         self.progress.doing("starting");
         let mut interpolator = self.start("interpolator", &instance)?;

@@ -3,12 +3,11 @@
 use crate::command::failure::Failure;
 use crate::command::operator;
 use glidepath_link::{
-    Command, LinkError, MachineState, Record as _, Status, Subscriber, Transport,
+    Command, LinkConfig, LinkError, MachineState, Record as _, Status, Subscriber, Transport,
 };
 
 pub(super) struct Monitor<'t> {
-    transport: &'t dyn Transport,
-    instance: &'t str,
+    link: &'t LinkConfig,
     source: Box<dyn Subscriber<Status>>,
     status: Option<Status>,
     /// The epoch and frame of the program stop that was resumed last.
@@ -16,11 +15,10 @@ pub(super) struct Monitor<'t> {
 }
 
 impl<'t> Monitor<'t> {
-    pub(super) fn new(transport: &'t dyn Transport, instance: &'t str) -> Result<Self, Failure> {
+    pub(super) fn new(transport: &dyn Transport, link: &'t LinkConfig) -> Result<Self, Failure> {
         let source = transport.status_source()?;
         Ok(Self {
-            transport,
-            instance,
+            link,
             source,
             status: None,
             resumed: None,
@@ -65,7 +63,7 @@ impl<'t> Monitor<'t> {
         if self.resumed == Some(at) {
             return Ok(None);
         }
-        let reply = operator::send(self.transport, self.instance, Command::Resume)?;
+        let reply = operator::send(&operator::reach(self.link)?, self.link, Command::Resume)?;
         // Refused if the status was older than the state: then the next one tells.
         let accepted = reply.outcome().map_err(LinkError::from)?.is_ok();
         self.resumed = accepted.then_some(at);
@@ -75,6 +73,6 @@ impl<'t> Monitor<'t> {
     /// Brings the machine to rest on the path, and drops the rest of the program.
     pub(super) fn abort(&self) -> Result<(), Failure> {
         // Refused if the machine rests already.
-        operator::send(self.transport, self.instance, Command::Abort).map(|_| ())
+        operator::send(&operator::reach(self.link)?, self.link, Command::Abort).map(|_| ())
     }
 }

@@ -62,17 +62,8 @@ pub(crate) fn drain<R>(source: &mut dyn Subscriber<R>) -> Vec<R> {
     core::iter::from_fn(|| source.take().unwrap()).collect()
 }
 
-/// What an instance has in shared memory and in its directory.
+/// What an instance has: its directory, if there is anything.
 pub(crate) fn files_of(config: &LinkConfig) -> Vec<PathBuf> {
-    let prefix = config.prefix();
-    let is_ours = |path: &PathBuf| {
-        path.file_name()
-            .is_some_and(|name| name.as_encoded_bytes().starts_with(prefix.as_bytes()))
-    };
-    let in_memory = std::fs::read_dir("/dev/shm")
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
-    let mut files: Vec<_> = in_memory.filter(is_ours).collect();
-    files.extend(config.root.exists().then(|| config.root.clone()));
-    files
+    let root = &config.root;
+    root.exists().then(|| root.clone()).into_iter().collect()
 }

@@ -1,0 +1,150 @@
+//! Another user of the host, who wants to have a say.
+//!
+//! Skipped, with a word about it, unless root runs it.
+
+use crate::instance::{Instance, frame, take, wait_for};
+use crate::peer::{CAPACITY, Peer, say};
+use core::time::Duration;
+use glidepath_link::{Delivery, Ipc, LinkConfig, LinkError, Transport};
+use std::fs::{File, Permissions};
+use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _, symlink};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// User and group `nobody`.
+const NOBODY: u32 = 65_534;
+
+fn is_root() -> bool {
+    let root = rustix::process::geteuid().is_root();
+    if !root {
+        println!("skipped: only root can be another user");
+    }
+    root
+}
+
+fn open_to_all(path: &Path) {
+    std::fs::set_permissions(path, Permissions::from_mode(0o755)).unwrap();
+}
+
+/// What an intruder does: for two seconds, everything it can to what it finds in shared memory and
+/// under a path. It says how often it got hold of something, and of what first.
+pub(crate) fn intrude(root: &Path) {
+    say("looking");
+    let (started, mut hold, mut looks) = (Instant::now(), Vec::new(), 0);
+    while started.elapsed() < Duration::from_secs(2) {
+        looks += 1;
+        attack(root, &mut hold);
+        let is_link = |name: &str| name.starts_with("gp_") || name.starts_with("panel");
+        for entry in std::fs::read_dir("/dev/shm").unwrap().flatten() {
+            if entry.file_name().to_str().is_some_and(is_link) {
+                attack(&entry.path(), &mut hold);
+            }
+        }
+    }
+    assert!(looks > 10, "it looked {looks} times only");
+    let first = hold.first().map(PathBuf::as_path).unwrap_or(Path::new(""));
+    say(&format!("{} {}", hold.len(), first.display()));
+}
+
+/// Opens what there is, and makes, links and moves what is not to be there; then whatever is below.
+fn attack(path: &Path, hold: &mut Vec<PathBuf>) {
+    let mut take = |taken: bool| {
+        if taken {
+            hold.push(path.to_owned());
+        }
+    };
+    take(File::options().write(true).open(path).is_ok());
+    take(
+        File::options()
+            .read(true)
+            .open(path)
+            .is_ok_and(|file| !is_directory(&file)),
+    );
+    take(std::fs::write(path.join("made"), "").is_ok());
+    take(symlink("/etc/passwd", path.join("link")).is_ok());
+    take(std::fs::rename(path, path.with_extension("moved")).is_ok());
+    take(std::fs::remove_file(path).is_ok());
+    for entry in std::fs::read_dir(path).into_iter().flatten().flatten() {
+        hold.push(entry.path());
+        attack(&entry.path(), hold);
+    }
+}
+
+fn is_directory(file: &File) -> bool {
+    file.metadata().is_ok_and(|data| data.is_dir())
+}
+
+#[test]
+fn nothing_of_an_instance_is_ever_in_the_hands_of_another_user() {
+    if !is_root() {
+        return;
+    }
+    let instance = Instance::new();
+    open_to_all(instance.config.root.parent().unwrap());
+    let mut intruder = Peer::start_as(NOBODY, "intruder", &instance.config);
+    assert_eq!(intruder.says(), "looking");
+    let started = Instant::now();
+    let mut rounds = 0;
+    while started.elapsed() < Duration::from_secs(2) {
+        // Everything an instance has comes and goes.
+        let link = instance.connect();
+        let mut source = link.frame_source().unwrap();
+        let mut sink = link.frame_sink().unwrap();
+        let _ports = (
+            link.setpoint_sink().unwrap(),
+            link.setpoint_source().unwrap(),
+        );
+        let _status = (link.status_sink().unwrap(), link.status_source().unwrap());
+        let _commands = (
+            link.command_server().unwrap(),
+            link.command_client().unwrap(),
+        );
+        wait_for(|| (sink.offer(&frame(1)).unwrap() == Delivery::Delivered).then_some(()));
+        assert_eq!(take(&mut *source).sequence, 1);
+        rounds += 1;
+    }
+    assert!(rounds > 3, "{rounds}");
+    assert_eq!(intruder.says(), "0 ");
+}
+
+#[test]
+fn a_place_that_is_taken_is_named_and_not_touched() {
+    if !is_root() {
+        return;
+    }
+    let folder = tempfile::tempdir_in("/dev/shm").unwrap();
+    let victim = folder.path().join("victim");
+    std::fs::create_dir(&victim).unwrap();
+    open_to_all(&victim);
+    let squatted = folder.path().join("squatted");
+    std::fs::create_dir(&squatted).unwrap();
+    std::fs::set_permissions(&squatted, Permissions::from_mode(0o700)).unwrap();
+    std::os::unix::fs::chown(&squatted, Some(NOBODY), None).unwrap();
+    let linked = folder.path().join("linked");
+    symlink(&victim, &linked).unwrap();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "").unwrap();
+    // A directory on the way in which everybody may put another in its place.
+    let open = folder.path().join("open");
+    std::fs::create_dir(&open).unwrap();
+    std::fs::set_permissions(&open, Permissions::from_mode(0o777)).unwrap();
+    for (root, why) in [
+        (squatted, "user 65534"),
+        (linked, "a symbolic link"),
+        (file, "no directory"),
+        (open.join("link"), "others can replace"),
+    ] {
+        let config = LinkConfig {
+            instance: "squatted".to_owned(),
+            root,
+            capacity: CAPACITY,
+        };
+        let error = Ipc::connect(&config).unwrap_err();
+        assert!(matches!(error, LinkError::Root { .. }), "{error}");
+        let text = error.to_string();
+        assert!(text.contains(config.root.to_str().unwrap()), "{text}");
+        assert!(text.contains(why), "{text}");
+    }
+    assert_eq!(victim.metadata().unwrap().mode() & 0o777, 0o755);
+    assert_eq!(std::fs::read_dir(&victim).unwrap().count(), 0);
+}
