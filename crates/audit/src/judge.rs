@@ -1,9 +1,10 @@
-//! Verdicts that come with the matching: start, end, and feed.
+//! Verdicts that come with the matching: start, end, feed, and tremor.
 
 use crate::column::{EXACT_MM, Level, Passage, Reach};
 use crate::free_space::Interval;
 use crate::matching::{Goal, Matching, Spot};
 use crate::program::Presence;
+use crate::tremor::Place;
 use crate::violation::{ViolationKind, Worst};
 use glidepath_geometry::{AxisVector, feed_length};
 use glidepath_program::tolerance_norm;
@@ -123,6 +124,54 @@ impl Matching {
             let kind = ViolationKind::Feed { ratio };
             self.violations.push(spot.tick, spot.line, kind);
         }
+    }
+
+    /// Motion that the program does not ask for, at a sample that may be on the chords from `first`
+    /// on.
+    pub(crate) fn judge_tremor(
+        &mut self,
+        spot: &Spot,
+        ticks: u64,
+        rested_at: Option<AxisVector>,
+        first: usize,
+    ) {
+        let rows = (first..self.reach.end()).filter_map(|index| self.rows.get(index));
+        let mut rows = rows.peekable();
+        let (Some(&row), Some(column)) = (rows.peek().copied(), self.history.back()) else {
+            return;
+        };
+        if self.trouble.is_some() {
+            self.still.lose(spot.tick);
+            self.cruise.lose();
+            return;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a few")]
+        let elapsed_t = self.period_t * ticks as f64;
+        let mut place = Place {
+            tick: spot.tick,
+            line: spot.line,
+            position: spot.position,
+            ticks,
+            rested_at,
+            still: row.piece.still,
+            level: row.chord.from,
+            piece: Some(row.piece),
+            speed_v: feed_length(&column.chord.displacement()) / elapsed_t,
+            feed_v: row.feed_v,
+        };
+        let mut number = row.piece.number;
+        for row in rows {
+            if row.piece.number == number {
+                continue;
+            }
+            number = row.piece.number;
+            place.piece = None;
+            for (still, here) in place.still.iter_mut().zip(row.piece.still) {
+                *still &= here;
+            }
+        }
+        self.still.next(&place, &mut self.tremors);
+        self.cruise.next(&place, &mut self.tremors);
     }
 
     /// The fastest feed of some chords, mm/s; 0 if there are none.

@@ -14,7 +14,8 @@
 //! * exact stops, dwells, the programmed feed, and that the path was run to its end.
 //!
 //! Memory is bounded by how far the program is fed ahead of the samples; work is linear in both.
-//! What keeps a motion from being faster is told by [`diagnosis`], fed in the same way, and how
+//! Beside violations it tells of *tremors* ([`tremor`]): motion inside all limits that the program
+//! does not ask for. What keeps a motion from being faster is told by [`diagnosis`], fed in the same way, and how
 //! smooth it is by [`smoothness`].
 //!
 //! ```
@@ -44,11 +45,13 @@ mod free_space;
 mod judge;
 mod limits;
 mod matching;
+mod piece;
 mod program;
 mod report;
 mod sample;
 mod settings;
 pub mod smoothness;
+pub mod tremor;
 mod violation;
 mod widen;
 

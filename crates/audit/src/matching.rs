@@ -28,6 +28,7 @@ use crate::free_space::{Chord, Interval};
 use crate::program::{DiagramRows, Presence, SMALLEST_TOLERANCE_MM};
 use crate::sample::Seen;
 use crate::settings::AuditSettings;
+use crate::tremor::{Cruise, StillAxes};
 use crate::violation::{ViolationKind, ViolationList, Worst};
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
@@ -85,6 +86,9 @@ struct Waiting {
 pub(crate) struct Matching {
     pub(crate) rows: DiagramRows,
     pub(crate) violations: ViolationList,
+    pub(crate) still: StillAxes,
+    pub(crate) cruise: Cruise,
+    pub(crate) tremors: ViolationList,
     /// The deviation in mm, as `ratio`, and where it was met.
     pub(crate) max_deviation: Worst,
     pub(crate) max_feed: Worst,
@@ -125,6 +129,9 @@ impl Matching {
         Self {
             rows: DiagramRows::new(settings.tolerance_mm),
             violations: ViolationList::default(),
+            still: StillAxes::new(settings.period_t),
+            cruise: Cruise::new(settings),
+            tremors: ViolationList::default(),
             max_deviation: Worst::default(),
             max_feed: Worst::default(),
             is_complete: false,
@@ -201,6 +208,7 @@ impl Matching {
         self.rows.end();
         self.advance();
         if !self.is_lost {
+            self.still.finish(&mut self.tremors);
             self.judge_end();
         }
     }
@@ -291,10 +299,13 @@ impl Matching {
     /// What follows from a sample that was matched; `first` is the first chord it may have been on.
     fn commit(&mut self, waiting: &Waiting, first: usize) {
         let spot = &waiting.spot;
-        if let Some(at) = self.at.replace(spot.position) {
+        let from = self.at.replace(spot.position);
+        if let Some(at) = from {
             self.note_rest(at, waiting.rest_ticks);
         }
         self.judge_dwells(first, spot);
+        let rested_at = from.filter(|_| waiting.rest_ticks > 0);
+        self.judge_tremor(spot, waiting.ticks, rested_at, first);
         if self.trouble.is_some() {
             if self.count_within_tolerance(&self.reach, &spot.position) > 0 {
                 self.settle(Goal::WithinTolerance);

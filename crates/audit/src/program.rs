@@ -5,6 +5,7 @@
 //! is half the sagitta.
 
 use crate::free_space::Chord;
+use crate::piece::Piece;
 use glidepath_geometry::{Arc, AxisVector, Prepared, Segment, feed_length};
 use glidepath_program::{Item, ItemKind, PathMode, Rate};
 use std::collections::VecDeque;
@@ -64,6 +65,8 @@ pub(crate) struct DiagramRow {
     /// Feedrate, mm/s; infinite for a rapid.
     pub(crate) feed_v: f64,
     pub(crate) line: u32,
+    /// The move that it is of.
+    pub(crate) piece: Piece,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -80,6 +83,7 @@ struct Move {
     is_exact_path: bool,
     /// Chords it is made of.
     chords: u32,
+    piece: Piece,
     /// The next move has not been fed yet.
     is_open: bool,
 }
@@ -212,6 +216,7 @@ impl DiagramRows {
                 segment,
                 length: segment.length(),
                 chords: 1,
+                piece: Piece::new(self.moves, &segment),
                 exact_end: None,
                 dwell_t: 0.0,
                 is_open: false,
@@ -265,6 +270,7 @@ impl DiagramRows {
             dwell_t: 0.0,
             is_exact_path: mode == PathMode::ExactPath,
             chords: chords(segment, tolerance_mm),
+            piece: Piece::new(self.moves, segment),
             is_open: true,
         });
         self.corner_tolerance_mm = end_tolerance_mm;
@@ -317,6 +323,7 @@ impl DiagramRows {
                 dwell_t: if is_last { next.dwell_t } else { 0.0 },
                 feed_v: next.feed_v,
                 line: next.line,
+                piece: next.piece,
             });
             if is_last {
                 self.prepared = None;

@@ -3,6 +3,7 @@
 use crate::along::AlongAudit;
 use crate::limits::LimitAudit;
 use crate::matching::Matching;
+use crate::tremor::TREMORS_ARE_VIOLATIONS;
 use crate::violation::{KEPT_VIOLATIONS, Violation, Worst};
 use glidepath_geometry::AxisVector;
 
@@ -55,6 +56,11 @@ pub struct Report {
     pub violations: Vec<Violation>,
     /// All violations, kept or not.
     pub violation_count: u64,
+    /// The first tremors ([`crate::tremor`]), in the order of their ticks.
+    pub tremors: Vec<Violation>,
+    /// All tremors, kept or not. They count as violations only if
+    /// [`TREMORS_ARE_VIOLATIONS`](crate::tremor::TREMORS_ARE_VIOLATIONS).
+    pub tremor_count: u64,
 }
 
 impl Report {
@@ -68,6 +74,13 @@ impl Report {
         let mut violations = limits.violations.kept.clone();
         violations.extend_from_slice(&along.violations.kept);
         violations.extend_from_slice(&matching.violations.kept);
+        let mut tremors = matching.tremors.kept.clone();
+        tremors.sort_by_key(|tremor| tremor.tick);
+        let mut hard_tremors = 0;
+        if TREMORS_ARE_VIOLATIONS {
+            violations.extend_from_slice(&tremors);
+            hard_tremors = matching.tremors.count;
+        }
         violations.sort_by_key(|violation| violation.tick);
         violations.truncate(KEPT_VIOLATIONS);
         Self {
@@ -94,7 +107,10 @@ impl Report {
             violations,
             violation_count: limits.violations.count
                 + along.violations.count
-                + matching.violations.count,
+                + matching.violations.count
+                + hard_tremors,
+            tremors,
+            tremor_count: matching.tremors.count,
         }
     }
 }

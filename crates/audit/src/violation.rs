@@ -89,6 +89,22 @@ pub enum ViolationKind {
         /// By how much, s.
         missing_t: f64,
     },
+    /// An axis that the program leaves alone was not where it should rest: see [`crate::tremor`].
+    NotStill {
+        /// The axis.
+        axis: Axis,
+        /// Distance from the programmed coordinate, mm or degrees.
+        off_mm: f64,
+    },
+    /// Jerk that the path does not ask for, at constant feed: see [`crate::tremor`].
+    Unsteady {
+        /// The axis; the first one of the plane for both axes of an arc together.
+        axis: Axis,
+        /// How far its jerk is off that of the path, mm/s³ or °/s³.
+        over_j: f64,
+        /// How far it may be off.
+        allowed_j: f64,
+    },
     /// The motion left the path by so much that it could not be followed any more; what comes
     /// after is not checked for deviation.
     Lost,
@@ -156,6 +172,20 @@ impl fmt::Display for Violation {
                 write!(f, "exact stop missed by {deviation_mm:.6} mm")
             }
             ViolationKind::Dwell { missing_t } => write!(f, "dwell cut short by {missing_t:.6} s"),
+            ViolationKind::NotStill { axis, off_mm } => {
+                write!(
+                    f,
+                    "{axis} is left alone by the program and off by {off_mm:.3e}"
+                )
+            }
+            ViolationKind::Unsteady {
+                axis,
+                over_j,
+                allowed_j,
+            } => write!(
+                f,
+                "{axis} has jerk at constant feed that is {over_j:.1} off that of the path, where {allowed_j:.1} is allowed"
+            ),
             ViolationKind::Lost => write!(f, "the motion does not follow the program any more"),
             ViolationKind::Incomplete => write!(f, "the motion ends before the program does"),
         }

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 const PART: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/part.ngc");
+const MILL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mill.toml");
 const SQUARE: &str = "G21 G90\nG0 X1\nG1 X11 F3000\nY10\nX1\nY0\nG4 P0.1\nM2\n";
 
 fn glidepath(args: &[&str]) -> Output {
@@ -238,6 +239,25 @@ fn plan_reports_every_key_of_the_contract() {
         assert_eq!(cells[0], tick.to_string());
     }
     assert!(std::fs::read_to_string(svg).unwrap().starts_with("<svg"));
+}
+
+#[test]
+fn plan_tells_what_is_not_smooth() {
+    let folder = tempfile::tempdir().unwrap();
+    let config = std::fs::read_to_string(MILL).unwrap();
+    let fast = config.replace("effort = \"optimal\"", "effort = \"fast\"");
+    assert_ne!(config, fast);
+    let fast = file(folder.path(), "fast.toml", &fast);
+    let fast = fast.to_str().unwrap();
+    for config in [MILL, fast] {
+        let output = glidepath(&["plan", PART, "--json", "--config", config]);
+        assert_eq!(exit(&output), 0, "findings are no violations");
+        let report = object(&output);
+        let count = report["smoothness_finding_count"].as_u64().unwrap();
+        let told = report["smoothness_findings"].as_array().unwrap();
+        assert_eq!(told.len() as u64, count.min(20));
+        assert!(config == MILL || count == 0, "{told:?}");
+    }
 }
 
 #[test]

@@ -116,6 +116,20 @@ fn plan(
 }
 
 #[test]
+fn bench_programs_do_not_tremble_with_effort_fast() {
+    for (name, profile, ..) in BENCH {
+        let settings = Settings {
+            effort: Effort::Fast,
+            ..profile.settings(Smoothing::Auto)
+        };
+        let path = data(&format!("bench/{name}.ngc"));
+        let report = plan(&path, settings, Options::default(), |_| ())
+            .unwrap_or_else(|diagnostic| panic!("{name}: {diagnostic}"));
+        assert_eq!(report.tremor_count, 0, "{name}: {:?}", report.tremors);
+    }
+}
+
+#[test]
 fn bench_programs_keep_limits_and_tolerance_and_beat_stopping() {
     for (name, profile, stopping_t, optimal_t) in BENCH {
         let path = data(&format!("bench/{name}.ngc"));

@@ -5,13 +5,15 @@ use super::quantity::{grouped, seconds};
 use crate::config::{AxisConfig, MachineConfig};
 use crate::exit::Exit;
 use core::fmt::Write as _;
-use glidepath_audit::Report;
+use glidepath_audit::{Report, Violation};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Violations listed at most.
 pub(super) const SHOWN: usize = 20;
+/// Smoothness findings in the text; the object has [`SHOWN`].
+const FINDINGS_IN_TEXT: usize = 3;
 
 /// What planning a program took.
 #[derive(Debug, Clone, Copy, Default)]
@@ -64,6 +66,12 @@ pub struct MotionReport {
     pub violation_count: u64,
     /// The first of them.
     pub violations: Vec<String>,
+    /// Motion that the program does not ask for, inside all limits: samples of an axis that moves
+    /// though the program leaves it alone, or has jerk at constant feed that the path does not ask
+    /// for.
+    pub smoothness_finding_count: u64,
+    /// The first of them.
+    pub smoothness_findings: Vec<String>,
     /// Wall time of planning alone, s.
     pub plan_wall_s: f64,
     /// Segments planned in a second of wall time.
@@ -109,12 +117,9 @@ impl MotionReport {
             max_jerk_ratio: audit.max_jerk_ratio.ratio,
             max_feed_ratio: audit.max_feed_ratio.ratio,
             violation_count: audit.violation_count,
-            violations: audit
-                .violations
-                .iter()
-                .take(SHOWN)
-                .map(ToString::to_string)
-                .collect(),
+            violations: shown(&audit.violations),
+            smoothness_finding_count: audit.tremor_count,
+            smoothness_findings: shown(&audit.tremors),
             plan_wall_s: planning.plan_wall_s,
             segments_per_s: segments / planning.plan_wall_s.max(1e-9),
             peak_rss_bytes: planning.peak_rss_bytes,
@@ -176,6 +181,16 @@ impl MotionReport {
         writeln!(text, "  end position  {}", end.join("  "))?;
         if let Some(diagnosis) = &self.diagnosis {
             text.push_str(&diagnosis.text());
+        }
+        if self.smoothness_finding_count > 0 {
+            writeln!(
+                text,
+                "  not smooth    {} findings, the first:",
+                grouped(self.smoothness_finding_count)
+            )?;
+        }
+        for finding in self.smoothness_findings.iter().take(FINDINGS_IN_TEXT) {
+            writeln!(text, "    {finding}")?;
         }
         if self.violation_count > 0 {
             writeln!(
@@ -248,6 +263,11 @@ impl MotionReport {
             percent(self.max_jerk_ratio)
         )
     }
+}
+
+fn shown(violations: &[Violation]) -> Vec<String> {
+    let shown = violations.iter().take(SHOWN);
+    shown.map(ToString::to_string).collect()
 }
 
 fn percent(ratio: f64) -> String {

@@ -10,8 +10,8 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 const HEAD: &str = "\
-| program | machine | tolerance mm | period ms | optimal s | fast s | stop s | /tube | /exact | /least stop | fast/tube | /least stop | /fast | /stop | violations | jerk optimal | fast | jerk at feed optimal | fast | ringing at feed optimal | fast | reversals at feed optimal | fast | deviation µm | cpu % optimal | fast | longest call ms |
-|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
+| program | machine | tolerance mm | period ms | optimal s | fast s | stop s | /tube | /exact | /least stop | fast/tube | /least stop | /fast | /stop | violations | tremors | jerk optimal | fast | jerk at feed optimal | fast | ringing at feed optimal | fast | reversals at feed optimal | fast | deviation µm | cpu % optimal | fast | longest call ms |
+|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
 
 /// A program with what is known of it.
 struct Bench {
@@ -71,6 +71,8 @@ struct Sums {
     /// Slower than the least time with a rest at every junction: optimal, fast, stops.
     above_least_stop: [u32; 3],
     violations: u64,
+    /// Tremors: optimal, fast, stops.
+    tremors: [u64; 3],
     failed: u32,
 }
 
@@ -89,13 +91,14 @@ fn row(bench: &Bench, setup: &Setup, trial: &Trial) -> String {
     };
     let known = references(bench, setup);
     let violations = Way::ALL.map(|way| trial.plan(way).violations().to_string());
+    let tremors = Way::ALL.map(|way| trial.plan(way).tremors().to_string());
     let reversals = |together: &Together| {
         #[allow(clippy::cast_precision_loss, reason = "thousands")]
         let count = together.reversals as f64;
         count
     };
     format!(
-        "| {} | {} | {} | {} | {:.3} | {:.3} | {:.3} | {} | {} | {} | {} | {} | {:.3} | {:.3} | {} | {} | {} | {} | {} | {:.1} | {:.1} | {:.1} | {:.1} |",
+        "| {} | {} | {} | {} | {:.3} | {:.3} | {:.3} | {} | {} | {} | {} | {} | {:.3} | {:.3} | {} | {} | {} | {} | {} | {} | {:.1} | {:.1} | {:.1} | {:.1} |",
         bench.name,
         setup.machine.name,
         setup.tolerance_mm(),
@@ -111,6 +114,7 @@ fn row(bench: &Bench, setup: &Setup, trial: &Trial) -> String {
         trial.ratio(Way::Optimal, Way::Fast),
         trial.ratio(Way::Optimal, Way::Stop),
         violations.join("/"),
+        tremors.join("/"),
         both(|figures| figures.jerk_j, whole),
         both(|figures| figures.jerk_j, at_feed),
         both(|figures| figures.ringing_a, at_feed),
@@ -150,6 +154,9 @@ impl Sums {
         self.fast_slower += u32::from(trial.is_slower(Way::Fast, Way::Stop));
         let violations = Way::ALL.map(|way| trial.plan(way).violations());
         self.violations += violations.iter().sum::<u64>();
+        for (tremors, way) in self.tremors.iter_mut().zip(Way::ALL) {
+            *tremors += trial.plan(way).tremors();
+        }
     }
 
     fn print(&self) {
@@ -177,6 +184,8 @@ impl Sums {
         println!(
             "slower than the least time with stops: optimal {optimal}, fast {fast}, stop {stop}"
         );
+        let [optimal, fast, stop] = self.tremors;
+        println!("tremors: optimal {optimal}, fast {fast}, stop {stop}");
         println!(
             "violations: {}; not planned: {}",
             self.violations, self.failed

@@ -21,6 +21,7 @@ struct Sums {
     programs: u32,
     failed: u32,
     violations: [u32; 3],
+    tremors: [u32; 3],
     slower: [u32; 2],
     fast_slower: u32,
     fast: Figures,
@@ -36,6 +37,9 @@ impl Sums {
     fn add(&mut self, drawn: &Drawn, setup: &Setup, trial: &Trial) {
         for (violations, way) in self.violations.iter_mut().zip(Way::ALL) {
             *violations += u32::from(trial.plan(way).violations() > 0);
+        }
+        for (tremors, way) in self.tremors.iter_mut().zip(Way::ALL) {
+            *tremors += u32::from(trial.plan(way).tremors() > 0);
         }
         for (slower, rival) in self.slower.iter_mut().zip([Way::Fast, Way::Stop]) {
             *slower += u32::from(trial.is_slower(Way::Optimal, rival));
@@ -72,8 +76,9 @@ impl Sums {
             format!("{} | {}", shown(optimal, decimals), shown(fast, decimals))
         };
         let violations = self.violations.map(|count| count.to_string()).join("/");
+        let tremors = self.tremors.map(|count| count.to_string()).join("/");
         format!(
-            "| {name} | {machine} | {} | {} | {violations} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            "| {name} | {machine} | {} | {} | {violations} | {tremors} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
             self.programs,
             self.failed,
             self.slower[0],
@@ -93,8 +98,8 @@ impl Sums {
 }
 
 const HEAD: &str = "\
-| family | machine | programs | not planned | with violations optimal/fast/stop | slower than fast | than stop | fast slower than stop | optimal/fast median | worst | optimal/stop median | worst | optimal/circle median | worst | fast/circle median | worst | jerk at feed optimal | fast | ringing at feed optimal | fast | cpu % optimal | fast | worst optimal | longest call ms |
-|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
+| family | machine | programs | not planned | with violations optimal/fast/stop | with tremors | slower than fast | than stop | fast slower than stop | optimal/fast median | worst | optimal/stop median | worst | optimal/circle median | worst | fast/circle median | worst | jerk at feed optimal | fast | ringing at feed optimal | fast | cpu % optimal | fast | worst optimal | longest call ms |
+|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|";
 
 /// The time that a program of nothing but a circle takes, by the closed form, s.
 fn circle_t(drawn: &Drawn, setup: &Setup) -> Option<f64> {

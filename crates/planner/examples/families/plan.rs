@@ -157,6 +157,11 @@ impl Plan {
             .max(u64::from(!self.report.is_complete))
     }
 
+    /// Motion that the program does not ask for, inside all limits.
+    pub(crate) const fn tremors(&self) -> u64 {
+        self.report.tremor_count
+    }
+
     /// Processor time of planning, as a share of the time of the motion.
     pub(crate) fn load_r(&self) -> f64 {
         self.spent.as_secs_f64() / self.time_t().max(1e-9)

@@ -110,6 +110,8 @@ impl Trial {
             let figures = json!({
                 "time_s": plan.time_t(),
                 "violations": plan.violations(),
+                "tremors": plan.tremors(),
+                "first_tremors": plan.report.tremors.iter().take(3).map(ToString::to_string).collect::<Vec<_>>(),
                 "max_deviation_mm": plan.report.max_deviation_mm,
                 "smoothness": smoothness(self.whole(way)),
                 "smoothness_at_feed": smoothness(self.at_feed(way)),

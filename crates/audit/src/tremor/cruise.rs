@@ -1,0 +1,171 @@
+//! At constant feed on a line or an arc, there is no jerk but that of the piece.
+
+use super::place::Place;
+use super::settling::settling_ticks;
+use crate::piece::{Piece, Shape};
+use crate::settings::AuditSettings;
+use crate::violation::{ViolationKind, ViolationList};
+use glidepath_geometry::{Axis, AxisVector};
+use std::collections::VecDeque;
+
+/// Speed counts as the feed if it is off by no more than this share.
+const FEED_R: f64 = 0.05;
+/// How far jerk may be off that of the piece, as a share of it.
+const PIECE_SLACK_R: f64 = 0.1;
+/// How far in addition, as a share of the limit of the axis.
+const LIMIT_SLACK_R: f64 = 0.01;
+
+/// A cruise under way.
+#[derive(Debug)]
+pub(crate) struct Cruise {
+    settings: AuditSettings,
+    run: Option<Run>,
+}
+
+/// Samples in a row on one piece, at its feed.
+#[derive(Debug)]
+struct Run {
+    piece: Piece,
+    feed_v: f64,
+    began: u64,
+    settling_ticks: u64,
+    /// The last positions, newest first; only the first `known` count.
+    recent: [AxisVector; 3],
+    known: usize,
+    /// Too much jerk, as long as it is open whether the run goes on for the settling time.
+    open: VecDeque<Jerk>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Jerk {
+    tick: u64,
+    line: u32,
+    kind: ViolationKind,
+}
+
+impl Cruise {
+    pub(crate) const fn new(settings: &AuditSettings) -> Self {
+        Self {
+            settings: *settings,
+            run: None,
+        }
+    }
+
+    /// The next sample.
+    pub(crate) fn next(&mut self, place: &Place, found: &mut ViolationList) {
+        let Some(piece) = place.piece.filter(|_| is_cruising(place)) else {
+            self.run = None;
+            return;
+        };
+        #[allow(clippy::float_cmp, reason = "the feed of a piece is one number")]
+        let goes_on = self.run.as_ref().is_some_and(|run| {
+            run.piece.number == piece.number && run.feed_v == place.feed_v && place.ticks == 1
+        });
+        if !goes_on {
+            self.run = Some(self.begin(place, piece));
+        }
+        let Some(run) = &mut self.run else {
+            return;
+        };
+        if run.known == run.recent.len() && place.tick - run.began >= run.settling_ticks {
+            let [p1, p2, p3] = run.recent;
+            let third = place.position - 3.0 * (p1 - p2) - p3;
+            let jerk = third / self.settings.period_t.powi(3);
+            judge(run, place, &jerk, &self.settings);
+        }
+        let [p1, p2, _] = run.recent;
+        run.recent = [place.position, p1, p2];
+        run.known = (run.known + 1).min(run.recent.len());
+        let settled = place.tick.saturating_sub(run.settling_ticks);
+        while let Some(jerk) = run.open.front().copied().filter(|jerk| jerk.tick < settled) {
+            found.push(jerk.tick, jerk.line, jerk.kind);
+            run.open.pop_front();
+        }
+    }
+
+    /// Where the motion is on the program is not known any more.
+    pub(crate) fn lose(&mut self) {
+        self.run = None;
+    }
+
+    fn begin(&self, place: &Place, piece: Piece) -> Run {
+        // From the edge of the band the feed is reached with the acceleration and the jerk of the
+        // slowest axis; twice that time is left to a motion that uses less of them.
+        let limits = &self.settings.limits;
+        let mut slowest = [limits.path.tangential_a, limits.path.jerk_j];
+        for axis in (0..piece.still.len()).filter(|&axis| !piece.still[axis]) {
+            slowest[0] = slowest[0].min(limits.acceleration[axis]);
+            slowest[1] = slowest[1].min(limits.jerk[axis]);
+        }
+        let lacking_v = FEED_R * place.feed_v;
+        let ramp_t = lacking_v / slowest[0] + (2.0 * lacking_v / slowest[1]).sqrt();
+        Run {
+            piece,
+            feed_v: place.feed_v,
+            began: place.tick,
+            settling_ticks: settling_ticks(self.settings.period_t, 2.0 * ramp_t),
+            recent: [AxisVector::zeros(); 3],
+            known: 0,
+            open: VecDeque::new(),
+        }
+    }
+}
+
+/// True if the speed is the programmed feed.
+fn is_cruising(place: &Place) -> bool {
+    // A rapid has no feed, and what jumps may be infinitely fast.
+    place.feed_v.is_finite() && (place.speed_v - place.feed_v).abs() <= FEED_R * place.feed_v
+}
+
+/// Keeps what there is too much of jerk at a sample: of the pair of axes of an arc together, of any
+/// other axis by itself.
+fn judge(run: &mut Run, place: &Place, jerk: &AxisVector, settings: &AuditSettings) {
+    let limit_j = &settings.limits.jerk;
+    let mut round = None;
+    if let Shape::Arc { plane, center } = run.piece.shape {
+        let (first, second) = plane.axes();
+        let pair = |of: &AxisVector| [of[first.index()], of[second.index()]];
+        // A third difference belongs to the middle of its four positions.
+        let [p1, p2, _] = run.recent;
+        let (later, earlier) = (pair(&p1), pair(&p2));
+        let way = [later[0] - earlier[0], later[1] - earlier[1]];
+        let way_mm = way[0].hypot(way[1]);
+        let from_center = |i: usize| 0.5 * (later[i] + earlier[i]) - center[i];
+        let radius_mm = from_center(0).hypot(from_center(1));
+        if way_mm <= 0.0 || radius_mm <= 0.0 {
+            return;
+        }
+        // The jerk of a circle is against its direction.
+        let piece_j = (way_mm / settings.period_t).powi(3) / (radius_mm * radius_mm);
+        let jerk = pair(jerk);
+        let over = |i: usize| jerk[i] + piece_j * way[i] / way_mm;
+        let slack_j = LIMIT_SLACK_R * limit_j[first.index()].min(limit_j[second.index()]);
+        let allowed_j = PIECE_SLACK_R * piece_j + slack_j;
+        run.keep(place, first, over(0).hypot(over(1)), allowed_j);
+        round = Some((first, second));
+    }
+    for axis in Axis::ALL {
+        let is_round = round.is_some_and(|(first, second)| axis == first || axis == second);
+        if !is_round {
+            let i = axis.index();
+            run.keep(place, axis, jerk[i].abs(), LIMIT_SLACK_R * limit_j[i]);
+        }
+    }
+}
+
+impl Run {
+    fn keep(&mut self, place: &Place, axis: Axis, over_j: f64, allowed_j: f64) {
+        if over_j > allowed_j {
+            let kind = ViolationKind::Unsteady {
+                axis,
+                over_j,
+                allowed_j,
+            };
+            self.open.push_back(Jerk {
+                tick: place.tick,
+                line: place.line,
+                kind,
+            });
+        }
+    }
+}

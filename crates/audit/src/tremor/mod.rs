@@ -1,0 +1,33 @@
+//! Tremor: motion that the program does not ask for, inside all limits and tolerances.
+//!
+//! Two rules, judged from positions alone, with the program matched to them:
+//!
+//! 1. **An axis that the program leaves alone is still** (`still`). Where consecutive moves keep a
+//!    coordinate of an axis exactly constant, every sample has that coordinate, to
+//!    [`STILL_MM`]. The settling time ([`SETTLING_T`], at least [`SETTLING_PERIODS`]) before and
+//!    after moves that do change it is left out: the motion may round the corner to them. Longer
+//!    roundings may be as long as they like, if the axis leaves its coordinate but once: before
+//!    such a move every sample is further off than the one before, after it nearer. A rest of the
+//!    machine at the coordinate ends what came before it.
+//! 2. **A cruise has no jerk but that of the path** (`cruise`). On a line or an arc, where the speed
+//!    has been the programmed feed, to a twentieth, for the settling time and the time to reach it,
+//!    and will be, third differences are off what the piece asks for by at most a tenth of that and
+//!    a hundredth of the limit of the axis. What an arc asks for is v³/R² against its direction,
+//!    with the radius and the speed at which it is run: it may be cut within its tolerance.
+//!
+//! What breaks them is told as [`Report::tremors`](crate::Report::tremors), and is no violation as
+//! long as [`TREMORS_ARE_VIOLATIONS`] is false.
+
+mod cruise;
+mod place;
+mod settling;
+mod still;
+
+pub(crate) use cruise::Cruise;
+pub(crate) use place::Place;
+pub use settling::{SETTLING_PERIODS, SETTLING_T};
+pub use still::STILL_MM;
+pub(crate) use still::StillAxes;
+
+/// Whether what breaks the rules of tremor counts as a violation, too.
+pub const TREMORS_ARE_VIOLATIONS: bool = false;
