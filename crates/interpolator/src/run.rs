@@ -60,12 +60,22 @@ pub fn run(
             .map_err(|_| RunError::Thread("real-time"))?;
         if let Ok((origin_ns, grants)) = told.recv() {
             let lives = || !thread.is_finished();
+            // Also if this thread panics, in a transport whose memory was overwritten: nobody gets
+            // setpoints any more, and a process that lives on for nothing cannot be restarted.
+            let _end = SetOnDrop(ended);
             serve(config, &mut ports, origin_ns, &grants, stop, &lives);
-            ended.store(true, Ordering::Relaxed);
         }
         thread.join().map_err(|_| RunError::Thread("real-time"))??;
         Ok(*ports.status())
     })
+}
+
+struct SetOnDrop<'a>(&'a AtomicBool);
+
+impl Drop for SetOnDrop<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
 }
 
 /// The real-time thread from its set-up to its end. It tells the origin of the grid and what it was

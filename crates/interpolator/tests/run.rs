@@ -6,6 +6,7 @@
     clippy::cast_sign_loss,
     clippy::cast_possible_wrap,
     clippy::float_cmp,
+    clippy::panic,
     unreachable_pub,
     reason = "a test: numbers are small, bits are compared on purpose, failures are panics"
 )]
@@ -344,4 +345,28 @@ fn the_real_time_thread_makes_no_system_call() {
         // The guarded thread sleeps on, so `run` would not return.
         std::process::exit(42);
     });
+}
+
+#[test]
+fn a_ports_thread_that_panics_ends_the_interpolator() {
+    let link = InProcess::default();
+    let mut frames = link.frame_sink().unwrap();
+    let thread = std::thread::spawn(move || {
+        // The log is called by the ports thread, in its turn.
+        let mut log = |line: &str| panic!("meant to fail: {line}");
+        run(
+            &config(),
+            || Ok(Box::new(link)),
+            &AtomicBool::new(false),
+            &mut log,
+        )
+    });
+    let first = trajectory(3, 300, 1, AxisVector::zeros())[0];
+    let started = Instant::now();
+    while !thread.is_finished() {
+        let _taken = frames.offer(&first);
+        assert!(started.elapsed() < PATIENCE, "it lives on for nothing");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert!(thread.join().is_err());
 }
