@@ -79,6 +79,8 @@ fn begin(path: &Path, effort: Effort) -> Result<[Duration; 3], Box<dyn Error>> {
 /// From the start until the first frame is in the queue of an interpolator.
 fn publish(path: &Path, effort: Effort) -> Result<Duration, Box<dyn Error>> {
     let transport = InProcess::default();
+    // The interpolator's end of the queue.
+    let _frames = transport.frame_source()?;
     let sink = transport.status_sink()?;
     let (sink, mut status): (_, Status) = (RefCell::new(sink), bytemuck::Zeroable::zeroed());
     (status.period_ns, status.state) = (PERIOD_NS, MachineState::Idle.code());
