@@ -121,17 +121,23 @@ impl Process {
 
     /// Waits for its end.
     #[must_use]
-    pub fn wait(mut self) -> Output {
+    pub fn wait(self) -> Output {
+        self.wait_for(PATIENCE)
+    }
+
+    /// Waits for its end, which may take so long.
+    #[must_use]
+    pub fn wait_for(mut self, patience: Duration) -> Output {
         drop(self.child.stdin.take());
         let begun = Instant::now();
         let status = loop {
             if let Some(status) = self.child.try_wait().unwrap() {
                 break status;
             }
-            if begun.elapsed() > PATIENCE {
+            if begun.elapsed() > patience {
                 self.child.kill().unwrap();
                 let (_, stdout, stderr) = (self.child.wait(), self.stdout(), self.stderr());
-                panic!("no end after {PATIENCE:?}:\n{stdout}\n{stderr}");
+                panic!("no end after {patience:?}:\n{stdout}\n{stderr}");
             }
             std::thread::sleep(POLL);
         };
