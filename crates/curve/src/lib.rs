@@ -53,6 +53,7 @@ mod laps;
 mod nurbs_file;
 pub mod parametric;
 pub mod published;
+mod range;
 mod rule;
 mod sagitta;
 

@@ -11,6 +11,7 @@ use crate::execute::program::Program;
 use crate::setup::options::Options;
 use crate::summary::survey::Survey;
 use crate::summary::totals::Totals;
+use crate::syntax::dialect::Dialect;
 
 /// What [`check`] found.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +24,9 @@ pub struct Report {
     /// than [`crate::LoopLimits::checked_lines`]. What the program does from there on is not
     /// judged, and counts and sums are of what was. `None`: everything is.
     pub given_up_at: Option<u32>,
+    /// The text ends before the program does, which M2, M30 or a percent line would end: its last
+    /// part may be missing. It runs all the same.
+    pub lacks_end: bool,
     /// Counts and sums over the blocks without diagnostics.
     pub totals: Totals,
     /// What was seen along the path.
@@ -62,6 +66,8 @@ pub struct Diagnostics {
     pub more: u32,
     /// As [`Report::given_up_at`].
     pub given_up_at: Option<u32>,
+    /// As [`Report::lacks_end`].
+    pub lacks_end: bool,
     /// Lines read, as [`Totals::lines`].
     pub lines: u32,
 }
@@ -79,6 +85,7 @@ pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
         diagnostics: found.diagnostics,
         more: found.more,
         given_up_at: found.given_up_at,
+        lacks_end: found.lacks_end,
         totals: *program.totals(),
         survey,
         final_position: *program.position(),
@@ -109,6 +116,9 @@ fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> Dia
             None => break,
         }
     }
+    // Programs of printers just end.
+    let may_just_end = program.interpreter.options.dialect == Dialect::Marlin;
+    found.lacks_end = program.ran_out && !may_just_end;
     found.lines = program.totals().lines;
     found
 }

@@ -8,15 +8,18 @@
 
 use crate::file_error::FileError;
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, IsTerminal as _, Read};
 use std::os::fd::AsRawFd as _;
-use std::os::unix::fs::FileTypeExt as _;
+use std::os::unix::fs::{FileTypeExt as _, MetadataExt as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 /// The most that is kept of a pipe, bytes: a program of some hundred million lines. An endless one
 /// must not fill the disk.
 const MOST_BYTES: u64 = 4 << 30;
+
+/// The number of /dev/null, which is a program without blocks.
+const NOTHING: u64 = (1 << 8) | 3;
 
 /// A program as it is named on the command line; [`ProgramFile::open`] comes before
 /// [`ProgramFile::path`].
@@ -74,10 +77,20 @@ impl ProgramFile {
     /// The pipe cannot be read, or its text not be kept. A file that does not exist is no error
     /// here, but where it is opened to be read.
     pub fn open(&self) -> Result<(), FileError> {
+        // What cannot be looked at is told where it is opened to be read.
+        let there = self.name.metadata().ok();
+        let is_device = there.as_ref().is_some_and(|there| {
+            let kind = there.file_type();
+            kind.is_block_device() || (kind.is_char_device() && there.rdev() != NOTHING)
+        });
+        let is_terminal = is_device && File::open(&self.name).is_ok_and(|file| file.is_terminal());
+        if is_device && !is_terminal {
+            let error = io::Error::new(io::ErrorKind::InvalidInput, "it is a device, no program");
+            return Err(FileError::open(&self.name)(error));
+        }
         let is_pipe = || {
-            // What cannot be looked at is told where it is opened to be read.
-            let kind = self.name.metadata().map(|file| file.file_type());
-            kind.is_ok_and(|kind| kind.is_fifo() || kind.is_socket())
+            let kind = there.map(|there| there.file_type());
+            is_terminal || kind.is_some_and(|kind| kind.is_fifo() || kind.is_socket())
         };
         if self.kept.get().is_some() || !(self.is_standard_input() || is_pipe()) {
             return Ok(());

@@ -13,8 +13,8 @@ use crate::{CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Supply
 /// Bytes read from a file at a time.
 const BUFFER: usize = 64 * 1024;
 
-/// Largest curve file, bytes.
-const MOST_BYTES: u64 = 64 << 20;
+/// Largest curve file, bytes: a hundred thousand control points.
+const MOST_BYTES: u64 = 4 << 20;
 
 /// Items of a file: G-code, or a curve if the name ends in `.toml` or `.json`.
 #[derive(Debug)]
@@ -48,13 +48,16 @@ impl FileSource {
         if !is_curve(path) {
             return Ok(Self::Program(Box::new(ProgramSource::open(path, options)?)));
         }
-        // A curve ends, so that all of it is checked.
         let report = check_file(path, options.clone(), settings, &mut |_| {})?;
         if !report.diagnostics.is_empty() {
             return Err(Refusal::Program {
                 diagnostics: report.diagnostics,
                 unlisted: report.more,
             });
+        }
+        let may_run = options.loops.may_run_unchecked;
+        if let Some(line) = report.given_up_at.filter(|_| !may_run) {
+            return Err(Refusal::Unchecked { line });
         }
         Self::unchecked(path, options, settings)
     }
@@ -64,7 +67,7 @@ impl FileSource {
         let file = File::open(path)?;
         file.take(MOST_BYTES + 1).read_to_string(&mut text)?;
         if text.len() as u64 > MOST_BYTES {
-            let message = "a curve file has at most 64 MiB";
+            let message = "a curve file has at most 4 MiB";
             return Err(io::Error::new(io::ErrorKind::InvalidData, message).into());
         }
         let refuse = |diagnostics| Refusal::Program {
@@ -139,6 +142,7 @@ pub fn check_file(
             diagnostics,
             more: 0,
             given_up_at: None,
+            lacks_end: false,
             totals: glidepath_gcode::Totals::default(),
             survey: glidepath_gcode::Survey::default(),
             final_position,
@@ -165,6 +169,7 @@ pub fn find_in_file(
         diagnostics: report.diagnostics,
         more: report.more,
         given_up_at: report.given_up_at,
+        lacks_end: report.lacks_end,
         lines: report.totals.lines,
     })
 }

@@ -10,6 +10,18 @@ use crate::{Refusal, Supply};
 /// An item, the end of the curve, or what is wrong with it.
 pub(crate) type Next = Result<Option<Item>, Box<Diagnostic>>;
 
+/// Most moves of a curve that are checked: some seconds' work.
+const MOST_MOVES: u32 = 2_000_000;
+
+/// What a check found along a curve.
+#[derive(Debug, Default)]
+pub(crate) struct Surveyed {
+    survey: Survey,
+    diagnostics: Vec<Diagnostic>,
+    /// There were more moves than are checked.
+    gave_up: bool,
+}
+
 /// Moves that all come from the same place of a file.
 #[derive(Debug)]
 pub(crate) struct FileMoves {
@@ -103,28 +115,35 @@ impl FileMoves {
     }
 
     /// What a check found.
-    pub(crate) fn into_report(self, (survey, diagnostics): (Survey, Vec<Diagnostic>)) -> Report {
+    pub(crate) fn into_report(self, found: Surveyed) -> Report {
         Report {
-            diagnostics,
+            diagnostics: found.diagnostics,
             more: 0,
-            given_up_at: None,
+            lacks_end: false,
+            given_up_at: found.gave_up.then_some(self.line),
             totals: self.totals,
-            survey,
+            survey: found.survey,
             final_position: self.position,
         }
     }
 }
 
-/// Goes through a whole curve without motion, up to its first diagnostic.
-pub(crate) fn survey(mut next: impl FnMut() -> Next) -> (Survey, Vec<Diagnostic>) {
-    let mut survey = Survey::default();
-    loop {
+/// Goes through a curve without motion, up to its first diagnostic, or for as long as a check may
+/// take.
+pub(crate) fn survey(mut next: impl FnMut() -> Next) -> Surveyed {
+    let mut found = Surveyed::default();
+    for _ in 0..MOST_MOVES {
         match next() {
-            Ok(Some(item)) => survey.add(&item),
-            Ok(None) => return (survey, Vec::new()),
-            Err(diagnostic) => return (survey, vec![*diagnostic]),
+            Ok(Some(item)) => found.survey.add(&item),
+            Ok(None) => return found,
+            Err(diagnostic) => {
+                found.diagnostics.push(*diagnostic);
+                return found;
+            }
         }
     }
+    found.gave_up = true;
+    found
 }
 
 /// What a planner is given.

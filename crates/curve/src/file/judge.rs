@@ -4,6 +4,7 @@ use super::curve_file::{CurveFile, Shape};
 use super::diagnostic::FileDiagnostic;
 use super::raw::{Key, Number, Raw, RawEnd};
 use crate::implicit::End;
+use crate::range::{CHORD_MM, FEED_MM_MIN, Range as NumberRange, TOLERANCE_MM};
 use crate::{Expression, ExpressionError, ImplicitCurve, ParametricCurve};
 use core::ops::Range;
 use nalgebra::Vector3;
@@ -23,21 +24,17 @@ pub(super) fn judge(raw: Raw) -> Result<CurveFile, Vec<FileDiagnostic>> {
         diagnostics: Vec::new(),
         kind_at: raw.kind.span(),
     };
-    let positive = |judge: &mut Judge, key: &str, value: &Key<f64>, unit: &str| {
+    let within = |judge: &mut Judge, key: &str, value: &Key<f64>, range: &NumberRange| {
         let value = value.as_ref()?;
         let number = *value.as_ref();
-        if !(number > 0.0 && number.is_finite()) {
-            judge.find(
-                value.span(),
-                format!("{key} = {number} {unit} is out of range"),
-                "give a number greater than zero",
-            );
+        if let Some((message, help)) = range.refusal(key, number) {
+            judge.find(value.span(), message, &help);
         }
         Some(number)
     };
-    let feed_mm_min = positive(&mut judge, "feed", &raw.feed, "mm/min");
-    let tolerance_mm = positive(&mut judge, "tolerance", &raw.tolerance, "mm");
-    let chord_mm = positive(&mut judge, "chord", &raw.chord, "mm");
+    let feed_mm_min = within(&mut judge, "feed", &raw.feed, &FEED_MM_MIN);
+    let tolerance_mm = within(&mut judge, "tolerance", &raw.tolerance, &TOLERANCE_MM);
+    let chord_mm = within(&mut judge, "chord", &raw.chord, &CHORD_MM);
     let laps = judge.laps(raw.laps.as_ref());
     let name = raw.name.clone();
     let laps_at = raw.laps.as_ref().map(Spanned::span);

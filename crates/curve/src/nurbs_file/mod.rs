@@ -19,6 +19,7 @@ mod place;
 mod raw;
 
 use crate::FileDiagnostic;
+use crate::range::{FEED_MM_MIN, TOLERANCE_MM};
 use core::ops::Range;
 use glidepath_geometry::{AXES, AxisVector, Nurbs, NurbsError};
 use place::place;
@@ -80,22 +81,13 @@ fn judge(text: &str) -> Result<NurbsFile, Box<FileDiagnostic>> {
             "convert the coordinates to mm",
         ));
     }
-    if let Some(feed) = raw.feed.filter(|feed| !(*feed > 0.0 && feed.is_finite())) {
-        let message = format!("a feed of {feed} mm/min moves nothing");
-        return Err(fault(
-            "feed",
-            None,
-            message,
-            "give a number greater than zero",
-        ));
-    }
-    if let Some(tolerance) = raw.tolerance.filter(|t| !(*t > 0.0 && t.is_finite())) {
-        return Err(fault(
-            "tolerance",
-            None,
-            format!("a tolerance of {tolerance} mm allows nothing"),
-            "give a number greater than zero",
-        ));
+    for (key, value, range) in [
+        ("feed", raw.feed, &FEED_MM_MIN),
+        ("tolerance", raw.tolerance, &TOLERANCE_MM),
+    ] {
+        if let Some((message, help)) = value.and_then(|value| range.refusal(key, value)) {
+            return Err(fault(key, None, message, &help));
+        }
     }
     let points = points(&raw).map_err(|(index, message)| {
         let help =
@@ -171,6 +163,26 @@ const fn remedy(error: &NurbsError) -> (&'static str, Option<usize>, &'static st
             "weights",
             Some(*index),
             "give a positive weight: the larger, the nearer the curve to its point",
+        ),
+        NurbsError::FarPoint { index } => (
+            "control_points",
+            Some(*index),
+            "give coordinates of -1000000 to 1000000 mm",
+        ),
+        NurbsError::WeightRange { index, .. } => (
+            "weights",
+            Some(*index),
+            "multiply all weights by the same number: that does not change the curve",
+        ),
+        NurbsError::KnotRange { index, .. } => (
+            "knots",
+            Some(*index),
+            "multiply all knots by the same number: that does not change the curve",
+        ),
+        NurbsError::ShortDomain { .. } => (
+            "knots",
+            None,
+            "multiply all knots by the same number: that does not change the curve",
         ),
         NurbsError::KnotOrder { index, .. } => ("knots", Some(*index), "sort the knots"),
         NurbsError::KnotMultiplicity { .. } => (

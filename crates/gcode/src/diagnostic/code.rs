@@ -18,6 +18,8 @@ pub enum DiagnosticCode {
     WrongEncoding,
     /// A line is longer than the largest length accepted.
     LineTooLong,
+    /// A line so long that its end is not looked for.
+    EndlessLine,
     /// A NUL byte in the text.
     NulByte,
     /// A character outside ASCII, not in a comment.
@@ -141,6 +143,7 @@ impl DiagnosticCode {
             Self::Joint => "joint",
             Self::WrongEncoding => "wrong-encoding",
             Self::LineTooLong => "line-too-long",
+            Self::EndlessLine => "endless-line",
             Self::NulByte => "nul-byte",
             Self::NonAsciiCharacter => "non-ascii-character",
             Self::BadCharacter => "bad-character",
@@ -202,7 +205,10 @@ impl DiagnosticCode {
     /// True if nothing after the diagnostic can be understood, so that reading ends there.
     #[must_use]
     pub const fn is_fatal(self) -> bool {
-        matches!(self, Self::ReadFailed | Self::WrongEncoding)
+        matches!(
+            self,
+            Self::ReadFailed | Self::WrongEncoding | Self::EndlessLine
+        )
     }
 }
 

@@ -56,6 +56,8 @@ pub struct Program<R> {
     /// A line with words was read.
     pub(crate) begun: bool,
     pub(crate) ended: bool,
+    /// The input ended, and not the program: it has no M2, M30 or percent line at its end.
+    pub(crate) ran_out: bool,
 }
 
 impl<R: BufRead> Program<R> {
@@ -81,6 +83,7 @@ impl<R: BufRead> Program<R> {
             percent: false,
             begun: false,
             ended: false,
+            ran_out: false,
         }
     }
 
@@ -185,6 +188,7 @@ impl<R: BufRead> Program<R> {
     /// The end of the input, or of the tape: false, or a diagnostic if a part is not complete.
     pub(crate) fn end_of_input(&mut self) -> Outcome<bool> {
         self.ended = true;
+        self.ran_out = !is_percent(self.source.text());
         match self.flow.recorder.take() {
             None => {
                 self.interpreter.check_spline_complete()?;

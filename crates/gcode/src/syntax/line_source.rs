@@ -1,7 +1,8 @@
 //! Lines of a program, read in constant memory.
 //!
 //! A line ends with LF, CR LF, or a CR by itself. A UTF-8 byte order mark at the very start is
-//! dropped. Of a line longer than [`MAX_LINE_BYTES`] only that much is kept; the rest is skipped.
+//! dropped. Of a line longer than [`MAX_LINE_BYTES`] only that much is kept; the rest is skipped, up
+//! to [`MOST_SKIPPED`] bytes: what has no line end by then is no program.
 //!
 //! ```text
 //!  buffer  …G1 X1.5␊G1 X1.6 Y2␊G1 X
@@ -19,6 +20,9 @@ use crate::diagnostic::span::SourceSpan;
 
 /// Longest line accepted, bytes without the line end.
 pub const MAX_LINE_BYTES: usize = 64 * 1024;
+
+/// Longest line whose end is looked for, bytes.
+const MOST_SKIPPED: usize = 16 << 20;
 
 /// Most bytes taken from the reader at a time.
 const MOST_TAKEN: usize = 64 * 1024;
@@ -110,6 +114,7 @@ impl<R: BufRead> LineSource<R> {
         (self.line, self.next) = (0..0, 0);
         let first = self.number == 0;
         let (mut searched, mut any, mut excess) = (0, false, false);
+        let mut skipped = 0;
         let end = loop {
             if self.after_cr && !self.buffer.is_empty() {
                 self.after_cr = false;
@@ -124,7 +129,12 @@ impl<R: BufRead> LineSource<R> {
             }
             if self.buffer.len() > MAX_LINE_BYTES {
                 excess = true;
+                skipped += self.buffer.len() - MAX_LINE_BYTES;
                 self.buffer.truncate(MAX_LINE_BYTES);
+                if skipped > MOST_SKIPPED {
+                    self.number = self.number.saturating_add(1);
+                    return Err(endless());
+                }
             }
             searched = self.buffer.len();
             self.line = 0..searched;
@@ -204,6 +214,14 @@ fn too_long() -> Box<Fault> {
         .help("split the line into blocks, or check that the file is a program")
 }
 
+fn endless() -> Box<Fault> {
+    let message = format!("no line end within {MOST_SKIPPED} bytes");
+    let span = SourceSpan::new(0, 1);
+    Fault::new(DiagnosticCode::EndlessLine, span, message)
+        .because("a program is lines of text; nothing behind this place is read")
+        .help("check that the file is a program")
+}
+
 fn read_failed(error: &std::io::Error) -> Box<Fault> {
     Fault::new(
         DiagnosticCode::ReadFailed,
@@ -272,6 +290,14 @@ mod tests {
         assert_eq!(source.text().len(), MAX_LINE_BYTES);
         assert_eq!(source.advance(), Ok(true));
         assert_eq!((source.text(), source.number()), (b"ok".as_slice(), 2));
+    }
+
+    #[test]
+    fn a_line_without_end_is_given_up() {
+        let mut source = LineSource::new(BufReader::new(std::io::repeat(b'G')));
+        let found = source.advance();
+        assert!(found.is_err_and(|f| f.code == DiagnosticCode::EndlessLine && f.code.is_fatal()));
+        assert!(source.buffer.len() <= MAX_LINE_BYTES + MOST_TAKEN);
     }
 
     #[test]

@@ -39,6 +39,43 @@ pub enum NurbsError {
         /// Its index.
         index: usize,
     },
+    /// A coordinate too far from zero for its digits to mean anything.
+    #[error("control point {index} is farther than {max} mm from zero", max = super::range::MOST_MM)]
+    FarPoint {
+        /// Its index.
+        index: usize,
+    },
+    /// A weight whose ratio to the others leaves too few digits for the points.
+    #[error(
+        "weight {index} is {weight}: weights are {min} to {max}",
+        min = super::range::LEAST_WEIGHT,
+        max = super::range::MOST_WEIGHT
+    )]
+    WeightRange {
+        /// Its index.
+        index: usize,
+        /// Its value.
+        weight: f64,
+    },
+    /// A knot too far from zero.
+    #[error("knot {index} is {knot}: knots are within {max}", max = super::range::MOST_KNOT)]
+    KnotRange {
+        /// Its index.
+        index: usize,
+        /// Its value.
+        knot: f64,
+    },
+    /// Knots so near to each other that derivatives by them have no value.
+    #[error(
+        "the knots go from {from_u} to {to_u}: they span {min} at least",
+        min = super::range::LEAST_DOMAIN
+    )]
+    ShortDomain {
+        /// The first.
+        from_u: f64,
+        /// The last.
+        to_u: f64,
+    },
     /// A weight that is not positive and finite.
     #[error("weight {index} is {weight}: weights are greater than zero")]
     Weight {

@@ -24,6 +24,7 @@ mod error;
 mod jet;
 mod pieces;
 mod polynomial;
+mod range;
 mod span;
 
 pub use arc_length::NurbsPath;
@@ -31,6 +32,7 @@ pub use curvature::SpanCurvature;
 pub use degree::MAX_DEGREE;
 pub use error::NurbsError;
 pub use jet::NurbsJet;
+use range::{LEAST_DOMAIN, LEAST_WEIGHT, MOST_KNOT, MOST_MM, MOST_WEIGHT};
 pub use span::Span;
 
 use crate::segment::ROUNDING_MM;
@@ -63,6 +65,7 @@ impl Nurbs {
     ) -> Result<Self, NurbsError> {
         check_counts(degree, control_points.len(), weights.len(), knots.len())?;
         check_values(control_points, weights, knots)?;
+        check_ranges(control_points, weights, knots)?;
         check_knots(degree, knots)?;
         let group = feed_group(control_points);
         let mut curve = Self {
@@ -273,11 +276,33 @@ fn check_values(points: &[AxisVector], weights: &[f64], knots: &[f64]) -> Result
     Ok(())
 }
 
+/// Refuses numbers that are out of their range. All of them are finite.
+fn check_ranges(points: &[AxisVector], weights: &[f64], knots: &[f64]) -> Result<(), NurbsError> {
+    if let Some(index) = points.iter().position(|point| point.amax() > MOST_MM) {
+        return Err(NurbsError::FarPoint { index });
+    }
+    let is_light = |weight: f64| !(LEAST_WEIGHT..=MOST_WEIGHT).contains(&weight);
+    if let Some((index, &weight)) = weights.iter().enumerate().find(|(_, w)| is_light(**w)) {
+        return Err(NurbsError::WeightRange { index, weight });
+    }
+    let is_far = |knot: f64| knot.abs() > MOST_KNOT;
+    if let Some((index, &knot)) = knots.iter().enumerate().find(|(_, k)| is_far(**k)) {
+        return Err(NurbsError::KnotRange { index, knot });
+    }
+    Ok(())
+}
+
 fn check_knots(degree: usize, knots: &[f64]) -> Result<(), NurbsError> {
     let (first, last) = (degree, knots.len() - 1 - degree);
     let (start, end) = (knots[first], knots[last]);
     if start >= end {
         return Err(NurbsError::EmptyDomain { first, last });
+    }
+    if end - start < LEAST_DOMAIN {
+        return Err(NurbsError::ShortDomain {
+            from_u: start,
+            to_u: end,
+        });
     }
     let inside = knots
         .chunk_by(|a, b| a.total_cmp(b).is_eq())

@@ -8,7 +8,7 @@ use std::path::Path;
 use thiserror::Error;
 
 /// Largest curve file, bytes: a hundred thousand control points.
-const MOST_BYTES: u64 = 16 << 20;
+const MOST_BYTES: u64 = 4 << 20;
 
 /// Why a curve file cannot be used.
 #[derive(Debug, Error)]

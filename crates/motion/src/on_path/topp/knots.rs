@@ -10,6 +10,9 @@ use glidepath_program::Limits;
 
 /// Time from knot to knot on the S-curves, s.
 const KNOT_T: f64 = 0.002;
+/// Most of them. A piece that is driven for longer than these last, at a feed of micrometres, has
+/// them farther apart: its speed is the feed then, and memory does not grow with the time.
+const MOST_KNOTS: f64 = 30_000.0;
 /// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's.
 const REST_T: f64 = 0.001;
 const REST_R: f64 = 0.25;
@@ -39,6 +42,8 @@ pub(crate) struct KnotPath {
     /// What the parametrisation starts from, and places on it, densely.
     legs: Vec<Leg>,
     marks: Vec<Mark>,
+    /// Time from knot to knot, s.
+    knot_t: f64,
     /// At start and end; `None` where the motion does not rest.
     pub(crate) rests: [Option<RestPhase>; 2],
     pub(crate) ends_v: [f64; 2],
@@ -57,10 +62,13 @@ impl KnotPath {
                 rest_phase(phases.into_iter().rev())
             }),
         ];
+        let duration_t: f64 = legs.iter().map(|leg| leg.profile.duration_t()).sum();
+        let knot_t = KNOT_T.max(duration_t / MOST_KNOTS);
         let mut knot_path = Self {
             intervals: Vec::new(),
             legs: legs.to_vec(),
-            marks: marks(legs),
+            marks: marks(legs, knot_t),
+            knot_t,
             rests,
             ends_v: [first.entry_v(), last.exit_v()],
             length_s: course.length_s(),
@@ -96,10 +104,12 @@ impl KnotPath {
         let [from_s, to_s] = self.inner();
         let duration_t = self.marks.last().map_or(0.0, |mark| mark.t);
         // From both ends to the middle.
-        let [mut times, mut back] = self.rests.map(|rest| times(rest, 0.5 * duration_t));
+        let [mut times, mut back] = self
+            .rests
+            .map(|rest| times(rest, 0.5 * duration_t, self.knot_t));
         back.reverse();
         let left = back.into_iter().map(|t| duration_t - t);
-        times.extend(left.filter(|t| *t > 0.5 * (duration_t + KNOT_T)));
+        times.extend(left.filter(|t| *t > 0.5 * (duration_t + self.knot_t)));
         let mut own = vec![from_s];
         own.extend(times.into_iter().map(|t| self.position_at(t)));
         own.push(to_s);
@@ -208,13 +218,13 @@ impl KnotPath {
 }
 
 /// Times of knots from an end of the motion up to some time, without the end.
-fn times(rest: Option<RestPhase>, to_t: f64) -> Vec<f64> {
+fn times(rest: Option<RestPhase>, to_t: f64, knot_t: f64) -> Vec<f64> {
     let mut times = Vec::new();
     let mut t = rest.map_or(0.0, |rest| rest.duration_t);
     loop {
         t += match rest {
-            Some(_) => ((REST_GROWTH - 1.0) * t).min(KNOT_T),
-            None => KNOT_T,
+            Some(_) => ((REST_GROWTH - 1.0) * t).min(knot_t),
+            None => knot_t,
         };
         let is_before = t > 0.0 && t < to_t;
         if !is_before {
@@ -235,12 +245,12 @@ fn rest_phase(mut phases: impl Iterator<Item = (f64, PathState, f64)>) -> RestPh
 }
 
 /// Places on some S-curves, four between two knots.
-fn marks(legs: &[Leg]) -> Vec<Mark> {
+fn marks(legs: &[Leg], knot_t: f64) -> Vec<Mark> {
     let mut marks = Vec::new();
     let mut from_t = 0.0;
     for leg in legs {
         let duration_t = leg.profile.duration_t();
-        let steps = (duration_t / (0.25 * KNOT_T)).ceil().max(8.0);
+        let steps = (duration_t / (0.25 * knot_t)).ceil().max(8.0);
         let mut k = 0.0;
         while k < steps {
             let t = duration_t * k / steps;
