@@ -19,7 +19,10 @@ pub enum RunError {
     #[error("aborted at the interpolator")]
     Aborted,
     /// The interpolator stopped by a fault and latched its cause.
-    #[error("the interpolator stopped by a fault: {0}")]
+    #[error(
+        "the interpolator stopped by a fault: {0}; `glidepath status` tells more, and `glidepath reset` \
+         clears it"
+    )]
     Fault(Fault),
     /// The interpolator gave no sign of life, or was started anew.
     #[error("the interpolator is gone; it is restarted by `glidepath interpolator`")]

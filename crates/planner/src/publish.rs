@@ -135,6 +135,31 @@ impl<'t> Publisher<'t> {
         }
     }
 
+    /// Waits until the machine rests, with a fault latched or without, and tells where the program
+    /// was left that was under way. Nothing is reset.
+    ///
+    /// # Errors
+    /// [`RunError::Interrupted`] by the stop flag, [`RunError::Resume`] if there is no such program,
+    /// or a failure of the link.
+    pub fn wait_until_left(&mut self, control: &mut Control<'_>) -> Result<ResumePoint, RunError> {
+        let mut told = None;
+        loop {
+            if control.is_stopped() {
+                return Err(RunError::Interrupted);
+            }
+            self.machine.observe()?;
+            let state = self.machine.status().and_then(|status| status.state().ok());
+            if matches!(state, Some(MachineState::Idle | MachineState::Faulted)) {
+                return self.resume_point();
+            }
+            self.idle(control)?;
+            if self.idle_t >= NOTICE_AFTER && told != Some(state) {
+                (control.notify)(&state.map_or(Notice::NoInterpolator, Notice::NotReady));
+                told = Some(state);
+            }
+        }
+    }
+
     /// Waits a little while there is no epoch, and now and then frees what dead processes hold.
     pub(crate) fn idle(&mut self, control: &mut Control<'_>) -> Result<(), LinkError> {
         self.machine.pause(POLL, control);
@@ -260,12 +285,13 @@ impl<'t> Publisher<'t> {
             let turn = self.turn(&plan, &mut epoch, control)?;
             waited = match turn {
                 Turn::Busy => Duration::ZERO,
-                Turn::Hungry => {
-                    self.show_life(&mut epoch)?;
-                    HUNGRY_POLL
-                }
+                Turn::Hungry => HUNGRY_POLL,
                 Turn::Waited | Turn::Wait => POLL,
             };
+            // Waiting for input, and thinking for long, are no death.
+            if matches!(turn, Turn::Hungry | Turn::Waited) {
+                self.show_life(&mut epoch, waited)?;
+            }
             match turn {
                 Turn::Busy => {}
                 Turn::Waited => self.machine.count_silence(waited),
@@ -346,8 +372,8 @@ impl<'t> Publisher<'t> {
     }
 
     /// Tells the interpolator, now and then, that there will be more.
-    fn show_life(&mut self, epoch: &mut Epoch) -> Result<(), LinkError> {
-        epoch.hungry += HUNGRY_POLL;
+    fn show_life(&mut self, epoch: &mut Epoch, waited: Duration) -> Result<(), LinkError> {
+        epoch.hungry += waited;
         if epoch.hungry >= HEARTBEAT
             && let Some(last) = &epoch.last
         {

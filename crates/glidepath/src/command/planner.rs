@@ -35,12 +35,21 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
         notify: &mut notify,
     };
     let Some(file) = &args.file else {
-        return serve(&transport, config, &mut control, &interrupt);
+        let exit = serve(&transport, config, &mut control, &interrupt)?;
+        if args.basic.json {
+            output::object(&json!({ "listened": true, "exit_code": exit as u8 }));
+        }
+        return Ok(exit);
     };
     let name = file.name().display().to_string();
     let statistics = if file.is_standard_input() {
         if args.resume {
             return Err(Failure::ResumePipe);
+        }
+        if !quiet {
+            output::note(
+                "planner: reading standard input; the machine waits on the path where no more has come",
+            );
         }
         run(&transport, config, &mut control, &name, true, |start| {
             PipeSource::spawn(std::io::stdin(), config.program_options(start))
@@ -99,12 +108,13 @@ fn resume<S: ItemSource + Send>(
     open: impl FnOnce(AxisVector) -> Result<S, Refusal>,
 ) -> Result<Statistics, Failure> {
     let mut publisher = Publisher::connect(transport, session::pace(config))?;
-    let _position = publisher.wait_until_ready(control)?;
-    let point = publisher.resume_point()?;
+    let point = publisher.wait_until_left(control)?;
     let source =
         open(point.program_start).map_err(|refusal| Failure::refused(name, refusal, false))?;
     let settings = config.settings();
     let remainder = Remainder::find(source, point, settings.tolerance_mm)?;
+    // Only now is a fault reset: one that resumes nothing leaves it to whoever looks at it.
+    publisher.wait_until_ready(control)?;
     let mut pipeline = Pipeline::resuming(remainder, settings)
         .with_joints(config.path_caps())
         .with_clock(clock::elapsed);
