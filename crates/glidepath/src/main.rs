@@ -5,5 +5,9 @@ use glidepath::{cli::Cli, command};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    command::main(&Cli::parse()).into()
+    match Cli::try_parse() {
+        Ok(cli) => command::main(&cli),
+        Err(error) => command::usage(&error),
+    }
+    .into()
 }

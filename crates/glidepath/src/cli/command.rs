@@ -62,6 +62,9 @@ pub enum Command {
     /// Come to rest on the path and drop the rest of the program
     #[command(after_help = "Examples: glidepath abort · glidepath abort --signal")]
     Abort(AbortArgs),
+    /// Take note of a fault, whatever its cause: the machine is idle again
+    #[command(after_help = "Example: glidepath status && glidepath reset")]
+    Reset(OperatorArgs),
     /// Find where a NURBS is too sharp for its feedrate
     #[command(
         after_help = "Example: glidepath preview butterfly.json --method certified --feed 6000 \
@@ -104,7 +107,8 @@ impl Command {
             | Self::Hold(args)
             | Self::Resume(args)
             | Self::Step(args)
-            | Self::StopAtBlockEnd(args) => &args.basic,
+            | Self::StopAtBlockEnd(args)
+            | Self::Reset(args) => &args.basic,
             Self::Abort(args) => &args.operator.basic,
             Self::SingleBlock(args) => &args.operator.basic,
             Self::Override(args) => &args.operator.basic,

@@ -17,6 +17,10 @@ use glidepath_geometry::Axis;
 use glidepath_planner::{check_file, find_in_file};
 use serde_json::{Value, json};
 
+/// What is said of a program that just ends.
+const NO_END: &str =
+    "the text ends without M2, M30 or a last %: make sure that nothing of it is missing";
+
 /// Reads every program to its end.
 ///
 /// # Errors
@@ -88,6 +92,9 @@ pub(super) fn accepted(
     });
     progress.finish();
     let mut found = found.map_err(FileError::open(file.name()))?;
+    if found.lacks_end && found.diagnostics.is_empty() {
+        output::note(&warning(&file.name().display().to_string()));
+    }
     if let Some(line) = found.given_up_at.filter(|_| found.diagnostics.is_empty()) {
         let has_joints = config.joint_watch().is_some();
         if config.program.may_run_unchecked && !has_joints {
@@ -144,9 +151,17 @@ fn print(name: &str, report: &Report) {
         totals.rapid_length_mm
     ));
     output::result(&survey(report));
+    if report.lacks_end {
+        output::note(&warning(name));
+    }
     if let Some(line) = report.given_up_at {
         output::result(&(not_checked(name, line) + "; the figures above are of what was\n"));
     }
+}
+
+/// That a program may not be whole.
+fn warning(name: &str) -> String {
+    format!("{name}: warning: {NO_END}")
 }
 
 /// That a program was not checked to its end.
@@ -229,6 +244,7 @@ fn program(name: &str, report: &Report) -> Value {
             "position": corner.at.as_slice(),
         })),
         "soft_limit_violations": report.soft_limit_violations(),
+        "warnings": report.lacks_end.then_some(NO_END).into_iter().collect::<Vec<_>>(),
         "findings": findings,
         "findings_not_shown": report.more,
     })

@@ -26,6 +26,7 @@ use crate::exit::Exit;
 use crate::output;
 use failure::Failure;
 use glidepath_link as link;
+use serde_json::json;
 
 /// Does what the command line asks for, and prints its result.
 #[must_use]
@@ -39,6 +40,29 @@ pub fn main(cli: &Cli) -> Exit {
             Exit::Fault
         }
         _ => exit,
+    }
+}
+
+/// Tells what is wrong with a command line, or what was asked about it.
+#[must_use]
+pub fn usage(error: &clap::Error) -> Exit {
+    let as_json = std::env::args_os().any(|arg| arg == "--json");
+    if as_json && error.use_stderr() {
+        let text = error.to_string();
+        let message = text.strip_prefix("error: ").unwrap_or(&text).trim_end();
+        output::object(&json!({
+            "error": message,
+            "exit_code": Exit::Usage as u8,
+            "findings": [],
+        }));
+        return Exit::Usage;
+    }
+    // Nobody is left to tell.
+    error.print().ok();
+    if error.use_stderr() {
+        Exit::Usage
+    } else {
+        Exit::Done
     }
 }
 
@@ -68,6 +92,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
             operator::command(&args.operator, &config, "single-block", command)
         }
         Command::Abort(args) => operator::abort(args, &config),
+        Command::Reset(args) => operator::command(args, &config, "reset", link::Command::Reset),
         Command::Override(args) => operator::overrides(args, &config),
         Command::Bench(args) => bench::bench(args, &config),
         Command::Doctor(args) => Ok(doctor::doctor(args, &config)),

@@ -17,10 +17,13 @@ use glidepath_link::{Recorder, Setpoint, Transport as _};
 use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::json;
 use std::io::BufWriter;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Between two looks for setpoints: a fraction of a period, and a small one of the queue.
 const POLL: Duration = Duration::from_millis(1);
+
+/// How long it waits for the first setpoint before it says so.
+const NOTICE_AFTER: Duration = Duration::from_secs(1);
 
 /// Periods without a setpoint after which the servo stops its joints by itself.
 const PATIENCE_PERIODS: u64 = 3;
@@ -89,7 +92,17 @@ fn play(
 ) -> Result<ServoCounts, Failure> {
     let transport = session::join(&args.instance, config)?;
     let mut servo = Servo::new(transport.setpoint_source()?, settings(config));
+    let waits_from = Instant::now();
+    let mut is_told = args.relay;
     while !interrupt.is_set() {
+        if !is_told && servo.counts().received == 0 && waits_from.elapsed() > NOTICE_AFTER {
+            is_told = true;
+            let instance = session::instance(&args.instance, config);
+            output::note(&format!(
+                "servo: waiting for setpoints of the instance \"{instance}\", which `glidepath \
+                 interpolator` gives"
+            ));
+        }
         while let Some(setpoint) = servo.receive(Monotonic.now_ns())? {
             if !take(&setpoint)? {
                 return Ok(*servo.counts());

@@ -35,13 +35,17 @@ pub const EMBEDDED: &str = include_str!("../../../../config/mill.toml");
 /// A second built-in machine, for benchmarks: the one of published results on corner smoothing.
 pub const EMBEDDED_SEED: &str = include_str!("../../../../config/seed.toml");
 
-/// Reads a configuration file, or the embedded machine if `path` is `None`.
+/// Reads a configuration file, or the embedded machine if `path` is `None`: that of
+/// `config/mill.toml` without its default feedrate.
 ///
 /// # Errors
 /// The file cannot be read, or something in it has to be mended.
 pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
     let Some(path) = path else {
-        return parse("built-in machine", EMBEDDED);
+        let mut machine = parse("built-in machine", EMBEDDED)?;
+        // Nobody chose it: a program without F is refused, as by other controls.
+        machine.path.default_feed = None;
+        return Ok(machine);
     };
     let name = path.display().to_string();
     match text_file::read(path, MOST_BYTES) {

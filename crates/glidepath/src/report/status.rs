@@ -23,6 +23,9 @@ pub const fn state_name(state: MachineState) -> &'static str {
     }
 }
 
+/// How any fault is cleared.
+const HOW_TO_CLEAR: &str = "glidepath reset";
+
 /// Names of the grants, for the keys of JSON and for people.
 const GRANTS: [(Grants, &str, &str); 5] = [
     (Grants::FIFO, "fifo", "SCHED_FIFO"),
@@ -143,6 +146,7 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
         "pid": status.pid,
         "state": status.state().map_or("unknown", state_name),
         "fault": fault_text(status),
+        "fault_is_cleared_by": fault_text(status).map(|_| HOW_TO_CLEAR),
         "epoch": status.epoch,
         "end_of_epoch": end_name(status),
         "line": status.line,
@@ -192,6 +196,7 @@ pub fn status_text(instance: &str, status: &Status) -> String {
     let _ = writeln!(text, "{instance}: {state}, process {}", status.pid);
     if let Some(fault) = fault_text(status) {
         let _ = writeln!(text, "  fault         {fault}");
+        let _ = writeln!(text, "  to clear it   {HOW_TO_CLEAR}");
     }
     let _ = writeln!(text, "  position      {}", position.join("  "));
     let _ = writeln!(
