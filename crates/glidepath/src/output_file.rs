@@ -84,7 +84,9 @@ impl OutputFile {
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
             Err(error) => return Err(FileError::open(path)(error)),
         };
-        let is_stream = ["/dev", "/proc"].iter().any(|top| path.starts_with(top));
+        // Memory for files is below `/dev` too, and no device.
+        let is_stream = ["/dev", "/proc"].iter().any(|top| path.starts_with(top))
+            && !path.starts_with("/dev/shm");
         if is_stream || there.as_ref().is_some_and(|there| !there.is_file()) {
             // Standard output that was opened anew would be written from its beginning.
             let file = if path == Path::new("/dev/stdout") {
