@@ -4,10 +4,11 @@ use crate::config::MachineConfig;
 use crate::file_error::FileError;
 use crate::output_file::{Guard, OutputFile, OutputKind};
 use crate::plot::Plot;
-use crate::report::state_name;
+use crate::report::{DiagnosisReport, state_name};
 use crate::sample::Sample;
 use crate::setpoints::CsvWriter;
 use glidepath_link::MachineState;
+use glidepath_program::Item;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -64,6 +65,20 @@ impl Recording {
     #[must_use]
     pub const fn is_wanted(&self) -> bool {
         self.csv.is_some() || self.plot.is_some()
+    }
+
+    /// Takes the next item of the program that the motion follows.
+    pub fn program(&mut self, item: &Item) {
+        if let Some((_, plot)) = &mut self.plot {
+            plot.program(item);
+        }
+    }
+
+    /// Takes what is known of the motion as a whole.
+    pub fn smoothness(&mut self, diagnosis: Option<&DiagnosisReport>) {
+        if let (Some((_, plot)), Some(diagnosis)) = (&mut self.plot, diagnosis) {
+            plot.smoothness(&diagnosis.smoothness);
+        }
     }
 
     /// Takes the next sample.

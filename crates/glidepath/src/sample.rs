@@ -1,7 +1,7 @@
 //! One setpoint as reports and plots see it, whether it was planned or received.
 
 use crate::report::state_name;
-use glidepath_audit::diagnosis::Binding;
+use glidepath_audit::diagnosis::{Binding, Deviation};
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::JointVector;
 use glidepath_link::Setpoint;
@@ -22,6 +22,8 @@ pub struct Sample {
     pub rapid: bool,
     /// The limit that binds, where that is known.
     pub binding: Option<Binding>,
+    /// How far it is from the programmed path, where that is known.
+    pub deviation: Option<Deviation>,
     /// Rate of path position, mm/s.
     pub feed_v: f64,
     /// Path position since the start of the program, mm.
@@ -51,6 +53,7 @@ impl Sample {
             state: "running",
             rapid: frame.flags.contains(FrameFlags::RAPID),
             binding: None,
+            deviation: None,
             feed_v: frame.path_v,
             path_s: frame.path_s,
             position: frame.position,
@@ -60,11 +63,13 @@ impl Sample {
         }
     }
 
-    /// The same sample, with the limit that binds in the period it ends.
+    /// The same sample, with the limit that binds in the period it ends, and how far it is from the
+    /// programmed path.
     #[must_use]
-    pub const fn bound_by(self, binding: Binding) -> Self {
+    pub const fn diagnosed(self, binding: Binding, deviation: Deviation) -> Self {
         Self {
             binding: Some(binding),
+            deviation: Some(deviation),
             ..self
         }
     }
@@ -83,6 +88,7 @@ impl Sample {
             state: setpoint.state().map_or("unknown", state_name),
             rapid: setpoint.has(FrameFlags::RAPID),
             binding: None,
+            deviation: None,
             feed_v: setpoint.feed_v,
             path_s: setpoint.path_s,
             position: setpoint.position.into(),

@@ -93,6 +93,7 @@ mod tests {
             state: "running",
             rapid: false,
             binding: None,
+            deviation: None,
             feed_v: 25.0,
             path_s: 0.1 + 0.2,
             position: AxisVector::repeat(value),

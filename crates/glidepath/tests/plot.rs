@@ -1,8 +1,11 @@
 //! The picture of a motion: well-formed, complete, and bounded in size.
 
+use glidepath::report::{AxisFigures, SmoothnessFigures};
 use glidepath::{plot::Plot, sample::Sample};
-use glidepath_geometry::{Axis, AxisVector};
-use glidepath_program::Limits;
+use glidepath_audit::diagnosis::Deviation;
+use glidepath_geometry::{Axis, AxisVector, Segment};
+use glidepath_program::{Item, ItemKind, Limits, PathMode, Rate};
+use std::collections::BTreeMap;
 
 const PERIOD_T: f64 = 0.004;
 
@@ -22,6 +25,7 @@ fn wander(tick: u32) -> Sample {
         state: "running",
         rapid: (tick / 500) % 4 == 3,
         binding: None,
+        deviation: None,
         feed_v: 60.0 + 50.0 * (2.1 * t).sin(),
         path_s: 0.0,
         position,
@@ -146,4 +150,123 @@ fn a_gap_in_the_ticks_makes_no_peak() {
     let axes = [Axis::X];
     let (gap, whole) = (plot(&axes, samples), plot(&axes, whole));
     assert_eq!(peak(&gap), peak(&whole));
+}
+
+/// A line along X in `count` samples, a little beside it, with its program and its figures.
+fn line(count: u32) -> String {
+    let mut plot = Plot::new(
+        &[Axis::X, Axis::Y],
+        Limits::uniform(200.0, 2000.0, 40000.0),
+        PERIOD_T,
+    );
+    let mut end = AxisVector::zeros();
+    end[0] = 40.0;
+    let segment = Segment::line(AxisVector::zeros(), end);
+    let kind = ItemKind::Move {
+        segment,
+        rate: Rate::Feed(50.0),
+        mode: PathMode::Continuous { tolerance_mm: None },
+    };
+    plot.program(&Item {
+        line: 1,
+        block: 1,
+        kind,
+    });
+    for tick in 0..=count {
+        let share = f64::from(tick) / f64::from(count);
+        let mut sample = wander(tick);
+        sample.rapid = false;
+        sample.position = end * share;
+        sample.deviation = Some(Deviation {
+            distance_mm: 0.013 * share,
+            tolerance_mm: 0.02,
+        });
+        plot.push(&sample);
+    }
+    let axis = |rms_jerk: f64, reversals: u64| AxisFigures {
+        unit: "mm",
+        rms_jerk,
+        peak_jerk: 3.0 * rms_jerk,
+        acceleration_above_30_hz: 12.5,
+        reversals,
+    };
+    let figures = SmoothnessFigures {
+        periods: 1234,
+        mean_deviation_mm: 0.0081,
+        rms_deviation_mm: 0.0092,
+        axes: [("X", axis(4321.0, 7)), ("Y", axis(0.0, 0))]
+            .map(|(name, axis)| (name.to_owned(), axis))
+            .into(),
+    };
+    let nowhere = SmoothnessFigures {
+        periods: 0,
+        ..figures.clone()
+    };
+    plot.smoothness(&BTreeMap::from([("whole", figures), ("at_feed", nowhere)]));
+    plot.render("line", "")
+}
+
+#[test]
+fn the_programmed_path_lies_under_the_motion() {
+    let svg = line(300);
+    assert!(is_well_formed(&svg));
+    let programmed = svg.find("stroke-width=\"5\"").unwrap();
+    let motion = svg.find("stroke-width=\"1.5\"").unwrap();
+    assert!(programmed < motion, "what is drawn first is below");
+    assert!(svg.contains(">programmed path<"));
+    // From one margin of the view to the other: the line is all there is.
+    let path = svg[..programmed].rfind("<path d=\"M80 ").unwrap();
+    assert!(
+        svg[path..programmed].contains("l1162 0"),
+        "{}",
+        &svg[path..programmed]
+    );
+    // Without a program there is none.
+    let svg = plot(&[Axis::X], (0..400).map(wander));
+    assert!(!svg.contains("programmed path") && !svg.contains("stroke-width=\"5\""));
+}
+
+#[test]
+fn the_deviation_is_drawn_in_its_tolerance() {
+    let svg = line(300);
+    for words in [
+        ">deviation<",
+        ">peak 13 µm<",
+        ">65 % of the tolerance<",
+        ">20<",
+    ] {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert_eq!(svg.matches("fill=\"#e3f4e8\"").count(), 1, "the band");
+    let svg = plot(&[Axis::X], (0..400).map(wander));
+    assert!(!svg.contains(">deviation<") && !svg.contains("#e3f4e8"));
+}
+
+#[test]
+fn the_figures_of_smoothness_stand_below() {
+    let svg = line(300);
+    for words in [
+        ">Smoothness of the whole motion<",
+        "234 setpoints, off the programmed path by 8.1 µm in the mean, 9.2 µm rms",
+        ">4\u{202f}321 mm/s³<",
+        ">12\u{202f}963 mm/s³<",
+        ">12.5 mm/s²<",
+        ">7<",
+        ">Smoothness where the programmed feed binds<",
+        ">it binds nowhere<",
+    ] {
+        assert!(svg.contains(words), "{words}");
+    }
+    let axes = svg.matches(">Y<").count();
+    assert_eq!(axes, 0, "an axis that rests has no figures");
+    let bottom = |from: &str| {
+        let after = &svg[svg.find(from).unwrap()..];
+        after.split('"').nth(1).unwrap().parse::<f64>().unwrap()
+    };
+    let height = bottom("height=");
+    let lowest = svg.match_indices(" y=\"").map(|(at, found)| {
+        let number = &svg[at + found.len()..];
+        number.split('"').next().unwrap().parse::<f64>().unwrap()
+    });
+    assert!(lowest.fold(0.0, f64::max) < height, "inside the page");
 }

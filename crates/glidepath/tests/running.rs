@@ -163,6 +163,13 @@ fn run_plays_what_plan_plans_and_reports_every_key_of_the_contract() {
             assert!(report[key][quantile].is_number(), "{key} {quantile}");
         }
     }
+    // How smooth what was played is.
+    for part in ["whole", "at_feed"] {
+        let figures = &report["smoothness"][part];
+        assert!(figures["periods"].as_u64() > Some(10), "{part}: {figures}");
+        assert!(figures["axes"]["X"]["rms_jerk"].is_number(), "{figures}");
+    }
+    assert!(report["smoothness_finding_count"].is_number());
     assert!(report["realtime"]["fifo"].is_boolean());
     assert_eq!(report["final_position"]["Y"], 0.0);
     assert_eq!(report["violation_count"], 0, "{}", report["violations"]);

@@ -36,6 +36,16 @@ pub struct Diagnosis {
     counts: [u64; COUNT],
     places: Places,
     smoothness: Smoothness,
+    deviation: Deviation,
+}
+
+/// How far a frame is from the programmed path, and how far it may be.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Deviation {
+    /// Distance, mm.
+    pub distance_mm: f64,
+    /// Tolerance there, mm.
+    pub tolerance_mm: f64,
 }
 
 /// What came of it.
@@ -60,6 +70,7 @@ impl Diagnosis {
             counts: [0; COUNT],
             places: Places::new(settings.period_t),
             smoothness: Smoothness::new(settings.period_t),
+            deviation: Deviation::default(),
         }
     }
 
@@ -81,6 +92,10 @@ impl Diagnosis {
             classify(frame.path_v, &self.differences, (&nearby, &self.follow))
         };
         let deviation_mm = self.follow.deviation_mm();
+        self.deviation = Deviation {
+            distance_mm: deviation_mm,
+            tolerance_mm: nearby.tolerance_mm,
+        };
         let is_at_feed = binding == Binding::Feed;
         self.smoothness
             .next(&frame.position, is_at_feed, deviation_mm);
@@ -104,6 +119,12 @@ impl Diagnosis {
             is_wait,
         });
         binding
+    }
+
+    /// How far the last frame is from the programmed path.
+    #[must_use]
+    pub const fn deviation(&self) -> Deviation {
+        self.deviation
     }
 
     /// The summary, after the last frame.

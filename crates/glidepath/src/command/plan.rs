@@ -50,6 +50,7 @@ pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Fail
     report.program = args.file.name().display().to_string();
     report.setpoints.clone_from(&args.setpoints);
     report.plot.clone_from(&args.plot);
+    recording.smoothness(report.diagnosis.as_ref());
     recording.finish(&title(args.file.name()), &report.caption())?;
     if args.basic.json {
         output::object(&report);
@@ -132,6 +133,7 @@ impl Pass {
             {
                 self.audit.program(item);
                 self.diagnosis.program(item);
+                recording.program(item);
             } else if let Some(frame) = frames.next() {
                 self.audit.frame(frame);
                 let binding = self.diagnosis.frame(frame);
@@ -144,7 +146,7 @@ impl Pass {
                     // Out of reach is told by the watch; machines without one reach everything.
                     let joints = self.mechanism.inverse(&frame.position).unwrap_or_default();
                     let sample = Sample::planned(frame, self.period_t, joints);
-                    recording.push(&sample.bound_by(binding))?;
+                    recording.push(&sample.diagnosed(binding, self.diagnosis.deviation()))?;
                 }
             }
         }

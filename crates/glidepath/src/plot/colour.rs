@@ -5,6 +5,12 @@ pub(super) const QUIET: &str = "#6b7785";
 pub(super) const GRID: &str = "#e6eaee";
 pub(super) const FRAME: &str = "#b8c1ca";
 pub(super) const LIMIT: &str = "#c0392b";
+/// The programmed path, under the motion.
+pub(super) const PROGRAM: &str = "#ffd8a8";
+/// The curve of the deviation.
+pub(super) const DEVIATION: &str = "#0b8a5f";
+/// Where a motion may be.
+pub(super) const BAND: &str = "#e3f4e8";
 pub(super) const RAPID: &str = "#a9b3bd";
 
 /// Curves of velocity, acceleration and jerk.

@@ -71,7 +71,7 @@ impl CurvePlot {
         } else {
             View::Isometric
         };
-        view::draw(&mut svg, seen, &self.track, &area);
+        view::draw(&mut svg, seen, &self.track, &[], &area);
         for (at, mark) in &self.marks {
             let style = match mark {
                 Mark::Found => format!("rx=\"3\" fill=\"{LIMIT}\""),

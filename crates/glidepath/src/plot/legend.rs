@@ -1,7 +1,7 @@
 //! What the colours and lines of a track stand for.
 
 use super::bound::Bound;
-use super::colour::{self, QUIET, RAPID};
+use super::colour::{self, PROGRAM, QUIET, RAPID};
 use super::svg::{Anchor, Area, Svg};
 use super::ticks::{label, ticks};
 use super::track::{MotionTrace, TrackPoint};
@@ -65,6 +65,23 @@ pub(super) fn of_feed(svg: &mut Svg, max_feed_v: f64, area: &Area) {
         "feed mm/s",
     );
     rapid(svg, area.right() + 24.0, area);
+}
+
+/// Draws what the programmed path looks like, from `x` on.
+pub(super) fn program(svg: &mut Svg, x: f64, area: &Area) {
+    let middle = area.y + area.height / 2.0;
+    svg.line(
+        (x, middle),
+        (x + 26.0, middle),
+        &format!("stroke=\"{PROGRAM}\" stroke-width=\"5\" stroke-linecap=\"round\""),
+    );
+    svg.text(
+        x + 34.0,
+        area.bottom() - 1.0,
+        Anchor::Start,
+        &format!("fill=\"{QUIET}\" font-size=\"10\""),
+        "programmed path",
+    );
 }
 
 /// Draws what a rapid looks like, from `x` on.

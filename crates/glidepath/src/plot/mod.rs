@@ -1,6 +1,8 @@
 //! A picture of a motion: the tool path coloured by the limit that binds, or by feed where that is
 //! not known; and feed, velocity, acceleration and jerk of each axis, and of each joint where
-//! joints are not axes, against time with their limits, as one SVG file.
+//! joints are not axes, against time with their limits, as one SVG file. Under the motion lies the
+//! programmed path; the deviation from it is drawn against time with its tolerance as a band. Below
+//! stands how smooth the motion is.
 //!
 //! Samples are taken one by one and kept in bounded memory, so that a motion of any length gives a
 //! file of at most about 2 MB. Velocity, acceleration and jerk are finite differences of the
@@ -10,8 +12,10 @@ mod bound;
 mod colour;
 pub mod curve;
 mod envelope;
+mod figures;
 mod lateness;
 mod legend;
+mod program_trace;
 mod quantities;
 mod strip;
 mod svg;
@@ -19,15 +23,18 @@ mod ticks;
 mod track;
 mod view;
 
+use crate::report::SmoothnessFigures;
 use crate::sample::Sample;
 use bound::Bound;
-use colour::{INK, QUIET};
+use colour::{DEVIATION, INK, QUIET};
 use envelope::Envelope;
 use glidepath_geometry::Axis;
 use glidepath_kinematics::JointLimits;
-use glidepath_program::Limits;
+use glidepath_program::{Item, Limits};
 pub use lateness::{Series, lateness};
+use program_trace::ProgramTrace;
 use quantities::{PositionCurves, Quantities};
+use std::collections::BTreeMap;
 use strip::{Strip, TimeAxis};
 use svg::{Anchor, Area, Svg};
 use track::{MotionTrace, TrackPoint};
@@ -46,7 +53,11 @@ pub struct Plot {
     joints: Quantities,
     period_t: f64,
     track: MotionTrace,
+    program: ProgramTrace,
     feed: Envelope,
+    /// Distance from the programmed path and its tolerance, µm.
+    deviation: [Envelope; 2],
+    smoothness: figures::Parts,
     first_tick: Option<u64>,
     ticks: u64,
 }
@@ -70,7 +81,10 @@ impl Plot {
             joints: Quantities::new(Vec::new()),
             period_t,
             track: MotionTrace::default(),
+            program: ProgramTrace::default(),
             feed: Envelope::new(),
+            deviation: [const { Envelope::new() }; 2],
+            smoothness: figures::Parts::new(),
             first_tick: None,
             ticks: 0,
         }
@@ -95,6 +109,16 @@ impl Plot {
         }
     }
 
+    /// Takes the next item of the program that the motion follows.
+    pub fn program(&mut self, item: &Item) {
+        self.program.push(item);
+    }
+
+    /// Takes how smooth the motion is, by part: `whole`, `at_feed`.
+    pub fn smoothness(&mut self, parts: &BTreeMap<&'static str, SmoothnessFigures>) {
+        self.smoothness.clone_from(parts);
+    }
+
     /// Takes the next sample; their ticks ascend.
     pub fn push(&mut self, sample: &Sample) {
         let at = [sample.position[0], sample.position[1], sample.position[2]];
@@ -108,6 +132,12 @@ impl Plot {
         let tick = sample.tick.saturating_sub(first);
         self.ticks = tick + 1;
         self.feed.push(tick, sample.feed_v);
+        if let Some(deviation) = sample.deviation {
+            let both = [deviation.distance_mm, deviation.tolerance_mm];
+            for (envelope, mm) in self.deviation.iter_mut().zip(both) {
+                envelope.push(tick, 1e3 * mm);
+            }
+        }
         self.axes.push(tick, self.period_t, &sample.position);
         self.joints.push(tick, self.period_t, &sample.joints);
     }
@@ -119,6 +149,8 @@ impl Plot {
         let strips = self.strips();
         #[allow(clippy::cast_precision_loss, reason = "a few dozen strips")]
         let height = views_bottom + 34.0 + strips.len() as f64 * (STRIP_HEIGHT + STRIP_GAP) + 30.0;
+        let figures_y = height;
+        let height = height + figures::height(&self.smoothness);
         let mut svg = Svg::new(WIDTH, height);
         svg.text(
             LEFT,
@@ -149,6 +181,9 @@ impl Plot {
         }
         area.y -= STRIP_HEIGHT + STRIP_GAP;
         strip::seconds(&mut svg, &time, &area);
+        area.y = figures_y;
+        area.width = WIDTH - LEFT;
+        figures::draw(&mut svg, &self.smoothness, &area);
         svg.finish()
     }
 
@@ -163,13 +198,13 @@ impl Plot {
         };
         let moves = |axis: usize| high[axis] > low[axis];
         if moves(2) && !moves(1) {
-            view::draw(svg, View::Front, &self.track, &top);
+            view::draw(svg, View::Front, &self.track, self.program.points(), &top);
         } else if moves(2) {
             let half = Area {
                 width: 660.0,
                 ..top
             };
-            view::draw(svg, View::Top, &self.track, &half);
+            view::draw(svg, View::Top, &self.track, self.program.points(), &half);
             let side = half.right() + 52.0;
             let front = Area {
                 x: side,
@@ -177,16 +212,22 @@ impl Plot {
                 height: 150.0,
                 ..top
             };
-            view::draw(svg, View::Front, &self.track, &front);
+            view::draw(svg, View::Front, &self.track, self.program.points(), &front);
             let y = front.bottom() + 42.0;
             let isometric = Area {
                 y,
                 height: top.bottom() - y,
                 ..front
             };
-            view::draw(svg, View::Isometric, &self.track, &isometric);
+            view::draw(
+                svg,
+                View::Isometric,
+                &self.track,
+                self.program.points(),
+                &isometric,
+            );
         } else {
-            view::draw(svg, View::Top, &self.track, &top);
+            view::draw(svg, View::Top, &self.track, self.program.points(), &top);
         }
         let area = Area {
             x: LEFT + 62.0,
@@ -194,6 +235,9 @@ impl Plot {
             width: 420.0,
             height: 10.0,
         };
+        if !self.program.points().is_empty() {
+            legend::program(svg, right - 130.0, &area);
+        }
         if self.track.has_bounds() {
             legend::of_bounds(svg, &self.track, &area);
         } else {
@@ -208,9 +252,22 @@ impl Plot {
             colour: INK,
             curve: &self.feed,
             limit: None,
+            band: None,
             signed: false,
         };
         let mut strips = vec![feed];
+        let [deviation, tolerance] = &self.deviation;
+        if tolerance.peak() > 0.0 {
+            strips.push(Strip {
+                title: "deviation".to_owned(),
+                unit: "µm",
+                colour: DEVIATION,
+                curve: deviation,
+                limit: Some(tolerance.peak()),
+                band: Some(tolerance),
+                signed: false,
+            });
+        }
         strips.extend(self.axes.strips());
         strips.extend(self.joints.strips());
         strips

@@ -77,6 +77,7 @@ impl Quantities {
                     colour: CURVES[k],
                     curve,
                     limit: Some(position.limits[k]),
+                    band: None,
                     signed: true,
                 })
         })

@@ -1,6 +1,6 @@
 //! A quantity against time: a narrow strip with its limit lines.
 
-use super::colour::{FRAME, GRID, INK, LIMIT, QUIET};
+use super::colour::{BAND, FRAME, GRID, INK, LIMIT, QUIET};
 use super::envelope::Envelope;
 use super::svg::{Anchor, Area, Path, Svg};
 use super::ticks::{label, ticks};
@@ -14,6 +14,9 @@ pub(super) struct Strip<'a> {
     pub(super) curve: &'a Envelope,
     /// Both ±limit are drawn.
     pub(super) limit: Option<f64>,
+    /// What the curve may be inside of at each time, drawn as a band; the largest of it is the
+    /// limit.
+    pub(super) band: Option<&'a Envelope>,
     /// False for a quantity that is never negative.
     pub(super) signed: bool,
 }
@@ -35,6 +38,7 @@ impl Strip<'_> {
     fn top(&self) -> f64 {
         let peak = self.curve.peak();
         match self.limit {
+            Some(limit) if self.band.is_some() => 1.12 * limit.max(peak),
             Some(limit) if peak >= SMALLEST_SHARE * limit || peak <= 0.0 => 1.12 * limit.max(peak),
             _ if peak > 0.0 => 1.15 * peak,
             _ => 1.0,
@@ -47,6 +51,13 @@ impl Strip<'_> {
         let x = |t: f64| (t / time.end_t).mul_add(area.width, area.x);
         let y = |value: f64| (top - value) / (top - bottom) * area.height + area.y;
 
+        if let Some(band) = self.band {
+            let style = format!("fill=\"{BAND}\" stroke=\"{BAND}\"");
+            let ends = band
+                .stretches()
+                .map(|(tick, ends)| (tick, ends.map(|(_, high)| (0.0, high))));
+            outline(svg, ends, &|tick| x(tick * time.period_t), &y, &style);
+        }
         for t in ticks(0.0, time.end_t, 12.0) {
             svg.line(
                 (x(t), area.y),
@@ -59,7 +70,12 @@ impl Strip<'_> {
             (area.right(), y(0.0)),
             &format!("stroke=\"{FRAME}\""),
         );
-        self.draw_curve(svg, |tick| x(tick * time.period_t), y);
+        let colour = self.colour;
+        let style = format!(
+            "fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"1.1\" stroke-linejoin=\"round\""
+        );
+        let at = |tick: f64| x(tick * time.period_t);
+        outline(svg, self.curve.stretches(), &at, &y, &style);
         if let Some(limit) = self.limit.filter(|limit| *limit <= top) {
             let style = format!("stroke=\"{LIMIT}\" stroke-width=\".8\" stroke-dasharray=\"5 3\"");
             let both = if self.signed {
@@ -82,42 +98,6 @@ impl Strip<'_> {
         self.draw_names(svg, area);
     }
 
-    fn draw_curve(&self, svg: &mut Svg, x: impl Fn(f64) -> f64, y: impl Fn(f64) -> f64) {
-        let mut outline = Path::default();
-        let mut stretch: Vec<(f64, f64, f64)> = Vec::new();
-        let mut flush = |stretch: &mut Vec<(f64, f64, f64)>| {
-            for (i, (tick, _, high)) in stretch.iter().enumerate() {
-                if i == 0 {
-                    outline.move_to(x(*tick), y(*high));
-                } else {
-                    outline.line_to(x(*tick), y(*high));
-                }
-            }
-            for (tick, low, _) in stretch.iter().rev() {
-                outline.line_to(x(*tick), y(*low));
-            }
-            if !stretch.is_empty() {
-                outline.close();
-            }
-            stretch.clear();
-        };
-        for (tick, values) in self.curve.stretches() {
-            match values {
-                Some((low, high)) => stretch.push((tick, low, high)),
-                None => flush(&mut stretch),
-            }
-        }
-        flush(&mut stretch);
-        let colour = self.colour;
-        svg.path(
-            &outline,
-            &format!(
-                "fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"1.1\" \
-                 stroke-linejoin=\"round\""
-            ),
-        );
-    }
-
     /// Name and peak, to the right of the strip.
     fn draw_names(&self, svg: &mut Svg, area: &Area) {
         let left = area.right() + 8.0;
@@ -129,10 +109,51 @@ impl Strip<'_> {
         svg.text(left, middle + 6.0, Anchor::Start, &quiet, &peak);
         if let Some(limit) = self.limit {
             let share = 100.0 * self.curve.peak() / limit;
-            let words = format!("{} % of the limit", label(share));
+            let what = if self.band.is_some() {
+                "tolerance"
+            } else {
+                "limit"
+            };
+            let words = format!("{} % of the {what}", label(share));
             svg.text(left, middle + 19.0, Anchor::Start, &quiet, &words);
         }
     }
+}
+
+/// Draws the area between the smallest and the largest value of each stretch.
+fn outline(
+    svg: &mut Svg,
+    stretches: impl Iterator<Item = (f64, Option<(f64, f64)>)>,
+    x: &impl Fn(f64) -> f64,
+    y: &impl Fn(f64) -> f64,
+    style: &str,
+) {
+    let mut outline = Path::default();
+    let mut stretch: Vec<(f64, f64, f64)> = Vec::new();
+    let mut flush = |stretch: &mut Vec<(f64, f64, f64)>| {
+        for (i, (tick, _, high)) in stretch.iter().enumerate() {
+            if i == 0 {
+                outline.move_to(x(*tick), y(*high));
+            } else {
+                outline.line_to(x(*tick), y(*high));
+            }
+        }
+        for (tick, low, _) in stretch.iter().rev() {
+            outline.line_to(x(*tick), y(*low));
+        }
+        if !stretch.is_empty() {
+            outline.close();
+        }
+        stretch.clear();
+    };
+    for (tick, values) in stretches {
+        match values {
+            Some((low, high)) => stretch.push((tick, low, high)),
+            None => flush(&mut stretch),
+        }
+    }
+    flush(&mut stretch);
+    svg.path(&outline, style);
 }
 
 /// Draws the seconds under the last strip.

@@ -1,7 +1,7 @@
 //! The tool path seen from one side, coloured by what binds or by feed.
 
 use super::bound::Bound;
-use super::colour::{self, FRAME, GRID, INK, QUIET, RAPID};
+use super::colour::{self, FRAME, GRID, INK, PROGRAM, QUIET, RAPID};
 use super::svg::{Anchor, Area, Path, Svg};
 use super::ticks::{label, ticks};
 use super::track::{MotionTrace, TrackPoint};
@@ -91,8 +91,14 @@ impl Scale {
     }
 }
 
-/// Draws a view of the track into an area.
-pub(super) fn draw(svg: &mut Svg, view: View, track: &MotionTrace, area: &Area) {
+/// Draws a view of the track into an area, over the programmed path.
+pub(super) fn draw(
+    svg: &mut Svg,
+    view: View,
+    track: &MotionTrace,
+    program: &[TrackPoint],
+    area: &Area,
+) {
     let scale = Scale::fit(area, view.extent(track));
     if view != View::Isometric {
         grid(svg, &scale, area);
@@ -110,6 +116,18 @@ pub(super) fn draw(svg: &mut Svg, view: View, track: &MotionTrace, area: &Area) 
         let (x, y) = view.project(point.at);
         (scale.x(x), scale.y(y))
     };
+    let mut programmed = Path::default();
+    for pair in program.windows(2) {
+        let [from, to] = pair else { continue };
+        if !to.rapid {
+            draw_on(&mut programmed, at(from), at(to));
+        }
+    }
+    let style = "fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\"";
+    svg.path(
+        &programmed,
+        &format!("{style} stroke=\"{PROGRAM}\" stroke-width=\"5\""),
+    );
     let mut rapids = Path::default();
     let mut shades: Vec<Path> = vec![Path::default(); colour::SHADES];
     let mut bounds: Vec<Path> = vec![Path::default(); Bound::ALL.len()];
@@ -122,13 +140,8 @@ pub(super) fn draw(svg: &mut Svg, view: View, track: &MotionTrace, area: &Area) 
             None => shades.get_mut(colour::shade(share)),
         };
         let Some(path) = path else { continue };
-        let (start, end) = (at(from), at(to));
-        if !path.is_at(start.0, start.1) {
-            path.move_to(start.0, start.1);
-        }
-        path.line_to(end.0, end.1);
+        draw_on(path, at(from), at(to));
     }
-    let stroke = "fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\"";
     svg.path(
         &rapids,
         &format!("fill=\"none\" stroke=\"{RAPID}\" stroke-width=\"1\" stroke-dasharray=\"4 3\""),
@@ -144,7 +157,7 @@ pub(super) fn draw(svg: &mut Svg, view: View, track: &MotionTrace, area: &Area) 
     for (colour, path) in shades.chain(bounds) {
         svg.path(
             path,
-            &format!("{stroke} stroke=\"{colour}\" stroke-width=\"1.5\""),
+            &format!("{style} stroke=\"{colour}\" stroke-width=\"1.5\""),
         );
     }
     if let Some(first) = track.points().first() {
@@ -160,6 +173,14 @@ pub(super) fn draw(svg: &mut Svg, view: View, track: &MotionTrace, area: &Area) 
             &format!("rx=\"3\" fill=\"#ffffff\" stroke=\"{INK}\" stroke-width=\"1.4\""),
         );
     }
+}
+
+/// Draws a line on a path, whose pen may be elsewhere.
+fn draw_on(path: &mut Path, start: (f64, f64), end: (f64, f64)) {
+    if !path.is_at(start.0, start.1) {
+        path.move_to(start.0, start.1);
+    }
+    path.line_to(end.0, end.1);
 }
 
 /// Where a point of the view stands, in pixels.

@@ -80,7 +80,7 @@ pub struct MotionReport {
     pub peak_rss_bytes: Option<u64>,
     /// Where the motion ended, mm or degrees, by axis letter.
     pub final_position: BTreeMap<String, f64>,
-    /// Which limits bind, and where time is lost; of a plan.
+    /// Which limits bind, where time is lost, and how smooth the motion is.
     #[serde(flatten)]
     pub diagnosis: Option<DiagnosisReport>,
     /// The CSV that was written.

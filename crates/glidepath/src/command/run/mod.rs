@@ -24,7 +24,7 @@ use crate::output;
 use crate::output_file::{Guard, OutputFile, OutputKind};
 use crate::progress::Progress;
 use crate::recording::Recording;
-use crate::report::{Planning, RunReport};
+use crate::report::{DiagnosisReport, Planning, RunReport};
 use child::Process;
 use glidepath_link::{Ipc, LinkConfig, Status, remove_leftovers};
 use monitor::Monitor;
@@ -81,9 +81,10 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
     report.motion.program = args.file.name().display().to_string();
     report.motion.setpoints.clone_from(&args.setpoints);
     report.motion.plot = plot;
-    received
-        .recording
-        .finish(&title(args.file.name()), &report.motion.caption())?;
+    let mut recording = received.recording;
+    report.motion.diagnosis = Some(DiagnosisReport::new(&received.summary, config));
+    recording.smoothness(report.motion.diagnosis.as_ref());
+    recording.finish(&title(args.file.name()), &report.motion.caption())?;
     if args.basic.json {
         output::object(&report);
     } else {

@@ -6,12 +6,13 @@ use crate::play_time::{PlayTime, PlayedTime};
 use crate::recording::Recording;
 use crate::sample::Sample;
 use glidepath_audit as audit;
+use glidepath_audit::diagnosis::{Diagnosis, Summary};
 use glidepath_audit::{Audit, AuditSettings};
 use glidepath_geometry::AxisVector;
 use glidepath_link::servo::{Servo, ServoCounts, ServoSettings};
-use glidepath_link::{Replay, Setpoint};
+use glidepath_link::{MachineState, Replay, Setpoint};
 use glidepath_planner::{FileSource, ItemSource, Supply};
-use glidepath_program::ItemKind;
+use glidepath_program::{Frame, FrameFlags, ItemKind};
 use std::io::{BufReader, Read};
 use std::path::Path;
 use std::sync::Arc;
@@ -46,6 +47,8 @@ pub(super) struct Received {
     pub(super) counts: ServoCounts,
     pub(super) audit: audit::Report,
     pub(super) played: PlayedTime,
+    /// What bound the motion that was played, and how smooth it was.
+    pub(super) summary: Summary,
     pub(super) recording: Recording,
 }
 
@@ -96,15 +99,17 @@ fn receive(
     let mut play_time = PlayTime::new(period_t);
     while let Some(setpoint) = servo.receive(0)? {
         play_time.take(&setpoint);
-        judge.take(&setpoint);
-        recording.push(&Sample::received(&setpoint, period_t))?;
+        let sample = judge.take(&setpoint, period_t, &mut recording);
+        recording.push(&sample)?;
         seen.line.store(setpoint.line, Ordering::Relaxed);
         seen.received.fetch_add(1, Ordering::Relaxed);
     }
     let counts = *servo.counts();
+    let (audit, summary) = judge.finish(&mut recording);
     Ok(Received {
         counts,
-        audit: judge.finish(),
+        audit,
+        summary,
         played: play_time.played(),
         recording,
     })
@@ -114,6 +119,7 @@ fn receive(
 #[derive(Debug)]
 struct Judge {
     audit: Audit,
+    diagnosis: Diagnosis,
     program: FileSource,
     /// Path of the program told so far, mm.
     told_s: f64,
@@ -123,23 +129,26 @@ impl Judge {
     fn new(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
         let options = config.program_options(config.home());
         let program = FileSource::unchecked(path, options, &config.settings())?;
-        let audit = Audit::new(&AuditSettings {
+        let judged = AuditSettings {
             limits: config.limits(),
             period_t: config.period_t(),
             tolerance_mm: config.path.tolerance_mm,
-        });
+        };
         Ok(Self {
-            audit,
+            audit: Audit::new(&judged),
+            diagnosis: Diagnosis::new(&judged),
             program,
             told_s: 0.0,
         })
     }
 
-    fn take(&mut self, setpoint: &Setpoint) {
+    /// Judges a setpoint; gives the sample of it, with what is known of it.
+    fn take(&mut self, setpoint: &Setpoint, period_t: f64, recording: &mut Recording) -> Sample {
+        let sample = Sample::received(setpoint, period_t);
         if setpoint.epoch == 0 {
-            return;
+            return sample;
         }
-        while self.told_s < setpoint.path_s + AHEAD_MM && self.tell() {}
+        while self.told_s < setpoint.path_s + AHEAD_MM && self.tell(recording) {}
         self.audit.sample(&audit::Sample {
             // Not the tick of the clock: after a missed tick the next setpoint is the next of the
             // path.
@@ -148,12 +157,18 @@ impl Judge {
             position: AxisVector::from(setpoint.position),
             reported: None,
         });
+        // Waiting before and after the program is no part of the motion.
+        if matches!(setpoint.state(), Ok(MachineState::Idle)) {
+            return sample;
+        }
+        let binding = self.diagnosis.frame(&as_frame(setpoint));
+        sample.diagnosed(binding, self.diagnosis.deviation())
     }
 
     /// Tells the auditor the next item; false at the end. A finding ends it too: the program was
     /// checked, so that only a file that was changed meanwhile has one, and the auditor then finds
     /// that the motion went elsewhere.
-    fn tell(&mut self) -> bool {
+    fn tell(&mut self, recording: &mut Recording) -> bool {
         let Supply::Item(item) = self.program.next_item() else {
             return false;
         };
@@ -161,11 +176,29 @@ impl Judge {
             self.told_s += segment.length();
         }
         self.audit.program(&item);
+        self.diagnosis.program(&item);
+        recording.program(&item);
         true
     }
 
-    fn finish(mut self) -> audit::Report {
-        while self.tell() {}
-        self.audit.finish()
+    fn finish(mut self, recording: &mut Recording) -> (audit::Report, Summary) {
+        while self.tell(recording) {}
+        (self.audit.finish(), self.diagnosis.finish())
+    }
+}
+
+/// A setpoint as the frame that it would be if it had been planned so.
+fn as_frame(setpoint: &Setpoint) -> Frame {
+    Frame {
+        sequence: setpoint.number,
+        line: setpoint.line,
+        block: setpoint.block,
+        flags: FrameFlags(setpoint.flags),
+        planned_override: setpoint.effective_override,
+        path_v: setpoint.feed_v,
+        path_s: setpoint.path_s,
+        velocity: setpoint.velocity.into(),
+        acceleration: setpoint.acceleration.into(),
+        ..Frame::blank(setpoint.position.into())
     }
 }
