@@ -31,6 +31,9 @@ pub(super) struct Follow {
     /// Where on the first of them the last frame was.
     passed_s: f64,
     position: AxisVector,
+    /// The move that was left last, and where on it: a motion that turns round at its end may be
+    /// nearer to it for a while.
+    left: Option<(Move, f64)>,
     /// How far the last frame was from there, if that had to be known.
     distance_mm: Option<f64>,
 }
@@ -51,6 +54,7 @@ impl Follow {
             tolerance_mm: settings.tolerance_mm,
             moves: VecDeque::new(),
             passed_s: 0.0,
+            left: None,
             position: AxisVector::zeros(),
             distance_mm: None,
         }
@@ -123,7 +127,10 @@ impl Follow {
             start_s += candidate.length_s;
             from_s = 0.0;
         }
-        self.moves.drain(..best);
+        if let Some(left) = self.moves.drain(..best).next_back() {
+            let from_s = if best == 1 { self.passed_s } else { 0.0 };
+            self.left = Some((left, from_s));
+        }
         self.passed_s = best_s;
         self.distance_mm = Some(best_mm);
     }
@@ -135,6 +142,17 @@ impl Follow {
             here.map_or(0.0, |here| here.distance_mm(&self.position, self.passed_s))
         };
         self.distance_mm.unwrap_or_else(distance_mm)
+    }
+
+    /// How far the last frame is from the program, mm, the move before counted in: where the program
+    /// turns round, the nearest point further on is that of the way back too early.
+    pub(super) fn least_deviation_mm(&self) -> f64 {
+        let here_mm = self.deviation_mm();
+        let left = self.left.as_ref().map(|(left, from_s)| {
+            let s = left.nearest(&self.position, *from_s);
+            left.distance_mm(&self.position, s)
+        });
+        left.map_or(here_mm, |left_mm| left_mm.min(here_mm))
     }
 
     fn feed_v(&self, here: &Move, s: f64, frame: &Frame) -> f64 {

@@ -91,7 +91,7 @@ impl Diagnosis {
         } else {
             classify(frame.path_v, &self.differences, (&nearby, &self.follow))
         };
-        let deviation_mm = self.follow.deviation_mm();
+        let deviation_mm = self.follow.least_deviation_mm();
         self.deviation = Deviation {
             distance_mm: deviation_mm,
             tolerance_mm: nearby.tolerance_mm,
