@@ -1,9 +1,9 @@
 //! The engine: the path front, look-ahead, refiner and sampler one behind the other.
 
 use super::front::PathFront;
-use super::look_ahead::{Scheduler, Settled};
+use super::look_ahead::{Planned, Scheduler, Settled};
 use super::pieces::Element;
-use super::refiner::Refiner;
+use super::refining::Refiner;
 use super::sampler::{NextFrame, Sampler};
 use super::slowing::Slowing;
 use crate::PlanError;
@@ -118,7 +118,7 @@ impl OnPathEngine {
             return false;
         };
         let mut scheduler = Scheduler::entered_at(entry_v, self.limits, self.period_t);
-        let mut settled = VecDeque::new();
+        let mut planned = VecDeque::new();
         let limits = self.limits;
         let remaining_piece = self.sampler.remaining_piece().map(Element::Piece);
         let elements = remaining_piece
@@ -133,19 +133,19 @@ impl OnPathEngine {
                 Element::Stops { .. } => continue,
                 rest @ (Element::Rest(_) | Element::InnerRest(_)) => {
                     slowing.over = true;
-                    scheduler.push(rest, &mut settled);
+                    scheduler.push(rest, &mut planned);
                     continue;
                 }
             };
             let (old, new) = slowing.split(piece);
             if let Some(old) = old {
-                scheduler.push(Element::Piece(old), &mut settled);
+                scheduler.push(Element::Piece(old), &mut planned);
             }
             if let Some(new) = new {
                 if !core::mem::replace(&mut slowing.over, true) {
                     scheduler.close_run();
                 }
-                scheduler.push(Element::Piece(new.under(wanted, &limits)), &mut settled);
+                scheduler.push(Element::Piece(new.under(wanted, &limits)), &mut planned);
             }
         }
         if !scheduler.is_feasible() {
@@ -154,18 +154,18 @@ impl OnPathEngine {
         self.sampler.drop_motion();
         self.scheduler = scheduler;
         self.refiner.restart(entry_v);
-        self.settled = settled;
+        self.settled = planned.into_iter().flat_map(Planned::by_s_curves).collect();
         self.wanted = None;
         true
     }
 
     fn schedule(&mut self) {
-        let mut settled = VecDeque::new();
+        let mut planned = VecDeque::new();
         for element in self.elements.drain(..) {
-            self.scheduler.push(element, &mut settled);
+            self.scheduler.push(element, &mut planned);
         }
-        for settled in settled {
-            self.refiner.push(settled, &mut self.settled);
+        for planned in planned {
+            self.refiner.push(planned, &mut self.settled);
         }
     }
 }

@@ -3,13 +3,13 @@
 //! The geometry is settled first, from the program and the tolerance alone: dense chords become a
 //! smooth spline in the tube around them, corners become transitions or stops. Then the motion
 //! along that path is planned: S-curves between junctions of speeds found by look-ahead, made
-//! faster where the limits of the axes leave room, and on curves of the program a time
-//! parametrisation that is optimal as a whole.
+//! faster where the limits of the axes leave room, and on curves a time parametrisation that is
+//! optimal as a whole.
 //!
 //! ```text
-//!   item ──▶ front ──▶ pieces, rests ──▶ look_ahead ──▶ settled motion ──▶ refiner ──▶ sampler ──▶ frames
-//!            │                           │                                 (topp,
-//!            ├ spline_tube               └ speed                            on curves)
+//!   item ──▶ front ──▶ pieces, rests ──▶ look_ahead ──▶ settled motion ──▶ refining ──▶ sampler ──▶ frames
+//!            │                           │                                 │
+//!            ├ spline_tube               └ speed                           └ topp
 //!            └ junction
 //! ```
 //!
@@ -22,13 +22,14 @@
 //! | `speed` | S-curves through runs of pieces |
 //! | `topp` | time parametrisation along a given path |
 //! | `look_ahead` | the speeds between runs, and what of the motion is settled |
+//! | `refining` | where a time parametrisation takes the place of S-curves |
 
 mod engine;
 mod front;
 mod junction;
 mod look_ahead;
 mod pieces;
-mod refiner;
+mod refining;
 mod sampler;
 mod slowing;
 mod speed;

@@ -84,10 +84,13 @@ impl PathFront {
         };
         let length_s = segment.length();
         let assembly = &mut self.assembly;
-        let axes_v = axes_speed(&segment, &assembly.settings.limits);
-        let programmed = ProgrammedRate { rate, axes_v };
+        let limits = assembly.settings.limits;
+        let programmed = || ProgrammedRate {
+            rate,
+            axes_v: axes_speed(&segment, &limits),
+        };
         if assembly.blocks.keeps() {
-            let rule = assembly.rule(&segment, programmed, mode);
+            let rule = assembly.rule(&segment, programmed(), mode);
             let shape = Shape::Segment(segment);
             let mut piece = assembly.piece(shape, (0.0, length_s), rule, line);
             piece.events.clone_from(&assembly.events);
@@ -100,7 +103,7 @@ impl PathFront {
             return Ok(());
         }
         self.dense.end_run(assembly, out);
-        let rate = programmed;
+        let rate = programmed();
         let mut next = Pending {
             segment,
             length_s,

@@ -1,9 +1,11 @@
 //! The speeds between runs, and what of the motion nothing later changes.
 
 mod joined_runs;
+mod planned;
 mod scheduler;
 mod settled;
 mod stop_at_each;
 
+pub(crate) use planned::Planned;
 pub(crate) use scheduler::Scheduler;
 pub(crate) use settled::Settled;

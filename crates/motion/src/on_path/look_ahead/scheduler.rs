@@ -14,6 +14,7 @@
 //! one.
 
 use super::joined_runs::JoinedRuns;
+use super::planned::Planned;
 use super::settled::Settled;
 use super::stop_at_each::drive_each;
 use crate::on_path::pieces::{Element, Piece};
@@ -124,7 +125,7 @@ impl Scheduler {
     }
 
     /// Takes the next element and appends what it settles.
-    pub(crate) fn push(&mut self, element: Element, out: &mut VecDeque<Settled>) {
+    pub(crate) fn push(&mut self, element: Element, out: &mut VecDeque<Planned>) {
         match element {
             Element::Piece(piece) => {
                 let next = Run::new(piece);
@@ -146,21 +147,21 @@ impl Scheduler {
                 match self.stops.take().filter(|_| self.is_whole) {
                     Some((pieces, exact)) => self.settle_stretch(pieces, exact, out),
                     None => {
-                        out.append(&mut self.held);
-                        self.settle(self.waiting.len(), out);
+                        self.settle(self.waiting.len());
+                        self.put_held(out);
                     }
                 }
                 self.is_whole = true;
                 self.start_from_rest();
-                out.push_back(Settled::Rest(rest));
+                out.push_back(Planned::One(Settled::Rest(rest)));
             }
             Element::InnerRest(rest) => {
                 self.close_run();
-                let mut held = core::mem::take(&mut self.held);
-                let to = if self.is_whole { &mut held } else { &mut *out };
-                self.settle(self.waiting.len(), to);
-                to.push_back(Settled::Rest(rest));
-                self.held = held;
+                self.settle(self.waiting.len());
+                self.held.push_back(Settled::Rest(rest));
+                if !self.is_whole {
+                    self.put_held(out);
+                }
                 self.start_from_rest();
             }
         }
@@ -174,12 +175,17 @@ impl Scheduler {
     }
 
     /// Settles some runs while the stretch goes on.
-    fn settle_some(&mut self, count: usize, out: &mut VecDeque<Settled>) {
+    fn settle_some(&mut self, count: usize, out: &mut VecDeque<Planned>) {
         if count > 0 {
             self.is_whole = false;
-            out.append(&mut self.held);
-            self.settle(count, out);
+            self.settle(count);
+            self.put_held(out);
         }
+    }
+
+    /// Gives on what is settled.
+    fn put_held(&mut self, out: &mut VecDeque<Planned>) {
+        out.extend(self.held.drain(..).map(Planned::One));
     }
 
     fn enqueue(&mut self, run: Run) {
@@ -194,7 +200,7 @@ impl Scheduler {
     }
 
     /// Settles what has enough path beyond it.
-    fn settle_front(&mut self, out: &mut VecDeque<Settled>) {
+    fn settle_front(&mut self, out: &mut VecDeque<Planned>) {
         let horizon_s = slowing_horizon(self.fastest_v, self.weakest);
         let whole_s = 2.0 * horizon_s + self.fastest_v * WHOLE_T;
         if self.is_whole && self.waiting_pieces < MOST_WHOLE && self.waiting_s < whole_s {
@@ -216,42 +222,41 @@ impl Scheduler {
         }
     }
 
-    /// Settles a whole stretch between two rests: as planned, or at rest after each piece,
-    /// whichever is faster.
-    fn settle_stretch(&mut self, pieces: Vec<Piece>, exact: bool, out: &mut VecDeque<Settled>) {
-        let mut planned = core::mem::take(&mut self.held);
-        self.settle(self.waiting.len(), &mut planned);
-        let passing_t: f64 = planned.iter().map(Settled::duration_t).sum();
-        let stopping = drive_each(&pieces).filter(|legs| {
-            let waits_t = if exact {
-                self.period_t * legs.len() as f64
-            } else {
-                0.0
-            };
-            let driving_t: f64 = legs.iter().map(|leg| leg.profile.duration_t()).sum();
-            driving_t + waits_t < passing_t
-        });
-        let Some(legs) = stopping else {
-            out.append(&mut planned);
-            return;
+    /// Settles a whole stretch between two rests: as planned, or at rest after each piece.
+    fn settle_stretch(&mut self, pieces: Vec<Piece>, exact: bool, out: &mut VecDeque<Planned>) {
+        self.settle(self.waiting.len());
+        let Some(legs) = drive_each(&pieces) else {
+            return self.put_held(out);
         };
         let kind = if exact {
             RestKind::ExactStop
         } else {
             RestKind::Corner
         };
+        let rests_t = if exact {
+            self.period_t * legs.len() as f64
+        } else {
+            0.0
+        };
         let last = legs.len() - 1;
+        let mut stopping = Vec::with_capacity(2 * legs.len());
         for (i, (piece, leg)) in pieces.into_iter().zip(legs).enumerate() {
             let line = piece.line;
             let (pieces, legs) = (vec![piece], vec![leg]);
-            out.push_back(Settled::Motion { pieces, legs });
+            stopping.push(Settled::Motion { pieces, legs });
             if i < last {
-                out.push_back(Settled::Rest(Rest { kind, line }));
+                stopping.push(Settled::Rest(Rest { kind, line }));
             }
         }
+        out.push_back(Planned::Either {
+            passing: self.held.drain(..).collect(),
+            stopping,
+            rests_t,
+        });
     }
 
-    fn settle(&mut self, count: usize, out: &mut VecDeque<Settled>) {
+    /// Settles some runs.
+    fn settle(&mut self, count: usize) {
         if count == 0 {
             return;
         }
@@ -271,9 +276,9 @@ impl Scheduler {
                     .map(|next| core::mem::replace(joined, next)),
                 None => joined.replace(next),
             };
-            out.extend(done.map(JoinedRuns::settled));
+            self.held.extend(done.map(JoinedRuns::settled));
         }
-        out.extend(joined.map(JoinedRuns::settled));
+        self.held.extend(joined.map(JoinedRuns::settled));
         self.planned_v.clear();
         self.planned_v.extend(planned_v.into_iter().skip(count));
         if self.waiting.is_empty() {

@@ -147,14 +147,15 @@ impl SpeedRule {
         }
     }
 
-    /// What bounds the speed whatever the axes can do: the rate, mm/s, and the acceleration across
-    /// the path at which the chord of one period uses up the tolerance, mm/s².
-    pub(crate) fn caps(&self, wanted: Override) -> (f64, f64) {
+    /// What bounds the speed whatever the axes can do: the rate, mm/s, the acceleration across the
+    /// path at which the chord of one period uses up the tolerance, mm/s², and the speed at which it
+    /// does so where the curvature is largest, mm/s.
+    pub(crate) fn caps(&self, wanted: Override) -> (f64, f64, f64) {
         match self {
-            Self::Straight { rate, .. } => (rate.under(wanted), f64::INFINITY),
+            Self::Straight { rate, .. } => (rate.under(wanted), f64::INFINITY, f64::INFINITY),
             Self::Arc { rate, chord_v, .. } => {
                 let chord_a = chord_v * chord_v * self.curvature_k();
-                (rate.under(wanted), chord_a)
+                (rate.under(wanted), chord_a, *chord_v)
             }
             Self::Curve { curve, rates } => {
                 let rate_v = rates[0].under(wanted).min(rates[1].under(wanted));
@@ -165,9 +166,33 @@ impl SpeedRule {
                 } else {
                     chord_a
                 };
-                (rate_v / curve.stretch_r, chord_a)
+                (rate_v / curve.stretch_r, chord_a, curve.chord_v)
             }
         }
+    }
+
+    /// The highest constant speed, mm/s.
+    pub(crate) fn steady_v(&self, wanted: Override, limits: &Limits) -> f64 {
+        let by_axes_v = match self {
+            Self::Straight { d1, rate } => straight_limit(d1, rate.under(wanted), limits).top_v,
+            Self::Arc {
+                arc: curve,
+                rate,
+                chord_v,
+            } => {
+                let bounds = ArcBounds::new(curve, limits);
+                straight_limit(&bounds.straight_d1, rate.under(wanted), limits)
+                    .top_v
+                    .min(*chord_v)
+                    .min(bounds.following_v(1.0, 1.0))
+            }
+            Self::Curve { curve, rates } => {
+                let rate_v = rates[0].under(wanted).min(rates[1].under(wanted));
+                let rate_v = (rate_v / curve.stretch_r).min(curve.chord_v);
+                constant(&curve.bounds, rate_v, limits).top_v
+            }
+        };
+        by_axes_v.min(limits.path.speed_v(self.curvature_k()))
     }
 
     /// True if only rapids touch the piece.
@@ -196,6 +221,8 @@ const ROUNDING_R: f64 = 1e-9;
 /// Share of an axis' acceleration and jerk spent on following a curve at its top speed.
 const FOLLOW_ACCEL_R: f64 = 0.6;
 const FOLLOW_JERK_R: f64 = 0.4;
+/// The share of acceleration on an arc, where it is at right angles to what changes the speed.
+const ARC_FOLLOW_ACCEL_R: f64 = 0.75;
 /// Share of acceleration and jerk that following may take where the speed hardly changes.
 const PEAK_R: f64 = 0.9;
 /// Share of the jerk spent on the product of acceleration along the path and curvature.
@@ -266,33 +293,66 @@ pub(crate) fn curved(bounds: &DerivativeBounds, rate_v: f64, limits: &Limits) ->
     }
 }
 
+/// Bounds of the derivatives of an arc, in its plane and across it, and the limits in its plane.
+struct ArcBounds {
+    straight_d1: AxisVector,
+    d1: f64,
+    d2: f64,
+    d3: f64,
+    plane_v: f64,
+    plane_a: f64,
+    plane_j: f64,
+}
+
+impl ArcBounds {
+    fn new(arc: &Arc, limits: &Limits) -> Self {
+        let length_s = arc.length();
+        let (first, second) = arc.plane.axes();
+        let (first, second) = (first.index(), second.index());
+        let in_plane = |limit: &AxisVector| limit[first].min(limit[second]);
+        let mut straight_d1 = (arc.end - arc.start) / length_s;
+        straight_d1[first] = 0.0;
+        straight_d1[second] = 0.0;
+
+        let radius_mm = arc.start_radius().max(arc.end_radius());
+        let drift = (arc.end_radius() - arc.start_radius()).abs() / length_s;
+        let omega = arc.sweep_rad.abs() / length_s;
+        // `drift` is the rounding of programs, practically zero.
+        Self {
+            straight_d1,
+            d1: radius_mm * omega + drift,
+            d2: radius_mm * omega * omega + 2.0 * drift * omega,
+            d3: (radius_mm * omega + 3.0 * drift) * omega * omega,
+            plane_v: in_plane(&limits.velocity),
+            plane_a: in_plane(&limits.acceleration),
+            plane_j: in_plane(&limits.jerk),
+        }
+    }
+
+    /// The speed at which following the arc takes these shares of acceleration and jerk.
+    fn following_v(&self, accel_r: f64, jerk_r: f64) -> f64 {
+        (self.plane_v / self.d1)
+            .min((accel_r * self.plane_a / self.d2).sqrt())
+            .min((jerk_r * self.plane_j / self.d3).cbrt())
+    }
+}
+
 /// An arc. Its normal and tangential parts are at right angles, so in the plane of the arc they add
 /// as squares whatever the direction of motion is.
 pub(crate) fn arc(arc: &Arc, rate_v: f64, limits: &Limits) -> SpeedLimit {
-    let length_s = arc.length();
-    let (first, second) = arc.plane.axes();
-    let (first, second) = (first.index(), second.index());
-    let in_plane = |limit: &AxisVector| limit[first].min(limit[second]);
-    let mut straight_d1 = (arc.end - arc.start) / length_s;
-    straight_d1[first] = 0.0;
-    straight_d1[second] = 0.0;
-
-    let radius_mm = arc.start_radius().max(arc.end_radius());
-    let drift = (arc.end_radius() - arc.start_radius()).abs() / length_s;
-    let omega = arc.sweep_rad.abs() / length_s;
-    // Bounds of the in-plane derivatives; `drift` is the rounding of programs, practically zero.
-    let d1 = radius_mm * omega + drift;
-    let d2 = radius_mm * omega * omega + 2.0 * drift * omega;
-    let d3 = (radius_mm * omega + 3.0 * drift) * omega * omega;
-    let plane_a = in_plane(&limits.acceleration);
-    let plane_j = in_plane(&limits.jerk);
-
-    let along = straight_limit(&straight_d1, rate_v, limits);
+    let bounds = ArcBounds::new(arc, limits);
+    let ArcBounds {
+        d1,
+        d2,
+        d3,
+        plane_a,
+        plane_j,
+        ..
+    } = bounds;
+    let along = straight_limit(&bounds.straight_d1, rate_v, limits);
     let top_v = along
         .top_v
-        .min(in_plane(&limits.velocity) / d1)
-        .min((0.75 * plane_a / d2).sqrt())
-        .min((FOLLOW_JERK_R * plane_j / d3).cbrt());
+        .min(bounds.following_v(ARC_FOLLOW_ACCEL_R, FOLLOW_JERK_R));
     let normal_a = d2 * top_v * top_v;
     let cross_j = 0.7 * plane_j;
     let accel_a =

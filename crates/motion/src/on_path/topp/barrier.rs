@@ -1,28 +1,29 @@
 //! Newton's method with a logarithmic barrier, over the coefficients of b.
+//!
+//! At each place slope and bend of the barrier are collected over b, b′ and b″, and brought to the
+//! three coefficients at once.
 
-use super::constraints::{Constraint, Problem};
+use super::constraints::{Place, Problem, Row};
 
 /// The weight of the time at the start, in limits for the time that the start takes.
 const START: f64 = 5.0;
-/// Steps of Newton's method for one weight of the barrier, and in all.
+/// Steps of Newton's method for one weight of the barrier.
 const STEPS: u32 = 60;
 /// The weight of the time grows by this factor when a step is small.
-const GROWTH: f64 = 5.0;
+const GROWTH: f64 = 50.0;
 /// The square of a step, in the measure of the barrier, that counts as small.
 const SMALL_STEP: f64 = 1.0;
 /// Halvings of a step that would leave the limits.
 const HALVINGS: u32 = 40;
-/// What is left to gain in the end, as a share of the time.
-const GAP_R: f64 = 2e-5;
 
 /// Coefficients of a time parametrisation that keeps all limits and takes near the least time, from
-/// one that keeps them with room to spare; `None` if the start does not.
-pub(crate) fn solve(problem: &Problem, start: Vec<f64>) -> Option<Vec<f64>> {
+/// one that keeps them with room to spare; `None` if the start does not. `gap_r`: what may be left
+/// to gain, as a share of the time.
+pub(crate) fn solve(problem: &Problem, start: Vec<f64>, gap_r: f64) -> Option<Vec<f64>> {
     let mut x = start;
     let time_t = problem.time(&x);
-    let count = problem.knots() as f64;
-    let mut weight = START * problem.constraints.len() as f64 / time_t;
-    let last = 3.0 * count / (GAP_R * time_t);
+    let mut weight = START * problem.count as f64 / time_t;
+    let last = 3.0 * problem.knots as f64 / (gap_r * time_t);
     let mut value = merit(problem, &x, weight)?;
     let mut newton = Newton::new(x.len());
     loop {
@@ -32,11 +33,11 @@ pub(crate) fn solve(problem: &Problem, start: Vec<f64>) -> Option<Vec<f64>> {
             if decrement.is_nan() || decrement < SMALL_STEP {
                 break;
             }
-            let Some((next, next_value)) = newton.search(problem, &x, weight, value, decrement)
-            else {
+            let Some(next_value) = newton.search(problem, &x, weight, value, decrement) else {
                 break;
             };
-            (x, value) = (next, next_value);
+            core::mem::swap(&mut x, &mut newton.next);
+            value = next_value;
         }
         if weight >= last {
             return Some(x);
@@ -46,27 +47,121 @@ pub(crate) fn solve(problem: &Problem, start: Vec<f64>) -> Option<Vec<f64>> {
     }
 }
 
+/// Sums logarithms: one of a product of several numbers is enough.
+struct Logarithms {
+    sum: f64,
+    product: f64,
+}
+
+impl Logarithms {
+    /// Takes a factor; false if it is not above zero.
+    #[inline]
+    fn take(&mut self, factor: f64) -> bool {
+        self.product *= factor;
+        if !(1e-100..=1e100).contains(&self.product) {
+            self.sum += self.product.ln();
+            self.product = 1.0;
+        }
+        // Refuses what is not a number, too.
+        factor > 0.0
+    }
+}
+
 /// Weighted time and barrier; `None` where a limit is broken.
 fn merit(problem: &Problem, x: &[f64], weight: f64) -> Option<f64> {
-    let mut sum = 0.0;
-    // Products of a few slacks: one logarithm for several constraints.
-    let mut product = 1.0_f64;
-    for constraint in &problem.constraints {
-        let slack = constraint.slack(x);
-        // Refuses what is not a number, too.
-        let is_kept = slack > 0.0;
+    let (mut time_t, mut from) = (0.0, 0);
+    let mut logarithms = Logarithms {
+        sum: 0.0,
+        product: 1.0,
+    };
+    for place in &problem.places {
+        let [b, slope, second] = place.values(x);
+        let mut is_kept = b > 0.0;
+        if place.cap_b.is_finite() {
+            is_kept &= logarithms.take(1.0 - b / place.cap_b);
+        }
+        for row in &problem.rows[from..place.rows_end] {
+            let ([a0, a1], [j0, j1, j2]) = (row.accel(), row.jerk());
+            if row.most_a.is_finite() {
+                let used_r = (a0 * b + a1 * slope) / row.most_a;
+                is_kept &= logarithms.take(1.0 - used_r * used_r);
+            }
+            if row.most_j.is_finite() {
+                let used_r = (j0 * b + j1 * slope + j2 * second) / row.most_j;
+                is_kept &= logarithms.take(1.0 / b - used_r * used_r);
+            }
+        }
         if !is_kept {
             return None;
         }
-        product *= slack / constraint.limit;
-        if !(1e-100..=1e100).contains(&product) {
-            sum -= product.ln();
-            product = 1.0;
+        from = place.rows_end;
+        if place.share_s > 0.0 {
+            time_t += place.share_s / b.sqrt();
         }
     }
-    sum -= product.ln();
-    let time_t = problem.time(x);
-    (time_t.is_finite() && sum.is_finite()).then_some(weight * time_t + sum)
+    let barrier = -(logarithms.sum + logarithms.product.ln());
+    (time_t.is_finite() && barrier.is_finite()).then_some(weight * time_t + barrier)
+}
+
+/// Slope and bend of the objective at a place, over b, b′ and b″.
+#[derive(Default)]
+struct Local {
+    slope: [f64; 3],
+    /// bb, bb′, bb″, b′b′, b′b″, b″b″.
+    bend: [f64; 6],
+}
+
+impl Local {
+    fn at(place: &Place, rows: &[Row], [b, b1, b2]: [f64; 3], weight: f64) -> Self {
+        let mut local = Self::default();
+        let inverse = 1.0 / b;
+        let root = inverse.sqrt();
+        if place.share_s > 0.0 {
+            let slope = 0.5 * weight * place.share_s * inverse * root;
+            local.slope[0] -= slope;
+            local.bend[0] += 1.5 * slope * inverse;
+        }
+        if place.cap_b.is_finite() {
+            let near = 1.0 / (place.cap_b - b);
+            local.slope[0] += near;
+            local.bend[0] += near * near;
+        }
+        for row in rows {
+            if row.most_a.is_finite() {
+                let [c0, c1] = row.accel();
+                let used = c0 * b + c1 * b1;
+                local.both([c0, c1, 0.0], used, row.most_a, 0.0);
+            }
+            if row.most_j.is_finite() {
+                let [c0, c1, c2] = row.jerk();
+                let used = c0 * b + c1 * b1 + c2 * b2;
+                let allowed = row.most_j * root;
+                local.both([c0, c1, c2], used, allowed, -0.5 * allowed * inverse);
+            }
+        }
+        local
+    }
+
+    /// A limit both ways: `used` = `of`·(b, b′, b″) within ±`allowed`, which changes by `change`
+    /// with b.
+    #[inline]
+    fn both(&mut self, of: [f64; 3], used: f64, allowed: f64, change: f64) {
+        let [c0, c1, c2] = of;
+        let product = 1.0 / ((allowed - used) * (allowed + used));
+        let (above, below) = ((allowed + used) * product, (allowed - used) * product);
+        let (difference, sum) = (above - below, above + below);
+        self.slope[0] += difference * c0 - sum * change;
+        self.slope[1] += difference * c1;
+        self.slope[2] += difference * c2;
+        let square = above * above + below * below;
+        let cross = -difference * sum * change;
+        self.bend[0] += square * (c0 * c0 + change * change) + 2.0 * cross * c0;
+        self.bend[1] += (square * c0 + cross) * c1;
+        self.bend[2] += (square * c0 + cross) * c2;
+        self.bend[3] += square * c1 * c1;
+        self.bend[4] += square * c1 * c2;
+        self.bend[5] += square * c2 * c2;
+    }
 }
 
 /// Gradient, banded second derivative and step.
@@ -75,6 +170,8 @@ struct Newton {
     /// Diagonal and two bands above it.
     band: Vec<[f64; 3]>,
     step: Vec<f64>,
+    /// What the last search found.
+    next: Vec<f64>,
 }
 
 impl Newton {
@@ -83,27 +180,23 @@ impl Newton {
             gradient: vec![0.0; count],
             band: vec![[0.0; 3]; count],
             step: vec![0.0; count],
+            next: vec![0.0; count],
         }
     }
 
     fn assemble(&mut self, problem: &Problem, x: &[f64], weight: f64) {
         self.gradient.fill(0.0);
         self.band.fill([0.0; 3]);
-        for knot in &problem.knots {
-            let b = knot.value(x);
-            let root = b.sqrt();
-            let slope = -0.5 * weight * knot.share_s / (b * root);
-            let bend = 0.75 * weight * knot.share_s / (b * b * root);
-            self.add(knot.first, &knot.of, slope, bend);
-        }
-        for constraint in &problem.constraints {
-            let (slack, slope) = constraint.slack_and_slope(x);
-            self.add(
-                constraint.first,
-                &slope,
-                -1.0 / slack,
-                1.0 / (slack * slack),
-            );
+        let mut from = 0;
+        for place in &problem.places {
+            let rows = &problem.rows[from..place.rows_end];
+            from = place.rows_end;
+            let local = Local::at(place, rows, place.values(x), weight);
+            if rows.is_empty() {
+                self.add_value(place, &local);
+            } else {
+                self.add(place, &local);
+            }
         }
         // The two coefficients at either end are given.
         let count = x.len();
@@ -119,11 +212,39 @@ impl Newton {
         }
     }
 
-    fn add(&mut self, first: usize, of: &[f64; 3], slope: f64, bend: f64) {
+    /// Brings slope and bend over b alone to the three coefficients of a place.
+    #[inline]
+    fn add_value(&mut self, place: &Place, local: &Local) {
+        let v = &place.taylor.value;
+        let gradient = &mut self.gradient[place.first..place.first + 3];
+        let band = &mut self.band[place.first..place.first + 3];
         for i in 0..3 {
-            self.gradient[first + i] += slope * of[i];
+            gradient[i] += local.slope[0] * v[i];
             for j in i..3 {
-                self.band[first + i][j - i] += bend * of[i] * of[j];
+                band[i][j - i] += local.bend[0] * v[i] * v[j];
+            }
+        }
+    }
+
+    /// Brings slope and bend at a place to its three coefficients.
+    #[inline]
+    fn add(&mut self, place: &Place, local: &Local) {
+        let (v, s, c) = (
+            &place.taylor.value,
+            &place.taylor.slope,
+            &place.taylor.second,
+        );
+        let [g0, g1, g2] = local.slope;
+        let [h00, h01, h02, h11, h12, h22] = local.bend;
+        let gradient = &mut self.gradient[place.first..place.first + 3];
+        let band = &mut self.band[place.first..place.first + 3];
+        for i in 0..3 {
+            gradient[i] += g0 * v[i] + g1 * s[i] + g2 * c[i];
+            let of_b = h00 * v[i] + h01 * s[i] + h02 * c[i];
+            let of_slope = h01 * v[i] + h11 * s[i] + h12 * c[i];
+            let of_second = h02 * v[i] + h12 * s[i] + h22 * c[i];
+            for j in i..3 {
+                band[i][j - i] += of_b * v[j] + of_slope * s[j] + of_second * c[j];
             }
         }
     }
@@ -174,65 +295,27 @@ impl Newton {
         -product.sum::<f64>()
     }
 
-    /// A point along the step that is better.
+    /// Puts a point along the step that is better into `next`; how good it is.
     fn search(
-        &self,
+        &mut self,
         problem: &Problem,
         x: &[f64],
         weight: f64,
         value: f64,
         decrement: f64,
-    ) -> Option<(Vec<f64>, f64)> {
+    ) -> Option<f64> {
         let mut share = 1.0;
         for _ in 0..HALVINGS {
-            let next: Vec<f64> = x
-                .iter()
-                .zip(&self.step)
-                .map(|(x, s)| x + share * s)
-                .collect();
-            if let Some(next_value) = merit(problem, &next, weight)
+            for ((next, x), step) in self.next.iter_mut().zip(x).zip(&self.step) {
+                *next = x + share * step;
+            }
+            if let Some(next_value) = merit(problem, &self.next, weight)
                 && next_value <= value - 0.1 * share * decrement
             {
-                return Some((next, next_value));
+                return Some(next_value);
             }
             share *= 0.5;
         }
         None
-    }
-}
-
-impl Constraint {
-    fn dot(of: &[f64; 3], x: &[f64; 3]) -> f64 {
-        of[0] * x[0] + of[1] * x[1] + of[2] * x[2]
-    }
-
-    fn near(&self, x: &[f64]) -> [f64; 3] {
-        [x[self.first], x[self.first + 1], x[self.first + 2]]
-    }
-
-    /// How much is left of the limit; not a number where b is not above zero.
-    pub(crate) fn slack(&self, x: &[f64]) -> f64 {
-        let x = self.near(x);
-        let used = Self::dot(&self.of, &x);
-        match &self.root_of {
-            Some(of) => self.limit / Self::dot(of, &x).sqrt() - used,
-            None => self.limit - used,
-        }
-    }
-
-    fn slack_and_slope(&self, x: &[f64]) -> (f64, [f64; 3]) {
-        let x = self.near(x);
-        let used = Self::dot(&self.of, &x);
-        let slope = self.of.map(|c| -c);
-        match &self.root_of {
-            Some(of) => {
-                let b = Self::dot(of, &x);
-                let allowed = self.limit / b.sqrt();
-                let change = -0.5 * allowed / b;
-                let slope = core::array::from_fn(|i| slope[i] + change * of[i]);
-                (allowed - used, slope)
-            }
-            None => (self.limit - used, slope),
-        }
     }
 }

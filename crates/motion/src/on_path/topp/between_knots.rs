@@ -8,11 +8,18 @@
 
 use super::interval::Interval;
 use super::parametrisation::{MotionPhase, Parametrisation};
+use crate::on_path::pieces::Shape;
 use crate::on_path::speed::Course;
 use glidepath_program::Limits;
 
-/// Places on an interval that are looked at, besides its start.
+/// Places on an interval that are looked at, besides its start, and those on a transition, where
+/// the third derivative of the path changes fast.
 const PLACES: u32 = 8;
+const PLACES_OF_TRANSITION: u32 = 20;
+/// Where a limit is exceeded by more than this factor, another knot is put in.
+const MUCH_R: f64 = 1.05;
+/// The least share of the limits: of less, there is none to start from.
+const LEAST_SHARE_R: f64 = 0.7;
 /// Taken off more than was exceeded, for the places between these.
 const MORE_R: f64 = 1e-3;
 
@@ -26,12 +33,22 @@ fn worst(
 ) -> f64 {
     let piece = &course.pieces[interval.piece];
     let from_s = course.starts_s[interval.piece];
+    let places = match piece.shape {
+        Shape::Transition(_) => PLACES_OF_TRANSITION,
+        Shape::Segment(_) | Shape::Spline(_) => PLACES,
+    };
     let mut worst = 0.0_f64;
-    for k in 0..=PLACES {
-        let state = phase.at(duration_t * f64::from(k) / f64::from(PLACES));
+    for k in 0..=places {
+        let state = phase.at(duration_t * f64::from(k) / f64::from(places));
         let (v, a) = (state.speed_v, state.accel_a);
         let j = phase.jerk_j + phase.growth * v;
-        let jet = piece.jet((state.position_s - from_s).clamp(0.0, piece.length_s));
+        let jet = if k == 0 {
+            interval.start
+        } else if k == places {
+            interval.end
+        } else {
+            piece.jet((state.position_s - from_s).clamp(0.0, piece.length_s))
+        };
         let speed = jet.d1 * v;
         let accel = jet.d2 * (v * v) + jet.d1 * a;
         let jerk = jet.d3 * (v * v * v) + jet.d2 * (3.0 * v * a) + jet.d1 * j;
@@ -46,18 +63,31 @@ fn worst(
     worst
 }
 
+/// What is to be done where a time parametrisation exceeds limits between its knots.
+#[derive(Debug)]
+pub(crate) struct Remedy {
+    /// Intervals that need another knot in their middle.
+    pub(crate) halved: Vec<usize>,
+    /// Nothing is exceeded.
+    pub(crate) is_none: bool,
+}
+
 /// Takes from the shares of the intervals that constraints have of the limits where a time
-/// parametrisation exceeds them; true if it does nowhere. `first`: the phase of the first interval.
+/// parametrisation exceeds them, `firmness` times what is exceeded; where that is much, the knots
+/// are too far apart. `first`: the phase of the first interval.
 pub(crate) fn lessen(
     shares: &mut [f64],
-    parametrisation: &Parametrisation,
-    first: usize,
+    (parametrisation, first): (&Parametrisation, usize),
+    firmness: f64,
     intervals: &[Interval],
     course: &Course<'_>,
     limits: &Limits,
-) -> bool {
+) -> Remedy {
     let given = shares.to_vec();
-    let mut is_kept = true;
+    let mut remedy = Remedy {
+        halved: Vec::new(),
+        is_none: true,
+    };
     for (k, interval) in intervals.iter().enumerate() {
         let Some(phase) = parametrisation.phases.get(first + k) else {
             break;
@@ -68,13 +98,19 @@ pub(crate) fn lessen(
             .map(|next| next.from_t);
         let duration_t = next_t.unwrap_or(parametrisation.duration_t) - phase.from_t;
         let ratio = worst(phase, duration_t, interval, course, limits);
-        if ratio > 1.0 {
-            is_kept = false;
-            let around = k.saturating_sub(1)..(k + 2).min(shares.len());
-            for (share, given) in shares[around.clone()].iter_mut().zip(&given[around]) {
-                *share = share.min(given / ratio - MORE_R);
-            }
+        if ratio <= 1.0 {
+            continue;
+        }
+        remedy.is_none = false;
+        if ratio > MUCH_R {
+            remedy.halved.push(k);
+            continue;
+        }
+        let over_r = firmness * (ratio - 1.0);
+        let around = k.saturating_sub(1)..(k + 2).min(shares.len());
+        for (share, given) in shares[around.clone()].iter_mut().zip(&given[around]) {
+            *share = share.min((given / (1.0 + over_r) - MORE_R).max(LEAST_SHARE_R.min(*given)));
         }
     }
-    is_kept
+    remedy
 }

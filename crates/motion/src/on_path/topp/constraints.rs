@@ -1,44 +1,73 @@
-//! The problem: a quadratic spline on a track of knots, and every limit as a constraint over three
-//! of its coefficients.
+//! The problem: a quadratic spline on a track of knots, and the limits at places on it.
 
-use super::interval::BETWEEN_R;
+use super::interval::{BETWEEN_R, Interval};
 use super::knots::KnotPath;
-use super::parabola::Taylor;
+use super::parabola::{Parabola, Taylor};
 use glidepath_geometry::{AXES, Jet};
 use glidepath_program::Limits;
 
-/// A limit: `of`·x ≤ limit, or ≤ limit/√(`root_of`·x), x three neighbouring coefficients.
+/// The limits of an axis, or of the path, at a place: |½·d1·b′ + d2·b| ≤ A and
+/// |½·d1·b″ + 3/2·d2·b′ + d3·b|·√b ≤ J. One that cannot bind there is infinite.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Constraint {
-    pub(crate) first: usize,
-    pub(crate) of: [f64; 3],
-    pub(crate) root_of: Option<[f64; 3]>,
-    pub(crate) limit: f64,
+pub(crate) struct Row {
+    half_d1: f64,
+    d2: f64,
+    d3: f64,
+    pub(crate) most_a: f64,
+    pub(crate) most_j: f64,
 }
 
-/// The value of b at a knot, and the path around it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Knot {
-    pub(crate) first: usize,
-    pub(crate) of: [f64; 3],
-    pub(crate) share_s: f64,
-}
+impl Row {
+    /// The acceleration as factors of b and b′.
+    pub(crate) const fn accel(&self) -> [f64; 2] {
+        [self.d2, self.half_d1]
+    }
 
-impl Knot {
-    pub(crate) fn value(&self, x: &[f64]) -> f64 {
-        let near = &x[self.first..self.first + 3];
-        self.of[0] * near[0] + self.of[1] * near[1] + self.of[2] * near[2]
+    /// The jerk over √b as factors of b, b′ and b″.
+    pub(crate) const fn jerk(&self) -> [f64; 3] {
+        [self.d3, 1.5 * self.d2, self.half_d1]
     }
 }
 
-/// All constraints.
+/// A place where limits are kept.
 #[derive(Debug)]
-pub(crate) struct Problem {
-    pub(crate) constraints: Vec<Constraint>,
-    pub(crate) knots: Vec<Knot>,
+pub(crate) struct Place {
+    /// The first of the three coefficients that matter here.
+    pub(crate) first: usize,
+    /// b, b′ and b″ over these.
+    pub(crate) taylor: Taylor,
+    /// The square of the top speed.
+    pub(crate) cap_b: f64,
+    /// The length that is driven as fast as this place, mm.
+    pub(crate) share_s: f64,
+    /// Where its rows end, among all.
+    pub(crate) rows_end: usize,
 }
 
-/// The same of the jerk of an axis, which changes faster.
+impl Place {
+    /// b, b′ and b″ for some coefficients.
+    pub(crate) fn values(&self, x: &[f64]) -> [f64; 3] {
+        let near = &x[self.first..self.first + 3];
+        let Taylor {
+            value,
+            slope,
+            second,
+        } = &self.taylor;
+        [value, slope, second].map(|of| of[0] * near[0] + of[1] * near[1] + of[2] * near[2])
+    }
+}
+
+/// All limits.
+#[derive(Debug)]
+pub(crate) struct Problem {
+    pub(crate) places: Vec<Place>,
+    pub(crate) rows: Vec<Row>,
+    /// How many limits there are, those that hold both ways counted twice.
+    pub(crate) count: usize,
+    pub(crate) knots: usize,
+}
+
+/// Share of the jerk of an axis that may be asked for at a place: it changes faster between them.
 const JERK_BETWEEN_R: f64 = 1.0 - 2e-3;
 /// A limit this many times what can be asked for is none.
 const IDLE_R: f64 = 1.5;
@@ -46,103 +75,107 @@ const IDLE_R: f64 = 1.5;
 impl Problem {
     /// `shares`: of its limits that each interval may use.
     pub(crate) fn new(knot_path: &KnotPath, limits: &Limits, shares: &[f64]) -> Self {
-        let mut problem = Self {
-            constraints: Vec::new(),
-            knots: Vec::new(),
-        };
         let count = knot_path.intervals.len();
+        let mut problem = Self {
+            places: Vec::with_capacity(3 * count),
+            rows: Vec::with_capacity(4 * count),
+            count: 0,
+            knots: count + 1,
+        };
         for (k, (interval, share_r)) in knot_path.intervals.iter().zip(shares).enumerate() {
             let parabola = knot_path.parabola(k);
-            problem.cap(k, parabola.middle(), share_r * interval.middle_v);
-            for (taylor, jet, top_v) in [
-                (&parabola.start, &interval.start, interval.start_v),
-                (&parabola.end, &interval.end, interval.end_v),
-            ] {
-                problem.cap(k, taylor.value, share_r * top_v);
-                problem.axes(k, taylor, (jet, top_v), limits, *share_r);
-                problem.path(k, taylor, limits);
-            }
-            problem.knots.push(Knot {
-                first: k,
-                of: parabola.start.value,
-                share_s: 0.5 * (interval.length_s + knot_path.before_s(k)),
-            });
-            if k + 1 == count {
-                problem.knots.push(Knot {
-                    first: k,
-                    of: parabola.end.value,
-                    share_s: 0.5 * interval.length_s,
-                });
-            }
+            let half_s = 0.5 * interval.length_s;
+            let (start, end) = (&interval.start, &interval.end);
+            problem.axes((start, interval.start_v), limits, *share_r, true);
+            problem.path(limits);
+            let start_v = share_r * interval.start_v;
+            let share_s = half_s + 0.5 * knot_path.before_s(k);
+            problem.place(k, parabola.start, start_v, share_s);
+
+            // Within a piece, only the jerk is another at the start of the next interval.
+            let next = knot_path.intervals.get(k + 1);
+            let is_inside = next.is_some_and(|next| next.piece == interval.piece);
+            problem.axes((end, interval.end_v), limits, *share_r, !is_inside);
+            problem.path(limits);
+            let end_v = if is_inside {
+                f64::INFINITY
+            } else {
+                share_r * interval.end_v
+            };
+            let share_s = if next.is_none() { half_s } else { 0.0 };
+            problem.place(k, parabola.end, end_v, share_s);
+            problem.inside(k, &parabola, interval, *share_r);
         }
         problem
     }
 
     /// Time, about: Σ h/√b.
     pub(crate) fn time(&self, x: &[f64]) -> f64 {
-        let times = self.knots.iter().map(|k| k.share_s / k.value(x).sqrt());
+        let driven = self.places.iter().filter(|place| place.share_s > 0.0);
+        let times = driven.map(|place| place.share_s / place.values(x)[0].sqrt());
         times.sum()
     }
 
-    pub(crate) fn knots(&self) -> usize {
-        self.knots.len()
+    /// A place with the rows put in since the one before.
+    fn place(&mut self, first: usize, taylor: Taylor, top_v: f64, share_s: f64) {
+        let cap_b = top_v * top_v;
+        self.count += usize::from(cap_b.is_finite());
+        self.places.push(Place {
+            first,
+            taylor,
+            cap_b,
+            share_s,
+            rows_end: self.rows.len(),
+        });
     }
 
-    fn cap(&mut self, first: usize, of: [f64; 3], top_v: f64) {
-        let limit = top_v * top_v;
-        if limit.is_finite() {
-            self.constraints.push(Constraint {
-                first,
-                of,
-                root_of: None,
-                limit,
-            });
+    /// The top speed between the ends of an interval. Its coefficient is the middle Bézier point of
+    /// b there, so b is nowhere above the largest of it and the values at both ends; where the top
+    /// speed changes, b is kept below it in the middle, too.
+    fn inside(&mut self, first: usize, parabola: &Parabola, interval: &Interval, share_r: f64) {
+        let alone = |value: [f64; 3]| Taylor {
+            value,
+            slope: [0.0; 3],
+            second: [0.0; 3],
+        };
+        let Interval {
+            start_v,
+            middle_v,
+            end_v,
+            ..
+        } = *interval;
+        let top_v = start_v.max(middle_v).max(end_v);
+        self.place(first, alone([0.0, 1.0, 0.0]), share_r * top_v, 0.0);
+        if middle_v < top_v {
+            self.place(first, alone(parabola.middle()), share_r * middle_v, 0.0);
         }
     }
 
-    /// A limit both ways.
-    fn both(&mut self, first: usize, of: [f64; 3], root_of: Option<[f64; 3]>, limit: f64) {
-        for of in [of, of.map(|c| -c)] {
-            self.constraints.push(Constraint {
-                first,
-                of,
-                root_of,
-                limit,
-            });
+    fn row(&mut self, row: Row) {
+        let limits = [row.most_a, row.most_j];
+        let finite = limits.iter().filter(|limit| limit.is_finite()).count();
+        if finite > 0 {
+            self.count += 2 * finite;
+            self.rows.push(row);
         }
     }
 
-    fn path(&mut self, first: usize, taylor: &Taylor, limits: &Limits) {
+    /// The limits along the path.
+    fn path(&mut self, limits: &Limits) {
         let bounds = &limits.path;
-        if bounds.tangential_a < Limits::UNLIMITED {
-            self.both(first, taylor.slope, None, 2.0 * bounds.tangential_a);
-        }
-        if bounds.jerk_j < Limits::UNLIMITED {
-            self.both(
-                first,
-                taylor.second,
-                Some(taylor.value),
-                2.0 * BETWEEN_R * bounds.jerk_j,
-            );
-        }
+        self.row(Row {
+            half_d1: 0.5,
+            d2: 0.0,
+            d3: 0.0,
+            most_a: finite(bounds.tangential_a),
+            most_j: BETWEEN_R * finite(bounds.jerk_j),
+        });
     }
 
     /// The limits of the axes at a place, but for those that cannot bind there whatever the others
-    /// leave.
-    fn axes(
-        &mut self,
-        first: usize,
-        taylor: &Taylor,
-        (jet, top_v): (&Jet, f64),
-        limits: &Limits,
-        share_r: f64,
-    ) {
+    /// leave, and without acceleration where it is limited elsewhere.
+    fn axes(&mut self, (jet, top_v): (&Jet, f64), limits: &Limits, share_r: f64, has_accel: bool) {
         let bounds = &limits.path;
-        let Taylor {
-            value,
-            slope,
-            second,
-        } = taylor;
         for axis in 0..AXES {
             let (d1, d2, d3) = (jet.d1[axis], jet.d2[axis], jet.d3[axis]);
             if d1.to_bits() << 1 == 0 && d2.to_bits() << 1 == 0 && d3.to_bits() << 1 == 0 {
@@ -153,16 +186,33 @@ impl Problem {
             let needed_a = along_a + d2.abs() * top_v * top_v;
             let cross_j = 3.0 * d2.abs() * top_v * bounds.tangential_a;
             let needed_j = d1.abs() * bounds.jerk_j + cross_j + d3.abs() * top_v.powi(3);
-            if most_a < IDLE_R * needed_a && most_a < Limits::UNLIMITED {
-                let of = core::array::from_fn(|i| 0.5 * d1 * slope[i] + d2 * value[i]);
-                self.both(first, of, None, share_r * BETWEEN_R * most_a);
-            }
-            if most_j < IDLE_R * needed_j && most_j < Limits::UNLIMITED {
-                let of = core::array::from_fn(|i| {
-                    0.5 * d1 * second[i] + 1.5 * d2 * slope[i] + d3 * value[i]
-                });
-                self.both(first, of, Some(*value), share_r * JERK_BETWEEN_R * most_j);
-            }
+            let binding = |limit: f64, needed: f64| {
+                if limit < IDLE_R * needed {
+                    finite(limit)
+                } else {
+                    f64::INFINITY
+                }
+            };
+            self.row(Row {
+                half_d1: 0.5 * d1,
+                d2,
+                d3,
+                most_a: if has_accel {
+                    share_r * BETWEEN_R * binding(most_a, needed_a)
+                } else {
+                    f64::INFINITY
+                },
+                most_j: share_r * JERK_BETWEEN_R * binding(most_j, needed_j),
+            });
         }
+    }
+}
+
+/// A limit, infinite where there is none.
+fn finite(limit: f64) -> f64 {
+    if limit < Limits::UNLIMITED {
+        limit
+    } else {
+        f64::INFINITY
     }
 }

@@ -10,7 +10,8 @@ pub(crate) const BETWEEN_R: f64 = 1.0 - 2e-4;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Caps {
     pub(crate) rate_v: f64,
-    /// The largest acceleration across the path.
+    /// The largest acceleration across the path: that at which the chord of one period uses up the
+    /// tolerance.
     pub(crate) chord_a: f64,
 }
 

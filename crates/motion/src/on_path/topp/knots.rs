@@ -1,18 +1,22 @@
 //! Where the knots of a time parametrisation are, what the path is there, and the S-curves it
 //! starts from.
 
+use super::fineness::Fineness;
 use super::interval::{Caps, Interval};
 use super::parabola::Parabola;
+use crate::on_path::pieces::{Piece, Shape};
 use crate::on_path::speed::{Course, Leg};
 use crate::scurve::PathState;
-use glidepath_geometry::Jet;
+use glidepath_geometry::{Jet, Segment};
 use glidepath_program::Limits;
 
-/// Time from knot to knot on the S-curves, s.
-const KNOT_T: f64 = 0.002;
-/// Most of them. A piece that is driven for longer than these last, at a feed of micrometres, has
+/// Most knots. A piece that is driven for longer than these last, at a feed of micrometres, has
 /// them farther apart: its speed is the feed then, and memory does not grow with the time.
 const MOST_KNOTS: f64 = 30_000.0;
+/// Time from knot to knot on the S-curves: this share of that in which the jerk of an axis makes up
+/// its acceleration, and at least so long, s.
+const KNOT_R: f64 = 0.1;
+const LEAST_KNOT_T: f64 = 0.002;
 /// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's.
 const REST_T: f64 = 0.001;
 const REST_R: f64 = 0.25;
@@ -52,7 +56,12 @@ pub(crate) struct KnotPath {
 
 impl KnotPath {
     /// Knots along a course that S-curves drive.
-    pub(crate) fn new(course: &Course<'_>, legs: &[Leg], limits: &Limits) -> Option<Self> {
+    pub(crate) fn new(
+        course: &Course<'_>,
+        legs: &[Leg],
+        limits: &Limits,
+        fineness: &Fineness,
+    ) -> Option<Self> {
         let first = legs.first()?.profile;
         let last = legs.last()?.profile;
         let rests = [
@@ -63,15 +72,15 @@ impl KnotPath {
             }),
         ];
         let duration_t: f64 = legs.iter().map(|leg| leg.profile.duration_t()).sum();
-        let knot_t = KNOT_T.max(duration_t / MOST_KNOTS);
+        let knot_t = knot_time(limits, fineness).max(duration_t / MOST_KNOTS);
         let mut knot_path = Self {
             intervals: Vec::new(),
             legs: legs.to_vec(),
             marks: marks(legs, knot_t),
-            knot_t,
             rests,
             ends_v: [first.entry_v(), last.exit_v()],
             length_s: course.length_s(),
+            knot_t,
         };
         let knots = knot_path.knots(course);
         knot_path.lay(course, &knots, limits);
@@ -161,6 +170,20 @@ impl KnotPath {
         0.5 * (tangent(from_s, half_s) + tangent(to_s, -half_s))
     }
 
+    /// Puts knots into the middle of some intervals, in rising order.
+    pub(crate) fn halve(&mut self, halved: &[usize], course: &Course<'_>, limits: &Limits) {
+        let mut knots = Vec::with_capacity(self.intervals.len() + halved.len() + 1);
+        let mut next = halved.iter().peekable();
+        for (k, interval) in self.intervals.drain(..).enumerate() {
+            knots.push(interval.from_s);
+            if next.next_if(|next| **next == k).is_some() {
+                knots.push(interval.from_s + 0.5 * interval.length_s);
+            }
+        }
+        knots.push(self.inner()[1]);
+        self.lay(course, &knots, limits);
+    }
+
     /// The path between the knots.
     fn lay(&mut self, course: &Course<'_>, knots: &[f64], limits: &Limits) {
         for window in knots.windows(2) {
@@ -168,10 +191,13 @@ impl KnotPath {
             let middle_s = 0.5 * (from_s + to_s);
             let index = course.touched(middle_s, middle_s).start;
             let piece = &course.pieces[index];
-            let (rate_v, chord_a) = piece.rule.caps(piece.planned);
-            let caps = Caps { rate_v, chord_a };
+            let caps = caps(piece);
             let jet = |s: f64| piece.jet((s - course.starts_s[index]).clamp(0.0, piece.length_s));
-            let [start, middle, end] = [from_s, middle_s, to_s].map(jet);
+            let start = match self.intervals.last() {
+                Some(before) if before.piece == index => before.end,
+                _ => jet(from_s),
+            };
+            let [middle, end] = [middle_s, to_s].map(jet);
             let top_v = |jet: &Jet| Interval::cap_v(jet, &caps, limits);
             self.intervals.push(Interval {
                 piece: index,
@@ -215,6 +241,28 @@ impl KnotPath {
         }
         x
     }
+}
+
+/// What bounds the speed on a piece whatever the axes can do. Where the curvature changes within a
+/// period, as on all curves but those of the program, which are long, its largest counts.
+fn caps(piece: &Piece) -> Caps {
+    let (rate_v, chord_a, chord_v) = piece.rule.caps(piece.planned);
+    match piece.shape {
+        Shape::Segment(Segment::Curve(_)) => Caps { rate_v, chord_a },
+        _ => Caps {
+            rate_v: rate_v.min(chord_v),
+            chord_a: f64::INFINITY,
+        },
+    }
+}
+
+/// Time from knot to knot.
+fn knot_time(limits: &Limits, fineness: &Fineness) -> f64 {
+    let axes = limits.acceleration.iter().zip(&limits.jerk);
+    let limited = axes.filter(|(_, jerk_j)| **jerk_j < Limits::UNLIMITED);
+    let rises_t = limited.map(|(accel_a, jerk_j)| accel_a / jerk_j);
+    let least_t = rises_t.fold(f64::INFINITY, f64::min);
+    (KNOT_R * least_t).max(LEAST_KNOT_T).min(fineness.knot_t)
 }
 
 /// Times of knots from an end of the motion up to some time, without the end.

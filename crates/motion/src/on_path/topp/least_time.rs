@@ -3,38 +3,54 @@
 use super::barrier::solve;
 use super::between_knots::lessen;
 use super::constraints::Problem;
+use super::fineness::Fineness;
 use super::knots::{KnotPath, RestPhase};
 use super::parametrisation::{Builder, Parametrisation};
 use crate::on_path::speed::Course;
 use crate::scurve::PathState;
 use glidepath_program::Limits;
 
-/// Times a time parametrisation is made anew where it demands too much between its knots.
-const ROUNDS: u32 = 6;
+/// Times a time parametrisation is made anew where it demands too much between its knots: a peak
+/// between two knots gives way less than their limits do.
+const ROUNDS: u32 = 8;
 
-/// The parametrisation near the least time that starts and ends as the S-curves do, `rate_r` times
-/// as fast; `None` if none is found that keeps all limits, also between knots.
+/// The parametrisation near the least time that starts and ends as the S-curves do, some times as
+/// fast: the first of these rates that leaves room to start from. `None` if none is found that
+/// keeps all limits, also between knots.
 pub(crate) fn optimise(
-    knot_path: &KnotPath,
+    mut knot_path: KnotPath,
     course: &Course<'_>,
     limits: &Limits,
-    rate_r: f64,
+    (rates, fineness): (&[f64], &Fineness),
 ) -> Option<Parametrisation> {
     let mut shares = vec![1.0; knot_path.intervals.len()];
     let first = usize::from(knot_path.rests[0].is_some());
+    let mut rates = rates.iter().copied().peekable();
+    let mut firmness = 1.0;
     for _ in 0..ROUNDS {
-        let parametrisation =
-            parametrisation_of(knot_path, &Problem::new(knot_path, limits, &shares), rate_r)?;
-        if lessen(
+        let problem = Problem::new(&knot_path, limits, &shares);
+        let parametrisation = loop {
+            match parametrisation_of(&knot_path, &problem, *rates.peek()?, fineness) {
+                Some(parametrisation) => break parametrisation,
+                None => rates.next(),
+            };
+        };
+        let remedy = lessen(
             &mut shares,
-            &parametrisation,
-            first,
+            (&parametrisation, first),
+            firmness,
             &knot_path.intervals,
             course,
             limits,
-        ) {
+        );
+        if remedy.is_none {
             return Some(parametrisation);
         }
+        for &k in remedy.halved.iter().rev() {
+            shares.insert(k, shares[k]);
+        }
+        knot_path.halve(&remedy.halved, course, limits);
+        firmness *= fineness.firmer_r;
     }
     None
 }
@@ -43,8 +59,9 @@ fn parametrisation_of(
     knot_path: &KnotPath,
     problem: &Problem,
     rate_r: f64,
+    fineness: &Fineness,
 ) -> Option<Parametrisation> {
-    let x = solve(problem, knot_path.start(rate_r))?;
+    let x = solve(problem, knot_path.start(rate_r), fineness.gap_r)?;
     let mut builder = Builder::new();
     let zero = PathState {
         position_s: 0.0,

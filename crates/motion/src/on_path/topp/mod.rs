@@ -23,17 +23,19 @@
 //!   banded factorisation ([`barrier`]). It starts from the S-curves, slowed down, which keeps all
 //!   limits with room to spare: no step ever leaves them.
 //!
-//! Where a parametrisation takes the place of S-curves, [`crate::on_path::refiner`] decides.
+//! Where a parametrisation takes the place of S-curves, [`crate::on_path::refining`] decides.
 
 mod barrier;
 mod between_knots;
 mod constraints;
+mod fineness;
 mod interval;
 mod knots;
 mod least_time;
 mod parabola;
 mod parametrisation;
 
+pub(crate) use fineness::Fineness;
 pub(crate) use knots::KnotPath;
 pub(crate) use least_time::optimise;
 pub(crate) use parametrisation::Parametrisation;

@@ -1,7 +1,7 @@
 //! The square of the speed on an interval, as a parabola over three coefficients of its spline.
 
 /// b, b′ and b″ at a place, over three coefficients.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Taylor {
     pub(crate) value: [f64; 3],
     pub(crate) slope: [f64; 3],
@@ -9,7 +9,7 @@ pub(crate) struct Taylor {
 }
 
 /// The parabola of an interval, over its three coefficients.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Parabola {
     pub(crate) start: Taylor,
     pub(crate) end: Taylor,

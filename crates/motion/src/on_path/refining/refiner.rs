@@ -1,18 +1,21 @@
-//! Where a time parametrisation takes the place of S-curves.
+//! Takes what is settled and gives it on, what is curved driven by time parametrisations.
 
-use super::look_ahead::Settled;
-use super::pieces::{Element, Piece};
-use super::speed::{Course, Leg};
-use super::topp::{KnotPath, Parametrisation, optimise};
+use super::motion_chain::MotionChain;
+use super::worth::is_worthwhile;
+use crate::on_path::look_ahead::{Planned, Settled};
+use crate::on_path::pieces::{Element, Piece};
+use crate::on_path::speed::{Course, Leg};
+use crate::on_path::topp::{Fineness, KnotPath, Parametrisation, optimise};
 use glidepath_program::Limits;
 use std::collections::VecDeque;
 
 /// Motion that is optimised together, s, as the S-curves drive it, and its most pieces: little
 /// enough for the work to be done while what was published before is executed.
-const WINDOW_T: f64 = 12.0;
+const WINDOW_T: f64 = 2.0;
+const WINDOW_OF_NURBS_T: f64 = 12.0;
+const MOST_PIECES: usize = 4096;
 /// A window ends where the S-curves are slowest, after this share of it: there little is lost.
 const SHORTEST_R: f64 = 0.4;
-const MOST_PIECES: usize = 4096;
 /// How much slower than the S-curves a time parametrisation starts, and passes from one window to
 /// the next.
 const RATE_R: f64 = 0.85;
@@ -21,99 +24,21 @@ const MIDDLE_R: [f64; 2] = [0.2, 0.8];
 const HALVINGS: u32 = 6;
 /// From rest to rest, other rates to start from.
 const RATES: [f64; 4] = [RATE_R, 0.7, 0.55, 0.4];
+/// Stops are not refined unless the S-curves between them take less than this many times what the
+/// other way takes: no parametrisation gains so much.
+const HOPELESS_R: f64 = 2.0;
 
 /// Takes what is settled and gives it on, some of it driven faster.
 #[derive(Debug, Clone)]
 pub(crate) struct Refiner {
     limits: Limits,
-    /// A curve has come: what is still to be driven gets parametrisations, from the next rest on.
+    /// A NURBS has come: what is still to be driven gets parametrisations, from the next rest on.
     is_wanted: bool,
     /// Nothing that goes on without a time parametrisation was given on since the last rest.
     is_from_rest: bool,
     /// The motion goes on at [`RATE_R`] of the speed that the S-curves have.
     is_slowed: bool,
     waiting: MotionChain,
-}
-
-/// Motions one after the other, as they were settled.
-#[derive(Debug, Clone, Default)]
-struct MotionChain {
-    pieces: Vec<Piece>,
-    legs: Vec<Leg>,
-    /// Where the motions end.
-    ends: Vec<End>,
-    length_s: f64,
-    duration_t: f64,
-}
-
-/// Where a motion ends, from the start of its chain.
-#[derive(Debug, Clone, Copy)]
-struct End {
-    pieces: usize,
-    legs: usize,
-    length_s: f64,
-    duration_t: f64,
-    exit_v: f64,
-}
-
-impl MotionChain {
-    fn push(&mut self, pieces: Vec<Piece>, legs: &[Leg]) {
-        for leg in legs {
-            self.legs.push(Leg {
-                from_s: self.length_s + leg.from_s,
-                ..*leg
-            });
-            self.duration_t += leg.profile.duration_t();
-        }
-        self.length_s += pieces.iter().map(|piece| piece.length_s).sum::<f64>();
-        self.pieces.extend(pieces);
-        self.ends.push(End {
-            pieces: self.pieces.len(),
-            legs: self.legs.len(),
-            length_s: self.length_s,
-            duration_t: self.duration_t,
-            exit_v: self.exit_v(),
-        });
-    }
-
-    fn exit_v(&self) -> f64 {
-        self.legs.last().map_or(0.0, |leg| leg.profile.exit_v())
-    }
-
-    /// The end at which the S-curves are slowest, between two shares of the time.
-    fn slowest(&self, share_r: [f64; 2]) -> Option<End> {
-        let [from_t, to_t] = share_r.map(|share_r| share_r * self.duration_t);
-        let within = |end: &&End| end.duration_t >= from_t && end.duration_t <= to_t;
-        let ends = self.ends.iter().filter(within);
-        ends.min_by(|a, b| a.exit_v.total_cmp(&b.exit_v)).copied()
-    }
-
-    /// Keeps what lies before the end of a motion; the rest.
-    fn split_off(&mut self, end: &End) -> Self {
-        let mut legs = self.legs.split_off(end.legs);
-        for leg in &mut legs {
-            leg.from_s -= end.length_s;
-        }
-        let ends = self.ends.iter().filter(|other| other.pieces > end.pieces);
-        let remainder = Self {
-            pieces: self.pieces.split_off(end.pieces),
-            legs,
-            ends: ends
-                .map(|other| End {
-                    pieces: other.pieces - end.pieces,
-                    legs: other.legs - end.legs,
-                    length_s: other.length_s - end.length_s,
-                    duration_t: other.duration_t - end.duration_t,
-                    ..*other
-                })
-                .collect(),
-            length_s: self.length_s - end.length_s,
-            duration_t: self.duration_t - end.duration_t,
-        };
-        self.ends.retain(|other| other.pieces <= end.pieces);
-        (self.length_s, self.duration_t) = (end.length_s, end.duration_t);
-        remainder
-    }
 }
 
 impl Refiner {
@@ -127,7 +52,7 @@ impl Refiner {
         }
     }
 
-    /// A curve is among what comes.
+    /// A NURBS is among what comes.
     pub(crate) const fn want(&mut self) {
         self.is_wanted = true;
     }
@@ -146,15 +71,54 @@ impl Refiner {
         };
     }
 
-    /// Takes what was settled next.
-    pub(crate) fn push(&mut self, settled: Settled, out: &mut VecDeque<Settled>) {
+    /// Takes what was planned next.
+    pub(crate) fn push(&mut self, planned: Planned, out: &mut VecDeque<Settled>) {
+        match planned {
+            Planned::One(settled) => self.push_settled(settled, out),
+            Planned::Either {
+                passing,
+                stopping,
+                rests_t,
+            } => {
+                let stopping_t = rests_t + duration_t(&stopping);
+                let is_hopeless = stopping_t > HOPELESS_R * duration_t(&passing);
+                let passing = self.alone(passing);
+                let faster = if is_hopeless {
+                    None
+                } else {
+                    let stopping = self.alone(stopping);
+                    let gained_t = duration_t(&passing) - duration_t(&stopping) - rests_t;
+                    (gained_t > 0.0).then_some(stopping)
+                };
+                out.extend(faster.unwrap_or(passing));
+            }
+        }
+    }
+
+    /// A stretch from rest to rest, refined.
+    fn alone(&self, stretch: Vec<Settled>) -> VecDeque<Settled> {
+        let mut refiner = Self {
+            is_wanted: self.is_wanted,
+            ..Self::new(self.limits)
+        };
+        let mut out = VecDeque::new();
+        for settled in stretch {
+            refiner.push_settled(settled, &mut out);
+        }
+        refiner.put(&mut out);
+        out
+    }
+
+    fn push_settled(&mut self, settled: Settled, out: &mut VecDeque<Settled>) {
         match settled {
-            Settled::Motion { pieces, legs } if self.is_wanted && self.is_from_rest => {
+            Settled::Motion { pieces, legs } if self.is_from_rest => {
                 self.waiting.push(pieces, &legs);
-                let MotionChain {
-                    duration_t, pieces, ..
-                } = &self.waiting;
-                if *duration_t >= WINDOW_T || pieces.len() >= MOST_PIECES {
+                let window_t = if self.is_wanted {
+                    WINDOW_OF_NURBS_T
+                } else {
+                    WINDOW_T
+                };
+                if self.waiting.duration_t >= window_t || self.waiting.pieces.len() >= MOST_PIECES {
                     self.put_window(out);
                 }
             }
@@ -171,17 +135,37 @@ impl Refiner {
         }
     }
 
-    /// Gives on what waits up to the slowest end in its later part.
+    /// Gives on what waits up to the slowest end in its later part; all of it if the S-curves are
+    /// good enough.
     fn put_window(&mut self, out: &mut VecDeque<Settled>) {
+        if self.is_good() {
+            self.is_from_rest = false;
+            out.extend(core::mem::take(&mut self.waiting).settled());
+            return;
+        }
         let Some(end) = self.waiting.slowest([SHORTEST_R, 1.0]) else {
             return;
         };
         let remainder = self.waiting.split_off(&end);
-        self.put(out);
+        self.refine(out);
         self.waiting = remainder;
     }
 
+    /// Gives on what waits.
     fn put(&mut self, out: &mut VecDeque<Settled>) {
+        if self.is_good() {
+            out.extend(core::mem::take(&mut self.waiting).settled());
+        } else {
+            self.refine(out);
+        }
+    }
+
+    /// True if what waits may stay as it is, and is better left so.
+    fn is_good(&self) -> bool {
+        !self.is_wanted && !self.is_slowed && !is_worthwhile(&self.waiting, &self.limits)
+    }
+
+    fn refine(&mut self, out: &mut VecDeque<Settled>) {
         let chain = core::mem::take(&mut self.waiting);
         if chain.legs.is_empty() {
             return;
@@ -237,7 +221,7 @@ impl Refiner {
         );
     }
 
-    /// A time parametrisation from the first of some rates from which one is found.
+    /// A time parametrisation that starts from the S-curves at the first of some rates that will do.
     fn parametrisation(
         &self,
         pieces: &[Piece],
@@ -245,9 +229,16 @@ impl Refiner {
         rates: &[f64],
     ) -> Option<Parametrisation> {
         let course = Course::new(pieces);
-        let knot_path = KnotPath::new(&course, legs, &self.limits)?;
-        rates
-            .iter()
-            .find_map(|rate_r| optimise(&knot_path, &course, &self.limits, *rate_r))
+        let fineness = if self.is_wanted {
+            Fineness::CLOSE
+        } else {
+            Fineness::QUICK
+        };
+        let knot_path = KnotPath::new(&course, legs, &self.limits, &fineness)?;
+        optimise(knot_path, &course, &self.limits, (rates, &fineness))
     }
+}
+
+fn duration_t<'a>(stretch: impl IntoIterator<Item = &'a Settled>) -> f64 {
+    stretch.into_iter().map(Settled::duration_t).sum()
 }

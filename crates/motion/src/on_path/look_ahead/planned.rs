@@ -1,0 +1,38 @@
+//! What look-ahead gives on: motion that nothing later changes, or two ways to drive a stretch.
+
+use super::settled::Settled;
+
+/// What look-ahead gives on.
+#[derive(Debug)]
+pub(crate) enum Planned {
+    One(Settled),
+    /// A stretch from rest to rest, of which one way is to be chosen.
+    Either {
+        passing: Vec<Settled>,
+        /// At rest after each of its blocks.
+        stopping: Vec<Settled>,
+        /// How much longer than its motions that takes, for its rests, s.
+        rests_t: f64,
+    },
+}
+
+impl Planned {
+    /// The way that takes less time by S-curves.
+    pub(crate) fn by_s_curves(self) -> Vec<Settled> {
+        match self {
+            Self::One(settled) => vec![settled],
+            Self::Either {
+                passing,
+                stopping,
+                rests_t,
+            } => {
+                let duration_t = |way: &[Settled]| way.iter().map(Settled::duration_t).sum::<f64>();
+                if rests_t + duration_t(&stopping) < duration_t(&passing) {
+                    stopping
+                } else {
+                    passing
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! Where a time parametrisation takes the place of S-curves.
+
+mod motion_chain;
+mod refiner;
+mod worth;
+
+pub(crate) use refiner::Refiner;

@@ -1,0 +1,35 @@
+//! Whether a time parametrisation is worth its work.
+
+use super::motion_chain::MotionChain;
+use crate::on_path::pieces::{Piece, Shape};
+use glidepath_geometry::Segment;
+use glidepath_program::Limits;
+
+/// S-curves that take no longer than this many times what the top speed of each piece allows are
+/// good enough: mostly, they are at the programmed feed.
+const GOOD_R: f64 = 1.1;
+
+/// Blocks that take less time than this on average, s, stay with S-curves: how many of them are
+/// planned in a second goes before how long they take.
+const LEAST_BLOCK_T: f64 = 0.25e-3;
+
+/// True if S-curves may lose time along a chain: there are curves on it, on which limits bind.
+///
+/// Along lines an S-curve is the motion of least time; of lines and the transitions between them,
+/// S-curves are what the junctions were decided with.
+pub(super) fn is_worthwhile(chain: &MotionChain, limits: &Limits) -> bool {
+    let is_curve = |piece: &Piece| match piece.shape {
+        Shape::Segment(Segment::Line(_)) | Shape::Transition(_) => false,
+        Shape::Segment(Segment::Arc(_) | Segment::Curve(_)) | Shape::Spline(_) => true,
+    };
+    if !chain.pieces.iter().any(is_curve) {
+        return false;
+    }
+    let blocks: usize = chain.pieces.iter().map(|piece| 1 + piece.lines.len()).sum();
+    if chain.duration_t < LEAST_BLOCK_T * blocks as f64 {
+        return false;
+    }
+    let steady_t = |piece: &Piece| piece.length_s / piece.rule.steady_v(piece.planned, limits);
+    let steady_t: f64 = chain.pieces.iter().map(steady_t).sum();
+    chain.duration_t > GOOD_R * steady_t
+}
