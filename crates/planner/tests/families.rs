@@ -208,7 +208,7 @@ fn circles_are_driven_near_the_steady_speed() {
 fn sawtooth(teeth: u32, tolerance: &str) -> String {
     let mut text = format!("G21 G90 G94 G17 {tolerance} F6000\n");
     for k in 1..=teeth {
-        let x = 1.414_214 * f64::from(k);
+        let x = std::f64::consts::SQRT_2 * f64::from(k);
         if k % 2 == 1 {
             writeln!(text, "G2 X{x:.6} Y1.414214 I1.931852 J-0.517638").expect("a string");
         } else {

@@ -25,6 +25,8 @@ use std::collections::VecDeque;
 const FLATTENING_R: f64 = 0.05;
 /// Share of the tolerance that a merged piece may be away from the chords it replaces.
 const MERGING_R: f64 = 0.1;
+/// Distance up to which a vertex counts as being on a line.
+const STRAIGHT_MM: f64 = 1e-9;
 /// Largest turn from one chord of an arc to the next, rad.
 const LARGEST_TURN_RAD: f64 = 0.5;
 
@@ -68,6 +70,8 @@ struct FlatChord {
     tolerance_mm: f64,
     /// Distance from the program, mm.
     error_mm: f64,
+    /// From the middle of the chord to the program.
+    bow: AxisVector,
     line: ProgramLine,
     events: Vec<Event>,
 }
@@ -148,6 +152,7 @@ impl Flattener {
             top_v: rate.axes_v,
             tolerance_mm: left_mm,
             tolerance_deg: left_mm,
+            bow: chord.bow,
             tag: 0,
         };
         let entry = LedgerEntry {
@@ -192,10 +197,14 @@ impl OpenChord {
     fn merge(&mut self, next: &FlatChord) -> bool {
         let chord = &self.chord;
         let alike = chord.rate == next.rate
-            && !chord.rate.is_rapid()
             && chord.tolerance_mm.total_cmp(&next.tolerance_mm).is_eq()
             && next.events.is_empty();
-        let allowed_mm = MERGING_R * chord.tolerance_mm;
+        // The speed of a rapid depends on its direction, so only what goes straight on is one.
+        let allowed_mm = if chord.rate.is_rapid() {
+            STRAIGHT_MM
+        } else {
+            MERGING_R * chord.tolerance_mm
+        };
         let base_mm = (chord.error_mm - self.dropped.error_mm).max(next.error_mm);
         if !alike
             || !self
@@ -208,6 +217,7 @@ impl OpenChord {
         let chord = &mut self.chord;
         chord.end = next.end;
         chord.error_mm = base_mm + self.dropped.error_mm;
+        chord.bow = self.dropped.bow;
         true
     }
 }
@@ -238,17 +248,28 @@ impl CutMove {
         if self.done >= self.count {
             return None;
         }
-        self.done += 1;
         let segment = &self.of.segment;
-        let end = if self.done == self.count {
-            segment.end()
-        } else {
-            let share = f64::from(self.done) / f64::from(self.count);
+        let at = |done: f64| {
+            let share = done / f64::from(self.count);
             segment.jet(segment.length() * share).position
         };
+        let start = self.at;
+        let end = if self.done + 1 == self.count {
+            segment.end()
+        } else {
+            at(f64::from(self.done + 1))
+        };
+        let bow = if matches!(segment, Segment::Line(_)) {
+            AxisVector::zeros()
+        } else {
+            at(f64::from(self.done) + 0.5) - (start + end) * 0.5
+        };
+        self.at = end;
+        self.done += 1;
         Some(FlatChord {
-            start: core::mem::replace(&mut self.at, end),
+            start,
             end,
+            bow,
             rate: self.of.rate,
             tolerance_mm: self.of.tolerance_mm,
             error_mm: self.error_mm,

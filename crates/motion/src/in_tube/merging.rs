@@ -28,6 +28,8 @@ pub(crate) struct Dropped {
     vertices: Vec<AxisVector>,
     /// Largest distance of one of them from the line, mm.
     pub error_mm: f64,
+    /// Offset of the parabola over the line that fits them best, in its middle.
+    pub bow: AxisVector,
 }
 
 impl Dropped {
@@ -50,18 +52,28 @@ impl Dropped {
         let square_mm2: f64 = group.clone().map(|i| line[i] * line[i]).sum();
         let mut passed_u = 0.0;
         let mut error_mm = 0.0_f64;
+        let (mut offsets, mut squares) = (AxisVector::zeros(), 0.0);
         for vertex in self.vertices.iter().chain([through]) {
             let offset = vertex - start;
             let u = group.clone().map(|i| offset[i] * line[i]).sum::<f64>() / square_mm2;
-            let distance_mm = tolerance_norm(&(offset - line * u));
+            let across = offset - line * u;
+            let distance_mm = tolerance_norm(&across);
             if !(passed_u..=1.0).contains(&u) || distance_mm > allowed_mm {
                 return false;
             }
             passed_u = u;
             error_mm = error_mm.max(distance_mm);
+            let height = 4.0 * u * (1.0 - u);
+            offsets += across * height;
+            squares += height * height;
         }
         self.vertices.push(*through);
         self.error_mm = error_mm;
+        self.bow = if squares > 0.0 {
+            offsets / squares
+        } else {
+            AxisVector::zeros()
+        };
         true
     }
 }

@@ -15,6 +15,9 @@ pub(crate) struct Reference {
     pub(crate) tolerance_mm: f64,
     /// The same for each rotary axis, degrees, > 0.
     pub(crate) tolerance_deg: f64,
+    /// From the middle of the piece to the program it stands for, which is taken to be a parabola
+    /// over it: where the motion is drawn to. Within what the tolerance is smaller by.
+    pub(crate) bow: AxisVector,
     /// Given back with each period, and asked for when rates change.
     pub(crate) tag: u64,
 }

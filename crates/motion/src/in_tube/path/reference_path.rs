@@ -36,6 +36,8 @@ pub(crate) struct TubePiece {
     pub(crate) tolerance_mm: f64,
     /// Tolerance of each rotary axis, degrees.
     pub(crate) tolerance_deg: f64,
+    /// From its middle to the program.
+    pub(crate) bow: AxisVector,
     pub(crate) tag: u64,
 }
 
@@ -117,6 +119,7 @@ impl ReferencePath {
             top_v: piece.top_v,
             tolerance_mm: piece.tolerance_mm * keep_r,
             tolerance_deg: piece.tolerance_deg * keep_r,
+            bow: piece.bow,
             tag: piece.tag,
         }
     }

@@ -51,6 +51,7 @@ impl Case {
                     top_v: self.feed_v,
                     tolerance_mm: self.tolerance_mm,
                     tolerance_deg: self.tolerance_mm,
+                    bow: AxisVector::zeros(),
                     tag: k as u64,
                 }
             })

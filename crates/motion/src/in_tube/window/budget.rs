@@ -5,21 +5,22 @@
 //!   of each window     search ── end, if it sees that of the path or is to halt
 //! ```
 //!
-//! A multiplication takes 1 ns with two axes, half of that with six: with 140 million before a
-//! period, planning keeps a processor for less than 100 ms. Two or three axes need less, and are
+//! A multiplication takes 1 ns with two axes, half of that with six: with 70 million before a
+//! period, planning keeps a processor for less than 50 ms. Two or three axes need less, and are
 //! given up earlier: from a little further on another window is found sooner than by more work on
 //! this one.
 
 use super::solver::Allowance;
 
 /// Most work before a period.
-pub(crate) const PLAN_WORK: usize = 140_000_000;
+pub(crate) const PLAN_WORK: usize = 70_000_000;
 /// Most of it for the first window tried.
-pub(crate) const FIRST_WORK: usize = 100_000_000;
+pub(crate) const FIRST_WORK: usize = 50_000_000;
 
-/// Work wanted for the search and for the end of a window of three axes; that of more grows with
-/// their square.
+/// Work wanted for the search, for making it smooth, and for the end of a window of three axes; that
+/// of more grows with their square.
 const SEARCH_WORK: usize = 30_000_000;
+const SMOOTHING_WORK: usize = 10_000_000;
 const FINISH_WORK: usize = 10_000_000;
 /// One part in so many of the most is kept for the end.
 const FINISH_PART: usize = 5;
@@ -30,6 +31,14 @@ pub(crate) const fn search(axes: usize, has_end: bool, most_work: usize) -> Allo
     Allowance {
         wanted: of_axes(SEARCH_WORK, axes),
         most: most_work - kept,
+    }
+}
+
+/// What it may do to make the best motion smooth, of `left_work`.
+pub(crate) const fn smoothing(axes: usize, left_work: usize) -> Allowance {
+    Allowance {
+        wanted: of_axes(SMOOTHING_WORK, axes),
+        most: left_work,
     }
 }
 

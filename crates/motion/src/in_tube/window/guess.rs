@@ -8,6 +8,7 @@
 //! by about J·τ³/4.
 
 use super::scaled_path::ScaledPath;
+use super::solver::dot;
 use crate::scurve::{PathLimits, Profile, reachable_speed};
 
 /// Speed at and time of every vertex.
@@ -59,7 +60,7 @@ impl Guess {
                     cap = j * tau * tau / jump;
                 }
             }
-            self.speeds.push(cap);
+            self.speeds.push(cap.min(curve_speed(path, i)));
         }
         self.speeds.push(0.0);
     }
@@ -151,4 +152,47 @@ impl Guess {
 /// The time from rest to rest over a length, s.
 pub(crate) fn rest_to_rest_t(length: f64, top: f64, limits: PathLimits) -> f64 {
     Profile::new(0.0, 0.0, length, top, limits).map_or(0.0, |profile| profile.duration_t())
+}
+
+/// The speed at which the path can be driven round a vertex as a curve: many gentle corners in a
+/// row are one bend, and the room that the tube gives is there for all of them once.
+fn curve_speed<const D: usize>(path: &ScaledPath<D>, i: usize) -> f64 {
+    let segments = &path.segments;
+    let at = segments[i].s;
+    let room = 2.0 * segments[i - 1].radius.min(segments[i].radius);
+    let mut speed = f64::INFINITY;
+    let (mut low, mut high) = (i - 1, i);
+    // Outwards, nearer side first, until the path has left the line by the room.
+    loop {
+        let reach = (at - segments[low].s).min(segments[high].s + segments[high].length - at);
+        let turn: [f64; D] =
+            core::array::from_fn(|k| segments[high].tangent[k] - segments[low].tangent[k]);
+        let angle = dot(&turn, &turn).sqrt();
+        if 0.5 * angle * reach >= room {
+            let curvature = angle / reach;
+            for k in 0..D {
+                let share = turn[k].abs() / angle;
+                let (a, j) = (path.acceleration[k], path.jerk[k]);
+                speed = speed
+                    .min((a / (curvature * share)).sqrt())
+                    .min((j / (curvature * curvature * share)).cbrt());
+            }
+            return speed;
+        }
+        let (before, after) = (
+            at - segments[low].s,
+            segments[high].s + segments[high].length - at,
+        );
+        if before <= after {
+            if low == 0 {
+                return speed;
+            }
+            low -= 1;
+        } else {
+            if high + 1 == segments.len() {
+                return speed;
+            }
+            high += 1;
+        }
+    }
 }

@@ -15,11 +15,14 @@
 mod attempt;
 mod budget;
 mod cuts;
+mod finishing;
 mod guess;
 mod optimiser;
+mod pins;
 mod rounds;
 mod samples;
 mod scaled_path;
+mod smoothing;
 mod solver;
 mod spline;
 mod tube;

@@ -10,8 +10,8 @@ const LITTLE_GAIN: f64 = 1e-4;
 /// Speed over the feed that is aimed at where motions stand out of the planes: the judge allows a
 /// little more.
 const ALLOWED_R: f64 = 1.0 + 4e-4;
-/// How many times stronger the pull to the middle is where the feed was not kept.
-const FIRM: f64 = 1e3;
+/// How many times stronger the pull to the path is where the feed was not kept.
+const FIRM: f64 = 10.0;
 /// Least share of the feed to plan with.
 const LEAST_FEED_R: f64 = 0.995;
 
@@ -37,8 +37,8 @@ pub(crate) struct RoundState<const D: usize> {
     pub(crate) has_motion: bool,
     /// Rows were violated in the last round: samples are on pieces too early.
     pub(crate) is_exceeding: bool,
-    /// Mean progress in the last round.
-    pub(crate) mean: f64,
+    /// Mean progress in the last round ([`Samples::mean_t`]).
+    pub(crate) mean_t: f64,
     /// Largest speed over the feed in the last solution.
     pub(crate) speed_r: f64,
     /// Share of the feed to plan with in rounds in which samples stay where they are.
@@ -46,6 +46,18 @@ pub(crate) struct RoundState<const D: usize> {
 }
 
 impl<const D: usize> RoundState<D> {
+    /// To go on from a motion.
+    pub(crate) fn polishing(points: &[[f64; D]]) -> Self {
+        Self {
+            points: points.to_vec(),
+            has_motion: true,
+            is_exceeding: false,
+            mean_t: f64::NEG_INFINITY,
+            speed_r: 0.0,
+            feed_r: FEED_R,
+        }
+    }
+
     /// Takes note of how far the last solution stands out of the planes that bound the feed, which
     /// it was planned with a share of: the next one is expected to stand out as far.
     ///
@@ -56,20 +68,20 @@ impl<const D: usize> RoundState<D> {
         self.feed_r = (ALLOWED_R / excess_r).clamp(LEAST_FEED_R, FEED_R);
     }
 
-    /// The pull to the middle where the feed was not kept: in a wide tube velocities may turn far
+    /// The pull to the path where the feed was not kept: in a wide tube velocities may turn far
     /// from round to round, and planes of the last ones do not hold the next; near the middle they
     /// all point along the path.
-    pub(crate) fn firm_ridge(&self, ridge: f64) -> f64 {
+    pub(crate) fn firm_pull(&self, pull: f64) -> f64 {
         if self.speed_r > FEED_SLACK {
-            FIRM * ridge
+            FIRM * pull
         } else {
-            ridge
+            pull
         }
     }
 
     /// True if progress hardly changes any more.
-    pub(crate) fn has_settled(&self, mean: f64, start: f64) -> bool {
-        (mean - self.mean).abs() < LITTLE_GAIN * (mean - start)
+    pub(crate) fn has_settled(&self, mean_t: f64) -> bool {
+        (mean_t - self.mean_t).abs() < LITTLE_GAIN * mean_t
     }
 }
 

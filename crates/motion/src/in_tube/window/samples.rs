@@ -17,6 +17,12 @@ const FOLD_COS: f64 = 0.2;
 /// Share of the radius before the end of a piece at which a sample goes over to the next.
 const HOP_R: f64 = 0.3;
 
+/// Most length of path to a length moved, where the path does not stay within the tube.
+const MOST_DETOUR: f64 = 1.5;
+
+/// Share of the radius by which rounding may put a sample beyond the end of its piece.
+const AT_END_R: f64 = 1e-3;
+
 /// What the motion bulges out of the chords of half periods, as a part of what it does out of whole
 /// ones.
 const OF_HALVES: f64 = 0.25;
@@ -125,7 +131,11 @@ impl Samples {
         for k in 1..self.progress.len() {
             while i + 1 < segments.len() {
                 let segment = &segments[i];
-                let hop = HOP_R * segment.radius.min(segment.length);
+                let hop = if path.slows_after(i) {
+                    -AT_END_R * segment.radius
+                } else {
+                    HOP_R * segment.radius.min(segment.length)
+                };
                 let is_past = self.progress[k] > segment.s + segment.length - hop;
                 if !is_past && self.at_least[k] <= i {
                     break;
@@ -143,16 +153,18 @@ impl Samples {
         path: &ScaledPath<D>,
         points: &[[f64; D]],
         first: usize,
-        (grid, period_t): (&Grid, f64),
+        grid: &Grid,
         may_lead: bool,
     ) {
         let mut at = (first, self.progress[0]);
         self.worst_r = 0.0;
         self.bounds_middles = grid.knots > 1;
         let mut bend_before = 0.0;
+        let mut before = sample(points, grid, 0);
         for k in 1..=self.count() {
             let y = sample(points, grid, k);
-            let (piece, s, distance) = nearest(path, &y, at, period_t);
+            let (piece, s, distance) = nearest(path, &y, at, ahead(path, at.0, &before, &y));
+            before = y;
             at = (piece, s);
             self.progress[k] = s;
             self.at_least[k] = 0;
@@ -181,11 +193,24 @@ impl Samples {
         self.at_least.fill(0);
     }
 
-    /// Mean progress.
-    pub(crate) fn mean(&self) -> f64 {
+    /// Mean progress since the first sample, in the time that it takes at the top speeds: where the
+    /// feed is slow, little way is much time.
+    pub(crate) fn mean_t<const D: usize>(&self, path: &ScaledPath<D>) -> f64 {
+        let segments = &path.segments;
+        let (mut i, mut start_t, mut sum) = (0, 0.0, 0.0);
+        for (k, &s) in self.progress.iter().enumerate() {
+            while i + 1 < segments.len() && segments[i].s + segments[i].length <= s {
+                i += 1;
+            }
+            let t = segments[i].t + (s - segments[i].s) / segments[i].top;
+            if k == 0 {
+                start_t = t;
+            }
+            sum += t - start_t;
+        }
         #[expect(clippy::cast_precision_loss, reason = "thousands")]
         let count = self.progress.len() as f64;
-        self.progress.iter().sum::<f64>() / count
+        sum / count
     }
 }
 
@@ -218,15 +243,27 @@ pub(crate) fn sample<const D: usize>(points: &[[f64; D]], grid: &Grid, k: usize)
     combine(points, first, &weights)
 }
 
-/// The nearest place from `at` on that a sample can be at: piece, progress, distance.
+/// How far along the path a sample can be from the one before, if it has moved so far: a closed path
+/// comes by the same place again, and must not be taken to have been passed in one step.
+fn ahead<const D: usize>(
+    path: &ScaledPath<D>,
+    piece: usize,
+    before: &[f64; D],
+    y: &[f64; D],
+) -> f64 {
+    let moved: [f64; D] = core::array::from_fn(|k| y[k] - before[k]);
+    MOST_DETOUR * dot(&moved, &moved).sqrt() + 2.0 * path.segments[piece].radius
+}
+
+/// The nearest place from `at` on, at most so far ahead, that a sample can be at: piece, progress,
+/// distance.
 fn nearest<const D: usize>(
     path: &ScaledPath<D>,
     y: &[f64; D],
     at: (usize, f64),
-    step_t: f64,
+    ahead: f64,
 ) -> (usize, f64, f64) {
     let segments = &path.segments;
-    let ahead = 1.5 * segments[at.0].top * step_t + 2.0 * segments[at.0].radius;
     let mut best = (at.0, at.1, f64::INFINITY);
     let mut i = at.0;
     while i < segments.len() && segments[i].s <= at.1 + ahead {

@@ -16,6 +16,9 @@ use glidepath_program::Limits;
 /// does.
 pub(crate) const SHARP: f64 = 0.3;
 
+/// A speed that is slower than another, in shares of it.
+const SLOWER: f64 = 0.999;
+
 /// A piece of the path in the space of the window.
 #[derive(Debug, Clone)]
 pub(crate) struct ScaledSegment<const D: usize> {
@@ -25,6 +28,8 @@ pub(crate) struct ScaledSegment<const D: usize> {
     pub(crate) length: f64,
     /// Length from the start of the scaled path to the start of the piece.
     pub(crate) s: f64,
+    /// Time that all pieces before it take at their top speeds.
+    pub(crate) t: f64,
     /// Radius of the tube.
     pub(crate) radius: f64,
     /// Speed the feed and the axes allow, per second.
@@ -36,6 +41,10 @@ pub(crate) struct ScaledSegment<const D: usize> {
     /// Per axis, one over the programmed feed where the feed counts the axis, in units of the
     /// window.
     pub(crate) feed_axes: [f64; D],
+    /// From its middle to the program it stands for.
+    pub(crate) bow: [f64; D],
+    /// Where it leaves an axis alone: the coordinate.
+    pub(crate) level: [Option<f64>; D],
     /// Across: first in the plane of the corner at its end, then whatever completes the base.
     pub(crate) normals: [[f64; D]; D],
 }
@@ -53,6 +62,9 @@ pub(crate) struct ScaledPath<const D: usize> {
     moving: usize,
     unit: [f64; D],
     origin: AxisVector,
+    /// Coordinates at which pieces leave an axis alone, in the space of the window and as programmed,
+    /// by rising order.
+    levels: [Vec<(f64, f64)>; D],
     pub(crate) velocity: [f64; D],
     pub(crate) acceleration: [f64; D],
     pub(crate) jerk: [f64; D],
@@ -92,6 +104,7 @@ impl<const D: usize> ScaledPath<D> {
             moving: 0,
             unit: [1.0; D],
             origin,
+            levels: core::array::from_fn(|_| Vec::new()),
             velocity: [1.0; D],
             acceleration: [1.0; D],
             jerk: [1.0; D],
@@ -114,6 +127,10 @@ impl<const D: usize> ScaledPath<D> {
             path.add(limits, piece, tolerances);
         }
         path.add_normals();
+        for levels in &mut path.levels {
+            levels.sort_by(|a, b| a.0.total_cmp(&b.0));
+            levels.dedup_by(|a, b| a.0.total_cmp(&b.0).is_eq());
+        }
         path
     }
 
@@ -123,6 +140,16 @@ impl<const D: usize> ScaledPath<D> {
         let mut along = [0.0; D];
         for k in 0..self.moving {
             along[k] = displacement[self.axes[k]] / self.unit[k];
+        }
+        let mut level = [None; D];
+        let mut bow = [0.0; D];
+        for k in 0..self.moving {
+            let i = self.axes[k];
+            bow[k] = piece.bow[i] / self.unit[k];
+            if piece.start[i].total_cmp(&piece.end[i]).is_eq() && bow[k].abs() <= 0.0 {
+                level[k] = Some(start[k]);
+                self.levels[k].push((start[k], piece.start[i]));
+            }
         }
         let length = dot(&along, &along).sqrt();
         let tangent = along.map(|value| value / length);
@@ -140,16 +167,23 @@ impl<const D: usize> ScaledPath<D> {
             .segments
             .last()
             .map_or(0.0, |last| last.s + last.length);
+        let t = self
+            .segments
+            .last()
+            .map_or(0.0, |last| last.t + last.length / last.top);
         self.segments.push(ScaledSegment {
             start,
             tangent,
             length,
             s,
+            t,
             radius: (piece.tolerance_mm / unit_mm).min(piece.tolerance_deg / unit_deg),
             top: (piece.top_v * length / piece.length_s).min(bounds.speed_v),
             limits: bounds.path,
             feed,
             feed_axes,
+            bow,
+            level,
             normals: [[0.0; D]; D],
         });
     }
@@ -201,6 +235,15 @@ impl<const D: usize> ScaledPath<D> {
         core::array::from_fn(|k| segment.start[k] + segment.length * segment.tangent[k])
     }
 
+    /// True if the path goes on from piece `i` without a corner, but slower. The motion has to be
+    /// slow by the end of the piece, neither before nor after: a sample that changed sides there from
+    /// one window to the next would ask for what the motion it belongs to cannot do.
+    pub(crate) fn slows_after(&self, i: usize) -> bool {
+        let next = self.segments.get(i + 1);
+        next.is_some_and(|next| next.top < SLOWER * self.segments[i].top)
+            && self.turn(i, i + 1) <= SHARP
+    }
+
     /// How much the direction changes between two pieces: 2·sin(turn/2).
     pub(crate) fn turn(&self, i: usize, j: usize) -> f64 {
         let (a, b) = (&self.segments[i].tangent, &self.segments[j].tangent);
@@ -218,14 +261,27 @@ impl<const D: usize> ScaledPath<D> {
         point
     }
 
-    /// A point of the window as a position; axes that do not move are those of the origin.
+    /// A point of the window as a position; axes that do not move are those of the origin, and a
+    /// coordinate at which a piece leaves its axis alone is that of the program to the bit.
     pub(crate) fn outside(&self, point: &[f64; D]) -> AxisVector {
         let mut position = self.origin;
         for k in 0..self.moving {
             let i = self.axes[k];
-            position[i] += point[k] * self.unit[k];
+            let level = self.levels[k].binary_search_by(|level| level.0.total_cmp(&point[k]));
+            match level.ok().and_then(|at| self.levels[k].get(at)) {
+                Some((_, programmed)) => position[i] = *programmed,
+                None => position[i] += point[k] * self.unit[k],
+            }
         }
         position
+    }
+
+    /// Where the program is near the place of some progress on piece `i`.
+    pub(crate) fn center(&self, i: usize, progress: f64) -> [f64; D] {
+        let segment = &self.segments[i];
+        let u = ((progress - segment.s) / segment.length).clamp(0.0, 1.0);
+        let height = 4.0 * u * (1.0 - u);
+        core::array::from_fn(|k| segment.start[k] + height * segment.bow[k])
     }
 
     /// Axes whose own velocity limit may bind before the feed does.

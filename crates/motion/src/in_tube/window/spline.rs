@@ -2,7 +2,7 @@
 
 use super::solver::SPAN;
 use crate::in_tube::period::State;
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AXES, AxisVector};
 
 /// Weights of four control points at a place 0…1 of their interval.
 pub(crate) fn basis(u: f64) -> [f64; 4] {
@@ -152,11 +152,30 @@ impl Grid {
         intervals / self.knots * self.knots
     }
 
-    fn weigh(points: &[AxisVector], first: usize, weights: [f64; SPAN]) -> AxisVector {
+    /// A weighted sum of four control points. An axis on which they agree is left out of the sum and
+    /// has `of_still` of their value: rounding must not move what stands still.
+    fn weigh(
+        points: &[AxisVector],
+        first: usize,
+        weights: [f64; 4],
+        of_still: impl Fn(f64) -> f64,
+    ) -> AxisVector {
+        let Some(last) = points.last() else {
+            return AxisVector::zeros();
+        };
+        let four: [&AxisVector; 4] =
+            core::array::from_fn(|offset| points.get(first + offset).unwrap_or(last));
         let mut sum = AxisVector::zeros();
-        for (weight, offset) in weights.into_iter().zip(0..) {
-            if let Some(point) = points.get(first + offset).or(points.last()) {
-                sum += point * weight;
+        for (point, weight) in four.iter().zip(weights) {
+            sum += *point * weight;
+        }
+        for i in 0..AXES {
+            let value = four[0][i];
+            if four[1..]
+                .iter()
+                .all(|point| point[i].total_cmp(&value).is_eq())
+            {
+                sum[i] = of_still(value);
             }
         }
         sum
@@ -178,7 +197,7 @@ impl Grid {
         let is_at_rest = points.len() >= 3 && first + 3 >= points.len();
         match points.last() {
             Some(last) if is_at_rest => *last,
-            _ => Self::weigh(points, first, widen(basis(u), 0)),
+            _ => Self::weigh(points, first, basis(u), |value| value),
         }
     }
 
@@ -187,8 +206,8 @@ impl Grid {
         let (first, u) = self.interval_of(period);
         let t = self.knot_t;
         [
-            Self::weigh(points, first, widen(basis_1(u), 0)) / t,
-            Self::weigh(points, first, widen(basis_2(u), 0)) / (t * t),
+            Self::weigh(points, first, basis_1(u), |_| 0.0) / t,
+            Self::weigh(points, first, basis_2(u), |_| 0.0) / (t * t),
         ]
     }
 }

@@ -49,12 +49,35 @@ pub(crate) struct Style {
     /// Part of the radius that is used: the rest is left to rounding, and to iterates that come and
     /// go.
     pub(crate) keep_r: f64,
-    /// Pull towards the middle of the tube, so that a motion at rest has a place there.
+    /// Pull towards the programmed path: what an offset of the whole radius costs, in gains of
+    /// progress of one sample in all of the time.
     pub(crate) ridge: f64,
+    /// What jerk at its limit costs, in the same measure.
+    pub(crate) jerk: f64,
     /// Not as far as possible, but as much in the middle as possible.
     pub(crate) is_centred: bool,
     /// The points of the last motion are one, and not only a place to start from.
     pub(crate) has_motion: bool,
+}
+
+/// What the motion takes to settle, in times in which jerk strays by a tolerance: the times of the
+/// two pulls ([`Style::ridge`], [`Style::jerk`]) are in it, which make less than one.
+const SETTLING: f64 = 7.5;
+
+impl Style {
+    /// Periods in which the motion settles on the path after a corner.
+    pub(crate) fn settling_periods<const D: usize>(&self, path: &ScaledPath<D>) -> usize {
+        let slowest_j = path.jerk.iter().copied().fold(f64::INFINITY, f64::min);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a few, and clamped"
+        )]
+        let periods = (SETTLING * slowest_j.recip().cbrt() / self.period_t)
+            .ceil()
+            .min(1e6) as usize;
+        periods
+    }
 }
 
 /// Extent of each piece's line beyond its ends, found when first asked for.
@@ -78,7 +101,9 @@ impl Extents {
         let stray = 0.5 * style.stray_r * segment.radius;
         let cap = 4.0 * segment.top * style.grid.knot_t;
         let last = path.segments.len() - 1;
-        let over = if i < last {
+        let over = if path.slows_after(i) {
+            0.0
+        } else if i < last {
             let ahead = (i + 1..=last).map(|j| path.vertex(j));
             extent(&path.vertex(i), &segment.tangent, ahead, stray, cap)
         } else {
@@ -198,7 +223,7 @@ fn add_tube<const D: usize>(
     let radius = (segment.radius * layout.style.keep_r - sagitta) * layout.samples.shrink[k];
     if let Some(site) = problem.sites.last_mut() {
         site.ridge = layout.style.ridge / (radius * radius);
-        site.center = segment.start;
+        site.center = layout.path.center(piece, layout.samples.progress[k]);
         site.tangent = segment.tangent;
     }
     for normal in &segment.normals[..D - 1] {

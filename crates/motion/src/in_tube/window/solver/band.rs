@@ -43,6 +43,20 @@ impl<const D: usize> Band<D> {
         }
     }
 
+    /// Takes one axis of point `i` out: nothing acts on it, and it acts on nothing.
+    pub(super) fn pin(&mut self, i: usize, axis: usize) {
+        let Self { rows } = self;
+        for block in &mut rows[i] {
+            block[axis] = [0.0; D];
+        }
+        for d in 0..WIDTH.min(rows.len() - i) {
+            for row in &mut rows[i + d][d] {
+                row[axis] = 0.0;
+            }
+        }
+        rows[i][0][axis][axis] = 1.0;
+    }
+
     /// Factors the part of points `range`; what couples it to other points is ignored.
     pub(super) fn factor(&mut self, range: core::ops::Range<usize>) {
         for i in range.clone() {

@@ -234,7 +234,10 @@ impl<const D: usize> Interior<D> {
             for (k, stencil) in self.stencils[order].iter().enumerate() {
                 for a in 0..D {
                     let bound = problem.bounds[order][a];
-                    let weight = next_weight() / (bound * bound);
+                    let mut weight = next_weight() / (bound * bound);
+                    if order == 2 {
+                        weight += problem.jerk[a];
+                    }
                     for i in 0..4 {
                         for j in 0..=i {
                             self.band.add_axis(
@@ -280,6 +283,11 @@ impl<const D: usize> Interior<D> {
                 self.band.add_axis(k, 0, a, damping);
             }
         }
+        for (k, pins) in problem.pins.iter().enumerate() {
+            for a in (0..D).filter(|&a| pins[a]) {
+                self.band.pin(k, a);
+            }
+        }
     }
 
     /// Solves for the step of the control points, and from it that of the sides.
@@ -302,6 +310,12 @@ impl<const D: usize> Interior<D> {
                 let mut pull = [0.0; D];
                 for (pull, bound) in pull.iter_mut().zip(&problem.bounds[order]) {
                     *pull = next_force() / bound;
+                }
+                if order == 2 {
+                    let third = combine(x, start + k, &DIFFERENCES[2]);
+                    for a in 0..D {
+                        pull[a] += problem.jerk[a] * third[a];
+                    }
                 }
                 take_away(step, start + k, stencil, &pull);
             }
@@ -327,6 +341,11 @@ impl<const D: usize> Interior<D> {
             }
             let weights = fold(site.first, site.weights, problem);
             take_away(step, site.first, &weights, &pull);
+        }
+        for (step, pins) in self.step.iter_mut().zip(&problem.pins) {
+            for a in (0..D).filter(|&a| pins[a]) {
+                step[a] = 0.0;
+            }
         }
         self.band.solve(problem.free(), &mut self.step);
         for k in 0..3 {

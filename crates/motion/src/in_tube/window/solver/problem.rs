@@ -7,7 +7,7 @@
 //! difference, and velocity lies in the hull of first differences.
 //!
 //! ```text
-//!     maximise   Σ aim_k · x_k  −  Σ ridge · |offset across the path|²
+//!     maximise   Σ aim_k · x_k  −  ½ Σ ridge · |offset across the path|²  −  ½ Σ jerk · |Δ³x|²
 //!     subject to |Δⁿ x|  ≤ bound        every axis, n = 1, 2, 3         hard
 //!                low ≤ normal · Σ wᵢ x_{m+i} ≤ high                      elastic: at a price
 //! ```
@@ -61,6 +61,10 @@ pub(in crate::in_tube::window) struct Problem<const D: usize> {
     pub(in crate::in_tube::window) is_end_fixed: bool,
     /// Bounds of first, second, third differences; an infinite one is left out.
     pub(in crate::in_tube::window) bounds: [[f64; D]; 3],
+    /// Weight of the square of third differences, by axis.
+    pub(in crate::in_tube::window) jerk: [f64; D],
+    /// Which control points stay where they are given, by axis.
+    pub(in crate::in_tube::window) pins: Vec<[bool; D]>,
     /// Gradient of the objective, by control point.
     pub(in crate::in_tube::window) aims: Vec<[f64; D]>,
     pub(in crate::in_tube::window) sites: Vec<Site<D>>,
@@ -73,6 +77,8 @@ impl<const D: usize> Problem<D> {
             intervals: 0,
             is_end_fixed: false,
             bounds: [[f64::INFINITY; D]; 3],
+            jerk: [0.0; D],
+            pins: Vec::new(),
             aims: Vec::new(),
             sites: Vec::new(),
             rows: Vec::new(),
@@ -83,6 +89,8 @@ impl<const D: usize> Problem<D> {
     pub(in crate::in_tube::window) fn clear(&mut self, intervals: usize, is_end_fixed: bool) {
         self.intervals = intervals;
         self.is_end_fixed = is_end_fixed;
+        self.pins.clear();
+        self.pins.resize(intervals + 3, [false; D]);
         self.aims.clear();
         self.aims.resize(intervals + 3, [0.0; D]);
         self.sites.clear();

@@ -1,0 +1,104 @@
+//! The second solve: of all motions about as fast, the smoothest, and of those the truest.
+//!
+//! Where the feed binds, many motions take the same time, and the search stops at any of them. So
+//! the best one is solved for again, with what jerk costs and what being off the path costs made
+//! dear enough to be felt, and cheap enough that time comes first:
+//!
+//! ```text
+//!   maximise  mean progress  −  ½·pull·Σ |offset across / radius|²  −  ½·jerk·Σ |jerk / limit|²
+//! ```
+//!
+//! Progress stays in the objective: to hold it fast would forbid an arc to be driven at its radius,
+//! because the inner one is shorter. What is accepted has passed the judge and has lost hardly any
+//! progress; else the weights are made smaller, and in the end the motion of the search stays.
+
+use super::optimiser::{ENOUGH_VIOLATION, Optimiser, Question};
+use super::rounds::RoundState;
+use super::samples::Samples;
+use super::scaled_path::ScaledPath;
+use super::tube::Style;
+use super::window_start::WindowStart;
+
+/// What an offset of the whole radius costs at one sample, and what jerk at its limit does.
+const PULL: f64 = 0.1;
+const JERK: f64 = 0.03;
+/// The weights that are tried, relative to these.
+const WEIGHTS: [f64; 3] = [1.0, 0.1, 0.01];
+/// Rounds for each: on curves the planes that bound the feed are learnt in them.
+const ROUNDS: usize = 3;
+/// Share of its progress that a window may lose.
+const MOST_LOSS: f64 = 0.003;
+/// Change of progress, relative to that of the window, below which rounds change nothing.
+const SETTLED: f64 = 1e-5;
+/// What of the radius is used.
+const KEEP_R: f64 = 0.99;
+
+/// A motion with its mean progress, and where its samples are.
+pub(super) type Found<const D: usize> = (f64, Vec<[f64; D]>, Samples);
+
+impl<const D: usize> Optimiser<D> {
+    /// The motion that is to be used instead of the best one of the search, or that one itself.
+    pub(super) fn smooth(
+        &mut self,
+        path: &ScaledPath<D>,
+        window_start: &WindowStart<'_, D>,
+        (mean, points, samples): Found<D>,
+        judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
+    ) -> Vec<[f64; D]> {
+        let least = mean - MOST_LOSS * mean;
+        for weight in WEIGHTS {
+            self.samples.clone_from(&samples);
+            let style = Style {
+                keep_r: KEEP_R,
+                ridge: weight * PULL,
+                jerk: weight * JERK,
+                ..window_start.style(true)
+            };
+            let smoothed = self.smooth_with(path, window_start, &style, &points, judge);
+            if let Some(smoothed) = smoothed.filter(|(mean, ..)| *mean >= least) {
+                return smoothed.1;
+            }
+            if self.interior.is_spent() {
+                break;
+            }
+        }
+        points
+    }
+
+    /// The last motion that passes of some rounds with a style.
+    fn smooth_with(
+        &mut self,
+        path: &ScaledPath<D>,
+        window_start: &WindowStart<'_, D>,
+        style: &Style,
+        points: &[[f64; D]],
+        judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
+    ) -> Option<Found<D>> {
+        let mut round_state = RoundState::polishing(points);
+        let mut passed: Option<Found<D>> = None;
+        for _ in 0..ROUNDS {
+            if self.interior.is_spent() {
+                break;
+            }
+            let style = Style {
+                feed_r: round_state.feed_r,
+                ..*style
+            };
+            let is_solved = self.take_round(path, window_start, &style, false, &mut round_state);
+            if !is_solved || self.interior.violation() > ENOUGH_VIOLATION {
+                break;
+            }
+            round_state.learn_feed(style.feed_r);
+            let mean = self.samples.mean_t(path);
+            let change = mean - round_state.mean_t;
+            round_state.mean_t = mean;
+            if judge(&round_state.points, Question::IsValid) {
+                passed = Some((mean, round_state.points.clone(), self.samples.clone()));
+                if change.abs() < SETTLED * mean {
+                    break;
+                }
+            }
+        }
+        passed
+    }
+}
