@@ -1,9 +1,9 @@
 //! The engine: the path front, look-ahead, refiner and sampler one behind the other.
 
 use super::front::PathFront;
-use super::look_ahead::{Planned, Scheduler, Settled};
+use super::look_ahead::{Scheduler, Settled};
 use super::pieces::Element;
-use super::refining::Refiner;
+use super::refining::{RATE_R, Refiner};
 use super::sampler::{NextFrame, Sampler};
 use super::slowing::Slowing;
 use crate::PlanError;
@@ -117,6 +117,17 @@ impl OnPathEngine {
         let Some(entry_v) = self.sampler.steady_v() else {
             return false;
         };
+        // Where a parametrisation is driven, another one can follow it where it is as much slower
+        // than S-curves as it begins.
+        let may_go_on = entry_v > 0.0 && self.sampler.is_after_parametrisation();
+        (may_go_on && self.plan_from(entry_v, RATE_R, wanted))
+            || self.plan_from(entry_v, 1.0, wanted)
+    }
+
+    /// Plans anew from a speed, which is some rate of that of the S-curves. False if that cannot be
+    /// done, and nothing is changed.
+    fn plan_from(&mut self, speed_v: f64, rate_r: f64, wanted: Override) -> bool {
+        let entry_v = speed_v / rate_r;
         let mut scheduler = Scheduler::entered_at(entry_v, self.limits, self.period_t);
         let mut planned = VecDeque::new();
         let limits = self.limits;
@@ -153,8 +164,16 @@ impl OnPathEngine {
         }
         self.sampler.drop_motion();
         self.scheduler = scheduler;
-        self.refiner.restart(entry_v);
-        self.settled = planned.into_iter().flat_map(Planned::by_s_curves).collect();
+        let is_slowed = rate_r < 1.0;
+        self.refiner.restart(entry_v, is_slowed);
+        self.settled.clear();
+        for planned in planned {
+            if is_slowed {
+                self.refiner.push(planned, &mut self.settled);
+            } else {
+                self.settled.extend(planned.by_s_curves());
+            }
+        }
         self.wanted = None;
         true
     }

@@ -26,6 +26,8 @@ pub(crate) struct Sampler {
     path_s: f64,
     /// Speed at the end of the last motion.
     speed_v: f64,
+    /// That motion was driven by a time parametrisation.
+    was_parametrised: bool,
 }
 
 /// What comes next.
@@ -79,6 +81,7 @@ impl Sampler {
             motion: None,
             path_s: 0.0,
             speed_v: 0.0,
+            was_parametrised: false,
         }
     }
 
@@ -142,6 +145,11 @@ impl Sampler {
                 .cruise(self.first_frame_t, self.period_t)
                 .map(|(_, v)| v),
         }
+    }
+
+    /// True between two motions if the last one was driven by a time parametrisation.
+    pub(crate) const fn is_after_parametrisation(&self) -> bool {
+        self.motion.is_none() && self.was_parametrised
     }
 
     /// What is left of the motion at hand after the last frame, where it is cruising.
@@ -296,6 +304,7 @@ impl Sampler {
                 .parametrisation
                 .as_ref()
                 .map_or(by_legs_v, Parametrisation::exit_v);
+            self.was_parametrised = motion.parametrisation.is_some();
             self.path_s += piece.length_s;
             self.grid
                 .leave(piece.jet(piece.length_s).position, self.path_s);

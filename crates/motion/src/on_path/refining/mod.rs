@@ -4,4 +4,4 @@ mod motion_chain;
 mod refiner;
 mod worth;
 
-pub(crate) use refiner::Refiner;
+pub(crate) use refiner::{RATE_R, Refiner};

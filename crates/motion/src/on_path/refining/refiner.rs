@@ -18,7 +18,7 @@ const MOST_PIECES: usize = 4096;
 const SHORTEST_R: f64 = 0.4;
 /// How much slower than the S-curves a time parametrisation starts, and passes from one window to
 /// the next.
-const RATE_R: f64 = 0.85;
+pub(crate) const RATE_R: f64 = 0.85;
 /// Where no parametrisation is found, the window is parted in this share of it, so often at most.
 const MIDDLE_R: [f64; 2] = [0.2, 0.8];
 const HALVINGS: u32 = 6;
@@ -62,11 +62,13 @@ impl Refiner {
         self.waiting.pieces.iter().cloned().map(Element::Piece)
     }
 
-    /// What waits here, and what was given on, is planned anew from a speed.
-    pub(crate) fn restart(&mut self, entry_v: f64) {
+    /// What waits here, and what was given on, is planned anew from a speed: that of the S-curves, or
+    /// [`RATE_R`] of it, so that parametrisations go on.
+    pub(crate) fn restart(&mut self, entry_v: f64, is_slowed: bool) {
         *self = Self {
             is_wanted: self.is_wanted,
-            is_from_rest: entry_v <= 0.0,
+            is_from_rest: entry_v <= 0.0 || is_slowed,
+            is_slowed,
             ..Self::new(self.limits)
         };
     }
