@@ -55,6 +55,7 @@ fn every_command_explains_itself_with_an_example() {
         "planner",
         "servo",
         "feed",
+        "config",
         "status",
         "hold",
         "resume",

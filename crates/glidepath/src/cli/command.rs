@@ -1,12 +1,14 @@
 //! The subcommands.
 
 use super::basic::BasicArgs;
+use super::config::ConfigArgs;
 use super::curves::{FitArgs, PreviewArgs};
 use super::host::{BenchArgs, DoctorArgs, JitterArgs};
 use super::motion::{
     CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
 };
 use super::operator::{AbortArgs, OperatorArgs, OverrideArgs, SingleBlockArgs};
+use super::path::PathArgs;
 use super::program::ProgramArgs;
 use crate::program_file::ProgramFile;
 use clap::Subcommand;
@@ -80,6 +82,11 @@ pub enum Command {
                             glidepath fit part.ngc --tolerance 0.01 --method hybrid --seed 7 --json"
     )]
     Fit(FitArgs),
+    /// The configuration: print one, explain its keys, check one
+    #[command(after_help = "Examples: glidepath config --default > mill.toml · \
+                            glidepath config --explain path.tolerance · \
+                            glidepath config --check mill.toml")]
+    Config(ConfigArgs),
     /// Is this host fit for real time? With the fix for each no
     #[command(after_help = "Example: glidepath doctor --config mill.toml")]
     Doctor(DoctorArgs),
@@ -92,10 +99,21 @@ pub enum Command {
 }
 
 impl Command {
-    /// What every command is told.
+    /// Whether one JSON object is printed instead of text.
     #[must_use]
-    pub const fn basic(&self) -> &BasicArgs {
-        match self {
+    pub const fn json(&self) -> bool {
+        match (self, self.basic()) {
+            (Self::Config(args), _) => args.json,
+            (_, Some(basic)) => basic.json,
+            (_, None) => false,
+        }
+    }
+
+    /// What every command is told that works for a machine.
+    #[must_use]
+    pub const fn basic(&self) -> Option<&BasicArgs> {
+        Some(match self {
+            Self::Config(_) => return None,
             Self::Run(args) => &args.basic,
             Self::Plan(args) => &args.basic,
             Self::Check(args) => &args.basic,
@@ -117,6 +135,17 @@ impl Command {
             Self::Bench(args) => &args.basic,
             Self::Doctor(args) => &args.basic,
             Self::Jitter(args) => &args.basic,
+        })
+    }
+
+    /// What the command line says about how a path is followed.
+    #[must_use]
+    pub const fn path(&self) -> Option<&PathArgs> {
+        match self {
+            Self::Run(args) => Some(&args.path),
+            Self::Plan(args) => Some(&args.path),
+            Self::Planner(args) => Some(&args.path),
+            _ => None,
         }
     }
 

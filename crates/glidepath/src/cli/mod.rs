@@ -2,20 +2,24 @@
 
 mod basic;
 mod command;
+mod config;
 mod curves;
 mod host;
 mod motion;
 mod operator;
+mod path;
 mod program;
 
 pub use basic::{BasicArgs, InstanceArgs, OverwriteArgs};
 pub use command::Command;
+pub use config::{ConfigAction, ConfigArgs};
 pub use curves::{FitArgs, FitMethod, PreviewArgs, PreviewMethod};
 pub use host::{BenchArgs, DoctorArgs, JitterArgs};
 pub use motion::{
     CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
 };
 pub use operator::{AbortArgs, OperatorArgs, OverrideArgs, SingleBlockArgs, Switch};
+pub use path::PathArgs;
 pub use program::ProgramArgs;
 
 use clap::Parser;

@@ -1,6 +1,7 @@
 //! Arguments of the commands that check, plan and run programs, and of the processes by themselves.
 
 use super::basic::{BasicArgs, InstanceArgs, OverwriteArgs};
+use super::path::PathArgs;
 use super::program::{ProgramArgs, program_file};
 use crate::program_file::ProgramFile;
 use clap::Args;
@@ -15,6 +16,9 @@ pub struct RunArgs {
     /// How the program is read.
     #[command(flatten)]
     pub program: ProgramArgs,
+    /// How the path is followed.
+    #[command(flatten)]
+    pub path: PathArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -45,6 +49,9 @@ pub struct PlanArgs {
     /// How the program is read.
     #[command(flatten)]
     pub program: ProgramArgs,
+    /// How the path is followed.
+    #[command(flatten)]
+    pub path: PathArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -109,6 +116,9 @@ pub struct PlannerArgs {
     /// How the program is read.
     #[command(flatten)]
     pub program: ProgramArgs,
+    /// How the path is followed.
+    #[command(flatten)]
+    pub path: PathArgs,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,

@@ -19,6 +19,17 @@ pub(super) enum Failure {
     /// The configuration was refused.
     #[error(transparent)]
     Configuration(#[from] ConfigError),
+    /// A key of the configuration that does not exist.
+    #[error("there is no key `{key}`{}", match nearest {
+        Some(name) => format!("; did you mean `{name}`? `glidepath config --explain` lists them all"),
+        None => "; `glidepath config --explain` lists them all".to_owned(),
+    })]
+    UnknownKey {
+        /// What was asked for.
+        key: String,
+        /// The one that is most like it.
+        nearest: Option<&'static str>,
+    },
     /// The benchmark programs cannot be found.
     #[error(transparent)]
     Catalogue(#[from] CatalogueError),
@@ -234,6 +245,7 @@ impl Failure {
             Self::ResumePipe
             | Self::File(FileError::Open { .. } | FileError::Guarded { .. })
             | Self::Catalogue(_)
+            | Self::UnknownKey { .. }
             | Self::NoFeed
             | Self::NotOneCurve { .. }
             | Self::UnknownEvent(_)

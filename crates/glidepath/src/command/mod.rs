@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod configuration;
 mod doctor;
 mod failure;
 mod failure_report;
@@ -21,7 +22,7 @@ mod session;
 mod subroutines;
 
 use crate::cli::{Cli, Command, Switch};
-use crate::config;
+use crate::config::{self, MachineConfig};
 use crate::exit::Exit;
 use crate::output;
 use failure::Failure;
@@ -31,9 +32,8 @@ use serde_json::json;
 /// Does what the command line asks for, and prints its result.
 #[must_use]
 pub fn main(cli: &Cli) -> Exit {
-    let basic = cli.command.basic();
     let done = dispatch(&cli.command);
-    let exit = done.unwrap_or_else(|failure| failure_report::report(&failure, basic.json));
+    let exit = done.unwrap_or_else(|failure| failure_report::report(&failure, cli.command.json()));
     match output::unwritten() {
         Some(cause) if exit == Exit::Done => {
             output::note(&format!("error: cannot write to standard output: {cause}"));
@@ -67,35 +67,49 @@ pub fn usage(error: &clap::Error) -> Exit {
 }
 
 fn dispatch(command: &Command) -> Result<Exit, Failure> {
-    let mut config = config::load(command.basic().config.as_deref())?;
-    reading::settle(command, &mut config)?;
+    let config = || machine(command);
     match command {
-        Command::Run(args) => run::run(args, &config),
-        Command::Plan(args) => plan::plan(args, &config),
-        Command::Check(args) => check::check(args, &config),
-        Command::Interpolator(args) => interpolator::interpolator(args, &config),
-        Command::Planner(args) => planner::planner(args, &config),
-        Command::Servo(args) => servo::servo(args, &config),
-        Command::Feed(args) => feed::feed(args, &config),
-        Command::Status(args) => operator::status(args, &config),
-        Command::Hold(args) => operator::command(args, &config, "hold", link::Command::Hold),
-        Command::Resume(args) => operator::command(args, &config, "resume", link::Command::Resume),
-        Command::Step(args) => operator::command(args, &config, "step", link::Command::Step),
+        Command::Config(args) => configuration::configuration(args),
+        Command::Run(args) => run::run(args, &config()?),
+        Command::Plan(args) => plan::plan(args, &config()?),
+        Command::Check(args) => check::check(args, &config()?),
+        Command::Interpolator(args) => interpolator::interpolator(args, &config()?),
+        Command::Planner(args) => planner::planner(args, &config()?),
+        Command::Servo(args) => servo::servo(args, &config()?),
+        Command::Feed(args) => feed::feed(args, &config()?),
+        Command::Status(args) => operator::status(args, &config()?),
+        Command::Hold(args) => operator::command(args, &config()?, "hold", link::Command::Hold),
+        Command::Resume(args) => {
+            operator::command(args, &config()?, "resume", link::Command::Resume)
+        }
+        Command::Step(args) => operator::command(args, &config()?, "step", link::Command::Step),
         Command::StopAtBlockEnd(args) => {
             let command = link::Command::StopAtEndOfBlock;
-            operator::command(args, &config, "stop-at-block-end", command)
+            operator::command(args, &config()?, "stop-at-block-end", command)
         }
-        Command::Fit(args) => fit::fit(args, &config),
-        Command::Preview(args) => preview::preview(args, &config),
+        Command::Fit(args) => fit::fit(args, &config()?),
+        Command::Preview(args) => preview::preview(args, &config()?),
         Command::SingleBlock(args) => {
             let command = link::Command::SingleBlock(args.switch == Switch::On);
-            operator::command(&args.operator, &config, "single-block", command)
+            operator::command(&args.operator, &config()?, "single-block", command)
         }
-        Command::Abort(args) => operator::abort(args, &config),
-        Command::Reset(args) => operator::command(args, &config, "reset", link::Command::Reset),
-        Command::Override(args) => operator::overrides(args, &config),
-        Command::Bench(args) => bench::bench(args, &config),
-        Command::Doctor(args) => Ok(doctor::doctor(args, &config)),
-        Command::Jitter(args) => jitter::jitter(args, &config),
+        Command::Abort(args) => operator::abort(args, &config()?),
+        Command::Reset(args) => operator::command(args, &config()?, "reset", link::Command::Reset),
+        Command::Override(args) => operator::overrides(args, &config()?),
+        Command::Bench(args) => bench::bench(args, &config()?),
+        Command::Doctor(args) => Ok(doctor::doctor(args, &config()?)),
+        Command::Jitter(args) => jitter::jitter(args, &config()?),
     }
+}
+
+/// The machine a command works for: its configuration, with what the command line overrides.
+fn machine(command: &Command) -> Result<MachineConfig, Failure> {
+    let file = command.basic().and_then(|basic| basic.config.as_deref());
+    let mut config = config::load(file)?;
+    if let Some(args) = command.path() {
+        config.path.effort = args.effort.unwrap_or(config.path.effort);
+        config.path.tolerance_mm = args.tolerance.unwrap_or(config.path.tolerance_mm);
+    }
+    reading::settle(command, &mut config)?;
+    Ok(config)
 }

@@ -11,6 +11,7 @@
 mod diagnostic;
 mod instance;
 mod judge;
+pub mod keys;
 mod machine;
 mod parse;
 mod program;
@@ -19,7 +20,7 @@ mod tree;
 
 pub use diagnostic::{ConfigDiagnostic, ConfigError, DiagnosticReport};
 pub use instance::{INSTANCE_RULE, is_instance_name};
-pub use judge::MAX_FRAMES_AHEAD;
+pub use judge::{MAX_FRAMES_AHEAD, effort, tolerance};
 pub use machine::{AxisConfig, InterpolatorConfig, MachineConfig, PathConfig};
 pub use program::ProgramConfig;
 
@@ -62,6 +63,21 @@ pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
         }
         Err(source) => Err(ConfigError::Unreadable { path: name, source }),
     }
+}
+
+/// The built-in machine, as a file that loads to the same machine.
+#[must_use]
+pub fn default_text() -> String {
+    let mut text = String::with_capacity(EMBEDDED.len() + 2);
+    for line in EMBEDDED.lines() {
+        // The built-in machine has none: see `load`.
+        if line.starts_with("default_feed") {
+            text.push_str("# ");
+        }
+        text.push_str(line);
+        text.push('\n');
+    }
+    text
 }
 
 /// Judges the text of a configuration; `path` is only used in reports.

@@ -27,6 +27,7 @@ use crate::recording::Recording;
 use crate::report::{DiagnosisReport, Planning, RunReport};
 use child::Process;
 use glidepath_link::{Ipc, LinkConfig, Status, remove_leftovers};
+use glidepath_program::Effort;
 use monitor::Monitor;
 use relay::{Received, Relay};
 use std::ffi::OsString;
@@ -207,6 +208,7 @@ impl Supervisor<'_> {
             "planner" => {
                 args.extend([self.args.file.path().into(), "--json".into()]);
                 args.extend(self.program_args());
+                args.extend(self.path_args());
             }
             "servo" => args.push("--relay".into()),
             _ => {
@@ -218,6 +220,23 @@ impl Supervisor<'_> {
             args.extend(["--config".into(), config.into()]);
         }
         Process::start(name, args).map_err(Failure::Process)
+    }
+
+    /// How the planner is to follow the path: as it was told here.
+    fn path_args(&self) -> Vec<OsString> {
+        let path = &self.args.path;
+        let mut args = Vec::new();
+        if let Some(effort) = path.effort {
+            let name = match effort {
+                Effort::Optimal => "optimal",
+                Effort::Fast => "fast",
+            };
+            args.extend(["--effort".into(), name.into()]);
+        }
+        if let Some(tolerance_mm) = path.tolerance {
+            args.extend(["--tolerance".into(), tolerance_mm.to_string().into()]);
+        }
+        args
     }
 
     /// How the planner is to read the program: as it was checked.

@@ -9,12 +9,14 @@ mod joints;
 mod link;
 mod mechanism;
 mod path;
+mod path_words;
 mod preview;
 mod program;
 mod stops;
 mod values;
 
 pub use horizon::MAX_FRAMES_AHEAD;
+pub use path_words::{effort, tolerance};
 
 use super::diagnostic::ConfigDiagnostic;
 use super::machine::{AxisConfig, MachineConfig};

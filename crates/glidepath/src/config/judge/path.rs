@@ -6,14 +6,18 @@ use crate::config::machine::PathConfig;
 use crate::config::raw::{Optional, RawPath};
 use glidepath_program::{Effort, Limits, PathBounds, Smoothing};
 
+pub(super) const TOLERANCE: Range = Range {
+    min: 1e-5,
+    max: 10.0,
+    unit: "mm",
+    help: "how far the motion may leave the programmed path",
+};
+
+pub(super) const EFFORTS: [(&str, Effort); 2] =
+    [("optimal", Effort::Optimal), ("fast", Effort::Fast)];
+
 impl Judge {
     pub(super) fn path(&mut self, raw: RawPath) -> PathConfig {
-        let tolerance = Range {
-            min: 1e-5,
-            max: 10.0,
-            unit: "mm",
-            help: "how far the motion may leave the programmed path",
-        };
         let feed = Range {
             min: 1e-3,
             max: 1e7,
@@ -22,7 +26,7 @@ impl Judge {
         };
         PathConfig {
             bounds: self.bounds(&raw),
-            tolerance_mm: self.number_or("path.tolerance", &raw.tolerance, &tolerance, 0.02),
+            tolerance_mm: self.number_or("path.tolerance", &raw.tolerance, &TOLERANCE, 0.02),
             smoothing: self.choice(
                 "path.smoothing",
                 raw.smoothing,
@@ -33,11 +37,7 @@ impl Judge {
                     ("exact-stop", Smoothing::ExactStop),
                 ],
             ),
-            effort: self.choice(
-                "path.effort",
-                raw.effort,
-                &[("optimal", Effort::Optimal), ("fast", Effort::Fast)],
-            ),
+            effort: self.choice("path.effort", raw.effort, &EFFORTS),
             default_feed: raw
                 .default_feed
                 .map(|value| self.number("path.default_feed", &value, &feed)),

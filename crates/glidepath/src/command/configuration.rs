@@ -1,0 +1,107 @@
+//! `glidepath config`: the configuration itself.
+
+use crate::cli::{ConfigAction, ConfigArgs};
+use crate::command::failure::Failure;
+use crate::config::{self, keys};
+use crate::exit::Exit;
+use crate::output;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Prints, explains or checks a configuration.
+///
+/// # Errors
+/// The configuration is refused, or a key does not exist.
+pub(super) fn configuration(args: &ConfigArgs) -> Result<Exit, Failure> {
+    let ConfigAction {
+        explain,
+        check: file,
+        ..
+    } = &args.action;
+    match (explain, file) {
+        (Some(key), _) => explained(key.as_deref(), args.json),
+        (_, Some(file)) => checked(file, args.json),
+        // The arguments ask for exactly one of the three.
+        (None, None) => {
+            let text = config::default_text();
+            if args.json {
+                output::object(&json!({ "configuration": text }));
+            } else {
+                output::result(&text);
+            }
+            Ok(Exit::Done)
+        }
+    }
+}
+
+/// Explains the keys that a name asks for, or all of them.
+fn explained(name: Option<&str>, as_json: bool) -> Result<Exit, Failure> {
+    let found = match name {
+        Some(name) => keys::asked(name),
+        None => keys::all().collect(),
+    };
+    if found.is_empty() {
+        let key = name.unwrap_or_default();
+        return Err(Failure::UnknownKey {
+            key: key.to_owned(),
+            nearest: keys::nearest(key),
+        });
+    }
+    if as_json {
+        let keys: Vec<Value> = found
+            .iter()
+            .map(|key| {
+                json!({
+                    "key": key.name,
+                    "meaning": key.meaning,
+                    "unit": key.takes.unit(),
+                    "takes": key.takes,
+                    "left_out": key.left_out,
+                })
+            })
+            .collect();
+        output::object(&json!({ "keys": keys }));
+        return Ok(Exit::Done);
+    }
+    let mut text = String::new();
+    for key in found {
+        text.push_str(&format!(
+            "{}\n  {}\n  {}; {}\n",
+            key.name,
+            key.meaning,
+            key.takes.words(),
+            key.left_out.words()
+        ));
+    }
+    if text.contains("axis.X") || text.contains("joint.J0") {
+        text.push_str(
+            "\naxis.X stands for each axis (X Y Z A B C U V W), joint.J0 for each joint.\n",
+        );
+    }
+    output::result(&text);
+    Ok(Exit::Done)
+}
+
+/// Lists everything that has to be mended in a configuration.
+fn checked(file: &Path, as_json: bool) -> Result<Exit, Failure> {
+    let machine = config::load(Some(file))?;
+    let axes: Vec<String> = machine
+        .axis_names()
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    let name = file.display();
+    if as_json {
+        output::object(&json!({
+            "configuration": name.to_string(),
+            "axes": axes,
+            "findings": [],
+        }));
+    } else {
+        output::result(&format!(
+            "{name}: no findings; a machine with the axes {}\n",
+            axes.join(" ")
+        ));
+    }
+    Ok(Exit::Done)
+}

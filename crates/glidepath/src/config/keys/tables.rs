@@ -1,0 +1,273 @@
+//! The keys of all tables but those of the mechanisms.
+
+use super::key::{Key, LeftOut, Takes};
+
+const fn number(min: f64, max: f64, unit: &'static str) -> Takes {
+    Takes::Number { min, max, unit }
+}
+
+const fn key(name: &'static str, takes: Takes, left_out: LeftOut, meaning: &'static str) -> Key {
+    Key {
+        name,
+        takes,
+        left_out,
+        meaning,
+    }
+}
+
+pub(super) const MACHINE: &[Key] = &[key(
+    "machine.kinematics",
+    Takes::Choice {
+        of: &[
+            "trivial",
+            "corexy",
+            "linear-delta",
+            "rotary-delta",
+            "scara",
+            "five-axis",
+            "hexapod",
+            "translational-hexapod",
+        ],
+    },
+    LeftOut::Value("\"trivial\""),
+    "how the axes are driven; \"trivial\": every axis by a drive of its own. The others have a table \
+     of their dimensions, [machine.…], and one for each joint; \"corexy\" has only the joints",
+)];
+
+pub(super) const AXIS: &[Key] = &[
+    key(
+        "axis.X.min_position",
+        number(-1e6, 1e6, "mm or °"),
+        LeftOut::Refused,
+        "lower soft limit in machine coordinates. Only a rotary axis (A, B, C) may have none, and then \
+         neither of the two",
+    ),
+    key(
+        "axis.X.max_position",
+        number(-1e6, 1e6, "mm or °"),
+        LeftOut::Refused,
+        "upper soft limit in machine coordinates, above the lower one",
+    ),
+    key(
+        "axis.X.max_velocity",
+        number(1e-3, 1e5, "mm/s or °/s"),
+        LeftOut::Refused,
+        "what the drive can do, in either direction of motion",
+    ),
+    key(
+        "axis.X.max_acceleration",
+        number(1e-3, 1e7, "mm/s² or °/s²"),
+        LeftOut::Refused,
+        "what the drive can do, speeding up and slowing down",
+    ),
+    key(
+        "axis.X.max_jerk",
+        number(1e-3, 1e10, "mm/s³ or °/s³"),
+        LeftOut::Refused,
+        "how fast the acceleration may change. Too high a jerk shows as vibration; the acceleration \
+         divided by the jerk is the time a full acceleration takes to build up",
+    ),
+];
+
+pub(super) const JOINT: &[Key] = &[
+    key(
+        "joint.J0.min_position",
+        number(-1e6, 1e6, "mm or °"),
+        LeftOut::Means("no lower end"),
+        "lower end of the joint's range; only of machines whose joints are not their axes",
+    ),
+    key(
+        "joint.J0.max_position",
+        number(-1e6, 1e6, "mm or °"),
+        LeftOut::Means("no upper end"),
+        "upper end of the joint's range",
+    ),
+    key(
+        "joint.J0.max_velocity",
+        number(1e-3, 1e5, "mm/s or °/s"),
+        LeftOut::Refused,
+        "what the joint's drive can do",
+    ),
+    key(
+        "joint.J0.max_acceleration",
+        number(1e-3, 1e7, "mm/s² or °/s²"),
+        LeftOut::Refused,
+        "what the joint's drive can do",
+    ),
+    key(
+        "joint.J0.max_jerk",
+        number(1e-3, 1e10, "mm/s³ or °/s³"),
+        LeftOut::Refused,
+        "how fast the joint's acceleration may change",
+    ),
+];
+
+pub(super) const PATH: &[Key] = &[
+    key(
+        "path.tolerance",
+        number(1e-5, 10.0, "mm"),
+        LeftOut::Value("0.02"),
+        "how far the motion may leave the programmed path, everything included: corner smoothing, chord \
+         error, merged lines. G64 P overrides it. It holds in degrees for rotary axes",
+    ),
+    key(
+        "path.smoothing",
+        Takes::Choice {
+            of: &["auto", "sextic", "bezier-pair", "exact-stop"],
+        },
+        LeftOut::Value("\"auto\""),
+        "the curve at corners; \"auto\": as the effort does it best. A curve named here is planned with \
+         effort \"fast\"",
+    ),
+    key(
+        "path.effort",
+        Takes::Choice {
+            of: &["optimal", "fast"],
+        },
+        LeftOut::Value("\"optimal\""),
+        "\"optimal\": near the least time that limits and tolerance allow; \"fast\": corners are rounded \
+         one by one, with hardly any work",
+    ),
+    key(
+        "path.default_feed",
+        number(1e-3, 1e7, "mm/min"),
+        LeftOut::Means("a program that moves at feed without an F word is refused"),
+        "the feedrate where the program gives no F",
+    ),
+    key(
+        "path.max_tangential_acceleration",
+        number(1e-3, 1e9, "mm/s²"),
+        LeftOut::Means("no such limit"),
+        "limit along the path, beside those of the axes; selects effort \"fast\"",
+    ),
+    key(
+        "path.max_normal_acceleration",
+        number(1e-3, 1e9, "mm/s²"),
+        LeftOut::Means("no such limit"),
+        "limit across the path: v² over the radius; selects effort \"fast\"",
+    ),
+    key(
+        "path.max_jerk",
+        number(1e-3, 1e9, "mm/s³"),
+        LeftOut::Means("no such limit"),
+        "limit along the path, and of v³ over the radius squared; selects effort \"fast\"",
+    ),
+];
+
+pub(super) const INTERPOLATOR: &[Key] = &[
+    key(
+        "interpolator.period_us",
+        Takes::Whole {
+            min: 250,
+            max: 20_000,
+            unit: "µs",
+        },
+        LeftOut::Value("4000"),
+        "time between two setpoints; the same for planner and interpolator",
+    ),
+    key(
+        "interpolator.priority",
+        Takes::Whole {
+            min: 1,
+            max: 99,
+            unit: "",
+        },
+        LeftOut::Value("80"),
+        "SCHED_FIFO priority of the real-time thread",
+    ),
+    key(
+        "interpolator.cpu",
+        Takes::Whole {
+            min: 0,
+            max: 1023,
+            unit: "",
+        },
+        LeftOut::Means("it is not pinned"),
+        "the CPU the real-time thread is pinned to",
+    ),
+    key(
+        "interpolator.horizon_s",
+        number(0.05, 60.0, "s"),
+        LeftOut::Means(
+            "0.6 s, or more if three stops from full speed of the slowest axis take longer",
+        ),
+        "motion published ahead of what is executed; at most 512 frames",
+    ),
+    key(
+        "interpolator.max_missed_ticks",
+        Takes::Whole {
+            min: 0,
+            max: 1_000_000,
+            unit: "",
+        },
+        LeftOut::Value("10"),
+        "ticks missed within a second before the motion stops with a fault",
+    ),
+];
+
+pub(super) const LINK: &[Key] = &[key(
+    "link.instance",
+    Takes::Text {
+        rule: "1 to 32 letters a-z, digits, `-` or `_`",
+    },
+    LeftOut::Means("\"default\"; `glidepath run` takes a name of its own"),
+    "names the shared memory of this machine",
+)];
+
+pub(super) const PROGRAM: &[Key] = &[
+    key(
+        "program.dialect",
+        Takes::Choice {
+            of: &["auto", "linuxcnc", "marlin", "fanuc", "siemens"],
+        },
+        LeftOut::Value("\"auto\""),
+        "the language of programs; \"auto\": told by a program's beginning",
+    ),
+    key(
+        "program.tool_table",
+        Takes::Text {
+            rule: "a file, beside the configuration or with its full path",
+        },
+        LeftOut::Means("blocks that need a tool's length or diameter are refused"),
+        "lengths and diameters of the tools, in LinuxCNC's format",
+    ),
+    key(
+        "program.subroutine_path",
+        Takes::Texts {
+            rule: "a folder, beside the configuration or with its full path",
+        },
+        LeftOut::Value("[]"),
+        "folders of subroutines in files of their own, behind the folder of the program",
+    ),
+    key(
+        "program.inputs_outputs",
+        Takes::Choice {
+            of: &["none", "simulated"],
+        },
+        LeftOut::Value("\"none\""),
+        "\"simulated\": M62 to M68, M19 and probing are accepted, and simulated",
+    ),
+    key(
+        "program.extruder",
+        Takes::Choice {
+            of: &["none", "U", "V", "W"],
+        },
+        LeftOut::Value("\"none\""),
+        "the axis that E words of printers move",
+    ),
+];
+
+pub(super) const PREVIEW: &[Key] = &[
+    key(
+        "preview.growth",
+        number(1.01, 100.0, ""),
+        LeftOut::Value("2"),
+        "`preview --method advance-retreat`: factor of a step that went well",
+    ),
+    key(
+        "preview.max_growth",
+        number(1.0, 1e6, ""),
+        LeftOut::Value("8"),
+        "its longest step, in first steps; longer ones pass over regions",
+    ),
+];
