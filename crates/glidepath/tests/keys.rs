@@ -236,8 +236,6 @@ fn ranges_units_and_names_are_those_of_the_loader() {
 
 fn said(name: &str, found: &ConfigDiagnostic, begins: &str) {
     let help = found.help.clone().unwrap_or_default();
-    // A number without a unit has a blank before the colon.
-    let help = help.replacen(" :", " :", 1);
     assert!(help.starts_with(begins), "{name}: {help} / {begins}");
 }
 
