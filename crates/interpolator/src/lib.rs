@@ -94,6 +94,7 @@
 
 #![cfg_attr(glidepath_rtsan, feature(sanitize))]
 
+mod account;
 mod admission;
 mod block_end;
 mod block_stop;
@@ -105,6 +106,7 @@ mod frame_summary;
 mod joints;
 mod loops;
 mod message;
+mod output;
 mod pairs;
 mod ports;
 mod program_time;

@@ -41,7 +41,7 @@
 //! A ramp to rate 1 is stretched so that it ends on the grid of the frames: from there on the
 //! setpoints are the frames, bit for bit. Between its grid points a plan may exceed its jerk limit
 //! by a little (0.53 % if jerk steps in the middle of a period): r³ makes up for that at any lower
-//! steady rate, hence [`BESIDE_FULL`].
+//! steady rate, hence [`beside_full`].
 //!
 //! The files, each of which uses only those above it:
 //!
@@ -72,7 +72,7 @@ mod steady_rate;
 mod stop_choice;
 mod stop_search;
 
-pub(crate) use candidate::BESIDE_FULL;
+pub(crate) use candidate::beside_full;
 pub(crate) use progress::Progress;
 pub(crate) use situation::Situation;
 pub(crate) use state::Rate;

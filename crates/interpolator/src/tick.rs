@@ -16,22 +16,20 @@
 //! No step allocates, locks, waits or calls the system. Work is bounded: so many orders and frames
 //! a tick, and a budget for the choice of a ramp.
 
+use crate::account::Account;
 use crate::block_stop::BlockStop;
 use crate::config::Config;
-use crate::counters::Counters;
-use crate::differences::{Allowed, Differences};
 use crate::frame_summary::FrameSummary;
-use crate::joints::Joints;
 use crate::message::{Fault, Happening, Inputs, Order, Report, Timing};
+use crate::output::{Output, Written};
 use crate::program_time::ProgramTime;
-use crate::rate::{BESIDE_FULL, Rate, Situation};
+use crate::rate::{Rate, Situation, beside_full};
 use crate::rest::SAME_POSITION;
-use crate::setpoint::SetpointWriter;
 use crate::stop_requests::StopRequests;
 use crate::supply::Supply;
 use crate::track::Track;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, MachineState, Setpoint, SetpointFrame};
+use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, Setpoint, SetpointFrame};
 use glidepath_program::FrameFlags;
 use glidepath_realtime::{EventWriter, Wake};
 
@@ -50,18 +48,13 @@ pub(crate) struct Interpolator<'a> {
     requests: StopRequests,
     supply: Supply,
     block_stop: BlockStop,
-    published: Differences,
-    allowed: Allowed,
-    setpoints: SetpointWriter,
-    joints: Joints,
-    counters: Counters,
+    output: Output,
     /// The open or last epoch, 0 before the first.
     epoch: u64,
     end_of_epoch: EndOfEpoch,
     /// What is kept of the last frame passed.
     passed: FrameSummary,
-    state: MachineState,
-    happenings: EventWriter<'a, Happening>,
+    account: Account<'a>,
 }
 
 impl<'a> Interpolator<'a> {
@@ -77,16 +70,11 @@ impl<'a> Interpolator<'a> {
             requests: StopRequests::default(),
             supply: Supply::new(config),
             block_stop: BlockStop::none(),
-            published: Differences::at_rest(config.start_position),
-            allowed: Allowed::new(&config.limits, period_t),
-            setpoints: SetpointWriter::new(period_t, boot_id),
-            joints: Joints::new(config.mechanism),
-            counters: Counters::new(config),
+            output: Output::new(config, boot_id),
             epoch: 0,
             end_of_epoch: EndOfEpoch::None,
             passed: FrameSummary::NONE,
-            state: MachineState::Idle,
-            happenings,
+            account: Account::new(config, happenings),
         }
     }
 
@@ -107,7 +95,7 @@ impl<'a> Interpolator<'a> {
         } else {
             self.write_standing(&mut report.setpoint);
         }
-        if self.joints.follow(&mut report.setpoint).is_err() {
+        if self.output.write_joints(&mut report.setpoint).is_err() {
             // Every frame passed a judge of the joints, so this cannot be; if it were, the motion
             // ends.
             self.fail(FaultCause::Output);
@@ -120,28 +108,21 @@ impl<'a> Interpolator<'a> {
     /// What is left to do at the deadline: the time it really was.
     #[cfg_attr(glidepath_rtsan, sanitize(realtime = "nonblocking"))]
     pub(crate) fn stamp(&mut self, report: &mut Report, wake: &Wake) {
-        if wake.missed > 0 {
-            self.happenings.write(Happening::Missed {
-                tick: wake.tick,
-                count: wake.missed,
-            });
-        }
-        if self.counters.count(wake) {
+        if self.account.stamp(report, wake) {
             self.fail(FaultCause::MissedTicks);
         }
-        self.counters.stamp(report, wake);
     }
 
     /// A report found no room in its ring: nobody has taken one for a second, and the drives get
     /// nothing either.
     pub(crate) fn lose_report(&mut self) {
-        self.counters.count_lost_report();
+        self.account.lose_report();
         self.fail(FaultCause::Ports);
     }
 
     /// Keeps how long the tick took, for the next report.
     pub(crate) const fn keep_timing(&mut self, timing: Timing) {
-        self.counters.keep_timing(timing);
+        self.account.keep_timing(timing);
     }
 
     /// True while an epoch is being executed.
@@ -196,8 +177,8 @@ impl<'a> Interpolator<'a> {
 
     /// Starts an epoch, instead of one that stands in the middle of its way.
     fn open(&mut self, frame: &SetpointFrame) {
-        let away = AxisVector::from(frame.position) - self.published.position();
-        if away.amax() > SAME_POSITION || !self.published.is_at_rest() {
+        let away = AxisVector::from(frame.position) - self.output.published().position();
+        if away.amax() > SAME_POSITION || !self.output.published().is_at_rest() {
             let cause = FaultCause::Frame(FrameRefusal::Elsewhere);
             self.requests
                 .fail(Fault::new(cause, frame.line, frame.sequence));
@@ -208,7 +189,7 @@ impl<'a> Interpolator<'a> {
         self.rate.begin_at(ProgramTime::at(frame.sequence));
         self.epoch = frame.epoch;
         self.end_of_epoch = EndOfEpoch::Open;
-        self.setpoints.begin_epoch();
+        self.output.begin_epoch();
         self.block_stop = BlockStop::none();
         self.supply.begin_epoch();
         self.requests.forget_epoch();
@@ -217,8 +198,8 @@ impl<'a> Interpolator<'a> {
     /// Looks whether there are frames enough, and stops for good if the planner is lost.
     fn watch_supply(&mut self) {
         let holds = self.requests.holds(self.is_rapid());
-        let (track, rate) = (&self.track, &self.rate);
-        if self.is_open() && self.supply.watch(track, rate, &self.published, holds) {
+        let (track, rate, published) = (&self.track, &self.rate, self.output.published());
+        if self.is_open() && self.supply.watch(track, rate, published, holds) {
             self.fail(FaultCause::PlannerLost);
         }
     }
@@ -227,7 +208,7 @@ impl<'a> Interpolator<'a> {
     fn look_for_block_end(&mut self) {
         let (track, rate) = (&mut self.track, &mut self.rate);
         self.block_stop
-            .look_ahead(&self.requests, rate, track, &self.published);
+            .look_ahead(&self.requests, rate, track, self.output.published());
     }
 
     /// Chooses the rate, and how to stop if no more frames come. Where the plan itself rests, any
@@ -236,7 +217,7 @@ impl<'a> Interpolator<'a> {
     fn choose_rate(&mut self) {
         let mut goal = self.goal();
         let now = self.rate.now();
-        let rests = self.published.is_at_rest() && self.plan_rests();
+        let rests = self.output.published().is_at_rest() && self.plan_rests();
         if rests {
             if self.rate.take_found_no_stop() {
                 self.block_stop.set_out_slower();
@@ -250,8 +231,8 @@ impl<'a> Interpolator<'a> {
         let program_stop = self.track.program_stop();
         let situation = Situation {
             track: &self.track,
-            published: &self.published,
-            allowed: &self.allowed,
+            published: self.output.published(),
+            allowed: self.output.allowed(),
             reach: self.supply.reach(),
             is_fully_supplied: self.supply.is_fully_supplied(),
             block_end: self
@@ -278,7 +259,7 @@ impl<'a> Interpolator<'a> {
 
     /// True if the machine stands, because program time does or because the plan rests.
     fn is_standing(&self) -> bool {
-        self.published.is_at_rest() && (self.rate.now().rate <= 0.0 || self.plan_rests())
+        self.output.published().is_at_rest() && (self.rate.now().rate <= 0.0 || self.plan_rests())
     }
 
     /// The rate that is wanted: the commanded override over the planned one, if nothing stops.
@@ -287,12 +268,7 @@ impl<'a> Interpolator<'a> {
             return 0.0;
         }
         let planned_override = self.present().planned_override;
-        let rate = self.requests.wanted_rate(self.is_rapid(), planned_override);
-        if rate < 1.0 {
-            rate.min(BESIDE_FULL)
-        } else {
-            rate
-        }
+        beside_full(self.requests.wanted_rate(self.is_rapid(), planned_override))
     }
 
     /// What is known of the frame at or before the present program time.
@@ -310,8 +286,7 @@ impl<'a> Interpolator<'a> {
         let before = self.rate.has_taken_reserve();
         let time = self.rate.advance().time;
         if self.rate.has_taken_reserve() && !before {
-            self.counters.count_reserve_stop();
-            self.happenings.write(Happening::ReserveStop { tick });
+            self.account.begin_reserve_stop(tick);
         }
         let held = time.held_at(self.track.holding_frame());
         if held != time {
@@ -319,42 +294,34 @@ impl<'a> Interpolator<'a> {
         }
     }
 
-    /// Writes the setpoint at the present program time, and checks it.
+    /// Writes the setpoint at the present program time, and says if it should not be.
     fn write_moving(&mut self, tick: u64, setpoint: &mut Setpoint) {
         let now = self.rate.now();
-        let writer = &mut self.setpoints;
-        if writer
+        match self
+            .output
             .write_moving(self.epoch, &now, &self.track, setpoint)
-            .is_some()
         {
-            self.check(&setpoint.position.into(), tick);
-        } else {
-            // Every committed ramp ends on frames at hand, so this cannot be; if it were, standing
-            // still is all that is left.
-            self.fail(FaultCause::Output);
-            self.rate.rest_at(now.time, 0.0);
-            self.write_standing(setpoint);
+            Written::Inside => {}
+            Written::Excess(part) => {
+                self.account.exceed(tick, part);
+                if part.is_nan() || part > EXCESS_FAULT {
+                    self.fail(FaultCause::Output);
+                }
+            }
+            Written::Nothing => {
+                // Every committed ramp ends on frames at hand, so this cannot be; if it were,
+                // standing still is all that is left.
+                self.fail(FaultCause::Output);
+                self.rate.rest_at(now.time, 0.0);
+                self.write_standing(setpoint);
+            }
         }
     }
 
     /// Writes the setpoint of a machine that stays where it is.
     fn write_standing(&mut self, setpoint: &mut Setpoint) {
-        let position = self.published.position();
-        self.published.go_to(&position);
-        let (writer, passed) = (&mut self.setpoints, &self.passed);
-        writer.write_standing(self.epoch, passed, &position, setpoint);
-    }
-
-    /// Compares the next position with the limits, and remembers it as published.
-    fn check(&mut self, position: &AxisVector, tick: u64) {
-        if !self.published.allows(position, &self.allowed) {
-            let part = self.published.ratio(position, &self.allowed) - 1.0;
-            self.happenings.write(Happening::Excess { tick, part });
-            if part.is_nan() || part > EXCESS_FAULT {
-                self.fail(FaultCause::Output);
-            }
-        }
-        self.published.go_to(position);
+        self.output
+            .write_standing(self.epoch, &self.passed, setpoint);
     }
 
     /// What follows when program time stands: the end of the epoch, or a program stop.
@@ -390,7 +357,7 @@ impl<'a> Interpolator<'a> {
         }
         self.track.clear();
         self.rate.rest_at(self.rate.now().time, 0.0);
-        self.published = Differences::at_rest(self.published.position());
+        self.output.rest();
         self.end_of_epoch = end;
         self.supply.end_epoch();
         self.requests.forget_epoch();
@@ -405,30 +372,16 @@ impl<'a> Interpolator<'a> {
     fn update_state(&mut self, tick: u64) {
         let (is_open, stands) = (self.is_open(), self.is_standing());
         let is_rapid = self.is_rapid();
-        let to = self.requests.state(is_open, stands, is_rapid, &self.supply);
-        if to != self.state {
-            let (from, line) = (self.state, self.passed.line);
-            self.happenings.write(Happening::State {
-                tick,
-                from,
-                to,
-                line,
-            });
-            self.state = to;
-        }
+        let state = self.requests.state(is_open, stands, is_rapid, &self.supply);
         // Before the motion begins, frames are few by nature.
         let has_begun = self.rate.now().time.sequence > 0;
-        if has_begun && matches!(to, MachineState::Starving | MachineState::Starved) {
-            self.counters.count_starved_tick();
-        }
+        self.account.enter(state, tick, self.passed.line, has_begun);
     }
 
     /// Writes the state after this tick, and what the ports thread must know.
     fn fill(&self, report: &mut Report) {
         let now = self.rate.now().time.sequence;
         let (feed_override, rapid_override) = self.requests.overrides();
-        report.setpoint.state = self.state.code();
-        report.state = self.state;
         report.end_of_epoch = self.end_of_epoch;
         report.fault = self.requests.fault().copied();
         report.frames_executed = if self.epoch == 0 { 0 } else { now + 1 };
@@ -439,8 +392,7 @@ impl<'a> Interpolator<'a> {
         };
         (report.feed_override, report.rapid_override) = (feed_override, rapid_override);
         report.single_block = self.requests.is_single_block();
-        report.reserve_stops = self.counters.reserve_stops();
-        report.starved_ticks = self.counters.starved_ticks();
+        self.account.fill(report);
     }
 }
 

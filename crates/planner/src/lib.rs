@@ -79,6 +79,7 @@ mod pipeline;
 mod planning;
 mod program;
 mod publish;
+mod readiness;
 mod refusal;
 mod resume;
 mod source;

@@ -28,16 +28,13 @@
 
 use std::time::Duration;
 
-use glidepath_geometry::AxisVector;
-use glidepath_link::{
-    Command, Delivery, FaultCause, FrameSink, LinkError, MachineState, SetpointFrame, Transport,
-};
+use glidepath_link::{Command, Delivery, FrameSink, LinkError, SetpointFrame, Transport};
 use glidepath_program::Override;
 
 use crate::ahead::{FrameQueue, Next, planned_ahead};
 use crate::epoch::Epoch;
 use crate::machine::{HUNGRY_POLL, Machine, POLL, SILENCE, Standing};
-use crate::{Control, ItemSource, Notice, Pace, Pipeline, ResumePoint, RunError, Statistics};
+use crate::{Control, ItemSource, Notice, Pace, Pipeline, RunError, Statistics};
 
 /// Frames offered between two looks at status and stop flag.
 const FRAMES_PER_TURN: u32 = 512;
@@ -48,20 +45,14 @@ const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 /// Between two signs of life of a planner without frames.
 const HEARTBEAT: Duration = Duration::from_millis(200);
 
-/// Without news for so long, the caller is told what is waited for.
-const NOTICE_AFTER: Duration = Duration::from_secs(1);
-
-/// Between two clean-ups of what dead processes hold, while waiting.
-const CLEAN_UP_INTERVAL: Duration = Duration::from_secs(1);
-
 /// The planner's ports to one interpolator.
 pub struct Publisher<'t> {
-    transport: &'t dyn Transport,
+    pub(crate) transport: &'t dyn Transport,
     sink: Box<dyn FrameSink>,
-    machine: Machine,
-    pace: Pace,
+    pub(crate) machine: Machine,
+    pub(crate) pace: Pace,
     /// Time waited without an epoch.
-    idle_t: Duration,
+    pub(crate) idle_t: Duration,
 }
 
 impl std::fmt::Debug for Publisher<'_> {
@@ -109,108 +100,6 @@ impl<'t> Publisher<'t> {
             pace,
             idle_t: Duration::ZERO,
         })
-    }
-
-    /// Waits until the interpolator is there and ready for a program; returns where the machine
-    /// stands. A latched fault whose cause is the death of the planner before is reset.
-    ///
-    /// # Errors
-    /// [`RunError::Interrupted`] by the stop flag, [`RunError::Fault`] if a fault is latched that
-    /// needs the operator, [`RunError::PeriodMismatch`], or a failure of the link.
-    pub fn wait_until_ready(&mut self, control: &mut Control<'_>) -> Result<AxisVector, RunError> {
-        let mut told = None;
-        loop {
-            if control.is_stopped() {
-                return Err(RunError::Interrupted);
-            }
-            if let Some(position) = self.ready(control)? {
-                return Ok(position);
-            }
-            self.idle(control)?;
-            let state = self.machine.status().and_then(|status| status.state().ok());
-            if self.idle_t >= NOTICE_AFTER && told != Some(state) {
-                (control.notify)(&state.map_or(Notice::NoInterpolator, Notice::NotReady));
-                told = Some(state);
-            }
-        }
-    }
-
-    /// Waits until the machine rests, with a fault latched or without, and tells where the program
-    /// was left that was under way. Nothing is reset.
-    ///
-    /// # Errors
-    /// [`RunError::Interrupted`] by the stop flag, [`RunError::Resume`] if there is no such program,
-    /// or a failure of the link.
-    pub fn wait_until_left(&mut self, control: &mut Control<'_>) -> Result<ResumePoint, RunError> {
-        let mut told = None;
-        loop {
-            if control.is_stopped() {
-                return Err(RunError::Interrupted);
-            }
-            self.machine.observe()?;
-            let state = self.machine.status().and_then(|status| status.state().ok());
-            if matches!(state, Some(MachineState::Idle | MachineState::Faulted)) {
-                return self.resume_point();
-            }
-            self.idle(control)?;
-            if self.idle_t >= NOTICE_AFTER && told != Some(state) {
-                (control.notify)(&state.map_or(Notice::NoInterpolator, Notice::NotReady));
-                told = Some(state);
-            }
-        }
-    }
-
-    /// Waits a little while there is no epoch, and now and then frees what dead processes hold.
-    pub(crate) fn idle(&mut self, control: &mut Control<'_>) -> Result<(), LinkError> {
-        self.machine.pause(POLL, control);
-        self.idle_t += POLL;
-        if self
-            .idle_t
-            .as_nanos()
-            .is_multiple_of(CLEAN_UP_INTERVAL.as_nanos())
-        {
-            self.transport.clean_up_dead_peers()?;
-        }
-        Ok(())
-    }
-
-    /// One look at whether the machine is ready, and where it stands.
-    ///
-    /// # Errors
-    /// As [`Publisher::wait_until_ready`], without the stop flag.
-    pub(crate) fn ready(
-        &mut self,
-        control: &mut Control<'_>,
-    ) -> Result<Option<AxisVector>, RunError> {
-        self.machine.observe()?;
-        let Some(status) = self.machine.status() else {
-            return Ok(None);
-        };
-        if status.period_ns != self.pace.period_ns {
-            return Err(RunError::PeriodMismatch {
-                planner_ns: self.pace.period_ns,
-                interpolator_ns: status.period_ns,
-            });
-        }
-        if status.state().map_err(LinkError::from)? == MachineState::Faulted {
-            if status.fault().map_err(LinkError::from)? != Some(FaultCause::PlannerLost) {
-                return Err(RunError::fault(status));
-            }
-            self.machine.command(Command::Reset, control)?;
-            (control.notify)(&Notice::FaultReset);
-            self.machine.forget();
-            return Ok(None);
-        }
-        Ok(self.machine.ready_position())
-    }
-
-    /// Where the program that was under way can be taken up again, of a machine that is ready.
-    ///
-    /// # Errors
-    /// [`RunError::Resume`]: there is no such program.
-    pub fn resume_point(&self) -> Result<ResumePoint, RunError> {
-        let status = self.machine.status().ok_or(RunError::InterpolatorLost)?;
-        ResumePoint::of(status)
     }
 
     /// Publishes all frames of a pipeline that starts where [`Publisher::wait_until_ready`] said,

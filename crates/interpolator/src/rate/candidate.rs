@@ -7,7 +7,17 @@ use crate::ramp::{Bounds, Ramp};
 pub(super) const PACES: [f64; 6] = [1.0, 0.8, 0.63, 0.5, 0.36, 0.22];
 
 /// The highest steady rate below 1.
-pub(crate) const BESIDE_FULL: f64 = 0.998;
+const BESIDE_FULL: f64 = 0.998;
+
+/// A rate that may be kept up: full, or so far below it that the plan's jerk between its grid
+/// points is made up for.
+pub(crate) fn beside_full(rate: f64) -> f64 {
+    if rate < 1.0 {
+        rate.min(BESIDE_FULL)
+    } else {
+        rate
+    }
+}
 
 /// A ramp to try: which share of the way to the goal, and how fast.
 #[derive(Debug, Clone, Copy)]

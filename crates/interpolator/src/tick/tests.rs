@@ -18,7 +18,7 @@ mod supply;
 
 use super::*;
 use crate::testing::{Numbers, Rig, lines, mill, plan, records};
-use glidepath_link::{Command, Setpoint, SetpointMarks};
+use glidepath_link::{Command, MachineState, SetpointMarks};
 use proptest::prelude::*;
 
 const INSIDE: f64 = 1.0 + 1e-6;

@@ -43,7 +43,7 @@ fn a_planner_that_comes_back_in_time_goes_on_from_where_the_machine_stands() {
     let starved = |s: Setpoint| s.sequence > 0 && s.state() == Ok(MachineState::Starved);
     let mut told = 0;
     assert!((0..1_000).any(|_| {
-        assert_eq!(rig.interpolator.counters.starved_ticks(), told);
+        assert_eq!(rig.interpolator.account.counters().starved_ticks(), told);
         let setpoint = rig.tick();
         // Few frames before the motion begins are no starvation.
         let state = setpoint.state();
@@ -52,7 +52,7 @@ fn a_planner_that_comes_back_in_time_goes_on_from_where_the_machine_stands() {
         starved(setpoint)
     }));
     assert!(told > 1, "the machine slows before it stands");
-    assert_eq!(rig.interpolator.counters.starved_ticks(), told);
+    assert_eq!(rig.interpolator.account.counters().starved_ticks(), told);
     let here = AxisVector::from(rig.setpoints.last().unwrap().position);
     rig.feed = records(&plan(6, 3, 80, &mill(), 0.004, here), 2, 4_000_000).into();
     assert!(rig.run_until(3_000, |s| s.epoch == 2 && is_idle(s)));
@@ -78,7 +78,7 @@ fn there_is_always_a_stop_in_reserve() {
             assert!(last.velocity.iter().all(|v| v.abs() < 1e-9));
             let ratio = rig.worst_ratio();
             assert!(ratio <= INSIDE, "{axes} axes, seed {seed}: {ratio}");
-            stops += rig.interpolator.counters.reserve_stops();
+            stops += rig.interpolator.account.counters().reserve_stops();
         }
         println!("{axes} axes: {stops} stops in reserve for 60 deaths");
         assert!(stops > 30);
@@ -98,7 +98,7 @@ fn a_healthy_supply_is_never_slowed_down() {
         }
         let last = frames.len() - 1;
         assert_eq!(rig.ticks_from(1, last as u64), last - 1, "seed {seed}");
-        assert_eq!(rig.interpolator.counters.reserve_stops(), 0);
+        assert_eq!(rig.interpolator.account.counters().reserve_stops(), 0);
     }
 }
 

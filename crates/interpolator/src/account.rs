@@ -1,0 +1,89 @@
+//! What is told of the ticks: counts with every report, happenings to who writes the log.
+
+use crate::config::Config;
+use crate::counters::Counters;
+use crate::message::{Happening, Report, Timing};
+use glidepath_link::MachineState;
+use glidepath_realtime::{EventWriter, Wake};
+
+/// Counts, and tells of, what happens from the start of the process to its end.
+pub(crate) struct Account<'a> {
+    counters: Counters,
+    state: MachineState,
+    happenings: EventWriter<'a, Happening>,
+}
+
+impl<'a> Account<'a> {
+    pub(crate) fn new(config: &Config, happenings: EventWriter<'a, Happening>) -> Self {
+        Self {
+            counters: Counters::new(config),
+            state: MachineState::Idle,
+            happenings,
+        }
+    }
+
+    /// Writes into a report when it was, and counts the wake-up. Returns whether too many ticks
+    /// were missed in the present second.
+    pub(crate) fn stamp(&mut self, report: &mut Report, wake: &Wake) -> bool {
+        if wake.missed > 0 {
+            self.happenings.write(Happening::Missed {
+                tick: wake.tick,
+                count: wake.missed,
+            });
+        }
+        let are_too_many = self.counters.count(wake);
+        self.counters.stamp(report, wake);
+        are_too_many
+    }
+
+    /// Keeps how long the tick took, for the next report.
+    pub(crate) const fn keep_timing(&mut self, timing: Timing) {
+        self.counters.keep_timing(timing);
+    }
+
+    /// A report found no room in its ring.
+    pub(crate) const fn lose_report(&mut self) {
+        self.counters.count_lost_report();
+    }
+
+    /// The stop in reserve was begun.
+    pub(crate) fn begin_reserve_stop(&mut self, tick: u64) {
+        self.counters.count_reserve_stop();
+        self.happenings.write(Happening::ReserveStop { tick });
+    }
+
+    /// A setpoint exceeds a limit by this share of it.
+    pub(crate) fn exceed(&mut self, tick: u64, part: f64) {
+        self.happenings.write(Happening::Excess { tick, part });
+    }
+
+    /// The state of the machine after this tick. Motion that has begun, and slows or stands for
+    /// want of frames, is counted.
+    pub(crate) fn enter(&mut self, to: MachineState, tick: u64, line: u32, has_begun: bool) {
+        if to != self.state {
+            let from = core::mem::replace(&mut self.state, to);
+            self.happenings.write(Happening::State {
+                tick,
+                from,
+                to,
+                line,
+            });
+        }
+        if has_begun && matches!(to, MachineState::Starving | MachineState::Starved) {
+            self.counters.count_starved_tick();
+        }
+    }
+
+    /// Writes into a report the state after the tick, and what was counted of the motion.
+    pub(crate) const fn fill(&self, report: &mut Report) {
+        report.setpoint.state = self.state.code();
+        report.state = self.state;
+        report.reserve_stops = self.counters.reserve_stops();
+        report.starved_ticks = self.counters.starved_ticks();
+    }
+
+    #[cfg(test)]
+    pub(crate) const fn counters(&self) -> &Counters {
+        &self.counters
+    }
+}

@@ -1,0 +1,107 @@
+//! What is published: the setpoint of every tick, held against the limits of the axes.
+
+use crate::config::Config;
+use crate::differences::{Allowed, Differences};
+use crate::frame_summary::FrameSummary;
+use crate::joints::Joints;
+use crate::rate::Progress;
+use crate::setpoint::SetpointWriter;
+use crate::track::Track;
+use glidepath_geometry::AxisVector;
+use glidepath_kinematics::KinematicsError;
+use glidepath_link::Setpoint;
+
+/// What became of the setpoint of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Written {
+    /// It is within the limits.
+    Inside,
+    /// It exceeds a limit by this share of it; not a number if the position is none.
+    Excess(f64),
+    /// Program time is outside the track: nothing was written.
+    Nothing,
+}
+
+/// Writes setpoints, and knows how the published positions move.
+#[derive(Debug)]
+pub(crate) struct Output {
+    published: Differences,
+    allowed: Allowed,
+    setpoints: SetpointWriter,
+    joints: Joints,
+}
+
+impl Output {
+    pub(crate) fn new(config: &Config, boot_id: u64) -> Self {
+        let period_t = config.period_t();
+        Self {
+            published: Differences::at_rest(config.start_position),
+            allowed: Allowed::new(&config.limits, period_t),
+            setpoints: SetpointWriter::new(period_t, boot_id),
+            joints: Joints::new(config.mechanism),
+        }
+    }
+
+    /// The last published position and its differences.
+    pub(crate) const fn published(&self) -> &Differences {
+        &self.published
+    }
+
+    /// The limits on the differences.
+    pub(crate) const fn allowed(&self) -> &Allowed {
+        &self.allowed
+    }
+
+    /// An epoch begins: its frames are others, so their events are new.
+    pub(crate) const fn begin_epoch(&mut self) {
+        self.setpoints.begin_epoch();
+    }
+
+    /// The machine stays where it is.
+    pub(crate) fn rest(&mut self) {
+        self.published = Differences::at_rest(self.published.position());
+    }
+
+    /// Writes the setpoint at the present program time, and compares its position with the limits.
+    pub(crate) fn write_moving(
+        &mut self,
+        epoch: u64,
+        now: &Progress,
+        track: &Track,
+        setpoint: &mut Setpoint,
+    ) -> Written {
+        let writer = &mut self.setpoints;
+        if writer.write_moving(epoch, now, track, setpoint).is_none() {
+            return Written::Nothing;
+        }
+        let position = setpoint.position.into();
+        let written = if self.published.allows(&position, &self.allowed) {
+            Written::Inside
+        } else {
+            Written::Excess(self.published.ratio(&position, &self.allowed) - 1.0)
+        };
+        self.published.go_to(&position);
+        written
+    }
+
+    /// Writes the setpoint of a machine that stays where it is.
+    pub(crate) fn write_standing(
+        &mut self,
+        epoch: u64,
+        passed: &FrameSummary,
+        setpoint: &mut Setpoint,
+    ) {
+        let position: AxisVector = self.published.position();
+        self.published.go_to(&position);
+        self.setpoints
+            .write_standing(epoch, passed, &position, setpoint);
+    }
+
+    /// Writes into the setpoint what the joints are to do for its axes.
+    ///
+    /// # Errors
+    /// The mechanism cannot be there. The joints are told to stay where they were.
+    pub(crate) fn write_joints(&mut self, setpoint: &mut Setpoint) -> Result<(), KinematicsError> {
+        self.joints.follow(setpoint)
+    }
+}
