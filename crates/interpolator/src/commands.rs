@@ -76,6 +76,19 @@ fn objection(command: Command, state: MachineState) -> Option<&'static str> {
             matches!(state, Holding | Held | ProgramStop),
             "nothing is held: a step goes on after a hold, a program stop or the end of a block",
         ),
+        Command::Enable
+        | Command::Disable
+        | Command::SetPosition { .. }
+        | Command::Home(_)
+        | Command::Unhome(_) => (
+            false,
+            "no feedback is configured: the drives are simulated, and always on and homed",
+        ),
+        Command::Return => (
+            false,
+            "the axes are on the path: there is nowhere to return to",
+        ),
+        Command::Acknowledge { .. } => (false, "no event is awaited"),
     };
     (!is_possible).then_some(why)
 }

@@ -2,7 +2,10 @@
 
 use core::time::Duration;
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_kinematics::{AxisList, JointLimits, JointWatch, Mechanism, Trivial};
+use glidepath_kinematics::{
+    AxisList, JointLimits, JointWatch, Kinematics as _, Mechanism, Trivial,
+};
+use glidepath_link::ALL_JOINTS;
 use glidepath_program::Limits;
 use glidepath_realtime::{Mode, Request};
 
@@ -106,6 +109,13 @@ impl Config {
     pub fn joint_watch(&self) -> Option<JointWatch> {
         let is_trivial = matches!(self.mechanism, Mechanism::Trivial(_));
         (!is_trivial).then(|| JointWatch::new(self.mechanism, self.joint_limits, self.period_t()))
+    }
+
+    /// The joints of the machine, one bit each, J0 lowest.
+    #[must_use]
+    pub fn joints(&self) -> u32 {
+        let count = u32::try_from(self.mechanism.joints()).unwrap_or(u32::BITS);
+        ALL_JOINTS & 1_u32.checked_shl(count).map_or(u32::MAX, |bit| bit - 1)
     }
 
     /// The period in seconds.

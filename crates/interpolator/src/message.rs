@@ -64,6 +64,9 @@ pub(crate) struct Fault {
     pub(crate) line: u32,
     pub(crate) sequence: u64,
     pub(crate) axis: Option<Axis>,
+    /// The joint, by its index, and what its drive says about it.
+    pub(crate) joint: Option<usize>,
+    pub(crate) drive_fault: u32,
     /// What was found, and what is allowed, in the unit of the limit.
     pub(crate) value: f64,
     pub(crate) limit: f64,
@@ -76,6 +79,8 @@ impl Fault {
             line,
             sequence,
             axis: None,
+            joint: None,
+            drive_fault: 0,
             value: 0.0,
             limit: 0.0,
         }
@@ -93,6 +98,22 @@ impl fmt::Display for Fault {
             FaultCause::Output => write!(f, "a setpoint would break a limit")?,
             FaultCause::Ports => write!(f, "the ports are not served")?,
             FaultCause::RealTime => write!(f, "the real-time thread died")?,
+            FaultCause::FeedbackLost => write!(f, "the drives do not say where they are")?,
+            FaultCause::FollowingError => write!(f, "a joint is too far from where it is to be")?,
+            FaultCause::Drive => write!(f, "a drive reports a fault")?,
+            FaultCause::EnableLost => write!(f, "a drive lost its power")?,
+            FaultCause::AuxTimeout => write!(f, "an event was not acknowledged in time")?,
+            FaultCause::LimitSwitch => write!(f, "a joint stands at its limit switch")?,
+            FaultCause::Homing => write!(f, "a joint did not find its home")?,
+        }
+        if let Some(joint) = self.joint {
+            write!(f, ", joint J{joint}")?;
+            if self.drive_fault != 0 {
+                write!(f, " (the drive's number {})", self.drive_fault)?;
+            }
+            if self.limit > 0.0 {
+                write!(f, ": {} (allowed {})", self.value, self.limit)?;
+            }
         }
         if let Some(axis) = self.axis {
             write!(f, ", axis {axis}: {} (allowed {})", self.value, self.limit)?;

@@ -37,7 +37,7 @@ impl Output {
         Self {
             published: Differences::at_rest(config.start_position),
             allowed: Allowed::new(&config.limits, period_t),
-            setpoints: SetpointWriter::new(period_t, boot_id),
+            setpoints: SetpointWriter::new(period_t, boot_id, config.joints()),
             joints: Joints::new(config.mechanism),
         }
     }

@@ -13,16 +13,21 @@ pub(crate) struct SetpointWriter {
     boot_id: u64,
     /// The number of the next setpoint.
     number: u64,
+    reference: u64,
+    /// The joints that are to have power.
+    enable: u32,
     /// The frame whose event was published last.
     announced: Option<u64>,
 }
 
 impl SetpointWriter {
-    pub(crate) const fn new(period_t: f64, boot_id: u64) -> Self {
+    pub(crate) const fn new(period_t: f64, boot_id: u64, enable: u32) -> Self {
         Self {
             period_t,
             boot_id,
             number: 0,
+            reference: 1,
+            enable,
             announced: None,
         }
     }
@@ -78,6 +83,8 @@ impl SetpointWriter {
     /// Writes which setpoint it is, and where in the program.
     const fn identify(&mut self, epoch: u64, summary: &FrameSummary, setpoint: &mut Setpoint) {
         setpoint.boot_id = self.boot_id;
+        setpoint.reference = self.reference;
+        setpoint.enable = self.enable;
         setpoint.number = self.number;
         self.number += 1;
         setpoint.epoch = epoch;

@@ -5,7 +5,8 @@ use crate::config::Config;
 use crate::message::{FRAMES, Report};
 use crate::track::TRACK_CAPACITY;
 use glidepath_link::{
-    EndOfEpoch, FrameRefusal, Grants, MachineState, Quantiles, SetpointFrame, Status, Text,
+    EndOfEpoch, FrameRefusal, Grants, MachineState, MotionMode, Quantiles, SetpointFrame, Status,
+    Text,
 };
 use glidepath_realtime::{Histogram, Item, Mode};
 
@@ -26,6 +27,9 @@ impl StatusBook {
             pid: std::process::id(),
             queue_capacity: u32::try_from(TRACK_CAPACITY + FRAMES).unwrap_or(u32::MAX),
             state: MachineState::Idle.code(),
+            joints: config.joints(),
+            enabled: config.joints(),
+            homed: config.joints(),
             end_of_epoch: EndOfEpoch::None.code(),
             position: config.start_position.into(),
             ..<Status as bytemuck::Zeroable>::zeroed()
@@ -105,6 +109,10 @@ impl StatusBook {
         .code();
         status.line = setpoint.line;
         status.position = setpoint.position;
+        status.away = setpoint.away;
+        status.reference = setpoint.reference;
+        status.joint_actual = setpoint.joint_position;
+        status.mode = mode(report).code();
         status.path_s = setpoint.path_s;
         status.feed_v = setpoint.feed_v;
         status.feed_override = report.feed_override;
@@ -132,9 +140,22 @@ impl StatusBook {
         status.fault_sequence = fault.map_or(0, |fault| fault.sequence);
         let axis = fault.and_then(|fault| fault.axis);
         status.fault_axis = axis.map_or(0, |axis| u32::try_from(axis.index() + 1).unwrap_or(0));
+        let joint = fault.and_then(|fault| fault.joint);
+        status.fault_joint = joint.map_or(0, |joint| u32::try_from(joint + 1).unwrap_or(0));
+        status.drive_fault = fault.map_or(0, |fault| fault.drive_fault);
         let finite = |value: f64| if value.is_finite() { value } else { 0.0 };
         status.fault_value = fault.map_or(0.0, |fault| finite(fault.value));
         status.fault_limit = fault.map_or(0.0, |fault| finite(fault.limit));
+    }
+}
+
+/// What moves the axes.
+fn mode(report: &Report) -> MotionMode {
+    match report.state {
+        MachineState::Jogging => MotionMode::Jog,
+        MachineState::Homing => MotionMode::Homing,
+        _ if report.end_of_epoch == EndOfEpoch::Open => MotionMode::Program,
+        _ => MotionMode::None,
     }
 }
 

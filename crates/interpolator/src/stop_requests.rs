@@ -80,7 +80,15 @@ impl StopRequests {
 
     const fn carry_out_command(&mut self, command: Command, is_open: bool) -> Released {
         match command {
-            Command::Ping => {} // The ports thread has answered it.
+            // The ports thread has answered them.
+            Command::Ping
+            | Command::Enable
+            | Command::Disable
+            | Command::SetPosition { .. }
+            | Command::Home(_)
+            | Command::Unhome(_)
+            | Command::Return
+            | Command::Acknowledge { .. } => {}
             Command::Hold => self.hold = is_open,
             Command::Resume => return self.go_on(),
             Command::Step => {

@@ -5,7 +5,9 @@
 //! other programs ─ SegmentRequest ─► planner ─ SetpointFrame ─► interpolator ─ Setpoint ─► servos
 //!                ◄ SegmentReply ────    ▲                        │   ▲
 //!                                       └──────── Status ────────┤   └─ CommandRequest ─ anybody
-//!                                                    anybody ◄───┘
+//!                                                    anybody ◄───┘   ▲
+//!                               servo stacks ─ Feedback ─────────────┤
+//!                            operators' panels ─ JogDemand ──────────┘
 //! ```
 //!
 //! Planner, interpolator and servos meet here and nowhere else. Entry points:
@@ -63,11 +65,12 @@ pub use port::{
     Client, Delivery, FrameSink, MAX_UNANSWERED, Publisher, Server, Subscriber, Transport,
 };
 pub use record::{
-    COMMAND_KINDS, Command, CommandKind, CommandOutcome, CommandRefusal, CommandReply,
-    CommandRequest, EndOfEpoch, EventKind, FRAME_REFUSALS, FaultCause, FrameRefusal, Grants,
-    MachineState, ModeCode, OVERRIDE_MAX, PERIOD_NS_MAX, PlaneCode, Quantiles, Record, RecordError,
-    RequestKind, SegmentOutcome, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint,
-    SetpointFrame, SetpointMarks, Status, StreamItem, Text, decode,
+    ALL_JOINTS, COMMAND_KINDS, Command, CommandKind, CommandOutcome, CommandRefusal, CommandReply,
+    CommandRequest, DriveState, EndOfEpoch, EventId, EventKind, FRAME_REFUSALS, FaultCause,
+    Feedback, FrameRefusal, Grants, JogDemand, JogMode, LATCHES, Latch, LatchKind, MachineState,
+    ModeCode, MotionMode, OVERRIDE_MAX, PERIOD_NS_MAX, PlaneCode, Power, Quantiles, Record,
+    RecordError, RequestKind, SegmentOutcome, SegmentRefusal, SegmentReply, SegmentRequest,
+    Setpoint, SetpointFrame, SetpointMarks, SpindleFlags, Status, StreamItem, Text, decode,
 };
 pub use recording::{Recorder, Recording, RecordingError, Replay};
 pub use service::Capacity;

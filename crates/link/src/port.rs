@@ -5,6 +5,8 @@
 //!   clients ──Client<CommandRequest, …>──► Server     interpolator
 //!   clients ──Client<SegmentRequest, …>──► Server     planner
 //!   interpolator ──Publisher<Setpoint>, Publisher<Status>──► Subscriber  anybody
+//!   servo stacks ──Publisher<Feedback>──► Subscriber      interpolator, anybody
+//!   panels ──Publisher<JogDemand>──► Subscriber           interpolator
 //! ```
 //!
 //! No call here waits for the other side; waiting is the caller's, who knows for how long and what
@@ -15,8 +17,8 @@
 //! thread calls them.
 
 use crate::{
-    CommandReply, CommandRequest, LinkError, SegmentReply, SegmentRequest, Setpoint, SetpointFrame,
-    Status,
+    CommandReply, CommandRequest, Feedback, JogDemand, LinkError, SegmentReply, SegmentRequest,
+    Setpoint, SetpointFrame, Status,
 };
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
@@ -156,7 +158,7 @@ pub trait Server<Q, A> {
 /// The functions that make ports tell why a port cannot be made.
 #[allow(
     clippy::missing_errors_doc,
-    reason = "said once for ten functions alike"
+    reason = "said once for all functions alike"
 )]
 pub trait Transport {
     /// For the planner. One at a time is meant to send; a second one may connect while the first,
@@ -172,6 +174,14 @@ pub trait Transport {
     fn status_sink(&self) -> Result<Box<dyn Publisher<Status>>, LinkError>;
     /// For everybody. It holds the latest status only.
     fn status_source(&self) -> Result<Box<dyn Subscriber<Status>>, LinkError>;
+    /// For servo stacks. Each sends what it knows of its own joints.
+    fn feedback_sink(&self) -> Result<Box<dyn Publisher<Feedback>>, LinkError>;
+    /// For the interpolator, and whoever wants to see what the drives do.
+    fn feedback_source(&self) -> Result<Box<dyn Subscriber<Feedback>>, LinkError>;
+    /// For operators' panels.
+    fn jog_sink(&self) -> Result<Box<dyn Publisher<JogDemand>>, LinkError>;
+    /// For the interpolator.
+    fn jog_source(&self) -> Result<Box<dyn Subscriber<JogDemand>>, LinkError>;
     /// For everybody.
     fn command_client(&self) -> Result<Box<dyn Client<CommandRequest, CommandReply>>, LinkError>;
     /// For the interpolator.

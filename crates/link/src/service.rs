@@ -11,9 +11,20 @@ pub(crate) const COMMANDS: &str = "glidepath/commands";
 /// Other programs to a listening planner.
 pub(crate) const SEGMENTS: &str = "glidepath/segments";
 
+/// Servo stacks to the interpolator.
+pub(crate) const FEEDBACK: &str = "glidepath/feedback";
+/// Operators' panels to the interpolator.
+pub(crate) const JOG: &str = "glidepath/jog";
+
 /// Publishers of a topic and senders of frames: one that works, and one that bridges to another
 /// host or comes in the place of a dead one that is not yet cleaned up.
 pub(crate) const SENDERS: usize = 2;
+/// Servo stacks and panels: one for every joint, and as many that are dead and not yet cleaned up.
+pub(crate) const PEERS: usize = 18;
+/// Feedback under way from each stack: those of a period at 1 kHz, and of a turn that came late.
+pub(crate) const FEEDBACK_DEPTH: usize = 16;
+/// Demands under way from each panel. Only the last counts.
+pub(crate) const JOG_DEPTH: usize = 4;
 /// Clients of a request-response service.
 pub(crate) const CLIENTS: usize = 16;
 

@@ -2,8 +2,8 @@
 
 use core::mem::{align_of, offset_of, size_of};
 use glidepath_link::{
-    CommandReply, CommandRequest, Quantiles, Record, SegmentReply, SegmentRequest, Setpoint,
-    SetpointFrame, Status, Text,
+    CommandReply, CommandRequest, EventId, Feedback, JogDemand, Latch, Quantiles, Record,
+    SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status, Text,
 };
 
 macro_rules! layout {
@@ -27,30 +27,45 @@ layout!(setpoint_frame, SetpointFrame, "glidepath.SetpointFrame.v2", 296, {
     event_value: 40, path_v: 48, path_s: 56, planned_override: 64, program: 72, position: 80,
     velocity: 152, acceleration: 224,
 });
-layout!(setpoint, Setpoint, "glidepath.Setpoint.v2", 568, {
-    boot_id: 0, number: 8, tick: 16, scheduled_ns: 24, apply_ns: 32, lateness_ns: 40,
-    missed_ticks: 48, epoch: 56, sequence: 64, fraction: 72, line: 80, flags: 84, marks: 88,
-    state: 92, event_kind: 96, block: 100, event_value: 104, path_s: 112, feed_v: 120,
-    effective_override: 128, position: 136, velocity: 208, acceleration: 280, joint_position: 352,
-    joint_velocity: 424, joint_acceleration: 496,
+layout!(setpoint, Setpoint, "glidepath.Setpoint.v3", 656, {
+    boot_id: 0, reference: 8, number: 16, tick: 24, scheduled_ns: 32, apply_ns: 40,
+    lateness_ns: 48, missed_ticks: 56, epoch: 64, sequence: 72, fraction: 80, line: 88, flags: 92,
+    marks: 96, state: 100, event_kind: 104, block: 108, enable: 112, home: 116, event_value: 120,
+    path_s: 128, feed_v: 136, effective_override: 144, position: 152, velocity: 224,
+    acceleration: 296, joint_position: 368, joint_velocity: 440, joint_acceleration: 512,
+    away: 584,
 });
-layout!(status, Status, "glidepath.Status.v4", 880, {
+layout!(status, Status, "glidepath.Status.v5", 1232, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
-    fault: 76, fault_line: 80, fault_axis: 84, fault_sequence: 88, fault_value: 96,
-    fault_limit: 104, line: 112, grants: 116, block: 120, single_block: 124, program: 128,
-    program_start: 136, position: 208, path_s: 280, block_path_s: 288, feed_v: 296,
-    feed_override: 304, rapid_override: 312, effective_override: 320, ticks: 328,
-    missed_ticks: 336, late_ticks: 344, setpoints_published: 352, setpoints_lost: 360,
-    reserve_stops: 368, starved_ticks: 376, commands_served: 384, commands_refused: 392,
-    frames_refused: 400, lateness: 496, work: 528, latency: 560, response: 592, last_error: 624,
-    last_event: 752,
+    fault: 76, fault_line: 80, fault_axis: 84, fault_joint: 88, drive_fault: 92,
+    fault_sequence: 96, fault_value: 104, fault_limit: 112, line: 120, grants: 124, block: 128,
+    single_block: 132, program: 136, program_start: 144, position: 216, away: 288, power: 360,
+    mode: 364, joints: 368, enabled: 372, homed: 376, drive_faults: 380, reference: 384,
+    feedback_age_ns: 392, joint_actual: 400, following_error: 472, following_peak: 544,
+    awaited_sequence: 616, awaited_since_ns: 624, path_s: 632, block_path_s: 640, feed_v: 648,
+    feed_override: 656, rapid_override: 664, effective_override: 672, ticks: 680,
+    missed_ticks: 688, late_ticks: 696, setpoints_published: 704, setpoints_lost: 712,
+    reserve_stops: 720, starved_ticks: 728, commands_served: 736, commands_refused: 744,
+    frames_refused: 752, lateness: 848, work: 880, latency: 912, response: 944, last_error: 976,
+    last_event: 1104,
 });
-layout!(command_request, CommandRequest, "glidepath.CommandRequest.v2", 32, {
-    client: 0, number: 8, value: 16, kind: 24, reserved: 28,
+layout!(command_request, CommandRequest, "glidepath.CommandRequest.v3", 56, {
+    client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32,
 });
-layout!(command_reply, CommandReply, "glidepath.CommandReply.v2", 152, {
+layout!(command_reply, CommandReply, "glidepath.CommandReply.v3", 152, {
     boot_id: 0, number: 8, refusal: 16, state: 20, message: 24,
+});
+layout!(feedback, Feedback, "glidepath.Feedback.v1", 808, {
+    boot_id: 0, number: 8, sample_ns: 16, reference: 24, setpoint_number: 32, joints: 40,
+    enabled: 44, homed: 48, homing: 52, fault: 56, limit_low: 60, limit_high: 64, home_switch: 68,
+    position: 72, velocity: 144, drive_state: 216, fault_code: 252, digital_in: 288, analog_in: 296,
+    spindle_angle: 360, spindle_v: 368, spindle_index_count: 376, spindle_flags: 384, reserved: 388,
+    latch: 392,
+});
+layout!(jog_demand, JogDemand, "glidepath.JogDemand.v1", 128, {
+    client: 0, number: 8, sent_ns: 16, mode: 24, mask: 28, by_joint: 32, reserved: 36,
+    velocity_v: 40, scale: 48, value: 56,
 });
 layout!(segment_request, SegmentRequest, "glidepath.SegmentRequest.v2", 352, {
     session: 0, number: 8, kind: 16, line: 20, rapid: 24, mode: 28, plane: 32, event_kind: 36,
@@ -64,5 +79,7 @@ layout!(segment_reply, SegmentReply, "glidepath.SegmentReply.v1", 232, {
 #[test]
 fn parts_of_records() {
     assert_eq!((size_of::<Quantiles>(), align_of::<Quantiles>()), (32, 8));
+    assert_eq!((size_of::<EventId>(), align_of::<EventId>()), (24, 8));
+    assert_eq!((size_of::<Latch>(), align_of::<Latch>()), (104, 8));
     assert_eq!((size_of::<Text>(), align_of::<Text>()), (128, 1));
 }

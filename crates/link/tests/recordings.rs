@@ -70,8 +70,8 @@ fn a_header_is_the_one_of_version_1() {
         .finish()
         .unwrap();
     let mut expected = b"GLIDEREC".to_vec();
-    expected.extend([1, 0, 0, 0, 0x38, 0x02, 0, 0]);
-    expected.extend(b"glidepath.Setpoint.v2");
+    expected.extend([1, 0, 0, 0, 0x90, 0x02, 0, 0]);
+    expected.extend(b"glidepath.Setpoint.v3");
     expected.resize(64, 0);
     assert_eq!(file, expected);
 }
@@ -104,7 +104,7 @@ fn other_files_are_refused() {
         .finish()
         .unwrap();
     let error = open(&frames).unwrap();
-    let text = "the recording is of glidepath.SetpointFrame.v2, not of glidepath.Setpoint.v2";
+    let text = "the recording is of glidepath.SetpointFrame.v2, not of glidepath.Setpoint.v3";
     assert_eq!(error.to_string(), text);
 }
 

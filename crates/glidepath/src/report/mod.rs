@@ -3,6 +3,7 @@
 mod diagnosis;
 mod diagnostic;
 mod fit;
+mod machine;
 mod memory;
 mod motion;
 mod quantity;

@@ -27,6 +27,12 @@ pub fn seconds(t: f64) -> String {
     }
 }
 
+/// A time in µs.
+#[allow(clippy::cast_precision_loss, reason = "for display")]
+pub(super) fn microseconds(ns: u64) -> f64 {
+    ns as f64 / 1e3
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,7 @@
 //! The state of an interpolator, as text and as JSON.
 
-use super::quantity::grouped;
+use super::machine::{by_axis, machine_object, power_text};
+use super::quantity::{grouped, microseconds};
 use core::fmt::Write as _;
 use glidepath_geometry::Axis;
 use glidepath_link::{EndOfEpoch, FaultCause, Grants, MachineState, Quantiles, Status};
@@ -20,6 +21,11 @@ pub const fn state_name(state: MachineState) -> &'static str {
         MachineState::Stopping => "stopping",
         MachineState::Faulted => "faulted",
         MachineState::Waiting => "waiting",
+        MachineState::Awaiting => "awaiting",
+        MachineState::Jogging => "jogging",
+        MachineState::Homing => "homing",
+        MachineState::Off => "off",
+        MachineState::NotHomed => "not-homed",
     }
 }
 
@@ -90,11 +96,6 @@ pub fn quantiles_text(quantiles: &Quantiles) -> String {
     )
 }
 
-#[allow(clippy::cast_precision_loss, reason = "for display")]
-fn microseconds(ns: u64) -> f64 {
-    ns as f64 / 1e3
-}
-
 /// The latched fault in words, `None` if there is none.
 #[must_use]
 pub fn fault_text(status: &Status) -> Option<String> {
@@ -106,7 +107,20 @@ pub fn fault_text(status: &Status) -> Option<String> {
         FaultCause::Output => "a computed setpoint broke a limit".to_owned(),
         FaultCause::Ports => "the thread that serves the ports died or hangs".to_owned(),
         FaultCause::RealTime => "the real-time thread died".to_owned(),
+        FaultCause::FeedbackLost => "the drives no longer say where they are".to_owned(),
+        FaultCause::FollowingError => "a joint is too far from where it is to be".to_owned(),
+        FaultCause::Drive => "a drive reports a fault".to_owned(),
+        FaultCause::EnableLost => "a drive lost its power".to_owned(),
+        FaultCause::AuxTimeout => "an event was not acknowledged in time".to_owned(),
+        FaultCause::LimitSwitch => "a joint stands at its limit switch".to_owned(),
+        FaultCause::Homing => "a joint did not find its home".to_owned(),
     };
+    if let Some(joint) = status.fault_joint() {
+        let _ = write!(text, ", joint J{joint}");
+    }
+    if status.drive_fault != 0 {
+        let _ = write!(text, ", the drive's number {}", status.drive_fault);
+    }
     if let Some(axis) = status.fault_axis() {
         let _ = write!(text, ", axis {axis}");
     }
@@ -137,11 +151,8 @@ fn end_name(status: &Status) -> &'static str {
 /// A status as an object.
 #[must_use]
 pub fn status_object(instance: &str, status: &Status) -> Value {
-    let mut position = Map::new();
-    for axis in Axis::ALL {
-        position.insert(axis.to_string(), status.position[axis.index()].into());
-    }
-    json!({
+    let position = by_axis(&status.position);
+    let mut object = json!({
         "instance": instance,
         "pid": status.pid,
         "state": status.state().map_or("unknown", state_name),
@@ -178,7 +189,11 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
         "realtime": realtime_object(status.grants()),
         "last_error": status.last_error.as_str(),
         "last_event": status.last_event.as_str(),
-    })
+    });
+    if let Value::Object(object) = &mut object {
+        object.extend(machine_object(status));
+    }
+    object
 }
 
 /// A status for people.
@@ -199,6 +214,7 @@ pub fn status_text(instance: &str, status: &Status) -> String {
         let _ = writeln!(text, "  to clear it   {HOW_TO_CLEAR}");
     }
     let _ = writeln!(text, "  position      {}", position.join("  "));
+    let _ = writeln!(text, "  power         {}", power_text(status));
     let _ = writeln!(
         text,
         "  motion        line {}, {:.3} mm of path, {:.2} mm/s{}",

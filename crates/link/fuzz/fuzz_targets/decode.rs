@@ -5,7 +5,7 @@
 #![no_main]
 
 use glidepath_link::{
-    CommandReply, CommandRequest, Record, Replay, SegmentReply, SegmentRequest, Setpoint,
+    CommandReply, CommandRequest, Feedback, JogDemand, Record, Replay, SegmentReply, SegmentRequest, Setpoint,
     SetpointFrame, Status, StreamItem, decode,
 };
 use libfuzzer_sys::fuzz_target;
@@ -14,7 +14,7 @@ fuzz_target!(|data: &[u8]| {
     let Some((&choice, bytes)) = data.split_first() else {
         return;
     };
-    match choice % 8 {
+    match choice % 10 {
         0 => {
             if let Some(record) = read::<SetpointFrame>(bytes) {
                 let frame = record.to_frame().expect("it was checked");
@@ -60,6 +60,14 @@ fuzz_target!(|data: &[u8]| {
         }
         6 => {
             read::<SegmentReply>(bytes);
+        }
+        7 => {
+            read::<Feedback>(bytes);
+        }
+        8 => {
+            if let Some(record) = read::<JogDemand>(bytes) {
+                record.mode().expect("it was checked");
+            }
         }
         _ => {
             if let Ok(mut replay) = Replay::<Setpoint, _>::new(bytes) {

@@ -8,10 +8,13 @@ mod request;
 mod shared;
 mod topic;
 
-use crate::service::{COMMANDS, Capacity, FRAMES, SEGMENTS, SETPOINTS, STATUS};
+use crate::service::{
+    COMMANDS, Capacity, FEEDBACK, FEEDBACK_DEPTH, FRAMES, JOG, JOG_DEPTH, PEERS, SEGMENTS, SENDERS,
+    SETPOINTS, STATUS,
+};
 use crate::{
-    Client, CommandReply, CommandRequest, FrameSink, LinkError, Publisher, SegmentReply,
-    SegmentRequest, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
+    Client, CommandReply, CommandRequest, Feedback, FrameSink, JogDemand, LinkError, Publisher,
+    SegmentReply, SegmentRequest, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
 };
 use queue::FrameQueue;
 use request::Exchange;
@@ -24,6 +27,8 @@ pub struct InProcess {
     frames: Shared<FrameQueue>,
     setpoints: Shared<Topic<Setpoint>>,
     status: Shared<Topic<Status>>,
+    feedback: Shared<Topic<Feedback>>,
+    jog: Shared<Topic<JogDemand>>,
     commands: Shared<Exchange<CommandRequest, CommandReply>>,
     segments: Shared<Exchange<SegmentRequest, SegmentReply>>,
 }
@@ -38,8 +43,16 @@ impl InProcess {
                 SETPOINTS,
                 capacity.setpoints,
                 capacity.subscribers,
+                SENDERS,
             )),
-            status: Shared::new(Topic::new(STATUS, 1, capacity.subscribers)),
+            status: Shared::new(Topic::new(STATUS, 1, capacity.subscribers, SENDERS)),
+            feedback: Shared::new(Topic::new(
+                FEEDBACK,
+                FEEDBACK_DEPTH,
+                capacity.subscribers,
+                PEERS,
+            )),
+            jog: Shared::new(Topic::new(JOG, JOG_DEPTH, capacity.subscribers, PEERS)),
             commands: Shared::new(Exchange::new(COMMANDS)),
             segments: Shared::new(Exchange::new(SEGMENTS)),
         }
@@ -75,6 +88,22 @@ impl Transport for InProcess {
 
     fn status_source(&self) -> Result<Box<dyn Subscriber<Status>>, LinkError> {
         Ok(Box::new(topic::Source::new(&self.status)?))
+    }
+
+    fn feedback_sink(&self) -> Result<Box<dyn Publisher<Feedback>>, LinkError> {
+        Ok(Box::new(topic::Sink::new(&self.feedback)?))
+    }
+
+    fn feedback_source(&self) -> Result<Box<dyn Subscriber<Feedback>>, LinkError> {
+        Ok(Box::new(topic::Source::new(&self.feedback)?))
+    }
+
+    fn jog_sink(&self) -> Result<Box<dyn Publisher<JogDemand>>, LinkError> {
+        Ok(Box::new(topic::Sink::new(&self.jog)?))
+    }
+
+    fn jog_source(&self) -> Result<Box<dyn Subscriber<JogDemand>>, LinkError> {
+        Ok(Box::new(topic::Source::new(&self.jog)?))
     }
 
     fn command_client(&self) -> Result<Box<dyn Client<CommandRequest, CommandReply>>, LinkError> {

@@ -1,7 +1,6 @@
 //! A topic: every subscriber has a queue of its own that loses its oldest record when full.
 
 use super::shared::Shared;
-use crate::service::SENDERS;
 use crate::{LinkError, Publisher, Subscriber};
 use std::collections::VecDeque;
 
@@ -10,6 +9,7 @@ pub(super) struct Topic<R> {
     service: &'static str,
     depth: usize,
     most_subscribers: usize,
+    most_publishers: usize,
     publishers: usize,
     subscribers: Vec<Reader<R>>,
     next_id: u64,
@@ -24,12 +24,18 @@ struct Reader<R> {
 }
 
 impl<R> Topic<R> {
-    pub(super) fn new(service: &'static str, depth: usize, most_subscribers: usize) -> Self {
+    pub(super) fn new(
+        service: &'static str,
+        depth: usize,
+        most_subscribers: usize,
+        most_publishers: usize,
+    ) -> Self {
         let subscribers = Vec::with_capacity(most_subscribers);
         Self {
             service,
             depth,
             most_subscribers,
+            most_publishers,
             publishers: 0,
             subscribers,
             next_id: 0,
@@ -69,7 +75,7 @@ pub(super) struct Sink<R> {
 impl<R> Sink<R> {
     pub(super) fn new(topic: &Shared<Topic<R>>) -> Result<Self, LinkError> {
         let mut inner = topic.lock();
-        if inner.publishers == SENDERS {
+        if inner.publishers == inner.most_publishers {
             return Err(LinkError::Taken {
                 service: inner.service,
                 role: "publisher",

@@ -33,10 +33,14 @@ pub use interpolator_lock::InterpolatorProcess;
 pub use operator::Operator;
 pub use presence::remove_leftovers;
 
-use crate::service::{COMMANDS, Capacity, FRAMES, SEGMENTS, SETPOINTS, STATUS};
+use crate::service::{
+    COMMANDS, Capacity, FEEDBACK, FEEDBACK_DEPTH, FRAMES, JOG, JOG_DEPTH, PEERS, SEGMENTS, SENDERS,
+    SETPOINTS, STATUS,
+};
 use crate::{
-    Client, CommandReply, CommandRequest, FrameSink, LinkError, Publisher, Record, SegmentReply,
-    SegmentRequest, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
+    Client, CommandReply, CommandRequest, Feedback, FrameSink, JogDemand, LinkError, Publisher,
+    Record, SegmentReply, SegmentRequest, Server, Setpoint, SetpointFrame, Status, Subscriber,
+    Transport,
 };
 use interpolator_lock::InterpolatorLock;
 use node::{Session, TopicSettings};
@@ -71,6 +75,7 @@ impl Ipc {
             depth: self.capacity.frames,
             history: 0,
             subscribers: 1,
+            publishers: SENDERS,
         }
     }
 
@@ -85,6 +90,7 @@ impl Ipc {
             depth,
             history: 1,
             subscribers,
+            publishers: SENDERS,
         }
     }
 
@@ -95,6 +101,19 @@ impl Ipc {
             depth: 1,
             history: 1,
             subscribers,
+            publishers: SENDERS,
+        }
+    }
+
+    /// From many to the interpolator: the latest of each counts.
+    const fn reports(&self, depth: usize) -> TopicSettings {
+        let subscribers = self.capacity.subscribers;
+        TopicSettings {
+            overflow: true,
+            depth,
+            history: 1,
+            subscribers,
+            publishers: PEERS,
         }
     }
 
@@ -166,6 +185,22 @@ impl Transport for Ipc {
 
     fn status_source(&self) -> Result<Box<dyn Subscriber<Status>>, LinkError> {
         self.subscriber(STATUS, self.status())
+    }
+
+    fn feedback_sink(&self) -> Result<Box<dyn Publisher<Feedback>>, LinkError> {
+        self.publisher(FEEDBACK, self.reports(FEEDBACK_DEPTH))
+    }
+
+    fn feedback_source(&self) -> Result<Box<dyn Subscriber<Feedback>>, LinkError> {
+        self.subscriber(FEEDBACK, self.reports(FEEDBACK_DEPTH))
+    }
+
+    fn jog_sink(&self) -> Result<Box<dyn Publisher<JogDemand>>, LinkError> {
+        self.publisher(JOG, self.reports(JOG_DEPTH))
+    }
+
+    fn jog_source(&self) -> Result<Box<dyn Subscriber<JogDemand>>, LinkError> {
+        self.subscriber(JOG, self.reports(JOG_DEPTH))
     }
 
     fn command_client(&self) -> Result<Box<dyn Client<CommandRequest, CommandReply>>, LinkError> {

@@ -5,7 +5,7 @@ use super::presence::Presence;
 use super::service::PrivateIpc;
 use super::settings::settings;
 use super::trouble::explained;
-use crate::service::{CLIENTS, SENDERS};
+use crate::service::CLIENTS;
 use crate::{BoxedError, LinkError, MAX_UNANSWERED, Record};
 use core::cell::Cell;
 use core::time::Duration;
@@ -122,7 +122,7 @@ impl Session {
                 .subscriber_max_buffer_size(settings.depth)
                 .history_size(settings.history)
                 .max_subscribers(settings.subscribers)
-                .max_publishers(SENDERS)
+                .max_publishers(settings.publishers)
                 .max_nodes(NODES)
                 .open_or_create()
         };
@@ -171,6 +171,8 @@ pub(super) struct TopicSettings {
     pub(super) history: usize,
     /// Most subscribers.
     pub(super) subscribers: usize,
+    /// Most publishers.
+    pub(super) publishers: usize,
 }
 
 fn service_name(service: &'static str) -> Result<ServiceName, LinkError> {
@@ -321,8 +323,8 @@ mod tests {
     /// A setpoint of a version to come.
     #[repr(C)]
     #[derive(Debug, Clone, Copy, ZeroCopySend)]
-    #[type_name("glidepath.Setpoint.v3")]
-    struct SetpointToCome([f64; 71]);
+    #[type_name("glidepath.Setpoint.v4")]
+    struct SetpointToCome([f64; 83]);
 
     #[test]
     fn another_version_of_a_record_is_a_clear_error() {
@@ -343,6 +345,7 @@ mod tests {
             depth: 1,
             history: 1,
             subscribers: 1,
+            publishers: 2,
         };
         let open = || session.topic::<Setpoint>("glidepath/setpoints", wanted);
         let error = open().err().unwrap();
@@ -351,7 +354,7 @@ mod tests {
             "{error}"
         );
         let text = error.to_string();
-        assert!(text.contains("glidepath.Setpoint.v2"), "{text}");
+        assert!(text.contains("glidepath.Setpoint.v3"), "{text}");
         assert!(text.contains("IncompatibleTypes"), "{text}");
         drop(service);
         open().unwrap();

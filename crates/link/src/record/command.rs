@@ -2,7 +2,7 @@
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
-use super::{MachineState, Record, Text};
+use super::{ALL_JOINTS, HIGHEST_JOINT, MachineState, Record, Text};
 use iceoryx2::prelude::ZeroCopySend;
 
 coded! {
@@ -28,6 +28,20 @@ coded! {
         Reset = 9,
         /// See [`Command::Step`].
         Step = 10,
+        /// See [`Command::Enable`].
+        Enable = 11,
+        /// See [`Command::Disable`].
+        Disable = 12,
+        /// See [`Command::SetPosition`].
+        SetPosition = 13,
+        /// See [`Command::Home`].
+        Home = 14,
+        /// See [`Command::Unhome`].
+        Unhome = 15,
+        /// See [`Command::Return`].
+        Return = 16,
+        /// See [`Command::Acknowledge`].
+        Acknowledge = 17,
     }
 }
 
@@ -58,6 +72,44 @@ pub enum Command {
     Reset,
     /// At rest on the path, go on to the end of the block, and rest there.
     Step,
+    /// Give the drives power, and take the position over from them.
+    Enable,
+    /// Come to rest on the path, end the epoch, and take the power from the drives.
+    Disable,
+    /// From now on a joint's present position has another number. It is not homed then.
+    SetPosition {
+        /// Which, 0 to 8.
+        joint: u32,
+        /// Where it stands, mm or degrees.
+        position: f64,
+    },
+    /// Look for the home of these joints, one bit each, J0 lowest.
+    Home(u32),
+    /// These joints do not know any more where they are.
+    Unhome(u32),
+    /// Go back to the path, after a jog in a hold.
+    Return,
+    /// What an awaited event asked for was done, or has failed.
+    Acknowledge {
+        /// Which event.
+        event: EventId,
+        /// Whether it was done.
+        done: bool,
+    },
+}
+
+/// Which event: no two have the same.
+#[repr(C)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend,
+)]
+pub struct EventId {
+    /// The life of the interpolator that published it.
+    pub boot_id: u64,
+    /// The epoch it happened in.
+    pub epoch: u64,
+    /// The sequence of its frame.
+    pub sequence: u64,
 }
 
 impl Command {
@@ -75,6 +127,13 @@ impl Command {
             Self::SingleBlock(_) => CommandKind::SingleBlock,
             Self::Reset => CommandKind::Reset,
             Self::Step => CommandKind::Step,
+            Self::Enable => CommandKind::Enable,
+            Self::Disable => CommandKind::Disable,
+            Self::SetPosition { .. } => CommandKind::SetPosition,
+            Self::Home(_) => CommandKind::Home,
+            Self::Unhome(_) => CommandKind::Unhome,
+            Self::Return => CommandKind::Return,
+            Self::Acknowledge { .. } => CommandKind::Acknowledge,
         }
     }
 }
@@ -82,42 +141,58 @@ impl Command {
 /// A command on its way.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.CommandRequest.v2")]
+#[type_name("glidepath.CommandRequest.v3")]
 pub struct CommandRequest {
     /// Who asks: any number the client keeps, for the log.
     pub client: u64,
     /// Counts the client's commands; the reply repeats it.
     pub number: u64,
-    /// The command's argument: a ratio, or 1 and 0 for on and off; 0 if it has none.
+    /// The command's argument: a ratio, a position, or 1 and 0 for on and off, done and failed; 0 if
+    /// it has none.
     pub value: f64,
     /// Code of a [`CommandKind`].
     pub kind: u32,
-    /// Must be zero.
-    pub reserved: u32,
+    /// The index of a joint for [`CommandKind::SetPosition`], one bit for each joint for
+    /// [`CommandKind::Home`] and [`CommandKind::Unhome`], else 0.
+    pub joints: u32,
+    /// Which event is acknowledged, else 0.
+    pub event: EventId,
 }
 
 impl CommandRequest {
     /// The record of a command.
     #[must_use]
     pub fn new(client: u64, number: u64, command: Command) -> Self {
-        let value = match command {
-            Command::FeedOverride(ratio) | Command::RapidOverride(ratio) => ratio,
-            Command::SingleBlock(on) => f64::from(u8::from(on)),
+        let mut record = Self {
+            client,
+            number,
+            value: 0.0,
+            kind: command.kind().code(),
+            joints: 0,
+            event: EventId::default(),
+        };
+        match command {
+            Command::FeedOverride(ratio) | Command::RapidOverride(ratio) => record.value = ratio,
+            Command::SingleBlock(on) => record.value = f64::from(u8::from(on)),
+            Command::SetPosition { joint, position } => {
+                (record.joints, record.value) = (joint, position);
+            }
+            Command::Home(joints) | Command::Unhome(joints) => record.joints = joints,
+            Command::Acknowledge { event, done } => {
+                (record.event, record.value) = (event, f64::from(u8::from(done)));
+            }
             Command::Ping
             | Command::Hold
             | Command::Resume
             | Command::Abort
             | Command::StopAtEndOfBlock
             | Command::Reset
-            | Command::Step => 0.0,
-        };
-        Self {
-            client,
-            number,
-            value,
-            kind: command.kind().code(),
-            reserved: 0,
+            | Command::Step
+            | Command::Enable
+            | Command::Disable
+            | Command::Return => {}
         }
+        record
     }
 
     /// The command.
@@ -128,7 +203,7 @@ impl CommandRequest {
     pub fn command(&self) -> Result<Command, RecordError> {
         let fields = Fields(Self::NAME);
         fields.finite("value", self.value)?;
-        fields.zero("reserved", self.reserved)?;
+        self.check_joints()?;
         Ok(match fields.code::<CommandKind>("kind", self.kind)? {
             CommandKind::Ping => Command::Ping,
             CommandKind::Hold => Command::Hold,
@@ -143,18 +218,47 @@ impl CommandRequest {
             }
             CommandKind::Abort => Command::Abort,
             CommandKind::StopAtEndOfBlock => Command::StopAtEndOfBlock,
-            CommandKind::SingleBlock => {
-                fields.range("value", self.value, 0.0, 1.0)?;
-                Command::SingleBlock(fields.whole("value", self.value)? == 1)
-            }
+            CommandKind::SingleBlock => Command::SingleBlock(self.switch()?),
             CommandKind::Reset => Command::Reset,
             CommandKind::Step => Command::Step,
+            CommandKind::Enable => Command::Enable,
+            CommandKind::Disable => Command::Disable,
+            CommandKind::SetPosition => Command::SetPosition {
+                joint: self.joints,
+                position: self.value,
+            },
+            CommandKind::Home => Command::Home(self.joints),
+            CommandKind::Unhome => Command::Unhome(self.joints),
+            CommandKind::Return => Command::Return,
+            CommandKind::Acknowledge => Command::Acknowledge {
+                event: self.event,
+                done: self.switch()?,
+            },
         })
+    }
+
+    fn switch(&self) -> Result<bool, RecordError> {
+        let fields = Fields(Self::NAME);
+        fields.range("value", self.value, 0.0, 1.0)?;
+        Ok(fields.whole("value", self.value)? == 1)
+    }
+
+    fn check_joints(&self) -> Result<(), RecordError> {
+        let fields = Fields(Self::NAME);
+        match CommandKind::from_code(self.kind) {
+            Some(CommandKind::SetPosition) => {
+                fields.range("joints", f64::from(self.joints), 0.0, HIGHEST_JOINT)
+            }
+            Some(CommandKind::Home | CommandKind::Unhome) => {
+                fields.flags("joints", self.joints, ALL_JOINTS)
+            }
+            _ => fields.zero("joints", self.joints),
+        }
     }
 }
 
 impl Record for CommandRequest {
-    const NAME: &'static str = "glidepath.CommandRequest.v2";
+    const NAME: &'static str = "glidepath.CommandRequest.v3";
 
     fn check(&self) -> Result<(), RecordError> {
         self.command().map(|_| ())
@@ -183,7 +287,7 @@ pub type CommandOutcome = Result<(), CommandRefusal>;
 /// The answer on its way back.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.CommandReply.v2")]
+#[type_name("glidepath.CommandReply.v3")]
 pub struct CommandReply {
     /// The life of the interpolator that answers.
     pub boot_id: u64,
@@ -239,7 +343,7 @@ impl CommandReply {
 }
 
 impl Record for CommandReply {
-    const NAME: &'static str = "glidepath.CommandReply.v2";
+    const NAME: &'static str = "glidepath.CommandReply.v3";
 
     fn check(&self) -> Result<(), RecordError> {
         self.outcome()?.ok();

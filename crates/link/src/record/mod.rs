@@ -17,7 +17,10 @@ mod check;
 mod code;
 mod command;
 mod event;
+mod feedback;
 mod frame;
+mod jog;
+mod joint;
 mod segment;
 mod segment_reply;
 mod setpoint;
@@ -28,18 +31,24 @@ mod text;
 pub use check::{RecordError, decode};
 pub use command::{
     COMMAND_KINDS, Command, CommandKind, CommandOutcome, CommandRefusal, CommandReply,
-    CommandRequest,
+    CommandRequest, EventId,
 };
 pub use event::EventKind;
+pub use feedback::{DriveState, Feedback, LATCHES, Latch, LatchKind, SpindleFlags};
 pub use frame::{PERIOD_NS_MAX, SetpointFrame};
+pub use jog::{JogDemand, JogMode};
+pub use joint::ALL_JOINTS;
 pub use segment::{ModeCode, PlaneCode, RequestKind, SegmentRequest, StreamItem};
 pub use segment_reply::{SegmentOutcome, SegmentRefusal, SegmentReply};
 pub use setpoint::{Setpoint, SetpointMarks};
-pub use state::{EndOfEpoch, FRAME_REFUSALS, FaultCause, FrameRefusal, MachineState};
+pub use state::{
+    EndOfEpoch, FRAME_REFUSALS, FaultCause, FrameRefusal, MachineState, MotionMode, Power,
+};
 pub use status::{Grants, Quantiles, Status};
 pub use text::Text;
 
 use iceoryx2::prelude::ZeroCopySend;
+use joint::HIGHEST_JOINT;
 
 /// Largest feed or rapid override, as a ratio.
 pub const OVERRIDE_MAX: f64 = 2.0;

@@ -1,7 +1,7 @@
 //! Interpolator to servo: what to do at one tick.
 
 use super::check::{Fields, RecordError};
-use super::{MachineState, OVERRIDE_MAX, Record, event, frame::FRAME_FLAGS};
+use super::{ALL_JOINTS, MachineState, OVERRIDE_MAX, Record, event, frame::FRAME_FLAGS};
 use glidepath_geometry::AXES;
 use glidepath_program::{Event, FrameFlags};
 use iceoryx2::prelude::ZeroCopySend;
@@ -20,10 +20,14 @@ impl SetpointMarks {
 /// What the drives are to do at `apply_ns`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Setpoint.v2")]
+#[type_name("glidepath.Setpoint.v3")]
 pub struct Setpoint {
     /// Identifies one life of the interpolator: all counts start again with a new one.
     pub boot_id: u64,
+    /// Counts how often the position was taken from the drives, or given a new meaning, instead of
+    /// continuing the one before. Whoever plays setpoints begins anew at a new one, at rest, and
+    /// never goes from the position before to the one after.
+    pub reference: u64,
     /// Counts the setpoints of this life from 0, without gaps. A gap seen by a subscriber is loss.
     pub number: u64,
     /// Index on the interpolator's time grid. A gap where `number` has none is a missed tick.
@@ -56,6 +60,11 @@ pub struct Setpoint {
     /// Block of the program being executed, 0 before the first: see
     /// [`super::SetpointFrame::block`].
     pub block: u32,
+    /// The joints whose drives are to have power, one bit each, J0 lowest.
+    pub enable: u32,
+    /// The joints whose drives are to find their home by themselves, one bit each. Their positions
+    /// here are those they report.
+    pub home: u32,
     /// The event's number (speed, tool, M code), 0 without an event.
     pub event_value: f64,
     /// Path position since the start of the program, mm.
@@ -71,12 +80,15 @@ pub struct Setpoint {
     pub velocity: [f64; AXES],
     /// Axis accelerations, mm/s² or °/s².
     pub acceleration: [f64; AXES],
-    /// Joint positions, mm or degrees.
+    /// Joint positions as the drives count them, mm or degrees.
     pub joint_position: [f64; AXES],
     /// Joint velocities, mm/s or °/s.
     pub joint_velocity: [f64; AXES],
     /// Joint accelerations, mm/s² or °/s².
     pub joint_acceleration: [f64; AXES],
+    /// How far the axes are from the path, mm or degrees, because they were jogged while the
+    /// program was held: the positions above are those of the path and this together.
+    pub away: [f64; AXES],
 }
 
 impl Setpoint {
@@ -111,7 +123,7 @@ impl Setpoint {
 }
 
 impl Record for Setpoint {
-    const NAME: &'static str = "glidepath.Setpoint.v2";
+    const NAME: &'static str = "glidepath.Setpoint.v3";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -121,6 +133,7 @@ impl Record for Setpoint {
         fields.all_finite("joint_position", &self.joint_position)?;
         fields.all_finite("joint_velocity", &self.joint_velocity)?;
         fields.all_finite("joint_acceleration", &self.joint_acceleration)?;
+        fields.all_finite("away", &self.away)?;
         fields.range("fraction", self.fraction, 0.0, 1.0)?;
         fields.finite("path_s", self.path_s)?;
         fields.finite("feed_v", self.feed_v)?;
@@ -133,6 +146,8 @@ impl Record for Setpoint {
         fields.flags("flags", self.flags, FRAME_FLAGS)?;
         let marks = SetpointMarks::LATE.0 | SetpointMarks::AFTER_MISSED.0;
         fields.flags("marks", self.marks, marks)?;
+        fields.flags("enable", self.enable, ALL_JOINTS)?;
+        fields.flags("home", self.home, ALL_JOINTS)?;
         self.state()?;
         self.event().map(|_| ())
     }

@@ -5,7 +5,7 @@ use super::code::coded;
 coded! {
     /// What the interpolator is doing.
     pub enum MachineState {
-        /// At rest without an epoch; ready for one.
+        /// At rest without an epoch; ready for one: all joints have power and know where they are.
         Idle = 1,
         /// On the path, program time advances.
         Running = 2,
@@ -25,6 +25,17 @@ coded! {
         Faulted = 9,
         /// At rest where the motion known so far ends, until there is more.
         Waiting = 10,
+        /// At rest on the path until an event was acknowledged.
+        Awaiting = 11,
+        /// Moved by hand: the axes follow an operator's demand.
+        Jogging = 12,
+        /// A joint looks for its home.
+        Homing = 13,
+        /// The drives have no power, or nobody knows where they are: the setpoints repeat what the
+        /// drives report.
+        Off = 14,
+        /// At rest with power, but a joint does not know where it is: no program starts.
+        NotHomed = 15,
     }
 }
 
@@ -34,8 +45,43 @@ impl MachineState {
     pub const fn is_moving(self) -> bool {
         matches!(
             self,
-            Self::Running | Self::Holding | Self::Starving | Self::Stopping
+            Self::Running
+                | Self::Holding
+                | Self::Starving
+                | Self::Stopping
+                | Self::Jogging
+                | Self::Homing
         )
+    }
+}
+
+coded! {
+    /// Whether the drives have power, as far as the interpolator knows.
+    pub enum Power {
+        /// No feedback is configured: the drives are taken to do what the setpoints say.
+        Simulated = 0,
+        /// Off: not asked for, refused by a drive, or lost.
+        Off = 1,
+        /// Asked for; not all drives have it, or they are not yet at rest.
+        Enabling = 2,
+        /// On.
+        On = 3,
+    }
+}
+
+coded! {
+    /// What moves the axes.
+    pub enum MotionMode {
+        /// Nothing: no epoch is open, and nobody jogs.
+        None = 0,
+        /// A program.
+        Program = 1,
+        /// An operator, by hand.
+        Jog = 2,
+        /// A search for home.
+        Homing = 3,
+        /// The way back to the path, after a jog in a hold.
+        Return = 4,
     }
 }
 
@@ -111,6 +157,20 @@ pub enum FaultCause {
     Ports,
     /// The real-time thread died: nothing commands the drives any more.
     RealTime,
+    /// The drives no longer say where they are.
+    FeedbackLost,
+    /// A joint is further from where it is to be than allowed.
+    FollowingError,
+    /// A drive reports a fault.
+    Drive,
+    /// A drive lost its power although it was to have it: emergency stop, or a fault without a word.
+    EnableLost,
+    /// An event was not acknowledged in time.
+    AuxTimeout,
+    /// A joint stands at one of its limit switches.
+    LimitSwitch,
+    /// A joint did not find its home.
+    Homing,
 }
 
 impl FaultCause {
@@ -126,6 +186,13 @@ impl FaultCause {
             Self::Output => 3,
             Self::Ports => 4,
             Self::RealTime => 5,
+            Self::FeedbackLost => 6,
+            Self::FollowingError => 7,
+            Self::Drive => 8,
+            Self::EnableLost => 9,
+            Self::AuxTimeout => 10,
+            Self::LimitSwitch => 11,
+            Self::Homing => 12,
             Self::Frame(refusal) => Self::FRAME + refusal.code(),
         }
     }
@@ -139,6 +206,13 @@ impl FaultCause {
             3 => Some(Self::Output),
             4 => Some(Self::Ports),
             5 => Some(Self::RealTime),
+            6 => Some(Self::FeedbackLost),
+            7 => Some(Self::FollowingError),
+            8 => Some(Self::Drive),
+            9 => Some(Self::EnableLost),
+            10 => Some(Self::AuxTimeout),
+            11 => Some(Self::LimitSwitch),
+            12 => Some(Self::Homing),
             Self::FRAME.. => match FrameRefusal::from_code(code - Self::FRAME) {
                 Some(refusal) => Some(Self::Frame(refusal)),
                 None => None,

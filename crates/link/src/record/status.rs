@@ -1,7 +1,10 @@
 //! Interpolator to everybody: what it does and how well.
 
 use super::check::{Fields, RecordError};
-use super::{EndOfEpoch, FRAME_REFUSALS, FaultCause, MachineState, OVERRIDE_MAX, Record, Text};
+use super::{
+    ALL_JOINTS, EndOfEpoch, FRAME_REFUSALS, FaultCause, MachineState, MotionMode, OVERRIDE_MAX,
+    Power, Record, Text,
+};
 use glidepath_geometry::{AXES, Axis};
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -57,7 +60,7 @@ pub struct Quantiles {
 /// What the interpolator does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v4")]
+#[type_name("glidepath.Status.v5")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -90,6 +93,10 @@ pub struct Status {
     pub fault_line: u32,
     /// Axis of the latched fault, as its index plus one, 0 if it has none.
     pub fault_axis: u32,
+    /// Joint of the latched fault, as its index plus one, 0 if it has none.
+    pub fault_joint: u32,
+    /// The drive's own number of its fault, 0 if there is none.
+    pub drive_fault: u32,
     /// Sequence of the frame the latched fault is about.
     pub fault_sequence: u64,
     /// What was measured at the latched fault, in units of the limit it broke.
@@ -112,6 +119,36 @@ pub struct Status {
     pub program_start: [f64; AXES],
     /// Axis positions as last commanded, mm or degrees.
     pub position: [f64; AXES],
+    /// How far the axes are from the path: see [`super::Setpoint::away`].
+    pub away: [f64; AXES],
+    /// Code of a [`Power`].
+    pub power: u32,
+    /// Code of a [`MotionMode`].
+    pub mode: u32,
+    /// The joints that the machine has, one bit each, J0 lowest.
+    pub joints: u32,
+    /// The joints whose drives say that they have power.
+    pub enabled: u32,
+    /// The joints that know where they are.
+    pub homed: u32,
+    /// The joints whose drives report a fault.
+    pub drive_faults: u32,
+    /// See [`super::Setpoint::reference`].
+    pub reference: u64,
+    /// How old the oldest feedback of a joint is, ns; 0 if none is configured, `u64::MAX` before
+    /// the first.
+    pub feedback_age_ns: u64,
+    /// Joint positions as the drives reported them last, in the machine's own count, mm or degrees.
+    pub joint_actual: [f64; AXES],
+    /// What was commanded of each joint for the moment of its last feedback, less what it reported,
+    /// mm or degrees.
+    pub following_error: [f64; AXES],
+    /// The largest magnitude of that since power came on.
+    pub following_peak: [f64; AXES],
+    /// Sequence of the frame whose event is awaited; means something if the next field does.
+    pub awaited_sequence: u64,
+    /// Since when it is awaited, ns of `CLOCK_MONOTONIC`; 0 if nothing is.
+    pub awaited_since_ns: u64,
     /// Path position, mm.
     pub path_s: f64,
     /// Path position of the first setpoint of the block, mm.
@@ -196,6 +233,30 @@ impl Status {
         Axis::ALL.get(index).copied()
     }
 
+    /// The joint of the latched fault, if it has one.
+    #[must_use]
+    pub fn fault_joint(&self) -> Option<usize> {
+        usize::try_from(self.fault_joint).ok()?.checked_sub(1)
+    }
+
+    /// Whether the drives have power.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn power(&self) -> Result<Power, RecordError> {
+        Fields(Self::NAME).code("power", self.power)
+    }
+
+    /// What moves the axes.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn mode(&self) -> Result<MotionMode, RecordError> {
+        Fields(Self::NAME).code("mode", self.mode)
+    }
+
     /// The real-time grants.
     #[must_use]
     pub const fn grants(&self) -> Grants {
@@ -204,12 +265,16 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v4";
+    const NAME: &'static str = "glidepath.Status.v5";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
         fields.all_finite("position", &self.position)?;
         fields.all_finite("program_start", &self.program_start)?;
+        fields.all_finite("away", &self.away)?;
+        fields.all_finite("joint_actual", &self.joint_actual)?;
+        fields.all_finite("following_error", &self.following_error)?;
+        fields.all_finite("following_peak", &self.following_peak)?;
         fields.finite("path_s", self.path_s)?;
         fields.finite("block_path_s", self.block_path_s)?;
         fields.finite("feed_v", self.feed_v)?;
@@ -225,6 +290,24 @@ impl Record for Status {
         )?;
         fields.flags("grants", self.grants, Grants::KNOWN)?;
         fields.flags("single_block", self.single_block, 1)?;
+        for (field, mask) in [
+            ("joints", self.joints),
+            ("enabled", self.enabled),
+            ("homed", self.homed),
+            ("drive_faults", self.drive_faults),
+        ] {
+            fields.flags(field, mask, ALL_JOINTS)?;
+        }
+        self.power()?;
+        self.mode()?;
+        if self.fault_joint().is_some_and(|joint| joint >= AXES) {
+            let (record, field) = (Self::NAME, "fault_joint");
+            return Err(RecordError::UnknownCode {
+                record,
+                field,
+                code: self.fault_joint,
+            });
+        }
         if self.fault_axis != 0 && self.fault_axis().is_none() {
             let (record, field) = (Self::NAME, "fault_axis");
             return Err(RecordError::UnknownCode {

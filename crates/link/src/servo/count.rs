@@ -21,6 +21,9 @@ pub struct ServoCounts {
     pub missed_ticks: u64,
     /// Times the interpolator was started anew.
     pub restarts: u64,
+    /// Times the position was taken anew from the drives, or given another meaning, while this
+    /// listened.
+    pub references: u64,
     /// Own stops because setpoints stayed away.
     pub stops: u64,
 }
@@ -30,6 +33,8 @@ pub struct ServoCounts {
 pub(super) enum Sequel {
     /// The next, or a later one.
     New,
+    /// The first of a new reference: it does not continue the one before.
+    Reference,
     /// The first of a new life of the interpolator, or the first at all.
     Restart,
     /// One that was there already, or before one that was.
@@ -55,7 +60,12 @@ impl ServoCounts {
                 // Counted by the interpolator, so that a lost setpoint is not taken for a missed
                 // tick.
                 self.missed_ticks += setpoint.missed_ticks.saturating_sub(before.missed_ticks);
-                Sequel::New
+                if setpoint.reference == before.reference {
+                    Sequel::New
+                } else {
+                    self.references += 1;
+                    Sequel::Reference
+                }
             }
             Some(_) => {
                 self.restarts += 1;

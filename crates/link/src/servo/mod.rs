@@ -7,6 +7,11 @@
 //! the servo's patience, it stops the joints by itself, with limits of its own, and stays stopped
 //! until [`Servo::rearm`]: neither the path nor the interpolator is known any more.
 //!
+//! Where the interpolator takes the position from the drives, setpoints with a new
+//! [`Setpoint::reference`] do not continue those before. The servo then has no demand until one of
+//! them is at rest with power on, and begins there; it never goes from the old position to the new
+//! one. As long as it has none, the drives are to stay where they are.
+//!
 //! ```no_run
 //! # fn main() -> Result<(), Box<dyn core::error::Error>> {
 //! # fn monotonic_ns() -> u64 { 0 }
@@ -41,7 +46,7 @@ pub use hermite::{JointState, quintic};
 pub use player::JointStates;
 pub use stop::{Stop, StopLimits};
 
-use crate::{LinkError, Record, RecordError, Setpoint, Subscriber};
+use crate::{LinkError, MachineState, Record, RecordError, Setpoint, Subscriber};
 use core::fmt;
 use count::Sequel;
 use glidepath_geometry::AXES;
@@ -80,6 +85,16 @@ pub struct Servo {
     /// Whether setpoints are played. Not those of another life of the interpolator than the one
     /// this began with: it may take the machine to be elsewhere.
     armed: bool,
+    /// Whether it has to be handed the position, by a setpoint at rest, before it plays any.
+    waits: bool,
+}
+
+/// Whether no joint is told to move.
+fn is_at_rest(setpoint: &Setpoint) -> bool {
+    let rates = setpoint.joint_velocity.iter();
+    rates
+        .chain(&setpoint.joint_acceleration)
+        .all(|rate| *rate == 0.0)
 }
 
 impl fmt::Debug for Servo {
@@ -105,6 +120,7 @@ impl Servo {
             last: None,
             last_refusal: None,
             armed: true,
+            waits: false,
         }
     }
 
@@ -124,19 +140,41 @@ impl Servo {
             match self.counts.count(self.last.as_ref(), &setpoint, now_ns) {
                 Sequel::Duplicate => continue,
                 Sequel::New => {}
+                Sequel::Reference => {
+                    // The drives were asked where they are: whatever stopped this is settled.
+                    self.armed = true;
+                    self.wait();
+                }
                 Sequel::Restart => self.armed = self.last.is_none(),
             }
             self.last = Some(setpoint);
-            if self.armed {
-                self.player.push(&setpoint);
-            }
+            self.play(&setpoint);
             return Ok(Some(setpoint));
         }
         Ok(None)
     }
 
-    /// What the joints are to do at a time, `None` before the first setpoint's. Times do not go
-    /// back from call to call.
+    fn wait(&mut self) {
+        self.waits = true;
+        self.player.reset();
+    }
+
+    fn play(&mut self, setpoint: &Setpoint) {
+        if setpoint.state == MachineState::Off.code() {
+            self.wait();
+        } else if self.armed && self.waits {
+            if is_at_rest(setpoint) {
+                self.player.stand_at(setpoint);
+                self.waits = false;
+            }
+        } else if self.armed {
+            self.player.push(setpoint);
+        }
+    }
+
+    /// What the joints are to do at a time; `None` before the first setpoint's, and while the drives
+    /// are off, until the position was taken over from them. Times do not go back from call to
+    /// call.
     pub fn demand(&mut self, now_ns: u64) -> Option<JointStates> {
         let was_stopping = self.player.is_stopping();
         let demand = self.player.demand(now_ns);

@@ -117,6 +117,17 @@ impl Player {
         self.queue.push_back(knot);
     }
 
+    /// Begins anew at a setpoint at rest, at once.
+    pub(super) fn stand_at(&mut self, setpoint: &Setpoint) {
+        self.queue.clear();
+        let from = Knot::of(setpoint);
+        self.mode = Mode::Playing {
+            from,
+            heard_ns: from.at_ns,
+            coasting: false,
+        };
+    }
+
     /// Forgets what was to come, and a stop.
     pub(super) fn reset(&mut self) {
         self.queue.clear();

@@ -83,6 +83,8 @@ macro_rules! conformance {
             setpoints_never_wait_and_loss_is_a_gap,
             a_late_subscriber_gets_the_last_setpoint,
             a_status_is_the_latest,
+            feedback_of_every_stack_arrives,
+            demands_of_every_panel_arrive,
             commands_are_answered_in_order,
             a_command_without_a_server_is_an_error,
             unanswered_requests_are_bounded_and_none_is_overwritten,

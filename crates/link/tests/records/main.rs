@@ -4,10 +4,11 @@
 use bytemuck::Zeroable;
 use glidepath_geometry::{AXES, AxisVector, Segment};
 use glidepath_link::{
-    Command, CommandKind, CommandRefusal, CommandReply, CommandRequest, EndOfEpoch, EventKind,
-    FRAME_REFUSALS, FaultCause, FrameRefusal, MachineState, OVERRIDE_MAX, Record, RecordError,
-    RequestKind, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status,
-    StreamItem, Text, decode,
+    Command, CommandKind, CommandRefusal, CommandReply, CommandRequest, DriveState, EndOfEpoch,
+    EventKind, FRAME_REFUSALS, FaultCause, Feedback, FrameRefusal, JogDemand, JogMode, LatchKind,
+    MachineState, MotionMode, OVERRIDE_MAX, Power, Record, RecordError, RequestKind,
+    SegmentRefusal, SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status, StreamItem,
+    Text, decode,
 };
 use glidepath_program::{Item, ItemKind, PathMode, Rate};
 use proptest::prelude::*;
@@ -89,6 +90,8 @@ proptest! {
         read::<CommandReply>(&bytes)?;
         read::<SegmentRequest>(&bytes)?;
         read::<SegmentReply>(&bytes)?;
+        read::<Feedback>(&bytes)?;
+        read::<JogDemand>(&bytes)?;
     }
 }
 
@@ -161,11 +164,19 @@ fn refuses_not_finite<R: Record>(good: &R, numbers: &[(usize, usize)]) {
 #[test]
 fn numbers_that_are_not_finite_are_refused() {
     refuses_not_finite(&good_frame(), &[(40, 72), (80, 296)]);
-    refuses_not_finite(&good_setpoint(), &[(72, 80), (104, 568)]);
-    refuses_not_finite(&good_status(), &[(96, 112), (136, 328)]);
+    refuses_not_finite(&good_setpoint(), &[(80, 88), (120, 656)]);
+    refuses_not_finite(
+        &good_status(),
+        &[(104, 120), (144, 360), (400, 616), (632, 680)],
+    );
     refuses_not_finite(&good_segment(), &[(40, 240)]);
     refuses_not_finite(&CommandRequest::new(1, 1, Command::Ping), &[(16, 24)]);
     refuses_not_finite(&SegmentReply::zeroed(), &[(32, 104)]);
+    refuses_not_finite(
+        &Feedback::zeroed(),
+        &[(72, 216), (296, 376), (408, 480), (512, 584)],
+    );
+    refuses_not_finite(&JogDemand::zeroed(), &[(40, 128)]);
 }
 
 #[test]
@@ -235,14 +246,20 @@ fn refused<R: Record>(good: R, spoil: impl FnOnce(&mut R)) -> RecordError {
 fn unknown_codes_and_bits_are_refused() {
     for error in [
         refused(good_setpoint(), |s| s.state = 0),
-        refused(good_setpoint(), |s| s.state = 11),
+        refused(good_setpoint(), |s| s.state = 16),
         refused(good_status(), |s| s.state = 0),
-        refused(good_status(), |s| s.fault = 6),
+        refused(good_status(), |s| s.fault = 13),
         refused(good_status(), |s| s.fault_axis = 10),
         refused(good_status(), |s| s.fault_axis = u32::MAX),
         refused(good_status(), |s| s.end_of_epoch = 5),
+        refused(good_status(), |s| s.fault_joint = 10),
+        refused(good_status(), |s| s.power = 4),
+        refused(good_status(), |s| s.mode = 5),
+        refused(Feedback::zeroed(), |f| f.drive_state[8] = 9),
+        refused(Feedback::zeroed(), |f| f.latch[3].kind = 4),
+        refused(JogDemand::zeroed(), |j| j.mode = 5),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 0),
-        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 11),
+        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 18),
         refused(SegmentReply::zeroed(), |r| r.refusal = 11),
         refused(good_segment(), |s| s.kind = 0),
         refused(good_segment(), |s| s.mode = 5),
@@ -255,6 +272,16 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_setpoint(), |s| s.marks = 4),
         refused(good_setpoint(), |s| s.flags = 64),
         refused(good_status(), |s| s.grants = 64),
+        refused(good_status(), |s| s.homed = 1 << 9),
+        refused(good_setpoint(), |s| s.enable = 1 << 9),
+        refused(good_setpoint(), |s| s.home = 1 << 9),
+        refused(Feedback::zeroed(), |f| f.joints = 1 << 9),
+        refused(Feedback::zeroed(), |f| f.home_switch = 1 << 31),
+        refused(Feedback::zeroed(), |f| f.spindle_flags = 16),
+        refused(JogDemand::zeroed(), |j| j.mask = 1 << 9),
+        refused(CommandRequest::new(1, 1, Command::Home(1)), |c| {
+            c.joints = 1 << 9;
+        }),
     ] {
         assert!(matches!(error, RecordError::UnknownFlags { .. }), "{error}");
     }
@@ -271,6 +298,19 @@ fn unknown_codes_and_bits_are_refused() {
         refused(CommandRequest::new(1, 1, Command::SingleBlock(true)), |c| {
             c.value = 0.5;
         }),
+        refused(
+            CommandRequest::new(
+                1,
+                1,
+                Command::SetPosition {
+                    joint: 0,
+                    position: 1.0,
+                },
+            ),
+            |c| c.joints = 9,
+        ),
+        refused(Feedback::zeroed(), |f| f.latch[0].input = 64),
+        refused(JogDemand::zeroed(), |j| j.velocity_v = -1.0),
     ] {
         assert!(matches!(error, RecordError::OutOfRange { .. }), "{error}");
     }
@@ -300,12 +340,17 @@ fn codes_are_consecutive_and_known() {
             (first..=last).collect::<Vec<_>>()
         );
     }
-    in_sequence(MachineState::ALL.iter().map(|code| code.code()), 1, 10);
+    in_sequence(MachineState::ALL.iter().map(|code| code.code()), 1, 15);
     in_sequence(EndOfEpoch::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(FrameRefusal::ALL.iter().map(|code| code.code()), 1, 12);
-    in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 10);
+    in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 17);
     in_sequence(CommandRefusal::ALL.iter().map(|code| code.code()), 1, 5);
     in_sequence(SegmentRefusal::ALL.iter().map(|code| code.code()), 1, 10);
+    in_sequence(Power::ALL.iter().map(|code| code.code()), 0, 3);
+    in_sequence(MotionMode::ALL.iter().map(|code| code.code()), 0, 4);
+    in_sequence(JogMode::ALL.iter().map(|code| code.code()), 0, 4);
+    in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 3);
+    in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);
     in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 7);
     assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
     assert!(
@@ -317,7 +362,7 @@ fn codes_are_consecutive_and_known() {
     let faults: Vec<u32> = (0..0x200)
         .filter(|code| FaultCause::from_code(*code).is_some())
         .collect();
-    assert_eq!(faults, (1..=5).chain(0x101..=0x10c).collect::<Vec<_>>());
+    assert_eq!(faults, (1..=12).chain(0x101..=0x10c).collect::<Vec<_>>());
     for code in faults {
         assert_eq!(FaultCause::from_code(code).unwrap().code(), code);
     }

@@ -1,7 +1,7 @@
 //! Any frame, any item of a stream, any command.
 
 use glidepath_geometry::{Arc, AxisVector, Plane, Quintic, Segment};
-use glidepath_link::{Command, OVERRIDE_MAX, StreamItem};
+use glidepath_link::{ALL_JOINTS, Command, EventId, OVERRIDE_MAX, StreamItem};
 use glidepath_program::{Event, Frame, FrameFlags, Item, ItemKind, PathMode, Rate};
 use proptest::prelude::*;
 
@@ -135,9 +135,25 @@ pub(crate) fn command() -> impl Strategy<Value = Command> {
             Command::StopAtEndOfBlock,
             Command::Reset,
             Command::Step,
+            Command::Enable,
+            Command::Disable,
+            Command::Return,
         ]),
         (0.0..=OVERRIDE_MAX).prop_map(Command::FeedOverride),
         (0.0..=OVERRIDE_MAX).prop_map(Command::RapidOverride),
         any::<bool>().prop_map(Command::SingleBlock),
+        (0..9_u32, finite()).prop_map(|(joint, position)| Command::SetPosition { joint, position }),
+        (0..=ALL_JOINTS).prop_map(Command::Home),
+        (0..=ALL_JOINTS).prop_map(Command::Unhome),
+        (any::<u64>(), any::<u64>(), any::<u64>(), any::<bool>()).prop_map(
+            |(boot_id, epoch, sequence, done)| Command::Acknowledge {
+                event: EventId {
+                    boot_id,
+                    epoch,
+                    sequence,
+                },
+                done,
+            }
+        ),
     ]
 }

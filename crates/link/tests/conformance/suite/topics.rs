@@ -2,7 +2,7 @@
 
 use super::{CAPACITY, Fixture, drain, take};
 use bytemuck::Zeroable;
-use glidepath_link::{LinkError, Setpoint, Status, Transport};
+use glidepath_link::{Feedback, JogDemand, LinkError, Setpoint, Status, Transport};
 
 fn setpoint(number: u64) -> Setpoint {
     Setpoint {
@@ -88,4 +88,51 @@ pub(crate) fn a_status_is_the_latest<F: Fixture>(fixture: &F) {
     let mut late = late.status_source().unwrap();
     sink.refresh().unwrap();
     assert_eq!(take(&mut *late).tick, 4);
+}
+
+pub(crate) fn feedback_of_every_stack_arrives<F: Fixture>(fixture: &F) {
+    let interpolator = fixture.connect();
+    let mut source = interpolator.feedback_source().unwrap();
+    let stacks: Vec<F::Transport> = (0..9).map(|_| fixture.connect()).collect();
+    let mut sinks: Vec<_> = stacks.iter().map(|s| s.feedback_sink().unwrap()).collect();
+    for number in 0..20 {
+        for (joint, sink) in sinks.iter_mut().enumerate() {
+            let feedback = Feedback {
+                boot_id: joint as u64 + 1,
+                number,
+                joints: 1 << joint,
+                ..Feedback::zeroed()
+            };
+            sink.publish(&feedback).unwrap();
+        }
+        let arrived = drain(&mut *source);
+        let joints = arrived.iter().fold(0, |all, f| all | f.joints);
+        assert_eq!((arrived.len(), joints), (9, 0x1ff));
+        assert!(arrived.iter().all(|f| f.number == number));
+    }
+}
+
+pub(crate) fn demands_of_every_panel_arrive<F: Fixture>(fixture: &F) {
+    let interpolator = fixture.connect();
+    let mut source = interpolator.jog_source().unwrap();
+    let panels = [fixture.connect(), fixture.connect()];
+    let mut sinks = panels.each_ref().map(|p| p.jog_sink().unwrap());
+    for number in 0..10 {
+        for (client, sink) in sinks.iter_mut().enumerate() {
+            let demand = JogDemand {
+                client: client as u64,
+                number,
+                ..JogDemand::zeroed()
+            };
+            sink.publish(&demand).unwrap();
+        }
+    }
+    let arrived = drain(&mut *source);
+    for client in 0..2 {
+        let newest = arrived
+            .iter()
+            .filter(|d| d.client == client)
+            .map(|d| d.number);
+        assert_eq!(newest.max(), Some(9));
+    }
 }

@@ -1,0 +1,124 @@
+//! The drives and joints of a status, as text and as JSON.
+
+use super::quantity::microseconds;
+use core::fmt::Write as _;
+use glidepath_geometry::{AXES, Axis};
+use glidepath_link::{MotionMode, Power, Status};
+use serde_json::{Map, Value, json};
+
+/// Whether the drives have power, in one word.
+const fn power_name(power: Power) -> &'static str {
+    match power {
+        Power::Simulated => "simulated",
+        Power::Off => "off",
+        Power::Enabling => "enabling",
+        Power::On => "on",
+    }
+}
+
+/// What moves the axes, in one word.
+const fn mode_name(mode: MotionMode) -> &'static str {
+    match mode {
+        MotionMode::None => "none",
+        MotionMode::Program => "program",
+        MotionMode::Jog => "jog",
+        MotionMode::Homing => "homing",
+        MotionMode::Return => "return",
+    }
+}
+
+/// One value by axis.
+pub(super) fn by_axis(values: &[f64; AXES]) -> Map<String, Value> {
+    let pairs = Axis::ALL.into_iter().zip(values);
+    pairs
+        .map(|(axis, value)| (axis.to_string(), (*value).into()))
+        .collect()
+}
+
+/// The names of the joints of a mask.
+fn joints_of(mask: u32) -> Vec<String> {
+    (0..AXES)
+        .filter(|joint| mask & (1 << joint) != 0)
+        .map(|joint| format!("J{joint}"))
+        .collect()
+}
+
+/// Values of the joints that the machine has.
+fn by_joint(status: &Status, values: &[f64; AXES]) -> Map<String, Value> {
+    let pairs = (0..AXES).zip(values);
+    pairs
+        .filter(|(joint, _)| status.joints & (1 << joint) != 0)
+        .map(|(joint, value)| (format!("J{joint}"), (*value).into()))
+        .collect()
+}
+
+/// How old feedback is, ms; nothing before the first.
+fn age_ms(age_ns: u64) -> Option<f64> {
+    (age_ns != u64::MAX).then(|| microseconds(age_ns) / 1e3)
+}
+
+/// The event that is awaited, and for how long.
+fn awaited(status: &Status) -> Option<Value> {
+    (status.awaited_since_ns != 0).then(|| {
+        let waited_ns = status.updated_ns.saturating_sub(status.awaited_since_ns);
+        json!({
+            "epoch": status.epoch,
+            "sequence": status.awaited_sequence,
+            "waited_s": microseconds(waited_ns) / 1e6,
+        })
+    })
+}
+
+/// What a status says about drives and joints.
+pub(super) fn machine_object(status: &Status) -> Map<String, Value> {
+    let object = json!({
+        "away": by_axis(&status.away),
+        "power": status.power().map_or("unknown", power_name),
+        "mode": status.mode().map_or("unknown", mode_name),
+        "homed": joints_of(status.homed),
+        "not_homed": joints_of(status.joints & !status.homed),
+        "enabled": joints_of(status.enabled),
+        "drive_faults": joints_of(status.drive_faults),
+        "reference": status.reference,
+        "feedback_age_ms": age_ms(status.feedback_age_ns),
+        "joint_actual": by_joint(status, &status.joint_actual),
+        "following_error": by_joint(status, &status.following_error),
+        "following_peak": by_joint(status, &status.following_peak),
+        "awaited": awaited(status),
+    });
+    match object {
+        Value::Object(object) => object,
+        _ => Map::new(),
+    }
+}
+
+/// Power, homes and following errors in one line.
+pub(super) fn power_text(status: &Status) -> String {
+    let power = status.power().unwrap_or(Power::Simulated);
+    if power == Power::Simulated {
+        return "simulated: no feedback is configured".to_owned();
+    }
+    let mut text = power_name(power).to_owned();
+    let not_homed = joints_of(status.joints & !status.homed);
+    if not_homed.is_empty() {
+        text.push_str(", homed");
+    } else {
+        let _ = write!(text, ", not homed: {}", not_homed.join(" "));
+    }
+    if status.drive_faults != 0 {
+        let _ = write!(
+            text,
+            ", drives with faults: {}",
+            joints_of(status.drive_faults).join(" ")
+        );
+    }
+    let peak = status.following_peak.iter().copied().fold(0.0, f64::max);
+    let _ = write!(text, ", following error at most {peak:.4}");
+    match age_ms(status.feedback_age_ns) {
+        Some(age_ms) => {
+            let _ = write!(text, ", feedback {age_ms:.1} ms old");
+        }
+        None => text.push_str(", no feedback yet"),
+    }
+    text
+}

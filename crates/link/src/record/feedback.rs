@@ -1,0 +1,201 @@
+//! Servo stack to interpolator: where the joints are, and what the drives know besides.
+
+use super::check::{Fields, RecordError};
+use super::code::coded;
+use super::{ALL_JOINTS, Record};
+use glidepath_geometry::AXES;
+use iceoryx2::prelude::ZeroCopySend;
+
+/// Inputs that can be latched at a time.
+pub const LATCHES: usize = 4;
+
+coded! {
+    /// What a drive does, by the states of CiA 402.
+    pub enum DriveState {
+        /// Nothing is known of it; also that of joints which the record does not claim.
+        Unknown = 0,
+        /// Not ready to switch on.
+        NotReady = 1,
+        /// Switch on disabled.
+        SwitchOnDisabled = 2,
+        /// Ready to switch on.
+        Ready = 3,
+        /// Switched on.
+        SwitchedOn = 4,
+        /// Operation enabled: it follows setpoints.
+        OperationEnabled = 5,
+        /// Quick stop active.
+        QuickStop = 6,
+        /// Fault reaction active.
+        FaultReaction = 7,
+        /// Fault.
+        Fault = 8,
+    }
+}
+
+coded! {
+    /// How a latched position was found.
+    pub enum LatchKind {
+        /// None yet.
+        None = 0,
+        /// By the drive, at the moment of the edge.
+        Drive = 1,
+        /// Between two samples, by the time stamp of the edge.
+        Interpolated = 2,
+        /// The next sample after the edge.
+        Sampled = 3,
+    }
+}
+
+/// What the spindle does, one bit each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct SpindleFlags(pub u32);
+
+impl SpindleFlags {
+    /// It turns as fast as it was told to.
+    pub const AT_SPEED: Self = Self(1);
+    /// It stands.
+    pub const STOPPED: Self = Self(1 << 1);
+    /// It stands at the angle it was told to.
+    pub const ORIENTED: Self = Self(1 << 2);
+    /// Its drive reports a fault.
+    pub const FAULT: Self = Self(1 << 3);
+
+    const KNOWN: u32 = (1 << 4) - 1;
+
+    /// True if all of `other` are set.
+    #[must_use]
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+}
+
+/// The positions at the last edge of an input.
+#[repr(C)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Default, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend,
+)]
+pub struct Latch {
+    /// Counts the edges from 0.
+    pub count: u64,
+    /// When the last one was, ns of `CLOCK_MONOTONIC`.
+    pub latch_ns: u64,
+    /// Joint positions then, as the drives count them, mm or degrees.
+    pub position: [f64; AXES],
+    /// Which input: a bit of [`Feedback::digital_in`] by its index.
+    pub input: u32,
+    /// 1 for a rising edge, 0 for a falling one.
+    pub rising: u32,
+    /// Code of a [`LatchKind`].
+    pub kind: u32,
+    /// Must be zero.
+    pub reserved: u32,
+}
+
+/// What a servo stack knows of the joints it drives, at one moment. Several stacks may each send
+/// theirs, for joints of which no two are the same.
+///
+/// To be sent once a period or more often; 1 kHz is good.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
+#[type_name("glidepath.Feedback.v1")]
+pub struct Feedback {
+    /// Identifies one life of the stack: another stack, or the same started again, has another.
+    pub boot_id: u64,
+    /// Counts the records of this life, without gaps. A gap seen by a reader is loss.
+    pub number: u64,
+    /// When the positions were measured, ns of `CLOCK_MONOTONIC`.
+    pub sample_ns: u64,
+    /// The reference of the setpoint that the stack plays: see [`super::Setpoint::reference`]; 0
+    /// before the first.
+    pub reference: u64,
+    /// The number of that setpoint.
+    pub setpoint_number: u64,
+    /// The joints that this is about, one bit each, J0 lowest. What is said below of others means
+    /// nothing.
+    pub joints: u32,
+    /// The joints that have power and follow setpoints.
+    pub enabled: u32,
+    /// The joints that know where they are: absolute encoders, or those that found their home.
+    pub homed: u32,
+    /// The joints that look for their home by themselves.
+    pub homing: u32,
+    /// The joints whose drives report a fault.
+    pub fault: u32,
+    /// The joints that stand at their lower limit switch.
+    pub limit_low: u32,
+    /// The joints that stand at their upper limit switch.
+    pub limit_high: u32,
+    /// The joints that stand at their home switch.
+    pub home_switch: u32,
+    /// Joint positions as the drives count them, mm or degrees.
+    pub position: [f64; AXES],
+    /// Joint velocities, mm/s or °/s.
+    pub velocity: [f64; AXES],
+    /// Codes of [`DriveState`].
+    pub drive_state: [u32; AXES],
+    /// The drives' own numbers of their faults, 0 for none.
+    pub fault_code: [u32; AXES],
+    /// Digital inputs, one bit each.
+    pub digital_in: u64,
+    /// Analog inputs, in whatever unit they have.
+    pub analog_in: [f64; 8],
+    /// Angle of the spindle since some start, in revolutions, never wrapped.
+    pub spindle_angle: f64,
+    /// Speed of the spindle, rev/s, negative if it turns backwards.
+    pub spindle_v: f64,
+    /// Index pulses of the spindle so far.
+    pub spindle_index_count: u64,
+    /// Bits of [`SpindleFlags`].
+    pub spindle_flags: u32,
+    /// Must be zero.
+    pub reserved: u32,
+    /// The inputs that are latched.
+    pub latch: [Latch; LATCHES],
+}
+
+impl Feedback {
+    /// What the spindle does.
+    #[must_use]
+    pub const fn spindle(&self) -> SpindleFlags {
+        SpindleFlags(self.spindle_flags)
+    }
+}
+
+impl Record for Feedback {
+    const NAME: &'static str = "glidepath.Feedback.v1";
+
+    fn check(&self) -> Result<(), RecordError> {
+        let fields = Fields(Self::NAME);
+        for (field, mask) in [
+            ("joints", self.joints),
+            ("enabled", self.enabled),
+            ("homed", self.homed),
+            ("homing", self.homing),
+            ("fault", self.fault),
+            ("limit_low", self.limit_low),
+            ("limit_high", self.limit_high),
+            ("home_switch", self.home_switch),
+        ] {
+            fields.flags(field, mask, ALL_JOINTS)?;
+        }
+        fields.all_finite("position", &self.position)?;
+        fields.all_finite("velocity", &self.velocity)?;
+        for code in self.drive_state {
+            fields.code::<DriveState>("drive_state", code)?;
+        }
+        fields.all_finite("analog_in", &self.analog_in)?;
+        fields.finite("spindle_angle", self.spindle_angle)?;
+        fields.finite("spindle_v", self.spindle_v)?;
+        fields.flags("spindle_flags", self.spindle_flags, SpindleFlags::KNOWN)?;
+        fields.zero("reserved", self.reserved)?;
+        for latch in &self.latch {
+            fields.all_finite("latch.position", &latch.position)?;
+            fields.range("latch.input", f64::from(latch.input), 0.0, 63.0)?;
+            fields.flags("latch.rising", latch.rising, 1)?;
+            fields.code::<LatchKind>("latch.kind", latch.kind)?;
+            fields.zero("latch.reserved", latch.reserved)?;
+        }
+        Ok(())
+    }
+}
