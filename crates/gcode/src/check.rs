@@ -102,6 +102,7 @@ pub fn diagnostics<R: BufRead>(reader: R, options: Options) -> Diagnostics {
 fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> Diagnostics {
     let most = program.interpreter.options.loops.checked_lines;
     let mut found = Diagnostics::default();
+    let mut without_tools = WithoutTools::default();
     loop {
         if program.kept_lines() >= most {
             found.given_up_at = Some(program.line_of_program());
@@ -109,6 +110,8 @@ fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> Dia
         }
         match program.next_line() {
             Some(Ok(())) => program.items().iter().for_each(&mut see),
+            Some(Err(diagnostic))
+                if without_tools.is_told(&diagnostic, found.diagnostics.len()) => {}
             Some(Err(diagnostic)) if found.diagnostics.len() < MAX_DIAGNOSTICS => {
                 found.diagnostics.push(diagnostic);
             }
@@ -116,9 +119,47 @@ fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> Dia
             None => break,
         }
     }
+    without_tools.tell(&mut found.diagnostics);
     // Programs of printers just end.
     let may_just_end = program.interpreter.options.dialect == Dialect::Marlin;
     found.lacks_end = program.ran_out && !may_just_end;
     found.lines = program.totals().lines;
     found
+}
+
+/// Blocks that need the tool table of a program that has none: one thing to mend, not many.
+#[derive(Debug, Default)]
+struct WithoutTools {
+    /// Where the first of them is among the diagnostics.
+    first: Option<usize>,
+    more: u32,
+}
+
+impl WithoutTools {
+    /// True for a block that lacks the tool table as one before it did; `next` is the place of the
+    /// next diagnostic.
+    fn is_told(&mut self, diagnostic: &Diagnostic, next: usize) -> bool {
+        if diagnostic.code != DiagnosticCode::NoToolTable {
+            return false;
+        }
+        if self.first.is_some() {
+            self.more = self.more.saturating_add(1);
+            return true;
+        }
+        self.first = Some(next);
+        false
+    }
+
+    /// Says at the first of them how many more there are.
+    fn tell(self, diagnostics: &mut [Diagnostic]) {
+        let first = self.first.and_then(|at| diagnostics.get_mut(at));
+        if let (Some(first), more @ 1..) = (first, self.more) {
+            let blocks = if more == 1 {
+                "block needs"
+            } else {
+                "blocks need"
+            };
+            first.reason = format!("{}; {more} more {blocks} it", first.reason);
+        }
+    }
 }

@@ -74,6 +74,7 @@ pub use setup::subroutine_file::{
     MAX_SUBROUTINE_BYTES, NoSubroutineFile, SubroutineFile, Subroutines,
 };
 pub use setup::tool_table::{MAX_TOOLS, Tool, ToolTable};
+pub use setup::work_offsets::{CoordinateSystem, SYSTEMS, WorkOffsets};
 pub use summary::survey::{Corner, Survey};
 pub use summary::totals::Totals;
 pub use syntax::cursor::MAX_NUMBER;

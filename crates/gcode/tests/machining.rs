@@ -7,7 +7,9 @@ mod support;
 use std::fmt::Write;
 use std::sync::Arc;
 
-use glidepath_gcode::{Connections, Machine, Options, Program, ToolTable, Travel, check};
+use glidepath_gcode::{
+    Connections, Machine, Options, Program, ToolTable, Travel, WorkOffsets, check,
+};
 use glidepath_geometry::{Axis, Segment};
 use glidepath_program::{Event, ItemKind, Rate};
 use support::listed;
@@ -227,4 +229,54 @@ fn simulated_probing_and_outputs() {
     finds("M62", "1:1 missing-word");
     finds("M67 E1", "1:1 missing-word");
     finds("M66 P1 L3", "1:1 missing-word");
+}
+
+#[test]
+fn a_missing_tool_table_is_one_finding() {
+    let mut text = String::from("G43 H1\nG41 D2\nG0 X1.2.3\n");
+    for tool in 1..=30 {
+        text.push_str(&format!("G43 H{tool}\n"));
+    }
+    let report = check(text.as_bytes(), Options::default());
+    assert_eq!(report.diagnostics.len(), 2, "{:?}", report.diagnostics);
+    assert_eq!(report.more, 0);
+    let first = &report.diagnostics[0];
+    assert_eq!((first.line, first.code.as_str()), (1, "unknown-tool"));
+    assert!(
+        first.reason.ends_with("; 31 more blocks need it"),
+        "{}",
+        first.reason
+    );
+    assert_eq!(report.diagnostics[1].line, 3);
+}
+
+#[test]
+fn a_program_begins_with_the_offsets_set_up_and_says_what_it_changes() {
+    let mut offsets = WorkOffsets::default();
+    offsets.systems[1].origin[0] = 10.0;
+    offsets.active = 1;
+    offsets.saved_shift[1] = 2.0;
+    offsets.reference[0][2] = 50.0;
+    let options = Options {
+        offsets: offsets.clone(),
+        ..Options::default()
+    };
+    let text = "G0 X1\nG92.3\nG0 Y1\nG10 L2 P3 X7 R30\nG49\nG28.1\nG54\nG53 G0 X0\nM2\n";
+    let mut program = Program::new(text.as_bytes(), options);
+    let mut changes = Vec::new();
+    while let Some(item) = program.next() {
+        let line = item.expect("a sound program").line;
+        changes.push((line, program.changes()));
+    }
+    // The items come out behind the changes of the lines before them.
+    assert_eq!(changes, [(1, 0), (3, 1), (8, 4)]);
+    assert_eq!(program.changes(), 4, "M2 chooses G54, which is in force");
+    let after = program.work_offsets();
+    assert_eq!(after.active, 0);
+    assert_eq!(after.systems[1], offsets.systems[1]);
+    assert_eq!(after.systems[2].origin[0].to_bits(), 7.0_f64.to_bits());
+    assert_eq!(after.systems[2].rotation_deg.to_bits(), 30.0_f64.to_bits());
+    assert_eq!(after.shift[1].to_bits(), 2.0_f64.to_bits());
+    let reference: Vec<f64> = after.reference[0].iter().copied().take(3).collect();
+    assert_eq!(reference, [11.0, 3.0, 0.0]);
 }

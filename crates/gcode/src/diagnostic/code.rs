@@ -114,6 +114,8 @@ pub enum DiagnosticCode {
     SavedState,
     /// A tool that is not in the tool table.
     UnknownTool,
+    /// There is no tool table to look a tool up in.
+    NoToolTable,
     /// A canned cycle that cannot be made.
     CannedCycle,
     /// Cutter radius compensation where it is not possible.
@@ -190,7 +192,8 @@ impl DiagnosticCode {
             Self::SoftLimit => "soft-limit",
             Self::ToolTable => "tool-table",
             Self::SavedState => "saved-state",
-            Self::UnknownTool => "unknown-tool",
+            // The same to whoever reads reports: the tool is not known.
+            Self::UnknownTool | Self::NoToolTable => "unknown-tool",
             Self::CannedCycle => "canned-cycle",
             Self::CutterRadius => "cutter-radius",
             Self::Gouge => "gouge",

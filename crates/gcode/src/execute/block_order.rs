@@ -7,6 +7,8 @@
 //!
 //! A block that is refused has no effect at all: the state from before it is put back.
 
+use std::sync::Arc;
+
 use glidepath_program::{Event, Item, ItemKind};
 
 use crate::diagnostic::fault::Outcome;
@@ -51,6 +53,14 @@ impl Interpreter {
             || codes.system.is_some()
             || codes.tool_length.is_some()
             || codes.saved_state.is_some();
+        let ends = matches!(
+            codes.stop,
+            Some(Coded {
+                code: Stop::End,
+                ..
+            })
+        );
+        let changes_offsets = changes_offsets || ends;
         let offsets = changes_offsets.then(|| (self.offsets.clone(), self.tools.clone()));
         let compensation = self.compensation.clone();
         let mark = OpenSpline::mark(self.open_spline.as_ref());
@@ -66,6 +76,15 @@ impl Interpreter {
             if let Some((offsets, tools)) = offsets {
                 self.offsets = offsets;
                 self.tools = tools;
+            }
+        } else if let Some((offsets, tools)) = offsets {
+            // A tool table that was changed is another one.
+            let is_same = match (&tools, &self.tools) {
+                (Some(before), Some(after)) => Arc::ptr_eq(before, after),
+                (before, after) => before.is_some() == after.is_some(),
+            };
+            if !is_same || offsets.set_up() != self.offsets.set_up() {
+                self.changes = self.changes.saturating_add(1);
             }
         }
         result
@@ -111,6 +130,8 @@ impl Interpreter {
         Ok(match stop {
             Some(Stop::End) => {
                 self.end_compensation(out)?;
+                // As LinuxCNC does: the next program begins in G54.
+                self.offsets.active = 0;
                 AfterBlock::End
             }
             Some(Stop::Program(number)) => {

@@ -76,6 +76,8 @@ pub(crate) struct Interpreter {
     pub(crate) open_spline: Option<OpenSpline>,
     /// The tool table, with what G10 has made of it.
     pub(crate) tools: Option<Arc<ToolTable>>,
+    /// Blocks that changed coordinate systems, reference positions, the offset of G92 or tools.
+    pub(crate) changes: u64,
     pub(crate) saved_states: SavedStates,
     /// What the block executed last has left out.
     pub(crate) zero_length: ZeroLength,
@@ -97,6 +99,7 @@ impl Interpreter {
         let lacking = Letters::of_axes(|axis| !options.machine.has(axis));
         let modal = Modal::new(options.default_feed_mm_min);
         let tools = options.tools.clone();
+        let offsets = Offsets::of(&options.offsets);
         Self {
             options,
             state: State {
@@ -117,7 +120,8 @@ impl Interpreter {
                 cubic_tail: None,
             },
             open_spline: None,
-            offsets: Offsets::new(),
+            offsets,
+            changes: 0,
             lacking,
             soft_limits,
             compensation: None,

@@ -1,6 +1,7 @@
 //! A program as an iterator of items.
 
 use std::io::BufRead;
+use std::sync::Arc;
 
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
@@ -17,6 +18,8 @@ use crate::execute::parameters::Parameters;
 use crate::execute::scope::ProgramScope;
 use crate::execute::state::modal::Modal;
 use crate::setup::options::Options;
+use crate::setup::tool_table::ToolTable;
+use crate::setup::work_offsets::WorkOffsets;
 use crate::summary::totals::Totals;
 use crate::syntax::block::Block;
 use crate::syntax::cursor::Cursor;
@@ -103,6 +106,31 @@ impl<R: BufRead> Program<R> {
     #[must_use]
     pub const fn position(&self) -> &AxisVector {
         &self.interpreter.state.position
+    }
+
+    /// How many blocks have changed coordinate systems, reference positions, the offset of G92 or
+    /// tools so far.
+    #[must_use]
+    pub const fn changes(&self) -> u64 {
+        self.interpreter.changes
+    }
+
+    /// Coordinate systems, reference positions and the offset of G92 after the last block read.
+    #[must_use]
+    pub const fn work_offsets(&self) -> WorkOffsets {
+        self.interpreter.offsets.set_up()
+    }
+
+    /// The tool table after the last block read, with what G10 has made of it.
+    #[must_use]
+    pub const fn tools(&self) -> Option<&Arc<ToolTable>> {
+        self.interpreter.tools.as_ref()
+    }
+
+    /// Tool in the spindle after the last block read; 0: none.
+    #[must_use]
+    pub const fn tool(&self) -> u32 {
+        self.interpreter.state.tool
     }
 
     /// Items of the line read last.

@@ -4,3 +4,4 @@ pub(crate) mod machine;
 pub(crate) mod options;
 pub(crate) mod subroutine_file;
 pub(crate) mod tool_table;
+pub(crate) mod work_offsets;

@@ -7,6 +7,7 @@ use glidepath_geometry::{Axis, AxisVector};
 use crate::setup::machine::Machine;
 use crate::setup::subroutine_file::Subroutines;
 use crate::setup::tool_table::ToolTable;
+use crate::setup::work_offsets::WorkOffsets;
 use crate::syntax::dialect::Dialect;
 
 /// How a program is to be read.
@@ -21,6 +22,8 @@ pub struct Options {
     pub block_delete: bool,
     /// Where the machine stands, in machine coordinates.
     pub start: AxisVector,
+    /// Coordinate systems, reference positions and the offset of G92 to begin with.
+    pub offsets: WorkOffsets,
     /// Lengths and diameters of the tools. `None`: blocks that need them are errors.
     pub tools: Option<Arc<ToolTable>>,
     /// Where subroutines come from that the program does not define. `None`: they are errors.
@@ -74,7 +77,7 @@ impl Default for LoopLimits {
 
 impl Default for Options {
     /// All nine axes without soft limits, no default feedrate, block delete off, at machine zero,
-    /// no tool table, no subroutines in other files, LinuxCNC's language, nothing connected,
+    /// no offsets, no tool table, no subroutines in other files, LinuxCNC's language, nothing connected,
     /// splines to a micrometre.
     fn default() -> Self {
         Self {
@@ -82,6 +85,7 @@ impl Default for Options {
             default_feed_mm_min: None,
             block_delete: false,
             start: AxisVector::zeros(),
+            offsets: WorkOffsets::default(),
             tools: None,
             subroutines: None,
             dialect: Dialect::LinuxCnc,

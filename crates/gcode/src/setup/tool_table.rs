@@ -97,6 +97,11 @@ impl ToolTable {
         self.tools.insert(number, tool);
     }
 
+    /// All tools, in the order of their numbers.
+    pub fn tools(&self) -> impl Iterator<Item = (u32, &Tool)> {
+        self.tools.iter().map(|(number, tool)| (*number, tool))
+    }
+
     /// Number of tools.
     #[must_use]
     pub fn len(&self) -> usize {

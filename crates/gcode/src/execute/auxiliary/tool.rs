@@ -51,7 +51,7 @@ impl Interpreter {
         }
         let Some(tools) = &self.tools else {
             let message = format!("there is no tool table to look tool {number} up in");
-            return Err(Fault::new(DiagnosticCode::UnknownTool, span, message)
+            return Err(Fault::new(DiagnosticCode::NoToolTable, span, message)
                 .because("lengths and diameters of tools come from a tool table")
                 .help("give the tool table: --tool-table FILE, or `tool_table` of [program]"));
         };

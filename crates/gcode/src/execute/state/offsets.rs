@@ -10,25 +10,7 @@
 
 use glidepath_geometry::{AXES, AxisVector};
 
-/// Number of coordinate systems: G54 … G59, G59.1 … G59.3.
-pub(crate) const SYSTEMS: usize = 9;
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct CoordinateSystem {
-    pub(crate) origin: AxisVector,
-    pub(crate) rotation_deg: f64,
-}
-
-impl CoordinateSystem {
-    /// Turns X and Y by the rotation of the system, times `sign`.
-    pub(crate) fn rotate(&self, mut v: AxisVector, sign: f64) -> AxisVector {
-        if self.rotation_deg != 0.0 {
-            let (sin, cos) = (sign * self.rotation_deg.to_radians()).sin_cos();
-            (v[0], v[1]) = (v[0] * cos - v[1] * sin, v[0] * sin + v[1] * cos);
-        }
-        v
-    }
-}
+use crate::setup::work_offsets::{CoordinateSystem, SYSTEMS, WorkOffsets};
 
 /// Every offset a program can set.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,24 +29,39 @@ pub(crate) struct Offsets {
 }
 
 impl Offsets {
-    pub(crate) fn new() -> Self {
-        let system = CoordinateSystem {
-            origin: AxisVector::zeros(),
-            rotation_deg: 0.0,
-        };
+    /// The offsets a program begins with: no tool offset is in force.
+    pub(crate) fn of(set_up: &WorkOffsets) -> Self {
+        let WorkOffsets {
+            systems,
+            active,
+            reference,
+            shift,
+            saved_shift,
+        } = *set_up;
         Self {
-            systems: [system; SYSTEMS],
-            active: 0,
+            systems,
+            active,
             tool: AxisVector::zeros(),
-            shift: AxisVector::zeros(),
-            saved_shift: AxisVector::zeros(),
-            reference: [AxisVector::zeros(); 2],
+            shift,
+            saved_shift,
+            reference,
+        }
+    }
+
+    /// What of them outlasts the program.
+    pub(crate) const fn set_up(&self) -> WorkOffsets {
+        WorkOffsets {
+            systems: self.systems,
+            active: self.active,
+            reference: self.reference,
+            shift: self.shift,
+            saved_shift: self.saved_shift,
         }
     }
 
     /// The coordinate system in force.
     pub(crate) const fn system(&self) -> &CoordinateSystem {
-        // `active` is only ever set from a G5x code, so it is below SYSTEMS.
+        // `active` is set from a G5x code; what an operator set up may be anything.
         &self.systems[if self.active < SYSTEMS {
             self.active
         } else {
@@ -164,7 +161,7 @@ mod tests {
     }
 
     fn rotated() -> Offsets {
-        let mut offsets = Offsets::new();
+        let mut offsets = Offsets::of(&WorkOffsets::default());
         offsets.systems[0].origin = point(10.0, 20.0, 30.0);
         offsets.systems[0].rotation_deg = 90.0;
         offsets.shift = point(1.0, 2.0, 3.0);

@@ -54,6 +54,13 @@ mod tests {
             ),
             ("%_N_PART_MPF\nG1 X1\n", Dialect::Siemens, Some(1)),
             ("N10 R1=5\nN20 G1 X=R1\n", Dialect::Siemens, Some(1)),
+            ("G17 G90\nG0 X=AC(10) Y5\n", Dialect::Siemens, Some(2)),
+            (
+                "G0 X10\n\nCYCLE81(10, 0, 2, -5)\n",
+                Dialect::Siemens,
+                Some(3),
+            ),
+            ("G0 X10\nG2 X20 Y5 CR=12.5\n", Dialect::Siemens, Some(2)),
             (
                 "(IF THIS GOTO THAT)\n; M104 R1=2\nG1 X1\n",
                 Dialect::LinuxCnc,

@@ -21,6 +21,9 @@ use crate::syntax::dialect::line_body::body;
 use crate::syntax::dialect::siemens::rewritten::Rewritten;
 use crate::syntax::word_check::missing;
 
+pub(crate) use marks::marks;
+
+mod marks;
 mod rewritten;
 #[cfg(test)]
 mod tests;
@@ -56,30 +59,6 @@ const FUNCTIONS: [&[u8]; 12] = [
     b"SIN", b"COS", b"TAN", b"ASIN", b"ACOS", b"SQRT", b"ABS", b"ROUND", b"LN", b"EXP", b"TRUNC",
     b"MOD",
 ];
-
-/// True if a line, without blanks and in upper case, is of a SINUMERIK program.
-pub(super) fn marks(bare: &[u8]) -> bool {
-    let text = bare.get(body(bare)..).unwrap_or_default();
-    let starts = |word: &[u8]| text.starts_with(word);
-    let parameter = matches!(text, [b'R', b'0'..=b'9', ..])
-        && text
-            .iter()
-            .position(|byte| *byte == b'=')
-            .is_some_and(|at| {
-                text.get(1..at)
-                    .is_some_and(|digits| digits.iter().all(u8::is_ascii_digit))
-            });
-    bare.starts_with(b"%_N_")
-        || bare.starts_with(b";$PATH")
-        || starts(b"CYCLE832(")
-        || starts(b"MSG(")
-        || starts(b"PROC")
-        || starts(b"DEFREAL")
-        || starts(b"DEFINT")
-        || starts(b"G641")
-        || starts(b"G642")
-        || parameter
-}
 
 /// Rewrites a line.
 pub(crate) fn rewrite(text: &[u8]) -> Outcome<Rewritten> {

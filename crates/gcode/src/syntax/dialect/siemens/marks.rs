@@ -1,0 +1,139 @@
+//! What only SINUMERIK programs have, at their head and in their body.
+
+use crate::syntax::dialect::line_body::body;
+
+/// What a line of such a program may begin with.
+const BEGINNINGS: [&[u8]; 12] = [
+    b"MSG(",
+    b"PROC",
+    b"DEFREAL",
+    b"DEFINT",
+    b"G641",
+    b"G642",
+    b"MCALL",
+    b"WORKPIECE(",
+    b"TRANSX",
+    b"TRANSY",
+    b"TRANSZ",
+    b"SUPA",
+];
+
+/// Cycles that are called by name; those called CYCLE have a number.
+const CYCLES: [&[u8]; 7] = [
+    b"CYCLE",
+    b"POCKET",
+    b"SLOT",
+    b"HOLES",
+    b"LONGHOLE",
+    b"CONTPRON",
+    b"CONTDCON",
+];
+
+/// Words that take their value behind an equals sign, where RS274/NGC has an address and a number.
+/// Longer ones first.
+const ASSIGNED: [&[u8]; 20] = [
+    b"TURN", b"ADIS", b"CR", b"AR", b"AP", b"RP", b"X", b"Y", b"Z", b"A", b"B", b"C", b"U", b"V",
+    b"W", b"I", b"J", b"K", b"T", b"F",
+];
+
+/// True if a line, without blanks and in upper case, is of a SINUMERIK program.
+pub(crate) fn marks(bare: &[u8]) -> bool {
+    if bare.starts_with(b"%_N_") || bare.starts_with(b";$PATH") {
+        return true;
+    }
+    let text = bare.get(body(bare)..).unwrap_or_default();
+    let calls_a_cycle = CYCLES.iter().any(|name| {
+        text.strip_prefix(*name).is_some_and(|rest| {
+            let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+            rest.get(digits) == Some(&b'(')
+        })
+    });
+    calls_a_cycle
+        || BEGINNINGS.iter().any(|word| text.starts_with(word))
+        || sets_a_parameter(text)
+        || assigns(text)
+}
+
+/// True for `R5=…`.
+fn sets_a_parameter(text: &[u8]) -> bool {
+    let Some((b'R', rest)) = text.split_first() else {
+        return false;
+    };
+    let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    digits > 0 && rest.get(digits) == Some(&b'=')
+}
+
+/// True if a word of the line has an equals sign behind its name, as in `G1X=AC(5)` or `CR=10`:
+/// outside comments, and not in lines that are text or settings of other controls.
+fn assigns(text: &[u8]) -> bool {
+    // Messages of printers, settings of grbl and its kin, FANUC's printing.
+    let foreign: [&[u8]; 6] = [b"M117", b"M118", b"$", b"{", b"DPRNT", b"BPRNT"];
+    if foreign.iter().any(|word| text.starts_with(word)) {
+        return false;
+    }
+    let end = text.iter().position(|byte| matches!(byte, b'(' | b';'));
+    let code = text.get(..end.unwrap_or(text.len())).unwrap_or_default();
+    let mut signs = (0..code.len()).filter(|at| code.get(*at) == Some(&b'='));
+    signs.any(|at| {
+        let before = code.get(..at).unwrap_or_default();
+        let name = ASSIGNED.iter().find(|name| before.ends_with(name));
+        name.is_some_and(|name| {
+            let in_front = before.len().checked_sub(name.len() + 1);
+            let in_front = in_front.and_then(|at| before.get(at));
+            // A number or a blank ends the word before; a letter belongs to a longer name.
+            !in_front.is_some_and(|byte| byte.is_ascii_alphabetic() || b"_<#$".contains(byte))
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_body_is_known_without_its_head() {
+        for line in [
+            "G1X=AC(5)Y2",
+            "N10G0X=R1+5",
+            "G2X10Y5CR=12.5",
+            "N20T=\"MILL_6\"D1",
+            "CYCLE81(10,0,2,-5)",
+            "N30MCALLCYCLE83(10,0,1)",
+            "POCKET3(5,0,1,-10)",
+            "Z=IC(-2)",
+            "G3X0Y0I=AC(10)J0",
+            "N5TRANSX10Y10",
+            "G641ADIS=0.1",
+            "R12=3",
+        ] {
+            assert!(marks(line.as_bytes()), "{line}");
+        }
+    }
+
+    #[test]
+    fn others_are_not_taken_for_it() {
+        for line in [
+            "G1X10(X=5)",
+            "(D=1.587CR=0.-ZMIN=-8.427)",
+            "G1X10;X=5",
+            "#5=3",
+            "#<X>=4",
+            "#[#1+2]=3",
+            "G1X#5F100",
+            "M117X=5",
+            "$X=5",
+            "$100=250",
+            "{\"X\":1}",
+            "DPRNT[X=#100[53]]",
+            "START_PRINTEXTRUDER_TEMP=205",
+            "SET_VELOCITY_LIMITACCEL=1000",
+            "O100IF[#1GT2]",
+            "IF[#1EQ2]THEN#3=4",
+            "G10L2P1X5",
+            "CYCLE",
+            "N10R5",
+        ] {
+            assert!(!marks(line.as_bytes()), "{line}");
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! What a machine keeps over a restart: coordinate systems, reference positions, the offset of G92,
+//! what programs made of the tool table, and where the machine rested last.
+//!
+//! ```text
+//!   Kept ─text──▶ checksum, version, generation ─Store─▶ kept.new ─fsync─▶ rename ─fsync folder─▶ done
+//!    ▲                                                          (Storage: a folder, or a test's)
+//!    └── var: LinuxCNC's parameter file, read and written by command
+//! ```
+//!
+//! Two files take turns, `kept.0` and `kept.1`: a new generation is written beside them and renamed
+//! over the older one, so that the newer one is never touched. Whenever the power goes, what is read
+//! afterwards is the generation that was answered last, or the one that was being written, never a
+//! mixture. A file that is damaged all the same is not passed over: the operator decides.
+//!
+//! * [`Kept`] is what is kept; nothing of it moves anything.
+//! * [`Store`] reads and writes it; [`Directory`] is where.
+//! * [`var`] converts LinuxCNC's parameter files.
+//!
+//! ```
+//! use glidepath_kept::{Directory, Kept, Store};
+//!
+//! let folder = tempfile::tempdir()?;
+//! let mut store = Store::new(Directory::open(folder.path())?);
+//! assert!(store.read()?.is_none());
+//!
+//! let mut kept = Kept::default();
+//! kept.offsets.systems[0].origin[2] = -12.5;
+//! store.write(&kept)?;
+//! let (generation, read) = store.read()?.expect("it was just written");
+//! assert_eq!((generation, read), (1, kept));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod directory;
+mod error;
+mod kept;
+mod storage;
+mod store;
+mod text;
+pub mod var;
+
+pub use directory::{Directory, DirectoryLock};
+pub use error::KeptError;
+pub use kept::{AXES, Kept, Offsets, Rest, SYSTEMS, System, Tool, UnderWay};
+pub use storage::Storage;
+pub use store::{SLOTS, Store};
