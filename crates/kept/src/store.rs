@@ -83,7 +83,9 @@ impl<S: Storage> Store<S> {
                 }
                 Err(KeptError::Damaged {
                     file: name.clone(),
-                    reason: format!("it has generation {generation}, which belongs to the other file"),
+                    reason: format!(
+                        "it has generation {generation}, which belongs to the other file"
+                    ),
                 })
             }))
         };
@@ -110,7 +112,9 @@ impl<S: Storage> Store<S> {
         let mut fault = None;
         for slot in self.slots()?.into_iter().flatten() {
             match slot {
-                Ok(found) if best.as_ref().is_none_or(|best| best.0 < found.0) => best = Some(found),
+                Ok(found) if best.as_ref().is_none_or(|best| best.0 < found.0) => {
+                    best = Some(found);
+                }
                 Ok(_) => {}
                 Err(error) => fault = Some(error),
             }

@@ -115,13 +115,19 @@ pub fn import(text: &str, units: Units) -> Result<Imported, VarError> {
         let (number, value) = match (words.next(), words.next(), words.next()) {
             (None, ..) => continue,
             (Some(number), Some(value), None) => (number.parse(), value.parse::<f64>()),
-            _ => return Err(fault("give a number and a value, and nothing else".to_owned())),
+            _ => {
+                return Err(fault(
+                    "give a number and a value, and nothing else".to_owned(),
+                ));
+            }
         };
         let (Ok(number), Ok(value)) = (number, value) else {
             return Err(fault("give a whole number and a value".to_owned()));
         };
         if !value.is_finite() {
-            return Err(fault(format!("the value of parameter {number} is no number")));
+            return Err(fault(format!(
+                "the value of parameter {number} is no number"
+            )));
         }
         if number <= last {
             return Err(fault(format!(
@@ -154,7 +160,9 @@ impl Imported {
             Place::Active => {
                 let is_system = |n: &u8| f64::from(*n).to_bits() == value.to_bits();
                 offsets.active = (1..=9).find(is_system).ok_or_else(|| {
-                    format!("parameter 5220 is {value}: coordinate systems are 1 (G54) to 9 (G59.3)")
+                    format!(
+                        "parameter 5220 is {value}: coordinate systems are 1 (G54) to 9 (G59.3)"
+                    )
                 })?;
             }
             Place::Rotation(system) => offsets.systems[system].rotation_deg = value,
