@@ -50,6 +50,14 @@ impl Directory {
         })
     }
 
+    /// A folder to read in, which need not be there: nothing is kept then.
+    #[must_use]
+    pub fn at(path: &Path) -> Self {
+        Self {
+            path: path.to_owned(),
+        }
+    }
+
     /// Takes the right to write here, which one process has at a time.
     ///
     /// # Errors

@@ -32,7 +32,7 @@ fn written(folder: &Path, generations: u64) -> Store<Directory> {
 }
 
 /// Writes generations, and says each when it is answered, until it is killed.
-fn write_for_ever(folder: &Path) {
+fn write_for_ever(folder: &Path) -> ! {
     let mut store = store(folder);
     let mut generation = store.read().expect("whole").map_or(0, |(number, _)| number);
     loop {
@@ -46,7 +46,6 @@ fn write_for_ever(folder: &Path) {
 fn a_writer_that_is_killed_leaves_the_old_or_the_new_generation() {
     if let Some(folder) = std::env::var_os(WRITER) {
         write_for_ever(Path::new(&folder));
-        return;
     }
     let folder = tempfile::tempdir().expect("a folder");
     let mut known = 0;
