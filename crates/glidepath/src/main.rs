@@ -3,8 +3,27 @@
 use clap::Parser as _;
 use glidepath::{cli::Cli, command};
 use std::process::ExitCode;
+use std::thread;
+
+/// Stack of the thread that does the work. That of the first thread is what the host leaves it
+/// (`ulimit -s`), which can be too little for a machine that is to move.
+const STACK_BYTES: usize = 4 << 20;
 
 fn main() -> ExitCode {
+    let worker = thread::Builder::new()
+        .name("glidepath".into())
+        .stack_size(STACK_BYTES)
+        .spawn(work);
+    match worker {
+        // A panic has been told of already.
+        Ok(worker) => worker
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+        Err(_) => work(),
+    }
+}
+
+fn work() -> ExitCode {
     match Cli::try_parse() {
         Ok(cli) => command::main(&cli),
         Err(error) => command::usage(&error),

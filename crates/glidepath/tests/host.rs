@@ -94,3 +94,21 @@ fn what_jitter_cannot_do_is_a_usage_error() {
         assert_eq!(glidepath(&args).status.code(), Some(2), "{args:?}");
     }
 }
+
+#[test]
+fn a_host_that_leaves_little_stack_still_moves_the_machine() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("part.ngc");
+    std::fs::write(&file, "G21 G90 F3000\nG1 X5\nG1 X0\nM2\n").unwrap();
+    let output = Command::new("sh")
+        .current_dir(folder.path())
+        .args([
+            "-c",
+            "ulimit -s 128; exec \"$0\" run part.ngc --best-effort",
+        ])
+        .arg(env!("CARGO_BIN_EXE_glidepath"))
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{text}");
+}

@@ -1,6 +1,5 @@
 //! Programs in files, of whatever kind.
 
-use std::fs::File;
 use std::io::{self, BufReader, Read as _};
 use std::path::Path;
 
@@ -8,6 +7,7 @@ use glidepath_curve::NurbsFile;
 use glidepath_gcode::{Diagnostics, Options, Report, check, diagnostics};
 use glidepath_program::Settings;
 
+use crate::unchanged_file::UnchangedFile;
 use crate::{CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Supply};
 
 /// Bytes read from a file at a time.
@@ -20,7 +20,7 @@ const MOST_BYTES: u64 = 4 << 20;
 #[derive(Debug)]
 pub enum FileSource {
     /// G-code.
-    Program(Box<ProgramSource<BufReader<File>>>),
+    Program(Box<ProgramSource<BufReader<UnchangedFile>>>),
     /// A curve given by formulas.
     Curve(Box<CurveSource>),
     /// A NURBS.
@@ -36,7 +36,7 @@ impl FileSource {
         if is_curve(path) {
             return Self::curve(path, options, settings);
         }
-        let reader = BufReader::with_capacity(BUFFER, File::open(path)?);
+        let reader = BufReader::with_capacity(BUFFER, UnchangedFile::open(path)?);
         Ok(Self::Program(Box::new(ProgramSource::new(reader, options))))
     }
 
@@ -64,7 +64,7 @@ impl FileSource {
 
     fn curve(path: &Path, options: Options, settings: &Settings) -> Result<Self, Refusal> {
         let mut text = String::new();
-        let file = File::open(path)?;
+        let file = UnchangedFile::open(path)?;
         file.take(MOST_BYTES + 1).read_to_string(&mut text)?;
         if text.len() as u64 > MOST_BYTES {
             let message = "a curve file has at most 4 MiB";
@@ -92,14 +92,14 @@ fn is_curve(path: &Path) -> bool {
 
 /// Reads a file, and tells how far it has come.
 struct Watched<'w> {
-    file: File,
+    file: UnchangedFile,
     read: u64,
     watch: &'w mut dyn FnMut(u64),
 }
 
 impl<'w> Watched<'w> {
     fn open(path: &Path, watch: &'w mut dyn FnMut(u64)) -> io::Result<BufReader<Self>> {
-        let file = File::open(path)?;
+        let file = UnchangedFile::open(path)?;
         let watched = Self {
             file,
             read: 0,

@@ -84,6 +84,7 @@ mod refusal;
 mod resume;
 mod source;
 mod stream;
+mod unchanged_file;
 
 pub use control::{Control, Notice, Progress};
 pub use curve::CurveSource;
@@ -101,3 +102,4 @@ pub use resume::{Remainder, ResumeError, ResumePoint};
 pub use source::{ItemSource, Supply};
 use stream::Stream;
 pub use stream::{STREAM_QUEUE, SoftLimits};
+pub use unchanged_file::UnchangedFile;

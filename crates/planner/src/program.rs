@@ -1,7 +1,6 @@
 //! Programs as text: files, which are checked as a whole before anything moves, and pipes, which
 //! cannot be.
 
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek};
 use std::path::Path;
 use std::sync::Arc;
@@ -11,6 +10,7 @@ use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 use glidepath_gcode::{Options, Program, Subroutines, diagnostics};
 
 use crate::fingerprint::Fingerprinting;
+use crate::unchanged_file::UnchangedFile;
 use crate::{ItemSource, Refusal, Supply};
 
 /// Bytes read from a file or pipe at a time.
@@ -37,15 +37,15 @@ impl<R: BufRead> ProgramSource<R> {
     }
 }
 
-impl ProgramSource<BufReader<File>> {
-    /// Opens a file after a pass over the whole of it. Should the file change between that pass and
-    /// the execution, an error then ends the motion as it does with a pipe.
+impl ProgramSource<BufReader<UnchangedFile>> {
+    /// Opens a file after a pass over the whole of it. Should the file change after that, an error
+    /// ends the motion as it does with a pipe.
     ///
     /// # Errors
     /// All diagnostics, if there is any; that the program could not be checked to its end, unless
     /// it may be run all the same; or why the file cannot be read.
     pub fn open(path: &Path, options: Options) -> Result<Self, Refusal> {
-        let mut file = File::open(path)?;
+        let mut file = UnchangedFile::open(path)?;
         let mut reader = Fingerprinting::new(&mut file);
         let found = diagnostics(
             BufReader::with_capacity(BUFFER, &mut reader),

@@ -20,7 +20,7 @@ use crate::progress::Progress;
 use crate::report::{FitReport, FittedRun};
 use glidepath_fit::{Fit, FitError, Method, Settings, fit as fit_points};
 use glidepath_gcode::Program;
-use std::fs::File;
+use glidepath_planner::UnchangedFile;
 use std::io::BufReader;
 use std::path::Path;
 
@@ -83,7 +83,7 @@ pub(super) fn fit(args: &FitArgs, config: &MachineConfig) -> Result<Exit, Failur
 }
 
 fn read(path: &Path, config: &MachineConfig) -> Result<Vec<ProgramPiece>, Failure> {
-    let file = File::open(path).map_err(FileError::open(path))?;
+    let file = UnchangedFile::open(path).map_err(FileError::open(path))?;
     let options = config.program_options(config.home());
     let mut runs = Runs::default();
     for item in Program::new(BufReader::with_capacity(1 << 16, file), options) {
