@@ -7,7 +7,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use glidepath_link::{Capacity, EndOfEpoch, FaultCause, InProcess, MachineState, Transport};
-use glidepath_planner::{Control, Pace, Pipeline, Publisher, Refusal, RunError, Statistics};
+use glidepath_planner::{
+    Control, ItemSource, Pace, Pipeline, Publisher, Refusal, RunError, Statistics, Supply,
+};
 use support::attended;
 use support::interpolator::Interpolator;
 use support::items::{Listed, PERIOD_NS, point, polyline, records, settings, staircase};
@@ -24,7 +26,7 @@ fn pace() -> Pace {
 /// The whole way of `planner FILE`: wait, plan from where the machine stands, publish.
 fn run(
     transport: &dyn Transport,
-    source: Listed,
+    source: impl ItemSource + Send,
     pace: Pace,
     control: &mut Control<'_>,
 ) -> Result<Statistics, RunError> {
@@ -165,6 +167,47 @@ fn a_planner_without_frames_shows_that_it_lives() {
         "{}",
         interpolator.repeated
     );
+}
+
+/// Thinks for a second between two items, without ever being out of them: loops that move nothing.
+struct Thinking {
+    items: Listed,
+    left: u32,
+}
+
+impl ItemSource for Thinking {
+    fn next_item(&mut self) -> Supply {
+        self.left = self.left.wrapping_sub(1);
+        if self.left == 0 {
+            std::thread::sleep(Duration::from_secs(1));
+        }
+        self.items.next_item()
+    }
+
+    fn lines_read(&self) -> u64 {
+        self.items.lines_read()
+    }
+}
+
+#[test]
+fn a_planner_that_thinks_gives_signs_of_life() {
+    let transport = InProcess::default();
+    let interpolator = RefCell::new(Interpolator::new(&transport, 128));
+    let source = Thinking {
+        items: Listed::new(&staircase(12)),
+        left: 9,
+    };
+    let (result, _) = attended(
+        &AtomicBool::new(false),
+        |time| interpolator.borrow_mut().pass(time),
+        |control| run(&transport, source, pace(), control),
+    );
+    result.unwrap();
+    let interpolator = interpolator.into_inner();
+    assert!(interpolator.executed == records(&staircase(12), 1));
+    // Every 200 ms of that second; a busy host may see fewer of them.
+    let repeated = interpolator.repeated;
+    assert!((2..=5).contains(&repeated), "{repeated}");
 }
 
 #[test]
