@@ -12,7 +12,8 @@ const SHORT_S: u32 = 6;
 
 /// Corners of every kind, which take long to plan: rows of a pocket, with waves on them.
 fn pocket(seconds: u32) -> String {
-    let mut text = "G21 G90 G64 P0.02 F2400\n".to_owned();
+    // Rests, which are planned at once, before motion that is not.
+    let mut text = "G21 G90 G64 P0.02 F2400\nT1 M6\nS1000 M3\n".to_owned();
     // About 40 mm a second.
     for row in 0..seconds {
         let y = 0.4 * f64::from(row);

@@ -45,6 +45,12 @@ impl Pace {
         }
     }
 
+    /// How many frames to have before the first is published: with as many, no interpolator waits
+    /// for more before it moves.
+    pub(crate) fn head_start(&self) -> usize {
+        usize::try_from(self.horizon_frames.saturating_mul(3) / 4).unwrap_or(usize::MAX)
+    }
+
     /// How far to plan ahead of what is published, frames.
     pub(crate) fn frames_ahead(&self) -> usize {
         let frames = AHEAD.as_nanos() / u128::from(self.period_ns.max(1));

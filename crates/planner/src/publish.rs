@@ -8,6 +8,8 @@
 //!
 //! * **Start.** An epoch starts at rest where the machine stands, so the publisher waits until the
 //!   interpolator lives (its status changes) and is idle, and takes the position from the status.
+//!   The first frame is published with a head start behind it: a few frames at rest before motion
+//!   that is hard to plan would be executed, and the machine starve.
 //! * **Pace.** Frame *n* is offered when *n* < executed + horizon. What is not yet published can
 //!   still be planned otherwise; what is published lets the machine run on while the planner is
 //!   held up. If the interpolator rests for want of frames though it has them all, it gets more
@@ -128,7 +130,8 @@ impl<'t> Publisher<'t> {
         let wanted = self.machine.wanted_override().unwrap_or(Override::NONE);
         pipeline.follow_override(wanted);
         let program = pipeline.fingerprint();
-        let published = planned_ahead(pipeline, self.pace.frames_ahead(), |queue| {
+        let room = (self.pace.frames_ahead(), self.pace.head_start());
+        let published = planned_ahead(pipeline, room, |queue| {
             let plan = Plan {
                 queue,
                 program,

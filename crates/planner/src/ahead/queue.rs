@@ -69,6 +69,8 @@ struct Shared {
     is_awaited: bool,
     /// The planning thread sleeps until only so many frames wait.
     room_at: Option<usize>,
+    /// Frames are given out.
+    has_begun: bool,
 }
 
 impl Shared {
@@ -76,12 +78,20 @@ impl Shared {
     const fn is_busy(&self) -> bool {
         self.wanted.is_some() || matches!(self.activity, Activity::Planning)
     }
+
+    /// True if no frame is given out until something else happens.
+    fn is_awaiting_frames(&self, head_start: usize) -> bool {
+        let least = if self.has_begun { 1 } else { head_start };
+        self.frames.len() < least && self.is_busy()
+    }
 }
 
 /// A bounded queue of planned frames.
 #[derive(Debug)]
 pub(crate) struct FrameQueue {
     capacity: usize,
+    /// The first frame is given out when so many are planned, or no more are for now.
+    head_start: usize,
     shared: Mutex<Shared>,
     /// For the publishing thread.
     news: Condvar,
@@ -91,9 +101,14 @@ pub(crate) struct FrameQueue {
 
 impl FrameQueue {
     /// An empty queue of at most so many frames, at least 1.
-    pub(crate) fn new(capacity: usize) -> Self {
+    ///
+    /// A program often begins with a few frames at rest, which are planned at once, before motion
+    /// that takes longer. A machine that was given those alone would use them up and starve. So
+    /// nothing is given out before there is a `head_start` of frames, or all that can be had.
+    pub(crate) fn new(capacity: usize, head_start: usize) -> Self {
         Self {
             capacity: capacity.max(1),
+            head_start,
             shared: Mutex::new(Shared {
                 frames: VecDeque::new(),
                 given: 0,
@@ -103,6 +118,7 @@ impl FrameQueue {
                 statistics: Statistics::default(),
                 is_awaited: false,
                 room_at: None,
+                has_begun: false,
             }),
             news: Condvar::new(),
             work: Condvar::new(),
@@ -119,6 +135,10 @@ impl FrameQueue {
     /// The next frame, or why there is none.
     pub(crate) fn next(&self) -> Next {
         let mut shared = self.lock();
+        if shared.is_awaiting_frames(self.head_start) {
+            return Next::Busy;
+        }
+        shared.has_begun = true;
         if let Some(frame) = shared.frames.pop_front() {
             shared.given += 1;
             if shared.room_at == Some(shared.frames.len()) {
@@ -126,9 +146,6 @@ impl FrameQueue {
                 self.work.notify_one();
             }
             return Next::Frame(frame);
-        }
-        if shared.is_busy() {
-            return Next::Busy;
         }
         match &mut shared.activity {
             Activity::Planning => Next::Busy,
@@ -143,7 +160,7 @@ impl FrameQueue {
         let mut shared = self.lock();
         shared.is_awaited = true;
         let waited = self.news.wait_timeout_while(shared, most, |shared| {
-            shared.frames.is_empty() && shared.is_busy()
+            shared.is_awaiting_frames(self.head_start)
         });
         let (mut shared, outcome) = waited.unwrap_or_else(PoisonError::into_inner);
         shared.is_awaited = false;
@@ -212,6 +229,10 @@ impl FrameQueue {
                 }
                 // Room for some at once, so that the thread does not rise for every frame.
                 shared.room_at = Some(waiting - waiting.div_ceil(8));
+                if !std::mem::replace(&mut shared.has_begun, true) {
+                    // More of a head start cannot be had.
+                    self.tell(&shared);
+                }
             }
             has_waited = true;
             shared = self

@@ -8,13 +8,14 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use glidepath_gcode::Options;
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_motion::PlanError;
 use glidepath_program::{
-    Effort, Frame, Item, ItemKind, Limits, Override, PathMode, Rate, Settings, Smoothing,
+    Effort, Event, Frame, Item, ItemKind, Limits, Override, PathMode, Rate, Settings, Smoothing,
 };
 use proptest::prelude::*;
 
@@ -30,6 +31,9 @@ fn settings(effort: Effort) -> Settings {
         effort,
     }
 }
+
+/// Frames that wait before the first one is given out.
+const HEAD_START: usize = 112;
 
 /// Another override after so many frames.
 #[derive(Debug, Clone, Copy)]
@@ -112,7 +116,7 @@ fn ahead<S: ItemSource + Send>(
             }
         }
     };
-    let (frames, refusal) = planned_ahead(&mut pipeline, capacity, take).unwrap();
+    let (frames, refusal) = planned_ahead(&mut pipeline, (capacity, HEAD_START), take).unwrap();
     Planned { frames, refusal }
 }
 
@@ -342,4 +346,59 @@ fn an_error_met_ahead_comes_after_the_last_frame_and_only_once() {
         assert!(expected.refusal.is_some());
         assert!(expected == found, "{:?}", found.refusal);
     }
+}
+
+/// An event at rest, and after a while a move.
+struct Thinking(u32, Receiver<()>);
+
+impl ItemSource for Thinking {
+    fn next_item(&mut self) -> Supply {
+        self.0 += 1;
+        let kind = match self.0 {
+            1 => ItemKind::Event(Event::MCode(6)),
+            2 => {
+                let mut end = AxisVector::zeros();
+                end[0] = 60.0;
+                let _ = self.1.recv();
+                ItemKind::Move {
+                    segment: Segment::line(AxisVector::zeros(), end),
+                    rate: Rate::Feed(50.0),
+                    mode: PathMode::Continuous { tolerance_mm: None },
+                }
+            }
+            _ => return Supply::End,
+        };
+        let (block, line) = (0, self.0);
+        Supply::Item(Item { block, line, kind })
+    }
+
+    fn lines_read(&self) -> u64 {
+        0
+    }
+}
+
+#[test]
+fn rests_before_a_motion_that_takes_long_to_plan_are_given_out_with_it() {
+    let (think, thought) = channel();
+    let source = Thinking(0, thought);
+    let mut pipeline = Pipeline::new(source, settings(Effort::Fast), AxisVector::zeros());
+    let take = |queue: &FrameQueue| {
+        while queue.waiting() < 2 {
+            std::thread::yield_now();
+        }
+        // The first frame and that of the event are there, and would be used up.
+        assert!(!queue.wait(Duration::from_millis(20)));
+        assert!(matches!(queue.next(), Next::Busy));
+        think.send(()).unwrap();
+        while matches!(queue.next(), Next::Busy) {
+            queue.wait(Duration::from_millis(50));
+        }
+        let mut frames = 1;
+        while matches!(queue.next(), Next::Frame(_)) {
+            frames += 1;
+        }
+        frames
+    };
+    let given = planned_ahead(&mut pipeline, (2500, HEAD_START), take).unwrap();
+    assert!(given >= HEAD_START, "{given} frames at once");
 }

@@ -6,16 +6,17 @@ use std::thread::{Builder, scope};
 use super::queue::{FrameQueue, Work};
 use crate::{ItemSource, Pipeline, Step};
 
-/// Plans ahead of `work`, which takes the frames from the queue, until that returns.
+/// Plans ahead of `work`, which takes the frames from the queue, until that returns. The queue has
+/// so much `capacity` and gives such a `head_start` ([`FrameQueue::new`]).
 ///
 /// # Errors
 /// The thread cannot be started.
 pub(crate) fn planned_ahead<S: ItemSource + Send, R>(
     pipeline: &mut Pipeline<S>,
-    capacity: usize,
+    (capacity, head_start): (usize, usize),
     work: impl FnOnce(&FrameQueue) -> R,
 ) -> io::Result<R> {
-    let queue = FrameQueue::new(capacity);
+    let queue = FrameQueue::new(capacity, head_start);
     scope(|scope| {
         let _closing = OnDrop(|| queue.close());
         let planning = Builder::new().name("planning".to_owned());
