@@ -7,12 +7,13 @@
 //! program ask more of a joint all the same, it is refused before anything moves.
 
 use crate::config::MachineConfig;
+use crate::plan_steps::PlanSteps;
 use glidepath_gcode::{Diagnostic, DiagnosticCode};
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_kinematics::{
     JointFault, JointWatch, Kinematics as _, KinematicsError, Mechanism, Quantity,
 };
-use glidepath_planner::{FileSource, ItemSource, Pipeline, Refusal, Supply};
+use glidepath_planner::{FileSource, ItemSource, Refusal, Supply};
 use glidepath_program::{Frame, ItemKind};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -150,11 +151,11 @@ pub(crate) fn check_plan(
         return Ok(());
     };
     let settings = config.settings();
-    let source = FileSource::open(path, config.program_options(start), &settings)?;
-    let mut pipeline = Pipeline::new(source, settings, start).with_joints(config.path_caps());
-    while let Some(frame) = pipeline.next_frame()? {
+    let source = || FileSource::open(path, config.program_options(start), &settings);
+    let mut steps = PlanSteps::on_all_cores(source, config, start)?;
+    while let Some(frame) = steps.next_frame()? {
         if frame.sequence.is_multiple_of(FRAMES_PER_NOTICE) {
-            told(pipeline.statistics().lines);
+            told(steps.statistics().lines);
         }
         watch.take(&frame.position).map_err(|fault| {
             let axes = config.axis_names();

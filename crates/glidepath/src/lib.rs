@@ -49,6 +49,7 @@ pub mod jitter;
 mod joints;
 pub mod output;
 pub mod output_file;
+mod plan_steps;
 pub mod play_time;
 pub mod plot;
 pub mod program_file;

@@ -121,6 +121,11 @@ impl FrameGrid {
         self.arrives = true;
     }
 
+    /// Where the machine rests is 0 from now on.
+    pub(crate) const fn count_from_here(&mut self) {
+        self.path_s = 0.0;
+    }
+
     /// Sets up the frames of a rest; false if it has none.
     pub(crate) fn enter_rest(&mut self, rest: Rest) -> bool {
         // Events of the motion that still wait happen first, from its end on.

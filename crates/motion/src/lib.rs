@@ -24,8 +24,9 @@
 //!
 //! Beside them stands what both use: `intake` (the checks of items), `programmed_rate` and
 //! `feed_axes`, `rest`, `grid` (the frames of one period each), [`scurve`]; and above them
-//! `planner`, which chooses the wing, with `guard`, the last look at a frame. `on_path` knows
-//! nothing of `in_tube`.
+//! `planner`, with `guard`, the last look at a frame; `wing` says which of the two plans. `on_path`
+//! knows nothing of `in_tube`. [`parts`] plans a program in parts that begin and end at rest, for
+//! whoever has several cores.
 //!
 //! Two moves planned, and their frames counted:
 //!
@@ -86,11 +87,13 @@ mod guard;
 mod in_tube;
 mod intake;
 mod on_path;
+pub mod parts;
 mod planner;
 pub mod preview;
 mod programmed_rate;
 mod rest;
 pub mod scurve;
+mod wing;
 
 pub use error::PlanError;
 pub use planner::Planner;

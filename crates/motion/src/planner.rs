@@ -4,8 +4,9 @@ use super::guard::Guard;
 use super::in_tube::InTubeEngine;
 use super::on_path::OnPathEngine;
 use crate::PlanError;
+use crate::wing::Wing;
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Effort, Frame, Item, Override, Settings, Smoothing};
+use glidepath_program::{Frame, Item, Override, Settings};
 
 /// Plans a program as it comes, in memory that does not grow with its length.
 ///
@@ -33,11 +34,9 @@ enum Engine {
 
 impl Engine {
     fn new(settings: Settings, start: AxisVector) -> Self {
-        match (settings.effort, settings.smoothing) {
-            (Effort::Optimal, Smoothing::Auto) if settings.limits.path.is_none() => {
-                Self::InTube(Box::new(InTubeEngine::new(settings, start)))
-            }
-            _ => Self::OnPath(Box::new(OnPathEngine::new(settings, start))),
+        match Wing::of(&settings) {
+            Wing::InTube => Self::InTube(Box::new(InTubeEngine::new(settings, start))),
+            Wing::OnPath => Self::OnPath(Box::new(OnPathEngine::new(settings, start))),
         }
     }
 }

@@ -16,6 +16,7 @@
 //!   [`PipeSource`] a pipe, [`ProgramSource`] any text, [`CurveSource`] and [`NurbsSource`] curve files.
 //! * [`Pipeline`] turns a source into frames, one after the other; [`PathCaps`] keep the joints of
 //!   a mechanism inside their limits on the way.
+//! * [`ParallelPipeline`] does the same ahead of time, on all cores.
 //! * [`Publisher`] hands frames on, no further ahead of the machine than its [`Pace`] says. They are
 //!   planned further ahead than that, in a thread of their own.
 //! * [`listen()`] and [`feed()`] are the two ends of a stream of segments from another process.
@@ -75,6 +76,7 @@ mod joint_speed;
 mod listen;
 mod machine;
 mod nurbs;
+mod parallel;
 mod pipeline;
 mod planning;
 mod program;
@@ -94,6 +96,7 @@ pub use feed::{Fed, FeedError, feed};
 pub use file::{FileSource, check_file, find_in_file};
 pub use listen::{CLIENT_SILENCE, Listening, listen};
 pub use nurbs::NurbsSource;
+pub use parallel::ParallelPipeline;
 pub use pipeline::{Output, Pipeline, Statistics, Step};
 pub use program::{PipeSource, ProgramSource};
 pub use publish::Publisher;

@@ -4,7 +4,6 @@ use super::check;
 use super::plan::{Pass, title};
 use crate::bench::{BenchReport, BenchRow, Catalogue, Entry};
 use crate::cli::BenchArgs;
-use crate::clock;
 use crate::command::failure::Failure;
 use crate::config::{self, MachineConfig};
 use crate::exit::Exit;
@@ -54,7 +53,7 @@ fn row(
     let path = args.folder.join(&entry.file);
     check::accepted(&ProgramFile::named(&path), config, true)?;
     let mut recording = Recording::create(config, None, None, &Guard::default())?;
-    let mut pass = Pass::start(&path, config, clock::processor)?;
+    let mut pass = Pass::on_one_core(&path, config)?;
     while pass.turn(&mut recording)? {
         if interrupt.is_set() {
             return Err(Failure::Interrupted);

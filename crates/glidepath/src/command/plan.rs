@@ -10,6 +10,7 @@ use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::joints::PlanWatch;
 use crate::output;
+use crate::plan_steps::PlanSteps;
 use crate::progress::Progress;
 use crate::recording::Recording;
 use crate::report::{DiagnosisReport, MotionReport, Planning, peak_rss_bytes};
@@ -17,7 +18,7 @@ use crate::sample::Sample;
 use glidepath_audit::diagnosis::Diagnosis;
 use glidepath_audit::{Audit, AuditSettings};
 use glidepath_kinematics::{Kinematics as _, Mechanism};
-use glidepath_planner::{FileSource, Pipeline, Refusal, Step};
+use glidepath_planner::{FileSource, Refusal, Step};
 use glidepath_program::{Frame, Item};
 use std::path::Path;
 use std::time::Duration;
@@ -37,9 +38,9 @@ pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Fail
     let mut recording = Recording::create(config, csv, plot, &guard)?;
     let progress = Progress::lines(lines.into(), args.basic.json);
     progress.doing("planning");
-    let mut pass = Pass::start(args.file.path(), config, clock::elapsed)?;
+    let mut pass = Pass::on_all_cores(args.file.path(), config)?;
     while pass.turn(&mut recording)? {
-        progress.at(pass.pipeline.statistics().lines);
+        progress.at(pass.steps.statistics().lines);
         if interrupt.is_set() {
             return Err(Failure::Interrupted);
         }
@@ -71,11 +72,12 @@ pub(super) fn title(path: &Path) -> String {
 /// One pass of the planner over a program.
 pub(super) struct Pass {
     program: String,
-    pipeline: Pipeline<FileSource>,
+    steps: PlanSteps,
     clock: fn() -> Duration,
+    /// Time that the plan was waited for.
     planning: Duration,
     /// The steps of the last turn, and what they took and made.
-    steps: Vec<Step>,
+    turn: Vec<Step>,
     items: Vec<Item>,
     frames: Vec<Frame>,
     audit: Audit,
@@ -86,31 +88,33 @@ pub(super) struct Pass {
 }
 
 impl Pass {
-    /// A pass whose planning is timed by a clock: time since any fixed instant.
-    pub(super) fn start(
-        path: &Path,
-        config: &MachineConfig,
-        clock: fn() -> Duration,
-    ) -> Result<Self, Failure> {
-        let home = config.home();
+    /// A pass that plans on all cores; what the plan was waited for is told as wall time.
+    pub(super) fn on_all_cores(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
+        let steps = PlanSteps::on_all_cores(|| source(path, config), config, config.home());
+        let steps = steps.map_err(|refusal| cannot_read(path, refusal))?;
+        Ok(Self::new(path, config, steps, clock::elapsed))
+    }
+
+    /// A pass that plans in the calling thread, and tells its processor time.
+    pub(super) fn on_one_core(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
+        let source = source(path, config).map_err(|refusal| cannot_read(path, refusal))?;
+        let steps = PlanSteps::on_one_core(source, config, config.home());
+        Ok(Self::new(path, config, steps, clock::processor))
+    }
+
+    fn new(path: &Path, config: &MachineConfig, steps: PlanSteps, clock: fn() -> Duration) -> Self {
         let settings = config.settings();
-        let source = FileSource::unchecked(path, config.program_options(home), &settings).map_err(
-            |refusal| match refusal {
-                Refusal::Read(error) => Failure::File(FileError::open(path)(error)),
-                refusal => Failure::Refused(refusal),
-            },
-        )?;
         let judged = AuditSettings {
             limits: settings.limits,
             period_t: settings.period_t,
             tolerance_mm: settings.tolerance_mm,
         };
-        Ok(Self {
+        Self {
             program: path.display().to_string(),
-            pipeline: Pipeline::new(source, settings, home).with_joints(config.path_caps()),
+            steps,
             clock,
             planning: Duration::ZERO,
-            steps: Vec::with_capacity(STEPS_PER_TURN),
+            turn: Vec::with_capacity(STEPS_PER_TURN),
             items: Vec::with_capacity(STEPS_PER_TURN),
             frames: Vec::with_capacity(STEPS_PER_TURN),
             audit: Audit::new(&judged),
@@ -118,7 +122,7 @@ impl Pass {
             joints: PlanWatch::new(path, config),
             mechanism: config.mechanism,
             period_t: settings.period_t,
-        })
+        }
     }
 
     /// Takes some steps; false at the end.
@@ -127,7 +131,7 @@ impl Pass {
         let goes_on = self.plan_some();
         self.planning += (self.clock)().saturating_sub(before);
         let (mut items, mut frames) = (self.items.iter(), self.frames.iter());
-        for step in &self.steps {
+        for step in &self.turn {
             if *step == Step::Item
                 && let Some(item) = items.next()
             {
@@ -155,28 +159,28 @@ impl Pass {
 
     /// The next items and frames; false at the end.
     fn plan_some(&mut self) -> Result<bool, Refusal> {
-        self.steps.clear();
+        self.turn.clear();
         self.items.clear();
         self.frames.clear();
         for _ in 0..STEPS_PER_TURN {
-            let step = self.pipeline.step()?;
+            let step = self.steps.step()?;
             match step {
-                Step::Item => self.items.push(*self.pipeline.item()),
+                Step::Item => self.items.push(*self.steps.item()),
                 // Not `push`, which copies twice.
                 Step::Frame => self
                     .frames
-                    .extend_from_slice(core::slice::from_ref(self.pipeline.frame())),
+                    .extend_from_slice(core::slice::from_ref(self.steps.frame())),
                 // A file is never without its next item.
                 Step::Pending => continue,
                 Step::End => return Ok(false),
             }
-            self.steps.push(step);
+            self.turn.push(step);
         }
         Ok(true)
     }
 
     pub(super) fn report(self, config: &MachineConfig) -> MotionReport {
-        let statistics = self.pipeline.statistics();
+        let statistics = self.steps.statistics();
         let planning = Planning {
             lines: statistics.lines,
             segments: statistics.segments,
@@ -187,5 +191,18 @@ impl Pass {
         report.max_joint_line_error = self.joints.map(|joints| joints.line_error());
         report.diagnosis = Some(DiagnosisReport::new(&self.diagnosis.finish(), config));
         report
+    }
+}
+
+/// The items of a file that was checked.
+fn source(path: &Path, config: &MachineConfig) -> Result<FileSource, Refusal> {
+    let options = config.program_options(config.home());
+    FileSource::unchecked(path, options, &config.settings())
+}
+
+fn cannot_read(path: &Path, refusal: Refusal) -> Failure {
+    match refusal {
+        Refusal::Read(error) => Failure::File(FileError::open(path)(error)),
+        refusal => Failure::Refused(refusal),
     }
 }

@@ -22,7 +22,7 @@ pub struct Planning {
     pub lines: u64,
     /// Segments planned.
     pub segments: u64,
-    /// Wall time, s.
+    /// Wall time for which it was waited for, s.
     pub plan_wall_s: f64,
     /// Largest resident set of the process, bytes.
     pub peak_rss_bytes: Option<u64>,
@@ -72,7 +72,7 @@ pub struct MotionReport {
     pub smoothness_finding_count: u64,
     /// The first of them.
     pub smoothness_findings: Vec<String>,
-    /// Wall time of planning alone, s.
+    /// Wall time for which planning was waited for, s.
     pub plan_wall_s: f64,
     /// Segments planned in a second of wall time.
     pub segments_per_s: f64,

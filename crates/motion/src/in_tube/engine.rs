@@ -1,5 +1,7 @@
 //! The engine: what moves the machine at present, and what comes next.
 
+mod origin;
+
 use super::flattening::{Flattener, Product};
 use super::ledger::{Ledger, LedgerEntry};
 use super::path::Reference;

@@ -1,5 +1,7 @@
 //! The engine: the path front, look-ahead, refiner and sampler one behind the other.
 
+mod halves;
+
 use super::front::PathFront;
 use super::look_ahead::{Scheduler, Settled};
 use super::pieces::Element;

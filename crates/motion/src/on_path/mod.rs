@@ -37,3 +37,4 @@ mod spline_tube;
 mod topp;
 
 pub(crate) use engine::OnPathEngine;
+pub(crate) use look_ahead::Settled;

@@ -1,0 +1,125 @@
+//! Joins the plans of parts.
+
+use super::part_step::{PartStep, StepKind};
+use crate::PlanError;
+use crate::guard::Guard;
+use crate::on_path::OnPathEngine;
+use crate::wing::Wing;
+use glidepath_geometry::AxisVector;
+use glidepath_program::{Frame, Settings};
+use std::collections::VecDeque;
+
+/// Makes the frames of a program of the plans of its parts.
+#[derive(Debug)]
+pub struct Joiner {
+    joint: Joint,
+    guard: Guard,
+    /// The frame made last.
+    frame: Frame,
+    /// Why there are no more frames.
+    failed: Option<PlanError>,
+}
+
+#[derive(Debug)]
+enum Joint {
+    /// The motion of all parts is sampled by one engine, which settles none itself.
+    OnPath(Box<OnPathEngine>),
+    /// The frames are numbered, and their path positions counted, from part to part.
+    InTube {
+        waiting: VecDeque<StepKind>,
+        sequence: u64,
+        origin_s: f64,
+    },
+}
+
+impl Joiner {
+    /// For a machine at rest at `start`.
+    #[must_use]
+    pub fn new(settings: Settings, start: AxisVector) -> Self {
+        Self {
+            joint: match Wing::of(&settings) {
+                Wing::OnPath => Joint::OnPath(Box::new(OnPathEngine::new(settings, start))),
+                Wing::InTube => Joint::InTube {
+                    waiting: VecDeque::new(),
+                    sequence: 0,
+                    origin_s: 0.0,
+                },
+            },
+            guard: Guard::new(&settings),
+            frame: Frame::blank(start),
+            failed: None,
+        }
+    }
+
+    /// Takes the next step of the plan of the part at hand, all of that of the part before taken.
+    pub fn add(&mut self, step: PartStep) {
+        match (&mut self.joint, step.0) {
+            (Joint::OnPath(engine), StepKind::Motion(settled)) => engine.add_settled(settled),
+            (Joint::InTube { waiting, .. }, step) => waiting.push_back(step),
+            (Joint::OnPath(_), StepKind::Failed(error)) => self.failed = Some(error),
+            (Joint::OnPath(_), StepKind::Frame(_) | StepKind::Origin(_)) => {}
+        }
+    }
+
+    /// Makes the next frame, [`Joiner::frame`], of the steps taken; false if there is none.
+    ///
+    /// # Errors
+    /// As [`crate::Planner::make_frame`].
+    pub fn make_frame(&mut self) -> Result<bool, PlanError> {
+        if let Some(error) = self.failed {
+            return Err(error);
+        }
+        let made = match &mut self.joint {
+            Joint::OnPath(engine) => engine.make_frame(&mut self.frame),
+            Joint::InTube {
+                waiting,
+                sequence,
+                origin_s,
+            } => next_frame(waiting, sequence, origin_s, &mut self.frame),
+        };
+        let made = made.and_then(|is_made| {
+            if is_made {
+                self.guard.check(&self.frame)?;
+            }
+            Ok(is_made)
+        });
+        self.failed = made.err();
+        made
+    }
+
+    /// [`Joiner::frame`], for who completes it.
+    pub const fn frame_mut(&mut self) -> &mut Frame {
+        &mut self.frame
+    }
+
+    /// The frame that was made last; before the first one at rest at the start.
+    #[must_use]
+    pub const fn frame(&self) -> &Frame {
+        &self.frame
+    }
+}
+
+fn next_frame(
+    waiting: &mut VecDeque<StepKind>,
+    sequence: &mut u64,
+    origin_s: &mut f64,
+    made: &mut Frame,
+) -> Result<bool, PlanError> {
+    while let Some(step) = waiting.pop_front() {
+        match step {
+            StepKind::Frame(frame) => {
+                *made = Frame {
+                    sequence: *sequence,
+                    path_s: *origin_s + frame.path_s,
+                    ..frame
+                };
+                *sequence += 1;
+                return Ok(true);
+            }
+            StepKind::Origin(further_s) => *origin_s += further_s,
+            StepKind::Failed(error) => return Err(error),
+            StepKind::Motion(_) => {}
+        }
+    }
+    Ok(false)
+}

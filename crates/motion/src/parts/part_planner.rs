@@ -1,0 +1,119 @@
+//! Plans one part.
+
+use super::part_step::{PartStep, StepKind};
+use crate::PlanError;
+use crate::in_tube::InTubeEngine;
+use crate::on_path::OnPathEngine;
+use crate::wing::Wing;
+use glidepath_geometry::AxisVector;
+use glidepath_program::{FrameFlags, Item, Settings};
+
+/// Plans a part of a program from where it begins.
+#[derive(Debug)]
+pub struct PartPlanner {
+    engine: PartEngine,
+    /// The part is the program's first: the frame it begins at is told.
+    is_first: bool,
+    /// To be told after the frame told last.
+    origin_s: Option<f64>,
+    failure: Failure,
+}
+
+/// Whether planning failed inside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Failure {
+    None,
+    /// To be told.
+    New(PlanError),
+    Told,
+}
+
+#[derive(Debug)]
+enum PartEngine {
+    OnPath(Box<OnPathEngine>),
+    InTube(Box<InTubeEngine>),
+}
+
+impl PartPlanner {
+    /// A planner for a part that begins at `start` (mm, degrees); `is_first`: with the program.
+    #[must_use]
+    pub fn new(settings: Settings, start: AxisVector, is_first: bool) -> Self {
+        Self {
+            engine: match Wing::of(&settings) {
+                Wing::OnPath => PartEngine::OnPath(Box::new(OnPathEngine::new(settings, start))),
+                Wing::InTube => PartEngine::InTube(Box::new(InTubeEngine::new(settings, start))),
+            },
+            is_first,
+            origin_s: None,
+            failure: Failure::None,
+        }
+    }
+
+    /// Takes the next item of the part, which a [`crate::parts::Cutter`] has accepted. Before it,
+    /// [`PartPlanner::step`] must have had no more to give.
+    pub fn push(&mut self, item: &Item) {
+        let pushed = match &mut self.engine {
+            PartEngine::OnPath(engine) => engine.push(item),
+            PartEngine::InTube(engine) => engine.push(item),
+        };
+        if let Err(error) = pushed {
+            self.fail(error);
+        }
+    }
+
+    fn fail(&mut self, error: PlanError) {
+        if self.failure == Failure::None {
+            self.failure = Failure::New(error);
+        }
+    }
+
+    /// The program ends with this part, and no more items come. Other parts just end.
+    pub fn finish(&mut self) {
+        match &mut self.engine {
+            PartEngine::OnPath(engine) => engine.finish(),
+            PartEngine::InTube(engine) => engine.finish(),
+        }
+    }
+
+    /// The next step of the plan, if the motion is settled that far. After a failure, no more.
+    pub fn step(&mut self) -> Option<PartStep> {
+        if let Some(origin_s) = self.origin_s.take() {
+            return Some(PartStep(StepKind::Origin(origin_s)));
+        }
+        match self.failure {
+            Failure::None => self.next_step(),
+            Failure::New(error) => {
+                self.failure = Failure::Told;
+                Some(PartStep(StepKind::Failed(error)))
+            }
+            Failure::Told => None,
+        }
+    }
+
+    fn next_step(&mut self) -> Option<PartStep> {
+        let engine = match &mut self.engine {
+            PartEngine::OnPath(engine) => {
+                let settled = engine.take_settled();
+                return (!settled.is_empty()).then_some(PartStep(StepKind::Motion(settled)));
+            }
+            PartEngine::InTube(engine) => engine,
+        };
+        loop {
+            let made = engine.pop_frame();
+            let origin_s = engine.take_origin();
+            match made {
+                // The part before has told it.
+                Ok(Some(frame)) if !self.is_first && frame.flags.contains(FrameFlags::FIRST) => {}
+                Ok(Some(frame)) => {
+                    self.origin_s = origin_s;
+                    return Some(PartStep(StepKind::Frame(frame)));
+                }
+                Ok(None) => return origin_s.map(|s| PartStep(StepKind::Origin(s))),
+                Err(error) => {
+                    self.failure = Failure::Told;
+                    return Some(PartStep(StepKind::Failed(error)));
+                }
+            }
+        }
+    }
+}

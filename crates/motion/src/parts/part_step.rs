@@ -1,0 +1,37 @@
+//! What planning a part gives, in order.
+
+use crate::PlanError;
+use crate::on_path::Settled;
+use glidepath_program::Frame;
+use std::collections::VecDeque;
+
+/// A step of the plan of a part, for [`crate::parts::Joiner`].
+#[derive(Debug)]
+pub struct PartStep(pub(crate) StepKind);
+
+#[allow(
+    clippy::large_enum_variant,
+    reason = "where frames are made, nearly every step is one"
+)]
+#[derive(Debug)]
+pub(crate) enum StepKind {
+    /// Motion that is to be sampled.
+    Motion(VecDeque<Settled>),
+    /// A frame. Its number means nothing, its path position is counted from the origin.
+    Frame(Frame),
+    /// Path position is counted from so much further on.
+    Origin(f64),
+    /// Planning failed inside.
+    Failed(PlanError),
+}
+
+impl PartStep {
+    /// About how much memory it takes, in frames.
+    #[must_use]
+    pub fn weight(&self) -> usize {
+        match &self.0 {
+            StepKind::Motion(settled) => settled.iter().map(Settled::weight).sum(),
+            StepKind::Frame(_) | StepKind::Origin(_) | StepKind::Failed(_) => 1,
+        }
+    }
+}

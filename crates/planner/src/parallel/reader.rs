@@ -1,0 +1,152 @@
+//! The thread that reads a program and cuts it into parts.
+
+use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
+
+use glidepath_geometry::AxisVector;
+use glidepath_motion::parts::{Cutter, Placed};
+use glidepath_program::{Item, Settings};
+
+use super::message::{Batch, Gone, Part, Planned};
+use crate::blocks::Blocks;
+use crate::joint_speed::JointSpeed;
+use crate::{ItemSource, Refusal, Supply};
+
+/// Items that are handed over together, and so many times as many wait for a worker.
+const BATCH: usize = 64;
+const BATCHES: usize = 2;
+
+/// What came of reading.
+#[derive(Debug, Default)]
+pub(super) struct ReadEnd {
+    /// Why the program ended early.
+    pub(super) refusal: Option<Refusal>,
+    /// Lines of text read.
+    pub(super) lines: u64,
+}
+
+/// Where parts go.
+#[derive(Debug)]
+pub(super) struct Outlets {
+    /// To whoever has time.
+    pub(super) workers: SyncSender<Part>,
+    /// To the caller, in order.
+    pub(super) plans: SyncSender<Receiver<Planned>>,
+}
+
+/// Items on their way to the workers.
+struct Handing {
+    outlets: Outlets,
+    /// Parts begun.
+    parts: u64,
+    /// The part at hand.
+    open: SyncSender<Batch>,
+    batch: Vec<Item>,
+}
+
+impl Handing {
+    fn new(outlets: Outlets, start: AxisVector) -> Result<Self, Gone> {
+        let open = begin(&outlets, 0, start)?;
+        Ok(Self {
+            outlets,
+            parts: 1,
+            open,
+            batch: Vec::with_capacity(BATCH),
+        })
+    }
+
+    fn put(&mut self, placed: Placed, lines: u64) -> Result<(), Gone> {
+        if let Some(start) = placed.begins {
+            self.end(false, lines)?;
+            self.open = begin(&self.outlets, self.parts, start)?;
+            self.parts += 1;
+        }
+        self.batch.push(placed.item);
+        if self.batch.len() >= BATCH {
+            self.hand_over(lines)?;
+        }
+        Ok(())
+    }
+
+    fn hand_over(&mut self, lines: u64) -> Result<(), Gone> {
+        let items = std::mem::replace(&mut self.batch, Vec::with_capacity(BATCH));
+        self.send(Batch::Items { items, lines })
+    }
+
+    /// Ends the part at hand.
+    fn end(&mut self, is_last: bool, lines: u64) -> Result<(), Gone> {
+        self.hand_over(lines)?;
+        self.send(Batch::End { is_last })
+    }
+
+    fn send(&self, batch: Batch) -> Result<(), Gone> {
+        self.open.send(batch).map_err(|_| Gone)
+    }
+}
+
+/// Begins a part: whoever takes it gets its items by what is returned.
+fn begin(outlets: &Outlets, number: u64, start: AxisVector) -> Result<SyncSender<Batch>, Gone> {
+    let (open, items) = sync_channel(BATCHES);
+    let (plan, planned) = channel();
+    let part = Part {
+        number,
+        start,
+        items,
+        plan,
+    };
+    outlets.plans.send(planned).map_err(|_| Gone)?;
+    outlets.workers.send(part).map_err(|_| Gone)?;
+    Ok(open)
+}
+
+/// Reads a source to its end; `None` if nobody wants the plan any more.
+pub(super) fn read<S: ItemSource>(
+    source: S,
+    settings: &Settings,
+    start: AxisVector,
+    joints: Option<JointSpeed>,
+    outlets: Outlets,
+) -> Option<ReadEnd> {
+    hand_all(source, settings, start, joints, outlets).ok()
+}
+
+fn hand_all<S: ItemSource>(
+    mut source: S,
+    settings: &Settings,
+    start: AxisVector,
+    mut joints: Option<JointSpeed>,
+    outlets: Outlets,
+) -> Result<ReadEnd, Gone> {
+    let mut handing = Handing::new(outlets, start)?;
+    let (mut cutter, mut blocks) = (Cutter::new(settings, start), Blocks::whole());
+    let mut placed = Vec::new();
+    let refusal = loop {
+        let mut item = match source.next_item() {
+            Supply::Item(item) => item,
+            Supply::Pending => {
+                std::thread::yield_now();
+                continue;
+            }
+            Supply::End => break None,
+            Supply::Refused(refusal) => break Some(refusal),
+        };
+        if let Some(joints) = &mut joints {
+            item = joints.keep(item);
+        }
+        blocks.number(&mut item);
+        if let Err(error) = cutter.take(item, &mut placed) {
+            source.unplannable(&error);
+            break Some(error.into());
+        }
+        let lines = source.lines_read();
+        for placed in placed.drain(..) {
+            handing.put(placed, lines)?;
+        }
+    };
+    cutter.finish(&mut placed);
+    let lines = source.lines_read();
+    for placed in placed {
+        handing.put(placed, lines)?;
+    }
+    handing.end(true, lines)?;
+    Ok(ReadEnd { refusal, lines })
+}

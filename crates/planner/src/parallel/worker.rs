@@ -1,0 +1,111 @@
+//! A thread that plans parts, one after the other.
+
+use std::sync::mpsc::{Receiver, Sender};
+use std::sync::{Mutex, PoisonError};
+
+use glidepath_motion::parts::PartPlanner;
+use glidepath_program::Settings;
+
+use super::allowance::Allowance;
+use super::message::{Batch, Gone, Part, PlanStep, Planned};
+
+/// Frames, or what weighs as much, that are handed over together.
+const CHUNK: usize = 256;
+
+/// Plans parts as they come, until there are no more or nobody wants them.
+pub(super) fn work(parts: &Mutex<Receiver<Part>>, settings: Settings, allowance: &Allowance) {
+    loop {
+        let part = parts.lock().unwrap_or_else(PoisonError::into_inner).recv();
+        let Ok(part) = part else { return };
+        if plan(part, settings, allowance).is_err() {
+            return;
+        }
+    }
+}
+
+/// The plan of a part on its way to the caller.
+struct Outlet<'a> {
+    part: u64,
+    plan: Sender<Planned>,
+    allowance: &'a Allowance,
+    steps: Vec<PlanStep>,
+    weight: usize,
+    lines: u64,
+}
+
+impl Outlet<'_> {
+    fn put(&mut self, step: PlanStep) -> Result<(), Gone> {
+        self.weight += match &step {
+            PlanStep::Item(_) => 1,
+            PlanStep::Motion(motion) => motion.weight(),
+        };
+        self.steps.push(step);
+        if self.weight >= CHUNK {
+            self.hand_over()?;
+        }
+        Ok(())
+    }
+
+    fn hand_over(&mut self) -> Result<(), Gone> {
+        if self.steps.is_empty() {
+            return Ok(());
+        }
+        let weight = std::mem::take(&mut self.weight);
+        if !self.allowance.add(self.part, weight) {
+            return Err(Gone);
+        }
+        let steps = std::mem::replace(&mut self.steps, Vec::with_capacity(CHUNK));
+        let lines = self.lines;
+        self.send(Planned::Steps {
+            steps,
+            weight,
+            lines,
+        })
+    }
+
+    fn send(&self, planned: Planned) -> Result<(), Gone> {
+        self.plan.send(planned).map_err(|_| Gone)
+    }
+}
+
+fn plan(part: Part, settings: Settings, allowance: &Allowance) -> Result<(), Gone> {
+    let mut planner = PartPlanner::new(settings, part.start, part.number == 0);
+    let mut outlet = Outlet {
+        part: part.number,
+        plan: part.plan,
+        allowance,
+        steps: Vec::with_capacity(CHUNK),
+        weight: 0,
+        lines: 0,
+    };
+    put_motion(&mut planner, &mut outlet)?;
+    loop {
+        match part.items.recv() {
+            Ok(Batch::Items { items, lines }) => {
+                outlet.lines = lines;
+                for item in items {
+                    planner.push(&item);
+                    outlet.put(PlanStep::Item(item))?;
+                    put_motion(&mut planner, &mut outlet)?;
+                }
+            }
+            Ok(Batch::End { is_last }) => {
+                if is_last {
+                    planner.finish();
+                    put_motion(&mut planner, &mut outlet)?;
+                }
+                outlet.hand_over()?;
+                return outlet.send(Planned::End);
+            }
+            Err(_) => return Err(Gone),
+        }
+    }
+}
+
+/// Hands on all that the planner has to give at present.
+fn put_motion(planner: &mut PartPlanner, outlet: &mut Outlet<'_>) -> Result<(), Gone> {
+    while let Some(step) = planner.step() {
+        outlet.put(PlanStep::Motion(step))?;
+    }
+    Ok(())
+}
