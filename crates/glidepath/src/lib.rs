@@ -47,6 +47,7 @@ pub mod file_error;
 pub mod interrupt;
 pub mod jitter;
 mod joints;
+mod kept;
 pub mod output;
 pub mod output_file;
 mod plan_steps;

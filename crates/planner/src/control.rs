@@ -49,6 +49,8 @@ pub struct Progress {
     pub published_t: f64,
     /// Source line being executed, 0 before the first.
     pub line: u32,
+    /// Number of the item being executed, 0 before the first.
+    pub block: u32,
 }
 
 /// The caller's side of a run.

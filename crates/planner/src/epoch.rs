@@ -137,11 +137,12 @@ impl Epoch {
         }
     }
 
-    /// What to tell of it. `line` is the source line being executed.
+    /// What to tell of it. `line` is the source line being executed, `block` the number of the item,
+    /// if the machine is on this epoch.
     pub(crate) const fn progress(
         &self,
         planned: Statistics,
-        line: u32,
+        (line, block): (u32, u32),
         period_ns: u64,
     ) -> Progress {
         // The first frame is the state at time 0: n frames are n - 1 periods of motion.
@@ -154,6 +155,7 @@ impl Epoch {
             executed: self.executed(),
             published_t,
             line,
+            block: if self.is_known() { block } else { 0 },
         }
     }
 

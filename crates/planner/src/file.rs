@@ -8,7 +8,7 @@ use glidepath_gcode::{Diagnostics, Options, Report, check, diagnostics};
 use glidepath_program::Settings;
 
 use crate::unchanged_file::UnchangedFile;
-use crate::{CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Supply};
+use crate::{ChangeLog, CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Supply};
 
 /// Bytes read from a file at a time.
 const BUFFER: usize = 64 * 1024;
@@ -60,6 +60,16 @@ impl FileSource {
             return Err(Refusal::Unchecked { line });
         }
         Self::unchecked(path, options, settings)
+    }
+
+    /// The same source, which notes what a program changes of how the machine is set up.
+    #[must_use]
+    pub fn noting(self, log: ChangeLog) -> Self {
+        match self {
+            Self::Program(source) => Self::Program(Box::new(source.noting(log))),
+            // Curves change nothing.
+            curve @ (Self::Curve(_) | Self::Nurbs(_)) => curve,
+        }
     }
 
     fn curve(path: &Path, options: Options, settings: &Settings) -> Result<Self, Refusal> {

@@ -63,6 +63,7 @@
 
 mod ahead;
 mod blocks;
+mod changes;
 mod control;
 mod curve;
 mod epoch;
@@ -88,6 +89,7 @@ mod source;
 mod stream;
 mod unchanged_file;
 
+pub use changes::{ChangeLog, SetUp};
 pub use control::{Control, Notice, Progress};
 pub use curve::CurveSource;
 pub use epoch::Pace;

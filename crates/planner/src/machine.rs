@@ -162,6 +162,11 @@ impl Machine {
         idle.then(|| AxisVector::from(status.position))
     }
 
+    /// Number of the item being executed, 0 if unknown.
+    pub(crate) fn block(&self) -> u32 {
+        self.status().map_or(0, |status| status.block)
+    }
+
     /// Source line being executed, 0 if unknown.
     pub(crate) fn line(&self) -> u32 {
         self.status().map_or(0, |status| status.line)

@@ -8,10 +8,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 
 use glidepath_gcode::{Options, Program, Subroutines, diagnostics};
+use glidepath_program::{Event, ItemKind};
 
 use crate::fingerprint::Fingerprinting;
 use crate::unchanged_file::UnchangedFile;
-use crate::{ItemSource, Refusal, Supply};
+use crate::{ChangeLog, ItemSource, Refusal, SetUp, Supply};
 
 /// Bytes read from a file or pipe at a time.
 const BUFFER: usize = 64 * 1024;
@@ -24,6 +25,10 @@ const READ_AHEAD: usize = 1024;
 pub struct ProgramSource<R> {
     program: Program<R>,
     fingerprint: u64,
+    /// Items handed over.
+    given: u32,
+    /// Where changes of how the machine is set up are noted, and how many of them were.
+    log: Option<(ChangeLog, u64)>,
 }
 
 impl<R: BufRead> ProgramSource<R> {
@@ -33,6 +38,43 @@ impl<R: BufRead> ProgramSource<R> {
         Self {
             program: Program::new(reader, options),
             fingerprint: 0,
+            given: 0,
+            log: None,
+        }
+    }
+
+    /// The same source, which notes what the program changes of how the machine is set up.
+    #[must_use]
+    pub fn noting(self, log: ChangeLog) -> Self {
+        Self {
+            log: Some((log, 0)),
+            ..self
+        }
+    }
+
+    /// Notes what was changed in front of the item that is about to be handed over.
+    fn note_changes(&mut self) {
+        let set_up = Self::set_up;
+        if let Some((log, noted)) = &mut self.log
+            && *noted != self.program.changes()
+        {
+            *noted = self.program.changes();
+            log.note(self.given, set_up(&self.program));
+        }
+    }
+
+    /// Notes that the item handed over last puts another tool into the spindle.
+    fn note_tool(&self) {
+        if let Some((log, _)) = &self.log {
+            log.note(self.given, Self::set_up(&self.program));
+        }
+    }
+
+    fn set_up(program: &Program<R>) -> SetUp {
+        SetUp {
+            offsets: program.work_offsets(),
+            tools: program.tools().cloned(),
+            tool: program.tool(),
         }
     }
 }
@@ -79,8 +121,16 @@ impl ProgramSource<BufReader<UnchangedFile>> {
 
 impl<R: BufRead> ItemSource for ProgramSource<R> {
     fn next_item(&mut self) -> Supply {
-        match self.program.next() {
-            Some(Ok(item)) => Supply::Item(item),
+        let next = self.program.next();
+        self.note_changes();
+        match next {
+            Some(Ok(item)) => {
+                self.given = self.given.saturating_add(1);
+                if matches!(item.kind, ItemKind::Event(Event::MCode(6 | 61))) {
+                    self.note_tool();
+                }
+                Supply::Item(item)
+            }
             Some(Err(diagnostic)) => Supply::Refused(Refusal::Program {
                 diagnostics: vec![diagnostic],
                 unlisted: 0,
@@ -108,11 +158,16 @@ pub struct PipeSource {
 
 impl PipeSource {
     /// Starts to read. The thread ends with the input, or when the source is dropped and the input
-    /// gives another item.
+    /// gives another item. What the program changes of how the machine is set up is noted in the
+    /// log, if there is one.
     ///
     /// # Errors
     /// The thread cannot be started.
-    pub fn spawn<R: Read + Send + 'static>(input: R, options: Options) -> Result<Self, Refusal> {
+    pub fn spawn<R: Read + Send + 'static>(
+        input: R,
+        options: Options,
+        log: Option<ChangeLog>,
+    ) -> Result<Self, Refusal> {
         let (sender, pieces) = sync_channel(READ_AHEAD);
         let lines = Arc::new(AtomicU64::new(0));
         let counter = Arc::clone(&lines);
@@ -120,6 +175,10 @@ impl PipeSource {
             .name("program reader".to_owned())
             .spawn(move || {
                 let source = ProgramSource::new(BufReader::with_capacity(BUFFER, input), options);
+                let source = match log {
+                    Some(log) => source.noting(log),
+                    None => source,
+                };
                 read_all(source, &sender, &counter);
             })?;
         Ok(Self { pieces, lines })

@@ -30,6 +30,7 @@
 
 use std::time::Duration;
 
+use glidepath_geometry::AxisVector;
 use glidepath_link::{Command, Delivery, FrameSink, LinkError, SetpointFrame, Transport};
 use glidepath_program::Override;
 
@@ -102,6 +103,13 @@ impl<'t> Publisher<'t> {
             pace,
             idle_t: Duration::ZERO,
         })
+    }
+
+    /// Where the machine was last said to be, mm and degrees.
+    #[must_use]
+    pub fn position(&self) -> Option<AxisVector> {
+        let status = self.machine.status()?;
+        Some(AxisVector::from(status.position))
     }
 
     /// Publishes all frames of a pipeline that starts where [`Publisher::wait_until_ready`] said,
@@ -258,8 +266,8 @@ impl<'t> Publisher<'t> {
     }
 
     fn report(&self, epoch: &Epoch, plan: &Plan<'_>, control: &mut Control<'_>) {
-        let line = self.machine.line();
-        let progress = epoch.progress(plan.queue.statistics(), line, self.pace.period_ns);
+        let at = (self.machine.line(), self.machine.block());
+        let progress = epoch.progress(plan.queue.statistics(), at, self.pace.period_ns);
         (control.notify)(&Notice::Progress(progress));
     }
 

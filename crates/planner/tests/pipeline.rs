@@ -80,7 +80,8 @@ fn a_file_and_a_pipe_give_the_same_frames() {
             std::thread::sleep(Duration::from_millis(1));
         }
     });
-    let (from_pipe, piped, refusal) = drain(PipeSource::spawn(reader, Options::default()).unwrap());
+    let (from_pipe, piped, refusal) =
+        drain(PipeSource::spawn(reader, Options::default(), None).unwrap());
     typist.join().unwrap();
     assert!(refusal.is_none(), "{refusal:?}");
     assert_eq!(piped, statistics);
@@ -138,7 +139,7 @@ fn a_pipe_with_an_error_is_planned_to_a_stop_before_it() {
     let bad = format!("{good}G1 X\nG1 X0 Y0\n");
     let read = |text: &str| {
         let input = std::io::Cursor::new(text.to_owned());
-        drain(PipeSource::spawn(input, Options::default()).unwrap())
+        drain(PipeSource::spawn(input, Options::default(), None).unwrap())
     };
     let (frames, _, refusal) = read(&bad);
     match refusal {

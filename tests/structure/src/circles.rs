@@ -119,6 +119,7 @@ houses! {
     geometry: "geometry",
     glidepath: "glidepath",
     interpolator: "interpolator",
+    kept: "kept",
     kinematics: "kinematics",
     link: "link",
     motion: "motion",

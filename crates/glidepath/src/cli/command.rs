@@ -7,6 +7,7 @@ use super::host::{BenchArgs, DoctorArgs, JitterArgs};
 use super::motion::{
     CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
 };
+use super::offsets::OffsetsCommand;
 use super::operator::{AbortArgs, OperatorArgs, OverrideArgs, SingleBlockArgs};
 use super::path::PathArgs;
 use super::program::ProgramArgs;
@@ -82,6 +83,12 @@ pub enum Command {
                             glidepath fit part.ngc --tolerance 0.01 --method hybrid --seed 7 --json"
     )]
     Fit(FitArgs),
+    /// What the machine keeps over a restart: work offsets, G28, G30, G92, tools
+    #[command(
+        subcommand,
+        after_help = "Example: glidepath offsets set G54 X100 Y50 Z-20 --config mill.toml"
+    )]
+    Offsets(OffsetsCommand),
     /// The configuration: print one, explain its keys, check one
     #[command(after_help = "Examples: glidepath config --default > mill.toml · \
                             glidepath config --explain path.tolerance · \
@@ -114,6 +121,7 @@ impl Command {
     pub const fn basic(&self) -> Option<&BasicArgs> {
         Some(match self {
             Self::Config(_) => return None,
+            Self::Offsets(command) => command.basic(),
             Self::Run(args) => &args.basic,
             Self::Plan(args) => &args.basic,
             Self::Check(args) => &args.basic,

@@ -6,6 +6,7 @@ mod config;
 mod curves;
 mod host;
 mod motion;
+mod offsets;
 mod operator;
 mod path;
 mod program;
@@ -17,6 +18,10 @@ pub use curves::{FitArgs, FitMethod, PreviewArgs, PreviewMethod};
 pub use host::{BenchArgs, DoctorArgs, JitterArgs};
 pub use motion::{
     CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
+};
+pub use offsets::{
+    AngularUnits, ExportArgs, ImportArgs, LinearUnits, OffsetsCommand, SetArgs, ShowArgs, UnitArgs,
+    UseArgs,
 };
 pub use operator::{AbortArgs, OperatorArgs, OverrideArgs, SingleBlockArgs, Switch};
 pub use path::PathArgs;

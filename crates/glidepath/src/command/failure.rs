@@ -6,9 +6,11 @@ use crate::curve_file::{CurveDiagnostic, CurveFileError};
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::jitter::{CyclictestError, JitterError};
+use crate::kept::error::StateError;
 use crate::program_text::UnknownEvent;
 use glidepath_gcode::Diagnostic;
 use glidepath_interpolator as interpolator;
+use glidepath_kept::var::VarError;
 use glidepath_link::{LinkError, RecordingError};
 use glidepath_planner::{self as planner, FeedError, Refusal};
 use thiserror::Error;
@@ -19,6 +21,20 @@ pub(super) enum Failure {
     /// The configuration was refused.
     #[error(transparent)]
     Configuration(#[from] ConfigError),
+    /// What is kept over a restart cannot be used.
+    #[error(transparent)]
+    State(#[from] StateError),
+    /// A word that is not understood.
+    #[error("`{0}` is not understood: {1}")]
+    Word(String, &'static str),
+    /// LinuxCNC's parameter file has something to mend.
+    #[error("{file}, {error}")]
+    Var {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        error: VarError,
+    },
     /// A key of the configuration that does not exist.
     #[error("there is no key `{key}`{}", match nearest {
         Some(name) => format!("; did you mean `{name}`? `glidepath config --explain` lists them all"),
@@ -237,7 +253,10 @@ impl Failure {
     #[must_use]
     pub(super) const fn exit(&self) -> Exit {
         match self {
-            Self::Configuration(_) => Exit::Configuration,
+            Self::Configuration(_)
+            | Self::State(
+                StateError::Damaged(_) | StateError::OtherMachine { .. } | StateError::NoFolder,
+            ) => Exit::Configuration,
             Self::Unchecked { .. }
             | Self::Refused(Refusal::Unchecked { .. })
             | Self::Planner(planner::RunError::Refused(Refusal::Unchecked { .. }))
@@ -246,6 +265,8 @@ impl Failure {
             | Self::File(FileError::Open { .. } | FileError::Guarded { .. })
             | Self::Catalogue(_)
             | Self::UnknownKey { .. }
+            | Self::Word(..)
+            | Self::Var { .. }
             | Self::NoFeed
             | Self::NotOneCurve { .. }
             | Self::UnknownEvent(_)
@@ -262,6 +283,7 @@ impl Failure {
             | Self::Feed(FeedError::Interrupted)
             | Self::Interrupted => Exit::Interrupted,
             Self::File(_)
+            | Self::State(_)
             | Self::Signals(_)
             | Self::NoInterpolator { .. }
             | Self::CommandRefused { .. }

@@ -1,5 +1,6 @@
 //! The subcommands, one file each.
 
+mod attendant;
 mod bench;
 mod check;
 mod configuration;
@@ -10,6 +11,7 @@ mod feed;
 mod fit;
 mod interpolator;
 mod jitter;
+mod offsets;
 mod operator;
 mod plan;
 mod planner;
@@ -69,6 +71,7 @@ pub fn usage(error: &clap::Error) -> Exit {
 fn dispatch(command: &Command) -> Result<Exit, Failure> {
     let config = || machine(command);
     match command {
+        Command::Offsets(command) => offsets::offsets(command, &config()?),
         Command::Config(args) => configuration::configuration(args),
         Command::Run(args) => run::run(args, &config()?),
         Command::Plan(args) => plan::plan(args, &config()?),

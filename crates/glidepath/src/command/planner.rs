@@ -1,5 +1,6 @@
 //! `glidepath planner`: programs, or segments of other processes, to frames.
 
+use super::attendant::{Attendant, tell};
 use super::session;
 use crate::cli::PlannerArgs;
 use crate::clock;
@@ -10,7 +11,8 @@ use crate::file_error::FileError;
 use crate::interrupt::{Interrupt, end_with};
 use crate::joints;
 use crate::output;
-use crate::report::{grouped, peak_rss_bytes, seconds, state_name};
+use crate::program_file::ProgramFile;
+use crate::report::{grouped, peak_rss_bytes, seconds};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Ipc, Transport};
 use glidepath_planner::{
@@ -28,46 +30,46 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
     end_with(args.end_with).map_err(Failure::Signals)?;
     let transport = session::join(&args.instance, config)?;
     let quiet = args.end_with.is_some();
-    let mut notify = |notice: &Notice<'_>| tell(notice, quiet);
-    let mut control = Control {
-        stop: interrupt.flag(),
-        pause: &mut std::thread::sleep,
-        notify: &mut notify,
-    };
     let Some(file) = &args.file else {
+        let mut notify = |notice: &Notice<'_>| tell(notice, quiet);
+        let mut control = Control {
+            stop: interrupt.flag(),
+            pause: &mut std::thread::sleep,
+            notify: &mut notify,
+        };
         let exit = serve(&transport, config, &mut control, &interrupt)?;
         if args.basic.json {
             output::object(&json!({ "listened": true, "exit_code": exit as u8 }));
         }
         return Ok(exit);
     };
-    let name = file.name().display().to_string();
-    let statistics = if file.is_standard_input() {
-        if args.resume {
-            return Err(Failure::ResumePipe);
-        }
-        if !quiet {
-            output::note(
-                "planner: reading standard input; the machine waits on the path where no more has come",
-            );
-        }
-        run(&transport, config, &mut control, &name, true, |start| {
-            PipeSource::spawn(std::io::stdin(), config.program_options(start))
-        })
-    } else {
-        // A file that does not exist is told at once, not when the machine is ready.
-        let file = file.path();
-        std::fs::File::open(file).map_err(FileError::open(file))?;
-        let open = |start| {
-            joints::check_plan(file, config, start, &mut |_| {})?;
-            FileSource::open(file, config.program_options(start), &config.settings())
-        };
-        if args.resume {
-            resume(&transport, config, &mut control, &name, open)
-        } else {
-            run(&transport, config, &mut control, &name, false, open)
-        }
+    if file.is_standard_input() && args.resume {
+        return Err(Failure::ResumePipe);
+    }
+    // A file that does not exist is told at once, not when the machine is ready.
+    if !file.is_standard_input() {
+        std::fs::File::open(file.path()).map_err(FileError::open(file.path()))?;
+    }
+    let mut config = config.clone();
+    let attendant = Attendant::new(&mut config, quiet)?;
+    let mut notify = |notice: &Notice<'_>| attendant.notice(notice, &config);
+    let mut control = Control {
+        stop: interrupt.flag(),
+        pause: &mut std::thread::sleep,
+        notify: &mut notify,
+    };
+    let job = Job {
+        transport: &transport,
+        config: &config,
+        attendant: &attendant,
+        file,
+    };
+    let statistics = match (file.is_standard_input(), args.resume) {
+        (true, _) => job.pipe(&mut control),
+        (false, true) => job.resume(&mut control),
+        (false, false) => job.run(&mut control, false, |start| job.open(start, &config)),
     }?;
+    let name = job.name();
     if args.basic.json {
         output::object(&object(&name, &statistics));
     } else {
@@ -76,49 +78,93 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
     Ok(Exit::Done)
 }
 
-/// One program, from where the machine stands.
-fn run<S: ItemSource + Send>(
-    transport: &Ipc,
-    config: &MachineConfig,
-    control: &mut Control<'_>,
-    name: &str,
-    is_pipe: bool,
-    open: impl FnOnce(AxisVector) -> Result<S, Refusal>,
-) -> Result<Statistics, Failure> {
-    let mut publisher = Publisher::connect(transport, session::pace(config))?;
-    let start = publisher.wait_until_ready(control)?;
-    let source = open(start).map_err(|refusal| Failure::refused(name, refusal, false))?;
-    let mut pipeline = Pipeline::new(source, config.settings(), start)
-        .with_joints(config.path_caps())
-        .with_clock(clock::elapsed);
-    publisher
-        .publish(&mut pipeline, control)
-        .map_err(|error| match error {
-            RunError::Refused(refusal) => Failure::refused(name, refusal, is_pipe),
-            error => error.into(),
-        })
+/// A program, and what it is run with.
+struct Job<'a> {
+    transport: &'a Ipc,
+    config: &'a MachineConfig,
+    attendant: &'a Attendant,
+    file: &'a ProgramFile,
 }
 
-/// The rest of a program, from where the machine stands on its path.
-fn resume<S: ItemSource + Send>(
-    transport: &Ipc,
-    config: &MachineConfig,
-    control: &mut Control<'_>,
-    name: &str,
-    open: impl FnOnce(AxisVector) -> Result<S, Refusal>,
-) -> Result<Statistics, Failure> {
-    let mut publisher = Publisher::connect(transport, session::pace(config))?;
-    let point = publisher.wait_until_left(control)?;
-    let source =
-        open(point.program_start).map_err(|refusal| Failure::refused(name, refusal, false))?;
-    let settings = config.settings();
-    let remainder = Remainder::find(source, point, settings.tolerance_mm)?;
-    // Only now is a fault reset: one that resumes nothing leaves it to whoever looks at it.
-    publisher.wait_until_ready(control)?;
-    let mut pipeline = Pipeline::resuming(remainder, settings)
-        .with_joints(config.path_caps())
-        .with_clock(clock::elapsed);
-    Ok(publisher.publish(&mut pipeline, control)?)
+impl Job<'_> {
+    fn name(&self) -> String {
+        self.file.name().display().to_string()
+    }
+
+    /// The program as a file, checked from its beginning to its end.
+    fn open(&self, start: AxisVector, config: &MachineConfig) -> Result<FileSource, Refusal> {
+        let file = self.file.path();
+        joints::check_plan(file, config, start, &mut |_| {})?;
+        let options = config.program_options(start);
+        let source = FileSource::open(file, options, &config.settings())?;
+        Ok(match self.attendant.log() {
+            Some(log) => source.noting(log),
+            None => source,
+        })
+    }
+
+    /// A program that comes through standard input.
+    fn pipe(&self, control: &mut Control<'_>) -> Result<Statistics, Failure> {
+        if !self.attendant.is_quiet() {
+            output::note(
+                "planner: reading standard input; the machine waits on the path where no more has come",
+            );
+        }
+        self.run(control, true, |start| {
+            let options = self.config.program_options(start);
+            PipeSource::spawn(std::io::stdin(), options, self.attendant.log())
+        })
+    }
+
+    /// One program, from where the machine stands.
+    fn run<S: ItemSource + Send>(
+        &self,
+        control: &mut Control<'_>,
+        is_pipe: bool,
+        open: impl FnOnce(AxisVector) -> Result<S, Refusal>,
+    ) -> Result<Statistics, Failure> {
+        let name = self.name();
+        let mut publisher = Publisher::connect(self.transport, session::pace(self.config))?;
+        let start = publisher.wait_until_ready(control)?;
+        let source = open(start).map_err(|refusal| Failure::refused(&name, refusal, false))?;
+        self.attendant.begin(source.fingerprint(), &start)?;
+        let mut pipeline = Pipeline::new(source, self.config.settings(), start)
+            .with_joints(self.config.path_caps())
+            .with_clock(clock::elapsed);
+        let published = publisher.publish(&mut pipeline, control);
+        let kept = self.attendant.end(&published, &publisher, self.config);
+        let statistics = published.map_err(|error| match error {
+            RunError::Refused(refusal) => Failure::refused(&name, refusal, is_pipe),
+            error => error.into(),
+        })?;
+        kept?;
+        Ok(statistics)
+    }
+
+    /// The rest of a program, from where the machine stands on its path.
+    fn resume(&self, control: &mut Control<'_>) -> Result<Statistics, Failure> {
+        let mut publisher = Publisher::connect(self.transport, session::pace(self.config))?;
+        let point = publisher.wait_until_left(control)?;
+        // What it began with, not what it has made of that meanwhile.
+        let mut config = self.config.clone();
+        self.attendant.resume(point.program, &mut config);
+        let source = self
+            .open(point.program_start, &config)
+            .map_err(|refusal| Failure::refused(&self.name(), refusal, false))?;
+        let settings = config.settings();
+        let remainder = Remainder::find(source, point, settings.tolerance_mm)?;
+        // Only now is a fault reset: one that resumes nothing leaves it to whoever looks at it.
+        let start = publisher.wait_until_ready(control)?;
+        self.attendant.begin(point.program, &start)?;
+        let mut pipeline = Pipeline::resuming(remainder, settings)
+            .with_joints(config.path_caps())
+            .with_clock(clock::elapsed);
+        let published = publisher.publish(&mut pipeline, control);
+        let kept = self.attendant.end(&published, &publisher, &config);
+        let statistics = published?;
+        kept?;
+        Ok(statistics)
+    }
 }
 
 /// Streams, until asked to end.
@@ -138,27 +184,6 @@ fn serve(
     match listen(transport, &listening, control) {
         Ok(()) | Err(RunError::Interrupted) => Ok(interrupt.exit()),
         Err(error) => Err(error.into()),
-    }
-}
-
-fn tell(notice: &Notice<'_>, quiet: bool) {
-    let words = match notice {
-        Notice::NoInterpolator => "waiting for an interpolator".to_owned(),
-        Notice::NotReady(state) => {
-            format!("waiting: the machine is {}", state_name(*state))
-        }
-        Notice::FaultReset => "reset the fault of a planner that died".to_owned(),
-        Notice::Listening => "waiting for a client".to_owned(),
-        Notice::StreamOpened { session } => format!("stream {session} opened"),
-        Notice::StreamExecuted(statistics) => {
-            format!("executed: {} segments", grouped(statistics.segments))
-        }
-        Notice::StreamBroken(error) => format!("the stream broke off: {error}"),
-        Notice::Started { epoch } => format!("epoch {epoch} starts"),
-        Notice::Progress(_) => return,
-    };
-    if !quiet {
-        output::note(&format!("planner: {words}"));
     }
 }
 

@@ -5,6 +5,7 @@ use crate::cli::Command;
 use crate::command::failure::Failure;
 use crate::config::{MachineConfig, ProgramConfig};
 use crate::file_error::FileError;
+use crate::kept::read::{read, set_up};
 use crate::output;
 use crate::program_file::ProgramFile;
 use glidepath_gcode::{Dialect, ToolTable};
@@ -46,6 +47,12 @@ pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<()
     // `run` says so, and the planner it starts need not say it again.
     if !matches!(command, Command::Planner(_)) {
         tell_share(&config.axis_share);
+        // The planner reads it when nobody else can write any more.
+        if let Some(kept) = read(config)? {
+            set_up(config, &kept)
+                .iter()
+                .for_each(|note| output::note(note));
+        }
     }
     if let Some(file) = file {
         // `planner -` begins to move before its input ends.

@@ -8,6 +8,7 @@ use glidepath_kinematics::{
 };
 use glidepath_motion::preview::AdvanceRetreat;
 use glidepath_program::{Effort, Limits, PathBounds, Settings, Smoothing};
+use std::path::PathBuf;
 
 /// One axis: mm, or degrees for A, B and C.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +76,8 @@ pub struct MachineConfig {
     pub instance: Option<String>,
     /// How programs are read.
     pub program: ProgramConfig,
+    /// Folder of what is kept over a restart; `None`: nothing is.
+    pub state_directory: Option<PathBuf>,
 }
 
 /// Share of the path tolerance that the pieces of a spline may be away from it.
@@ -83,6 +86,21 @@ const SPLINE_SHARE: f64 = 1e-3;
 impl MachineConfig {
     /// Name used where neither the file nor the command line gives one.
     pub const DEFAULT_INSTANCE: &'static str = "default";
+
+    /// The name of the mechanism, as `machine.kinematics` has it.
+    #[must_use]
+    pub const fn kinematics(&self) -> &'static str {
+        match self.mechanism {
+            Mechanism::Trivial(_) => "trivial",
+            Mechanism::CoreXy(_) => "corexy",
+            Mechanism::LinearDelta(_) => "linear-delta",
+            Mechanism::RotaryDelta(_) => "rotary-delta",
+            Mechanism::Scara(_) => "scara",
+            Mechanism::FiveAxis(_) => "five-axis",
+            Mechanism::Hexapod(_) => "hexapod",
+            Mechanism::Translational(_) => "translational-hexapod",
+        }
+    }
 
     /// Joints that are not axes.
     #[must_use]
@@ -191,6 +209,7 @@ impl MachineConfig {
             machine,
             default_feed_mm_min,
             start,
+            offsets: self.program.offsets.clone(),
             tools: self.program.tools.clone(),
             subroutines: self.program.subroutines.clone(),
             dialect: self.program.dialect.unwrap_or_default(),

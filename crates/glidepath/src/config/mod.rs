@@ -56,6 +56,8 @@ pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
             let folder = path.parent().unwrap_or(Path::new(""));
             let table = config.program.tool_table.take();
             config.program.tool_table = table.map(|table| folder.join(table));
+            let state = config.state_directory.take();
+            config.state_directory = state.map(|state| folder.join(state));
             for path in &mut config.program.subroutine_path {
                 *path = folder.join(&*path);
             }

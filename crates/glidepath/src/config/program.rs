@@ -1,6 +1,6 @@
 //! How programs are read.
 
-use glidepath_gcode::{Connections, Dialect, Subroutines, ToolTable};
+use glidepath_gcode::{Connections, Dialect, Subroutines, ToolTable, WorkOffsets};
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,6 +12,8 @@ pub struct ProgramConfig {
     pub dialect: Option<Dialect>,
     /// The tool table's file.
     pub tool_table: Option<PathBuf>,
+    /// What the machine is set up with, once it has been read.
+    pub offsets: WorkOffsets,
     /// The tool table, once it has been read.
     pub tools: Option<Arc<ToolTable>>,
     /// Folders of subroutines in files of their own, in the order they are looked in, behind the

@@ -27,6 +27,14 @@ pub(super) struct RawConfig {
     pub(super) preview: RawPreview,
     #[serde(default)]
     pub(super) program: RawProgram,
+    #[serde(default)]
+    pub(super) state: RawState,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawState {
+    pub(super) directory: Optional<String>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -84,6 +84,7 @@ pub(super) fn judge(
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
         program: judge.program(raw.program),
+        state_directory: raw.state.directory.map(|path| path.into_inner().into()),
     };
     if judge.diagnostics.is_empty() {
         Ok(config)

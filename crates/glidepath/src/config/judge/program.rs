@@ -3,7 +3,7 @@
 use super::values::Judge;
 use crate::config::program::ProgramConfig;
 use crate::config::raw::RawProgram;
-use glidepath_gcode::{Connections, Dialect};
+use glidepath_gcode::{Connections, Dialect, WorkOffsets};
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
 
@@ -30,6 +30,7 @@ impl Judge {
             dialect: self.choice("program.dialect", raw.dialect, &dialects),
             tool_table: raw.tool_table.map(|path| path.into_inner().into()),
             tools: None,
+            offsets: WorkOffsets::default(),
             subroutine_path: raw.subroutine_path.into_iter().map(PathBuf::from).collect(),
             subroutines: None,
             connections: self.choice("program.inputs_outputs", raw.inputs_outputs, &connections),

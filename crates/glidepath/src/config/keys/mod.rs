@@ -21,6 +21,7 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         tables::LINK,
         tables::PROGRAM,
         tables::PREVIEW,
+        tables::STATE,
     ];
     tables
         .into_iter()

@@ -257,6 +257,15 @@ pub(super) const PROGRAM: &[Key] = &[
     ),
 ];
 
+pub(super) const STATE: &[Key] = &[key(
+    "state.directory",
+    Takes::Text {
+        rule: "a folder, beside the configuration or with its full path",
+    },
+    LeftOut::Means("nothing is kept: every program begins in G54 with all offsets zero"),
+    "folder of what is kept over a restart: work offsets, G28, G30, G92, what G10 made of tools",
+)];
+
 pub(super) const PREVIEW: &[Key] = &[
     key(
         "preview.growth",

@@ -1,0 +1,143 @@
+//! What the planner does besides planning: it tells how far it has come, and keeps what the programs
+//! it has executed leave behind.
+
+use crate::command::failure::Failure;
+use crate::config::MachineConfig;
+use crate::kept::keeper::Keeper;
+use crate::output;
+use crate::report::{grouped, state_name};
+use glidepath_geometry::AxisVector;
+use glidepath_planner::{ChangeLog, Notice, Publisher, ResumeError, RunError, Statistics};
+use std::cell::{Cell, RefCell};
+
+/// Attends to one program.
+#[derive(Debug)]
+pub(super) struct Attendant {
+    quiet: bool,
+    /// Whether a frame was delivered.
+    has_started: Cell<bool>,
+    keeper: RefCell<Option<Keeper>>,
+}
+
+impl Attendant {
+    /// Puts what is kept into the configuration, if the machine keeps anything.
+    ///
+    /// # Errors
+    /// What is kept cannot be used.
+    pub(super) fn new(config: &mut MachineConfig, quiet: bool) -> Result<Self, Failure> {
+        let opened = Keeper::open(config)?;
+        let keeper = opened.map(|(keeper, notes)| {
+            notes
+                .iter()
+                .filter(|_| !quiet)
+                .for_each(|note| output::note(note));
+            keeper
+        });
+        Ok(Self {
+            quiet,
+            has_started: Cell::new(false),
+            keeper: RefCell::new(keeper),
+        })
+    }
+
+    pub(super) const fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
+    /// Where the source of the program notes what is changed.
+    pub(super) fn log(&self) -> Option<ChangeLog> {
+        self.keeper.borrow().as_ref().map(Keeper::log)
+    }
+
+    /// Has the program that is resumed begin with what it began with.
+    pub(super) fn resume(&self, program: u64, config: &mut MachineConfig) {
+        if let Some(keeper) = &mut *self.keeper.borrow_mut()
+            && !keeper.resume(program, config)
+        {
+            output::note(
+                "planner: the offsets this program began with are not kept; it is read with those of now",
+            );
+        }
+    }
+
+    /// The program is about to move the machine.
+    ///
+    /// # Errors
+    /// That cannot be written: nothing may move.
+    pub(super) fn begin(&self, program: u64, start: &AxisVector) -> Result<(), Failure> {
+        let keeper = self.keeper.take();
+        if let Some(keeper) = keeper {
+            self.keeper.replace(Some(keeper.begin(program, start)?));
+        }
+        Ok(())
+    }
+
+    /// Takes notice of how the run goes.
+    pub(super) fn notice(&self, notice: &Notice<'_>, config: &MachineConfig) {
+        match notice {
+            Notice::Started { .. } => self.has_started.set(true),
+            Notice::Progress(progress) => {
+                if let Some(keeper) = &mut *self.keeper.borrow_mut() {
+                    keeper.executed(progress.block, config);
+                }
+            }
+            _ => {}
+        }
+        tell(notice, self.quiet);
+    }
+
+    /// The motion is over, for better or worse. When this returns, what was executed is kept.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub(super) fn end(
+        &self,
+        published: &Result<Statistics, RunError>,
+        publisher: &Publisher<'_>,
+        config: &MachineConfig,
+    ) -> Result<(), Failure> {
+        let Some(keeper) = self.keeper.take() else {
+            return Ok(());
+        };
+        let kept = match (published, publisher.resume_point()) {
+            (Ok(_), _) | (_, Err(RunError::Resume(ResumeError::Completed))) => {
+                keeper.completed(publisher.position(), config)
+            }
+            (Err(error), Ok(point)) if self.has_started.get() => {
+                // Where nobody answers any more, nobody knows whether the machine rests.
+                let is_lost = matches!(error, RunError::InterpolatorLost | RunError::Link(_));
+                let position = (!is_lost).then_some(point.position);
+                keeper.left(point.block, position, config)
+            }
+            (Err(_), _) => keeper.left(0, None, config),
+        };
+        let failed = kept.map_err(Failure::from);
+        // The run has failed already, and is told as that.
+        if let (Err(_), Err(failure)) = (published, &failed) {
+            output::note(&format!("planner: {failure}"));
+        }
+        failed
+    }
+}
+
+/// Says what happens.
+pub(super) fn tell(notice: &Notice<'_>, quiet: bool) {
+    let words = match notice {
+        Notice::NoInterpolator => "waiting for an interpolator".to_owned(),
+        Notice::NotReady(state) => {
+            format!("waiting: the machine is {}", state_name(*state))
+        }
+        Notice::FaultReset => "reset the fault of a planner that died".to_owned(),
+        Notice::Listening => "waiting for a client".to_owned(),
+        Notice::StreamOpened { session } => format!("stream {session} opened"),
+        Notice::StreamExecuted(statistics) => {
+            format!("executed: {} segments", grouped(statistics.segments))
+        }
+        Notice::StreamBroken(error) => format!("the stream broke off: {error}"),
+        Notice::Started { epoch } => format!("epoch {epoch} starts"),
+        Notice::Progress(_) => return,
+    };
+    if !quiet {
+        output::note(&format!("planner: {words}"));
+    }
+}

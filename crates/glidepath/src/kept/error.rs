@@ -1,0 +1,42 @@
+//! Why what is kept cannot be used.
+
+use glidepath_kept::KeptError;
+use thiserror::Error;
+
+/// Why what is kept cannot be used.
+#[derive(Debug, Error)]
+pub(crate) enum StateError {
+    /// It cannot be read or written.
+    #[error(transparent)]
+    Kept(KeptError),
+    /// A file is damaged.
+    #[error(
+        "{0}. Nothing moves before somebody has decided: `glidepath offsets recover` takes the newest \
+         generation that is whole, and shows it"
+    )]
+    Damaged(KeptError),
+    /// It is that of another machine.
+    #[error(
+        "what is kept in {folder} belongs to a machine with other axes or other kinematics. \
+         `glidepath offsets show` shows it, `glidepath offsets adopt` takes it over for this machine"
+    )]
+    OtherMachine {
+        /// The folder.
+        folder: String,
+    },
+    /// The configuration names no folder.
+    #[error("the configuration names no folder to keep anything in: `directory` of [state]")]
+    NoFolder,
+    /// The thread that writes ended.
+    #[error("the thread that writes what is kept ended")]
+    NoWriter,
+}
+
+impl From<KeptError> for StateError {
+    fn from(error: KeptError) -> Self {
+        match error {
+            error @ KeptError::Damaged { .. } => Self::Damaged(error),
+            error => Self::Kept(error),
+        }
+    }
+}

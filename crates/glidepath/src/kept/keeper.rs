@@ -1,0 +1,226 @@
+//! What the planner keeps of the programs it has executed.
+//!
+//! ```text
+//!   program ─read far ahead─▶ ChangeLog ─when the machine has come so far─▶ Kept ─▶ a thread ─▶ files
+//! ```
+//!
+//! Files are written and waited for in a thread of their own: the planner must not be kept waiting
+//! by a disk while the machine moves.
+
+use crate::config::MachineConfig;
+use crate::kept::convert::{begun_with, left_with, merge, merge_tools, with_tools};
+use crate::kept::error::StateError;
+use crate::kept::machine::fingerprint;
+use crate::kept::read::{of_machine, set_up, table, table_fingerprint};
+use glidepath_gcode::ToolTable;
+use glidepath_geometry::AxisVector;
+use glidepath_kept::{Directory, DirectoryLock, Kept, Offsets, Rest, Store, UnderWay};
+use glidepath_planner::{ChangeLog, SetUp};
+use std::sync::Arc;
+use std::sync::mpsc::{Sender, channel};
+use std::thread::JoinHandle;
+
+/// Keeps what a planner has executed. While it lives, nobody else writes.
+#[derive(Debug)]
+pub(crate) struct Keeper {
+    kept: Kept,
+    /// What the program began with.
+    before: (Offsets, Arc<ToolTable>),
+    log: ChangeLog,
+    is_resumed: bool,
+    store: Writing,
+    _lock: DirectoryLock,
+}
+
+/// Who writes: the keeper itself until the program begins, then a thread.
+#[derive(Debug)]
+enum Writing {
+    Here(Store<Directory>),
+    Thread(Writer),
+}
+
+/// The thread that writes the newest of what it is given.
+#[derive(Debug)]
+struct Writer {
+    sender: Sender<Kept>,
+    thread: JoinHandle<Result<(), StateError>>,
+}
+
+impl Keeper {
+    /// Takes the right to write, and puts what is kept into the configuration; `None` for a machine
+    /// that keeps nothing. The second part is what somebody has to know.
+    ///
+    /// # Errors
+    /// Another process writes, or what is kept cannot be read or is another machine's.
+    pub(crate) fn open(
+        config: &mut MachineConfig,
+    ) -> Result<Option<(Self, Vec<String>)>, StateError> {
+        let Some(folder) = config.state_directory.clone() else {
+            return Ok(None);
+        };
+        let directory = Directory::open(&folder)?;
+        let lock = directory.lock()?;
+        let store = Store::new(directory);
+        let mut notes = Vec::new();
+        let kept = match store.read()? {
+            Some((_, kept)) => {
+                of_machine(config, &folder, &kept)?;
+                notes = set_up(config, &kept);
+                kept
+            }
+            None => Kept {
+                configuration: fingerprint(config),
+                ..Kept::default()
+            },
+        };
+        let keeper = Self {
+            before: (kept.offsets.clone(), table(config)),
+            kept,
+            log: ChangeLog::default(),
+            is_resumed: false,
+            store: Writing::Here(store),
+            _lock: lock,
+        };
+        Ok(Some((keeper, notes)))
+    }
+
+    /// Where the source of the program notes its changes.
+    pub(crate) fn log(&self) -> ChangeLog {
+        self.log.clone()
+    }
+
+    /// Puts what the program began with that is to be resumed into the configuration; false if that
+    /// is not known.
+    pub(crate) fn resume(&mut self, program: u64, config: &mut MachineConfig) -> bool {
+        let begun = self.kept.under_way.as_ref();
+        let Some(begun) = begun.filter(|begun| begun.program == program) else {
+            return false;
+        };
+        config.program.offsets = begun_with(&begun.offsets);
+        if let Some(table) = &config.program.tools {
+            config.program.tools = Some(with_tools(table, &begun.tools));
+        }
+        self.before = (begun.offsets.clone(), table(config));
+        self.is_resumed = true;
+        true
+    }
+
+    /// A program begins to move the machine. When this returns, that is kept.
+    ///
+    /// # Errors
+    /// It cannot be written: nothing may move.
+    pub(crate) fn begin(mut self, program: u64, start: &AxisVector) -> Result<Self, StateError> {
+        let begun = self.kept.under_way.take();
+        // A program that is resumed began when it did; one from a pipe cannot be resumed.
+        self.kept.under_way = begun.filter(|_| self.is_resumed).or_else(|| {
+            let begun = UnderWay {
+                program,
+                offsets: self.before.0.clone(),
+                tools: self.kept.tools.clone(),
+            };
+            (program != 0).then_some(begun)
+        });
+        self.rest_at(start, false);
+        if let Writing::Here(mut store) = self.store {
+            store.write(&self.kept)?;
+            self.store = Writing::Thread(Writer::start(store));
+        }
+        Ok(self)
+    }
+
+    /// The machine is on a block: keeps what was changed in front of it.
+    pub(crate) fn executed(&mut self, block: u32, config: &MachineConfig) {
+        if let Some(set_up) = self.log.executed(block) {
+            self.take(&set_up, config);
+            if let Writing::Thread(writer) = &self.store {
+                // Why a thread ended is told at the end.
+                writer.sender.send(self.kept.clone()).ok();
+            }
+        }
+    }
+
+    /// The program was executed to its end.
+    pub(crate) fn completed(
+        mut self,
+        position: Option<AxisVector>,
+        config: &MachineConfig,
+    ) -> Result<(), StateError> {
+        if let Some(set_up) = self.log.all_executed() {
+            self.take(&set_up, config);
+        }
+        self.kept.under_way = None;
+        self.end(position)
+    }
+
+    /// The motion ended before the program did, in a block.
+    pub(crate) fn left(
+        mut self,
+        block: u32,
+        position: Option<AxisVector>,
+        config: &MachineConfig,
+    ) -> Result<(), StateError> {
+        if let Some(set_up) = self.log.executed(block) {
+            self.take(&set_up, config);
+        }
+        self.end(position)
+    }
+
+    fn end(mut self, position: Option<AxisVector>) -> Result<(), StateError> {
+        if let Some(position) = position {
+            self.rest_at(&position, true);
+        }
+        match self.store {
+            Writing::Here(mut store) => store.write(&self.kept).map(|_| ()).map_err(Into::into),
+            Writing::Thread(Writer { sender, thread }) => {
+                sender.send(self.kept.clone()).ok();
+                drop(sender);
+                thread.join().unwrap_or(Err(StateError::NoWriter))
+            }
+        }
+    }
+
+    fn rest_at(&mut self, position: &AxisVector, clean: bool) {
+        let mut rest = Rest {
+            position: [0.0; glidepath_kept::AXES],
+            clean,
+        };
+        for (slot, value) in rest.position.iter_mut().zip(position.iter()) {
+            *slot = *value;
+        }
+        self.kept.rest = Some(rest);
+    }
+
+    fn take(&mut self, set_up: &SetUp, config: &MachineConfig) {
+        let (offsets, tools) = &self.before;
+        merge(&mut self.kept.offsets, offsets, &left_with(&set_up.offsets));
+        self.kept.spindle_tool = set_up.tool;
+        if let Some(changed) = &set_up.tools
+            && changed != tools
+        {
+            let fingerprint = table_fingerprint(config);
+            // Changes of another table are those of other tools.
+            if self.kept.tool_table != fingerprint {
+                self.kept.tools.clear();
+                self.kept.tool_table = fingerprint;
+            }
+            merge_tools(&mut self.kept.tools, tools, changed);
+        }
+    }
+}
+
+impl Writer {
+    fn start(mut store: Store<Directory>) -> Self {
+        let (sender, receiver) = channel::<Kept>();
+        let thread = std::thread::spawn(move || {
+            while let Ok(mut kept) = receiver.recv() {
+                // Only the newest counts.
+                while let Ok(newer) = receiver.try_recv() {
+                    kept = newer;
+                }
+                store.write(&kept)?;
+            }
+            Ok(())
+        });
+        Self { sender, thread }
+    }
+}

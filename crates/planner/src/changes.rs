@@ -1,0 +1,92 @@
+//! What a program changes of how the machine is set up, and when that is executed.
+//!
+//! Programs are read long before they are executed. What they change (coordinate systems, reference
+//! positions, the offset of G92, tools) is therefore noted with the number of items in front of it,
+//! which is the number of the block that has to be executed before it holds.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use glidepath_gcode::{ToolTable, WorkOffsets};
+
+/// How the machine is set up from some block on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SetUp {
+    /// Coordinate systems, reference positions, the offset of G92.
+    pub offsets: WorkOffsets,
+    /// The tool table, with what G10 has made of it.
+    pub tools: Option<Arc<ToolTable>>,
+    /// Tool in the spindle; 0: none.
+    pub tool: u32,
+}
+
+/// The changes of a program that were read and not yet executed. Clones are the same log: one end
+/// is with the source of items, the other with whoever keeps what was executed.
+#[derive(Debug, Clone, Default)]
+pub struct ChangeLog {
+    /// Each behind a block. As many as blocks are read ahead, at most.
+    changes: Arc<Mutex<VecDeque<(u32, SetUp)>>>,
+}
+
+impl ChangeLog {
+    /// Notes how the machine is set up behind a block.
+    pub(crate) fn note(&self, behind: u32, set_up: SetUp) {
+        let mut changes = self.changes();
+        if changes.back().is_some_and(|(block, _)| *block == behind) {
+            changes.pop_back();
+        }
+        changes.push_back((behind, set_up));
+    }
+
+    /// How the machine is set up while a block is executed: what was changed behind the blocks in
+    /// front of it. `None`: as before.
+    #[must_use]
+    pub fn executed(&self, block: u32) -> Option<SetUp> {
+        let mut changes = self.changes();
+        let count = changes.iter().take_while(|(behind, _)| *behind < block);
+        let count = count.count();
+        changes.drain(..count).next_back().map(|(_, set_up)| set_up)
+    }
+
+    /// How the machine is set up when all of the program is executed. `None`: as before.
+    #[must_use]
+    pub fn all_executed(&self) -> Option<SetUp> {
+        self.changes()
+            .drain(..)
+            .next_back()
+            .map(|(_, set_up)| set_up)
+    }
+
+    fn changes(&self) -> MutexGuard<'_, VecDeque<(u32, SetUp)>> {
+        self.changes.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ItemSource as _, ProgramSource, Supply};
+    use glidepath_gcode::Options;
+
+    #[test]
+    fn a_change_is_executed_when_what_stands_before_it_is() {
+        let text = "G0 X1\nG0 X2\nG10 L2 P2 X5\nG10 L2 P2 X6\nG0 X3\nT7 M6\nG0 X4\nM2\n";
+        let log = ChangeLog::default();
+        let mut source =
+            ProgramSource::new(text.as_bytes(), Options::default()).noting(log.clone());
+        let mut items = 0;
+        while let Supply::Item(_) = source.next_item() {
+            items += 1;
+        }
+        assert_eq!(
+            items, 6,
+            "four moves, the selection and the change of the tool"
+        );
+        let of = |set_up: Option<SetUp>| set_up.map(|s| (s.offsets.systems[1].origin[0], s.tool));
+        assert_eq!(of(log.executed(2)), None, "the second move is under way");
+        assert_eq!(of(log.executed(3)), Some((6.0, 0)));
+        assert_eq!(of(log.executed(5)), None, "the tool is being changed");
+        assert_eq!(of(log.executed(6)), Some((6.0, 7)));
+        assert_eq!(of(log.all_executed()), None);
+    }
+}
