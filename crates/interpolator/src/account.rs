@@ -74,6 +74,11 @@ impl<'a> Account<'a> {
         }
     }
 
+    /// The state of the machine after the last tick.
+    pub(crate) const fn state(&self) -> MachineState {
+        self.state
+    }
+
     /// Writes into a report the state after the tick, and what was counted of the motion.
     pub(crate) const fn fill(&self, report: &mut Report) {
         report.setpoint.state = self.state.code();

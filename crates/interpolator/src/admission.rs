@@ -154,6 +154,9 @@ impl Admission {
         if pending || moves {
             return Verdict::Later;
         }
+        if machine.state == MachineState::Jogging {
+            return Verdict::Refused(FrameRefusal::NotAtRest);
+        }
         if machine.state == MachineState::Faulted
             || frame.sequence != 0
             || !frame.has(FrameFlags::FIRST)

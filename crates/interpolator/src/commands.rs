@@ -18,7 +18,7 @@ pub(crate) fn answer(
     let (outcome, message) = match request.command() {
         Err(error) => (Err(CommandRefusal::Malformed), error.to_string()),
         Ok(Command::Ping) => (Ok(()), String::new()),
-        Ok(command) => match objection(command, report.state) {
+        Ok(command) => match objection(command, report) {
             Some(why) => (Err(CommandRefusal::WrongState), why.to_owned()),
             None => pass_on(command, report.state, ends),
         },
@@ -47,18 +47,22 @@ fn pass_on(
     }
 }
 
-/// Why a command is not possible in a state, if it is not.
-fn objection(command: Command, state: MachineState) -> Option<&'static str> {
-    use MachineState::{Faulted, Held, Holding, Idle, ProgramStop, Stopping};
+/// Why a command is not possible as things are, if it is not.
+fn objection(command: Command, report: &Report) -> Option<&'static str> {
+    use MachineState::{Faulted, Held, Holding, Idle, Jogging, ProgramStop, Stopping};
+    const AWAY: &str = "the axes are away from the path: return first";
+    let (state, is_away) = (report.state, report.is_away);
     let (is_possible, why) = match command {
         Command::Ping
         | Command::FeedOverride(_)
         | Command::RapidOverride(_)
+        | Command::JogOverride(_)
         | Command::SingleBlock(_) => return None,
         Command::Hold => (
             !matches!(state, Idle | Faulted),
             "no program runs: there is nothing to hold",
         ),
+        Command::Resume | Command::Step if is_away => (false, AWAY),
         Command::Resume => (
             matches!(state, Holding | Held | ProgramStop),
             "nothing is held: resume goes on after a hold or a program stop",
@@ -69,7 +73,7 @@ fn objection(command: Command, state: MachineState) -> Option<&'static str> {
             "no fault is latched, or the motion has not yet come to rest",
         ),
         Command::StopAtEndOfBlock => (
-            !matches!(state, Idle | Faulted | Stopping),
+            !matches!(state, Idle | Faulted | Stopping | Jogging),
             "no program runs: there is no block to stop at the end of",
         ),
         Command::Step => (
@@ -84,9 +88,13 @@ fn objection(command: Command, state: MachineState) -> Option<&'static str> {
             false,
             "no feedback is configured: the drives are simulated, and always on and homed",
         ),
-        Command::Return => (
+        Command::Return if !is_away => (
             false,
             "the axes are on the path: there is nowhere to return to",
+        ),
+        Command::Return => (
+            matches!(state, Held | ProgramStop),
+            "the axes are moving: return when they are at rest",
         ),
         Command::Acknowledge { .. } => (false, "no event is awaited"),
     };

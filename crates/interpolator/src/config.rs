@@ -50,6 +50,38 @@ impl RealTime {
     }
 }
 
+/// How the machine is moved by hand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JogSettings {
+    /// Top speed of each axis in a jog, mm/s or °/s. Above that of its limits it is without effect.
+    pub velocity: AxisVector,
+    /// The same where the machine does not know where it is.
+    pub unhomed_velocity: AxisVector,
+    /// Top speed of the way back to the path, mm/s.
+    pub return_v: f64,
+    /// A jog that goes on as long as it is demanded stops when the last demand is so old.
+    pub dead_man: Duration,
+    /// A wheel that gives a velocity stands when it counted nothing for so long.
+    pub wheel_quiet: Duration,
+    /// The axis that goes last on the way back to the path.
+    pub tool_axis: Axis,
+}
+
+impl JogSettings {
+    /// As fast as the limits allow, a tenth of that where the machine does not know where it is.
+    #[must_use]
+    pub fn new(limits: &Limits) -> Self {
+        Self {
+            velocity: limits.velocity,
+            unhomed_velocity: limits.velocity * 0.1,
+            return_v: Limits::UNLIMITED,
+            dead_man: Duration::from_millis(150),
+            wheel_quiet: Duration::from_millis(100),
+            tool_axis: Axis::Z,
+        }
+    }
+}
+
 /// Everything an interpolator depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Config {
@@ -69,6 +101,8 @@ pub struct Config {
     /// Most frames the planner keeps published ahead of the executed one: at rest in the middle of
     /// a trajectory, motion goes on when so many have come, or less.
     pub horizon_frames: u64,
+    /// How the machine is moved by hand.
+    pub jog: JogSettings,
     /// How the threads are scheduled.
     pub real_time: RealTime,
     /// Ticks that may be missed within a second before the motion stops with a fault; `None` for
@@ -97,6 +131,7 @@ impl Config {
             joint_limits: JointLimits::NONE,
             start_position: AxisVector::zeros(),
             horizon_frames: 600_000_000 / period_ns.max(1),
+            jog: JogSettings::new(&limits),
             real_time: RealTime::none(),
             missed_ticks_allowed: None,
             planner_lost_after: Some(Duration::from_secs(2)),

@@ -26,6 +26,8 @@
 //!   resume and override is there, and the diagram of its states), a `supply` (are there frames
 //!   enough?), `stop_requests` (what stops the motion) and a `block_stop` (the end of a block to
 //!   rest at);
+//! * `jog` moves the axes by hand, and away from a path that is held and back to it, with a `tracker`
+//!   for what follows no program;
 //! * `setpoint` writes what is published, and `joints` turns its axes into those of the mechanism;
 //! * `admission` judges every frame before the real-time thread sees it, and `commands` every
 //!   command;
@@ -103,6 +105,7 @@ mod config;
 mod counters;
 mod differences;
 mod frame_summary;
+mod jog;
 mod joints;
 mod loops;
 mod message;
@@ -125,13 +128,14 @@ mod supply;
 mod testing;
 mod tick;
 mod track;
+mod tracker;
 
 /// Unit tests prove that the real-time thread does not allocate.
 #[cfg(test)]
 #[global_allocator]
 static ALLOCATOR: glidepath_realtime::CountingAllocator = glidepath_realtime::CountingAllocator;
 
-pub use config::{Config, RealTime, SoftLimits};
+pub use config::{Config, JogSettings, RealTime, SoftLimits};
 pub use loops::{RunError, lead_ns};
 pub use run::run;
 pub use stepped::{Stepped, stepped};

@@ -99,7 +99,7 @@ pub(crate) fn real_time<C: Clock>(
     let mut report = Report::blank();
     while !stop.load(Ordering::Relaxed) {
         let rise = timer.rise();
-        interpolator.prepare(timer.next().tick, inputs, &mut report);
+        interpolator.prepare(&timer.next(), inputs, &mut report);
         let prepared_ns = timer.clock().now_ns();
         let wake = timer.wait();
         interpolator.stamp(&mut report, &wake);

@@ -1,10 +1,11 @@
 //! What the two threads tell each other, by rings of fixed size.
 //!
 //! ```text
-//!  ports thread ── SetpointFrame, Order ──►  real-time thread
-//!               ◄── Report, Happening ──────
+//!  ports thread ── SetpointFrame, Order, Demand ──►  real-time thread
+//!               ◄──────── Report, Happening ──────
 //! ```
 
+use crate::jog::Demand;
 use core::fmt;
 use glidepath_geometry::Axis;
 use glidepath_link::{
@@ -16,6 +17,8 @@ use heapless::spsc::{Consumer, Producer, Queue};
 pub(crate) const FRAMES: usize = 256;
 /// Orders under way, one less.
 pub(crate) const ORDERS: usize = 32;
+/// Demands for a jog under way, one less.
+pub(crate) const DEMANDS: usize = 32;
 /// Reports under way, one less: a second at 4 ms.
 pub(crate) const REPORTS: usize = 256;
 /// Happenings under way, one less.
@@ -26,6 +29,7 @@ pub(crate) const HAPPENINGS: usize = 128;
 pub(crate) struct Rings {
     pub(crate) frames: Queue<SetpointFrame, FRAMES>,
     pub(crate) orders: Queue<Order, ORDERS>,
+    pub(crate) demands: Queue<Demand, DEMANDS>,
     pub(crate) reports: Queue<Report, REPORTS>,
 }
 
@@ -33,12 +37,14 @@ pub(crate) struct Rings {
 pub(crate) struct Inputs<'a> {
     pub(crate) frames: Consumer<'a, SetpointFrame>,
     pub(crate) orders: Consumer<'a, Order>,
+    pub(crate) demands: Consumer<'a, Demand>,
 }
 
 /// What the ports thread writes and reads.
 pub(crate) struct PortsEnds<'a> {
     pub(crate) frames: Producer<'a, SetpointFrame>,
     pub(crate) orders: Producer<'a, Order>,
+    pub(crate) demands: Producer<'a, Demand>,
     pub(crate) reports: Consumer<'a, Report>,
 }
 
@@ -47,13 +53,20 @@ impl Rings {
     pub(crate) fn split(&mut self) -> ((Inputs<'_>, Producer<'_, Report>), PortsEnds<'_>) {
         let (frames_in, frames) = self.frames.split();
         let (orders_in, orders) = self.orders.split();
+        let (demands_in, demands) = self.demands.split();
         let (reports_in, reports) = self.reports.split();
         let ports = PortsEnds {
             frames: frames_in,
             orders: orders_in,
+            demands: demands_in,
             reports,
         };
-        ((Inputs { frames, orders }, reports_in), ports)
+        let inputs = Inputs {
+            frames,
+            orders,
+            demands,
+        };
+        ((inputs, reports_in), ports)
     }
 }
 
@@ -172,6 +185,10 @@ pub(crate) struct Report {
     pub(crate) state: MachineState,
     pub(crate) end_of_epoch: EndOfEpoch,
     pub(crate) fault: Option<Fault>,
+    /// On the way back to the path, after a jog in a hold.
+    pub(crate) is_returning: bool,
+    /// The axes are not where the program is held.
+    pub(crate) is_away: bool,
     /// Frames of the epoch whose instant has come.
     pub(crate) frames_executed: u64,
     /// Frames the real-time thread owns and has not reached.
@@ -182,6 +199,7 @@ pub(crate) struct Report {
     pub(crate) reports_lost: u64,
     pub(crate) feed_override: f64,
     pub(crate) rapid_override: f64,
+    pub(crate) jog_override: f64,
     pub(crate) single_block: bool,
     pub(crate) reserve_stops: u64,
     pub(crate) starved_ticks: u64,
@@ -195,6 +213,8 @@ impl Report {
             state: MachineState::Idle,
             end_of_epoch: EndOfEpoch::None,
             fault: None,
+            is_returning: false,
+            is_away: false,
             frames_executed: 0,
             queue_depth: 0,
             timing: Timing::default(),
@@ -202,6 +222,7 @@ impl Report {
             reports_lost: 0,
             feed_override: 0.0,
             rapid_override: 0.0,
+            jog_override: 0.0,
             single_block: false,
             reserve_stops: 0,
             starved_ticks: 0,

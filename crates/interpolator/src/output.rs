@@ -3,6 +3,7 @@
 use crate::config::Config;
 use crate::differences::{Allowed, Differences};
 use crate::frame_summary::FrameSummary;
+use crate::jog::AxesMotion;
 use crate::joints::Joints;
 use crate::rate::Progress;
 use crate::setpoint::SetpointWriter;
@@ -74,13 +75,31 @@ impl Output {
         if writer.write_moving(epoch, now, track, setpoint).is_none() {
             return Written::Nothing;
         }
-        let position = setpoint.position.into();
-        let written = if self.published.allows(&position, &self.allowed) {
+        self.go_to(&setpoint.position.into())
+    }
+
+    /// Writes the setpoint of axes that are moved by hand, so far away from the path, and compares
+    /// its position with the limits.
+    pub(crate) fn write_by_hand(
+        &mut self,
+        epoch: u64,
+        passed: &FrameSummary,
+        motion: &AxesMotion,
+        away: &AxisVector,
+        setpoint: &mut Setpoint,
+    ) -> Written {
+        self.setpoints
+            .write_by_hand(epoch, passed, motion, away, setpoint);
+        self.go_to(&motion.position)
+    }
+
+    fn go_to(&mut self, position: &AxisVector) -> Written {
+        let written = if self.published.allows(position, &self.allowed) {
             Written::Inside
         } else {
-            Written::Excess(self.published.ratio(&position, &self.allowed) - 1.0)
+            Written::Excess(self.published.ratio(position, &self.allowed) - 1.0)
         };
-        self.published.go_to(&position);
+        self.published.go_to(position);
         written
     }
 

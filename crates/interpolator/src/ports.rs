@@ -8,12 +8,13 @@
 use crate::admission::{Admission, Machine, Verdict};
 use crate::commands::{answer, is_refusal};
 use crate::config::Config;
+use crate::jog::DemandReader;
 use crate::message::{Fault, Happening, Order, PortsEnds, Report};
 use crate::status::{StatusBook, grants_of};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, LinkError, MachineState,
-    Publisher, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
+    Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, JogDemand, LinkError,
+    MachineState, Publisher, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
 };
 use glidepath_realtime::{EventReader, Grants, Mode};
 
@@ -21,6 +22,8 @@ use glidepath_realtime::{EventReader, Grants, Mode};
 const FRAMES_PER_TURN: usize = 64;
 /// Commands served in one turn.
 const COMMANDS_PER_TURN: usize = 8;
+/// Demands for a jog passed on in one turn.
+const DEMANDS_PER_TURN: usize = 16;
 /// Between two statuses.
 const STATUS_NS: u64 = 20_000_000;
 /// Between two looks for dead processes.
@@ -33,6 +36,7 @@ struct Links {
     setpoints: Box<dyn Publisher<Setpoint>>,
     status: Box<dyn Publisher<Status>>,
     commands: Box<dyn Server<CommandRequest, CommandReply>>,
+    demands: Box<dyn Subscriber<JogDemand>>,
 }
 
 impl Links {
@@ -42,6 +46,7 @@ impl Links {
             setpoints: transport.setpoint_sink()?,
             status: transport.status_sink()?,
             commands: transport.command_server()?,
+            demands: transport.jog_source()?,
             transport,
         })
     }
@@ -54,6 +59,11 @@ pub(crate) struct Ports<'a> {
     happenings: EventReader<'a, Happening>,
     log: &'a mut dyn FnMut(&str),
     admission: Admission,
+    reader: DemandReader,
+    /// Number of the setpoint after which a demand was passed on that may begin a jog.
+    demanded_after: Option<u64>,
+    /// The client whose demand was refused last, so that the log names it once.
+    refused_jogger: Option<u64>,
     /// A frame that is to be judged again.
     pending: Option<SetpointFrame>,
     report: Option<Report>,
@@ -79,6 +89,9 @@ impl<'a> Ports<'a> {
             happenings,
             log,
             admission: Admission::new(config),
+            reader: DemandReader::new(config),
+            demanded_after: None,
+            refused_jogger: None,
             pending: None,
             report: None,
             book: StatusBook::new(config, boot_id),
@@ -120,6 +133,7 @@ impl<'a> Ports<'a> {
         let done = [
             self.publish_setpoints(),
             self.serve_commands(),
+            self.pass_on_demands(),
             self.move_frames(),
             self.publish_status(now_ns),
             self.clean_up(now_ns),
@@ -188,6 +202,32 @@ impl<'a> Ports<'a> {
         Ok(())
     }
 
+    /// Passes demands for a jog on, in the order in which they came.
+    fn pass_on_demands(&mut self) -> Result<(), LinkError> {
+        let Some(report) = self.report else {
+            return Ok(());
+        };
+        for _ in 0..DEMANDS_PER_TURN {
+            let Some(record) = self.links.demands.take()? else {
+                return Ok(());
+            };
+            match self.reader.read(&record) {
+                Ok(demand) => {
+                    self.demanded_after = Some(report.setpoint.number);
+                    // A full ring is a real-time thread that hangs: nothing begins then.
+                    self.ends.demands.enqueue(demand).ok();
+                }
+                Err(error) => {
+                    if self.refused_jogger != Some(record.client) {
+                        self.refused_jogger = Some(record.client);
+                        self.tell(&error.to_string());
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
     fn move_frames(&mut self) -> Result<(), LinkError> {
         let Some(report) = self.report else {
             return Ok(());
@@ -203,12 +243,18 @@ impl<'a> Ports<'a> {
             if !self.ends.frames.ready() {
                 return Ok(());
             }
+            // Whether a jog begins is known with the next report; a program waits for that.
+            let may_jog = self.demanded_after == Some(report.setpoint.number);
             let Some(frame) = (match self.pending.take() {
                 Some(frame) => Some(frame),
                 None => self.links.frames.take()?,
             }) else {
                 return Ok(());
             };
+            if may_jog && !machine.is_open {
+                self.pending = Some(frame);
+                return Ok(());
+            }
             match self.admission.judge(&frame, &machine) {
                 Verdict::Pass => {
                     self.book.passed(&frame);

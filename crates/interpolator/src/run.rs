@@ -207,7 +207,13 @@ mod tests {
         let mut ports =
             Ports::new(&config, 1, Box::new(transport), ends, reader, &mut log).unwrap();
         let mut report = Report::blank();
-        interpolator.prepare(1, &mut inputs, &mut report);
+        let due = glidepath_realtime::Wake {
+            tick: 1,
+            scheduled_ns: config.period_ns,
+            woke_ns: config.period_ns,
+            missed: 0,
+        };
+        interpolator.prepare(&due, &mut inputs, &mut report);
         reports.enqueue(report).unwrap();
         let grants = enter(&Request::default(), Mode::BestEffort).unwrap().grants;
         let (stop, now_ns) = (AtomicBool::new(false), Monotonic.now_ns());

@@ -1,6 +1,7 @@
 //! What is published in a tick, apart from the joints, the time and the state.
 
 use crate::frame_summary::FrameSummary;
+use crate::jog::AxesMotion;
 use crate::rate::Progress;
 use crate::track::Track;
 use glidepath_geometry::{AXES, AxisVector};
@@ -80,6 +81,21 @@ impl SetpointWriter {
         (setpoint.event_kind, setpoint.event_value) = (0, 0.0);
     }
 
+    /// Writes the setpoint of axes that are moved by hand, so far away from the path.
+    pub(crate) fn write_by_hand(
+        &mut self,
+        epoch: u64,
+        passed: &FrameSummary,
+        motion: &AxesMotion,
+        away: &AxisVector,
+        setpoint: &mut Setpoint,
+    ) {
+        self.write_standing(epoch, passed, &motion.position, setpoint);
+        setpoint.velocity = motion.velocity.into();
+        setpoint.acceleration = motion.acceleration.into();
+        setpoint.away = (*away).into();
+    }
+
     /// Writes which setpoint it is, and where in the program.
     const fn identify(&mut self, epoch: u64, summary: &FrameSummary, setpoint: &mut Setpoint) {
         setpoint.boot_id = self.boot_id;
@@ -92,6 +108,7 @@ impl SetpointWriter {
         setpoint.line = summary.line;
         setpoint.block = summary.block;
         setpoint.flags = summary.flags;
+        setpoint.away = [0.0; AXES];
     }
 }
 

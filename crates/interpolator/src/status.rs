@@ -117,6 +117,7 @@ impl StatusBook {
         status.feed_v = setpoint.feed_v;
         status.feed_override = report.feed_override;
         status.rapid_override = report.rapid_override;
+        status.jog_override = report.jog_override;
         status.effective_override = setpoint.effective_override;
         status.ticks = setpoint.number + 1;
         status.missed_ticks = setpoint.missed_ticks;
@@ -152,6 +153,7 @@ impl StatusBook {
 /// What moves the axes.
 fn mode(report: &Report) -> MotionMode {
     match report.state {
+        MachineState::Jogging if report.is_returning => MotionMode::Return,
         MachineState::Jogging => MotionMode::Jog,
         MachineState::Homing => MotionMode::Homing,
         _ if report.end_of_epoch == EndOfEpoch::Open => MotionMode::Program,

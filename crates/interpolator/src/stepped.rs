@@ -1,9 +1,10 @@
 //! An interpolator that is driven by hand.
 
 use crate::config::Config;
+use crate::jog::DemandReader;
 use crate::message::{HAPPENINGS, Happening, Inputs, Order, PortsEnds, Report, Rings};
 use crate::tick::Interpolator;
-use glidepath_link::{Command, Setpoint, SetpointFrame};
+use glidepath_link::{Command, JogDemand, Setpoint, SetpointFrame};
 use glidepath_realtime::{Events, Wake, event_ring};
 
 /// The work of the real-time thread without a thread, a clock or ports: for measurements and
@@ -12,6 +13,7 @@ pub struct Stepped<'a> {
     interpolator: Interpolator<'a>,
     inputs: Inputs<'a>,
     ends: PortsEnds<'a>,
+    reader: DemandReader,
     report: Report,
     period_ns: u64,
     tick: u64,
@@ -37,6 +39,7 @@ pub fn stepped<R>(config: &Config, drive: impl FnOnce(&mut Stepped<'_>) -> R) ->
         interpolator,
         inputs,
         ends,
+        reader: DemandReader::new(config),
         report: Report::blank(),
         period_ns,
         tick: 0,
@@ -54,6 +57,14 @@ impl Stepped<'_> {
         command != Command::Ping && self.ends.orders.enqueue(Order::Command(command)).is_ok()
     }
 
+    /// Gives it a demand for a jog; false if there are too many, or it is none of this machine.
+    pub fn jog(&mut self, demand: &JogDemand) -> bool {
+        let Ok(demand) = self.reader.read(demand) else {
+            return false;
+        };
+        self.ends.demands.enqueue(demand).is_ok()
+    }
+
     /// One period, on time.
     pub fn tick(&mut self) -> Setpoint {
         self.tick += 1;
@@ -65,8 +76,7 @@ impl Stepped<'_> {
             missed: 0,
         };
         let report = &mut self.report;
-        self.interpolator
-            .prepare(self.tick, &mut self.inputs, report);
+        self.interpolator.prepare(&wake, &mut self.inputs, report);
         self.interpolator.stamp(report, &wake);
         report.setpoint
     }

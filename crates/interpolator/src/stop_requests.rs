@@ -80,7 +80,7 @@ impl StopRequests {
 
     const fn carry_out_command(&mut self, command: Command, is_open: bool) -> Released {
         match command {
-            // The ports thread has answered them.
+            // The ports thread has answered them, or they concern the jog.
             Command::Ping
             | Command::Enable
             | Command::Disable
@@ -88,6 +88,7 @@ impl StopRequests {
             | Command::Home(_)
             | Command::Unhome(_)
             | Command::Return
+            | Command::JogOverride(_)
             | Command::Acknowledge { .. } => {}
             Command::Hold => self.hold = is_open,
             Command::Resume => return self.go_on(),
@@ -112,6 +113,11 @@ impl StopRequests {
             program_stop: core::mem::replace(&mut self.program_stop, false),
             block_end: core::mem::replace(&mut self.block_end, false),
         }
+    }
+
+    /// The program goes on only when the operator says so.
+    pub(crate) const fn hold(&mut self) {
+        self.hold = true;
     }
 
     /// Latches a fault. The first one stays: the others follow from it.

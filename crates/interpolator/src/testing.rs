@@ -18,6 +18,12 @@ use glidepath_geometry::AXES;
 use glidepath_link::SetpointFrame;
 pub(crate) use synthetic::*;
 
+/// How many random cases a test runs, unless the environment says otherwise.
+pub(crate) fn random_cases(usual: u32) -> u32 {
+    let wanted = std::env::var("PROPTEST_CASES").ok();
+    wanted.map_or(usual, |text| text.parse().unwrap())
+}
+
 /// A frame with the given values on the first axes and zero on the others.
 pub(crate) fn frame_of<const N: usize>(
     sequence: u64,
@@ -43,10 +49,11 @@ pub(crate) fn frame_of<const N: usize>(
 }
 
 use crate::config::Config;
+use crate::jog::DemandReader;
 use crate::message::{HAPPENINGS, Happening, Inputs, Order, PortsEnds, Report, Rings};
 use crate::tick::Interpolator;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{Command, MachineState, Setpoint};
+use glidepath_link::{Command, JogDemand, MachineState, Setpoint};
 use glidepath_realtime::{Events, Wake, event_ring};
 use heapless::spsc::Producer;
 use std::collections::VecDeque;
@@ -105,6 +112,17 @@ impl Rig {
         self.ends.orders.enqueue(Order::Command(command)).unwrap();
     }
 
+    /// When the last tick was due.
+    pub(crate) const fn now_ns(&self) -> u64 {
+        self.tick * self.config.period_ns
+    }
+
+    /// Demands a jog, as a client does at the present time.
+    pub(crate) fn jog(&mut self, record: &JogDemand) {
+        let demand = DemandReader::new(&self.config).read(record).unwrap();
+        self.ends.demands.enqueue(demand).unwrap();
+    }
+
     /// Moves up to `count` frames into the ring.
     pub(crate) fn publish(&mut self, count: usize) {
         for _ in 0..count {
@@ -154,7 +172,7 @@ impl Rig {
         };
         let mut report = Report::blank();
         self.interpolator
-            .prepare(self.tick, &mut self.inputs, &mut report);
+            .prepare(&wake, &mut self.inputs, &mut report);
         self.interpolator.stamp(&mut report, &wake);
         self.setpoints.push(report.setpoint);
         self.last = Some(report);

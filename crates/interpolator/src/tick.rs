@@ -1,6 +1,7 @@
 //! One period of the real-time thread: a function of what it owns, the wake-up, and the rings.
 //!
 //! ```text
+//! demands ─► jog ─────────────────────────────────────────────────► setpoint, while it owns the axes
 //! orders ─► stop requests ─┐
 //! frames ─► track ─────────┴► supply ─► rate ─► program time ─► setpoint ─► joints ─┐
 //!                             enough    chosen  advanced        written,            │
@@ -20,6 +21,7 @@ use crate::account::Account;
 use crate::block_stop::BlockStop;
 use crate::config::Config;
 use crate::frame_summary::FrameSummary;
+use crate::jog::{Jog, Surroundings};
 use crate::message::{Fault, Happening, Inputs, Order, Report, Timing};
 use crate::output::{Output, Written};
 use crate::program_time::ProgramTime;
@@ -29,7 +31,9 @@ use crate::stop_requests::StopRequests;
 use crate::supply::Supply;
 use crate::track::Track;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, Setpoint, SetpointFrame};
+use glidepath_link::{
+    Command, EndOfEpoch, FaultCause, FrameRefusal, MachineState, Setpoint, SetpointFrame,
+};
 use glidepath_program::FrameFlags;
 use glidepath_realtime::{EventWriter, Wake};
 
@@ -48,6 +52,7 @@ pub(crate) struct Interpolator<'a> {
     requests: StopRequests,
     supply: Supply,
     block_stop: BlockStop,
+    jog: Jog,
     output: Output,
     /// The open or last epoch, 0 before the first.
     epoch: u64,
@@ -70,6 +75,7 @@ impl<'a> Interpolator<'a> {
             requests: StopRequests::default(),
             supply: Supply::new(config),
             block_stop: BlockStop::none(),
+            jog: Jog::new(config),
             output: Output::new(config, boot_id),
             epoch: 0,
             end_of_epoch: EndOfEpoch::None,
@@ -83,11 +89,15 @@ impl<'a> Interpolator<'a> {
     /// report but the stamp, in its place: every copy of it would be a dozen more cache lines to
     /// wait for.
     #[cfg_attr(glidepath_rtsan, sanitize(realtime = "nonblocking"))]
-    pub(crate) fn prepare(&mut self, tick: u64, inputs: &mut Inputs<'_>, report: &mut Report) {
+    pub(crate) fn prepare(&mut self, due: &Wake, inputs: &mut Inputs<'_>, report: &mut Report) {
+        let tick = due.tick;
         self.carry_out_orders(inputs);
+        self.hear_demands(due.scheduled_ns, inputs);
         self.take_frames(inputs);
         self.watch_supply();
-        if self.is_open() {
+        if self.jog.owns_axes() {
+            self.follow_jog(due, &mut report.setpoint);
+        } else if self.is_open() {
             self.look_for_block_end();
             self.choose_rate();
             self.advance_program_time(tick);
@@ -138,6 +148,11 @@ impl<'a> Interpolator<'a> {
             if order == Order::PlannerLives {
                 self.supply.planner_lives();
             }
+            if let Order::Command(command) = order
+                && !self.is_for_program(command)
+            {
+                continue;
+            }
             let released = self.requests.carry_out(order, self.is_open());
             if released.program_stop {
                 self.track.pass_stop();
@@ -147,6 +162,62 @@ impl<'a> Interpolator<'a> {
                 self.track.hold_at_block_end(None);
             }
         }
+    }
+
+    /// Carries out what a command is to the jog. Returns whether it is one to the program, too.
+    fn is_for_program(&mut self, command: Command) -> bool {
+        match command {
+            Command::Hold | Command::Abort => self.jog.cancel(),
+            Command::Return => {
+                let around = self.surroundings(0, false);
+                self.jog.go_back(&around);
+            }
+            Command::JogOverride(ratio) => self.jog.set_override(ratio),
+            // The path begins where the axes are not.
+            Command::Resume | Command::Step => return !self.jog.owns_axes(),
+            _ => {}
+        }
+        true
+    }
+
+    /// Takes the demands for a jog. They count from rest only, with a program held or none, and as
+    /// long as no program is about to begin.
+    fn hear_demands(&mut self, now_ns: u64, inputs: &mut Inputs<'_>) {
+        if self.requests.is_stopping() {
+            self.jog.cancel();
+        }
+        let is_free = if self.is_open() {
+            let state = self.account.state();
+            matches!(state, MachineState::Held | MachineState::ProgramStop) && self.is_standing()
+        } else {
+            self.account.state() == MachineState::Idle && inputs.frames.peek().is_none()
+        };
+        let may_start = is_free && !self.requests.is_stopping();
+        while let Some(demand) = inputs.demands.dequeue() {
+            let around = self.surroundings(now_ns, may_start);
+            if self.jog.hear(&demand, &around) && self.is_open() {
+                // Whatever it is held for may end: it goes on when the operator says so.
+                self.requests.hold();
+            }
+        }
+    }
+
+    fn surroundings(&self, now_ns: u64, may_start: bool) -> Surroundings {
+        Surroundings {
+            now_ns,
+            position: self.output.published().position(),
+            may_start,
+            is_on_path: self.is_open(),
+            is_homed: true,
+        }
+    }
+
+    /// Writes the setpoint of axes that a jog moves, or has moved away from the path.
+    fn follow_jog(&mut self, due: &Wake, setpoint: &mut Setpoint) {
+        let motion = self.jog.step(due.scheduled_ns);
+        let (output, away) = (&mut self.output, self.jog.away());
+        let written = output.write_by_hand(self.epoch, &self.passed, &motion, &away, setpoint);
+        self.judge(written, due.tick);
     }
 
     /// Takes frames while there is room. What belongs to no epoch that is open here was under way
@@ -297,23 +368,24 @@ impl<'a> Interpolator<'a> {
     /// Writes the setpoint at the present program time, and says if it should not be.
     fn write_moving(&mut self, tick: u64, setpoint: &mut Setpoint) {
         let now = self.rate.now();
-        match self
-            .output
-            .write_moving(self.epoch, &now, &self.track, setpoint)
-        {
-            Written::Inside => {}
-            Written::Excess(part) => {
-                self.account.exceed(tick, part);
-                if part.is_nan() || part > EXCESS_FAULT {
-                    self.fail(FaultCause::Output);
-                }
-            }
-            Written::Nothing => {
-                // Every committed ramp ends on frames at hand, so this cannot be; if it were,
-                // standing still is all that is left.
+        let (output, track) = (&mut self.output, &self.track);
+        let written = output.write_moving(self.epoch, &now, track, setpoint);
+        self.judge(written, tick);
+        if written == Written::Nothing {
+            // Every committed ramp ends on frames at hand, so this cannot be; if it were, standing
+            // still is all that is left.
+            self.fail(FaultCause::Output);
+            self.rate.rest_at(now.time, 0.0);
+            self.write_standing(setpoint);
+        }
+    }
+
+    /// Tells of a setpoint that exceeds a limit, and stops the motion for one that is far above.
+    fn judge(&mut self, written: Written, tick: u64) {
+        if let Written::Excess(part) = written {
+            self.account.exceed(tick, part);
+            if part.is_nan() || part > EXCESS_FAULT {
                 self.fail(FaultCause::Output);
-                self.rate.rest_at(now.time, 0.0);
-                self.write_standing(setpoint);
             }
         }
     }
@@ -357,6 +429,7 @@ impl<'a> Interpolator<'a> {
         }
         self.track.clear();
         self.rate.rest_at(self.rate.now().time, 0.0);
+        self.jog.forget_path();
         self.output.rest();
         self.end_of_epoch = end;
         self.supply.end_epoch();
@@ -372,7 +445,13 @@ impl<'a> Interpolator<'a> {
     fn update_state(&mut self, tick: u64) {
         let (is_open, stands) = (self.is_open(), self.is_standing());
         let is_rapid = self.is_rapid();
-        let state = self.requests.state(is_open, stands, is_rapid, &self.supply);
+        let of_program = self.requests.state(is_open, stands, is_rapid, &self.supply);
+        let state = match of_program {
+            MachineState::Stopping => MachineState::Stopping,
+            _ if self.jog.is_active() && self.requests.is_stopping() => MachineState::Stopping,
+            _ if self.jog.is_active() => MachineState::Jogging,
+            _ => of_program,
+        };
         // Before the motion begins, frames are few by nature.
         let has_begun = self.rate.now().time.sequence > 0;
         self.account.enter(state, tick, self.passed.line, has_begun);
@@ -384,6 +463,8 @@ impl<'a> Interpolator<'a> {
         let (feed_override, rapid_override) = self.requests.overrides();
         report.end_of_epoch = self.end_of_epoch;
         report.fault = self.requests.fault().copied();
+        report.is_returning = self.jog.is_returning();
+        report.is_away = self.jog.owns_axes() && self.is_open();
         report.frames_executed = if self.epoch == 0 { 0 } else { now + 1 };
         report.queue_depth = if self.is_open() {
             self.track.end().saturating_sub(now + 1)
@@ -391,6 +472,7 @@ impl<'a> Interpolator<'a> {
             0
         };
         (report.feed_override, report.rapid_override) = (feed_override, rapid_override);
+        report.jog_override = self.jog.override_ratio();
         report.single_block = self.requests.is_single_block();
         self.account.fill(report);
     }

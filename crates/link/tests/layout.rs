@@ -35,7 +35,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v3", 656, {
     acceleration: 296, joint_position: 368, joint_velocity: 440, joint_acceleration: 512,
     away: 584,
 });
-layout!(status, Status, "glidepath.Status.v5", 1232, {
+layout!(status, Status, "glidepath.Status.v5", 1240, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_joint: 88, drive_fault: 92,
@@ -44,11 +44,11 @@ layout!(status, Status, "glidepath.Status.v5", 1232, {
     mode: 364, joints: 368, enabled: 372, homed: 376, drive_faults: 380, reference: 384,
     feedback_age_ns: 392, joint_actual: 400, following_error: 472, following_peak: 544,
     awaited_sequence: 616, awaited_since_ns: 624, path_s: 632, block_path_s: 640, feed_v: 648,
-    feed_override: 656, rapid_override: 664, effective_override: 672, ticks: 680,
-    missed_ticks: 688, late_ticks: 696, setpoints_published: 704, setpoints_lost: 712,
-    reserve_stops: 720, starved_ticks: 728, commands_served: 736, commands_refused: 744,
-    frames_refused: 752, lateness: 848, work: 880, latency: 912, response: 944, last_error: 976,
-    last_event: 1104,
+    feed_override: 656, rapid_override: 664, jog_override: 672, effective_override: 680, ticks: 688,
+    missed_ticks: 696, late_ticks: 704, setpoints_published: 712, setpoints_lost: 720,
+    reserve_stops: 728, starved_ticks: 736, commands_served: 744, commands_refused: 752,
+    frames_refused: 760, lateness: 856, work: 888, latency: 920, response: 952, last_error: 984,
+    last_event: 1112,
 });
 layout!(command_request, CommandRequest, "glidepath.CommandRequest.v3", 56, {
     client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32,

@@ -172,6 +172,7 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
         "feed_mm_s": status.feed_v,
         "feed_override": status.feed_override,
         "rapid_override": status.rapid_override,
+        "jog_override": status.jog_override,
         "effective_override": status.effective_override,
         "period_us": microseconds(status.period_ns),
         "ticks": status.ticks,
@@ -229,9 +230,10 @@ pub fn status_text(instance: &str, status: &Status) -> String {
     );
     let _ = writeln!(
         text,
-        "  override      feed {:.0} %, rapid {:.0} % (executed {:.0} %)",
+        "  override      feed {:.0} %, rapid {:.0} %, jog {:.0} % (executed {:.0} %)",
         status.feed_override * 100.0,
         status.rapid_override * 100.0,
+        status.jog_override * 100.0,
         status.effective_override * 100.0
     );
     let _ = writeln!(

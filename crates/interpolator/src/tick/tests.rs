@@ -13,11 +13,13 @@
 
 mod block_ends;
 mod commands;
+mod jog;
+mod jog_random;
 mod planned;
 mod supply;
 
 use super::*;
-use crate::testing::{Numbers, Rig, lines, mill, plan, records};
+use crate::testing::{Numbers, Rig, lines, mill, plan, random_cases, records};
 use glidepath_link::{Command, MachineState, SetpointMarks};
 use proptest::prelude::*;
 
@@ -25,9 +27,7 @@ const INSIDE: f64 = 1.0 + 1e-6;
 
 /// How many random cases a test runs, unless the environment says otherwise.
 fn cases(usual: u32) -> ProptestConfig {
-    let wanted = std::env::var("PROPTEST_CASES").ok();
-    let cases = wanted.map_or(usual, |text| text.parse().unwrap());
-    ProptestConfig::with_cases(cases)
+    ProptestConfig::with_cases(random_cases(usual))
 }
 
 fn frames(seed: u64, axes: usize, ticks: usize) -> Vec<SetpointFrame> {

@@ -42,6 +42,8 @@ coded! {
         Return = 16,
         /// See [`Command::Acknowledge`].
         Acknowledge = 17,
+        /// See [`Command::JogOverride`].
+        JogOverride = 18,
     }
 }
 
@@ -96,6 +98,8 @@ pub enum Command {
         /// Whether it was done.
         done: bool,
     },
+    /// Set the part of their speed that jogs have, a ratio from 0 to 1.
+    JogOverride(f64),
 }
 
 /// Which event: no two have the same.
@@ -134,6 +138,7 @@ impl Command {
             Self::Unhome(_) => CommandKind::Unhome,
             Self::Return => CommandKind::Return,
             Self::Acknowledge { .. } => CommandKind::Acknowledge,
+            Self::JogOverride(_) => CommandKind::JogOverride,
         }
     }
 }
@@ -172,7 +177,9 @@ impl CommandRequest {
             event: EventId::default(),
         };
         match command {
-            Command::FeedOverride(ratio) | Command::RapidOverride(ratio) => record.value = ratio,
+            Command::FeedOverride(ratio)
+            | Command::RapidOverride(ratio)
+            | Command::JogOverride(ratio) => record.value = ratio,
             Command::SingleBlock(on) => record.value = f64::from(u8::from(on)),
             Command::SetPosition { joint, position } => {
                 (record.joints, record.value) = (joint, position);
@@ -234,6 +241,10 @@ impl CommandRequest {
                 event: self.event,
                 done: self.switch()?,
             },
+            CommandKind::JogOverride => {
+                fields.range("value", self.value, 0.0, 1.0)?;
+                Command::JogOverride(self.value)
+            }
         })
     }
 

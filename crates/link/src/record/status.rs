@@ -159,6 +159,8 @@ pub struct Status {
     pub feed_override: f64,
     /// Rapid override as commanded.
     pub rapid_override: f64,
+    /// Part of their speed that jogs have, as commanded, 0 to 1.
+    pub jog_override: f64,
     /// Override as executed.
     pub effective_override: f64,
     /// Ticks run.
@@ -282,6 +284,7 @@ impl Record for Status {
         fields.finite("fault_limit", self.fault_limit)?;
         fields.override_ratio("feed_override", self.feed_override)?;
         fields.override_ratio("rapid_override", self.rapid_override)?;
+        fields.range("jog_override", self.jog_override, 0.0, 1.0)?;
         fields.range(
             "effective_override",
             self.effective_override,

@@ -1,0 +1,396 @@
+//! Moving by hand: jogs from rest, jogs away from the path while a program is held, and the way
+//! back.
+//!
+//! ```text
+//!             demand                         arrived, let go, unheard of for 150 ms, hold, abort
+//!   at rest ──────────► the axes are the jog's ──────────► coming to rest ──► at rest,
+//!      ▲                  │  ▲  another demand                                 perhaps away
+//!      └──────────────────┘  └──────────────┘                                  from the path
+//! ```
+//!
+//! A demand is followed in the tick that sees it, from whatever the axes are doing: there is no plan
+//! to wait for. What it may do is in three hands:
+//!
+//! * [`holder`]: whose demand counts, and for how long. Nothing sets out because of a demand that is
+//!   old, or was there before jogging was possible.
+//! * [`course`]: how the axes get to what is wanted, inside the limits, straight where they can.
+//! * [`clearance`]: whether the next step may be done: only if the stop from its end was played
+//!   through, and stays in travel, within reach, and inside the limits of the joints.
+//!
+//! While a program is held, program time stands and what is published is the path's position and the
+//! way that the axes are away from it. The program goes on only after a return, which ends where the
+//! jog began, to the bit.
+
+mod clearance;
+mod course;
+mod demand;
+mod holder;
+mod line;
+mod travel;
+mod wheel;
+
+pub(crate) use demand::{Demand, DemandReader};
+pub(crate) use line::AxesMotion;
+
+use crate::config::{Config, JogSettings, SoftLimits};
+use crate::tracker::{Bounds, Motion, Profile};
+use clearance::Clearance;
+use course::{Course, Goal, JogLimits};
+use glidepath_geometry::AxisVector;
+use glidepath_link::JogMode;
+use glidepath_program::Limits;
+use holder::{Heard, Holder};
+use travel::Travel;
+use wheel::Wheel;
+
+/// By how much the speed that the joints can do has to rise before the axes go faster: so that they
+/// do not set out anew in every tick.
+const FASTER_R: f64 = 1.05;
+
+/// What the tick knows.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Surroundings {
+    /// When the tick is due.
+    pub(crate) now_ns: u64,
+    /// Where the axes were published last.
+    pub(crate) position: AxisVector,
+    /// Whether a jog may begin.
+    pub(crate) may_start: bool,
+    /// Whether a program is held there: where the jog begins is then to be found again.
+    pub(crate) is_on_path: bool,
+    /// Whether the axes know where they are.
+    pub(crate) is_homed: bool,
+}
+
+/// What moves the axes by hand.
+#[derive(Debug)]
+pub(crate) struct Jog {
+    settings: JogSettings,
+    limits: Limits,
+    soft_limits: SoftLimits,
+    period_t: f64,
+    /// How far ahead of an axis the place may be that its wheel was turned to.
+    ahead: AxisVector,
+    clearance: Clearance,
+    holder: Holder,
+    wheel: Wheel,
+    /// What is followed.
+    demand: Option<Demand>,
+    goal: Goal,
+    course: Course,
+    /// A step was not allowed: nothing moves before something else is wanted.
+    blocked: bool,
+    /// The speed that the joints can do, as it was looked up last.
+    joint_v: f64,
+    override_ratio: f64,
+    /// Where the present jog began.
+    began_at: AxisVector,
+    is_homed: bool,
+    /// Where the program was held, if the axes may be away from there.
+    path: Option<AxisVector>,
+    /// The places that are left on the way back: the last one first.
+    way_back: [Option<AxisVector>; 2],
+}
+
+impl Jog {
+    pub(crate) fn new(config: &Config) -> Self {
+        let settings = config.jog;
+        let mut limits = config.limits;
+        limits.velocity = limits.velocity.inf(&settings.velocity);
+        let ns = |t: core::time::Duration| u64::try_from(t.as_nanos()).unwrap_or(u64::MAX);
+        Self {
+            settings,
+            limits,
+            soft_limits: config.soft_limits,
+            period_t: config.period_t(),
+            ahead: stopping_distances(&limits),
+            clearance: Clearance::new(config),
+            holder: Holder::new(ns(settings.dead_man), config.period_ns),
+            wheel: Wheel::new(ns(settings.wheel_quiet)),
+            demand: None,
+            goal: Goal::Stop,
+            course: Course::at_rest(config.start_position),
+            blocked: false,
+            joint_v: f64::INFINITY,
+            override_ratio: 1.0,
+            began_at: config.start_position,
+            is_homed: true,
+            path: None,
+            way_back: [None; 2],
+        }
+    }
+
+    /// True while the setpoints are the jog's: it moves the axes, or they are away from the path.
+    pub(crate) const fn owns_axes(&self) -> bool {
+        self.is_active() || self.path.is_some()
+    }
+
+    /// True while something is followed or comes to rest.
+    pub(crate) const fn is_active(&self) -> bool {
+        self.demand.is_some() || self.is_returning() || !self.course.is_resting()
+    }
+
+    /// True on the way back to the path.
+    pub(crate) const fn is_returning(&self) -> bool {
+        !matches!(self.way_back, [None, None])
+    }
+
+    /// How far the axes are from where the program is held.
+    pub(crate) fn away(&self) -> AxisVector {
+        self.path.map_or_else(AxisVector::zeros, |path| {
+            self.course.motion().position - path
+        })
+    }
+
+    /// What part of the jog's speeds is left, 0 to 1.
+    pub(crate) const fn set_override(&mut self, ratio: f64) {
+        self.override_ratio = ratio;
+    }
+
+    pub(crate) const fn override_ratio(&self) -> f64 {
+        self.override_ratio
+    }
+
+    /// Takes a demand. Returns whether a jog begins with it.
+    pub(crate) fn hear(&mut self, demand: &Demand, around: &Surroundings) -> bool {
+        let turned = self.wheel.turn(demand);
+        let is_wheel = matches!(demand.mode, JogMode::Wheel | JogMode::WheelVelocity);
+        if is_wheel && turned.amax() <= 0.0 {
+            return false; // It stands. How long it has stood is looked at elsewhere.
+        }
+        let was_active = self.is_active();
+        let may_start = around.may_start && !was_active;
+        match self.holder.hear(demand, around.now_ns, may_start) {
+            Heard::Nothing => return false,
+            Heard::LetGo => {
+                self.let_go();
+                return false;
+            }
+            Heard::Alive if !is_wheel => return false,
+            Heard::Alive | Heard::New => {}
+        }
+        if !was_active {
+            self.begin(around);
+        }
+        self.blocked = false;
+        self.follow(demand, &turned, &around.position);
+        !was_active
+    }
+
+    fn begin(&mut self, around: &Surroundings) {
+        self.course = Course::at_rest(around.position);
+        self.clearance.begin();
+        self.clearance.follow(&around.position);
+        self.began_at = around.position;
+        self.is_homed = around.is_homed;
+        if around.is_on_path && self.path.is_none() {
+            self.path = Some(around.position);
+        }
+    }
+
+    /// Makes a demand the one that is followed.
+    fn follow(&mut self, demand: &Demand, turned: &AxisVector, published: &AxisVector) {
+        let before = self.demand.replace(*demand).map(|before| before.mode);
+        self.goal = match demand.mode {
+            // How fast a wheel turns is looked at in every tick.
+            JogMode::None | JogMode::WheelVelocity => Goal::Stop,
+            JogMode::Continuous => Goal::Speeds(demand.value),
+            JogMode::Incremental => {
+                let rest = self.course.stop().end();
+                Goal::Place(
+                    rest.zip_zip_map(published, &demand.value, |rest, now, step| {
+                        if step == 0.0 { rest } else { now + step }
+                    }),
+                )
+            }
+            JogMode::Wheel => {
+                let from = match self.goal {
+                    Goal::Place(place) if before == Some(JogMode::Wheel) => place,
+                    _ => self.course.stop().end(),
+                };
+                let place = (from + turned).sup(&(published - self.ahead));
+                Goal::Place(place.inf(&(published + self.ahead)))
+            }
+        };
+    }
+
+    /// Whoever jogs does so no longer.
+    fn let_go(&mut self) {
+        self.demand = None;
+        self.goal = Goal::Stop;
+        self.way_back = [None; 2];
+    }
+
+    /// Ends a jog or a return from elsewhere. Who jogs has to let go before beginning another.
+    pub(crate) fn cancel(&mut self) {
+        self.holder.shut_out();
+        self.let_go();
+    }
+
+    /// Begins the way back to the path, the tool axis last. Returns whether there is one.
+    pub(crate) fn go_back(&mut self, around: &Surroundings) -> bool {
+        let Some(path) = self.path.filter(|_| !self.is_active()) else {
+            return false;
+        };
+        self.begin(around);
+        let mut beside = path;
+        let tool = self.settings.tool_axis.index();
+        if let (Some(slot), Some(now)) = (beside.get_mut(tool), around.position.get(tool)) {
+            *slot = *now;
+        }
+        self.blocked = false;
+        self.way_back = [Some(path), Some(beside)];
+        self.goal = Goal::Place(beside);
+        true
+    }
+
+    /// The epoch has ended: there is no path to be away from.
+    pub(crate) const fn forget_path(&mut self) {
+        self.path = None;
+    }
+
+    /// One period of the motion. To be called while the axes are the jog's.
+    pub(crate) fn step(&mut self, now_ns: u64) -> AxesMotion {
+        self.watch_demand(now_ns);
+        let position = self.course.motion().position;
+        let travel = self.travel(&position);
+        let mut next = self.course;
+        if self.blocked || self.goal == Goal::Stop {
+            next.brake();
+            next.advance(self.period_t);
+            self.course = next;
+        } else {
+            self.look_up_joint_speed(&position);
+            next.aim(&self.goal, &travel, &self.jog_limits());
+            next.advance(self.period_t);
+            if self.clearance.admits(&next, &travel) {
+                self.course = next;
+            } else {
+                // The stop from here was played through before.
+                self.blocked = true;
+                self.course.brake();
+                self.course.advance(self.period_t);
+            }
+        }
+        let motion = self.course.motion();
+        self.clearance.follow(&motion.position);
+        if self.course.is_resting() {
+            self.come_to_rest(&motion.position);
+        }
+        motion
+    }
+
+    /// Looks whether what is followed is still to be.
+    fn watch_demand(&mut self, now_ns: u64) {
+        match self.demand.map(|demand| demand.mode) {
+            Some(JogMode::Continuous) if self.holder.is_overdue(now_ns) => self.let_go(),
+            Some(JogMode::WheelVelocity) => {
+                let speed = self.wheel.speed(now_ns);
+                if speed.amax() > 0.0 {
+                    self.goal = Goal::Speeds(speed);
+                } else {
+                    self.let_go();
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn travel(&self, position: &AxisVector) -> Travel {
+        if !self.is_homed {
+            return Travel::around(&self.soft_limits, &self.began_at);
+        }
+        Travel::from(&self.soft_limits, position)
+    }
+
+    fn jog_limits(&self) -> JogLimits {
+        let mut jog = self.limits;
+        if !self.is_homed {
+            jog.velocity = jog.velocity.inf(&self.settings.unhomed_velocity);
+        }
+        let demanded_v = if self.is_returning() {
+            self.settings.return_v
+        } else {
+            match &self.demand {
+                Some(demand) if demand.mode != JogMode::Continuous => demand.most_v,
+                _ => f64::INFINITY,
+            }
+        };
+        JogLimits {
+            jog,
+            most_v: demanded_v.min(self.joint_v),
+            override_ratio: self.override_ratio,
+        }
+    }
+
+    /// The joints' speed along the present direction, here and where a stop would end.
+    fn look_up_joint_speed(&mut self, position: &AxisVector) {
+        if self.clearance.is_of_travel_alone() {
+            return;
+        }
+        let direction = match (self.course.direction(), &self.goal) {
+            (Some(direction), _) => *direction,
+            (None, Goal::Speeds(speeds)) => speeds.normalize(),
+            (None, Goal::Place(place)) => (place - position).normalize(),
+            (None, Goal::Stop) => return,
+        };
+        let end = self.course.stop().end();
+        let here = self.clearance.speed(position, &direction);
+        let v = here.min(self.clearance.speed(&end, &direction));
+        if v < self.joint_v || v > self.joint_v * FASTER_R {
+            self.joint_v = v;
+        }
+    }
+
+    /// Nothing moves: what was wanted is done, or cannot be.
+    fn come_to_rest(&mut self, position: &AxisVector) {
+        let is_pressed = self
+            .demand
+            .is_some_and(|demand| demand.mode == JogMode::Continuous);
+        if is_pressed {
+            return; // At the end of the way; the key is still down.
+        }
+        if self.is_returning() && !self.blocked {
+            self.next_on_way_back(position);
+            if self.is_returning() {
+                return;
+            }
+        }
+        self.way_back = [None; 2];
+        self.demand = None;
+        self.goal = Goal::Stop;
+        self.holder.release();
+        if self.path == Some(*position) {
+            self.path = None;
+        }
+    }
+
+    /// Goes on to the next place of the way back.
+    fn next_on_way_back(&mut self, position: &AxisVector) {
+        let [last, next] = &mut self.way_back;
+        if next.is_some_and(|place| place == *position) {
+            *next = None;
+        }
+        if *last == Some(*position) && next.is_none() {
+            *last = None;
+        }
+        match (*next, *last) {
+            (Some(place), _) | (None, Some(place)) => self.goal = Goal::Place(place),
+            (None, None) => {}
+        }
+    }
+}
+
+/// How far every axis goes when it stops from full speed.
+fn stopping_distances(limits: &Limits) -> AxisVector {
+    limits
+        .velocity
+        .zip_zip_map(&limits.acceleration, &limits.jerk, |v, a, j| {
+            let from = Motion { x: 0.0, v, a: 0.0 };
+            if v < Limits::UNLIMITED {
+                Profile::to_stop(from, &Bounds { v, a, j }).end().x
+            } else {
+                0.0
+            }
+        })
+}

@@ -1,0 +1,405 @@
+//! Moving by hand.
+
+use super::*;
+use crate::config::SoftLimits;
+use glidepath_link::{JogDemand, JogMode};
+use glidepath_program::Limits;
+
+/// Travel of the machine that is jogged, mm.
+const TRAVEL: f64 = 50.0;
+
+/// A client that keeps an owner's key.
+pub(super) struct Hand {
+    pub(super) demand: JogDemand,
+}
+
+impl Hand {
+    pub(super) fn new(client: u64) -> Self {
+        let demand = JogDemand {
+            client,
+            mask: 0b111,
+            ..bytemuck::Zeroable::zeroed()
+        };
+        Self { demand }
+    }
+
+    /// Asks for something new.
+    pub(super) fn ask(&mut self, rig: &mut Rig, mode: JogMode, value: [f64; 3]) {
+        self.demand.number += 1;
+        self.demand.mode = mode.code();
+        self.demand.value[..3].copy_from_slice(&value);
+        self.again(rig);
+    }
+
+    /// Says that it lives.
+    pub(super) fn again(&mut self, rig: &mut Rig) {
+        self.demand.sent_ns = rig.now_ns();
+        rig.jog(&self.demand);
+    }
+
+    /// A key that is held down for so many ticks, and repeats every eight.
+    pub(super) fn hold(&mut self, rig: &mut Rig, ticks: usize, velocity: [f64; 3]) {
+        self.ask(rig, JogMode::Continuous, velocity);
+        for tick in 1..=ticks {
+            rig.tick();
+            if tick % 8 == 0 {
+                self.again(rig);
+            }
+        }
+    }
+}
+
+/// A machine of three axes with travel.
+pub(super) fn jogged() -> Rig {
+    let mut config = Config::new(three_axes(), 4_000_000);
+    config.soft_limits = SoftLimits {
+        lowest: AxisVector::repeat(-TRAVEL),
+        highest: AxisVector::repeat(TRAVEL),
+    };
+    Rig::new(config)
+}
+
+pub(super) fn three_axes() -> Limits {
+    let mut limits = mill();
+    for axis in 3..9 {
+        limits.velocity[axis] = Limits::UNLIMITED;
+        limits.acceleration[axis] = Limits::UNLIMITED;
+        limits.jerk[axis] = Limits::UNLIMITED;
+    }
+    limits
+}
+
+fn x(rig: &Rig) -> f64 {
+    rig.setpoints.last().unwrap().position[0]
+}
+
+/// Ticks until a state, without new frames.
+fn settle(rig: &mut Rig, state: MachineState) {
+    assert!(
+        rig.run_until(2_000, |s| s.state() == Ok(state)),
+        "{:?}",
+        rig.state()
+    );
+    rig.run(3);
+}
+
+#[test]
+fn the_first_setpoint_moves_in_the_tick_that_sees_the_demand() {
+    let mut rig = jogged();
+    rig.run(5);
+    Hand::new(1).ask(&mut rig, JogMode::Continuous, [50.0, 0.0, 0.0]);
+    let setpoint = rig.tick();
+    assert!(setpoint.position[0] > 0.0);
+    assert_eq!(setpoint.state(), Ok(MachineState::Jogging));
+    assert!(setpoint.state().unwrap().is_moving());
+}
+
+#[test]
+fn a_key_that_is_released_or_lost_stops_the_motion_within_the_bound() {
+    for lets_go in [true, false] {
+        let mut rig = jogged();
+        let mut hand = Hand::new(1);
+        hand.hold(&mut rig, 50, [50.0, 0.0, 0.0]);
+        let (before, last_sent) = (x(&rig), hand.demand.sent_ns);
+        assert!((rig.setpoints.last().unwrap().velocity[0] - 50.0).abs() < 1e-9);
+        if lets_go {
+            hand.ask(&mut rig, JogMode::None, [0.0; 3]);
+        }
+        settle(&mut rig, MachineState::Idle);
+        // d = v sqrt(v / J) of a stop from 50 mm/s, and two periods.
+        let stop = 1.767_767;
+        let held_t = if lets_go { 0.0 } else { 0.15 };
+        let lost_t = held_t - (rig_time(50, &rig) - last_sent) as f64 * 1e-9;
+        let bound = 50.0 * (lost_t.max(0.0) + 0.008) + stop + 1e-6;
+        assert!(x(&rig) - before <= bound, "{} {bound}", x(&rig) - before);
+        assert!(x(&rig) - before >= stop - 1e-6);
+        assert!(rig.worst_ratio() <= INSIDE);
+    }
+}
+
+/// When the tick of a number was due.
+fn rig_time(number: usize, rig: &Rig) -> u64 {
+    rig.setpoints[number - 1].scheduled_ns
+}
+
+#[test]
+fn a_step_ends_where_it_should_and_is_done_once() {
+    let mut rig = jogged();
+    let mut hand = Hand::new(1);
+    hand.ask(&mut rig, JogMode::Incremental, [10.0, 0.0, -2.5]);
+    for _ in 0..30 {
+        rig.run(8);
+        hand.again(&mut rig);
+    }
+    settle(&mut rig, MachineState::Idle);
+    let end = rig.setpoints.last().unwrap().position;
+    assert_eq!(end[..3], [10.0, 0.0, -2.5]);
+    // On the straight line.
+    for setpoint in &rig.setpoints {
+        let [x, _, z, ..] = setpoint.position;
+        assert!((z + 0.25 * x).abs() < 1e-12, "{x} {z}");
+    }
+    // Nothing is pressed for a second: it goes on without a dead-man.
+    hand.ask(&mut rig, JogMode::Incremental, [20.0, 0.0, 0.0]);
+    settle(&mut rig, MachineState::Idle);
+    assert_eq!(x(&rig), 30.0);
+    hand.ask(&mut rig, JogMode::Incremental, [-20.0, 0.0, 0.0]);
+    rig.run(10);
+    rig.command(Command::Hold);
+    settle(&mut rig, MachineState::Idle);
+    assert!(x(&rig) > 20.0 && x(&rig) < 30.0, "{}", x(&rig));
+    assert!(rig.worst_ratio() <= INSIDE);
+}
+
+#[test]
+fn a_speed_asked_for_is_kept_and_so_is_the_override() {
+    let mut rig = jogged();
+    let mut hand = Hand::new(1);
+    hand.demand.velocity_v = 10.0;
+    hand.ask(&mut rig, JogMode::Incremental, [10.0, 10.0, 0.0]);
+    rig.command(Command::JogOverride(0.5));
+    settle(&mut rig, MachineState::Idle);
+    let fastest = rig
+        .setpoints
+        .iter()
+        .map(|s| AxisVector::from(s.velocity).norm());
+    let fastest = fastest.fold(0.0, f64::max);
+    assert!((fastest - 5.0).abs() < 1e-9, "{fastest}");
+    // Nothing moves at 0; at 1 it goes on, as it is still wanted.
+    rig.command(Command::JogOverride(0.0));
+    hand.hold(&mut rig, 20, [50.0, 0.0, 0.0]);
+    assert_eq!(x(&rig), 10.0);
+    rig.command(Command::JogOverride(1.0));
+    hand.again(&mut rig);
+    rig.run(20);
+    assert!(x(&rig) > 10.5);
+}
+
+#[test]
+fn a_jog_ends_at_the_end_of_travel_and_only_leads_back_from_beyond() {
+    let mut rig = jogged();
+    let mut hand = Hand::new(1);
+    hand.hold(&mut rig, 300, [150.0, 75.0, 0.0]);
+    assert!((x(&rig) - TRAVEL).abs() < 1e-9, "{}", x(&rig));
+    // Along the line, so the other axis ends half way.
+    assert!((rig.setpoints.last().unwrap().position[1] - 25.0).abs() < 1e-9);
+    assert_eq!(rig.state(), MachineState::Jogging);
+    rig.run(60);
+    assert_eq!(rig.state(), MachineState::Idle);
+    assert!(rig.worst_ratio() <= INSIDE);
+
+    let mut config = rig.config;
+    config.start_position[0] = 60.0;
+    let mut rig = Rig::new(config);
+    hand.hold(&mut rig, 50, [150.0, 0.0, 0.0]);
+    assert_eq!(x(&rig), 60.0);
+    hand.ask(&mut rig, JogMode::None, [0.0; 3]);
+    rig.run(5);
+    hand.ask(&mut rig, JogMode::Incremental, [-5.0, 0.0, 0.0]);
+    settle(&mut rig, MachineState::Idle);
+    assert_eq!(x(&rig), 55.0);
+    hand.ask(&mut rig, JogMode::Incremental, [4.0, 0.0, 0.0]);
+    rig.run(100);
+    assert_eq!(x(&rig), 55.0);
+}
+
+#[test]
+fn a_wheel_is_followed_to_and_fro() {
+    let mut rig = jogged();
+    let mut hand = Hand::new(1);
+    hand.demand.scale = 0.1;
+    // What it had counted before means nothing.
+    hand.ask(&mut rig, JogMode::Wheel, [1_000.0, 0.0, 0.0]);
+    rig.run(10);
+    assert_eq!((x(&rig), rig.state()), (0.0, MachineState::Idle));
+    for (counts, turns) in [(1_001.0, 0), (1_025.0, 3), (1_010.0, 5), (990.0, 1)] {
+        hand.ask(&mut rig, JogMode::Wheel, [counts, 0.0, 0.0]);
+        rig.run(turns);
+    }
+    settle(&mut rig, MachineState::Idle);
+    assert!((x(&rig) + 1.0).abs() < 1e-9, "{}", x(&rig));
+    assert!(rig.worst_ratio() <= INSIDE);
+    // Turned faster than the axis can follow, what is too much is dropped: 15 mm from 200 mm/s.
+    hand.ask(&mut rig, JogMode::Wheel, [990.0 + 500.0, 0.0, 0.0]);
+    settle(&mut rig, MachineState::Idle);
+    assert!((x(&rig) - 14.0).abs() < 1e-6, "{}", x(&rig));
+}
+
+#[test]
+fn a_wheel_that_gives_a_velocity_stops_when_it_does() {
+    let mut rig = jogged();
+    let mut hand = Hand::new(1);
+    hand.demand.scale = 0.1;
+    let mut counts = 0.0;
+    for _ in 0..40 {
+        // A millimetre in ten ticks is 25 mm/s.
+        hand.ask(&mut rig, JogMode::WheelVelocity, [counts, 0.0, 0.0]);
+        rig.run(10);
+        counts += 10.0;
+    }
+    let speed = rig.setpoints.last().unwrap().velocity[0];
+    assert!((speed - 25.0).abs() < 1e-9, "{speed}");
+    let before = x(&rig);
+    for _ in 0..10 {
+        hand.again(&mut rig);
+        rig.run(10);
+    }
+    settle(&mut rig, MachineState::Idle);
+    assert!(
+        x(&rig) - before < 25.0 * 0.108 + 0.7,
+        "{}",
+        x(&rig) - before
+    );
+    assert!(rig.worst_ratio() <= INSIDE);
+}
+
+#[test]
+fn only_the_first_client_moves_the_axes_until_they_rest() {
+    let mut rig = jogged();
+    let (mut one, mut other) = (Hand::new(1), Hand::new(2));
+    one.hold(&mut rig, 20, [20.0, 0.0, 0.0]);
+    other.ask(&mut rig, JogMode::Continuous, [-100.0, 0.0, 0.0]);
+    one.again(&mut rig);
+    rig.run(10);
+    assert!(rig.setpoints.iter().all(|s| s.velocity[0] >= 0.0));
+    one.ask(&mut rig, JogMode::None, [0.0; 3]);
+    settle(&mut rig, MachineState::Idle);
+    other.ask(&mut rig, JogMode::Continuous, [-100.0, 0.0, 0.0]);
+    rig.run(10);
+    assert!(rig.setpoints.last().unwrap().velocity[0] < 0.0);
+}
+
+#[test]
+fn a_key_that_was_down_before_or_comes_late_starts_nothing() {
+    let (mut rig, _) = rig(5, 3, 200);
+    let mut hand = Hand::new(1);
+    rig.run(20);
+    hand.ask(&mut rig, JogMode::Continuous, [20.0, 0.0, 0.0]);
+    // Held down through the program and after its end.
+    for _ in 0..60 {
+        rig.run(5);
+        hand.again(&mut rig);
+    }
+    assert_eq!(rig.state(), MachineState::Idle);
+    let end = x(&rig);
+    // One that was on its way for too long.
+    let mut late = Hand::new(2);
+    late.demand.number = 1;
+    late.demand.mode = JogMode::Incremental.code();
+    late.demand.value[0] = 5.0;
+    late.demand.sent_ns = rig.now_ns() - 150_000_000;
+    rig.jog(&late.demand);
+    rig.run(10);
+    assert_eq!((x(&rig), rig.state()), (end, MachineState::Idle));
+    // Let go, it may be pressed again.
+    hand.ask(&mut rig, JogMode::None, [0.0; 3]);
+    hand.hold(&mut rig, 8, [20.0, 0.0, 0.0]);
+    assert!(x(&rig) > end);
+}
+
+/// Runs a plan, with what happens to it at a tick while it is held.
+fn with_hold(seed: u64, held: impl Fn(&mut Rig)) -> (Rig, usize) {
+    let mut rig = rig(seed, 3, 400).0;
+    rig.run(80);
+    rig.command(Command::Hold);
+    assert!(rig.run_until(200, |s| s.state() == Ok(MachineState::Held)));
+    rig.run(5);
+    held(&mut rig);
+    rig.command(Command::Resume);
+    let resumed = rig.setpoints.len();
+    assert!(rig.run_until(3_000, is_idle));
+    (rig, resumed)
+}
+
+#[test]
+fn after_a_jog_in_a_hold_and_a_return_the_path_is_the_same_to_the_bit() {
+    for seed in 1..6 {
+        let (without, from) = with_hold(seed, |_| {});
+        let (with, to) = with_hold(seed, |rig| {
+            let path = AxisVector::from(rig.setpoints.last().unwrap().position);
+            let mut hand = Hand::new(1);
+            hand.hold(rig, 30 + seed as usize, [-30.0, 7.0, 50.0]);
+            hand.hold(rig, 20, [10.0, 0.0, 0.0]);
+            hand.ask(rig, JogMode::None, [0.0; 3]);
+            settle(rig, MachineState::Held);
+            let now = rig.setpoints.last().unwrap();
+            let away = AxisVector::from(now.position) - path;
+            assert_eq!(AxisVector::from(now.away), away);
+            assert!(away.amax() > 1.0);
+            // The path begins where the axes are not.
+            rig.command(Command::Resume);
+            rig.run(20);
+            assert_eq!(rig.state(), MachineState::Held);
+            rig.command(Command::Return);
+            let begins = rig.setpoints.len();
+            settle(rig, MachineState::Held);
+            // The tool axis goes last: Z does not move before the others are there.
+            let z_moves = |s: &Setpoint| s.position[2] != now_z(rig, begins - 1);
+            let first = rig.setpoints[begins..].iter().find(|s| z_moves(s)).unwrap();
+            assert_eq!(first.position[..2], path.as_slice()[..2]);
+            assert_eq!(rig.setpoints.last().unwrap().away, [0.0; 9]);
+            assert!(!rig.last.unwrap().is_away);
+        });
+        assert!(with.worst_ratio() <= INSIDE);
+        let positions = |rig: &Rig, from: usize| -> Vec<[u64; 9]> {
+            let after = rig.setpoints[from..].iter();
+            after.map(|s| s.position.map(f64::to_bits)).collect()
+        };
+        assert_eq!(positions(&without, from), positions(&with, to));
+    }
+}
+
+fn now_z(rig: &Rig, number: usize) -> f64 {
+    rig.setpoints[number].position[2]
+}
+
+#[test]
+fn an_abort_ends_the_epoch_where_a_jog_has_led() {
+    for moving in [false, true] {
+        let mut rig = rig(3, 3, 400).0;
+        rig.run(80);
+        rig.command(Command::Hold);
+        settle(&mut rig, MachineState::Held);
+        let mut hand = Hand::new(1);
+        hand.hold(&mut rig, 30, [0.0, 0.0, 40.0]);
+        if !moving {
+            hand.ask(&mut rig, JogMode::None, [0.0; 3]);
+            settle(&mut rig, MachineState::Held);
+        }
+        rig.command(Command::Abort);
+        rig.feed.clear();
+        settle(&mut rig, MachineState::Idle);
+        let report = rig.last.unwrap();
+        assert_eq!(report.end_of_epoch, EndOfEpoch::Aborted);
+        assert_eq!(report.setpoint.away, [0.0; 9]);
+        assert!(!report.is_away);
+        // The key is still down, and means nothing.
+        let end = report.setpoint.position;
+        hand.again(&mut rig);
+        rig.run(10);
+        assert_eq!(rig.setpoints.last().unwrap().position, end);
+        assert!(rig.worst_ratio() <= INSIDE);
+    }
+}
+
+#[test]
+fn a_hold_by_the_override_is_one_after_a_jog_whatever_the_override_becomes() {
+    let mut rig = rig(3, 3, 400).0;
+    rig.run(80);
+    rig.command(Command::FeedOverride(0.0));
+    settle(&mut rig, MachineState::Held);
+    let mut hand = Hand::new(1);
+    hand.ask(&mut rig, JogMode::Incremental, [0.0, 0.0, 5.0]);
+    rig.run(10);
+    rig.command(Command::FeedOverride(1.0));
+    settle(&mut rig, MachineState::Held);
+    let at = rig.setpoints.last().unwrap().sequence;
+    rig.command(Command::Return);
+    settle(&mut rig, MachineState::Held);
+    rig.run(20);
+    assert_eq!(rig.setpoints.last().unwrap().sequence, at);
+    assert_eq!(rig.state(), MachineState::Held);
+    rig.command(Command::Resume);
+    assert!(rig.run_until(3_000, is_idle));
+    assert!(rig.worst_ratio() <= INSIDE);
+}
