@@ -187,7 +187,7 @@ fn ranges_units_and_names_are_those_of_the_loader() {
                     said(name, &found, &format!("give {min} to {max} {unit}:"));
                 }
             }
-            Takes::ThreeNumbers { min, max, unit } => {
+            Takes::ThreeNumbers { min, max, unit } | Takes::Numbers { min, max, unit } => {
                 let three = |n: f64| Value::Array(vec![Value::Float(n); 3]);
                 said(
                     name,
@@ -274,10 +274,11 @@ fn what_is_left_out_is_what_the_table_says() {
 fn float(takes: &Takes, value: Value) -> Value {
     match (takes, value) {
         #[allow(clippy::cast_precision_loss, reason = "small numbers")]
-        (Takes::Number { .. } | Takes::ThreeNumbers { .. }, Value::Integer(number)) => {
-            Value::Float(number as f64)
-        }
-        (takes @ Takes::ThreeNumbers { .. }, Value::Array(list)) => {
+        (
+            Takes::Number { .. } | Takes::ThreeNumbers { .. } | Takes::Numbers { .. },
+            Value::Integer(number),
+        ) => Value::Float(number as f64),
+        (takes @ (Takes::ThreeNumbers { .. } | Takes::Numbers { .. }), Value::Array(list)) => {
             Value::Array(list.into_iter().map(|value| float(takes, value)).collect())
         }
         (_, value) => value,

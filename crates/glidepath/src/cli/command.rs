@@ -4,6 +4,7 @@ use super::basic::BasicArgs;
 use super::config::ConfigArgs;
 use super::curves::{FitArgs, PreviewArgs};
 use super::host::{BenchArgs, DoctorArgs, JitterArgs};
+use super::jog::JogArgs;
 use super::motion::{
     CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
 };
@@ -59,9 +60,18 @@ pub enum Command {
     /// Rest at the end of every block, or do so no longer; `resume` or `step` goes on
     #[command(after_help = "Example: glidepath single-block on")]
     SingleBlock(SingleBlockArgs),
-    /// Set the override of the feed, or of rapids
-    #[command(after_help = "Examples: glidepath override 80 · glidepath override --rapid 25")]
+    /// Set the override of the feed, of rapids, or of jogs
+    #[command(
+        after_help = "Examples: glidepath override 80 · glidepath override --rapid 25 · \
+                            glidepath override --jog 10"
+    )]
     Override(OverrideArgs),
+    /// Move axes by hand: by steps, or by the keys of the terminal
+    #[command(after_help = "Examples: glidepath jog X10 Y-2.5 --feed 600 · glidepath jog")]
+    Jog(JogArgs),
+    /// Go back to the path, after a jog in a hold
+    #[command(after_help = "Example: glidepath return && glidepath resume")]
+    Return(OperatorArgs),
     /// Come to rest on the path and drop the rest of the program
     #[command(after_help = "Examples: glidepath abort · glidepath abort --signal")]
     Abort(AbortArgs),
@@ -134,10 +144,12 @@ impl Command {
             | Self::Resume(args)
             | Self::Step(args)
             | Self::StopAtBlockEnd(args)
+            | Self::Return(args)
             | Self::Reset(args) => &args.basic,
             Self::Abort(args) => &args.operator.basic,
             Self::SingleBlock(args) => &args.operator.basic,
             Self::Override(args) => &args.operator.basic,
+            Self::Jog(args) => &args.operator.basic,
             Self::Fit(args) => &args.basic,
             Self::Preview(args) => &args.basic,
             Self::Bench(args) => &args.basic,

@@ -5,6 +5,7 @@ mod command;
 mod config;
 mod curves;
 mod host;
+mod jog;
 mod motion;
 mod offsets;
 mod operator;
@@ -16,6 +17,7 @@ pub use command::Command;
 pub use config::{ConfigAction, ConfigArgs};
 pub use curves::{FitArgs, FitMethod, PreviewArgs, PreviewMethod};
 pub use host::{BenchArgs, DoctorArgs, JitterArgs};
+pub use jog::{JogArgs, Step};
 pub use motion::{
     CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
 };

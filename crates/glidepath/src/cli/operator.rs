@@ -35,6 +35,9 @@ pub struct OverrideArgs {
     /// Percent of the speed of rapids, 0 to 100
     #[arg(long, value_name = "PERCENT", value_parser = rapid_percent, group = "factor")]
     pub rapid: Option<f64>,
+    /// Percent of the speed of jogs, 0 to 100
+    #[arg(long, value_name = "PERCENT", value_parser = rapid_percent, group = "factor")]
+    pub jog: Option<f64>,
     /// The interpolator that is meant.
     #[command(flatten)]
     pub operator: OperatorArgs,

@@ -107,6 +107,9 @@ pub(super) enum Failure {
     /// The system refuses to have Ctrl-C handled.
     #[error("cannot handle signals: {0}")]
     Signals(std::io::Error),
+    /// The terminal cannot be used.
+    #[error("cannot use the terminal: {0}")]
+    Terminal(std::io::Error),
     /// Nobody answers for an instance.
     #[error(
         "no interpolator runs in the instance \"{instance}\"; start `glidepath interpolator`, or name \
@@ -285,6 +288,7 @@ impl Failure {
             Self::File(_)
             | Self::State(_)
             | Self::Signals(_)
+            | Self::Terminal(_)
             | Self::NoInterpolator { .. }
             | Self::CommandRefused { .. }
             | Self::Silent { .. }

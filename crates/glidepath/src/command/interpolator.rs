@@ -10,7 +10,9 @@ use crate::output;
 use crate::report::{status_object, status_text};
 use crate::service_manager::ServiceManager;
 use core::sync::atomic::{AtomicBool, Ordering};
-use glidepath_interpolator::{Config, RealTime, SoftLimits};
+use core::time::Duration;
+use glidepath_geometry::AxisVector;
+use glidepath_interpolator::{Config, JogSettings, RealTime, SoftLimits};
 use glidepath_link::{Ipc, Transport};
 use glidepath_realtime::{Mode, Request};
 
@@ -93,6 +95,14 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
         joint_limits: config.joint_limits,
         start_position: config.home(),
         horizon_frames: session::pace(config).horizon_frames,
+        jog: JogSettings {
+            velocity: config.jog.velocity,
+            unhomed_velocity: AxisVector::repeat(config.jog.unhomed_velocity),
+            return_v: config.jog.return_velocity,
+            dead_man: Duration::from_millis(config.jog.dead_man_ms.into()),
+            tool_axis: config.jog.tool_axis,
+            ..JogSettings::new(&config.limits())
+        },
         real_time: RealTime { mode, request },
         // On a desk the clock is what it is: missed ticks are counted and reported.
         missed_ticks_allowed: (!best_effort).then_some(config.interpolator.max_missed_ticks),

@@ -11,6 +11,7 @@ mod feed;
 mod fit;
 mod interpolator;
 mod jitter;
+mod jog;
 mod offsets;
 mod operator;
 mod plan;
@@ -99,6 +100,10 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Abort(args) => operator::abort(args, &config()?),
         Command::Reset(args) => operator::command(args, &config()?, "reset", link::Command::Reset),
         Command::Override(args) => operator::overrides(args, &config()?),
+        Command::Jog(args) => jog::jog(args, &config()?),
+        Command::Return(args) => {
+            operator::command(args, &config()?, "return", link::Command::Return)
+        }
         Command::Bench(args) => bench::bench(args, &config()?),
         Command::Doctor(args) => Ok(doctor::doctor(args, &config()?)),
         Command::Jitter(args) => jitter::jitter(args, &config()?),

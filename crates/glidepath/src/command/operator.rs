@@ -42,7 +42,8 @@ pub(super) fn command(
 pub(super) fn overrides(args: &OverrideArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let feed = args.percent.map(|p| Command::FeedOverride(p / 100.0));
     let rapid = args.rapid.map(|p| Command::RapidOverride(p / 100.0));
-    let given: Vec<Command> = feed.into_iter().chain(rapid).collect();
+    let jog = args.jog.map(|p| Command::JogOverride(p / 100.0));
+    let given: Vec<Command> = feed.into_iter().chain(rapid).chain(jog).collect();
     commands(&args.operator, config, "override", &given)
 }
 

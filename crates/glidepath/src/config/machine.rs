@@ -55,6 +55,23 @@ pub struct InterpolatorConfig {
     pub max_missed_ticks: u64,
 }
 
+/// How the machine is moved by hand.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JogConfig {
+    /// Top speed of each axis, mm/s or °/s; no limit for those that the machine does not have.
+    pub velocity: AxisVector,
+    /// Top speed of any axis while the machine does not know where it is, mm/s or °/s.
+    pub unhomed_velocity: f64,
+    /// Top speed of the way back to the path, mm/s.
+    pub return_velocity: f64,
+    /// The steps that jogging by keys offers, mm or degrees.
+    pub increments: Vec<f64>,
+    /// ms without a sign of life after which a jog stops.
+    pub dead_man_ms: u32,
+    /// The axis that goes last on the way back to the path.
+    pub tool_axis: Axis,
+}
+
 /// A machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineConfig {
@@ -70,6 +87,8 @@ pub struct MachineConfig {
     pub path: PathConfig,
     /// The real-time side.
     pub interpolator: InterpolatorConfig,
+    /// How it is moved by hand.
+    pub jog: JogConfig,
     /// The preview by advance and retreat.
     pub preview: AdvanceRetreat,
     /// Name of the machine's shared memory; `None` if the file gives none.

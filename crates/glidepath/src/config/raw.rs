@@ -22,6 +22,8 @@ pub(super) struct RawConfig {
     #[serde(default)]
     pub(super) interpolator: RawInterpolator,
     #[serde(default)]
+    pub(super) jog: RawJog,
+    #[serde(default)]
     pub(super) link: RawLink,
     #[serde(default)]
     pub(super) preview: RawPreview,
@@ -78,6 +80,7 @@ pub(super) struct RawAxis {
     pub(super) max_velocity: Spanned<f64>,
     pub(super) max_acceleration: Spanned<f64>,
     pub(super) max_jerk: Spanned<f64>,
+    pub(super) jog_velocity: Optional<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -100,6 +103,17 @@ pub(super) struct RawInterpolator {
     pub(super) cpu: Optional<i64>,
     pub(super) horizon_s: Optional<f64>,
     pub(super) max_missed_ticks: Optional<i64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawJog {
+    pub(super) velocity: Optional<f64>,
+    pub(super) unhomed_velocity: Optional<f64>,
+    pub(super) return_velocity: Optional<f64>,
+    pub(super) increments: Optional<Vec<f64>>,
+    pub(super) dead_man_ms: Optional<i64>,
+    pub(super) tool_axis: Optional<String>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -5,6 +5,7 @@ mod axes;
 mod axis_share;
 mod horizon;
 mod interpolator;
+mod jog;
 mod joints;
 mod link;
 mod mechanism;
@@ -74,6 +75,10 @@ pub(super) fn judge(
             .collect();
         judge.interpolator(&raw.interpolator, &braking, &raw_axes)
     };
+    let jog = judge.jog(
+        raw.jog,
+        raw_axes().filter_map(|(axis, raw)| Some((axis, raw.as_ref()?.as_ref()))),
+    );
     let config = MachineConfig {
         mechanism,
         joint_limits,
@@ -81,6 +86,7 @@ pub(super) fn judge(
         axes,
         path: judge.path(raw.path),
         interpolator,
+        jog,
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
         program: judge.program(raw.program),

@@ -25,6 +25,15 @@ pub enum Takes {
         /// Their unit.
         unit: &'static str,
     },
+    /// A list of numbers, each in a range, both ends included.
+    Numbers {
+        /// Smallest value.
+        min: f64,
+        /// Largest value.
+        max: f64,
+        /// Their unit.
+        unit: &'static str,
+    },
     /// A whole number in a range, both ends included.
     Whole {
         /// Smallest value.
@@ -85,6 +94,7 @@ impl Takes {
         match self {
             Self::Number { unit, .. }
             | Self::ThreeNumbers { unit, .. }
+            | Self::Numbers { unit, .. }
             | Self::Whole { unit, .. } => unit,
             Self::Choice { .. } | Self::Flag | Self::Text { .. } | Self::Texts { .. } => "",
         }
@@ -103,6 +113,9 @@ impl Takes {
             Self::Number { min, max, .. } => with_unit(format!("{min} to {max}")),
             Self::ThreeNumbers { min, max, .. } => {
                 with_unit(format!("three numbers, each {min} to {max}"))
+            }
+            Self::Numbers { min, max, .. } => {
+                with_unit(format!("a list of numbers, each {min} to {max}"))
             }
             Self::Whole { min, max, .. } => with_unit(format!("a whole number, {min} to {max}")),
             Self::Choice { of } => {

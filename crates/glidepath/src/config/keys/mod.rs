@@ -18,6 +18,7 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         tables::JOINT,
         tables::PATH,
         tables::INTERPOLATOR,
+        tables::JOG,
         tables::LINK,
         tables::PROGRAM,
         tables::PREVIEW,

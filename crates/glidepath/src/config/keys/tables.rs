@@ -67,6 +67,12 @@ pub(super) const AXIS: &[Key] = &[
         "how fast the acceleration may change. Too high a jerk shows as vibration; the acceleration \
          divided by the jerk is the time a full acceleration takes to build up",
     ),
+    key(
+        "axis.X.jog_velocity",
+        number(1e-3, 1e5, "mm/s or °/s"),
+        LeftOut::Means("jog.velocity"),
+        "top speed of a jog of this axis",
+    ),
 ];
 
 pub(super) const JOINT: &[Key] = &[
@@ -202,6 +208,56 @@ pub(super) const INTERPOLATOR: &[Key] = &[
         },
         LeftOut::Value("10"),
         "ticks missed within a second before the motion stops with a fault",
+    ),
+];
+
+pub(super) const JOG: &[Key] = &[
+    key(
+        "jog.velocity",
+        number(1e-3, 1e5, "mm/s or °/s"),
+        LeftOut::Value("50"),
+        "top speed of a jog, of every axis that gives no jog_velocity of its own; above what the axis can \
+         do it is without effect",
+    ),
+    key(
+        "jog.unhomed_velocity",
+        number(1e-3, 1e5, "mm/s or °/s"),
+        LeftOut::Value("10"),
+        "top speed of a jog where the machine does not know where it is",
+    ),
+    key(
+        "jog.return_velocity",
+        number(1e-3, 1e5, "mm/s"),
+        LeftOut::Value("50"),
+        "top speed of the way back to the path, after a jog in a hold",
+    ),
+    key(
+        "jog.increments",
+        Takes::Numbers {
+            min: 1e-4,
+            max: 1e3,
+            unit: "mm or °",
+        },
+        LeftOut::Value("[0.01, 0.1, 1, 10]"),
+        "the steps that jogging by keys offers",
+    ),
+    key(
+        "jog.dead_man_ms",
+        Takes::Whole {
+            min: 50,
+            max: 1_000,
+            unit: "ms",
+        },
+        LeftOut::Value("150"),
+        "a jog that goes on as long as it is demanded stops when the last demand is so old",
+    ),
+    key(
+        "jog.tool_axis",
+        Takes::Choice {
+            of: &["Z", "Y", "X", "A", "B", "C", "U", "V", "W"],
+        },
+        LeftOut::Value("\"Z\""),
+        "the axis that goes last on the way back to the path",
     ),
 ];
 

@@ -1,0 +1,70 @@
+//! The demands of one client.
+
+use glidepath_geometry::AXES;
+use glidepath_link::{JogDemand, JogMode, LinkError, Publisher};
+use glidepath_realtime::{Clock as _, Monotonic};
+
+/// What a client demands, and its way to the interpolator.
+pub(super) struct Demands {
+    port: Box<dyn Publisher<JogDemand>>,
+    demand: JogDemand,
+}
+
+impl Demands {
+    /// A client that demands nothing yet.
+    pub(super) fn new(port: Box<dyn Publisher<JogDemand>>) -> Self {
+        // No two processes live at the same time with the same number, and none begins with the
+        // number of one before at the same nanosecond.
+        let client = (u64::from(std::process::id()) << 40) ^ Monotonic.now_ns();
+        let demand = JogDemand {
+            client,
+            ..nothing()
+        };
+        Self { port, demand }
+    }
+
+    /// Demands something new.
+    pub(super) fn ask(
+        &mut self,
+        mode: JogMode,
+        value: [f64; AXES],
+        most_v: f64,
+        by_joint: bool,
+    ) -> Result<(), LinkError> {
+        let mask = (0..AXES).filter(|axis| value.get(*axis).is_some_and(|v| *v != 0.0));
+        self.demand.mask = mask.fold(0, |mask, axis| mask | 1 << axis);
+        self.demand.number += 1;
+        self.demand.mode = mode.code();
+        self.demand.value = value;
+        self.demand.velocity_v = most_v;
+        self.demand.by_joint = by_joint.into();
+        self.again()
+    }
+
+    /// Says that the client lives, and wants what it wanted.
+    pub(super) fn again(&mut self) -> Result<(), LinkError> {
+        self.demand.sent_ns = Monotonic.now_ns();
+        self.port.publish(&self.demand)
+    }
+
+    /// Lets go.
+    pub(super) fn let_go(&mut self) -> Result<(), LinkError> {
+        self.ask(JogMode::None, [0.0; AXES], 0.0, false)
+    }
+}
+
+/// A demand with nothing in it.
+const fn nothing() -> JogDemand {
+    JogDemand {
+        client: 0,
+        number: 0,
+        sent_ns: 0,
+        mode: 0,
+        mask: 0,
+        by_joint: 0,
+        reserved: 0,
+        velocity_v: 0.0,
+        scale: 0.0,
+        value: [0.0; AXES],
+    }
+}

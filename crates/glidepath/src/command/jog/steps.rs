@@ -1,0 +1,136 @@
+//! A jog by steps: `glidepath jog X10 Y-5`.
+
+use super::panel::Panel;
+use crate::cli::JogArgs;
+use crate::command::failure::Failure;
+use crate::config::MachineConfig;
+use crate::exit::Exit;
+use crate::interrupt::Interrupt;
+use crate::output;
+use crate::report::state_name;
+use core::time::Duration;
+use glidepath_geometry::{AXES, Axis};
+use glidepath_link::{JogMode, MachineState};
+use serde_json::{Map, Value, json};
+use std::time::Instant;
+
+/// Between two looks at the machine.
+const POLL: Duration = Duration::from_millis(10);
+/// How long the machine may take to set out.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Moves the axes, and waits until they are at rest.
+///
+/// # Errors
+/// The machine cannot be jogged now, or it does not move.
+pub(super) fn jog(
+    args: &JogArgs,
+    config: &MachineConfig,
+    instance: &str,
+    mut panel: Panel,
+) -> Result<Exit, Failure> {
+    let interrupt = Interrupt::install().map_err(Failure::Signals)?;
+    let mut value = [0.0; AXES];
+    for step in &args.steps {
+        if !config.axis_names().contains(&step.axis) {
+            return Err(refused(
+                "not sent",
+                format!("the machine has no axis {}", step.axis),
+            ));
+        }
+        if let Some(slot) = value.get_mut(step.axis.index()) {
+            *slot += step.distance;
+        }
+    }
+    let state = panel.state()?;
+    if !Panel::can_jog(state) {
+        let reason = "axes are jogged when the machine is idle, or a program is held".to_owned();
+        return Err(refused(state_name(state), reason));
+    }
+    let start = panel.position();
+    let most_v = args.feed.map_or(0.0, |feed| feed / 60.0);
+    panel
+        .demands
+        .ask(JogMode::Incremental, value, most_v, args.by_joint)?;
+    set_out(&mut panel, &start, &interrupt)?;
+    let mut has_let_go = false;
+    while panel.state()? == MachineState::Jogging {
+        if interrupt.is_set() && !has_let_go {
+            panel.demands.let_go()?;
+            has_let_go = true;
+        }
+        std::thread::sleep(POLL);
+    }
+    report(args, instance, &mut panel, &start)?;
+    Ok(if interrupt.is_set() {
+        Exit::Interrupted
+    } else {
+        Exit::Done
+    })
+}
+
+/// Waits until the machine moves, or has moved. Says it again meanwhile: the interpolator may just
+/// have learnt of this client.
+fn set_out(panel: &mut Panel, start: &[(Axis, f64)], interrupt: &Interrupt) -> Result<(), Failure> {
+    let started = Instant::now();
+    while panel.state()? != MachineState::Jogging && panel.position() == start {
+        if interrupt.is_set() || started.elapsed() > PATIENCE {
+            panel.demands.let_go()?;
+            let state = state_name(panel.state()?);
+            let reason = match panel.last_error() {
+                "" => {
+                    "nothing moved: it is at the end of its travel or reach, somebody else jogs, \
+                       or a program began"
+                        .to_owned()
+                }
+                error => format!("nothing moved; the interpolator's last word: {error}"),
+            };
+            return Err(refused(state, reason));
+        }
+        panel.demands.again()?;
+        std::thread::sleep(POLL);
+    }
+    Ok(())
+}
+
+const fn refused(state: &'static str, reason: String) -> Failure {
+    Failure::CommandRefused {
+        command: "jog",
+        state,
+        reason,
+    }
+}
+
+fn report(
+    args: &JogArgs,
+    instance: &str,
+    panel: &mut Panel,
+    start: &[(Axis, f64)],
+) -> Result<(), Failure> {
+    let state = state_name(panel.state()?);
+    let end = panel.position();
+    if args.operator.basic.json {
+        output::object(&json!({
+            "command": "jog",
+            "instance": instance,
+            "state": state,
+            "start": object(start),
+            "position": object(&end),
+            "away": object(&panel.away()),
+        }));
+    } else {
+        let position: Vec<String> = end
+            .iter()
+            .map(|(axis, value)| format!("{axis} {value:.4}"))
+            .collect();
+        output::result(&format!("jog: {state} at {}\n", position.join("  ")));
+    }
+    Ok(())
+}
+
+fn object(values: &[(Axis, f64)]) -> Map<String, Value> {
+    let pairs = values.iter();
+    pairs
+        .map(|(axis, value)| (axis.to_string(), (*value).into()))
+        .collect()
+}
