@@ -6,6 +6,7 @@
 )]
 
 mod faults;
+mod jog;
 mod libraries;
 mod load;
 mod operator;

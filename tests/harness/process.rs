@@ -55,13 +55,17 @@ impl Process {
     /// is collected, so that it never waits for a reader.
     #[must_use]
     pub fn start(instance: &Instance, arguments: &[&str]) -> Self {
+        Self::start_with(instance, arguments, Stdio::piped())
+    }
+
+    fn start_with(instance: &Instance, arguments: &[&str], input: Stdio) -> Self {
         let mut child = Command::new(glidepath())
             .args(arguments)
             .env("XDG_RUNTIME_DIR", instance.directory())
             .env("TMPDIR", instance.directory())
             .env("NO_COLOR", "1")
             .current_dir(instance.directory())
-            .stdin(Stdio::piped())
+            .stdin(input)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
@@ -80,6 +84,14 @@ impl Process {
     pub fn join(instance: &Instance, arguments: &[&str]) -> Self {
         let name = &instance.config().instance;
         Self::start(instance, &[arguments, &["--instance", name]].concat())
+    }
+
+    /// The same, with a standard input of its own.
+    #[must_use]
+    pub fn join_with(instance: &Instance, arguments: &[&str], input: Stdio) -> Self {
+        let name = &instance.config().instance;
+        let arguments = [arguments, &["--instance", name]].concat();
+        Self::start_with(instance, &arguments, input)
     }
 
     /// Writes to its standard input, and closes that.

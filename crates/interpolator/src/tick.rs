@@ -1,7 +1,7 @@
 //! One period of the real-time thread: a function of what it owns, the wake-up, and the rings.
 //!
 //! ```text
-//! demands ─► jog ─────────────────────────────────────────────────► setpoint, while it owns the axes
+//! demands ─► jog ───────────────────────────────────────────────► setpoint, while it owns the axes
 //! orders ─► stop requests ─┐
 //! frames ─► track ─────────┴► supply ─► rate ─► program time ─► setpoint ─► joints ─┐
 //!                             enough    chosen  advanced        written,            │

@@ -2,9 +2,11 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
 
 use super::*;
+use crate::jog::Demand;
 use crate::message::{Fault, Order, PortsEnds};
 use crate::testing::{Rig, hexapod, lines, mill, records};
-use glidepath_link::{Command, FaultCause, MachineState, SetpointFrame};
+use glidepath_geometry::AxisVector;
+use glidepath_link::{Command, FaultCause, JogMode, MachineState, SetpointFrame};
 use glidepath_realtime::CountingAllocator;
 use std::collections::VecDeque;
 use std::sync::atomic::AtomicU64;
@@ -16,6 +18,8 @@ const PATIENCE: u64 = 20_000;
 enum Act {
     Command(Command),
     Fault(Fault),
+    /// A demand for a jog.
+    Jog(JogMode, [f64; 3]),
     /// Waits for a state.
     Until(MachineState),
     /// Waits some ticks.
@@ -63,6 +67,7 @@ struct Script<'a> {
     feed: VecDeque<SetpointFrame>,
     flows: bool,
     number: u64,
+    demands: u64,
     state: MachineState,
 }
 
@@ -73,6 +78,7 @@ impl Script<'_> {
             match *act {
                 Act::Command(command) => self.give(Order::Command(command)),
                 Act::Fault(fault) => self.give(Order::Fault(fault)),
+                Act::Jog(mode, value) => self.demand(mode, value),
                 Act::Frames(flows) => self.flows = flows,
                 Act::Ticks(ticks) => {
                     while self.number < began + ticks {
@@ -92,6 +98,22 @@ impl Script<'_> {
 
     fn give(&mut self, order: Order) {
         self.ends.orders.enqueue(order).unwrap();
+    }
+
+    fn demand(&mut self, mode: JogMode, [x, y, z]: [f64; 3]) {
+        self.demands += 1;
+        let mut value = AxisVector::zeros();
+        (value.x, value.y, value.z) = (x, y, z);
+        let demand = Demand {
+            client: 1,
+            number: self.demands,
+            sent_ns: self.number * 4_000_000,
+            mode,
+            most_v: f64::INFINITY,
+            scale: 0.1,
+            value,
+        };
+        self.ends.demands.enqueue(demand).unwrap();
     }
 
     /// One tick: what there is goes in, and its report comes out.
@@ -155,6 +177,7 @@ fn allocations(acts: &[Act]) -> u64 {
             feed: feed.into(),
             flows: true,
             number: 0,
+            demands: 0,
             state: MachineState::Idle,
         };
         // Also if the script panics: the scope waits for the thread.
@@ -186,6 +209,45 @@ fn hold_resume_override_starvation_and_abort_do_not_allocate() {
         Act::Until(Starved),
         Act::Frames(true),
         Act::Until(Running),
+        Act::Command(Command::Abort),
+        Act::Until(Idle),
+    ];
+    assert_eq!(allocations(&acts), 0);
+}
+
+#[test]
+fn jogs_from_rest_and_from_a_held_path_do_not_allocate() {
+    use JogMode::{Continuous, Incremental, Wheel};
+    use MachineState::{Held, Idle, Jogging, Running};
+    let acts = [
+        Act::Until(Running),
+        Act::Ticks(100),
+        Act::Command(Command::Hold),
+        Act::Until(Held),
+        Act::Jog(Continuous, [50.0, 20.0, 0.0]),
+        Act::Until(Jogging),
+        Act::Ticks(20),
+        Act::Jog(Continuous, [-30.0, 20.0, 10.0]),
+        Act::Ticks(20),
+        Act::Jog(JogMode::None, [0.0; 3]),
+        Act::Until(Held),
+        Act::Command(Command::Return),
+        Act::Until(Jogging),
+        Act::Until(Held),
+        Act::Command(Command::Resume),
+        Act::Until(Running),
+        Act::Command(Command::Abort),
+        Act::Frames(false),
+        Act::Until(Idle),
+        Act::Jog(Wheel, [0.0; 3]),
+        Act::Ticks(5),
+        Act::Jog(Wheel, [100.0, -30.0, 0.0]),
+        Act::Until(Jogging),
+        Act::Until(Idle),
+        Act::Jog(Incremental, [5.0, 0.0, 1.0]),
+        Act::Until(Jogging),
+        Act::Ticks(10),
+        Act::Command(Command::JogOverride(0.3)),
         Act::Command(Command::Abort),
         Act::Until(Idle),
     ];
