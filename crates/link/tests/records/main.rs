@@ -259,7 +259,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(Feedback::zeroed(), |f| f.latch[3].kind = 4),
         refused(JogDemand::zeroed(), |j| j.mode = 5),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 0),
-        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 18),
+        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 19),
         refused(SegmentReply::zeroed(), |r| r.refusal = 11),
         refused(good_segment(), |s| s.kind = 0),
         refused(good_segment(), |s| s.mode = 5),
@@ -343,7 +343,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(MachineState::ALL.iter().map(|code| code.code()), 1, 15);
     in_sequence(EndOfEpoch::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(FrameRefusal::ALL.iter().map(|code| code.code()), 1, 12);
-    in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 17);
+    in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 18);
     in_sequence(CommandRefusal::ALL.iter().map(|code| code.code()), 1, 5);
     in_sequence(SegmentRefusal::ALL.iter().map(|code| code.code()), 1, 10);
     in_sequence(Power::ALL.iter().map(|code| code.code()), 0, 3);
