@@ -100,10 +100,9 @@ impl Script<'_> {
         self.ends.orders.enqueue(order).unwrap();
     }
 
-    fn demand(&mut self, mode: JogMode, [x, y, z]: [f64; 3]) {
+    fn demand(&mut self, mode: JogMode, xyz: [f64; 3]) {
         self.demands += 1;
-        let mut value = AxisVector::zeros();
-        (value.x, value.y, value.z) = (x, y, z);
+        let value = AxisVector::from_fn(|axis, _| xyz.get(axis).copied().unwrap_or(0.0));
         let demand = Demand {
             client: 1,
             number: self.demands,
