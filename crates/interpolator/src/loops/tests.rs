@@ -238,6 +238,8 @@ fn jogs_from_rest_and_from_a_held_path_do_not_allocate() {
         Act::Command(Command::Abort),
         Act::Frames(false),
         Act::Until(Idle),
+        // What was under way of the program is dropped first.
+        Act::Ticks(50),
         Act::Jog(Wheel, [0.0; 3]),
         Act::Ticks(5),
         Act::Jog(Wheel, [100.0, -30.0, 0.0]),
