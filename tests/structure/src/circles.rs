@@ -122,6 +122,7 @@ houses! {
     kept: "kept",
     kinematics: "kinematics",
     link: "link",
+    migration: "migration",
     motion: "motion",
     planner: "planner",
     program: "program",

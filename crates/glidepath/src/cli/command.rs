@@ -99,10 +99,11 @@ pub enum Command {
         after_help = "Example: glidepath offsets set G54 X100 Y50 Z-20 --config mill.toml"
     )]
     Offsets(OffsetsCommand),
-    /// The configuration: print one, explain its keys, check one
+    /// The configuration: print one, explain its keys, check one, convert one of another control
     #[command(after_help = "Examples: glidepath config --default > mill.toml · \
                             glidepath config --explain path.tolerance · \
-                            glidepath config --check mill.toml")]
+                            glidepath config --check mill.toml · \
+                            glidepath config from-linuxcnc machine.ini > machine.toml")]
     Config(ConfigArgs),
     /// Is this host fit for real time? With the fix for each no
     #[command(after_help = "Example: glidepath doctor --config mill.toml")]

@@ -1,18 +1,25 @@
 //! Arguments of `config`.
 
-use clap::Args;
+use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
 /// Arguments of `config`.
 #[derive(Debug, Args)]
-#[command(arg_required_else_help = true)]
+#[command(
+    arg_required_else_help = true,
+    subcommand_negates_reqs = true,
+    args_conflicts_with_subcommands = true
+)]
 pub struct ConfigArgs {
     /// What to do.
     #[command(flatten)]
     pub action: ConfigAction,
     /// Print one JSON object instead of text
-    #[arg(long)]
+    #[arg(long, global = true)]
     pub json: bool,
+    /// The configuration of another control to convert.
+    #[command(subcommand)]
+    pub from: Option<ConfigSource>,
 }
 
 /// What is asked of the configuration.
@@ -32,4 +39,25 @@ pub struct ConfigAction {
     /// List everything that has to be mended in a configuration
     #[arg(long, value_name = "FILE")]
     pub check: Option<PathBuf>,
+}
+
+/// The control whose configuration is converted.
+#[derive(Debug, Subcommand)]
+pub enum ConfigSource {
+    /// From LinuxCNC's machine configuration
+    #[command(after_help = "Example: glidepath config from-linuxcnc machine.ini > machine.toml")]
+    FromLinuxcnc(ConvertArgs),
+    /// From grbl's or grblHAL's settings, as `$$` and `$#` print them
+    #[command(after_help = "Example: glidepath config from-grbl settings.txt > machine.toml")]
+    FromGrbl(ConvertArgs),
+    /// From Klipper's printer.cfg
+    #[command(after_help = "Example: glidepath config from-klipper printer.cfg > machine.toml")]
+    FromKlipper(ConvertArgs),
+}
+
+/// Arguments of a conversion.
+#[derive(Debug, Args)]
+pub struct ConvertArgs {
+    /// The file to convert
+    pub file: PathBuf,
 }

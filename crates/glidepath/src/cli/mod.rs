@@ -14,7 +14,7 @@ mod program;
 
 pub use basic::{BasicArgs, InstanceArgs, OverwriteArgs};
 pub use command::Command;
-pub use config::{ConfigAction, ConfigArgs};
+pub use config::{ConfigAction, ConfigArgs, ConfigSource, ConvertArgs};
 pub use curves::{FitArgs, FitMethod, PreviewArgs, PreviewMethod};
 pub use host::{BenchArgs, DoctorArgs, JitterArgs};
 pub use jog::{JogArgs, Step};

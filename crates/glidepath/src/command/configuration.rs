@@ -1,10 +1,13 @@
 //! `glidepath config`: the configuration itself.
 
-use crate::cli::{ConfigAction, ConfigArgs};
+use crate::cli::{ConfigAction, ConfigArgs, ConfigSource};
 use crate::command::failure::Failure;
 use crate::config::{self, keys};
 use crate::exit::Exit;
+use crate::file_error::FileError;
 use crate::output;
+use crate::text_file;
+use glidepath_migration::{from_grbl, from_klipper, from_linuxcnc};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -13,6 +16,9 @@ use std::path::Path;
 /// # Errors
 /// The configuration is refused, or a key does not exist.
 pub(super) fn configuration(args: &ConfigArgs) -> Result<Exit, Failure> {
+    if let Some(from) = &args.from {
+        return converted(from, args.json);
+    }
     let ConfigAction {
         explain,
         check: file,
@@ -101,6 +107,45 @@ fn checked(file: &Path, as_json: bool) -> Result<Exit, Failure> {
         output::result(&format!(
             "{name}: no findings; a machine with the axes {}\n",
             axes.join(" ")
+        ));
+    }
+    Ok(Exit::Done)
+}
+
+/// Largest file of another control, bytes.
+const MOST_BYTES: u64 = 4 << 20;
+
+/// Converts the configuration of another control.
+fn converted(from: &ConfigSource, as_json: bool) -> Result<Exit, Failure> {
+    let (ConfigSource::FromLinuxcnc(args)
+    | ConfigSource::FromGrbl(args)
+    | ConfigSource::FromKlipper(args)) = from;
+    let text = text_file::read(&args.file, MOST_BYTES).map_err(FileError::open(&args.file))?;
+    // Included files are named from where the first one is.
+    let folder = args.file.parent().unwrap_or(Path::new(""));
+    let include = |name: &str| {
+        text_file::read(&folder.join(name), MOST_BYTES).map_err(|error| error.to_string())
+    };
+    let converted = match from {
+        ConfigSource::FromLinuxcnc(_) => from_linuxcnc(&text, &include),
+        ConfigSource::FromGrbl(_) => from_grbl(&text),
+        ConfigSource::FromKlipper(_) => from_klipper(&text, &include),
+    };
+    let conversion = converted.map_err(|error| Failure::Foreign {
+        file: args.file.display().to_string(),
+        error,
+    })?;
+    if as_json {
+        output::object(&conversion);
+    } else {
+        output::result(&conversion.configuration);
+        output::note(&format!(
+            "{} keys converted, {} changed in meaning, {} without a counterpart; {} to be written \
+             before it loads",
+            conversion.converted.len(),
+            conversion.changed.len(),
+            conversion.no_counterpart.len(),
+            conversion.asked.len()
         ));
     }
     Ok(Exit::Done)

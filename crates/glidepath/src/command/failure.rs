@@ -12,6 +12,7 @@ use glidepath_gcode::Diagnostic;
 use glidepath_interpolator as interpolator;
 use glidepath_kept::var::VarError;
 use glidepath_link::{LinkError, RecordingError};
+use glidepath_migration::ReadError;
 use glidepath_planner::{self as planner, FeedError, Refusal};
 use thiserror::Error;
 
@@ -27,6 +28,14 @@ pub(super) enum Failure {
     /// A word that is not understood.
     #[error("`{0}` is not understood: {1}")]
     Word(String, &'static str),
+    /// The configuration of another control cannot be read.
+    #[error("{file}, {error}")]
+    Foreign {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        error: ReadError,
+    },
     /// LinuxCNC's parameter file has something to mend.
     #[error("{file}, {error}")]
     Var {
@@ -270,6 +279,7 @@ impl Failure {
             | Self::UnknownKey { .. }
             | Self::Word(..)
             | Self::Var { .. }
+            | Self::Foreign { .. }
             | Self::NoFeed
             | Self::NotOneCurve { .. }
             | Self::UnknownEvent(_)

@@ -1,0 +1,162 @@
+//! Configurations of other controls: what comes of them is refused only where it asks, and loads once
+//! that was written.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that fails may panic"
+)]
+
+use glidepath::config::{self, MachineConfig};
+use glidepath_migration::{Conversion, from_grbl, from_klipper, from_linuxcnc};
+use std::path::{Path, PathBuf};
+
+/// The samples: the control, the file, and the files it includes.
+const SAMPLES: [(&str, &str, &[&str]); 9] = [
+    ("linuxcnc", "mill-mm.ini", &[]),
+    ("linuxcnc", "gantry-inch.ini", &["gantry-axes.inc"]),
+    ("linuxcnc", "delta.ini", &[]),
+    ("grbl", "router.txt", &[]),
+    ("grbl", "router-force-origin.txt", &[]),
+    ("grbl", "grblhal.txt", &[]),
+    ("klipper", "cartesian.cfg", &["macros.cfg"]),
+    ("klipper", "corexy.cfg", &[]),
+    ("klipper", "delta.cfg", &[]),
+];
+
+fn folder(control: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../tests/data/migration")
+        .join(control)
+}
+
+fn read(control: &str, file: &str) -> String {
+    std::fs::read_to_string(folder(control).join(file)).expect("a sample")
+}
+
+fn convert(control: &str, text: &str) -> Conversion {
+    let include = |name: &str| {
+        std::fs::read_to_string(folder(control).join(name)).map_err(|error| error.to_string())
+    };
+    let converted = match control {
+        "linuxcnc" => from_linuxcnc(text, &include),
+        "grbl" => from_grbl(text),
+        _ => from_klipper(text, &include),
+    };
+    converted.unwrap_or_else(|error| panic!("{control}: {error}"))
+}
+
+/// Loads a conversion; what is found has to be asked for.
+fn loads_but_for_what_is_asked(name: &str, conversion: &Conversion) {
+    let asked: Vec<&str> = conversion
+        .asked
+        .iter()
+        .map(|asked| asked.key.as_str())
+        .collect();
+    match config::parse(name, &conversion.configuration) {
+        Ok(_) => assert!(asked.is_empty(), "{name} loads without {asked:?}"),
+        Err(error) => {
+            let found: Vec<&str> = error.diagnostics().iter().map(|d| d.key.as_str()).collect();
+            for key in &found {
+                assert!(
+                    asked.contains(key),
+                    "{name}: {key} is not asked for: {error:?}"
+                );
+            }
+            // A choice that was not made may hide what depends on it.
+            let is_told = |key: &&&str| found.contains(*key) || key.ends_with("_position");
+            let untold: Vec<_> = asked.iter().filter(|key| !is_told(key)).collect();
+            assert!(untold.is_empty(), "{name} does not miss {untold:?}");
+        }
+    }
+}
+
+/// Writes what is asked for.
+fn answered(conversion: &Conversion) -> Result<MachineConfig, String> {
+    let answer = |key: &str| match key {
+        "min_position" => "-100.0",
+        "max_position" => "100.0",
+        "max_velocity" => "100.0",
+        "max_acceleration" => "1000.0",
+        "max_jerk" => "20000.0",
+        "rod" => "400.0",
+        "radius" => "200.0",
+        "tolerance" => "0.02",
+        other => panic!("nobody answers {other}"),
+    };
+    let mut text = String::new();
+    for line in conversion.configuration.lines() {
+        let commented = line
+            .strip_prefix("# ")
+            .and_then(|line| line.strip_suffix(" ="));
+        let chosen = line.strip_suffix(" = \"to be chosen\"");
+        match commented.filter(|key| !key.contains(' ')).or(chosen) {
+            Some(key) => text.push_str(&format!("{key} = {}\n", answer(key))),
+            None => text.push_str(&format!("{line}\n")),
+        }
+    }
+    config::parse("answered", &text).map_err(|error| format!("{error:?}\n{text}"))
+}
+
+#[test]
+fn what_comes_of_it_is_refused_only_where_it_asks_and_loads_once_answered() {
+    for (control, file, _) in SAMPLES {
+        let name = format!("{control}/{file}");
+        let conversion = convert(control, &read(control, file));
+        loads_but_for_what_is_asked(&name, &conversion);
+        answered(&conversion).unwrap_or_else(|error| panic!("{name}: {error}"));
+    }
+}
+
+#[test]
+fn values_are_those_of_the_other_control_in_our_units() {
+    let machine =
+        |control: &str, file: &str| answered(&convert(control, &read(control, file))).unwrap();
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-9, "{a} {b}");
+
+    let mill = machine("linuxcnc", "mill-mm.ini");
+    // The stricter one of axis and joint.
+    assert_eq!(mill.axes[0].travel, Some((-0.5, 419.5)));
+    near(mill.axes[0].max_velocity, 95.0);
+    near(mill.axes[0].max_acceleration, 900.0);
+    assert_eq!(mill.program.subroutine_path.len(), 2);
+
+    let gantry = machine("linuxcnc", "gantry-inch.ini");
+    near(gantry.axes[0].travel.unwrap().1, 1219.2);
+    near(gantry.axes[0].max_jerk, 400.0 * 25.4);
+    near(gantry.axes[2].max_velocity, 4.0 * 25.4);
+    assert_eq!(gantry.axes[3].travel, None);
+    near(gantry.axes[3].max_velocity, 60.0);
+    near(gantry.path.tolerance_mm, 0.0254);
+
+    let router = machine("grbl", "router.txt");
+    near(router.axes[0].max_velocity, 5000.0 / 60.0);
+    // $23 homes X and Y to their negative ends: where zero is depends on the build.
+    assert_eq!(
+        router.axes[0].travel,
+        Some((-100.0, 100.0)),
+        "answered by hand"
+    );
+    assert_eq!(router.axes[2].travel, Some((-90.0, 0.0)));
+    near(router.path.tolerance_mm, 0.01);
+
+    let forced = machine("grbl", "router-force-origin.txt");
+    assert_eq!(forced.axes[0].travel, Some((0.0, 800.0)));
+    assert_eq!(forced.axes[1].travel, Some((-400.0, 0.0)));
+    let text = convert("grbl", &read("grbl", "router-force-origin.txt")).configuration;
+    assert!(
+        text.contains("# glidepath offsets set G54 X25.4 Y63.5 Z-2.54"),
+        "{text}"
+    );
+
+    let hal = machine("grbl", "grblhal.txt");
+    assert_eq!(hal.axes[0].travel, Some((0.0, 300.0)));
+    near(hal.axes[0].max_jerk, 24_000.0);
+    near(hal.axes[3].max_velocity, 120.0);
+
+    let printer = machine("klipper", "cartesian.cfg");
+    assert_eq!(printer.axes[1].travel, Some((-5.0, 235.0)));
+    near(printer.axes[2].max_velocity, 5.0);
+    near(printer.axes[0].max_acceleration, 3000.0);
+}
