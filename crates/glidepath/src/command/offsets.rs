@@ -164,7 +164,7 @@ fn set(kept: &mut Kept, args: &SetArgs) -> Result<(), Failure> {
         ) {
             (Some(axis), _) => vector[axis] = value,
             (None, Some(rotation_deg)) if letter.eq_ignore_ascii_case("R") => {
-                **rotation_deg = value
+                **rotation_deg = value;
             }
             _ => return Err(refuse()),
         }
