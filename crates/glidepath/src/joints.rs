@@ -23,13 +23,14 @@ use std::path::{Path, PathBuf};
 /// mechanisms of usual size bend by less than a tenth of a micrometre over that.
 const STEP: f64 = 0.25;
 
-/// Judges a program along its path.
+/// Judges a program along its path. `told` hears the lines read.
 ///
 /// # Errors
 /// The file cannot be read.
 pub(crate) fn check_path(
     path: &Path,
     config: &MachineConfig,
+    told: &mut dyn FnMut(u64),
 ) -> Result<Option<Diagnostic>, Refusal> {
     let Some(watch) = config.joint_watch() else {
         return Ok(None);
@@ -50,6 +51,7 @@ pub(crate) fn check_path(
         let ItemKind::Move { segment, .. } = &item.kind else {
             continue;
         };
+        told(source.lines_read());
         if let Err((fault, place)) = walk(segment, &watch) {
             return Ok(Some(diagnostic(
                 path,

@@ -12,7 +12,7 @@ use crate::output;
 use crate::program_file::ProgramFile;
 use crate::progress::Progress;
 use crate::report::{diagnostic_object, grouped};
-use glidepath_gcode::Report;
+use glidepath_gcode::{Diagnostic, Report};
 use glidepath_geometry::Axis;
 use glidepath_planner::{check_file, find_in_file};
 use serde_json::{Value, json};
@@ -65,9 +65,7 @@ fn read(file: &ProgramFile, config: &MachineConfig, json: bool) -> Result<Report
     if !report.is_accepted() || !report.is_complete() {
         return Ok(report);
     }
-    let diagnostics = joints::check_path(file.path(), config)?
-        .into_iter()
-        .collect();
+    let diagnostics = along_joints(file, config, report.totals.lines, json)?;
     Ok(Report {
         diagnostics,
         ..report
@@ -108,9 +106,7 @@ pub(super) fn accepted(
         });
     }
     if found.diagnostics.is_empty() {
-        found.diagnostics = joints::check_path(file.path(), config)?
-            .into_iter()
-            .collect();
+        found.diagnostics = along_joints(file, config, found.lines, json)?;
     }
     if found.diagnostics.is_empty() {
         return Ok(found.lines);
@@ -121,6 +117,23 @@ pub(super) fn accepted(
         more: found.more,
         moved: false,
     })
+}
+
+/// What is wrong along the path with joints that are not the axes.
+///
+/// # Errors
+/// The file cannot be read any more.
+fn along_joints(
+    file: &ProgramFile,
+    config: &MachineConfig,
+    lines: u32,
+    json: bool,
+) -> Result<Vec<Diagnostic>, Failure> {
+    let progress = Progress::lines(lines.into(), json);
+    progress.doing("judging");
+    let found = joints::check_path(file.path(), config, &mut |lines| progress.at(lines));
+    progress.finish();
+    Ok(found?.into_iter().collect())
 }
 
 /// A bar for the check of a file.
