@@ -10,8 +10,14 @@ use glidepath_tests::{Instance, Process, SetpointFile, Watchdog};
 /// Seconds of motion, unless `GLIDEPATH_LOAD` says otherwise: some hundred for a long check.
 const SHORT_S: u32 = 6;
 
-/// Corners of every kind, which take long to plan: rows of a pocket, with waves on them.
-fn pocket(seconds: u32) -> String {
+/// A number that a variable of the environment gives, or another.
+fn number(name: &str, otherwise: u32) -> u32 {
+    std::env::var(name).map_or(otherwise, |text| text.parse().unwrap())
+}
+
+/// Corners of every kind, which take long to plan: rows of a pocket, with waves on them, of another
+/// form in each program.
+fn pocket(seconds: u32, program: u32) -> String {
     // Rests, which are planned at once, before motion that is not.
     let mut text = "G21 G90 G64 P0.02 F2400\nT1 M6\nS1000 M3\n".to_owned();
     // About 40 mm a second.
@@ -19,7 +25,7 @@ fn pocket(seconds: u32) -> String {
         let y = 0.4 * f64::from(row);
         for step in 0..=40_u32 {
             let along = if row % 2 == 0 { step } else { 40 - step };
-            let wave = 0.15 * f64::from((step * 7 + row * 3) % 5);
+            let wave = 0.15 * f64::from((step * (7 + program) + row * 3) % 5);
             let _ = writeln!(text, "G1 X{along} Y{:.3}", y + wave);
         }
     }
@@ -55,10 +61,17 @@ impl<F: Fn()> Drop for OnDrop<F> {
 
 #[test]
 fn a_run_beside_load_on_every_core_is_the_plan_and_does_not_starve() {
-    let seconds = std::env::var("GLIDEPATH_LOAD").map_or(SHORT_S, |text| text.parse().unwrap());
+    let seconds = number("GLIDEPATH_LOAD", SHORT_S);
+    for program in 0..number("GLIDEPATH_LOAD_PROGRAMS", 1) {
+        play_beside_load(seconds, program);
+    }
+}
+
+#[allow(clippy::print_stderr, reason = "the figures of a long check")]
+fn play_beside_load(seconds: u32, program: u32) {
     let patience = Duration::from_secs(240 + 4 * u64::from(seconds));
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(patience));
-    let program = instance.file("program.ngc", &pocket(seconds));
+    let program = instance.file("program.ngc", &pocket(seconds, program));
     let csv = instance.path("run.csv");
     let run = [
         "run",
