@@ -4,56 +4,99 @@
 //! GLIDEPATH_CORPUS=folder cargo run --release -p glidepath-planner --example corpus -- dense print arc
 //! ```
 //!
-//! The arguments are folders in it. The first segments of each program are planned for the milling
-//! machine, at most [`MOST_SEGMENTS`], and judged by the auditor. Planning is timed by the
-//! processor time of the process, parsing and audit included. Tools are 50 mm long and 6 mm thick,
-//! an extruder is axis U. `corpus.md` keeps what came out.
+//! The arguments are folders in it. The beginning of each program is planned for the milling
+//! machine, at most [`MOST_SEGMENTS`] and [`MOST_FEED_T`], and judged by the auditor. Planning is
+//! timed by the processor time of the thread, without parsing and audit. Tools are 50 mm long and
+//! 6 mm thick, an extruder is axis U. `corpus.md` keeps what came out.
 #![allow(clippy::print_stdout, reason = "a table")]
 
 use std::error::Error;
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::{BufReader, Read, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use glidepath_audit::diagnosis::Diagnosis;
+use glidepath_audit::smoothness::Figures;
 use glidepath_audit::{Audit, AuditSettings, Report};
 use glidepath_gcode::{Dialect, Options, Program, ToolTable};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_motion::Planner;
-use glidepath_program::{Effort, ItemKind, Limits, Settings, Smoothing};
+use glidepath_motion::{PlanError, Planner};
+use glidepath_program::{Effort, Item, ItemKind, Limits, Settings, Smoothing};
 
 /// Segments planned of a program.
 const MOST_SEGMENTS: usize = 3000;
 
+/// Motion planned of a program, s at its feedrates. A last segment may go on for longer.
+const MOST_FEED_T: f64 = 240.0;
+
+const JERK_J: f64 = 40_000.0;
+const PERIOD_T: f64 = 0.004;
+
 /// A plan of a program, or of its beginning.
 struct Plan {
     report: Report,
+    smooth: Figures,
     segments: usize,
     /// The time at the programmed feed everywhere, rapids at the speed of the axes, s.
     feed_t: f64,
+    /// Processor time of planning.
     spent: Duration,
     is_whole: bool,
 }
 
+impl Plan {
+    const fn time_t(&self) -> f64 {
+        self.report.cycle_time_s
+    }
+
+    /// Processor time over time of motion, %.
+    fn work_percent(&self) -> f64 {
+        100.0 * self.spent.as_secs_f64() / self.time_t()
+    }
+
+    /// A figure of the axis where it is largest.
+    fn most(of: &[f64]) -> f64 {
+        of.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Largest rms and peak jerk of an axis over the limit.
+    fn jerk(&self) -> String {
+        let share = |of: &[f64]| Self::most(of) / JERK_J;
+        let (rms, peak) = (&self.smooth.rms_jerk_j, &self.smooth.peak_jerk_j);
+        format!("{:.3}, {:.2}", share(rms), share(peak))
+    }
+
+    fn ringing_a(&self) -> String {
+        format!("{:.0}", Self::most(&self.smooth.ringing_a))
+    }
+
+    fn reversals(&self) -> String {
+        self.smooth.reversals.iter().sum::<u64>().to_string()
+    }
+
+    /// Mean and rms deviation, µm.
+    fn deviation(&self) -> String {
+        let (mean, rms) = (self.smooth.mean_deviation_mm, self.smooth.rms_deviation_mm);
+        format!("{:.2}, {:.2}", 1e3 * mean, 1e3 * rms)
+    }
+}
+
 fn settings(effort: Effort, smoothing: Smoothing) -> Settings {
     Settings {
-        limits: Limits::uniform(200.0, 2000.0, 40_000.0),
+        limits: Limits::uniform(200.0, 2000.0, JERK_J),
         tolerance_mm: 0.02,
         smoothing,
-        period_t: 0.004,
+        period_t: PERIOD_T,
         effort,
     }
 }
 
-/// Processor time of the process so far.
+/// Processor time of the thread so far.
 fn processor_time() -> Duration {
-    // Fields 14 and 15, user and system time in hundredths of a second; the name before has no
-    // blanks.
-    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let ticks = text.split_whitespace().skip(13).take(2);
-    let sum: u64 = ticks.filter_map(|field| field.parse::<u64>().ok()).sum();
-    Duration::from_millis(10 * sum)
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    Duration::try_from(time).unwrap_or_default()
 }
 
 /// How a program is read: in the dialect its beginning is in.
@@ -73,70 +116,129 @@ fn options(path: &Path) -> Result<Options, Box<dyn Error>> {
     })
 }
 
-fn plan(path: &Path, settings: Settings) -> Result<Plan, Box<dyn Error>> {
-    let start = processor_time();
-    let mut audit = Audit::new(&AuditSettings {
-        limits: settings.limits,
-        period_t: settings.period_t,
-        tolerance_mm: settings.tolerance_mm,
-    });
-    let mut planner = Planner::new(settings, AxisVector::zeros());
-    let options = options(path)?;
-    let (mut segments, mut feed_t, mut is_whole) = (0, 0.0, true);
-    for item in Program::new(BufReader::new(File::open(path)?), options) {
+/// The beginning of a program.
+struct Beginning {
+    items: Vec<Item>,
+    segments: usize,
+    feed_t: f64,
+    is_whole: bool,
+}
+
+fn read(path: &Path) -> Result<Beginning, Box<dyn Error>> {
+    let (mut items, mut segments, mut feed_t) = (Vec::new(), 0, 0.0);
+    for item in Program::new(BufReader::new(File::open(path)?), options(path)?) {
         let item =
             item.map_err(|diagnostic| format!("{}: {}", diagnostic.line, diagnostic.message))?;
         if let ItemKind::Move { segment, rate, .. } = &item.kind {
-            if segments == MOST_SEGMENTS {
-                is_whole = false;
-                break;
+            if segments == MOST_SEGMENTS || feed_t >= MOST_FEED_T {
+                return Ok(Beginning {
+                    items,
+                    segments,
+                    feed_t,
+                    is_whole: false,
+                });
             }
             segments += 1;
             let speed_v = rate.feed_v().map_or(200.0, |feed_v| feed_v.min(200.0));
             feed_t += segment.length() / speed_v;
         }
-        planner.push(&item)?;
-        audit.program(&item);
-        while planner.make_frame()? {
-            audit.frame(planner.frame());
-        }
+        items.push(item);
     }
-    planner.finish();
-    while planner.make_frame()? {
-        audit.frame(planner.frame());
-    }
-    Ok(Plan {
-        report: audit.finish(),
+    Ok(Beginning {
+        items,
         segments,
         feed_t,
-        spent: processor_time().saturating_sub(start),
-        is_whole,
+        is_whole: true,
     })
 }
 
-fn row(name: &str, path: &Path) -> Result<String, Box<dyn Error>> {
-    let optimal = plan(path, settings(Effort::Optimal, Smoothing::Auto))?;
-    let fast = plan(path, settings(Effort::Fast, Smoothing::Auto))?;
-    let stops = plan(path, settings(Effort::Fast, Smoothing::ExactStop))?;
-    let is_clean = [&optimal, &fast, &stops]
-        .iter()
-        .all(|plan| plan.report.is_clean() && plan.report.is_complete);
-    let [optimal_t, fast_t, stop_t] =
-        [&optimal, &fast, &stops].map(|plan| plan.report.cycle_time_s);
-    #[expect(clippy::cast_precision_loss, reason = "thousands")]
-    let per_second =
-        |plan: &Plan| plan.segments as f64 / plan.spent.max(Duration::from_millis(5)).as_secs_f64();
-    let part = if optimal.is_whole { "" } else { ", beginning" };
-    let verdict = if is_clean { "clean" } else { "VIOLATIONS" };
-    Ok(format!(
-        "| {name} | {}{part} | {verdict} | {optimal_t:.2} | {fast_t:.2} | {stop_t:.2} | {:.2} | {:.2} | {:.3} | {:.0} | {:.0} |",
-        optimal.segments,
-        optimal.feed_t / optimal_t,
-        fast.feed_t / fast_t,
-        optimal.report.max_deviation_mm,
-        per_second(&optimal),
-        per_second(&fast),
-    ))
+fn plan(beginning: &Beginning, settings: Settings) -> Result<Plan, PlanError> {
+    let judged = AuditSettings {
+        limits: settings.limits,
+        period_t: settings.period_t,
+        tolerance_mm: settings.tolerance_mm,
+    };
+    let (mut audit, mut diagnosis) = (Audit::new(&judged), Diagnosis::new(&judged));
+    let mut planner = Planner::new(settings, AxisVector::zeros());
+    let mut spent = Duration::ZERO;
+    for step in 0..=beginning.items.len() {
+        let mut start = processor_time();
+        match beginning.items.get(step) {
+            Some(item) => {
+                planner.push(item)?;
+                audit.program(item);
+                diagnosis.program(item);
+            }
+            None => planner.finish(),
+        }
+        while planner.make_frame()? {
+            spent += processor_time().saturating_sub(start);
+            audit.frame(planner.frame());
+            diagnosis.frame(planner.frame());
+            start = processor_time();
+        }
+        spent += processor_time().saturating_sub(start);
+    }
+    Ok(Plan {
+        report: audit.finish(),
+        smooth: diagnosis.finish().smoothness.whole,
+        segments: beginning.segments,
+        feed_t: beginning.feed_t,
+        spent,
+        is_whole: beginning.is_whole,
+    })
+}
+
+/// The ways in which a program is planned.
+struct Ways {
+    optimal: Plan,
+    fast: Plan,
+    stops: Plan,
+}
+
+impl Ways {
+    fn of(path: &Path) -> Result<Self, Box<dyn Error>> {
+        let beginning = read(path)?;
+        Ok(Self {
+            optimal: plan(&beginning, settings(Effort::Optimal, Smoothing::Auto))?,
+            fast: plan(&beginning, settings(Effort::Fast, Smoothing::Auto))?,
+            stops: plan(&beginning, settings(Effort::Fast, Smoothing::ExactStop))?,
+        })
+    }
+
+    /// By how much optimal is slower than fast, s, if it is.
+    fn lost_t(&self) -> Option<f64> {
+        let lost_t = self.optimal.time_t() - self.fast.time_t();
+        (lost_t > 0.5 * PERIOD_T).then_some(lost_t)
+    }
+
+    fn row(&self, name: &str) -> String {
+        let Self {
+            optimal,
+            fast,
+            stops,
+        } = self;
+        let is_clean = [optimal, fast, stops]
+            .iter()
+            .all(|plan| plan.report.is_clean() && plan.report.is_complete);
+        let part = if optimal.is_whole { "" } else { ", beginning" };
+        let verdict = if is_clean { "clean" } else { "VIOLATIONS" };
+        let both = |of: fn(&Plan) -> String| format!("{} / {}", of(optimal), of(fast));
+        format!(
+            "| {name} | {}{part} | {verdict} | {:.2} | {:.2} | {:.2} | {:.2} | {:.1} / {:.1} | {} | {} | {} | {} |",
+            optimal.segments,
+            optimal.time_t(),
+            fast.time_t(),
+            stops.time_t(),
+            optimal.feed_t / optimal.time_t(),
+            optimal.work_percent(),
+            fast.work_percent(),
+            both(Plan::jerk),
+            both(Plan::ringing_a),
+            both(Plan::reversals),
+            both(Plan::deviation),
+        )
+    }
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -146,9 +248,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     };
     println!(
-        "| program | segments | audit | optimal s | fast s | stops s | of feed | fast | deviation mm | optimal /s | fast /s |"
+        "| program | segments | audit | optimal s | fast s | stops s | of feed | work % | jerk rms, peak | above 30 Hz | reversals | deviation mean, rms µm |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
+    let (mut count, mut slower) = (0, Vec::new());
     for folder in std::env::args().skip(1) {
         let entries = std::fs::read_dir(corpus.join(&folder))?;
         let mut paths: Vec<_> = entries
@@ -158,11 +261,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         for path in paths {
             let file = path.file_name().unwrap_or_default().to_string_lossy();
             let name = format!("{folder}/{file}");
-            match row(&name, &path) {
-                Ok(row) => println!("{row}"),
-                Err(error) => println!("| {name} | refused: {error} ||||||||||"),
+            match Ways::of(&path) {
+                Ok(ways) => {
+                    println!("{}", ways.row(&name));
+                    count += 1;
+                    slower.extend(ways.lost_t().map(|lost_t| (name, lost_t)));
+                }
+                Err(error) => println!("| {name} | refused: {error} |||||||||||"),
             }
+            std::io::stdout().flush()?;
         }
+    }
+    println!(
+        "\nSlower with optimal than with fast: {} of {count}",
+        slower.len()
+    );
+    for (name, lost_t) in slower {
+        println!("* {name}: {lost_t:.3} s");
     }
     Ok(())
 }
