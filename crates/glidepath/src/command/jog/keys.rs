@@ -77,7 +77,7 @@ pub(super) fn jog(
     if !std::io::stdin().is_terminal() || args.operator.basic.json {
         return Err(Failure::CommandRefused {
             command: "jog",
-            state: "not asked",
+            state: state_name(panel.state()?),
             reason: "keys need a terminal; without one give steps, such as `glidepath jog X10`"
                 .to_owned(),
         });

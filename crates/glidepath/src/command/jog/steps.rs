@@ -30,11 +30,12 @@ pub(super) fn jog(
     mut panel: Panel,
 ) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
+    let state = panel.state()?;
     let mut value = [0.0; AXES];
     for step in &args.steps {
         if !config.axis_names().contains(&step.axis) {
             return Err(refused(
-                "not sent",
+                state_name(state),
                 format!("the machine has no axis {}", step.axis),
             ));
         }
@@ -42,7 +43,6 @@ pub(super) fn jog(
             *slot += step.distance;
         }
     }
-    let state = panel.state()?;
     if !Panel::can_jog(state) {
         let reason = "axes are jogged when the machine is idle, or a program is held".to_owned();
         return Err(refused(state_name(state), reason));

@@ -76,6 +76,7 @@ fn play(rig: &mut Rig, numbers: &mut Numbers, most_v: f64) {
 fn at_random_the_axes_stay_inside_limits_and_travel_and_stop_when_nobody_demands() {
     for seed in 0..sequences(300) {
         let mut rig = jogged();
+        rig.run(1);
         let mut numbers = Numbers::new(seed + 1);
         play(&mut rig, &mut numbers, 200.0);
         // Killed: what was demanded last ends within the dead-man and a stop, or where its way
