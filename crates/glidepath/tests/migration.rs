@@ -74,25 +74,33 @@ fn loads_but_for_what_is_asked(name: &str, conversion: &Conversion) {
 
 /// Writes what is asked for.
 fn answered(conversion: &Conversion) -> Result<MachineConfig, String> {
-    let answer = |key: &str| match key {
+    // Joints so strong that they leave the axes what they have.
+    let answer = |table: &str, key: &str| match key {
+        "max_velocity" if table.starts_with("[joint") => "10000.0",
+        "max_acceleration" if table.starts_with("[joint") => "1e6",
+        "max_jerk" if table.starts_with("[joint") => "1e7",
         "min_position" => "-100.0",
         "max_position" => "100.0",
         "max_velocity" => "100.0",
         "max_acceleration" => "1000.0",
         "max_jerk" => "20000.0",
-        "rod" => "400.0",
+        "rod" => "800.0",
         "radius" => "200.0",
         "tolerance" => "0.02",
         other => panic!("nobody answers {other}"),
     };
     let mut text = String::new();
+    let mut table = "";
     for line in conversion.configuration.lines() {
+        if line.starts_with('[') {
+            table = line;
+        }
         let commented = line
             .strip_prefix("# ")
             .and_then(|line| line.strip_suffix(" ="));
         let chosen = line.strip_suffix(" = \"to be chosen\"");
         match commented.filter(|key| !key.contains(' ')).or(chosen) {
-            Some(key) => text.push_str(&format!("{key} = {}\n", answer(key))),
+            Some(key) => text.push_str(&format!("{key} = {}\n", answer(table, key))),
             None => text.push_str(&format!("{line}\n")),
         }
     }
