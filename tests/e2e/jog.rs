@@ -37,7 +37,7 @@ fn bits(position: [f64; 9]) -> [u64; 9] {
 
 /// The terminal of a process, and where its keys come from.
 fn terminal() -> (File, File) {
-    let keys = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+    let keys = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC).unwrap();
     grantpt(&keys).unwrap();
     unlockpt(&keys).unwrap();
     let name = ptsname(&keys, Vec::new()).unwrap();

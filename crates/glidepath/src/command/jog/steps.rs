@@ -54,7 +54,11 @@ pub(super) fn jog(
         .ask(JogMode::Incremental, value, most_v, args.by_joint)?;
     set_out(&mut panel, &start, &interrupt)?;
     let mut has_let_go = false;
-    while panel.state()? == MachineState::Jogging {
+    // Held, the machine is slowing for as long as its last differences are not those of rest.
+    while matches!(
+        panel.state()?,
+        MachineState::Jogging | MachineState::Holding
+    ) {
         if interrupt.is_set() && !has_let_go {
             panel.demands.let_go()?;
             has_let_go = true;
