@@ -209,12 +209,7 @@ impl Supervisor<'_, '_, '_> {
 
     /// The auditor's report of everything since the beginning.
     pub(crate) fn audit(&self, settings: &Settings, largest_override: f64) -> Report {
-        let mut audit = Audit::new(&AuditSettings {
-            limits: settings.limits,
-            period_t: settings.period_t,
-            tolerance_mm: settings.tolerance_mm,
-        })
-        .with_override(largest_override);
+        let mut audit = Audit::new(&AuditSettings::from(settings)).with_override(largest_override);
         for item in &self.items {
             audit.program(item);
         }

@@ -7,6 +7,8 @@ use std::time::Duration;
 
 use glidepath_tests::{Instance, Process, SetpointFile, Watchdog};
 
+use crate::programs::recorded;
+
 /// Seconds of motion, unless `GLIDEPATH_LOAD` says otherwise: some hundred for a long check.
 const SHORT_S: u32 = 6;
 
@@ -73,14 +75,7 @@ fn play_beside_load(seconds: u32, program: u32) {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(patience));
     let program = instance.file("program.ngc", &pocket(seconds, program));
     let csv = instance.path("run.csv");
-    let run = [
-        "run",
-        &program,
-        "--best-effort",
-        "--setpoints",
-        &csv,
-        "--json",
-    ];
+    let run = recorded(&program, &csv);
     let output = beside_load(|| Process::start(&instance, &run).wait_for(patience));
     let report = output.expect(0).json();
     for key in [

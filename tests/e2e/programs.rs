@@ -23,3 +23,15 @@ pub(crate) fn long_program() -> String {
     }
     text
 }
+
+/// A run whose setpoints are kept, and told of in an object.
+pub(crate) fn recorded<'a>(program: &'a str, csv: &'a str) -> [&'a str; 6] {
+    [
+        "run",
+        program,
+        "--best-effort",
+        "--setpoints",
+        csv,
+        "--json",
+    ]
+}

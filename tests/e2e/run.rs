@@ -7,7 +7,7 @@ use glidepath_link::Transport;
 use glidepath_tests::{Instance, Process, SetpointFile, Watchdog, planned};
 use rustix::process::Signal;
 
-use crate::programs::{PROGRAM, long_program};
+use crate::programs::{PROGRAM, long_program, recorded};
 
 const PATIENCE: Duration = Duration::from_secs(240);
 
@@ -16,14 +16,7 @@ fn a_run_is_the_plan_bit_for_bit() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let program = instance.file("program.ngc", PROGRAM);
     let csv = instance.path("run.csv");
-    let run = [
-        "run",
-        &program,
-        "--best-effort",
-        "--setpoints",
-        &csv,
-        "--json",
-    ];
+    let run = recorded(&program, &csv);
     let report = Process::start(&instance, &run).wait().expect(0).json();
     let received = SetpointFile::read(Path::new(&csv));
     assert_eq!(received.moving(), planned(&instance, &program).moving());
@@ -47,17 +40,7 @@ fn an_interrupted_run_leaves_nothing_behind() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let program = instance.file("program.ngc", &long_program());
     let csv = instance.path("run.csv");
-    let run = Process::join(
-        &instance,
-        &[
-            "run",
-            &program,
-            "--best-effort",
-            "--setpoints",
-            &csv,
-            "--json",
-        ],
-    );
+    let run = Process::join(&instance, &recorded(&program, &csv));
     wait_for_motion(&instance);
     let children = children_of(run.id());
     assert_eq!(children.len(), 3, "interpolator, planner and servo");

@@ -98,11 +98,7 @@ impl Recording {
 /// What the auditor says about a motion.
 pub fn audit(items: &[Item], positions: impl Iterator<Item = AxisVector>) -> Report {
     let settings = settings();
-    let mut audit = Audit::new(&AuditSettings {
-        limits: settings.limits,
-        period_t: settings.period_t,
-        tolerance_mm: settings.tolerance_mm,
-    });
+    let mut audit = Audit::new(&AuditSettings::from(&settings));
     for item in items {
         audit.program(item);
     }

@@ -2,9 +2,10 @@
 
 use crate::column::{EXACT_MM, Level, Passage, Reach};
 use crate::free_space::Interval;
-use crate::matching::{Goal, Matching, Spot};
+use crate::matching::{Matching, Spot};
 use crate::program::Presence;
 use crate::tremor::Place;
+use crate::trouble::Goal;
 use crate::violation::{ViolationKind, Worst};
 use glidepath_geometry::{AxisVector, feed_length};
 use glidepath_program::tolerance_norm;

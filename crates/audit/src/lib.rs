@@ -41,6 +41,7 @@ mod along;
 mod audit;
 mod column;
 pub mod diagnosis;
+mod flatten;
 mod free_space;
 mod judge;
 mod limits;
@@ -52,6 +53,7 @@ mod sample;
 mod settings;
 pub mod smoothness;
 pub mod tremor;
+mod trouble;
 mod violation;
 mod widen;
 

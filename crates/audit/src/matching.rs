@@ -29,6 +29,7 @@ use crate::program::{DiagramRows, Presence, SMALLEST_TOLERANCE_MM};
 use crate::sample::Seen;
 use crate::settings::AuditSettings;
 use crate::tremor::{Cruise, StillAxes};
+use crate::trouble::{Goal, Trouble};
 use crate::violation::{ViolationKind, ViolationList, Worst};
 use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
@@ -41,27 +42,6 @@ pub(crate) const SHORT: usize = 8;
 const MAX_HISTORY: usize = 4096;
 /// Travel of the motion over which columns are kept, in tolerances.
 const HISTORY_TOLERANCES: f64 = 8.0;
-
-/// What must hold after the last column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Goal {
-    /// Something can be reached.
-    Anything,
-    /// Something within tolerance can be reached.
-    WithinTolerance,
-    /// The end of the program can be reached.
-    End,
-}
-
-/// A motion that is out of tolerance.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Trouble {
-    /// Width at which it is followed, mm.
-    pub(crate) floor_mm: f64,
-    /// Where it began.
-    pub(crate) tick: u64,
-    pub(crate) line: u32,
-}
 
 /// A sample, as far as it is matched.
 #[derive(Debug, Clone, Copy)]

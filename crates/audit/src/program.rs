@@ -1,19 +1,12 @@
 //! The programmed path as chords, made when they are needed.
-//!
-//! A line is one chord, an arc many. Inner points of an arc lie slightly outside it, so that the
-//! polygon is as far outside at its corners as it is inside between them: the distance from the arc
-//! is half the sagitta.
 
+use crate::flatten::{CURVE_FLATTENING, FLATTENING, chords, inner_point};
 use crate::free_space::Chord;
 use crate::piece::Piece;
-use glidepath_geometry::{Arc, AxisVector, Prepared, Segment, feed_length};
+use glidepath_geometry::{AxisVector, Prepared, Segment, feed_length};
 use glidepath_program::{Item, ItemKind, PathMode, Rate};
 use std::collections::VecDeque;
 
-/// Distance between an arc and its chords, as a part of the tolerance.
-pub(crate) const FLATTENING: f64 = 1e-5;
-/// Distance between another curve and its chords, as a part of the tolerance.
-pub(crate) const CURVE_FLATTENING: f64 = 1e-3;
 /// A tolerance of zero would leave no room for rounding, mm.
 pub(crate) const SMALLEST_TOLERANCE_MM: f64 = 1e-6;
 /// A tolerance counts as kept up to this factor; on arcs the chords come in addition.
@@ -309,7 +302,8 @@ impl DiagramRows {
                 next.segment.end()
             } else {
                 let prepared = self.prepared.get_or_insert_with(|| next.segment.prepared());
-                inner_point(next, prepared, self.done)
+                let along_mm = next.length * f64::from(self.done) / f64::from(next.chords);
+                inner_point(&next.segment, prepared, along_mm, next.chords)
             };
             self.window.push_back(DiagramRow {
                 chord: Chord::new(start, end),
@@ -353,50 +347,5 @@ impl DiagramRows {
             self.window.pop_front();
             self.base += 1;
         }
-    }
-}
-
-/// Number of chords of a segment.
-fn chords(of: &Segment, tolerance_mm: f64) -> u32 {
-    let count = match of {
-        Segment::Line(_) => return 1,
-        Segment::Arc(arc) => {
-            let radius = arc.start_radius().max(arc.end_radius());
-            // A chord over the angle α has sagitta R·α²/8, twice the distance that is allowed.
-            let angle = (16.0 * FLATTENING * tolerance_mm / radius).sqrt().min(0.5);
-            arc.sweep_rad.abs() / angle
-        }
-        Segment::Curve(curve) => {
-            let max_k = curve.bounds().d2.norm();
-            curve.length * (max_k / (8.0 * CURVE_FLATTENING * tolerance_mm)).sqrt()
-        }
-    };
-    let count = count.ceil().clamp(1.0, 1e9);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped"
-    )]
-    let count = count as u32;
-    count
-}
-
-/// Point `k` of the chords of an arc, moved outwards by half the sagitta.
-fn inner_point(of: &Move, prepared: &Prepared, k: u32) -> AxisVector {
-    let count = f64::from(of.chords);
-    let mut point = prepared.position(of.length * f64::from(k) / count);
-    if let Segment::Arc(arc) = &of.segment {
-        push_outwards(arc, &mut point, count);
-    }
-    point
-}
-
-fn push_outwards(arc: &Arc, point: &mut AxisVector, count: f64) {
-    let (first, second) = arc.plane.axes();
-    let angle = arc.sweep_rad / count;
-    let factor = 1.0 + angle * angle / 16.0;
-    for (axis, center) in [first, second].into_iter().zip(arc.center) {
-        let i = axis.index();
-        point[i] = center + (point[i] - center) * factor;
     }
 }

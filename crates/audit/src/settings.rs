@@ -1,6 +1,6 @@
 //! What a motion is judged by.
 
-use glidepath_program::Limits;
+use glidepath_program::{Limits, Settings};
 
 /// What a motion is judged by.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,4 +12,15 @@ pub struct AuditSettings {
     /// Tolerance in mm where the program gives none (G64 P), > 0: for XYZ together, for UVW
     /// together, and in degrees for each rotary axis.
     pub tolerance_mm: f64,
+}
+
+/// What a motion that was planned with these settings is judged by.
+impl From<&Settings> for AuditSettings {
+    fn from(planned: &Settings) -> Self {
+        Self {
+            limits: planned.limits,
+            period_t: planned.period_t,
+            tolerance_mm: planned.tolerance_mm,
+        }
+    }
 }

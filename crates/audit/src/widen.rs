@@ -2,7 +2,8 @@
 //! columns for the level that it takes.
 
 use crate::column::{EXACT_MM, Level, Passage, step};
-use crate::matching::{Goal, Matching, SHORT, Trouble};
+use crate::matching::{Matching, SHORT};
+use crate::trouble::{Goal, Trouble};
 use crate::violation::ViolationKind;
 
 /// Most chords the motion may be near to while it is out of tolerance.

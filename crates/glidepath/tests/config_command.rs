@@ -6,16 +6,12 @@
     reason = "a test that fails may panic"
 )]
 
+mod support;
+
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, Output};
-
-fn glidepath(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_glidepath"))
-        .args(args)
-        .output()
-        .unwrap()
-}
+use std::process::Output;
+use support::glidepath;
 
 fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()

@@ -6,20 +6,11 @@
     reason = "a test that fails may panic"
 )]
 
+mod support;
+
 use serde_json::Value;
-use std::process::{Command, Output};
-
-fn glidepath(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_glidepath"))
-        .args(args)
-        .output()
-        .unwrap()
-}
-
-fn object(output: &Output) -> Value {
-    let text = String::from_utf8(output.stdout.clone()).unwrap();
-    serde_json::from_str(&text).expect(&text)
-}
+use std::process::Command;
+use support::{glidepath, object};
 
 #[test]
 fn doctor_ends_with_what_it_found() {

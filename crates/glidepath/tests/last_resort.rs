@@ -9,11 +9,14 @@
     reason = "a test; failures are panics"
 )]
 
+mod support;
+
 use serde_json::Value;
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
+use support::finish;
 
 const PATIENCE: Duration = Duration::from_secs(60);
 /// Minutes of motion.
@@ -85,7 +88,7 @@ impl Host {
     }
 
     fn run(&self, args: &[&str]) -> Output {
-        finish(self.glidepath(args))
+        finish(self.glidepath(args), PATIENCE)
     }
 
     fn status(&self) -> Value {
@@ -131,7 +134,7 @@ impl Host {
             let (from, to) = ("if=/dev/zero", format!("of=/dev/shm/filler.{block}"));
             let more = ["oflag=append", "conv=notrunc"];
             let args = [from, &to, &format!("bs={block}"), more[0], more[1]];
-            let filled = finish(self.start("dd", &args));
+            let filled = finish(self.start("dd", &args), PATIENCE);
             let error = String::from_utf8_lossy(&filled.stderr).into_owned();
             assert!(error.contains("No space left"), "{error}");
         }
@@ -151,18 +154,6 @@ fn is_moving(status: &Value) -> bool {
     status["feed_mm_s"].as_f64().unwrap() > 1.0
 }
 
-fn finish(mut child: Child) -> Output {
-    let started = Instant::now();
-    while child.try_wait().unwrap().is_none() {
-        if started.elapsed() > PATIENCE {
-            child.kill().unwrap();
-            panic!("the process hangs: {:?}", child.wait_with_output());
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    child.wait_with_output().unwrap()
-}
-
 fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
@@ -180,7 +171,7 @@ impl Machine {
 
     /// What the interpolator says when it has ended.
     fn ended(mut self) -> Value {
-        let output = finish(self.interpolator.take().unwrap());
+        let output = finish(self.interpolator.take().unwrap(), PATIENCE);
         assert!(output.status.success(), "{output:?}");
         serde_json::from_slice(&output.stdout).unwrap()
     }
@@ -263,14 +254,17 @@ fn a_machine_is_held_and_aborted_without_descriptors() {
     let limit = format!("--nofile={}", descriptors.count());
     let pid = format!("--pid={}", machine.pid());
     assert!(
-        finish(host.start("prlimit", &[&pid, &limit]))
+        finish(host.start("prlimit", &[&pid, &limit]), PATIENCE)
             .status
             .success()
     );
     for (command, state) in [("hold", "held"), ("resume", "running"), ("abort", "idle")] {
         // Nor has the operator's process more than its three streams and three more.
         let program = env!("CARGO_BIN_EXE_glidepath");
-        let output = finish(host.start("bash", &["-c", FEW_DESCRIPTORS, program, command]));
+        let output = finish(
+            host.start("bash", &["-c", FEW_DESCRIPTORS, program, command]),
+            PATIENCE,
+        );
         assert!(output.status.success(), "{command}: {output:?}");
         host.wait_for(state, |status| status["state"] == state);
     }

@@ -6,16 +6,12 @@
     reason = "a test that fails may panic"
 )]
 
+mod support;
+
 use serde_json::Value;
 use std::io::{BufRead as _, BufReader, Write as _};
-use std::process::{Child, Command, Output, Stdio};
-
-fn glidepath(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_glidepath"))
-        .args(args)
-        .output()
-        .unwrap()
-}
+use std::process::{Child, Command, Stdio};
+use support::glidepath;
 
 struct Ended(Child);
 

@@ -8,11 +8,13 @@
     reason = "a test that fails may panic"
 )]
 
+mod support;
+
 use glidepath_link::LinkConfig;
-use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
+use support::{finish, object};
 
 /// About a second of motion, with a stop on the way.
 const SHORT: &str = "G21 G90\nG0 X1\nG1 X11 F3000\nY10\nM0\nX1\nG4 P0.1\nY0\nM2\n";
@@ -41,26 +43,8 @@ fn instance(name: &str) -> String {
     format!("t-{name}-{}", std::process::id())
 }
 
-/// Waits for a process; kills it and fails when that takes too long.
-fn finish(mut child: Child) -> Output {
-    let started = Instant::now();
-    while child.try_wait().unwrap().is_none() {
-        if started.elapsed() > PATIENCE {
-            child.kill().unwrap();
-            panic!("the process hangs: {:?}", child.wait_with_output());
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    child.wait_with_output().unwrap()
-}
-
 fn run(args: &[&str]) -> Output {
-    finish(glidepath(args).spawn().unwrap())
-}
-
-fn object(output: &Output) -> Value {
-    let text = String::from_utf8(output.stdout.clone()).unwrap();
-    serde_json::from_str(&text).expect(&text)
+    finish(glidepath(args).spawn().unwrap(), PATIENCE)
 }
 
 fn stderr(output: &Output) -> String {
@@ -217,7 +201,7 @@ fn an_interrupted_run_ends_with_130_and_leaves_nothing() {
     .unwrap();
     wait_for_motion(&name);
     signal("INT", child.id());
-    let output = finish(child);
+    let output = finish(child, PATIENCE);
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
     assert_eq!(object(&output)["exit_code"], 130);
     assert_eq!(leftovers(&name), None);
@@ -247,7 +231,7 @@ fn the_death_of_a_process_ends_the_run_with_5_and_leaves_nothing() {
         "KILL",
         u32::try_from(status["pid"].as_u64().unwrap()).unwrap(),
     );
-    let output = finish(child);
+    let output = finish(child, PATIENCE);
     assert_eq!(output.status.code(), Some(5), "{}", stderr(&output));
     let error = object(&output)["error"].as_str().unwrap().to_owned();
     assert!(error.contains("ended"), "{error}");
@@ -297,7 +281,7 @@ fn an_operator_holds_resumes_and_aborts() {
     tell(&["override", "60"]);
     assert_eq!(tell(&["status"])["feed_override"], 0.6);
     tell(&["abort"]);
-    let output = finish(planner);
+    let output = finish(planner, PATIENCE);
     assert_eq!(output.status.code(), Some(5));
     assert!(
         object(&output)["error"]
@@ -307,7 +291,7 @@ fn an_operator_holds_resumes_and_aborts() {
     );
     wait_for("idle");
     signal("TERM", interpolator.id());
-    let output = finish(interpolator);
+    let output = finish(interpolator, PATIENCE);
     assert_eq!(
         output.status.code(),
         Some(0),

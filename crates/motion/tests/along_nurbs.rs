@@ -42,11 +42,7 @@ fn items(path: &NurbsPath, tolerance_mm: f64, feed_v: f64) -> Vec<Item> {
 }
 
 fn audit(settings: &Settings) -> Audit {
-    Audit::new(&AuditSettings {
-        limits: settings.limits,
-        period_t: settings.period_t,
-        tolerance_mm: settings.tolerance_mm,
-    })
+    Audit::new(&AuditSettings::from(settings))
 }
 
 fn plan(items: &[Item], settings: Settings) -> (Vec<Frame>, Report) {

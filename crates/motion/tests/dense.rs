@@ -36,17 +36,7 @@ fn items(points: &[AxisVector], feed_v: impl Fn(usize) -> f64) -> Vec<Item> {
 }
 
 fn audited(items: &[Item], settings: Settings) -> Report {
-    let Settings {
-        limits,
-        period_t,
-        tolerance_mm,
-        ..
-    } = settings;
-    let mut audit = Audit::new(&AuditSettings {
-        limits,
-        period_t,
-        tolerance_mm,
-    });
+    let mut audit = Audit::new(&AuditSettings::from(&settings));
     let mut planner = Planner::new(settings, AxisVector::zeros());
     for item in items {
         audit.program(item);

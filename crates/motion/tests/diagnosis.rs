@@ -30,11 +30,7 @@ fn line(number: u32, from: AxisVector, to: AxisVector, rate: Rate, mode: PathMod
 
 /// Plans and diagnoses; the frames, each with what binds.
 fn diagnosed(items: &[Item], settings: Settings) -> (Vec<(Frame, Binding)>, Summary) {
-    let mut diagnosis = Diagnosis::new(&AuditSettings {
-        limits: settings.limits,
-        period_t: settings.period_t,
-        tolerance_mm: settings.tolerance_mm,
-    });
+    let mut diagnosis = Diagnosis::new(&AuditSettings::from(&settings));
     let mut planner = Planner::new(settings, AxisVector::zeros());
     for item in items {
         planner.push(item).expect("a valid item");

@@ -99,11 +99,7 @@ fn helices_are_driven_no_slower_than_along_their_arcs() {
         "{count} frames, {fast} with effort fast, {stops} with stops"
     );
 
-    let mut audit = Audit::new(&AuditSettings {
-        limits: settings_of_windows.limits,
-        period_t: settings_of_windows.period_t,
-        tolerance_mm: settings_of_windows.tolerance_mm,
-    });
+    let mut audit = Audit::new(&AuditSettings::from(&settings_of_windows));
     for item in &items {
         audit.program(item);
     }

@@ -161,17 +161,7 @@ fn plan(items: &[Item], settings: Settings) -> Vec<Frame> {
 
 /// What the auditor finds in the frames.
 fn audit(items: &[Item], frames: &[Frame], settings: &Settings) -> Report {
-    let Settings {
-        limits,
-        period_t,
-        tolerance_mm,
-        ..
-    } = *settings;
-    let mut audit = Audit::new(&AuditSettings {
-        limits,
-        period_t,
-        tolerance_mm,
-    });
+    let mut audit = Audit::new(&AuditSettings::from(settings));
     for item in items {
         audit.program(item);
     }

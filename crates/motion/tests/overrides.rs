@@ -255,17 +255,7 @@ fn keeps_limits_and_path(
         })
         .collect();
     let frames = plan(&items, settings, &changes);
-    let Settings {
-        limits,
-        period_t,
-        tolerance_mm,
-        ..
-    } = settings;
-    let mut audit = Audit::new(&AuditSettings {
-        limits,
-        period_t,
-        tolerance_mm,
-    });
+    let mut audit = Audit::new(&AuditSettings::from(&settings));
     items.iter().for_each(|item| audit.program(item));
     frames
         .iter()

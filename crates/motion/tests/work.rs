@@ -113,13 +113,9 @@ fn zigzag(k: u32) -> AxisVector {
 fn plan(case: &Case, blocks: u32) {
     let settings = (case.settings)();
     let mut planner = Planner::new(settings, (case.path)(0));
-    let mut audit = case.is_audited.then(|| {
-        Audit::new(&AuditSettings {
-            limits: settings.limits,
-            period_t: settings.period_t,
-            tolerance_mm: settings.tolerance_mm,
-        })
-    });
+    let mut audit = case
+        .is_audited
+        .then(|| Audit::new(&AuditSettings::from(&settings)));
     let take_all = |planner: &mut Planner, audit: &mut Option<Audit>| {
         while planner.make_frame().unwrap() {
             match audit {

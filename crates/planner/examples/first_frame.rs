@@ -7,6 +7,9 @@
 //! ```
 #![allow(clippy::print_stdout, reason = "a table")]
 
+#[path = "../tests/support/mill.rs"]
+mod mill;
+
 use std::cell::RefCell;
 use std::error::Error;
 use std::fs::File;
@@ -19,21 +22,12 @@ use glidepath_gcode::{Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_link::{InProcess, MachineState, Status, Transport as _};
 use glidepath_planner::{Control, Notice, Pace, Pipeline, ProgramSource, Publisher, RunError};
-use glidepath_program::{Effort, Limits, Settings, Smoothing};
+use glidepath_program::Effort;
+use mill::mill;
 
 const PERIOD_NS: u64 = 4_000_000;
 /// Times each is measured; the median counts.
 const TURNS: usize = 9;
-
-fn settings(effort: Effort) -> Settings {
-    Settings {
-        limits: Limits::uniform(200.0, 2000.0, 40_000.0),
-        tolerance_mm: 0.02,
-        smoothing: Smoothing::Auto,
-        period_t: 0.004,
-        effort,
-    }
-}
 
 /// A mill with soft limits.
 fn options() -> Options {
@@ -71,7 +65,7 @@ fn begin(path: &Path, effort: Effort) -> Result<[Duration; 3], Box<dyn Error>> {
     let start = Instant::now();
     let source = ProgramSource::open(path, options())?;
     let checked = start.elapsed();
-    let mut pipeline = Pipeline::new(source, settings(effort), AxisVector::zeros());
+    let mut pipeline = Pipeline::new(source, mill(effort), AxisVector::zeros());
     pipeline.next_frame()?.ok_or("no frame")?;
     Ok([checked, start.elapsed(), publish(path, effort)?])
 }
@@ -110,7 +104,7 @@ fn publish(path: &Path, effort: Effort) -> Result<Duration, Box<dyn Error>> {
         }
     };
     let source = ProgramSource::open(path, options())?;
-    let mut pipeline = Pipeline::new(source, settings(effort), position);
+    let mut pipeline = Pipeline::new(source, mill(effort), position);
     let ended = publisher.publish(
         &mut pipeline,
         &mut Control {

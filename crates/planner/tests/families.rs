@@ -8,15 +8,13 @@
     reason = "a test that fails may panic"
 )]
 
+#[path = "support/family.rs"]
+mod family;
+
 use core::f64::consts::TAU;
 use std::fmt::Write as _;
-use std::io::Cursor;
-use std::path::Path;
 
-use glidepath_audit::{Audit, AuditSettings};
-use glidepath_gcode::{Options, Program};
-use glidepath_geometry::AxisVector;
-use glidepath_motion::Planner;
+use family::{audited, family};
 use glidepath_program::{Effort, Limits, Settings, Smoothing};
 
 const PERIODS_T: [f64; 2] = [0.004, 0.001];
@@ -60,39 +58,7 @@ fn settings((velocity, acceleration, jerk): (f64, f64, f64), period_t: f64) -> S
 
 /// How long a program takes; it keeps every limit and its tolerance.
 fn cycle_time(name: &str, text: &str, settings: Settings) -> f64 {
-    let Settings {
-        limits,
-        period_t,
-        tolerance_mm,
-        ..
-    } = settings;
-    let mut audit = Audit::new(&AuditSettings {
-        limits,
-        period_t,
-        tolerance_mm,
-    });
-    let mut planner = Planner::new(settings, AxisVector::zeros());
-    for item in Program::new(Cursor::new(text), Options::default()) {
-        let item = item.unwrap_or_else(|diagnostic| panic!("{name}: {}", diagnostic.message));
-        planner.push(&item).expect("a valid item");
-        audit.program(&item);
-    }
-    planner.finish();
-    while let Some(frame) = planner.pop_frame().expect("a motion") {
-        audit.frame(&frame);
-    }
-    let report = audit.finish();
-    assert!(
-        report.is_clean() && report.is_complete,
-        "{name}, {limits:?}, {period_t} s: {report:#?}"
-    );
-    report.cycle_time_s
-}
-
-fn family(name: &str) -> String {
-    let path =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../tests/data/families/{name}.ngc"));
-    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+    audited(name, text, settings, |_| {}).cycle_time_s
 }
 
 /// The same program at rest after every block.

@@ -49,11 +49,7 @@ fn planned(text: &str, options: Options) -> Vec<Frame> {
     let from = options.start;
     let source = NurbsSource::new(text.to_owned(), options, &settings()).unwrap();
     let mut pipeline = Pipeline::new(source, settings(), from);
-    let mut audit = Audit::new(&AuditSettings {
-        limits: settings().limits,
-        period_t: settings().period_t,
-        tolerance_mm: settings().tolerance_mm,
-    });
+    let mut audit = Audit::new(&AuditSettings::from(&settings()));
     let mut frames = Vec::new();
     loop {
         match pipeline.advance().unwrap() {

@@ -85,17 +85,7 @@ fn plan(
     mut each: impl FnMut(&Frame),
 ) -> Result<Report, String> {
     let file = File::open(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    let Settings {
-        limits,
-        period_t,
-        tolerance_mm,
-        ..
-    } = settings;
-    let mut audit = Audit::new(&AuditSettings {
-        limits,
-        period_t,
-        tolerance_mm,
-    });
+    let mut audit = Audit::new(&AuditSettings::from(&settings));
     let mut planner = Planner::new(settings, AxisVector::zeros());
     let mut take = |planner: &mut Planner, audit: &mut Audit| {
         while let Some(frame) = planner.pop_frame().expect("a motion") {

@@ -7,15 +7,15 @@
     reason = "a test that fails may panic"
 )]
 
+#[path = "support/family.rs"]
+mod family;
+
 use core::f64::consts::TAU;
 use std::fmt::Write as _;
-use std::io::Cursor;
-use std::path::Path;
 
-use glidepath_audit::{Audit, AuditSettings, Report};
-use glidepath_gcode::{Options, Program};
+use family::{audited, family};
+use glidepath_audit::Report;
 use glidepath_geometry::AxisVector;
-use glidepath_motion::Planner;
 use glidepath_program::{Effort, Limits, Settings, Smoothing};
 
 const PERIOD_T: f64 = 0.004;
@@ -64,25 +64,10 @@ fn planned(text: &str) -> (Vec<Place>, Report) {
         period_t: PERIOD_T,
         effort: Effort::Optimal,
     };
-    let mut audit = Audit::new(&AuditSettings {
-        limits: settings.limits,
-        period_t: PERIOD_T,
-        tolerance_mm: settings.tolerance_mm,
-    });
-    let mut planner = Planner::new(settings, AxisVector::zeros());
-    for item in Program::new(Cursor::new(text), Options::default()) {
-        let item = item.unwrap_or_else(|diagnostic| panic!("{}", diagnostic.message));
-        planner.push(&item).expect("a valid item");
-        audit.program(&item);
-    }
-    planner.finish();
     let mut places = Vec::new();
-    while let Some(frame) = planner.pop_frame().expect("a motion") {
-        audit.frame(&frame);
+    let report = audited("smooth", text, settings, |frame| {
         places.push((frame.line, frame.position));
-    }
-    let report = audit.finish();
-    assert!(report.is_clean() && report.is_complete, "{report:#?}");
+    });
     (places, report)
 }
 
@@ -195,10 +180,7 @@ fn circles_are_round_however_they_are_written() {
 #[test]
 fn families_come_near_the_least_time_in_the_tube_and_do_not_tremble() {
     for (name, tube_t) in FAMILIES {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join(format!("../../tests/data/families/{name}.ngc"));
-        let text = std::fs::read_to_string(&path).expect("a program");
-        let (_, report) = planned(&text);
+        let (_, report) = planned(&family(name));
         let most = if name == "letters_ab3" {
             MOST_OF_LETTERS
         } else {

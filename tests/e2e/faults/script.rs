@@ -222,7 +222,10 @@ fn follow(bench: &mut Bench<'_>, player: &mut Player, case: &mut Case) -> Checke
         } else if is(Idle) {
             return Ok(Idle);
         } else if is(Starved) || is(Waiting) {
-            if let Player::Pipe(planner, rest) = player {
+            // A planner that a busy host keeps from its work may starve the machine once more.
+            if let Player::Pipe(planner, rest) = player
+                && !rest.is_empty()
+            {
                 // Longer than a machine waits for a planner that is silent, or not.
                 let pause = [300, 2600][case.chance.below(2)];
                 std::thread::sleep(Duration::from_millis(pause));

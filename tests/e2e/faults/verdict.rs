@@ -122,12 +122,7 @@ fn of_epoch(bench: &Bench<'_>, epoch: u64) -> Vec<Setpoint> {
 /// Numbers of setpoints stand for ticks: missed ticks are no gaps, the path goes on where it was.
 fn audit(setpoints: &[Setpoint], items: &[Item], largest_override: f64) -> Verdict {
     let settings = settings();
-    let mut audit = Audit::new(&AuditSettings {
-        limits: settings.limits,
-        period_t: settings.period_t,
-        tolerance_mm: settings.tolerance_mm,
-    })
-    .with_override(largest_override);
+    let mut audit = Audit::new(&AuditSettings::from(&settings)).with_override(largest_override);
     for item in items {
         audit.program(item);
     }

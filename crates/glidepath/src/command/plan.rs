@@ -104,11 +104,7 @@ impl Pass {
 
     fn new(path: &Path, config: &MachineConfig, steps: PlanSteps, clock: fn() -> Duration) -> Self {
         let settings = config.settings();
-        let judged = AuditSettings {
-            limits: settings.limits,
-            period_t: settings.period_t,
-            tolerance_mm: settings.tolerance_mm,
-        };
+        let judged = AuditSettings::from(&settings);
         Self {
             program: path.display().to_string(),
             steps,

@@ -116,11 +116,7 @@ impl Bench {
 
 /// Plans items and judges the motion.
 pub(crate) fn plan(items: &[Item], settings: Settings) -> Result<Plan, PlanError> {
-    let judged_by = AuditSettings {
-        limits: settings.limits,
-        period_t: settings.period_t,
-        tolerance_mm: settings.tolerance_mm,
-    };
+    let judged_by = AuditSettings::from(&settings);
     let mut bench = Bench {
         planner: Planner::new(settings, AxisVector::zeros()),
         audit: Audit::new(&judged_by),

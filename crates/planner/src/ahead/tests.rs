@@ -6,6 +6,9 @@
     reason = "a test that fails may panic, and a skipped one says so"
 )]
 
+#[path = "../../tests/support/mill.rs"]
+mod mill;
+
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, channel};
@@ -14,23 +17,12 @@ use std::time::Duration;
 use glidepath_gcode::Options;
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_motion::PlanError;
-use glidepath_program::{
-    Effort, Event, Frame, Item, ItemKind, Limits, Override, PathMode, Rate, Settings, Smoothing,
-};
+use glidepath_program::{Effort, Event, Frame, Item, ItemKind, Override, PathMode, Rate};
 use proptest::prelude::*;
 
 use super::{FrameQueue, Next, planned_ahead};
 use crate::{FileSource, ItemSource, Pipeline, Refusal, Step, Supply};
-
-fn settings(effort: Effort) -> Settings {
-    Settings {
-        limits: Limits::uniform(200.0, 2000.0, 40_000.0),
-        tolerance_mm: 0.02,
-        smoothing: Smoothing::Auto,
-        period_t: 0.004,
-        effort,
-    }
-}
+use mill::mill;
 
 /// Frames that wait before the first one is given out.
 const HEAD_START: usize = 112;
@@ -150,7 +142,7 @@ fn pipeline(program: &Path, effort: Effort) -> Pipeline<FileSource> {
         default_feed_mm_min: Some(3000.0),
         ..Options::default()
     };
-    let settings = settings(effort);
+    let settings = mill(effort);
     let source = FileSource::unchecked(program, options, &settings).unwrap();
     Pipeline::new(source, settings, AxisVector::zeros())
 }
@@ -262,7 +254,7 @@ fn what_is_planned_ahead_is_bounded_in_frames_and_in_items() {
             taken: &taken,
             step_mm,
         };
-        let pipeline = Pipeline::new(source, settings(Effort::Fast), AxisVector::zeros());
+        let pipeline = Pipeline::new(source, mill(Effort::Fast), AxisVector::zeros());
         let (mut fullest, mut most_taken) = (0, 0);
         let planned = ahead(pipeline, &[], 4000, capacity, |queue, number| {
             if !number.is_multiple_of(500) {
@@ -333,7 +325,7 @@ fn an_error_met_ahead_comes_after_the_last_frame_and_only_once() {
     for last in [vec![], vec![line(70.0, 80.0)]] {
         let mut items = vec![line(0.0, 50.0), line(50.0, 60.0)];
         items.extend(last);
-        let settings = settings(Effort::Fast);
+        let settings = mill(Effort::Fast);
         let make = || Pipeline::new(Failing(items.clone()), settings, AxisVector::zeros());
         // The error is known long before the override changes.
         let changes = [change(50, 0.5, 1.0), change(120, 2.0, 1.0)];
@@ -381,7 +373,7 @@ impl ItemSource for Thinking {
 fn rests_before_a_motion_that_takes_long_to_plan_are_given_out_with_it() {
     let (think, thought) = channel();
     let source = Thinking(0, thought);
-    let mut pipeline = Pipeline::new(source, settings(Effort::Fast), AxisVector::zeros());
+    let mut pipeline = Pipeline::new(source, mill(Effort::Fast), AxisVector::zeros());
     let take = |queue: &FrameQueue| {
         while queue.waiting() < 2 {
             std::thread::yield_now();
