@@ -65,6 +65,12 @@ fuzz_target!(|data: &[u8]| {
             read::<Feedback>(bytes);
         }
         8 => {
+            read::<JogDemand>(bytes);
+        }
+        7 => {
+            read::<Feedback>(bytes);
+        }
+        8 => {
             if let Some(record) = read::<JogDemand>(bytes) {
                 record.mode().expect("it was checked");
             }
