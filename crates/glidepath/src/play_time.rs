@@ -65,6 +65,8 @@ impl Spent {
 pub struct PlayTime {
     period_t: f64,
     last: Option<Moment>,
+    /// The machine has moved in the present epoch; rests that a program begins with are no motion.
+    has_moved: bool,
     cause: Cause,
     planned_ticks: f64,
     spent: Spent,
@@ -110,6 +112,7 @@ impl PlayTime {
         Self {
             period_t,
             last: None,
+            has_moved: false,
             cause: Cause::StartUp,
             planned_ticks: 0.0,
             spent: Spent::default(),
@@ -132,7 +135,7 @@ impl PlayTime {
             return;
         }
         let Some(before) = before.filter(|before| before.epoch == now.epoch) else {
-            self.cause = Cause::StartUp;
+            (self.cause, self.has_moved) = (Cause::StartUp, false);
             return;
         };
         let ticks = now.tick.saturating_sub(before.tick);
@@ -149,8 +152,8 @@ impl PlayTime {
                 self.see_override(setpoint.effective_override);
             }
         }
-        let has_begun = self.planned_ticks > 0.0;
-        self.cause = cause_of(state, has_begun).unwrap_or(self.cause);
+        self.has_moved |= setpoint.velocity.iter().any(|v| *v != 0.0);
+        self.cause = cause_of(state, self.has_moved).unwrap_or(self.cause);
         self.standing.all += ticks;
         self.standing.missed += ticks - published;
         self.standing.lost[self.cause as usize] += (wanted - advance).max(0.0);
@@ -190,14 +193,18 @@ impl PlayTime {
     }
 }
 
-/// Why time runs slower in a state; `None` where the state does not tell. Before the motion has
-/// begun, frames are few by nature.
-const fn cause_of(state: MachineState, has_begun: bool) -> Option<Cause> {
+/// Why time runs slower in a state; `None` where the state does not tell. Before the machine has
+/// moved, frames are few by nature.
+const fn cause_of(state: MachineState, has_moved: bool) -> Option<Cause> {
     match state {
         MachineState::Holding | MachineState::Held | MachineState::Stopping => Some(Cause::Hold),
         MachineState::ProgramStop => Some(Cause::ProgramStop),
-        MachineState::Starving | MachineState::Starved | MachineState::Waiting if has_begun => {
-            Some(Cause::Starvation)
+        MachineState::Starving | MachineState::Starved | MachineState::Waiting => {
+            Some(if has_moved {
+                Cause::Starvation
+            } else {
+                Cause::StartUp
+            })
         }
         _ => None,
     }
@@ -274,6 +281,7 @@ mod tests {
                 setpoint.fraction = time.fract();
                 setpoint.state = state.code();
                 setpoint.effective_override = advance;
+                setpoint.velocity[0] = 50.0 * advance;
                 play_time.take(&setpoint);
             }
         }
@@ -333,6 +341,31 @@ mod tests {
             "{}",
             played.text()
         );
+    }
+
+    #[test]
+    fn rests_at_the_start_are_no_motion_yet() {
+        let mut setpoint: Setpoint = bytemuck::Zeroable::zeroed();
+        let mut play_time = PlayTime::new(PERIOD_T);
+        play_time.take(&setpoint);
+        // Two frames at rest, a tick without one, and motion.
+        let ticks = [(0, 0.0), (1, 0.0), (2, 0.0), (2, 0.0), (3, 9.0), (4, 9.0)];
+        for (tick, (sequence, velocity)) in (1..).zip(ticks) {
+            let is_late = tick == 4;
+            let state = if is_late {
+                MachineState::Starved
+            } else {
+                MachineState::Running
+            };
+            (setpoint.epoch, setpoint.tick, setpoint.number) = (1, tick, tick);
+            (setpoint.sequence, setpoint.velocity[0]) = (sequence, velocity);
+            setpoint.state = state.code();
+            setpoint.effective_override = 1.0;
+            play_time.take(&setpoint);
+        }
+        let lost = play_time.played().time_lost_s;
+        assert!(near(lost.starvation, 0.0), "{lost:?}");
+        assert!(near(lost.start_up, PERIOD_T), "{lost:?}");
     }
 
     #[test]

@@ -59,6 +59,8 @@ pub(crate) struct Interpolator<'a> {
     end_of_epoch: EndOfEpoch,
     /// What is kept of the last frame passed.
     passed: FrameSummary,
+    /// The machine has moved in the present epoch.
+    has_moved: bool,
     account: Account<'a>,
 }
 
@@ -80,6 +82,7 @@ impl<'a> Interpolator<'a> {
             epoch: 0,
             end_of_epoch: EndOfEpoch::None,
             passed: FrameSummary::NONE,
+            has_moved: false,
             account: Account::new(config, happenings),
         }
     }
@@ -452,9 +455,11 @@ impl<'a> Interpolator<'a> {
             _ if self.jog.is_active() => MachineState::Jogging,
             _ => of_program,
         };
-        // Before the motion begins, frames are few by nature.
-        let has_begun = self.rate.now().time.sequence > 0;
-        self.account.enter(state, tick, self.passed.line, has_begun);
+        self.has_moved = is_open && (self.has_moved || !stands);
+        // Before the motion begins, frames are few by nature, and rests that the program begins with
+        // are not its motion.
+        self.account
+            .enter(state, tick, self.passed.line, self.has_moved);
     }
 
     /// Writes the state after this tick, and what the ports thread must know.
