@@ -24,9 +24,8 @@
 //!
 //! Beside them stands what both use: `intake` (the checks of items), `programmed_rate` and
 //! `feed_axes`, `rest`, `grid` (the frames of one period each), [`scurve`]; and above them
-//! `planner`, with `guard`, the last look at a frame; `wing` says which of the two plans. `on_path`
-//! knows nothing of `in_tube`. [`parts`] plans a program in parts that begin and end at rest, for
-//! whoever has several cores.
+//! `planner`, which chooses the wing, with `guard`, the last look at a frame. `on_path` knows
+//! nothing of `in_tube`.
 //!
 //! Two moves planned, and their frames counted:
 //!
@@ -93,6 +92,7 @@ pub mod preview;
 mod programmed_rate;
 mod rest;
 pub mod scurve;
+mod stretches;
 mod wing;
 
 pub use error::PlanError;

@@ -1,8 +1,8 @@
 //! The planner: items in, frames out.
 
 use super::guard::Guard;
-use super::in_tube::InTubeEngine;
 use super::on_path::OnPathEngine;
+use super::stretches::StretchEngine;
 use crate::PlanError;
 use crate::wing::Wing;
 use glidepath_geometry::AxisVector;
@@ -29,14 +29,18 @@ pub struct Planner {
 #[derive(Debug, Clone)]
 enum Engine {
     OnPath(Box<OnPathEngine>),
-    InTube(Box<InTubeEngine>),
+    Stretches(Box<StretchEngine>),
 }
 
 impl Engine {
     fn new(settings: Settings, start: AxisVector) -> Self {
         match Wing::of(&settings) {
-            Wing::InTube => Self::InTube(Box::new(InTubeEngine::new(settings, start))),
-            Wing::OnPath => Self::OnPath(Box::new(OnPathEngine::new(settings, start))),
+            Wing::InTube => Self::Stretches(Box::new(StretchEngine::new(settings, start))),
+            Wing::OnPath => Self::OnPath(Box::new(OnPathEngine::new(
+                settings,
+                start,
+                Override::NONE,
+            ))),
         }
     }
 }
@@ -65,7 +69,7 @@ impl Planner {
         }
         match &mut self.engine {
             Engine::OnPath(engine) => engine.push(item),
-            Engine::InTube(engine) => engine.push(item),
+            Engine::Stretches(engine) => engine.push(item),
         }
     }
 
@@ -73,7 +77,7 @@ impl Planner {
     pub fn finish(&mut self) {
         match &mut self.engine {
             Engine::OnPath(engine) => engine.finish(),
-            Engine::InTube(engine) => engine.finish(),
+            Engine::Stretches(engine) => engine.finish(),
         }
     }
 
@@ -99,7 +103,7 @@ impl Planner {
         }
         let made = match &mut self.engine {
             Engine::OnPath(engine) => engine.make_frame(&mut self.frame),
-            Engine::InTube(engine) => engine.pop_frame().map(|frame| {
+            Engine::Stretches(engine) => engine.pop_frame().map(|frame| {
                 let is_made = frame.is_some();
                 self.frame = frame.unwrap_or(self.frame);
                 is_made
@@ -134,7 +138,8 @@ impl Planner {
     /// tells the override it was planned with: while the speed is brought down, one in between.
     ///
     /// # Errors
-    /// If a factor is not a positive number, or that of rapids is above 1.
+    /// If a factor is not a positive number, or that of rapids is above 1. As
+    /// [`Planner::pop_frame`], if the motion at hand cannot be planned again.
     pub fn set_override(&mut self, wanted: Override) -> Result<(), PlanError> {
         let Override { feed_r, rapid_r } = wanted;
         let valid = feed_r > 0.0 && feed_r.is_finite() && rapid_r > 0.0 && rapid_r <= 1.0;
@@ -143,7 +148,7 @@ impl Planner {
         }
         match &mut self.engine {
             Engine::OnPath(engine) => engine.set_override(wanted),
-            Engine::InTube(engine) => engine.set_override(wanted),
+            Engine::Stretches(engine) => engine.set_override(wanted)?,
         }
         Ok(())
     }

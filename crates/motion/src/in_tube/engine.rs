@@ -1,4 +1,4 @@
-//! The engine: what moves the machine at present, and what comes next.
+//! The engine of one stretch: what moves the machine at present, and what comes next.
 
 mod origin;
 
@@ -15,7 +15,7 @@ use crate::rest::Rest;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, FrameFlags, Item, Override, Settings};
 
-/// The in-tube engine, as [`crate::Planner`] uses it.
+/// The in-tube engine, for one stretch between two rests of the program.
 #[derive(Debug, Clone)]
 pub(crate) struct InTubeEngine {
     settings: Settings,
@@ -42,7 +42,7 @@ enum Drive {
     Exact(ExactPath),
 }
 
-/// A stretch between two rests.
+/// What is driven in the tube, from a rest to the next.
 #[derive(Debug, Clone)]
 struct Stretch {
     planner: TubePlanner,
@@ -62,11 +62,11 @@ struct ExactPath {
 }
 
 impl InTubeEngine {
-    /// An engine for a machine at rest at `start`.
-    pub(crate) fn new(settings: Settings, start: AxisVector) -> Self {
+    /// An engine for a machine at rest at `start`, under an override from the first move on.
+    pub(crate) fn new(settings: Settings, start: AxisVector, wanted: Override) -> Self {
         Self {
             settings,
-            wanted: Override::NONE,
+            wanted,
             works: Works::new(settings, start),
             flattener: Flattener::new(settings),
             grid: FrameGrid::new(settings.period_t, start),
@@ -76,12 +76,12 @@ impl InTubeEngine {
         }
     }
 
-    /// Takes the next item; see [`crate::Planner::push`].
+    /// Takes the next item of the stretch: a move, or an event that does not stop the motion.
     pub(crate) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
         self.works.push(item)
     }
 
-    /// No more items.
+    /// The stretch ends with what has been pushed.
     pub(crate) fn finish(&mut self) {
         self.works.finish();
     }
@@ -139,8 +139,7 @@ impl InTubeEngine {
             Product::Piece(entry, reference) => self.extend(entry, reference),
             Product::Exact(item) => {
                 if !matches!(self.drive, Drive::Exact(_)) {
-                    let mut engine = OnPathEngine::new(self.settings, self.position);
-                    engine.set_override(self.wanted);
+                    let engine = OnPathEngine::new(self.settings, self.position, self.wanted);
                     self.drive = Drive::Exact(ExactPath { engine, end: None });
                 }
                 if let Drive::Exact(exact) = &mut self.drive {

@@ -1,7 +1,7 @@
-//! Items in, checked; what there is to do out, in order: moves, exact moves, rests.
+//! Items of a stretch in, checked; what there is to do out, in order: moves, exact moves, rests.
 
 use crate::PlanError;
-use crate::intake::{Intake, check_dwell};
+use crate::intake::Intake;
 use crate::rest::{Rest, RestKind};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Event, Item, ItemKind, PathMode, ProgramLine, Rate, Settings};
@@ -103,14 +103,9 @@ impl Works {
                 self.push_move(line, segment, rate, mode);
                 self.last.1 = rate;
             }
-            ItemKind::Dwell(dwell_t) => {
-                check_dwell(line.number, dwell_t)?;
-                self.rest(RestKind::Dwell(dwell_t), line);
-            }
-            ItemKind::Event(event @ (Event::SpindleSpeed(_) | Event::SelectTool(_))) => {
-                self.events.push((line, event));
-            }
-            ItemKind::Event(event) => self.rest(RestKind::Event(event), line),
+            // Whatever else there is between moves of a stretch does not stop the motion.
+            ItemKind::Event(event) => self.events.push((line, event)),
+            ItemKind::Dwell(_) => {}
         }
         self.last.0 = line;
         Ok(())
@@ -119,7 +114,8 @@ impl Works {
     /// No more items: the path ends at rest.
     pub(crate) fn finish(&mut self) {
         if !core::mem::replace(&mut self.finished, true) {
-            self.rest(RestKind::End, self.last.0);
+            self.end_stretch();
+            self.put_rest(RestKind::End, self.last.0);
         }
     }
 
@@ -154,10 +150,6 @@ impl Works {
                 rate,
                 mode,
             })));
-            if mode == PathMode::ExactStop {
-                self.end_stretch();
-                self.put_rest(RestKind::ExactStop, line);
-            }
             return;
         }
         self.works.push_back(Work::Move(Move {
@@ -168,10 +160,6 @@ impl Works {
             events: events.into_iter().map(|(_, event)| event).collect(),
         }));
         self.hold(segment.length() / rate.feed_v().unwrap_or(f64::INFINITY));
-        if mode == PathMode::ExactStop {
-            self.end_stretch();
-            self.put_rest(RestKind::ExactStop, line);
-        }
     }
 
     /// True in a stretch that begins with a curve, or nearly, and where one would.
@@ -214,15 +202,6 @@ impl Works {
                 .extend(kinds.map(|kind| Work::Exact(line.item(kind))));
         }
         self.stretch = StretchKind::Curved;
-    }
-
-    /// Ends the path at rest.
-    fn rest(&mut self, kind: RestKind, line: ProgramLine) {
-        self.end_stretch();
-        for (_, event) in core::mem::take(&mut self.events) {
-            self.put_rest(RestKind::Event(event), line);
-        }
-        self.put_rest(kind, line);
     }
 
     fn put_rest(&mut self, kind: RestKind, line: ProgramLine) {

@@ -30,10 +30,12 @@ pub(crate) struct OnPathEngine {
 }
 
 impl OnPathEngine {
-    /// A planner for a machine at rest at `start`.
-    pub(crate) fn new(settings: Settings, start: AxisVector) -> Self {
+    /// A planner for a machine at rest at `start`, under an override from the first move on.
+    pub(crate) fn new(settings: Settings, start: AxisVector, wanted: Override) -> Self {
+        let mut front = PathFront::new(settings, start);
+        front.set_override(wanted);
         Self {
-            front: PathFront::new(settings, start),
+            front,
             scheduler: Scheduler::new(settings.limits, settings.period_t),
             refiner: Refiner::new(settings.limits),
             sampler: Sampler::new(settings.period_t, start),

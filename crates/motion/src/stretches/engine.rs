@@ -1,0 +1,139 @@
+//! The engine: stretches and rests one after the other, on one grid of frames.
+
+use super::contest::{Entry, Planned};
+use super::gathering::{Gathering, Task};
+use super::way::{Way, Wing};
+use crate::PlanError;
+use crate::grid::FrameGrid;
+use glidepath_geometry::AxisVector;
+use glidepath_program::{Frame, Item, Override, Settings};
+
+/// Plans stretch by stretch, as [`crate::Planner`] uses it.
+#[derive(Debug, Clone)]
+pub(crate) struct StretchEngine {
+    settings: Settings,
+    wanted: Override,
+    gathering: Gathering,
+    grid: FrameGrid,
+    drive: Drive,
+    /// Where the last stretch ended.
+    position: AxisVector,
+    path_s: f64,
+}
+
+/// What moves the machine.
+#[derive(Debug, Clone)]
+enum Drive {
+    /// At rest.
+    None,
+    /// A short stretch, planned to its end.
+    Planned(Box<Planned>),
+    /// A stretch that is planned as it comes, or whose override was changed.
+    Live(Way),
+}
+
+impl StretchEngine {
+    /// An engine for a machine at rest at `start`.
+    pub(crate) fn new(settings: Settings, start: AxisVector) -> Self {
+        Self {
+            settings,
+            wanted: Override::NONE,
+            gathering: Gathering::new(settings, start),
+            grid: FrameGrid::new(settings.period_t, start),
+            drive: Drive::None,
+            position: start,
+            path_s: 0.0,
+        }
+    }
+
+    /// Takes the next item; see [`crate::Planner::push`].
+    pub(crate) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
+        self.gathering.push(item)
+    }
+
+    /// No more items.
+    pub(crate) fn finish(&mut self) {
+        self.gathering.finish();
+    }
+
+    /// Plans what follows with another override, from the frame given out last.
+    pub(crate) fn set_override(&mut self, wanted: Override) -> Result<(), PlanError> {
+        self.wanted = wanted;
+        if let Drive::Planned(planned) = &self.drive {
+            self.drive = Drive::Live(planned.resumed()?);
+        }
+        if let Drive::Live(way) = &mut self.drive {
+            way.set_override(wanted);
+        }
+        Ok(())
+    }
+
+    /// The next frame; see [`crate::Planner::pop_frame`].
+    pub(crate) fn pop_frame(&mut self) -> Result<Option<Frame>, PlanError> {
+        loop {
+            if let Some(frame) = self.grid.rest_frame() {
+                return Ok(Some(frame));
+            }
+            let (moved, end) = match &mut self.drive {
+                Drive::None => (None, None),
+                Drive::Planned(planned) => (planned.pop_frame(), planned.end()),
+                Drive::Live(way) => (way.pop_frame()?, way.end()),
+            };
+            if let Some(mut frame) = moved {
+                frame.path_s += self.path_s;
+                return Ok(Some(self.grid.relay(frame)));
+            }
+            if let Some((end, length_s)) = end {
+                self.arrive(end, length_s);
+            } else if matches!(&self.drive, Drive::Live(way) if way.is_finished()) {
+                let line = self.grid.line().number;
+                return Err(PlanError::NoMotion { line });
+            } else if !self.supply()? {
+                return Ok(None);
+            }
+        }
+    }
+
+    fn arrive(&mut self, end: AxisVector, length_s: f64) {
+        self.position = end;
+        self.path_s += length_s;
+        self.grid.leave(end, self.path_s);
+        self.drive = Drive::None;
+    }
+
+    /// Does what comes next; false if the program is not known further.
+    fn supply(&mut self) -> Result<bool, PlanError> {
+        let Some(task) = self.gathering.next() else {
+            return Ok(false);
+        };
+        match task {
+            Task::Whole(items) => {
+                let planned = Planned::new(Entry {
+                    settings: self.settings,
+                    start: self.position,
+                    wanted: self.wanted,
+                    items: items.into(),
+                })?;
+                self.drive = Drive::Planned(Box::new(planned));
+            }
+            Task::Part(item) => {
+                if matches!(self.drive, Drive::None) {
+                    let way = Way::new(Wing::InTube, self.settings, self.position, self.wanted);
+                    self.drive = Drive::Live(way);
+                }
+                if let Drive::Live(way) = &mut self.drive {
+                    way.push(&item)?;
+                }
+            }
+            Task::End => {
+                if let Drive::Live(way) = &mut self.drive {
+                    way.finish();
+                }
+            }
+            Task::Rest(rest) => {
+                self.grid.enter_rest(rest);
+            }
+        }
+        Ok(true)
+    }
+}

@@ -1,0 +1,163 @@
+//! Items in, checked; stretches and rests out, in order.
+
+use crate::PlanError;
+use crate::intake::{Intake, check_dwell};
+use crate::rest::{Rest, RestKind};
+use glidepath_geometry::AxisVector;
+use glidepath_program::{Event, Item, ItemKind, PathMode, ProgramLine, Settings};
+use std::collections::VecDeque;
+
+/// The longest stretch that is planned as a whole: so many moves, and of so much time at their
+/// feedrates, s. All of it is planned before its first frame is known, and who sends moves through
+/// a pipe waits until it is sent.
+const MOST_MOVES: usize = 512;
+const MOST_T: f64 = 2.0;
+
+/// What comes next.
+#[derive(Debug, Clone)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "most of them are items, as large as they are"
+)]
+pub(crate) enum Task {
+    /// A stretch from rest to rest.
+    Whole(Vec<Item>),
+    /// The next item of a stretch that is planned as it comes.
+    Part(Item),
+    /// Such a stretch ends here.
+    End,
+    Rest(Rest),
+}
+
+/// Takes items and keeps what they ask for until it is done.
+#[derive(Debug, Clone)]
+pub(crate) struct Gathering {
+    settings: Settings,
+    intake: Intake,
+    tasks: VecDeque<Task>,
+    /// The stretch at hand, as long as it is short.
+    gathered: Vec<Item>,
+    /// Time of its moves at their feedrates.
+    gathered_t: f64,
+    /// The stretch at hand is given on as it comes.
+    is_long: bool,
+    /// Events that wait for the move they happen on.
+    events: Vec<(ProgramLine, Event)>,
+    last: ProgramLine,
+    finished: bool,
+}
+
+impl Gathering {
+    pub(crate) const fn new(settings: Settings, start: AxisVector) -> Self {
+        Self {
+            settings,
+            intake: Intake::new(start),
+            tasks: VecDeque::new(),
+            gathered: Vec::new(),
+            gathered_t: 0.0,
+            is_long: false,
+            events: Vec::new(),
+            last: ProgramLine::NONE,
+            finished: false,
+        }
+    }
+
+    /// What comes next, if it is known.
+    pub(crate) fn next(&mut self) -> Option<Task> {
+        self.tasks.pop_front()
+    }
+
+    /// Takes an item; changes nothing if it is refused.
+    pub(crate) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
+        let line = item.program_line();
+        match item.kind {
+            ItemKind::Move {
+                segment,
+                rate,
+                mode,
+            } => {
+                self.intake.check_move(line.number, &segment, rate, mode)?;
+                self.intake.take(segment);
+                let tolerance_mm = Some(mode.tolerance_mm(self.settings.tolerance_mm));
+                let stops = mode == PathMode::ExactStop;
+                let mode = if stops {
+                    PathMode::Continuous { tolerance_mm }
+                } else {
+                    mode
+                };
+                let move_t = segment.length() / rate.feed_v().unwrap_or(f64::INFINITY);
+                let kind = ItemKind::Move {
+                    segment,
+                    rate,
+                    mode,
+                };
+                self.push_move(line.item(kind), move_t);
+                if stops {
+                    self.end_stretch();
+                    self.put_rest(RestKind::ExactStop, line);
+                }
+            }
+            ItemKind::Dwell(dwell_t) => {
+                check_dwell(line.number, dwell_t)?;
+                self.rest(RestKind::Dwell(dwell_t), line);
+            }
+            ItemKind::Event(event @ (Event::SpindleSpeed(_) | Event::SelectTool(_))) => {
+                self.events.push((line, event));
+            }
+            ItemKind::Event(event) => self.rest(RestKind::Event(event), line),
+        }
+        self.last = line;
+        Ok(())
+    }
+
+    /// No more items: the path ends at rest.
+    pub(crate) fn finish(&mut self) {
+        if !core::mem::replace(&mut self.finished, true) {
+            self.rest(RestKind::End, self.last);
+        }
+    }
+
+    fn push_move(&mut self, item: Item, move_t: f64) {
+        for (line, event) in core::mem::take(&mut self.events) {
+            self.put(line.item(ItemKind::Event(event)));
+        }
+        self.put(item);
+        self.gathered_t += move_t;
+        if !self.is_long && (self.gathered.len() > MOST_MOVES || self.gathered_t > MOST_T) {
+            self.is_long = true;
+            self.tasks.extend(self.gathered.drain(..).map(Task::Part));
+        }
+    }
+
+    fn put(&mut self, item: Item) {
+        if self.is_long {
+            self.tasks.push_back(Task::Part(item));
+        } else {
+            self.gathered.push(item);
+        }
+    }
+
+    /// Ends the path at rest.
+    fn rest(&mut self, kind: RestKind, line: ProgramLine) {
+        self.end_stretch();
+        for (_, event) in core::mem::take(&mut self.events) {
+            self.put_rest(RestKind::Event(event), line);
+        }
+        self.put_rest(kind, line);
+    }
+
+    fn put_rest(&mut self, kind: RestKind, line: ProgramLine) {
+        self.tasks.push_back(Task::Rest(Rest { kind, line }));
+    }
+
+    fn end_stretch(&mut self) {
+        self.intake.make_up();
+        self.gathered_t = 0.0;
+        if core::mem::replace(&mut self.is_long, false) {
+            self.tasks.push_back(Task::End);
+        } else if !self.gathered.is_empty() {
+            let items = core::mem::take(&mut self.gathered);
+            self.tasks.push_back(Task::Whole(items));
+        }
+    }
+}

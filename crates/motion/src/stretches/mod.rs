@@ -1,0 +1,22 @@
+//! A program as stretches between rests, each planned the way that is faster.
+//!
+//! ```text
+//!                                    ┌▶ on_path ┐
+//!  item ──Gathering──▶ short stretch ┤          ├▶ the faster one ──▶ frames
+//!         checks,                    └▶ in_tube ┘
+//!         rests    ──▶ long stretch ───▶ in_tube ───────────────────▶ frames
+//!                  ──▶ rest ────────────────────────────────────────▶ frames
+//! ```
+//!
+//! The motion rests where the program asks for it: exact stops, dwells, events of the machine, the
+//! end. What lies between two rests is a stretch: it begins and ends at rest and on the period
+//! grid, so how it is driven is nobody else's concern. A short one is planned as a whole by both
+//! wings before its first frame is given out ([`contest`]). One that is longer than may be kept is
+//! planned in the tube as it comes. Which of them it is depends on its items alone.
+
+mod contest;
+mod engine;
+mod gathering;
+mod way;
+
+pub(crate) use engine::StretchEngine;

@@ -1,0 +1,100 @@
+//! A way to drive one stretch: an engine that is given the items of it, and no others.
+
+use crate::PlanError;
+use crate::in_tube::InTubeEngine;
+use crate::on_path::OnPathEngine;
+use glidepath_geometry::AxisVector;
+use glidepath_program::{Frame, FrameFlags, Item, Override, Settings};
+
+/// The principle by which a stretch is planned.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Wing {
+    OnPath,
+    InTube,
+}
+
+/// One stretch under way, from rest to rest.
+#[derive(Debug, Clone)]
+pub(crate) struct Way {
+    engine: Engine,
+    is_finished: bool,
+    /// Where its last frame is, once that is taken.
+    end: Option<(AxisVector, f64)>,
+}
+
+#[derive(Debug, Clone)]
+enum Engine {
+    OnPath(Box<OnPathEngine>),
+    InTube(Box<InTubeEngine>),
+}
+
+impl Way {
+    /// A way for a machine at rest at `start`.
+    pub(crate) fn new(wing: Wing, settings: Settings, start: AxisVector, wanted: Override) -> Self {
+        let engine = match wing {
+            Wing::OnPath => Engine::OnPath(Box::new(OnPathEngine::new(settings, start, wanted))),
+            Wing::InTube => Engine::InTube(Box::new(InTubeEngine::new(settings, start, wanted))),
+        };
+        Self {
+            engine,
+            is_finished: false,
+            end: None,
+        }
+    }
+
+    /// Takes the next item of the stretch.
+    pub(crate) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
+        match &mut self.engine {
+            Engine::OnPath(engine) => engine.push(item),
+            Engine::InTube(engine) => engine.push(item),
+        }
+    }
+
+    /// The stretch ends with what has been pushed.
+    pub(crate) fn finish(&mut self) {
+        self.is_finished = true;
+        match &mut self.engine {
+            Engine::OnPath(engine) => engine.finish(),
+            Engine::InTube(engine) => engine.finish(),
+        }
+    }
+
+    /// Plans what follows with another override, from the frame given out last.
+    pub(crate) fn set_override(&mut self, wanted: Override) {
+        match &mut self.engine {
+            Engine::OnPath(engine) => engine.set_override(wanted),
+            Engine::InTube(engine) => engine.set_override(wanted),
+        }
+    }
+
+    /// The next frame on the way, as far as the stretch is known: neither the first one, at rest
+    /// where it sets out, nor the last one, at rest where it ends.
+    pub(crate) fn pop_frame(&mut self) -> Result<Option<Frame>, PlanError> {
+        loop {
+            let frame = match &mut self.engine {
+                Engine::OnPath(engine) => engine.pop_frame()?,
+                Engine::InTube(engine) => engine.pop_frame()?,
+            };
+            let Some(frame) = frame else {
+                return Ok(None);
+            };
+            if frame.flags.contains(FrameFlags::LAST) {
+                self.end = Some((frame.position, frame.path_s));
+                return Ok(None);
+            }
+            if !frame.flags.contains(FrameFlags::FIRST) {
+                return Ok(Some(frame));
+            }
+        }
+    }
+
+    /// Where the way ends and how long it is, mm, once all frames on it are taken.
+    pub(crate) const fn end(&self) -> Option<(AxisVector, f64)> {
+        self.end
+    }
+
+    /// True if the whole stretch is known.
+    pub(crate) const fn is_finished(&self) -> bool {
+        self.is_finished
+    }
+}
