@@ -37,4 +37,5 @@ mod spline_tube;
 mod topp;
 
 pub(crate) use engine::OnPathEngine;
+pub(crate) use junction::is_exact_corner;
 pub(crate) use look_ahead::Settled;

@@ -2,16 +2,18 @@
 
 use crate::PlanError;
 use crate::intake::{Intake, check_dwell};
+use crate::on_path::is_exact_corner;
+use crate::programmed_rate::{ProgrammedRate, axes_speed};
 use crate::rest::{Rest, RestKind};
-use glidepath_geometry::AxisVector;
-use glidepath_program::{Event, Item, ItemKind, PathMode, ProgramLine, Settings};
+use glidepath_geometry::{AxisVector, Segment};
+use glidepath_program::{Event, Item, ItemKind, Override, PathMode, ProgramLine, Rate, Settings};
 use std::collections::VecDeque;
 
 /// The longest stretch that is planned as a whole: so many moves, and of so much time at their
 /// feedrates, s. All of it is planned before its first frame is known, and who sends moves through
 /// a pipe waits until it is sent.
-const MOST_MOVES: usize = 512;
-const MOST_T: f64 = 2.0;
+const MOST_MOVES: usize = 2048;
+const MOST_T: f64 = 1.25;
 
 /// What comes next.
 #[derive(Debug, Clone)]
@@ -43,6 +45,8 @@ pub(crate) struct Gathering {
     is_long: bool,
     /// Events that wait for the move they happen on.
     events: Vec<(ProgramLine, Event)>,
+    /// The last move, if it is to be passed exactly, and its rate, mm/s.
+    exact: Option<(Segment, f64)>,
     last: ProgramLine,
     finished: bool,
 }
@@ -57,6 +61,7 @@ impl Gathering {
             gathered_t: 0.0,
             is_long: false,
             events: Vec::new(),
+            exact: None,
             last: ProgramLine::NONE,
             finished: false,
         }
@@ -77,7 +82,9 @@ impl Gathering {
                 mode,
             } => {
                 self.intake.check_move(line.number, &segment, rate, mode)?;
-                self.intake.take(segment);
+                if let Some(taken) = self.intake.take(segment) {
+                    self.stop_at_exact_corner(&taken, rate, mode);
+                }
                 let tolerance_mm = Some(mode.tolerance_mm(self.settings.tolerance_mm));
                 let stops = mode == PathMode::ExactStop;
                 let mode = if stops {
@@ -117,6 +124,20 @@ impl Gathering {
         }
     }
 
+    /// Ends the stretch where the path is to be passed exactly and does not go straight on: there
+    /// the motion rests, however it is planned.
+    fn stop_at_exact_corner(&mut self, next: &Segment, rate: Rate, mode: PathMode) {
+        let axes_v = axes_speed(next, &self.settings.limits);
+        let rate_v = ProgrammedRate { rate, axes_v }.under(Override::NONE);
+        if let Some((last, last_v)) = &self.exact
+            && is_exact_corner(last, next, last_v.min(rate_v), &self.settings)
+        {
+            self.end_stretch();
+            self.put_rest(RestKind::ExactStop, self.last);
+        }
+        self.exact = (mode == PathMode::ExactPath).then_some((*next, rate_v));
+    }
+
     fn push_move(&mut self, item: Item, move_t: f64) {
         for (line, event) in core::mem::take(&mut self.events) {
             self.put(line.item(ItemKind::Event(event)));
@@ -151,6 +172,7 @@ impl Gathering {
     }
 
     fn end_stretch(&mut self) {
+        self.exact = None;
         self.intake.make_up();
         self.gathered_t = 0.0;
         if core::mem::replace(&mut self.is_long, false) {

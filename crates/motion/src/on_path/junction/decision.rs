@@ -136,6 +136,20 @@ pub(crate) fn join(from: JunctionSide<'_>, to: JunctionSide<'_>, settings: &Sett
     }
 }
 
+/// True if a path that is to be passed exactly comes to rest between two segments.
+pub(crate) fn is_exact_corner(
+    from: &Segment,
+    to: &Segment,
+    rate_v: f64,
+    settings: &Settings,
+) -> bool {
+    let jet_in = from.jet(from.length());
+    let jet_out = to.jet(0.0);
+    let step_d1 = jet_out.d1 - jet_in.d1;
+    let step_d2 = jet_out.d2 - jet_in.d2;
+    !continues(&step_d1, &step_d2, &jet_in.d1, rate_v, settings)
+}
+
 /// How far from a corner the chord of one period can pass if the machine rests there between two
 /// setpoints: half a period before or after the rest it is at most J·(T/2)³/6 away.
 fn cut_by_chord_mm(t1: &AxisVector, t2: &AxisVector, settings: &Settings) -> f64 {

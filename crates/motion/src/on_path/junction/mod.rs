@@ -3,4 +3,4 @@
 mod decision;
 mod stop_or_pass;
 
-pub(crate) use decision::{Junction, JunctionSide, chord_error_mm, join};
+pub(crate) use decision::{Junction, JunctionSide, chord_error_mm, is_exact_corner, join};
