@@ -14,7 +14,10 @@ use super::state::{ActiveMotion, MOST_LEGS, PlannerState};
 use crate::in_tube::fallback::{Baseline, StopLeg, TRUST_PERIODS, arrival_t};
 use crate::in_tube::path::{Bounds, TubePiece, directional};
 use crate::in_tube::period::State;
-use crate::in_tube::window::{FIRST_WORK, Grid, PLAN_WORK, View, WindowContext, WindowMotion};
+use crate::in_tube::window::{
+    AT_FEED_R, FEED_INTERVALS, FIRST_WORK, Grid, LEAST_INTERVALS, PLAN_WORK, Search, View,
+    WindowContext, WindowMotion,
+};
 use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC, feed_length};
 
 /// Intervals before a leg brakes at which a window is tried.
@@ -24,6 +27,10 @@ const LEAST_COMMIT: usize = 4;
 /// A window that would have to stop in less than one part in so many of the way that takes is not
 /// tried.
 const FAR_TOO_FAST: f64 = 2.0;
+
+/// What goes on at the feed is handed out without another window, up to so long before it slows
+/// down, s.
+const SETTLING_T: f64 = 0.05;
 
 /// A window that may be taken.
 struct Candidate {
@@ -62,7 +69,7 @@ impl PlannerState {
         if self.is_at_rest(&grid) {
             return self.set_out();
         }
-        let view = self.view(&grid)?;
+        let view = self.view(&grid, LEAST_INTERVALS)?;
         if let ActiveMotion::Legs {
             wait,
             is_stale: false,
@@ -75,9 +82,21 @@ impl PlannerState {
             return Some(());
         }
         let tail = self.tail(&grid, view.intervals);
-        let best = self.best_window(&grid, &view, &tail);
+        let work = self.optimisers.work();
+        let mut seen = view.pieces.end;
+        let going_on = if self.is_at_feed(self.progress.0, self.history.velocity()) {
+            let far = self.view(&grid, FEED_INTERVALS)?;
+            let window = self.go_on_at_feed(&grid, &far);
+            if window.is_some() {
+                seen = far.pieces.end;
+            }
+            window
+        } else {
+            None
+        };
+        let best = going_on.or_else(|| self.best_window(&grid, &view, &tail, work));
         // Never less than before: what is left of the last window may go as far as that one saw.
-        self.follower.end = self.follower.end.max(view.pieces.end);
+        self.follower.end = self.follower.end.max(seen);
         if let Some(Candidate { motion, commit, .. }) = best {
             self.legs = 1;
             self.active = ActiveMotion::Window {
@@ -108,11 +127,17 @@ impl PlannerState {
         Some(())
     }
 
-    /// The window to take, if there is one that is better than to go on without.
-    fn best_window(&mut self, grid: &Grid, view: &View, tail: &[AxisVector]) -> Option<Candidate> {
+    /// The window to take, if there is one that is better than to go on without. `work` was done
+    /// before planning began.
+    fn best_window(
+        &mut self,
+        grid: &Grid,
+        view: &View,
+        tail: &[AxisVector],
+        work: usize,
+    ) -> Option<Candidate> {
         let stay_t = self.stay_gain_t(grid);
-        let work = self.optimisers.work();
-        let window = self.try_window(grid, view, tail, FIRST_WORK);
+        let window = self.try_window(grid, view, tail, Search::Whole(FIRST_WORK));
         let is_behind = |window: &Candidate| window.gain_t.is_none_or(|gain_t| gain_t < 0.0);
         let may_halt =
             matches!(self.active, ActiveMotion::Window { .. }) && self.baseline.is_some();
@@ -127,7 +152,7 @@ impl PlannerState {
             return window;
         }
         let left_work = PLAN_WORK.saturating_sub(self.optimisers.work() - work);
-        let halt = self.try_halt(grid, view, tail, left_work);
+        let halt = self.try_halt(grid, view, tail, Search::Whole(left_work));
         let mut all = [window, halt].into_iter().flatten();
         let first = all.next()?;
         let best = all.fold(first, |a, b| if b.gain_t > a.gain_t { b } else { a });
@@ -154,7 +179,7 @@ impl PlannerState {
         Some(())
     }
 
-    fn view(&self, grid: &Grid) -> Option<View> {
+    fn view(&self, grid: &Grid, least_intervals: usize) -> Option<View> {
         let first = self.follower.first();
         View::new(
             &self.limits,
@@ -162,7 +187,16 @@ impl PlannerState {
             grid,
             first,
             self.progress,
+            least_intervals,
         )
+    }
+
+    /// A window in which nothing but the feed binds, if it is one.
+    fn go_on_at_feed(&mut self, grid: &Grid, view: &View) -> Option<Candidate> {
+        let stay_t = self.stay_gain_t(grid);
+        let tail = self.tail(grid, view.intervals);
+        let window = self.try_window(grid, view, &tail, Search::AtFeed)?;
+        Some(window).filter(|window| window.gain_t >= stay_t)
     }
 
     /// A window, and what it is worth.
@@ -171,7 +205,7 @@ impl PlannerState {
         grid: &Grid,
         view: &View,
         tail: &[AxisVector],
-        most_work: usize,
+        search: Search,
     ) -> Option<Candidate> {
         let setting = WindowContext {
             limits: &self.limits,
@@ -184,7 +218,7 @@ impl PlannerState {
             end: view.pieces.end,
             commit: commit(grid, view),
             keeps_rates: !matches!(self.active, ActiveMotion::Legs { is_stale: true, .. }),
-            most_work,
+            search,
         };
         let motion = self.optimisers.attempt(&setting, view, tail)?;
         Some(self.judge(grid, view, motion))
@@ -196,7 +230,7 @@ impl PlannerState {
         grid: &Grid,
         view: &View,
         tail: &[AxisVector],
-        most_work: usize,
+        search: Search,
     ) -> Option<Candidate> {
         let end = self.follower.reachable.last() + 1;
         if end >= view.pieces.end || !self.may_rest_before(end) {
@@ -207,7 +241,7 @@ impl PlannerState {
             is_halt: true,
             ..*view
         };
-        self.try_window(grid, &view, tail, most_work)
+        self.try_window(grid, &view, tail, search)
     }
 
     /// False if the motion is far too fast to rest at the end of the piece before `end`.
@@ -242,14 +276,25 @@ impl PlannerState {
             gain_t: None,
             commit: usual,
         };
-        let mut safe = None;
+        let mut gains_t = Vec::with_capacity(periods);
+        let mut feed_until = usual;
         for period in 1..=periods {
             let points = &candidate.motion.points;
             let next = grid.state(points, period);
             let way = (&self.reference_path, &mut follower);
             history.follow(&self.limits, self.period_t, way, &next);
-            let Some(mut gain_t) = self.state_gain_t(follower.reachable.last(), &next, period)
-            else {
+            let index = follower.reachable.last();
+            if period == feed_until + 1 && self.is_at_feed(index, &next.velocity) {
+                feed_until = period;
+            }
+            gains_t.push(self.state_gain_t(index, &next, period));
+        }
+        let settled = feed_until.saturating_sub(self.settling_periods());
+        let usual = usual.max(settled / grid.periods * grid.periods);
+        candidate.commit = usual;
+        let mut safe = None;
+        for (period, gain_t) in (1..).zip(gains_t) {
+            let Some(mut gain_t) = gain_t else {
                 continue;
             };
             match (period == periods, candidate.motion.is_end) {
@@ -268,6 +313,23 @@ impl PlannerState {
             candidate.commit = safe;
         }
         candidate
+    }
+
+    /// True if a motion on a piece is as fast as it may be.
+    fn is_at_feed(&self, index: usize, velocity: &AxisVector) -> bool {
+        let piece = self.reference_path.get(index);
+        piece.is_some_and(|piece| piece.path_v(velocity) >= AT_FEED_R * piece.top_v)
+    }
+
+    /// Periods before a motion slows down in which it may be shaped by that.
+    fn settling_periods(&self) -> usize {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a few periods, or some hundred"
+        )]
+        let periods = (SETTLING_T / self.period_t).ceil() as usize;
+        periods
     }
 
     /// The gain of a state some periods from now.
@@ -293,7 +355,7 @@ impl PlannerState {
             return Some(baseline_t - end_t);
         }
         let points = self.tail(grid, 0);
-        let view = self.view(grid)?;
+        let view = self.view(grid, LEAST_INTERVALS)?;
         let rest = WindowMotion {
             points,
             is_rest: true,

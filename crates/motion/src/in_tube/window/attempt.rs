@@ -12,7 +12,10 @@ use glidepath_program::Limits;
 /// Most pieces a window looks at.
 const MOST_PIECES: usize = 4096;
 /// Intervals of a window, at least and at most.
-const INTERVALS: [usize; 2] = [60, 160];
+pub(crate) const LEAST_INTERVALS: usize = 60;
+const MOST_INTERVALS: usize = 160;
+/// The same where the motion goes on at the feed: most of them are then handed out.
+pub(crate) const FEED_INTERVALS: usize = MOST_INTERVALS;
 /// Length of a window in times to stop from the top speed.
 const STOPS: f64 = 2.4;
 
@@ -34,8 +37,9 @@ impl View {
         grid: &Grid,
         first: usize,
         (index, u): (usize, f64),
+        least_intervals: usize,
     ) -> Option<Self> {
-        let mut needed = INTERVALS[0];
+        let mut needed = least_intervals;
         let mut known_t = 0.0;
         let mut end = index;
         while reference_path.is_settled(end) {
@@ -51,7 +55,7 @@ impl View {
             )]
             let wanted = (STOPS * stop_t / grid.knot_t)
                 .ceil()
-                .min(INTERVALS[1] as f64) as usize;
+                .min(MOST_INTERVALS as f64) as usize;
             needed = needed.max(wanted);
             let share = if end == index { 1.0 - u } else { 1.0 };
             known_t += share * piece.length_s / top_v;
@@ -95,8 +99,16 @@ pub(crate) struct WindowContext<'a> {
     pub(crate) commit: usize,
     /// What goes on without a window keeps the rates, which may have changed.
     pub(crate) keeps_rates: bool,
-    /// Multiplications of the solver that may be spent.
-    pub(crate) most_work: usize,
+    pub(crate) search: Search,
+}
+
+/// What is looked for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Search {
+    /// The fastest motion, for so many multiplications of the solver at most.
+    Whole(usize),
+    /// One that goes on at the feed, if nothing else binds.
+    AtFeed,
 }
 
 /// Optimisers by number of axes, made when first needed.
@@ -188,12 +200,17 @@ fn attempt<const D: usize>(
         grid: *context.grid,
         period_t: context.period_t,
         commit: context.commit,
-        most_work: context.most_work,
     };
-    let solution = optimiser.optimise(&path, &window_start, &mut |points, question| {
+    let mut judge = |points: &[[f64; D]], question| {
         let points: Vec<_> = points.iter().map(|point| path.outside(point)).collect();
         passes(context, &points, question)
-    })?;
+    };
+    let solution = match context.search {
+        Search::Whole(most_work) => {
+            optimiser.optimise(&path, &window_start, most_work, &mut judge)?
+        }
+        Search::AtFeed => optimiser.go_on_at_feed(&path, &window_start, &mut judge)?,
+    };
     let mut points: Vec<_> = solution
         .points
         .iter()

@@ -1,7 +1,7 @@
 //! What planning may cost: multiplications of the solvers, which the time it takes follows.
 //!
 //! ```text
-//!   before a period    PLAN_WORK ── first window: FIRST_WORK at most ── halt: what is left
+//!   before a period    PLAN_WORK ── at the feed ── window: FIRST_WORK at most ── halt: what is left
 //!   of each window     search ── end, if it sees that of the path or is to halt
 //! ```
 //!
@@ -39,6 +39,14 @@ pub(crate) const fn smoothing(axes: usize, left_work: usize) -> Allowance {
     Allowance {
         wanted: of_axes(SMOOTHING_WORK, axes),
         most: left_work,
+    }
+}
+
+/// What it may do to go on at the feed.
+pub(crate) const fn at_feed(axes: usize) -> Allowance {
+    Allowance {
+        wanted: of_axes(SMOOTHING_WORK, axes),
+        most: PLAN_WORK - FIRST_WORK,
     }
 }
 

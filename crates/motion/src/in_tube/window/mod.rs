@@ -12,6 +12,7 @@
     reason = "vectors and blocks of a few axes are clearest by index"
 )]
 
+mod at_feed;
 mod attempt;
 mod budget;
 mod cuts;
@@ -28,7 +29,10 @@ mod spline;
 mod tube;
 mod window_start;
 
-pub(crate) use attempt::{Optimisers, View, WindowContext, WindowMotion};
+pub(crate) use at_feed::AT_FEED_R;
+pub(crate) use attempt::{
+    FEED_INTERVALS, LEAST_INTERVALS, Optimisers, Search, View, WindowContext, WindowMotion,
+};
 pub(crate) use budget::FIRST_WORK;
 pub(crate) use budget::PLAN_WORK;
 pub(crate) use spline::Grid;

@@ -95,7 +95,7 @@ pub(crate) enum Question {
 pub(crate) struct Optimiser<const D: usize> {
     pub(crate) interior: Interior<D>,
     problem: Problem<D>,
-    guess: Guess,
+    pub(super) guess: Guess,
     pub(super) samples: Samples,
     pub(super) cuts: Cuts<D>,
     pins: Pins<D>,
@@ -123,30 +123,15 @@ impl<const D: usize> Optimiser<D> {
         &mut self,
         path: &ScaledPath<D>,
         window_start: &WindowStart<'_, D>,
+        most_work: usize,
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
     ) -> Option<Solution<D>> {
-        self.guess.make(path);
-        for extents in &mut self.extents {
-            extents.clear(path.segments.len());
-        }
-        let intervals = window_start.tail.len() - 3;
-        self.samples.reset(window_start.grid.periods_in(intervals));
-        self.samples.progress[0] = window_start.progress;
-        self.samples.project(
-            path,
-            window_start.tail,
-            window_start.piece,
-            &window_start.grid,
-            false,
-        );
-        if !window_start.keeps_rates {
-            self.samples.progress.fill(window_start.progress);
-        }
+        self.begin(path, window_start);
         let tail_progress = self.samples.progress.clone();
         let tail_mean = self.samples.mean_t(path);
         let (rest_at, stop_at) = window_start.tail_ends(path);
         let work = self.interior.work;
-        let allowance = budget::search(D, path.is_final, window_start.most_work);
+        let allowance = budget::search(D, path.is_final, most_work);
         self.interior.allow(allowance);
         let mut found = BestMotion { best: None };
         for (attempt, seed) in ATTEMPTS.into_iter().enumerate() {
@@ -166,7 +151,7 @@ impl<const D: usize> Optimiser<D> {
                 break;
             }
         }
-        let left_work = window_start.most_work - (self.interior.work - work);
+        let left_work = most_work - (self.interior.work - work);
         self.interior.allow(budget::finish(D, left_work));
         let passed = found
             .best
@@ -182,14 +167,33 @@ impl<const D: usize> Optimiser<D> {
         if finished.is_some() {
             return finished;
         }
-        let left_work = window_start
-            .most_work
-            .saturating_sub(self.interior.work - work);
+        let left_work = most_work.saturating_sub(self.interior.work - work);
         self.interior.allow(budget::smoothing(D, left_work));
         Some(Solution {
             points: self.smooth(path, window_start, best, judge),
             is_end: false,
         })
+    }
+
+    /// A new window, with samples where the tail is.
+    pub(super) fn begin(&mut self, path: &ScaledPath<D>, window_start: &WindowStart<'_, D>) {
+        self.guess.make(path);
+        for extents in &mut self.extents {
+            extents.clear(path.segments.len());
+        }
+        let intervals = window_start.tail.len() - 3;
+        self.samples.reset(window_start.grid.periods_in(intervals));
+        self.samples.progress[0] = window_start.progress;
+        self.samples.project(
+            path,
+            window_start.tail,
+            window_start.piece,
+            &window_start.grid,
+            false,
+        );
+        if !window_start.keeps_rates {
+            self.samples.progress.fill(window_start.progress);
+        }
     }
 
     /// One attempt: rounds of giving out, solving and projecting, in which `found` gets the best
@@ -202,14 +206,7 @@ impl<const D: usize> Optimiser<D> {
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
         found: &mut BestMotion<D>,
     ) {
-        let mut round_state = RoundState {
-            points: window_start.tail.to_vec(),
-            has_motion: false,
-            is_exceeding: false,
-            mean_t: f64::NEG_INFINITY,
-            speed_r: 0.0,
-            feed_r: FEED_R,
-        };
+        let mut round_state = RoundState::starting(window_start.tail);
         for (number, phase) in PHASES.iter().enumerate() {
             for round in 0..phase.search + phase.polish {
                 if self.interior.is_spent() {

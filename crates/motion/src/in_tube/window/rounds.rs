@@ -46,6 +46,14 @@ pub(crate) struct RoundState<const D: usize> {
 }
 
 impl<const D: usize> RoundState<D> {
+    /// To begin with a tail, which need not be a motion.
+    pub(crate) fn starting(tail: &[[f64; D]]) -> Self {
+        Self {
+            has_motion: false,
+            ..Self::polishing(tail)
+        }
+    }
+
     /// To go on from a motion.
     pub(crate) fn polishing(points: &[[f64; D]]) -> Self {
         Self {

@@ -36,6 +36,18 @@ const KEEP_R: f64 = 0.99;
 /// A motion with its mean progress, and where its samples are.
 pub(super) type Found<const D: usize> = (f64, Vec<[f64; D]>, Samples);
 
+impl<const D: usize> WindowStart<'_, D> {
+    /// How rows are made for a second solve, with so much of the weights.
+    pub(super) fn smooth_style(&self, weight: f64) -> Style {
+        Style {
+            keep_r: KEEP_R,
+            ridge: weight * PULL,
+            jerk: weight * JERK,
+            ..self.style(true)
+        }
+    }
+}
+
 impl<const D: usize> Optimiser<D> {
     /// The motion that is to be used instead of the best one of the search, or that one itself.
     pub(super) fn smooth(
@@ -48,13 +60,9 @@ impl<const D: usize> Optimiser<D> {
         let least = mean - MOST_LOSS * mean;
         for weight in WEIGHTS {
             self.samples.clone_from(&samples);
-            let style = Style {
-                keep_r: KEEP_R,
-                ridge: weight * PULL,
-                jerk: weight * JERK,
-                ..window_start.style(true)
-            };
-            let smoothed = self.smooth_with(path, window_start, &style, &points, judge);
+            let style = window_start.smooth_style(weight);
+            let round_state = RoundState::polishing(&points);
+            let smoothed = self.smooth_with(path, window_start, &style, round_state, judge);
             if let Some(smoothed) = smoothed.filter(|(mean, ..)| *mean >= least) {
                 return smoothed.1;
             }
@@ -66,15 +74,14 @@ impl<const D: usize> Optimiser<D> {
     }
 
     /// The last motion that passes of some rounds with a style.
-    fn smooth_with(
+    pub(super) fn smooth_with(
         &mut self,
         path: &ScaledPath<D>,
         window_start: &WindowStart<'_, D>,
         style: &Style,
-        points: &[[f64; D]],
+        mut round_state: RoundState<D>,
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
     ) -> Option<Found<D>> {
-        let mut round_state = RoundState::polishing(points);
         let mut passed: Option<Found<D>> = None;
         for _ in 0..ROUNDS {
             if self.interior.is_spent() {
@@ -82,6 +89,7 @@ impl<const D: usize> Optimiser<D> {
             }
             let style = Style {
                 feed_r: round_state.feed_r,
+                has_motion: round_state.has_motion,
                 ..*style
             };
             let is_solved = self.take_round(path, window_start, &style, false, &mut round_state);

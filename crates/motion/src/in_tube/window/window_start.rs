@@ -28,8 +28,6 @@ pub(crate) struct WindowStart<'a, const D: usize> {
     pub(crate) period_t: f64,
     /// Periods after which the next window will start.
     pub(crate) commit: usize,
-    /// Multiplications of the solver that may be spent.
-    pub(crate) most_work: usize,
 }
 
 impl<const D: usize> WindowStart<'_, D> {
