@@ -32,6 +32,9 @@ const FAR_TOO_FAST: f64 = 2.0;
 /// down, s.
 const SETTLING_T: f64 = 0.05;
 
+/// What a window may lose of its lead over the baseline, of the time it is handed out for.
+const LITTLE_R: f64 = 0.05;
+
 /// A window that may be taken.
 struct Candidate {
     motion: WindowMotion,
@@ -39,6 +42,20 @@ struct Candidate {
     gain_t: Option<f64>,
     /// Periods that can be handed out without falling behind: up to the next window, or less.
     commit: usize,
+}
+
+impl Candidate {
+    /// True if it is better than what is done without it, whose gain is given: it leads by more, or
+    /// by hardly less and is ahead of the baseline at all. To halt for what a window has lost by
+    /// keeping a little below the feed would lose far more.
+    fn is_worth(&self, stay_t: Option<f64>, period_t: f64) -> bool {
+        #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+        let little_t = LITTLE_R * self.commit as f64 * period_t;
+        match (self.gain_t, stay_t) {
+            (Some(gain_t), Some(stay_t)) => gain_t >= stay_t.min((stay_t - little_t).max(0.0)),
+            (gain_t, stay_t) => gain_t >= stay_t,
+        }
+    }
 }
 
 impl PlannerState {
@@ -142,7 +159,7 @@ impl PlannerState {
         let may_halt =
             matches!(self.active, ActiveMotion::Window { .. }) && self.baseline.is_some();
         if !may_halt || window.as_ref().is_some_and(|window| !is_behind(window)) {
-            return window.filter(|window| window.gain_t >= stay_t);
+            return window.filter(|window| window.is_worth(stay_t, self.period_t));
         }
         let usual = commit(grid, view);
         let is_early =
@@ -156,7 +173,7 @@ impl PlannerState {
         let mut all = [window, halt].into_iter().flatten();
         let first = all.next()?;
         let best = all.fold(first, |a, b| if b.gain_t > a.gain_t { b } else { a });
-        Some(best).filter(|best| best.gain_t >= stay_t)
+        Some(best).filter(|best| best.is_worth(stay_t, self.period_t))
     }
 
     /// From rest: a leg to the next vertex.
@@ -196,7 +213,7 @@ impl PlannerState {
         let stay_t = self.stay_gain_t(grid);
         let tail = self.tail(grid, view.intervals);
         let window = self.try_window(grid, view, &tail, Search::AtFeed)?;
-        Some(window).filter(|window| window.gain_t >= stay_t)
+        Some(window).filter(|window| window.is_worth(stay_t, self.period_t))
     }
 
     /// A window, and what it is worth.
