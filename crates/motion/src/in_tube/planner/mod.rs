@@ -25,5 +25,6 @@ mod state;
 #[cfg(test)]
 mod tests;
 mod tube_planner;
+mod worth;
 
 pub(crate) use tube_planner::TubePlanner;

@@ -11,12 +11,11 @@
 //! is taken if it leads by more than what would be done without it.
 
 use super::state::{ActiveMotion, MOST_LEGS, PlannerState};
-use crate::in_tube::fallback::{Baseline, StopLeg, TRUST_PERIODS, arrival_t};
+use super::worth::{Candidate, commit};
+use crate::in_tube::fallback::{Baseline, StopLeg};
 use crate::in_tube::path::{Bounds, TubePiece, directional};
-use crate::in_tube::period::State;
 use crate::in_tube::window::{
-    AT_FEED_R, FEED_INTERVALS, FIRST_WORK, Grid, LEAST_INTERVALS, PLAN_WORK, Search, View,
-    WindowContext, WindowMotion,
+    FEED_INTERVALS, FIRST_WORK, Grid, LEAST_INTERVALS, PLAN_WORK, Search, View, WindowContext,
 };
 use glidepath_geometry::{AXES, AxisVector, ROTARY_ABC, feed_length};
 
@@ -27,36 +26,6 @@ const LEAST_COMMIT: usize = 4;
 /// A window that would have to stop in less than one part in so many of the way that takes is not
 /// tried.
 const FAR_TOO_FAST: f64 = 2.0;
-
-/// What goes on at the feed is handed out without another window, up to so long before it slows
-/// down, s.
-const SETTLING_T: f64 = 0.05;
-
-/// What a window may lose of its lead over the baseline, of the time it is handed out for.
-const LITTLE_R: f64 = 0.05;
-
-/// A window that may be taken.
-struct Candidate {
-    motion: WindowMotion,
-    /// Its gain, from the next window on.
-    gain_t: Option<f64>,
-    /// Periods that can be handed out without falling behind: up to the next window, or less.
-    commit: usize,
-}
-
-impl Candidate {
-    /// True if it is better than what is done without it, whose gain is given: it leads by more, or
-    /// by hardly less and is ahead of the baseline at all. To halt for what a window has lost by
-    /// keeping a little below the feed would lose far more.
-    fn is_worth(&self, stay_t: Option<f64>, period_t: f64) -> bool {
-        #[expect(clippy::cast_precision_loss, reason = "hundreds")]
-        let little_t = LITTLE_R * self.commit as f64 * period_t;
-        match (self.gain_t, stay_t) {
-            (Some(gain_t), Some(stay_t)) => gain_t >= stay_t.min((stay_t - little_t).max(0.0)),
-            (gain_t, stay_t) => gain_t >= stay_t,
-        }
-    }
-}
 
 impl PlannerState {
     /// True if a window is to be tried before the leg under way goes on.
@@ -196,7 +165,7 @@ impl PlannerState {
         Some(())
     }
 
-    fn view(&self, grid: &Grid, least_intervals: usize) -> Option<View> {
+    pub(super) fn view(&self, grid: &Grid, least_intervals: usize) -> Option<View> {
         let first = self.follower.first();
         View::new(
             &self.limits,
@@ -278,109 +247,6 @@ impl PlannerState {
         stop_s <= FAR_TOO_FAST * (rest_s + room)
     }
 
-    /// What a motion from now on is worth.
-    fn judge(&mut self, grid: &Grid, view: &View, motion: WindowMotion) -> Candidate {
-        let mut history = self.history.clone();
-        let mut follower = self.follower.to(view.pieces.end);
-        let periods = grid.periods_in(motion.points.len() - 3);
-        let usual = if motion.is_rest {
-            periods
-        } else {
-            commit(grid, view).min(periods)
-        };
-        let mut candidate = Candidate {
-            motion,
-            gain_t: None,
-            commit: usual,
-        };
-        let mut gains_t = Vec::with_capacity(periods);
-        let mut feed_until = usual;
-        for period in 1..=periods {
-            let points = &candidate.motion.points;
-            let next = grid.state(points, period);
-            let way = (&self.reference_path, &mut follower);
-            history.follow(&self.limits, self.period_t, way, &next);
-            let index = follower.reachable.last();
-            if period == feed_until + 1 && self.is_at_feed(index, &next.velocity) {
-                feed_until = period;
-            }
-            gains_t.push(self.state_gain_t(index, &next, period));
-        }
-        let settled = feed_until.saturating_sub(self.settling_periods());
-        let usual = usual.max(settled / grid.periods * grid.periods);
-        candidate.commit = usual;
-        let mut safe = None;
-        for (period, gain_t) in (1..).zip(gains_t) {
-            let Some(mut gain_t) = gain_t else {
-                continue;
-            };
-            match (period == periods, candidate.motion.is_end) {
-                // A baseline at the end of the path rests there until the period is over, too.
-                (true, true) => gain_t += (1.0 - 1e-6) * self.period_t,
-                (true, false) => {}
-                _ => gain_t -= TRUST_PERIODS * self.period_t,
-            }
-            if period >= usual {
-                candidate.gain_t = Some(candidate.gain_t.map_or(gain_t, |most| most.max(gain_t)));
-            } else if gain_t >= 0.0 && period % grid.periods == 0 {
-                safe = Some(period);
-            }
-        }
-        if let Some(safe) = safe.filter(|_| candidate.gain_t.is_none_or(|gain_t| gain_t < 0.0)) {
-            candidate.commit = safe;
-        }
-        candidate
-    }
-
-    /// True if a motion on a piece is as fast as it may be.
-    fn is_at_feed(&self, index: usize, velocity: &AxisVector) -> bool {
-        let piece = self.reference_path.get(index);
-        piece.is_some_and(|piece| piece.path_v(velocity) >= AT_FEED_R * piece.top_v)
-    }
-
-    /// Periods before a motion slows down in which it may be shaped by that.
-    fn settling_periods(&self) -> usize {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a few periods, or some hundred"
-        )]
-        let periods = (SETTLING_T / self.period_t).ceil() as usize;
-        periods
-    }
-
-    /// The gain of a state some periods from now.
-    fn state_gain_t(&mut self, index: usize, state: &State, period: usize) -> Option<f64> {
-        let piece = self.reference_path.get(index)?;
-        let arrival_t = arrival_t(&self.limits, piece, state)?;
-        let baseline = self.baseline.as_mut()?;
-        let baseline_t = baseline.end_t(&self.limits, &self.reference_path, index)?;
-        Some(baseline_t - self.periods_t(self.clock + period) - arrival_t)
-    }
-
-    /// The gain if no window is found: of the leg, or of the rest that the last window ends with.
-    fn stay_gain_t(&mut self, grid: &Grid) -> Option<f64> {
-        if let ActiveMotion::Legs {
-            leg: Some(leg),
-            leg_t,
-            ..
-        } = &self.active
-        {
-            let end_t = self.clock_t() - leg_t + leg.duration_t();
-            let baseline = self.baseline.as_mut()?;
-            let baseline_t = baseline.end_t(&self.limits, &self.reference_path, leg.piece)?;
-            return Some(baseline_t - end_t);
-        }
-        let points = self.tail(grid, 0);
-        let view = self.view(grid, LEAST_INTERVALS)?;
-        let rest = WindowMotion {
-            points,
-            is_rest: true,
-            is_end: false,
-        };
-        self.judge(grid, &view, rest).gain_t
-    }
-
     /// True if nothing moves or will move without a new plan.
     fn is_at_rest(&self, grid: &Grid) -> bool {
         match &self.active {
@@ -405,7 +271,7 @@ impl PlannerState {
 
     /// The motion from the present state on, as control points: what is left of the last window
     /// down to its rest, or so many intervals of the leg under way, which need not be a motion.
-    fn tail(&self, grid: &Grid, intervals: usize) -> Vec<AxisVector> {
+    pub(super) fn tail(&self, grid: &Grid, intervals: usize) -> Vec<AxisVector> {
         match &self.active {
             ActiveMotion::Window { points, done, .. } => {
                 let passed = done * grid.knots / grid.periods;
@@ -422,11 +288,6 @@ impl PlannerState {
             _ => vec![self.history.last(); 4],
         }
     }
-}
-
-/// Periods after which the next window starts.
-fn commit(grid: &Grid, view: &View) -> usize {
-    grid.periods_in(grid.whole_periods(view.intervals / 3).max(grid.knots))
 }
 
 /// Control points of a leg from some time on: exact at that time, positions at the knots after it.
