@@ -34,6 +34,11 @@ impl Intake {
         &self.position
     }
 
+    /// Where the program is.
+    pub(crate) const fn program_position(&self) -> &AxisVector {
+        &self.program_position
+    }
+
     /// Refuses a move that cannot be planned. Changes nothing.
     pub(crate) fn check_move(
         &self,

@@ -24,8 +24,10 @@
 //!
 //! Beside them stands what both use: `intake` (the checks of items), `programmed_rate` and
 //! `feed_axes`, `rest`, `grid` (the frames of one period each), [`scurve`]; and above them
-//! `planner`, which chooses the wing, with `guard`, the last look at a frame. `on_path` knows
-//! nothing of `in_tube`.
+//! `stretches`, which plans from rest to rest with the wing that is faster, and `planner`, with
+//! `guard`, the last look at a frame; `wing` says which of the two plans at least. `on_path` knows
+//! nothing of `in_tube`. [`parts`] plans a program in parts that begin and end at rest, for whoever
+//! has several cores.
 //!
 //! Two moves planned, and their frames counted:
 //!

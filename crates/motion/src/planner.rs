@@ -36,11 +36,9 @@ impl Engine {
     fn new(settings: Settings, start: AxisVector) -> Self {
         match Wing::of(&settings) {
             Wing::InTube => Self::Stretches(Box::new(StretchEngine::new(settings, start))),
-            Wing::OnPath => Self::OnPath(Box::new(OnPathEngine::new(
-                settings,
-                start,
-                Override::NONE,
-            ))),
+            Wing::OnPath => {
+                Self::OnPath(Box::new(OnPathEngine::new(settings, start, Override::NONE)))
+            }
         }
     }
 }

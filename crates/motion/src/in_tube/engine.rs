@@ -1,7 +1,5 @@
 //! The engine of one stretch: what moves the machine at present, and what comes next.
 
-mod origin;
-
 use super::flattening::{Flattener, Product};
 use super::ledger::{Ledger, LedgerEntry};
 use super::path::Reference;

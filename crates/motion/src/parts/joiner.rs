@@ -6,7 +6,7 @@ use crate::guard::Guard;
 use crate::on_path::OnPathEngine;
 use crate::wing::Wing;
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Frame, Settings};
+use glidepath_program::{Frame, Override, Settings};
 use std::collections::VecDeque;
 
 /// Makes the frames of a program of the plans of its parts.
@@ -38,7 +38,9 @@ impl Joiner {
     pub fn new(settings: Settings, start: AxisVector) -> Self {
         Self {
             joint: match Wing::of(&settings) {
-                Wing::OnPath => Joint::OnPath(Box::new(OnPathEngine::new(settings, start))),
+                Wing::OnPath => {
+                    Joint::OnPath(Box::new(OnPathEngine::new(settings, start, Override::NONE)))
+                }
                 Wing::InTube => Joint::InTube {
                     waiting: VecDeque::new(),
                     sequence: 0,

@@ -2,11 +2,11 @@
 
 use super::part_step::{PartStep, StepKind};
 use crate::PlanError;
-use crate::in_tube::InTubeEngine;
 use crate::on_path::OnPathEngine;
+use crate::stretches::StretchEngine;
 use crate::wing::Wing;
 use glidepath_geometry::AxisVector;
-use glidepath_program::{FrameFlags, Item, Settings};
+use glidepath_program::{FrameFlags, Item, Override, Settings};
 
 /// Plans a part of a program from where it begins.
 #[derive(Debug)]
@@ -31,7 +31,7 @@ enum Failure {
 #[derive(Debug)]
 enum PartEngine {
     OnPath(Box<OnPathEngine>),
-    InTube(Box<InTubeEngine>),
+    Stretches(Box<StretchEngine>),
 }
 
 impl PartPlanner {
@@ -40,8 +40,12 @@ impl PartPlanner {
     pub fn new(settings: Settings, start: AxisVector, is_first: bool) -> Self {
         Self {
             engine: match Wing::of(&settings) {
-                Wing::OnPath => PartEngine::OnPath(Box::new(OnPathEngine::new(settings, start))),
-                Wing::InTube => PartEngine::InTube(Box::new(InTubeEngine::new(settings, start))),
+                Wing::OnPath => {
+                    PartEngine::OnPath(Box::new(OnPathEngine::new(settings, start, Override::NONE)))
+                }
+                Wing::InTube => {
+                    PartEngine::Stretches(Box::new(StretchEngine::new(settings, start)))
+                }
             },
             is_first,
             origin_s: None,
@@ -54,7 +58,7 @@ impl PartPlanner {
     pub fn push(&mut self, item: &Item) {
         let pushed = match &mut self.engine {
             PartEngine::OnPath(engine) => engine.push(item),
-            PartEngine::InTube(engine) => engine.push(item),
+            PartEngine::Stretches(engine) => engine.push(item),
         };
         if let Err(error) = pushed {
             self.fail(error);
@@ -71,7 +75,7 @@ impl PartPlanner {
     pub fn finish(&mut self) {
         match &mut self.engine {
             PartEngine::OnPath(engine) => engine.finish(),
-            PartEngine::InTube(engine) => engine.finish(),
+            PartEngine::Stretches(engine) => engine.finish(),
         }
     }
 
@@ -96,7 +100,7 @@ impl PartPlanner {
                 let settled = engine.take_settled();
                 return (!settled.is_empty()).then_some(PartStep(StepKind::Motion(settled)));
             }
-            PartEngine::InTube(engine) => engine,
+            PartEngine::Stretches(engine) => engine,
         };
         loop {
             let made = engine.pop_frame();

@@ -7,8 +7,9 @@
 //! With that no such stretch takes longer than with effort "fast", which in turn knows the way with
 //! a stop at every block.
 
-use super::way::{Way, Wing};
+use super::way::Way;
 use crate::PlanError;
+use crate::wing::Wing;
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Frame, Item, ItemKind, Override, PathMode, Settings};
 use std::sync::Arc;
@@ -29,7 +30,7 @@ pub(crate) struct Planned {
     wing: Wing,
     frames: Arc<[Frame]>,
     taken: usize,
-    end: (AxisVector, f64),
+    length_s: f64,
 }
 
 impl Planned {
@@ -54,13 +55,13 @@ impl Planned {
         while let Some(frame) = way.pop_frame()? {
             frames.push(frame);
         }
-        let end = way.end().ok_or(entry.no_motion())?;
+        let length_s = way.length_s().ok_or(entry.no_motion())?;
         Ok(Self {
             entry,
             wing,
             frames: frames.into(),
             taken: 0,
-            end,
+            length_s,
         })
     }
 
@@ -71,9 +72,9 @@ impl Planned {
         Some(*frame)
     }
 
-    /// Where the way ends and how long it is, mm, once all frames on it are taken.
-    pub(crate) fn end(&self) -> Option<(AxisVector, f64)> {
-        (self.taken == self.frames.len()).then_some(self.end)
+    /// How long the way is, mm, once all frames on it are taken.
+    pub(crate) fn length_s(&self) -> Option<f64> {
+        (self.taken == self.frames.len()).then_some(self.length_s)
     }
 
     /// The same way under way after the frame given out last: to be gone on differently.

@@ -2,9 +2,10 @@
 
 use super::contest::{Entry, Planned};
 use super::gathering::{Gathering, Task};
-use super::way::{Way, Wing};
+use super::way::Way;
 use crate::PlanError;
 use crate::grid::FrameGrid;
+use crate::wing::Wing;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, Item, Override, Settings};
 
@@ -16,8 +17,10 @@ pub(crate) struct StretchEngine {
     gathering: Gathering,
     grid: FrameGrid,
     drive: Drive,
-    /// Where the last stretch ended.
+    /// Where the stretch at hand begins, and where it ends once that is known: exactly where the
+    /// program does, whatever the last frame on the way is rounded to.
     position: AxisVector,
+    end: AxisVector,
     path_s: f64,
 }
 
@@ -42,6 +45,7 @@ impl StretchEngine {
             grid: FrameGrid::new(settings.period_t, start),
             drive: Drive::None,
             position: start,
+            end: start,
             path_s: 0.0,
         }
     }
@@ -74,17 +78,17 @@ impl StretchEngine {
             if let Some(frame) = self.grid.rest_frame() {
                 return Ok(Some(frame));
             }
-            let (moved, end) = match &mut self.drive {
+            let (moved, length_s) = match &mut self.drive {
                 Drive::None => (None, None),
-                Drive::Planned(planned) => (planned.pop_frame(), planned.end()),
-                Drive::Live(way) => (way.pop_frame()?, way.end()),
+                Drive::Planned(planned) => (planned.pop_frame(), planned.length_s()),
+                Drive::Live(way) => (way.pop_frame()?, way.length_s()),
             };
             if let Some(mut frame) = moved {
                 frame.path_s += self.path_s;
                 return Ok(Some(self.grid.relay(frame)));
             }
-            if let Some((end, length_s)) = end {
-                self.arrive(end, length_s);
+            if let Some(length_s) = length_s {
+                self.arrive(length_s);
             } else if matches!(&self.drive, Drive::Live(way) if way.is_finished()) {
                 let line = self.grid.line().number;
                 return Err(PlanError::NoMotion { line });
@@ -94,10 +98,10 @@ impl StretchEngine {
         }
     }
 
-    fn arrive(&mut self, end: AxisVector, length_s: f64) {
-        self.position = end;
+    fn arrive(&mut self, length_s: f64) {
+        self.position = self.end;
         self.path_s += length_s;
-        self.grid.leave(end, self.path_s);
+        self.grid.leave(self.end, self.path_s);
         self.drive = Drive::None;
     }
 
@@ -107,7 +111,8 @@ impl StretchEngine {
             return Ok(false);
         };
         match task {
-            Task::Whole(items) => {
+            Task::Whole { items, end } => {
+                self.end = end;
                 let planned = Planned::new(Entry {
                     settings: self.settings,
                     start: self.position,
@@ -125,7 +130,8 @@ impl StretchEngine {
                     way.push(&item)?;
                 }
             }
-            Task::End => {
+            Task::End(end) => {
+                self.end = end;
                 if let Drive::Live(way) = &mut self.drive {
                     way.finish();
                 }
@@ -135,5 +141,18 @@ impl StretchEngine {
             }
         }
         Ok(true)
+    }
+
+    /// After each frame: where the stretch that ended with it ends, if one did, in path position as
+    /// the frame counts it. From there on it is counted anew, from 0.
+    ///
+    /// Frames tell path position as the sum of where their stretch begins and how far they are in
+    /// it. Whoever knows where stretches begin in a whole program adds that up to the same bits.
+    pub(crate) fn take_origin(&mut self) -> Option<f64> {
+        let origin_s = core::mem::take(&mut self.path_s);
+        (origin_s != 0.0).then(|| {
+            self.grid.count_from_here();
+            origin_s
+        })
     }
 }

@@ -22,12 +22,15 @@ const MOST_T: f64 = 1.25;
     reason = "most of them are items, as large as they are"
 )]
 pub(crate) enum Task {
-    /// A stretch from rest to rest.
-    Whole(Vec<Item>),
+    /// A stretch from rest to rest, and where the program is at its end.
+    Whole {
+        items: Vec<Item>,
+        end: AxisVector,
+    },
     /// The next item of a stretch that is planned as it comes.
     Part(Item),
-    /// Such a stretch ends here.
-    End,
+    /// Such a stretch ends, where the program is.
+    End(AxisVector),
     Rest(Rest),
 }
 
@@ -82,8 +85,9 @@ impl Gathering {
                 mode,
             } => {
                 self.intake.check_move(line.number, &segment, rate, mode)?;
+                let start = *self.intake.program_position();
                 if let Some(taken) = self.intake.take(segment) {
-                    self.stop_at_exact_corner(&taken, rate, mode);
+                    self.stop_at_exact_corner(start, &taken, rate, mode);
                 }
                 let tolerance_mm = Some(mode.tolerance_mm(self.settings.tolerance_mm));
                 let stops = mode == PathMode::ExactStop;
@@ -100,7 +104,7 @@ impl Gathering {
                 };
                 self.push_move(line.item(kind), move_t);
                 if stops {
-                    self.end_stretch();
+                    self.end_stretch_here();
                     self.put_rest(RestKind::ExactStop, line);
                 }
             }
@@ -126,13 +130,19 @@ impl Gathering {
 
     /// Ends the stretch where the path is to be passed exactly and does not go straight on: there
     /// the motion rests, however it is planned.
-    fn stop_at_exact_corner(&mut self, next: &Segment, rate: Rate, mode: PathMode) {
+    fn stop_at_exact_corner(
+        &mut self,
+        corner: AxisVector,
+        next: &Segment,
+        rate: Rate,
+        mode: PathMode,
+    ) {
         let axes_v = axes_speed(next, &self.settings.limits);
         let rate_v = ProgrammedRate { rate, axes_v }.under(Override::NONE);
         if let Some((last, last_v)) = &self.exact
             && is_exact_corner(last, next, last_v.min(rate_v), &self.settings)
         {
-            self.end_stretch();
+            self.end_stretch(corner);
             self.put_rest(RestKind::ExactStop, self.last);
         }
         self.exact = (mode == PathMode::ExactPath).then_some((*next, rate_v));
@@ -160,7 +170,7 @@ impl Gathering {
 
     /// Ends the path at rest.
     fn rest(&mut self, kind: RestKind, line: ProgramLine) {
-        self.end_stretch();
+        self.end_stretch_here();
         for (_, event) in core::mem::take(&mut self.events) {
             self.put_rest(RestKind::Event(event), line);
         }
@@ -171,15 +181,19 @@ impl Gathering {
         self.tasks.push_back(Task::Rest(Rest { kind, line }));
     }
 
-    fn end_stretch(&mut self) {
-        self.exact = None;
+    fn end_stretch_here(&mut self) {
         self.intake.make_up();
+        self.end_stretch(*self.intake.position());
+    }
+
+    fn end_stretch(&mut self, end: AxisVector) {
+        self.exact = None;
         self.gathered_t = 0.0;
         if core::mem::replace(&mut self.is_long, false) {
-            self.tasks.push_back(Task::End);
+            self.tasks.push_back(Task::End(end));
         } else if !self.gathered.is_empty() {
             let items = core::mem::take(&mut self.gathered);
-            self.tasks.push_back(Task::Whole(items));
+            self.tasks.push_back(Task::Whole { items, end });
         }
     }
 }

@@ -3,23 +3,17 @@
 use crate::PlanError;
 use crate::in_tube::InTubeEngine;
 use crate::on_path::OnPathEngine;
+use crate::wing::Wing;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, FrameFlags, Item, Override, Settings};
-
-/// The principle by which a stretch is planned.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Wing {
-    OnPath,
-    InTube,
-}
 
 /// One stretch under way, from rest to rest.
 #[derive(Debug, Clone)]
 pub(crate) struct Way {
     engine: Engine,
     is_finished: bool,
-    /// Where its last frame is, once that is taken.
-    end: Option<(AxisVector, f64)>,
+    /// How long it is, mm, once its last frame is taken.
+    length_s: Option<f64>,
 }
 
 #[derive(Debug, Clone)]
@@ -38,7 +32,7 @@ impl Way {
         Self {
             engine,
             is_finished: false,
-            end: None,
+            length_s: None,
         }
     }
 
@@ -79,7 +73,7 @@ impl Way {
                 return Ok(None);
             };
             if frame.flags.contains(FrameFlags::LAST) {
-                self.end = Some((frame.position, frame.path_s));
+                self.length_s = Some(frame.path_s);
                 return Ok(None);
             }
             if !frame.flags.contains(FrameFlags::FIRST) {
@@ -88,9 +82,9 @@ impl Way {
         }
     }
 
-    /// Where the way ends and how long it is, mm, once all frames on it are taken.
-    pub(crate) const fn end(&self) -> Option<(AxisVector, f64)> {
-        self.end
+    /// How long the way is, mm, once all frames on it are taken.
+    pub(crate) const fn length_s(&self) -> Option<f64> {
+        self.length_s
     }
 
     /// True if the whole stretch is known.
