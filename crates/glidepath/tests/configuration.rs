@@ -81,7 +81,7 @@ fn a_misspelt_key_is_refused_with_the_right_one() {
             "unknown key `max_velocty`".to_owned(),
             Some((4, 1)),
             "did you mean `max_velocity`? The keys here are: min_position, max_position, \
-             max_velocity, max_acceleration, max_jerk"
+             max_velocity, max_acceleration, max_jerk, jog_velocity"
                 .to_owned()
         )
     );

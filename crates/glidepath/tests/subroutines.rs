@@ -66,7 +66,10 @@ fn files_are_looked_for_beside_the_program_and_on_the_search_path() {
     write(&at.join("third/side.ngc"), &side(3));
     write(
         &at.join("machine/own.toml"),
-        &(glidepath_config() + "subroutine_path = [\"../third\"]\n"),
+        &glidepath_config().replace(
+            "[program]\n",
+            "[program]\nsubroutine_path = [\"../third\"]\n",
+        ),
     );
     let config = ["jobs/a.ngc", "--config", "machine/own.toml"];
     assert_eq!(checked(at, &config), Ok(3));
@@ -83,7 +86,7 @@ fn files_are_looked_for_beside_the_program_and_on_the_search_path() {
     assert!(!String::from_utf8_lossy(&fitted.stderr).contains("subroutine"));
 }
 
-/// The built-in mill, which ends in the table of programs.
+/// The built-in mill.
 fn glidepath_config() -> String {
     include_str!("../../../config/mill.toml").to_owned()
 }

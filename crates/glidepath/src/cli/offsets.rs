@@ -106,10 +106,10 @@ pub enum AngularUnits {
 /// The units of a parameter file.
 #[derive(Debug, Clone, Copy, Args)]
 pub struct UnitArgs {
-    /// `LINEAR_UNITS` of [TRAJ] in LinuxCNC's machine configuration
+    /// `LINEAR_UNITS` of `[TRAJ]` in LinuxCNC's machine configuration
     #[arg(long, value_enum, value_name = "UNITS")]
     pub linear_units: LinearUnits,
-    /// `ANGULAR_UNITS` of [TRAJ]
+    /// `ANGULAR_UNITS` of `[TRAJ]`
     #[arg(long, value_enum, value_name = "UNITS", default_value = "degree")]
     pub angular_units: AngularUnits,
 }
