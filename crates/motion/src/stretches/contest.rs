@@ -14,6 +14,10 @@ use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Frame, Item, ItemKind, Override, PathMode, Settings};
 use std::sync::Arc;
 
+/// The longest motion that is kept, s. Many short moves may take far longer than at their rates, and
+/// all of a stretch is planned before its first frame is given out.
+const MOST_T: f64 = 5.0;
+
 /// What a stretch is planned with, from its first item on.
 #[derive(Debug, Clone)]
 pub(crate) struct Entry {
@@ -34,35 +38,42 @@ pub(crate) struct Planned {
 }
 
 impl Planned {
-    /// The faster way along a stretch.
-    pub(crate) fn new(entry: Entry) -> Result<Self, PlanError> {
+    /// The faster way along a stretch; `None` if it takes too long to be kept.
+    pub(crate) fn new(entry: Entry) -> Result<Option<Self>, PlanError> {
         let on_path = Self::by(Wing::OnPath, entry.clone());
-        if is_settled(&entry.items) {
+        if is_settled(&entry.items) || matches!(on_path, Ok(None)) {
             return on_path;
         }
         match (on_path, Self::by(Wing::InTube, entry)) {
-            (Ok(on_path), Ok(in_tube)) if on_path.frames.len() < in_tube.frames.len() => {
-                Ok(on_path)
+            (Ok(Some(on_path)), Ok(Some(in_tube)))
+                if on_path.frames.len() >= in_tube.frames.len() =>
+            {
+                Ok(Some(in_tube))
             }
-            (_, Ok(in_tube)) => Ok(in_tube),
-            (on_path, Err(_)) => on_path,
+            (Ok(Some(on_path)), _) => Ok(Some(on_path)),
+            (_, in_tube) => in_tube,
         }
     }
 
-    fn by(wing: Wing, entry: Entry) -> Result<Self, PlanError> {
+    fn by(wing: Wing, entry: Entry) -> Result<Option<Self>, PlanError> {
         let mut way = entry.way(wing)?;
         let mut frames = Vec::new();
+        let mut time_t = 0.0;
         while let Some(frame) = way.pop_frame()? {
+            time_t += entry.settings.period_t;
+            if time_t > MOST_T {
+                return Ok(None);
+            }
             frames.push(frame);
         }
         let length_s = way.length_s().ok_or(entry.no_motion())?;
-        Ok(Self {
+        Ok(Some(Self {
             entry,
             wing,
             frames: frames.into(),
             taken: 0,
             length_s,
-        })
+        }))
     }
 
     /// The next frame on the way.
@@ -88,7 +99,8 @@ impl Planned {
 }
 
 impl Entry {
-    fn way(&self, wing: Wing) -> Result<Way, PlanError> {
+    /// The whole stretch, to be driven by a wing.
+    pub(crate) fn way(&self, wing: Wing) -> Result<Way, PlanError> {
         let mut way = Way::new(wing, self.settings, self.start, self.wanted);
         for item in &*self.items {
             way.push(item)?;

@@ -113,13 +113,16 @@ impl StretchEngine {
         match task {
             Task::Whole { items, end } => {
                 self.end = end;
-                let planned = Planned::new(Entry {
+                let entry = Entry {
                     settings: self.settings,
                     start: self.position,
                     wanted: self.wanted,
                     items: items.into(),
-                })?;
-                self.drive = Drive::Planned(Box::new(planned));
+                };
+                self.drive = match Planned::new(entry.clone())? {
+                    Some(planned) => Drive::Planned(Box::new(planned)),
+                    None => Drive::Live(entry.way(Wing::InTube)?),
+                };
             }
             Task::Part(item) => {
                 if matches!(self.drive, Drive::None) {

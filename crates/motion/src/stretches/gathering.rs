@@ -6,11 +6,11 @@ use crate::on_path::is_exact_corner;
 use crate::programmed_rate::{ProgrammedRate, axes_speed};
 use crate::rest::{Rest, RestKind};
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_program::{Event, Item, ItemKind, Override, PathMode, ProgramLine, Rate, Settings};
+use glidepath_program::{Event, Item, ItemKind, Override, PathMode, ProgramLine, Settings};
 use std::collections::VecDeque;
 
 /// The longest stretch that is planned as a whole: so many moves, and of so much time at their
-/// feedrates, s. All of it is planned before its first frame is known, and who sends moves through
+/// rates, s. All of it is planned before its first frame is known, and who sends moves through
 /// a pipe waits until it is sent.
 const MOST_MOVES: usize = 8192;
 const MOST_T: f64 = 1.25;
@@ -42,7 +42,7 @@ pub(crate) struct Gathering {
     tasks: VecDeque<Task>,
     /// The stretch at hand, as long as it is short.
     gathered: Vec<Item>,
-    /// Time of its moves at their feedrates.
+    /// Time of its moves at their rates, s.
     gathered_t: f64,
     /// The stretch at hand is given on as it comes.
     is_long: bool,
@@ -85,9 +85,11 @@ impl Gathering {
                 mode,
             } => {
                 self.intake.check_move(line.number, &segment, rate, mode)?;
+                let axes_v = axes_speed(&segment, &self.settings.limits);
+                let rate_v = ProgrammedRate { rate, axes_v }.under(Override::NONE);
                 let start = *self.intake.program_position();
                 if let Some(taken) = self.intake.take(segment) {
-                    self.stop_at_exact_corner(start, &taken, rate, mode);
+                    self.stop_at_exact_corner(start, &taken, rate_v, mode);
                 }
                 let tolerance_mm = Some(mode.tolerance_mm(self.settings.tolerance_mm));
                 let stops = mode == PathMode::ExactStop;
@@ -96,7 +98,7 @@ impl Gathering {
                 } else {
                     mode
                 };
-                let move_t = segment.length() / rate.feed_v().unwrap_or(f64::INFINITY);
+                let move_t = segment.length() / rate_v;
                 let kind = ItemKind::Move {
                     segment,
                     rate,
@@ -134,11 +136,9 @@ impl Gathering {
         &mut self,
         corner: AxisVector,
         next: &Segment,
-        rate: Rate,
+        rate_v: f64,
         mode: PathMode,
     ) {
-        let axes_v = axes_speed(next, &self.settings.limits);
-        let rate_v = ProgrammedRate { rate, axes_v }.under(Override::NONE);
         if let Some((last, last_v)) = &self.exact
             && is_exact_corner(last, next, last_v.min(rate_v), &self.settings)
         {
