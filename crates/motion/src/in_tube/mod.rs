@@ -5,14 +5,13 @@
 //!
 //! ```text
 //!  item ──Works───▶ works ──Flattener──▶ pieces, rests ──▶ one TubePlanner for each stretch ──▶ frames
-//!        checks,     arcs to chords,                     between two rests
-//!        rests       dense chords merged
+//!        checks      arcs to chords,                     in the tube
+//!                    dense chords merged
 //! ```
 //!
-//! * **Stretches.** The motion rests where the program asks for it: exact stops, dwells, events of
-//!   the machine, the end. What lies between two rests is one stretch, rapids and feeds alike, each
-//!   at its own speed and within the tolerance of the path. A stretch starts and ends on the period
-//!   grid, so the last state of one and the first of the next are the same frame.
+//! * **Stretches.** An engine is given one stretch, from a rest of the program to the next
+//!   ([`crate::stretches`]), rapids and feeds alike, each at its own speed and within the tolerance
+//!   of the path. It starts and ends on the period grid.
 //! * **Exact path (G61)** leaves no tolerance to optimise in. Such moves are driven by the on-path
 //!   engine, with an exact stop where the mode changes.
 //! * **Curves** are driven by the on-path engine, too, which follows them without chords, with a

@@ -67,12 +67,12 @@ impl PlannerState {
             *wait = usize::MAX;
             return Some(());
         }
-        let tail = self.tail(&grid, view.intervals);
         let work = self.optimisers.work();
+        let stay_t = self.stay_gain_t(&grid);
         let mut seen = view.pieces.end;
         let going_on = if self.is_at_feed(self.progress.0, self.history.velocity()) {
             let far = self.view(&grid, FEED_INTERVALS)?;
-            let window = self.go_on_at_feed(&grid, &far);
+            let window = self.go_on_at_feed(&grid, &far, stay_t);
             if window.is_some() {
                 seen = far.pieces.end;
             }
@@ -80,7 +80,7 @@ impl PlannerState {
         } else {
             None
         };
-        let best = going_on.or_else(|| self.best_window(&grid, &view, &tail, work));
+        let best = going_on.or_else(|| self.best_window(&grid, &view, (stay_t, work)));
         // Never less than before: what is left of the last window may go as far as that one saw.
         self.follower.end = self.follower.end.max(seen);
         if let Some(Candidate { motion, commit, .. }) = best {
@@ -101,10 +101,11 @@ impl PlannerState {
             }
             _ => {
                 // From a little further on a window may be found, before this one has slowed down.
+                let points = self.tail(&grid, view.intervals);
                 let soon = commit(&grid, &view) / LEAST_COMMIT;
                 self.active = ActiveMotion::Window {
                     commit: soon.next_multiple_of(grid.periods).max(grid.periods),
-                    points: tail,
+                    points,
                     is_end: false,
                     done: 0,
                 };
@@ -113,16 +114,15 @@ impl PlannerState {
         Some(())
     }
 
-    /// The window to take, if there is one that is better than to go on without. `work` was done
-    /// before planning began.
+    /// The window to take, if there is one that is better than to go on without, which gains
+    /// `stay_t`. `work` was done before planning began.
     fn best_window(
         &mut self,
         grid: &Grid,
         view: &View,
-        tail: &[AxisVector],
-        work: usize,
+        (stay_t, work): (Option<f64>, usize),
     ) -> Option<Candidate> {
-        let stay_t = self.stay_gain_t(grid);
+        let tail = &self.tail(grid, view.intervals);
         let window = self.try_window(grid, view, tail, Search::Whole(FIRST_WORK));
         let is_behind = |window: &Candidate| window.gain_t.is_none_or(|gain_t| gain_t < 0.0);
         let may_halt =
@@ -178,8 +178,12 @@ impl PlannerState {
     }
 
     /// A window in which nothing but the feed binds, if it is one.
-    fn go_on_at_feed(&mut self, grid: &Grid, view: &View) -> Option<Candidate> {
-        let stay_t = self.stay_gain_t(grid);
+    fn go_on_at_feed(
+        &mut self,
+        grid: &Grid,
+        view: &View,
+        stay_t: Option<f64>,
+    ) -> Option<Candidate> {
         let tail = self.tail(grid, view.intervals);
         let window = self.try_window(grid, view, &tail, Search::AtFeed)?;
         Some(window).filter(|window| window.is_worth(stay_t, self.period_t))

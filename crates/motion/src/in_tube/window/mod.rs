@@ -6,6 +6,11 @@
 //!     │            └── samples ◀──────────────┘ problem
 //!     └──▶ verify: every motion, before it is given out
 //! ```
+//!
+//! A motion that is found is solved for once more to be smooth (`smoothing`); one that sees the end
+//! of its path is made to rest exactly there (`finishing`). Where nothing but the feed binds, the
+//! solve for smoothness is all there is (`at_feed`). Axes the path leaves alone are held fast by
+//! `pins`.
 
 #![allow(
     clippy::needless_range_loop,
