@@ -9,6 +9,7 @@ mod faults;
 mod jog;
 mod libraries;
 mod load;
+mod operating;
 mod operator;
 mod programs;
 mod resume;

@@ -157,10 +157,14 @@ impl Admission {
         if machine.state == MachineState::Jogging {
             return Verdict::Refused(FrameRefusal::NotAtRest);
         }
-        if machine.state == MachineState::Faulted
-            || frame.sequence != 0
-            || !frame.has(FrameFlags::FIRST)
-        {
+        let can_begin = !matches!(
+            machine.state,
+            MachineState::Faulted
+                | MachineState::Off
+                | MachineState::NotHomed
+                | MachineState::Homing
+        );
+        if !can_begin || frame.sequence != 0 || !frame.has(FrameFlags::FIRST) {
             return Verdict::Refused(FrameRefusal::Epoch);
         }
         if frame.period_ns != self.period_ns {

@@ -1,5 +1,6 @@
 //! Commands: what may be done when, and the answer.
 
+use crate::feedback::DriveBook;
 use crate::message::{Order, PortsEnds, Report};
 use glidepath_link::{
     Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, MachineState,
@@ -13,17 +14,36 @@ pub(crate) fn answer(
     request: &CommandRequest,
     report: &Report,
     boot_id: u64,
+    drives: Option<(&mut DriveBook, u64)>,
     ends: &mut PortsEnds<'_>,
 ) -> CommandReply {
     let (outcome, message) = match request.command() {
         Err(error) => (Err(CommandRefusal::Malformed), error.to_string()),
         Ok(Command::Ping) => (Ok(()), String::new()),
-        Ok(command) => match objection(command, report) {
-            Some(why) => (Err(CommandRefusal::WrongState), why.to_owned()),
-            None => pass_on(command, report.state, ends),
+        Ok(command) => match judge(command, report, drives) {
+            Err(why) => (Err(CommandRefusal::WrongState), why),
+            Ok(false) => (Ok(()), String::new()),
+            Ok(true) => pass_on(command, report.state, ends),
         },
     };
     CommandReply::new(boot_id, request.number, outcome, report.state, &message)
+}
+
+/// Whether the real-time thread has to know of a command.
+///
+/// # Errors
+/// Why it is not possible.
+fn judge(
+    command: Command,
+    report: &Report,
+    drives: Option<(&mut DriveBook, u64)>,
+) -> Result<bool, String> {
+    if let Some(why) = objection(command, report, drives.is_some()) {
+        return Err(why.to_owned());
+    }
+    drives.map_or(Ok(true), |(book, now_ns)| {
+        book.command(command, report, now_ns)
+    })
 }
 
 fn pass_on(
@@ -48,8 +68,10 @@ fn pass_on(
 }
 
 /// Why a command is not possible as things are, if it is not.
-fn objection(command: Command, report: &Report) -> Option<&'static str> {
-    use MachineState::{Faulted, Held, Holding, Idle, Jogging, ProgramStop, Stopping};
+fn objection(command: Command, report: &Report, has_drives: bool) -> Option<&'static str> {
+    use MachineState::{
+        Faulted, Held, Holding, Homing, Idle, Jogging, NotHomed, Off, ProgramStop, Stopping,
+    };
     const AWAY: &str = "the axes are away from the path: return first";
     let (state, is_away) = (report.state, report.is_away);
     let (is_possible, why) = match command {
@@ -59,7 +81,7 @@ fn objection(command: Command, report: &Report) -> Option<&'static str> {
         | Command::JogOverride(_)
         | Command::SingleBlock(_) => return None,
         Command::Hold => (
-            !matches!(state, Idle | Faulted),
+            !matches!(state, Idle | Faulted | Off | NotHomed | Homing),
             "no program runs: there is nothing to hold",
         ),
         Command::Resume | Command::Step if is_away => (false, AWAY),
@@ -67,13 +89,19 @@ fn objection(command: Command, report: &Report) -> Option<&'static str> {
             matches!(state, Holding | Held | ProgramStop),
             "nothing is held: resume goes on after a hold or a program stop",
         ),
-        Command::Abort => (state != Idle, "no program runs: there is nothing to abort"),
+        Command::Abort => (
+            !matches!(state, Idle | Off | NotHomed),
+            "no program runs: there is nothing to abort",
+        ),
         Command::Reset => (
             state == Faulted,
             "no fault is latched, or the motion has not yet come to rest",
         ),
         Command::StopAtEndOfBlock => (
-            !matches!(state, Idle | Faulted | Stopping | Jogging),
+            !matches!(
+                state,
+                Idle | Faulted | Stopping | Jogging | Off | NotHomed | Homing
+            ),
             "no program runs: there is no block to stop at the end of",
         ),
         Command::Step => (
@@ -85,7 +113,7 @@ fn objection(command: Command, report: &Report) -> Option<&'static str> {
         | Command::SetPosition { .. }
         | Command::Home(_)
         | Command::Unhome(_) => (
-            false,
+            has_drives,
             "no feedback is configured: the drives are simulated, and always on and homed",
         ),
         Command::Return if !is_away => (

@@ -1,5 +1,6 @@
 //! What an interpolator is started with.
 
+use crate::feedback::FeedbackSettings;
 use core::time::Duration;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{
@@ -111,6 +112,9 @@ pub struct Config {
     /// How long the machine waits in the middle of a trajectory for more frames, or for a planner
     /// without any to repeat its last one, before that is a fault; `None` for ever.
     pub planner_lost_after: Option<Duration>,
+    /// How the drives' feedback is judged; `None` if there is none: then the drives are taken to do
+    /// what the setpoints say, and always to be on and homed.
+    pub feedback: Option<FeedbackSettings>,
     /// Ends the process at the first system call of the real-time thread other than the sleep and
     /// the clock. For tests; [`run`](crate::run) does not return then.
     pub forbid_system_calls: bool,
@@ -135,6 +139,7 @@ impl Config {
             real_time: RealTime::none(),
             missed_ticks_allowed: None,
             planner_lost_after: Some(Duration::from_secs(2)),
+            feedback: None,
             forbid_system_calls: false,
         }
     }

@@ -244,6 +244,15 @@ impl Jog {
         true
     }
 
+    /// The drives have lost their power: nothing is followed any more, and nothing comes to rest.
+    pub(crate) fn end(&mut self) {
+        self.cancel();
+        self.demand = None;
+        self.way_back = [None; 2];
+        self.path = None;
+        self.course = Course::at_rest(self.course.motion().position);
+    }
+
     /// The epoch has ended: there is no path to be away from.
     pub(crate) const fn forget_path(&mut self) {
         self.path = None;

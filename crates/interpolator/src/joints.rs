@@ -10,8 +10,11 @@ use glidepath_link::Setpoint;
 #[derive(Debug)]
 pub(crate) struct Joints {
     mechanism: Mechanism,
-    /// Where they were told to be last.
+    /// Where they were told to be last, as the drives count.
     last: JointVector,
+    /// What is added to the drives' count to have the machine's.
+    offset: JointVector,
+    has_offset: bool,
 }
 
 impl Joints {
@@ -19,7 +22,28 @@ impl Joints {
         Self {
             mechanism,
             last: JointVector::zeros(),
+            offset: JointVector::zeros(),
+            has_offset: false,
         }
+    }
+
+    /// What is added to the drives' count from now on.
+    pub(crate) fn count_from(&mut self, offset: &JointVector) {
+        self.offset = *offset;
+        self.has_offset = offset.iter().any(|offset| *offset != 0.0);
+    }
+
+    /// Writes into a setpoint where joints are, of which those in `follows` may have moved by
+    /// themselves; the others stay where they were told to be.
+    pub(crate) fn repeat(&mut self, joints: &JointVector, follows: u32, setpoint: &mut Setpoint) {
+        let counted = joints - self.offset;
+        let places = self.last.iter_mut().zip(counted.iter()).enumerate();
+        for (_, (last, counted)) in places.filter(|(joint, _)| follows & (1 << joint) != 0) {
+            *last = *counted;
+        }
+        setpoint.joint_position = self.last.into();
+        setpoint.joint_velocity = JointVector::zeros().into();
+        setpoint.joint_acceleration = JointVector::zeros().into();
     }
 
     /// Writes into a setpoint what the joints are to do for its axes.
@@ -34,8 +58,12 @@ impl Joints {
         );
         match motion {
             Ok(motion) => {
-                self.last = motion.position;
-                setpoint.joint_position = motion.position.into();
+                self.last = if self.has_offset {
+                    motion.position - self.offset
+                } else {
+                    motion.position
+                };
+                setpoint.joint_position = self.last.into();
                 setpoint.joint_velocity = motion.velocity.into();
                 setpoint.joint_acceleration = motion.acceleration.into();
                 Ok(())

@@ -104,6 +104,8 @@ mod commands;
 mod config;
 mod counters;
 mod differences;
+mod drives;
+mod feedback;
 mod frame_summary;
 mod jog;
 mod joints;
@@ -136,6 +138,7 @@ mod tracker;
 static ALLOCATOR: glidepath_realtime::CountingAllocator = glidepath_realtime::CountingAllocator;
 
 pub use config::{Config, JogSettings, RealTime, SoftLimits};
+pub use feedback::{FeedbackSettings, JointFeedback};
 pub use loops::{RunError, lead_ns};
 pub use run::run;
 pub use stepped::{Stepped, stepped};

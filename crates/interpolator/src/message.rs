@@ -5,16 +5,19 @@
 //!               ◄──────── Report, Happening ──────
 //! ```
 
+use crate::feedback::Observation;
 use crate::jog::Demand;
 use core::fmt;
 use glidepath_geometry::Axis;
 use glidepath_link::{
-    Command, EndOfEpoch, FaultCause, FrameRefusal, MachineState, Setpoint, SetpointFrame,
+    Command, EndOfEpoch, FaultCause, FrameRefusal, MachineState, Power, Setpoint, SetpointFrame,
 };
 use heapless::spsc::{Consumer, Producer, Queue};
 
 /// Frames under way between the threads, one less.
 pub(crate) const FRAMES: usize = 256;
+/// Observations under way, one less. Only the last counts.
+pub(crate) const OBSERVATIONS: usize = 4;
 /// Orders under way, one less.
 pub(crate) const ORDERS: usize = 32;
 /// Demands for a jog under way, one less.
@@ -30,6 +33,7 @@ pub(crate) struct Rings {
     pub(crate) frames: Queue<SetpointFrame, FRAMES>,
     pub(crate) orders: Queue<Order, ORDERS>,
     pub(crate) demands: Queue<Demand, DEMANDS>,
+    pub(crate) observations: Queue<Observation, OBSERVATIONS>,
     pub(crate) reports: Queue<Report, REPORTS>,
 }
 
@@ -38,6 +42,7 @@ pub(crate) struct Inputs<'a> {
     pub(crate) frames: Consumer<'a, SetpointFrame>,
     pub(crate) orders: Consumer<'a, Order>,
     pub(crate) demands: Consumer<'a, Demand>,
+    pub(crate) observations: Consumer<'a, Observation>,
 }
 
 /// What the ports thread writes and reads.
@@ -45,6 +50,7 @@ pub(crate) struct PortsEnds<'a> {
     pub(crate) frames: Producer<'a, SetpointFrame>,
     pub(crate) orders: Producer<'a, Order>,
     pub(crate) demands: Producer<'a, Demand>,
+    pub(crate) observations: Producer<'a, Observation>,
     pub(crate) reports: Consumer<'a, Report>,
 }
 
@@ -54,17 +60,20 @@ impl Rings {
         let (frames_in, frames) = self.frames.split();
         let (orders_in, orders) = self.orders.split();
         let (demands_in, demands) = self.demands.split();
+        let (observations_in, observations) = self.observations.split();
         let (reports_in, reports) = self.reports.split();
         let ports = PortsEnds {
             frames: frames_in,
             orders: orders_in,
             demands: demands_in,
+            observations: observations_in,
             reports,
         };
         let inputs = Inputs {
             frames,
             orders,
             demands,
+            observations,
         };
         ((inputs, reports_in), ports)
     }
@@ -161,8 +170,10 @@ pub(crate) enum Order {
     /// What the operator wants. The ports thread has judged it by the state it knew; what the state
     /// does not allow any more is without effect. Never [`Command::Ping`].
     Command(Command),
-    /// A frame was refused, or the ports failed.
+    /// A frame was refused, the ports failed, or a joint does not follow.
     Fault(Fault),
+    /// A joint is so far from its demand that the drives must lose their power at once.
+    Cut(Fault),
     /// The planner has no new frames, but is there.
     PlannerLives,
 }
@@ -203,6 +214,7 @@ pub(crate) struct Report {
     pub(crate) single_block: bool,
     pub(crate) reserve_stops: u64,
     pub(crate) starved_ticks: u64,
+    pub(crate) power: Power,
 }
 
 impl Report {
@@ -226,6 +238,7 @@ impl Report {
             single_block: false,
             reserve_stops: 0,
             starved_ticks: 0,
+            power: Power::Simulated,
         }
     }
 }

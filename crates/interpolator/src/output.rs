@@ -2,6 +2,7 @@
 
 use crate::config::Config;
 use crate::differences::{Allowed, Differences};
+use crate::feedback::Observation;
 use crate::frame_summary::FrameSummary;
 use crate::jog::AxesMotion;
 use crate::joints::Joints;
@@ -114,6 +115,40 @@ impl Output {
         self.published.go_to(&position);
         self.setpoints
             .write_standing(epoch, passed, &position, setpoint);
+    }
+
+    /// The next setpoints do not continue those before.
+    pub(crate) const fn begin_reference(&mut self) {
+        self.setpoints.begin_reference();
+    }
+
+    /// Which joints are to have power, and which are to find their home by themselves.
+    pub(crate) const fn command_drives(&mut self, enable: u32, home: u32) {
+        self.setpoints.command_drives(enable, home);
+    }
+
+    /// Takes the position over from the drives.
+    pub(crate) fn hand_over(&mut self, seen: &Observation) {
+        self.published = Differences::at_rest(seen.axes);
+        self.joints.count_from(&seen.offset);
+        self.setpoints.begin_reference();
+    }
+
+    /// Writes the setpoint of a machine whose joints, those in `follows` or all, are where their
+    /// drives say.
+    pub(crate) fn write_following(
+        &mut self,
+        epoch: u64,
+        passed: &FrameSummary,
+        seen: &Observation,
+        follows: u32,
+        setpoint: &mut Setpoint,
+    ) {
+        self.published = Differences::at_rest(seen.axes);
+        self.joints.count_from(&seen.offset);
+        self.setpoints
+            .write_standing(epoch, passed, &seen.axes, setpoint);
+        self.joints.repeat(&seen.joints, follows, setpoint);
     }
 
     /// Writes into the setpoint what the joints are to do for its axes.

@@ -8,18 +8,21 @@
 use crate::admission::{Admission, Machine, Verdict};
 use crate::commands::{answer, is_refusal};
 use crate::config::Config;
+use crate::feedback::DriveBook;
 use crate::jog::DemandReader;
 use crate::message::{Fault, Happening, Order, PortsEnds, Report};
 use crate::status::{StatusBook, grants_of};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, JogDemand, LinkError,
+    Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, Feedback, JogDemand, LinkError,
     MachineState, Publisher, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
 };
 use glidepath_realtime::{EventReader, Grants, Mode};
 
 /// Frames moved in one turn.
 const FRAMES_PER_TURN: usize = 64;
+/// Records of feedback taken in one turn: those of nine stacks at 2 kHz and 4 ms.
+const FEEDBACK_PER_TURN: usize = 72;
 /// Commands served in one turn.
 const COMMANDS_PER_TURN: usize = 8;
 /// Demands for a jog passed on in one turn.
@@ -37,16 +40,20 @@ struct Links {
     status: Box<dyn Publisher<Status>>,
     commands: Box<dyn Server<CommandRequest, CommandReply>>,
     demands: Box<dyn Subscriber<JogDemand>>,
+    feedback: Option<Box<dyn Subscriber<Feedback>>>,
 }
 
 impl Links {
-    fn new(transport: Box<dyn Transport>) -> Result<Self, LinkError> {
+    fn new(transport: Box<dyn Transport>, has_feedback: bool) -> Result<Self, LinkError> {
         Ok(Self {
             frames: transport.frame_source()?,
             setpoints: transport.setpoint_sink()?,
             status: transport.status_sink()?,
             commands: transport.command_server()?,
             demands: transport.jog_source()?,
+            feedback: has_feedback
+                .then(|| transport.feedback_source())
+                .transpose()?,
             transport,
         })
     }
@@ -64,6 +71,7 @@ pub(crate) struct Ports<'a> {
     demanded_after: Option<u64>,
     /// The client whose demand was refused last, so that the log names it once.
     refused_jogger: Option<u64>,
+    drives: Option<DriveBook>,
     /// A frame that is to be judged again.
     pending: Option<SetpointFrame>,
     report: Option<Report>,
@@ -84,7 +92,7 @@ impl<'a> Ports<'a> {
         log: &'a mut dyn FnMut(&str),
     ) -> Result<Self, LinkError> {
         Ok(Self {
-            links: Links::new(transport)?,
+            links: Links::new(transport, config.feedback.is_some())?,
             ends,
             happenings,
             log,
@@ -92,6 +100,9 @@ impl<'a> Ports<'a> {
             reader: DemandReader::new(config),
             demanded_after: None,
             refused_jogger: None,
+            drives: config
+                .feedback
+                .map(|settings| DriveBook::new(config, settings)),
             pending: None,
             report: None,
             book: StatusBook::new(config, boot_id),
@@ -132,8 +143,11 @@ impl<'a> Ports<'a> {
         self.write_log();
         let done = [
             self.publish_setpoints(),
-            self.serve_commands(),
+            self.take_feedback(now_ns),
+            self.serve_commands(now_ns),
             self.pass_on_demands(),
+            // Before the frames: they are judged by the position that the drives report.
+            self.observe(now_ns),
             self.move_frames(),
             self.publish_status(now_ns),
             self.clean_up(now_ns),
@@ -168,6 +182,9 @@ impl<'a> Ports<'a> {
             }
             result = result.and(published);
             self.book.count(&report);
+            if let Some(drives) = &mut self.drives {
+                drives.note(&report);
+            }
             let is_new_fault = self.report.is_none_or(|before| before.fault.is_none());
             if let Some(fault) = report.fault.filter(|_| is_new_fault) {
                 self.tell(&fault.to_string());
@@ -177,7 +194,41 @@ impl<'a> Ports<'a> {
         result
     }
 
-    fn serve_commands(&mut self) -> Result<(), LinkError> {
+    fn take_feedback(&mut self, now_ns: u64) -> Result<(), LinkError> {
+        for _ in 0..FEEDBACK_PER_TURN {
+            let (Some(source), Some(drives)) = (&mut self.links.feedback, &mut self.drives) else {
+                return Ok(());
+            };
+            let Some(feedback) = source.take()? else {
+                return Ok(());
+            };
+            let taken = drives.take(&feedback, now_ns);
+            if let Some(why) = taken.err().filter(|why| !why.is_empty()) {
+                self.tell(&why);
+            }
+        }
+        Ok(())
+    }
+
+    /// Tells the real-time thread what the drives say, and judges how they follow.
+    fn observe(&mut self, now_ns: u64) -> Result<(), LinkError> {
+        let (Some(drives), Some(report)) = (&mut self.drives, &self.report) else {
+            return Ok(());
+        };
+        let observation = drives.observe(report, now_ns);
+        // A full ring says that the real-time thread does not run; there is nobody to be told.
+        self.ends.observations.enqueue(observation).ok();
+        let (order, told) = drives.judge(report);
+        if let Some(order) = order {
+            self.ends.orders.enqueue(order).ok();
+        }
+        if let Some(told) = told {
+            self.tell(&told);
+        }
+        Ok(())
+    }
+
+    fn serve_commands(&mut self, now_ns: u64) -> Result<(), LinkError> {
         let Some(report) = self.report else {
             return Ok(());
         };
@@ -186,11 +237,15 @@ impl<'a> Ports<'a> {
             ends,
             book,
             boot_id,
+            drives,
             ..
         } = self;
         for _ in 0..COMMANDS_PER_TURN {
             let served = links.commands.serve(&mut |request| {
-                let reply = answer(request, &report, *boot_id, ends);
+                let reply = {
+                    let drives = drives.as_mut().map(|drives| (drives, now_ns));
+                    answer(request, &report, *boot_id, drives, ends)
+                };
                 book.status.commands_served += 1;
                 book.status.commands_refused += u64::from(is_refusal(&reply));
                 reply
@@ -295,6 +350,9 @@ impl<'a> Ports<'a> {
         };
         let waiting = self.ends.frames.len() as u64;
         self.book.write(&report, &self.admission, waiting, now_ns);
+        if let Some(drives) = &self.drives {
+            drives.write(&mut self.book.status, now_ns);
+        }
         self.links.setpoints.refresh()?;
         self.links.status.publish(&self.book.status)
     }

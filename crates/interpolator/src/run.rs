@@ -141,7 +141,12 @@ fn serve(
         ports.turn(now_ns);
         let rests = matches!(
             ports.state(),
-            Some(MachineState::Idle | MachineState::Faulted) | None
+            Some(
+                MachineState::Idle
+                    | MachineState::Faulted
+                    | MachineState::Off
+                    | MachineState::NotHomed
+            ) | None
         );
         if rests || now_ns > until_ns {
             ports.farewell(now_ns);

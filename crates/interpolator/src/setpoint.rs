@@ -17,6 +17,8 @@ pub(crate) struct SetpointWriter {
     reference: u64,
     /// The joints that are to have power.
     enable: u32,
+    /// The joints that are to find their home by themselves.
+    home: u32,
     /// The frame whose event was published last.
     announced: Option<u64>,
 }
@@ -29,6 +31,7 @@ impl SetpointWriter {
             number: 0,
             reference: 1,
             enable,
+            home: 0,
             announced: None,
         }
     }
@@ -36,6 +39,16 @@ impl SetpointWriter {
     /// An epoch begins: its frames are others, so their events are new.
     pub(crate) const fn begin_epoch(&mut self) {
         self.announced = None;
+    }
+
+    /// The next setpoints do not continue those before.
+    pub(crate) const fn begin_reference(&mut self) {
+        self.reference += 1;
+    }
+
+    /// Which joints are to have power, and which are to find their home by themselves.
+    pub(crate) const fn command_drives(&mut self, enable: u32, home: u32) {
+        (self.enable, self.home) = (enable, home);
     }
 
     /// Writes the setpoint of an open epoch at the present program time. `None`, with nothing
@@ -100,7 +113,7 @@ impl SetpointWriter {
     const fn identify(&mut self, epoch: u64, summary: &FrameSummary, setpoint: &mut Setpoint) {
         setpoint.boot_id = self.boot_id;
         setpoint.reference = self.reference;
-        setpoint.enable = self.enable;
+        (setpoint.enable, setpoint.home) = (self.enable, self.home);
         setpoint.number = self.number;
         self.number += 1;
         setpoint.epoch = epoch;

@@ -113,6 +113,7 @@ impl StatusBook {
         status.reference = setpoint.reference;
         status.joint_actual = setpoint.joint_position;
         status.mode = mode(report).code();
+        status.power = report.power.code();
         status.path_s = setpoint.path_s;
         status.feed_v = setpoint.feed_v;
         status.feed_override = report.feed_override;

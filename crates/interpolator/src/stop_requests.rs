@@ -72,7 +72,7 @@ impl StopRequests {
     pub(crate) const fn carry_out(&mut self, order: Order, is_open: bool) -> Released {
         match order {
             Order::Command(command) => return self.carry_out_command(command, is_open),
-            Order::Fault(fault) => self.fail(fault),
+            Order::Fault(fault) | Order::Cut(fault) => self.fail(fault),
             Order::PlannerLives => {} // This concerns the supply.
         }
         Released::NOTHING
@@ -80,10 +80,11 @@ impl StopRequests {
 
     const fn carry_out_command(&mut self, command: Command, is_open: bool) -> Released {
         match command {
-            // The ports thread has answered them, or they concern the jog.
+            // Without power there is no motion.
+            Command::Disable => self.abort = is_open,
+            // The ports thread has answered them, or they concern drives or the jog.
             Command::Ping
             | Command::Enable
-            | Command::Disable
             | Command::SetPosition { .. }
             | Command::Home(_)
             | Command::Unhome(_)

@@ -20,6 +20,7 @@
 use crate::account::Account;
 use crate::block_stop::BlockStop;
 use crate::config::Config;
+use crate::drives::Drives;
 use crate::frame_summary::FrameSummary;
 use crate::jog::{Jog, Surroundings};
 use crate::message::{Fault, Happening, Inputs, Order, Report, Timing};
@@ -53,6 +54,7 @@ pub(crate) struct Interpolator<'a> {
     supply: Supply,
     block_stop: BlockStop,
     jog: Jog,
+    drives: Drives,
     output: Output,
     /// The open or last epoch, 0 before the first.
     epoch: u64,
@@ -78,6 +80,7 @@ impl<'a> Interpolator<'a> {
             supply: Supply::new(config),
             block_stop: BlockStop::none(),
             jog: Jog::new(config),
+            drives: Drives::new(config),
             output: Output::new(config, boot_id),
             epoch: 0,
             end_of_epoch: EndOfEpoch::None,
@@ -95,23 +98,26 @@ impl<'a> Interpolator<'a> {
     pub(crate) fn prepare(&mut self, due: &Wake, inputs: &mut Inputs<'_>, report: &mut Report) {
         let tick = due.tick;
         self.carry_out_orders(inputs);
+        if !self.drives.are_simulated() {
+            self.attend_to_drives(inputs);
+        }
         self.hear_demands(due.scheduled_ns, inputs);
         self.take_frames(inputs);
         self.watch_supply();
         if self.jog.owns_axes() {
             self.follow_jog(due, &mut report.setpoint);
+            self.write_joints(&mut report.setpoint);
         } else if self.is_open() {
             self.look_for_block_end();
             self.choose_rate();
             self.advance_program_time(tick);
             self.write_moving(tick, &mut report.setpoint);
+            self.write_joints(&mut report.setpoint);
+        } else if self.drives.following() != 0 && self.drives.seen().is_known {
+            self.write_following(&mut report.setpoint);
         } else {
             self.write_standing(&mut report.setpoint);
-        }
-        if self.output.write_joints(&mut report.setpoint).is_err() {
-            // Every frame passed a judge of the joints, so this cannot be; if it were, the motion
-            // ends.
-            self.fail(FaultCause::Output);
+            self.write_joints(&mut report.setpoint);
         }
         self.end_epoch_or_wait();
         self.update_state(tick);
@@ -148,8 +154,11 @@ impl<'a> Interpolator<'a> {
             let Some(order) = inputs.orders.dequeue() else {
                 return;
             };
-            if order == Order::PlannerLives {
-                self.supply.planner_lives();
+            match order {
+                Order::PlannerLives => self.supply.planner_lives(),
+                Order::Command(command) => self.drives.carry_out(command, self.is_open()),
+                Order::Cut(_) => self.lose_power(),
+                Order::Fault(_) => {}
             }
             if let Order::Command(command) = order
                 && !self.is_for_program(command)
@@ -193,7 +202,10 @@ impl<'a> Interpolator<'a> {
             let state = self.account.state();
             matches!(state, MachineState::Held | MachineState::ProgramStop) && self.is_standing()
         } else {
-            self.account.state() == MachineState::Idle && inputs.frames.peek().is_none()
+            let state = self.account.state();
+            matches!(state, MachineState::Idle | MachineState::NotHomed)
+                && self.drives.following() == 0
+                && inputs.frames.peek().is_none()
         };
         let may_start = is_free && !self.requests.is_stopping();
         while let Some(demand) = inputs.demands.dequeue() {
@@ -211,7 +223,7 @@ impl<'a> Interpolator<'a> {
             position: self.output.published().position(),
             may_start,
             is_on_path: self.is_open(),
-            is_homed: true,
+            is_homed: self.drives.are_homed(),
         }
     }
 
@@ -221,6 +233,36 @@ impl<'a> Interpolator<'a> {
         let (output, away) = (&mut self.output, self.jog.away());
         let written = output.write_by_hand(self.epoch, &self.passed, &motion, &away, setpoint);
         self.judge(written, due.tick);
+    }
+
+    /// Sees to what the drives say.
+    fn attend_to_drives(&mut self, inputs: &mut Inputs<'_>) {
+        let is_open = self.is_open();
+        let place = (self.passed.line, self.passed.sequence);
+        let (output, requests) = (&mut self.output, &mut self.requests);
+        let observations = &mut inputs.observations;
+        let is_cut = self
+            .drives
+            .attend(observations, output, requests, is_open, place);
+        if is_cut {
+            self.end_motion();
+        }
+    }
+
+    /// What moved the drives is over: they have no power any more.
+    fn end_motion(&mut self) {
+        self.jog.end();
+        if self.is_open() {
+            self.close(EndOfEpoch::Faulted);
+        }
+        self.output.rest();
+    }
+
+    /// The drives lose their power at once; where they are is where they were last seen.
+    fn lose_power(&mut self) {
+        self.drives.cut();
+        self.output.begin_reference();
+        self.end_motion();
     }
 
     /// Takes frames while there is room. What belongs to no epoch that is open here was under way
@@ -242,7 +284,7 @@ impl<'a> Interpolator<'a> {
             // Straight from the ring, and only then is its room there given back.
             if self.is_open() && next.epoch == self.epoch {
                 self.track.push(next);
-            } else if is_first && self.requests.fault().is_none() {
+            } else if is_first && self.requests.fault().is_none() && self.drives.are_ready() {
                 self.open(next);
             }
             let _taken = inputs.frames.dequeue();
@@ -399,6 +441,21 @@ impl<'a> Interpolator<'a> {
             .write_standing(self.epoch, &self.passed, setpoint);
     }
 
+    /// Writes the setpoint of a machine whose joints are where the drives say.
+    fn write_following(&mut self, setpoint: &mut Setpoint) {
+        let (seen, follows) = (self.drives.seen(), self.drives.following());
+        self.output
+            .write_following(self.epoch, &self.passed, seen, follows, setpoint);
+    }
+
+    fn write_joints(&mut self, setpoint: &mut Setpoint) {
+        if self.output.write_joints(setpoint).is_err() {
+            // Every frame passed a judge of the joints, so this cannot be; if it were, the motion
+            // ends.
+            self.fail(FaultCause::Output);
+        }
+    }
+
     /// What follows when program time stands: the end of the epoch, or a program stop.
     fn end_epoch_or_wait(&mut self) {
         if !self.is_open() {
@@ -453,6 +510,7 @@ impl<'a> Interpolator<'a> {
             MachineState::Stopping => MachineState::Stopping,
             _ if self.jog.is_active() && self.requests.is_stopping() => MachineState::Stopping,
             _ if self.jog.is_active() => MachineState::Jogging,
+            MachineState::Idle => self.drives.state_at_rest(),
             _ => of_program,
         };
         self.has_moved = is_open && (self.has_moved || !stands);
@@ -478,6 +536,7 @@ impl<'a> Interpolator<'a> {
         };
         (report.feed_override, report.rapid_override) = (feed_override, rapid_override);
         report.jog_override = self.jog.override_ratio();
+        report.power = self.drives.power();
         report.single_block = self.requests.is_single_block();
         self.account.fill(report);
     }

@@ -133,6 +133,7 @@ fn setpoint(number: u64) -> Setpoint {
         number,
         tick: number,
         state: MachineState::Running.code(),
+        enable: 1,
         scheduled_ns: START_NS + number * PERIOD_NS,
         apply_ns: START_NS + (number + 1) * PERIOD_NS,
         ..Setpoint::zeroed()
@@ -455,4 +456,22 @@ fn a_servo_that_stopped_by_itself_begins_again_when_the_position_was_taken_over(
     let joints = bench.run_to(ns_of(82), &[]);
     assert!(bench.servo.is_armed());
     assert!(joints.iter().all(|(_, j)| j.position == rest + 1.0));
+}
+
+#[test]
+fn a_gap_is_bridged_though_setpoints_arrive_less_than_a_period_ahead() {
+    let mut bench = Bench::new();
+    for number in (0..10).chain(11..40) {
+        // As they come over shared memory: a while after they were computed.
+        bench.run_to(ns_of(number) + 300_000, &[]);
+        bench.publish(&setpoint(number));
+    }
+    let joints = bench.run_to(ns_of(40), &[]);
+    let (last_ns, last) = *joints.last().unwrap();
+    let expected = truth((last_ns - START_NS) as f64 * 1e-9);
+    assert!(
+        (last.position - expected.position).abs() < 1e-3,
+        "{last:?} for {expected:?}"
+    );
+    assert_eq!(bench.servo.counts().stops, 0);
 }

@@ -125,6 +125,7 @@ houses! {
     migration: "migration",
     motion: "motion",
     planner: "planner",
+    plant: "plant",
     program: "program",
     realtime: "realtime",
 }

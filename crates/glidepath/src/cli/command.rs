@@ -9,7 +9,9 @@ use super::motion::{
     CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
 };
 use super::offsets::OffsetsCommand;
-use super::operator::{AbortArgs, OperatorArgs, OverrideArgs, SingleBlockArgs};
+use super::operator::{
+    AbortArgs, JointsArgs, OperatorArgs, OverrideArgs, SetPositionArgs, SingleBlockArgs,
+};
 use super::path::PathArgs;
 use super::program::ProgramArgs;
 use crate::program_file::ProgramFile;
@@ -78,6 +80,21 @@ pub enum Command {
     /// Take note of a fault, whatever its cause: the machine is idle again
     #[command(after_help = "Example: glidepath status && glidepath reset")]
     Reset(OperatorArgs),
+    /// Give the drives power, and take the position over from them
+    #[command(after_help = "Example: glidepath enable && glidepath home")]
+    Enable(OperatorArgs),
+    /// Come to rest on the path, drop the rest of the program, and take the power from the drives
+    #[command(after_help = "Example: glidepath disable")]
+    Disable(OperatorArgs),
+    /// Have drives find the home of their joints
+    #[command(after_help = "Examples: glidepath home · glidepath home J2")]
+    Home(JointsArgs),
+    /// Do not believe any more that joints know where they are
+    #[command(after_help = "Example: glidepath unhome J2")]
+    Unhome(JointsArgs),
+    /// Give the present position of a joint another number
+    #[command(after_help = "Example: glidepath set-position J1 200")]
+    SetPosition(SetPositionArgs),
     /// Find where a NURBS is too sharp for its feedrate
     #[command(
         after_help = "Example: glidepath preview butterfly.json --method certified --feed 6000 \
@@ -146,7 +163,11 @@ impl Command {
             | Self::Step(args)
             | Self::StopAtBlockEnd(args)
             | Self::Return(args)
+            | Self::Enable(args)
+            | Self::Disable(args)
             | Self::Reset(args) => &args.basic,
+            Self::Home(args) | Self::Unhome(args) => &args.operator.basic,
+            Self::SetPosition(args) => &args.operator.basic,
             Self::Abort(args) => &args.operator.basic,
             Self::SingleBlock(args) => &args.operator.basic,
             Self::Override(args) => &args.operator.basic,

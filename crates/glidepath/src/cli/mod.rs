@@ -25,7 +25,9 @@ pub use offsets::{
     AngularUnits, ExportArgs, ImportArgs, LinearUnits, OffsetsCommand, SetArgs, ShowArgs, UnitArgs,
     UseArgs,
 };
-pub use operator::{AbortArgs, OperatorArgs, OverrideArgs, SingleBlockArgs, Switch};
+pub use operator::{
+    AbortArgs, JointsArgs, OperatorArgs, OverrideArgs, SetPositionArgs, SingleBlockArgs, Switch,
+};
 pub use path::PathArgs;
 pub use program::ProgramArgs;
 

@@ -142,6 +142,15 @@ pub struct ServoArgs {
     /// Write the setpoints received as CSV
     #[arg(long, value_name = "CSV")]
     pub setpoints: Option<PathBuf>,
+    /// Where the joints of its machine stand at the start, mm or degrees, such as 12.5,-3,40; where
+    /// programs begin if not given
+    #[arg(
+        long,
+        value_name = "POSITIONS",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub stands: Vec<f64>,
     /// Which files may be overwritten.
     #[command(flatten)]
     pub overwrite: OverwriteArgs,

@@ -62,6 +62,46 @@ pub struct SingleBlockArgs {
     pub operator: OperatorArgs,
 }
 
+/// Arguments of `home` and `unhome`.
+#[derive(Debug, Args)]
+pub struct JointsArgs {
+    /// The joints, such as J0 J2; all if none is given
+    #[arg(value_parser = joint)]
+    pub joints: Vec<u32>,
+    /// The interpolator that is meant.
+    #[command(flatten)]
+    pub operator: OperatorArgs,
+}
+
+/// Arguments of `set-position`.
+#[derive(Debug, Args)]
+pub struct SetPositionArgs {
+    /// The joint, such as J1
+    #[arg(value_parser = joint)]
+    pub joint: u32,
+    /// Where it stands, mm or degrees
+    #[arg(allow_hyphen_values = true, value_parser = position)]
+    pub position: f64,
+    /// The interpolator that is meant.
+    #[command(flatten)]
+    pub operator: OperatorArgs,
+}
+
+fn joint(text: &str) -> Result<u32, &'static str> {
+    let number = text.strip_prefix(['J', 'j']).and_then(|n| n.parse().ok());
+    number
+        .filter(|joint| *joint < 9)
+        .ok_or("give a joint, J0 to J8")
+}
+
+fn position(text: &str) -> Result<f64, &'static str> {
+    let position = text
+        .parse()
+        .ok()
+        .filter(|position: &f64| position.is_finite());
+    position.ok_or("give a number")
+}
+
 fn percent(text: &str) -> Result<f64, &'static str> {
     percent_to(200.0, text).ok_or("give a number from 0 to 200")
 }

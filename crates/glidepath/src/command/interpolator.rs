@@ -12,7 +12,9 @@ use crate::service_manager::ServiceManager;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
 use glidepath_geometry::AxisVector;
-use glidepath_interpolator::{Config, JogSettings, RealTime, SoftLimits};
+use glidepath_interpolator::{
+    Config, FeedbackSettings, JogSettings, JointFeedback, RealTime, SoftLimits,
+};
 use glidepath_link::{Ipc, Transport};
 use glidepath_realtime::{Mode, Request};
 
@@ -74,6 +76,35 @@ impl Drop for SetOnDrop<'_> {
     }
 }
 
+/// How the drives' feedback is judged, if drives answer.
+fn feedback(config: &MachineConfig) -> Option<FeedbackSettings> {
+    let given = config.feedback;
+    let joint = |max_velocity| JointFeedback {
+        min_following_error: given.min_following_error,
+        following_error: given.following_error,
+        max_velocity,
+        homes: given.homes,
+    };
+    // Where joints are not axes they have limits of their own; else they are the axes in order.
+    let own = config.joint_limits.0.iter().take(config.joints());
+    let own = own.map(|limit| limit.velocity);
+    let axes = config.axes.iter().map(|axis| axis.max_velocity);
+    let velocities: Vec<f64> = if config.joints() == 0 {
+        axes.collect()
+    } else {
+        own.collect()
+    };
+    let mut settings = FeedbackSettings::new(config.period_ns(), joint(f64::MAX));
+    for (slot, velocity) in settings.joints.iter_mut().zip(velocities) {
+        *slot = joint(velocity);
+    }
+    if let Some(stale_t) = given.stale_t {
+        settings.stale_after = Duration::from_secs_f64(stale_t);
+    }
+    settings.off_after = Duration::from_secs_f64(given.off_t).max(settings.stale_after);
+    given.is_expected.then_some(settings)
+}
+
 /// What the process is started with.
 pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
     let (lowest, highest) = config.travel();
@@ -94,6 +125,7 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
         mechanism: config.mechanism,
         joint_limits: config.joint_limits,
         start_position: config.home(),
+        feedback: feedback(config),
         horizon_frames: session::pace(config).horizon_frames,
         jog: JogSettings {
             velocity: config.jog.velocity,

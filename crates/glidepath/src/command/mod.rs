@@ -99,6 +99,21 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         }
         Command::Abort(args) => operator::abort(args, &config()?),
         Command::Reset(args) => operator::command(args, &config()?, "reset", link::Command::Reset),
+        Command::Enable(args) => {
+            operator::command(args, &config()?, "enable", link::Command::Enable)
+        }
+        Command::Disable(args) => {
+            operator::command(args, &config()?, "disable", link::Command::Disable)
+        }
+        Command::Home(args) => operator::joints(args, &config()?, "home", link::Command::Home),
+        Command::Unhome(args) => {
+            operator::joints(args, &config()?, "unhome", link::Command::Unhome)
+        }
+        Command::SetPosition(args) => {
+            let (joint, position) = (args.joint, args.position);
+            let command = link::Command::SetPosition { joint, position };
+            operator::command(&args.operator, &config()?, "set-position", command)
+        }
         Command::Override(args) => operator::overrides(args, &config()?),
         Command::Jog(args) => jog::jog(args, &config()?),
         Command::Return(args) => {

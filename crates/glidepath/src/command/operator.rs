@@ -3,12 +3,13 @@
 //! `abort --signal`, which reaches the process itself.
 
 use super::session;
-use crate::cli::{AbortArgs, OperatorArgs, OverrideArgs};
+use crate::cli::{AbortArgs, JointsArgs, OperatorArgs, OverrideArgs};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::output;
 use crate::report::{state_name, status_object, status_text};
+use glidepath_kinematics::Kinematics as _;
 use glidepath_link::{
     Command, CommandRefusal, CommandReply, CommandRequest, InterpolatorProcess, LinkConfig,
     LinkError, Operator,
@@ -33,6 +34,22 @@ pub(super) fn command(
     command: Command,
 ) -> Result<Exit, Failure> {
     commands(args, config, name, &[command])
+}
+
+/// Sends a command about joints: those given, or all of the machine.
+///
+/// # Errors
+/// The errors of [`command`].
+pub(super) fn joints(
+    args: &JointsArgs,
+    config: &MachineConfig,
+    name: &'static str,
+    of: impl Fn(u32) -> Command,
+) -> Result<Exit, Failure> {
+    let given = args.joints.iter().fold(0, |mask, joint| mask | 1 << joint);
+    let all = (1 << config.mechanism.joints()) - 1;
+    let mask = if given == 0 { all } else { given };
+    command(&args.operator, config, name, of(mask))
 }
 
 /// Sets the overrides that are given.

@@ -1,5 +1,5 @@
-//! `glidepath servo`: a mock servo. It takes setpoints and plays them as a real one would, without
-//! drives.
+//! `glidepath servo`: a mock servo. It takes setpoints, plays them on a machine that is not there, and
+//! sends its feedback.
 
 use super::session;
 use crate::cli::ServoArgs;
@@ -12,8 +12,10 @@ use crate::recording::Recording;
 use crate::report::grouped;
 use crate::sample::Sample;
 use glidepath_geometry::AXES;
+use glidepath_kinematics::Kinematics as _;
 use glidepath_link::servo::{Servo, ServoCounts, ServoSettings, StopLimits};
 use glidepath_link::{Recorder, Setpoint, Transport as _};
+use glidepath_plant::{HomeSettings, JointSettings, Plant};
 use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::json;
 use std::io::BufWriter;
@@ -92,6 +94,8 @@ fn play(
 ) -> Result<ServoCounts, Failure> {
     let transport = session::join(&args.instance, config)?;
     let mut servo = Servo::new(transport.setpoint_source()?, settings(config));
+    let mut feedback = transport.feedback_sink()?;
+    let mut plant = plant(config, &args.stands);
     let waits_from = Instant::now();
     let mut is_told = args.relay;
     while !interrupt.is_set() {
@@ -108,11 +112,45 @@ fn play(
                 return Ok(*servo.counts());
             }
         }
-        // A real servo stack hands this to its drives.
-        servo.demand(Monotonic.now_ns());
+        // A real servo stack hands this to its drives, and asks them where they are.
+        let now_ns = Monotonic.now_ns();
+        let demand = servo.demand(now_ns);
+        plant.step(now_ns, servo.last(), demand.as_ref());
+        if let Some(measured) = plant.feedback() {
+            feedback.publish(&measured)?;
+        }
         std::thread::sleep(POLL);
     }
     Ok(*servo.counts())
+}
+
+/// How far away the home switch of a joint is that has one, mm or degrees.
+const TO_HOME: f64 = 5.0;
+/// How fast it looks for it, mm/s or °/s.
+const HOMING_V: f64 = 10.0;
+
+/// The machine that is moved: it stands at the places given, else where programs begin. Drives that
+/// look for their home have not yet found it, and count from anywhere.
+fn plant(config: &MachineConfig, stands: &[f64]) -> Plant {
+    let begins = config.mechanism.inverse(&config.home());
+    let begins = begins.map_or([0.0; AXES], <[f64; AXES]>::from);
+    let joints: Vec<JointSettings> = (0..config.mechanism.joints().min(AXES))
+        .map(|joint| {
+            let start = stands.get(joint).copied().unwrap_or(begins[joint]);
+            let home = config.feedback.homes.then_some(HomeSettings {
+                switch: start - TO_HOME,
+                velocity: HOMING_V,
+                position: start - TO_HOME,
+            });
+            JointSettings {
+                start,
+                count: if home.is_some() { 0.0 } else { start },
+                home,
+                ..JointSettings::default()
+            }
+        })
+        .collect();
+    Plant::new(Monotonic.now_ns() ^ u64::from(std::process::id()), &joints)
 }
 
 fn settings(config: &MachineConfig) -> ServoSettings {

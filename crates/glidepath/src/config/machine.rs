@@ -72,6 +72,23 @@ pub struct JogConfig {
     pub tool_axis: Axis,
 }
 
+/// What the drives say, and how that is judged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeedbackConfig {
+    /// Whether drives answer; if not, they are taken to do what the setpoints say.
+    pub is_expected: bool,
+    /// Whether every joint has to find its home, by its drive, before a program starts.
+    pub homes: bool,
+    /// How far a joint may be from its demand at its highest speed, mm or degrees.
+    pub following_error: f64,
+    /// The same at rest.
+    pub min_following_error: f64,
+    /// Feedback older than this stops the motion, s; `None` for three periods.
+    pub stale_t: Option<f64>,
+    /// Feedback older than this takes the power from the drives, s.
+    pub off_t: f64,
+}
+
 /// A machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineConfig {
@@ -89,6 +106,8 @@ pub struct MachineConfig {
     pub interpolator: InterpolatorConfig,
     /// How it is moved by hand.
     pub jog: JogConfig,
+    /// What the drives say.
+    pub feedback: FeedbackConfig,
     /// The preview by advance and retreat.
     pub preview: AdvanceRetreat,
     /// Name of the machine's shared memory; `None` if the file gives none.

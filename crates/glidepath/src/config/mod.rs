@@ -21,7 +21,9 @@ mod tree;
 pub use diagnostic::{ConfigDiagnostic, ConfigError, DiagnosticReport};
 pub use instance::{INSTANCE_RULE, is_instance_name};
 pub use judge::{MAX_FRAMES_AHEAD, effort, tolerance};
-pub use machine::{AxisConfig, InterpolatorConfig, JogConfig, MachineConfig, PathConfig};
+pub use machine::{
+    AxisConfig, FeedbackConfig, InterpolatorConfig, JogConfig, MachineConfig, PathConfig,
+};
 pub use program::ProgramConfig;
 
 use crate::text_file;

@@ -24,6 +24,8 @@ pub(super) struct RawConfig {
     #[serde(default)]
     pub(super) jog: RawJog,
     #[serde(default)]
+    pub(super) feedback: RawFeedback,
+    #[serde(default)]
     pub(super) link: RawLink,
     #[serde(default)]
     pub(super) preview: RawPreview,
@@ -114,6 +116,17 @@ pub(super) struct RawJog {
     pub(super) increments: Optional<Vec<f64>>,
     pub(super) dead_man_ms: Optional<i64>,
     pub(super) tool_axis: Optional<String>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawFeedback {
+    pub(super) source: Optional<String>,
+    pub(super) homing: Optional<String>,
+    pub(super) following_error: Optional<f64>,
+    pub(super) min_following_error: Optional<f64>,
+    pub(super) stale_s: Optional<f64>,
+    pub(super) off_s: Optional<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -63,7 +63,8 @@ pub struct Setpoint {
     /// The joints whose drives are to have power, one bit each, J0 lowest.
     pub enable: u32,
     /// The joints whose drives are to find their home by themselves, one bit each. Their positions
-    /// here are those they report.
+    /// here are those they report, and nothing to be followed: having found it, they stay there
+    /// until their bit is 0.
     pub home: u32,
     /// The event's number (speed, tool, M code), 0 without an event.
     pub event_value: f64,

@@ -160,7 +160,8 @@ impl Servo {
     }
 
     fn play(&mut self, setpoint: &Setpoint) {
-        if setpoint.state == MachineState::Off.code() {
+        let is_off = setpoint.enable == 0 || setpoint.state == MachineState::Off.code();
+        if is_off {
             self.wait();
         } else if self.armed && self.waits {
             if is_at_rest(setpoint) {

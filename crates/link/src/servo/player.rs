@@ -4,12 +4,13 @@
 //!            now
 //!   from ─────┼────── to ───── queue …     quintic between the two
 //!   from ──┼─ ─ ─ ─                        nothing newer: constant acceleration, for a while
-//!                  ·                       a newer one, a period or more ahead: back to it
+//!                  ·                       a newer one, half a period ahead: back to it
 //!   from ─ ─ ─ ─ ─ ─ ─ ─ ┼ ╲_              nothing for too long: the joints' own stop, latched
 //! ```
 //!
 //! Position, velocity and acceleration are continuous throughout. After a gap the way back takes at
-//! least a period, because making good a small error in a shorter time would take large forces.
+//! least half a period, because making good a small error in a shorter time would take large forces.
+//! Not a whole one: setpoints arrive less than a period ahead.
 
 use super::{JointState, Stop, StopLimits, quintic};
 use crate::Setpoint;
@@ -160,7 +161,7 @@ impl Player {
                     coasting: true,
                     ..
                 } => {
-                    if next.at_ns >= now_ns.saturating_add(next.period_ns) {
+                    if next.at_ns >= now_ns.saturating_add(next.period_ns / 2) {
                         return;
                     }
                     *heard = next.at_ns.max(*heard);
@@ -209,6 +210,9 @@ impl Player {
                 *joint = quintic(joint, to, span_t, time_t);
             }
             return joints;
+        }
+        if now_ns <= from.at_ns {
+            return from.joints;
         }
         // The stop begins when patience ends, whenever this is called.
         let patience_ends_ns = heard_ns.saturating_add(self.patience_ns).max(from.at_ns);

@@ -180,6 +180,11 @@ impl Supervisor<'_> {
         let relay = Relay::start(output, self.args.file.path(), self.config, recording)?;
         self.wait_for(&mut servo, || Ok(relay.seen.received() > 0))?;
 
+        self.wait_for(&mut servo, || {
+            monitor.observe()?;
+            monitor.switch_on()
+        })?;
+
         self.progress.doing("running");
         let mut planner = self.start("planner", &instance)?;
         let others = [&mut interpolator, &mut servo];

@@ -3,7 +3,7 @@
 use crate::command::failure::Failure;
 use crate::command::operator;
 use glidepath_link::{
-    Command, LinkConfig, LinkError, MachineState, Record as _, Status, Subscriber, Transport,
+    Command, LinkConfig, LinkError, MachineState, Power, Record as _, Status, Subscriber, Transport,
 };
 
 pub(super) struct Monitor<'t> {
@@ -47,8 +47,29 @@ impl<'t> Monitor<'t> {
     pub(super) fn rests(&self) -> bool {
         matches!(
             self.state(),
-            None | Some(MachineState::Idle | MachineState::Faulted)
+            None | Some(
+                MachineState::Idle
+                    | MachineState::Faulted
+                    | MachineState::Off
+                    | MachineState::NotHomed
+            )
         )
+    }
+
+    /// Switches drives on that answer, and has them find their home. True when the machine is ready.
+    pub(super) fn switch_on(&self) -> Result<bool, Failure> {
+        let Some(status) = self.status else {
+            return Ok(false);
+        };
+        let command = match (self.state(), status.power()) {
+            (Some(MachineState::Idle), _) => return Ok(true),
+            (Some(MachineState::Off), Ok(Power::Off)) => Command::Enable,
+            (Some(MachineState::NotHomed), _) => Command::Home(status.joints),
+            _ => return Ok(false),
+        };
+        // Refused while the drives have not yet said where they are: then the next one tells.
+        operator::send(&operator::reach(self.link)?, self.link, command)?;
+        Ok(false)
     }
 
     /// Goes on after a program stop; returns its line the first time it is seen.

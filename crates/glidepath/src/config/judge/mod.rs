@@ -3,6 +3,7 @@
 
 mod axes;
 mod axis_share;
+mod feedback;
 mod horizon;
 mod interpolator;
 mod jog;
@@ -87,6 +88,7 @@ pub(super) fn judge(
         path: judge.path(raw.path),
         interpolator,
         jog,
+        feedback: judge.feedback(raw.feedback),
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
         program: judge.program(raw.program),

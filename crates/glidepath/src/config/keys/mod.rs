@@ -19,6 +19,7 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         tables::PATH,
         tables::INTERPOLATOR,
         tables::JOG,
+        tables::FEEDBACK,
         tables::LINK,
         tables::PROGRAM,
         tables::PREVIEW,

@@ -261,6 +261,52 @@ pub(super) const JOG: &[Key] = &[
     ),
 ];
 
+pub(super) const FEEDBACK: &[Key] = &[
+    key(
+        "feedback.source",
+        Takes::Choice {
+            of: &["none", "drives"],
+        },
+        LeftOut::Value("\"none\""),
+        "\"drives\": servo stacks send feedback, and the machine is off until it was switched on; \
+         \"none\": the drives are taken to do what the setpoints say, and to be on and homed",
+    ),
+    key(
+        "feedback.homing",
+        Takes::Choice {
+            of: &["none", "drive"],
+        },
+        LeftOut::Value("\"none\""),
+        "\"drive\": no program starts before every drive has said that its joint is homed; \"none\": \
+         the position is believed as it is",
+    ),
+    key(
+        "feedback.following_error",
+        number(1e-6, 1e3, "mm or °"),
+        LeftOut::Value("1.0"),
+        "how far a joint may be from where it is to be at its highest speed; at lower speeds in \
+         proportion. Beyond it the machine stops, beyond twice of it the power goes",
+    ),
+    key(
+        "feedback.min_following_error",
+        number(1e-6, 1e3, "mm or °"),
+        LeftOut::Value("0.1"),
+        "how far it may be at rest, and at any speed",
+    ),
+    key(
+        "feedback.stale_s",
+        number(1e-3, 10.0, "s"),
+        LeftOut::Means("three periods"),
+        "feedback that is older than this stops the motion on the path",
+    ),
+    key(
+        "feedback.off_s",
+        number(1e-3, 10.0, "s"),
+        LeftOut::Value("0.1"),
+        "feedback that is older than this takes the power from the drives",
+    ),
+];
+
 pub(super) const LINK: &[Key] = &[key(
     "link.instance",
     Takes::Text {

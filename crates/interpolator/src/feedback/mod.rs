@@ -1,0 +1,25 @@
+//! What the drives say: gathered, judged, and handed to the real-time thread.
+//!
+//! ```text
+//! servo stacks ── Feedback ─► claims ─► book ─┬─ Observation ─► real-time thread: power, hand-over
+//!                                 ▲           ├─ Order ───────► faults of following
+//!                   demands ──────┴ following ┘
+//!            (setpoints published)
+//! ```
+//!
+//! All of this is done by the ports thread. The real-time thread gets one observation a turn, in
+//! which the joints are already axes.
+
+mod book;
+mod claims;
+mod demands;
+mod following;
+mod observation;
+mod settings;
+
+pub(crate) use book::DriveBook;
+pub(crate) use observation::Observation;
+pub use settings::{FeedbackSettings, JointFeedback};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,42 @@
+//! What is expected of the drives' feedback.
+
+use core::time::Duration;
+use glidepath_kinematics::JOINTS;
+
+/// What is expected of a joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointFeedback {
+    /// How far the joint may be from where it is to be at rest and when it is slow, mm or degrees,
+    /// > 0.
+    pub min_following_error: f64,
+    /// The same at `max_velocity`; in between in proportion to the speed, but never less than the
+    /// former.
+    pub following_error: f64,
+    /// The joint's highest speed, mm/s or °/s, > 0.
+    pub max_velocity: f64,
+    /// Whether the drive has to say that the joint knows where it is before a program may start.
+    pub homes: bool,
+}
+
+/// How the feedback of the drives is judged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeedbackSettings {
+    /// Feedback older than this stops the motion.
+    pub stale_after: Duration,
+    /// Feedback older than this takes the power from the drives.
+    pub off_after: Duration,
+    /// The joints; those the machine does not have mean nothing.
+    pub joints: [JointFeedback; JOINTS],
+}
+
+impl FeedbackSettings {
+    /// Three periods until the motion stops, 100 ms until power goes, and the same for all joints.
+    #[must_use]
+    pub fn new(period_ns: u64, joint: JointFeedback) -> Self {
+        Self {
+            stale_after: Duration::from_nanos(3 * period_ns),
+            off_after: Duration::from_millis(100).max(Duration::from_nanos(6 * period_ns)),
+            joints: [joint; JOINTS],
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! A machine with drives, tick by tick: both threads' work, the servo library and a plant.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    clippy::indexing_slicing,
+    clippy::cast_possible_truncation,
+    reason = "a test: what is exact is compared exactly"
+)]
+
+mod bench;
+mod following;
+mod life_cycle;
+mod upsets;

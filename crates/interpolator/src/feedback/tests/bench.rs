@@ -1,0 +1,285 @@
+//! Interpolator, servo library and plant, in steps of a millisecond.
+
+use crate::config::Config;
+use crate::feedback::{FeedbackSettings, JointFeedback};
+use crate::message::{HAPPENINGS, Happening, Inputs, Report};
+use crate::ports::Ports;
+use crate::testing::{Numbers, Rig, audit, mill, plan, records};
+use crate::tick::Interpolator;
+use glidepath_geometry::AxisVector;
+use glidepath_link::servo::{Servo, ServoSettings};
+use glidepath_link::{
+    Client, Command, CommandReply, CommandRequest, Delivery, FaultCause, Feedback, FrameSink,
+    InProcess, MachineState, Power, Publisher, Setpoint, SetpointFrame, Status, Subscriber,
+    Transport,
+};
+use glidepath_plant::{JointSettings, Plant, Upset};
+use glidepath_realtime::{Events, Wake, event_ring};
+use heapless::spsc::Producer;
+use std::collections::VecDeque;
+
+pub(super) const PERIOD_NS: u64 = 4_000_000;
+/// Far from zero, as a monotonic clock is.
+const START_NS: u64 = 9_000_000_000_000;
+/// Frames a planner keeps ahead.
+const HORIZON: u64 = 150;
+
+pub(super) struct Bench {
+    interpolator: Interpolator<'static>,
+    inputs: Inputs<'static>,
+    reports: Producer<'static, Report>,
+    ports: Ports<'static>,
+    pub(super) servo: Servo,
+    pub(super) plant: Plant,
+    sink: Box<dyn Publisher<Feedback>>,
+    frames: Box<dyn FrameSink>,
+    client: Box<dyn Client<CommandRequest, CommandReply>>,
+    statuses: Box<dyn Subscriber<Status>>,
+    pub(super) link: InProcess,
+    pub(super) setpoints: Vec<Setpoint>,
+    pub(super) feed: VecDeque<SetpointFrame>,
+    sent: u64,
+    epoch: u64,
+    status: Option<Status>,
+    tick: u64,
+    config: Config,
+}
+
+/// What joints of the tests are allowed.
+pub(super) const ALLOWED: JointFeedback = JointFeedback {
+    min_following_error: 0.1,
+    following_error: 2.0,
+    max_velocity: 200.0,
+    homes: false,
+};
+
+/// A mill with three axes and drives that answer.
+pub(super) fn config(homes: bool) -> Config {
+    use glidepath_geometry::Axis;
+    use glidepath_kinematics::{AxisList, Mechanism, Trivial};
+    Config {
+        feedback: Some(FeedbackSettings::new(
+            PERIOD_NS,
+            JointFeedback { homes, ..ALLOWED },
+        )),
+        mechanism: Mechanism::Trivial(Trivial {
+            axes: AxisList::new(&[Axis::X, Axis::Y, Axis::Z]),
+        }),
+        ..Config::new(mill(), PERIOD_NS)
+    }
+}
+
+impl Bench {
+    pub(super) fn new(config: Config, joints: &[JointSettings]) -> Self {
+        let Rig {
+            interpolator,
+            inputs,
+            reports,
+            ends,
+            ..
+        } = Rig::new(config);
+        let link = InProcess::default();
+        let events = Box::leak(Box::<Events<Happening, HAPPENINGS>>::default());
+        let (_writer, reader) = event_ring(events);
+        let log = Box::leak(Box::new(|_: &str| {}));
+        let transport = Box::new(link.clone());
+        let ports = Ports::new(&config, 77, transport, ends, reader, log).unwrap();
+        Self {
+            interpolator,
+            inputs,
+            reports,
+            ports,
+            servo: Servo::new(link.setpoint_source().unwrap(), ServoSettings::default()),
+            plant: Plant::new(5, joints),
+            sink: link.feedback_sink().unwrap(),
+            frames: link.frame_sink().unwrap(),
+            client: link.command_client().unwrap(),
+            statuses: link.status_source().unwrap(),
+            link,
+            setpoints: Vec::new(),
+            feed: VecDeque::new(),
+            sent: 0,
+            epoch: 0,
+            status: None,
+            tick: 0,
+            config,
+        }
+    }
+
+    /// Three joints that start somewhere, exact and with absolute encoders.
+    pub(super) fn mill() -> Self {
+        let joint = |start| JointSettings {
+            start,
+            count: start,
+            ..JointSettings::default()
+        };
+        Self::new(config(false), &[joint(12.5), joint(-3.0), joint(40.0)])
+    }
+
+    pub(super) fn now_ns(&self) -> u64 {
+        START_NS + self.tick * PERIOD_NS
+    }
+
+    /// One period: the tick, the turn of the ports, and what the servo stack does until the next.
+    pub(super) fn tick(&mut self) -> Setpoint {
+        self.publish_frames();
+        self.tick += 1;
+        let scheduled_ns = self.now_ns();
+        let wake = Wake {
+            tick: self.tick,
+            scheduled_ns,
+            woke_ns: scheduled_ns,
+            missed: 0,
+        };
+        let mut report = Report::blank();
+        self.interpolator
+            .prepare(&wake, &mut self.inputs, &mut report);
+        self.interpolator.stamp(&mut report, &wake);
+        self.reports.enqueue(report).unwrap();
+        self.ports.turn(scheduled_ns + 200_000);
+        while let Some(status) = self.statuses.take().unwrap() {
+            self.status = Some(status);
+        }
+        for ms in 0..PERIOD_NS / 1_000_000 {
+            let now_ns = scheduled_ns + 300_000 + ms * 1_000_000;
+            while self.servo.receive(now_ns).unwrap().is_some() {}
+            let demand = self.servo.demand(now_ns);
+            self.plant.step(now_ns, self.servo.last(), demand.as_ref());
+            if let Some(feedback) = self.plant.feedback() {
+                self.sink.publish(&feedback).unwrap();
+            }
+        }
+        self.setpoints.push(report.setpoint);
+        report.setpoint
+    }
+
+    fn publish_frames(&mut self) {
+        let executed = self
+            .setpoints
+            .last()
+            .filter(|s| s.epoch == self.epoch)
+            .map_or(0, |s| s.sequence);
+        while self.sent < executed + HORIZON {
+            let Some(frame) = self.feed.front() else {
+                return;
+            };
+            if self.frames.offer(frame).unwrap() != Delivery::Delivered {
+                return;
+            }
+            self.feed.pop_front();
+            self.sent += 1;
+        }
+    }
+
+    pub(super) fn run(&mut self, ticks: usize) {
+        for _ in 0..ticks {
+            self.tick();
+        }
+    }
+
+    /// Ticks until a state, at most so many.
+    pub(super) fn run_to(&mut self, state: MachineState, most: usize) -> bool {
+        (0..most).any(|_| self.tick().state() == Ok(state))
+    }
+
+    /// Ticks a few times, so that what a status tells is of now.
+    pub(super) fn status(&mut self) -> Status {
+        self.run(6);
+        self.status.unwrap()
+    }
+
+    pub(super) fn last(&self) -> Setpoint {
+        *self.setpoints.last().unwrap()
+    }
+
+    pub(super) fn state(&self) -> MachineState {
+        self.last().state().unwrap()
+    }
+
+    /// Gives a command; the text of the refusal, if it is one.
+    pub(super) fn command(&mut self, command: Command) -> Result<(), String> {
+        self.client
+            .ask(&CommandRequest::new(1, 1, command))
+            .unwrap();
+        self.tick();
+        let reply = self.client.reply().unwrap().unwrap();
+        match reply.outcome().unwrap() {
+            Ok(()) => Ok(()),
+            Err(_) => Err(reply.message.as_str().to_owned()),
+        }
+    }
+
+    /// Switches on and waits until a state.
+    pub(super) fn enable(&mut self, state: MachineState) {
+        self.run(10);
+        self.command(Command::Enable).unwrap();
+        assert!(self.run_to(state, 200), "{:?}", self.state());
+    }
+
+    /// Lines up a program from where the machine stands, which takes about so many ticks.
+    pub(super) fn load(&mut self, seed: u64, ticks: usize) {
+        let start = AxisVector::from(self.last().position);
+        let limits = self.config.limits;
+        let frames = plan(seed, 3, ticks, &limits, 0.004, start);
+        self.epoch += 1;
+        self.feed = records(&frames, self.epoch, PERIOD_NS).into();
+        self.sent = 0;
+    }
+
+    pub(super) fn upset(&mut self, upset: Upset) {
+        self.plant.upset(upset);
+    }
+
+    pub(super) fn fault(&mut self) -> Option<FaultCause> {
+        self.status().fault().unwrap()
+    }
+
+    /// Where the joints are, as the drives count.
+    pub(super) fn joints(&self) -> [f64; 9] {
+        self.plant.measured().position
+    }
+
+    /// The largest ratio to a limit of all positions that continue each other.
+    pub(super) fn worst_ratio(&self) -> f64 {
+        let mut worst = 0.0_f64;
+        let is_on = |s: &Setpoint| s.enable != 0 && s.state() != Ok(MachineState::Off);
+        for run in self
+            .setpoints
+            .chunk_by(|a, b| a.reference == b.reference && a.home == b.home && is_on(a) == is_on(b))
+        {
+            if is_on(&run[0]) && run[0].home == 0 {
+                let first = AxisVector::from(run[0].position);
+                let published = run.iter().map(|s| AxisVector::from(s.position));
+                let all: Vec<_> = std::iter::repeat_n(first, 3).chain(published).collect();
+                let ratios = audit(&all, &self.config.limits, 0.004);
+                worst = ratios.into_iter().fold(worst, f64::max);
+            }
+        }
+        worst
+    }
+
+    /// Nothing that has power jumps, whatever the reference does.
+    pub(super) fn assert_no_joint_jumps(&self) {
+        for pair in self.setpoints.windows(2) {
+            let has_power = pair.iter().all(|s| s.enable != 0 && s.home == 0);
+            for joint in (0..3).filter(|_| has_power) {
+                let way = pair[1].joint_position[joint] - pair[0].joint_position[joint];
+                assert!(
+                    way.abs() < 0.9,
+                    "tick {}: J{joint} jumps by {way}",
+                    pair[1].tick
+                );
+            }
+        }
+    }
+}
+
+/// Numbers for random tests.
+pub(super) fn numbers(seed: u64) -> Numbers {
+    Numbers::new(seed)
+}
+
+/// Whether power is on, of a status.
+pub(super) fn is_on(status: &Status) -> bool {
+    status.power() == Ok(Power::On)
+}

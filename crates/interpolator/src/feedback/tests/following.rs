@@ -1,0 +1,143 @@
+//! Following errors, and who says what of which joint.
+
+use super::bench::{Bench, config};
+use bytemuck::Zeroable as _;
+use glidepath_link::{FaultCause, Feedback, MachineState, Transport as _};
+use glidepath_plant::{JointSettings, Plant, Upset};
+
+fn played(joints: &[JointSettings; 3], latency_ns: u64) -> Bench {
+    let mut bench = Bench::new(config(false), joints);
+    bench.plant = Plant::new(5, joints).with_latency(latency_ns);
+    bench.enable(MachineState::Idle);
+    bench.run(40);
+    bench.load(8, 500);
+    assert!(bench.run_to(MachineState::Running, 50));
+    bench
+}
+
+#[test]
+fn feedback_that_comes_late_is_no_following_error() {
+    let mut bench = played(&[JointSettings::default(); 3], 3_000_000);
+    assert!(bench.run_to(MachineState::Idle, 1_500));
+    let status = bench.status();
+    assert_eq!(status.fault, 0);
+    assert!(
+        status.following_peak.iter().all(|peak| *peak < 1e-6),
+        "{:?}",
+        status.following_peak
+    );
+}
+
+#[test]
+fn a_drive_that_lags_has_the_error_of_its_lag() {
+    const LAG_T: f64 = 0.002;
+    let joint = JointSettings {
+        lag_t: LAG_T,
+        ..JointSettings::default()
+    };
+    let mut bench = played(&[joint; 3], 0);
+    assert!(bench.run_to(MachineState::Idle, 1_500));
+    let speeds = bench.setpoints.iter().map(|s| s.joint_velocity[0].abs());
+    let fastest = speeds.fold(0.0, f64::max);
+    let status = bench.status();
+    // The lag of the first order, and what the steps of a millisecond make of it.
+    let expected = fastest * LAG_T;
+    let peak = status.following_peak[0];
+    assert!(
+        fastest > 20.0 && (peak / expected - 1.0).abs() < 0.35,
+        "{peak} for {expected}"
+    );
+    assert_eq!(status.fault, 0);
+}
+
+#[test]
+fn a_joint_that_is_stuck_stops_the_machine_and_loses_the_power() {
+    let mut bench = played(&[JointSettings::default(); 3], 0);
+    bench.run(60);
+    bench.upset(Upset::Stuck(0, true));
+    let before = bench.setpoints.len();
+    let is_found = |bench: &mut Bench| bench.tick().state() != Ok(MachineState::Running);
+    assert!((0..80).any(|_| is_found(&mut bench)));
+    // As soon as the demand has gone further than allowed: then within three ticks.
+    let away = |k: usize| {
+        let stuck = bench.joints()[0];
+        (bench.setpoints[k].joint_position[0] - stuck).abs()
+    };
+    let allowed = |k: usize| {
+        let v = bench.setpoints[k].joint_velocity[0].abs();
+        (2.0 * v / 200.0).max(0.1)
+    };
+    let beyond = (before..bench.setpoints.len()).find(|k| away(*k) > allowed(*k));
+    let late = bench.setpoints.len() - beyond.unwrap();
+    assert!(late <= 4, "{late} ticks after the demand was too far away");
+    bench.run(200);
+    let status = bench.status();
+    assert_eq!(status.fault(), Ok(Some(FaultCause::FollowingError)));
+    assert_eq!(status.fault_joint(), Some(0));
+    assert_eq!(bench.state(), MachineState::Faulted);
+    assert!(status.following_peak[0] > 0.1);
+}
+
+#[test]
+fn a_second_stack_that_claims_a_joint_is_refused() {
+    let mut bench = Bench::mill();
+    bench.enable(MachineState::Idle);
+    let mut other = bench.link.feedback_sink().unwrap();
+    for number in 0..50 {
+        let mut claims = Feedback {
+            boot_id: 6,
+            number,
+            sample_ns: bench.now_ns() + 1,
+            joints: 0b001,
+            ..Feedback::zeroed()
+        };
+        claims.position[0] = 999.0;
+        other.publish(&claims).unwrap();
+        bench.tick();
+    }
+    let status = bench.status();
+    assert_eq!((status.fault, status.joint_actual[0]), (0, 12.5));
+    let text = status.last_error.as_str();
+    assert!(text.contains("another drives already"), "{text}");
+}
+
+#[test]
+fn two_stacks_share_the_joints() {
+    let mut bench = Bench::mill();
+    let mut plants = [
+        Plant::new(8, &[JointSettings::default()]),
+        Plant::new(9, &[JointSettings::default(); 3]),
+    ];
+    // The bench's own is silent: these two are the machine.
+    bench.upset(Upset::Dropout(true));
+    let mut sinks = [(); 2].map(|()| bench.link.feedback_sink().unwrap());
+    for _ in 0..20 {
+        bench.tick();
+        for (index, (plant, sink)) in plants.iter_mut().zip(&mut sinks).enumerate() {
+            plant.step(bench.now_ns() + 1_000_000, None, None);
+            let mut feedback = plant.feedback().unwrap();
+            feedback.joints = if index == 0 { 0b001 } else { 0b110 };
+            feedback.position[1] = 7.0;
+            sink.publish(&feedback).unwrap();
+        }
+    }
+    assert_eq!(bench.last().position[..3], [0.0, 7.0, 0.0]);
+}
+
+#[test]
+fn feedback_of_the_future_is_refused() {
+    let mut bench = Bench::mill();
+    bench.enable(MachineState::Idle);
+    bench.upset(Upset::Dropout(true));
+    let mut sink = bench.link.feedback_sink().unwrap();
+    for _ in 0..10 {
+        let mut ahead = bench.plant.measured();
+        ahead.sample_ns += 1_000_000_000;
+        sink.publish(&ahead).unwrap();
+        bench.tick();
+    }
+    let status = bench.status();
+    assert_eq!(status.fault(), Ok(Some(FaultCause::FeedbackLost)));
+    let text = status.last_error.as_str();
+    assert!(text.contains("do not say where they are"), "{text}");
+}

@@ -1,0 +1,208 @@
+//! Off, hand-over, home, and back.
+
+use super::bench::{Bench, config, is_on};
+use crate::config::Config;
+use crate::testing::hexapod;
+use glidepath_geometry::AxisVector;
+use glidepath_kinematics::{Kinematics as _, Mechanism};
+use glidepath_link::{Command, EndOfEpoch, MachineState, Power};
+use glidepath_plant::{HomeSettings, JointSettings, Upset};
+
+#[test]
+fn off_repeats_the_drives_and_the_hand_over_moves_nothing() {
+    let mut bench = Bench::mill();
+    bench.run(10);
+    assert_eq!(bench.state(), MachineState::Off);
+    bench.upset(Upset::Pushed(0, 1.25));
+    bench.run(3);
+    assert_eq!(bench.last().position[..3], [13.75, -3.0, 40.0]);
+    assert_eq!((bench.last().enable, bench.last().reference), (0, 1));
+    bench.enable(MachineState::Idle);
+    bench.run(100);
+    let last = bench.last();
+    assert_eq!((last.enable, last.reference), (0b111, 2));
+    assert_eq!(last.joint_position[..3], [13.75, -3.0, 40.0]);
+    assert_eq!(bench.joints()[..3], [13.75, -3.0, 40.0]);
+    assert!(is_on(&bench.status()));
+    bench.assert_no_joint_jumps();
+}
+
+#[test]
+fn the_hand_over_of_a_mechanism_moves_no_joint() {
+    let mechanism = hexapod();
+    let stands = AxisVector::from([30.0, -20.0, 10.0, 2.0, -1.0, 3.0, 0.0, 0.0, 0.0]);
+    let joints = mechanism.inverse(&stands).unwrap();
+    let settings: Vec<_> = (0..6)
+        .map(|joint| JointSettings {
+            start: joints[joint],
+            count: joints[joint],
+            ..JointSettings::default()
+        })
+        .collect();
+    let config = Config {
+        mechanism,
+        ..config(false)
+    };
+    assert!(matches!(config.mechanism, Mechanism::Hexapod(_)));
+    let mut bench = Bench::new(config, &settings);
+    bench.enable(MachineState::Idle);
+    bench.run(50);
+    assert!((AxisVector::from(bench.last().position) - stands).amax() < 1e-9);
+    for joint in 0..6 {
+        assert!((bench.joints()[joint] - joints[joint]).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn nothing_moves_before_the_drives_are_on() {
+    let mut bench = Bench::mill();
+    bench.run(10);
+    bench.load(1, 100);
+    bench.run(200);
+    assert_eq!(bench.state(), MachineState::Off);
+    assert_eq!(bench.joints()[..3], [12.5, -3.0, 40.0]);
+    let status = bench.status();
+    assert_eq!((status.epoch, status.fault), (0, 0));
+    assert!(status.frames_refused.iter().sum::<u64>() > 0);
+    // What was refused then does not move the machine when it is switched on.
+    bench.enable(MachineState::Idle);
+    bench.run(100);
+    assert_eq!(bench.joints()[..3], [12.5, -3.0, 40.0]);
+}
+
+#[test]
+fn drives_find_their_home_and_only_then_a_program_runs() {
+    let joint = |start: f64, switch: f64| JointSettings {
+        start,
+        count: 1000.0,
+        home: Some(HomeSettings {
+            switch,
+            velocity: 20.0,
+            position: switch,
+        }),
+        ..JointSettings::default()
+    };
+    let joints = [joint(3.0, -5.0), joint(-2.0, 6.0), joint(1.0, 2.0)];
+    let mut bench = Bench::new(config(true), &joints);
+    bench.enable(MachineState::NotHomed);
+    assert_eq!(bench.status().homed, 0);
+    bench.load(2, 100);
+    bench.run(100);
+    assert_eq!(bench.state(), MachineState::NotHomed);
+    assert_eq!(bench.joints()[..3], [1000.0; 3]);
+    bench.feed.clear();
+    assert!(bench.command(Command::Home(0b1000)).is_err());
+    bench.command(Command::Home(0b111)).unwrap();
+    assert!(bench.run_to(MachineState::Homing, 3));
+    assert!(bench.run_to(MachineState::Idle, 600));
+    bench.run(50);
+    assert_eq!(bench.last().position[..3], [-5.0, 6.0, 2.0]);
+    assert_eq!(bench.joints()[..3], [-5.0, 6.0, 2.0]);
+    assert_eq!(bench.status().homed, 0b111);
+    bench.load(3, 200);
+    assert!(bench.run_to(MachineState::Running, 50));
+    assert!(bench.run_to(MachineState::Idle, 600));
+    let status = bench.status();
+    assert_eq!(status.end_of_epoch(), Ok(EndOfEpoch::Completed));
+    assert!(bench.worst_ratio() <= 1.0 + 1e-6, "{}", bench.worst_ratio());
+    bench.command(Command::Unhome(0b010)).unwrap();
+    assert_eq!(bench.status().homed, 0b101);
+    assert_eq!(bench.state(), MachineState::NotHomed);
+}
+
+#[test]
+fn a_search_for_home_ends_when_it_is_aborted() {
+    let mut joints = [JointSettings::default(); 3];
+    joints[1].home = Some(HomeSettings {
+        switch: 500.0,
+        velocity: 10.0,
+        position: 500.0,
+    });
+    let mut settings = config(false);
+    settings.feedback.as_mut().unwrap().joints[1].homes = true;
+    let mut bench = Bench::new(settings, &joints);
+    bench.enable(MachineState::NotHomed);
+    bench.command(Command::Home(0b010)).unwrap();
+    bench.run(100);
+    assert_eq!(bench.state(), MachineState::Homing);
+    bench.command(Command::Abort).unwrap();
+    bench.run(20);
+    let rest = bench.joints()[1];
+    assert!(rest > 3.0 && rest < 10.0, "{rest}");
+    bench.run(100);
+    assert_eq!(bench.state(), MachineState::NotHomed);
+    assert_eq!(bench.joints()[1], rest);
+    assert_eq!(bench.last().joint_position[1], rest);
+}
+
+#[test]
+fn a_position_is_set_without_moving_anything() {
+    let mut bench = Bench::mill();
+    bench.enable(MachineState::Idle);
+    let reference = bench.last().reference;
+    let set = Command::SetPosition {
+        joint: 1,
+        position: 200.0,
+    };
+    bench.command(set).unwrap();
+    bench.run(50);
+    let last = bench.last();
+    assert_eq!(last.position[..3], [12.5, 200.0, 40.0]);
+    assert_eq!(last.reference, reference + 1);
+    assert_eq!(bench.joints()[..3], [12.5, -3.0, 40.0]);
+    assert_eq!(bench.status().joint_actual[1], 200.0);
+    // A program runs in the new count, and the drive in its own.
+    bench.load(4, 200);
+    bench.run(60);
+    assert!(bench.run_to(MachineState::Idle, 600));
+    bench.run(5);
+    let (last, joints) = (bench.last(), bench.joints());
+    assert!((last.position[1] - joints[1] - 203.0).abs() < 1e-9);
+    assert!(bench.worst_ratio() <= 1.0 + 1e-6);
+    bench.assert_no_joint_jumps();
+    // Not while it moves.
+    bench.load(5, 200);
+    assert!(bench.run_to(MachineState::Running, 50));
+    assert!(bench.command(set).is_err());
+}
+
+#[test]
+fn power_goes_after_the_motion_has_come_to_rest() {
+    let mut bench = Bench::mill();
+    bench.enable(MachineState::Idle);
+    bench.load(6, 400);
+    bench.run(150);
+    assert_eq!(bench.state(), MachineState::Running);
+    bench.command(Command::Disable).unwrap();
+    assert!(bench.run_to(MachineState::Off, 100));
+    let rest = bench.joints();
+    bench.feed.clear();
+    bench.run(50);
+    assert_eq!(bench.joints(), rest, "it was at rest");
+    let status = bench.status();
+    assert_eq!(status.end_of_epoch(), Ok(EndOfEpoch::Aborted));
+    assert_eq!((status.power(), status.fault), (Ok(Power::Off), 0));
+    assert!(bench.worst_ratio() <= 1.0 + 1e-6);
+    // On again, and a program from there.
+    bench.enable(MachineState::Idle);
+    bench.load(7, 200);
+    assert!(bench.run_to(MachineState::Running, 50));
+    assert!(bench.run_to(MachineState::Idle, 600));
+}
+
+#[test]
+fn without_feedback_there_are_no_drives_to_command() {
+    let settings = Config {
+        feedback: None,
+        ..config(false)
+    };
+    let mut bench = Bench::new(settings, &[JointSettings::default(); 3]);
+    bench.run(10);
+    assert_eq!(bench.state(), MachineState::Idle);
+    for command in [Command::Enable, Command::Disable, Command::Home(1)] {
+        assert!(bench.command(command).unwrap_err().contains("simulated"));
+    }
+    let status = bench.status();
+    assert_eq!(status.power(), Ok(Power::Simulated));
+    assert_eq!((status.homed, status.enabled), (0b111, 0b111));
+}

@@ -1,0 +1,199 @@
+//! A joint with its drive.
+//!
+//! The drive follows its demand with a lag of first order, x′ = (d − x) / τ, so that it is v·τ behind
+//! at the speed v; and it does not begin to move before the demand is further away than stiction
+//! holds. Its count begins wherever it stood when it was switched on, until it has found its home.
+
+use glidepath_link::servo::JointState;
+
+/// How a drive finds its home by itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HomeSettings {
+    /// Where the switch closes, mm or degrees from the middle of the machine; it stays closed beyond.
+    pub switch: f64,
+    /// How fast it goes there, mm/s or °/s, positive.
+    pub velocity: f64,
+    /// What the count is at the switch.
+    pub position: f64,
+}
+
+/// A joint. By default it is exact, at rest in the middle, and knows where it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointSettings {
+    /// Where it stands at the start, mm or degrees from the middle of the machine.
+    pub start: f64,
+    /// What its drive counts there.
+    pub count: f64,
+    /// Lag, s; 0 for none.
+    pub lag_t: f64,
+    /// How far the demand has to be away for the joint to begin to move, mm or degrees.
+    pub stiction: f64,
+    /// How long the drive takes to have power, ns.
+    pub power_up_ns: u64,
+    /// Where the limit switches close.
+    pub limits: (f64, f64),
+    /// How it finds its home; `None` for an absolute encoder, which knows.
+    pub home: Option<HomeSettings>,
+}
+
+impl Default for JointSettings {
+    fn default() -> Self {
+        Self {
+            start: 0.0,
+            count: 0.0,
+            lag_t: 0.0,
+            stiction: 0.0,
+            power_up_ns: 50_000_000,
+            limits: (f64::NEG_INFINITY, f64::INFINITY),
+            home: None,
+        }
+    }
+}
+
+/// Slower than this a joint sticks, mm/s or °/s.
+const STICKING_V: f64 = 0.01;
+
+/// A joint as it is.
+#[derive(Debug, Clone)]
+pub(crate) struct Joint {
+    settings: JointSettings,
+    /// From the middle of the machine, which nobody but the switches knows.
+    place: f64,
+    velocity: f64,
+    /// What is added to the place to have the count.
+    offset: f64,
+    /// How long it was asked to have power, ns.
+    asked_ns: u64,
+    is_homed: bool,
+    is_homing: bool,
+    was_asked_home: bool,
+    pub(crate) fault_code: u32,
+    pub(crate) is_stuck: bool,
+    pub(crate) has_power_source: bool,
+}
+
+impl Joint {
+    pub(crate) fn new(settings: &JointSettings) -> Self {
+        Self {
+            settings: *settings,
+            place: settings.start,
+            velocity: 0.0,
+            offset: settings.count - settings.start,
+            asked_ns: 0,
+            is_homed: settings.home.is_none(),
+            is_homing: false,
+            was_asked_home: false,
+            fault_code: 0,
+            is_stuck: false,
+            has_power_source: true,
+        }
+    }
+
+    pub(crate) fn position(&self) -> f64 {
+        self.place + self.offset
+    }
+
+    pub(crate) const fn velocity(&self) -> f64 {
+        self.velocity
+    }
+
+    pub(crate) const fn is_homed(&self) -> bool {
+        self.is_homed
+    }
+
+    pub(crate) const fn is_homing(&self) -> bool {
+        self.is_homing
+    }
+
+    pub(crate) fn is_enabled(&self) -> bool {
+        self.asked_ns > self.settings.power_up_ns
+    }
+
+    pub(crate) fn limits(&self) -> (bool, bool) {
+        let (low, high) = self.settings.limits;
+        (self.place <= low, self.place >= high)
+    }
+
+    pub(crate) fn is_at_home_switch(&self) -> bool {
+        self.settings.home.is_some_and(|home| {
+            if home.switch < 0.0 {
+                self.place <= home.switch
+            } else {
+                self.place >= home.switch
+            }
+        })
+    }
+
+    /// Somebody moves it, with the power off.
+    pub(crate) fn push(&mut self, distance: f64) {
+        self.place += distance;
+    }
+
+    /// A step of `step_t` seconds. `enable` and `home` as the setpoint says; without a demand a
+    /// drive with power holds its place.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a step of milliseconds"
+    )]
+    pub(crate) fn step(
+        &mut self,
+        step_t: f64,
+        enable: bool,
+        home: bool,
+        demand: Option<JointState>,
+    ) {
+        let may_have_power = enable && self.fault_code == 0 && self.has_power_source;
+        self.asked_ns = if may_have_power {
+            self.asked_ns + (step_t * 1e9) as u64
+        } else {
+            0
+        };
+        let before = self.place;
+        if self.is_enabled() && !self.is_stuck {
+            let begins_homing = home && !self.was_asked_home;
+            self.was_asked_home = home;
+            if begins_homing && self.settings.home.is_some() {
+                (self.is_homing, self.is_homed) = (true, false);
+            }
+            self.is_homing &= home;
+            // What is found is not gone away from before the position was taken over.
+            if self.is_homing {
+                self.go_home(step_t);
+            } else if let Some(demand) = demand.filter(|_| !home) {
+                self.go_to(step_t, demand.position - self.offset);
+            }
+        } else {
+            (self.is_homing, self.was_asked_home) = (false, false);
+        }
+        self.velocity = (self.place - before) / step_t;
+    }
+
+    fn go_to(&mut self, step_t: f64, target: f64) {
+        let away = target - self.place;
+        let sticks = self.velocity.abs() < STICKING_V && away.abs() < self.settings.stiction;
+        if sticks {
+            return;
+        }
+        self.place = if self.settings.lag_t > 0.0 {
+            target - away * (-step_t / self.settings.lag_t).exp()
+        } else {
+            target
+        };
+    }
+
+    fn go_home(&mut self, step_t: f64) {
+        let Some(home) = self.settings.home else {
+            return;
+        };
+        let away = home.switch - self.place;
+        let way = home.velocity * step_t;
+        if away.abs() > way {
+            self.place += way.copysign(away);
+            return;
+        }
+        self.place = home.switch;
+        self.offset = home.position - home.switch;
+        (self.is_homed, self.is_homing) = (true, false);
+    }
+}

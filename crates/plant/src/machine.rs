@@ -1,0 +1,235 @@
+//! The joints, the spindle and the probe together, and what goes wrong with them.
+
+use crate::joint::{Joint, JointSettings};
+use crate::spindle::Spindle;
+use bytemuck::Zeroable as _;
+use glidepath_link::servo::{JointState, JointStates};
+use glidepath_link::{DriveState, Feedback, LatchKind, Setpoint};
+use std::collections::VecDeque;
+
+/// Something that goes wrong, or right again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Upset {
+    /// The emergency stop takes the power from all drives, or is released.
+    EmergencyStop(bool),
+    /// A joint has lost its power, or may have it again.
+    PowerLost(usize, bool),
+    /// A drive reports a fault with this number; 0 clears it.
+    DriveFault(usize, u32),
+    /// Nothing moves the joint any more, or it moves again.
+    Stuck(usize, bool),
+    /// The feedback stays away, or comes again.
+    Dropout(bool),
+    /// Somebody moves a joint by hand, by this much.
+    Pushed(usize, f64),
+}
+
+/// A servo stack with its machine.
+#[derive(Debug, Clone)]
+pub struct Plant {
+    boot_id: u64,
+    number: u64,
+    joints: Vec<Joint>,
+    spindle: Spindle,
+    has_emergency: bool,
+    is_silent: bool,
+    now_ns: u64,
+    /// Time a record takes to be sent, ns.
+    latency_ns: u64,
+    under_way: VecDeque<Feedback>,
+    reference: u64,
+    setpoint_number: u64,
+    /// The joint and position below which the probe is in contact.
+    probe: Option<(usize, f64)>,
+    touches: bool,
+    touch_count: u64,
+    touched: ([f64; 9], u64),
+    /// The setpoint whose event was carried out last.
+    carried_out: Option<(u64, u64)>,
+}
+
+impl Plant {
+    /// A machine with these joints, at most nine. `boot_id` tells one stack from another.
+    #[must_use]
+    pub fn new(boot_id: u64, joints: &[JointSettings]) -> Self {
+        Self {
+            boot_id,
+            number: 0,
+            joints: joints.iter().take(9).map(Joint::new).collect(),
+            spindle: Spindle::default(),
+            has_emergency: false,
+            is_silent: false,
+            now_ns: 0,
+            latency_ns: 0,
+            under_way: VecDeque::new(),
+            reference: 0,
+            setpoint_number: 0,
+            probe: None,
+            touches: false,
+            touch_count: 0,
+            touched: ([0.0; 9], 0),
+            carried_out: None,
+        }
+    }
+
+    /// Feedback arrives so much after it was measured.
+    #[must_use]
+    pub const fn with_latency(mut self, latency_ns: u64) -> Self {
+        self.latency_ns = latency_ns;
+        self
+    }
+
+    /// A probe that touches where a joint is at or below a position; its contact is input 0.
+    #[must_use]
+    pub const fn with_probe(mut self, joint: usize, position: f64) -> Self {
+        self.probe = Some((joint, position));
+        self
+    }
+
+    /// Something goes wrong, or right again.
+    pub fn upset(&mut self, upset: Upset) {
+        match upset {
+            Upset::EmergencyStop(pressed) => self.has_emergency = pressed,
+            Upset::Dropout(silent) => self.is_silent = silent,
+            Upset::PowerLost(joint, lost) => {
+                self.joint(joint, |joint| joint.has_power_source = !lost);
+            }
+            Upset::DriveFault(joint, code) => self.joint(joint, |joint| joint.fault_code = code),
+            Upset::Stuck(joint, stuck) => self.joint(joint, |joint| joint.is_stuck = stuck),
+            Upset::Pushed(joint, distance) => self.joint(joint, |joint| joint.push(distance)),
+        }
+    }
+
+    fn joint(&mut self, joint: usize, change: impl FnOnce(&mut Joint)) {
+        if let Some(joint) = self.joints.get_mut(joint) {
+            change(joint);
+        }
+    }
+
+    /// Goes on to a time, ns of the clock by which feedback is stamped. `setpoint` is the last one
+    /// that arrived, `demand` what the servo library makes of it.
+    #[allow(
+        clippy::cast_precision_loss,
+        reason = "a step of milliseconds is exact"
+    )]
+    pub fn step(&mut self, now_ns: u64, setpoint: Option<&Setpoint>, demand: Option<&JointStates>) {
+        let step_ns = now_ns.saturating_sub(self.now_ns);
+        let is_first = self.number == 0;
+        self.now_ns = now_ns;
+        let (enable, home) = setpoint.map_or((0, 0), |s| (s.enable, s.home));
+        let enable = if self.has_emergency { 0 } else { enable };
+        if let Some(setpoint) = setpoint {
+            (self.reference, self.setpoint_number) = (setpoint.reference, setpoint.number);
+            self.carry_out(setpoint);
+        }
+        if !is_first && step_ns > 0 {
+            let step_t = step_ns as f64 * 1e-9;
+            for (index, joint) in self.joints.iter_mut().enumerate() {
+                let bit = 1 << index;
+                let wanted: Option<JointState> =
+                    demand.and_then(|demand| demand.get(index).copied());
+                joint.step(step_t, enable & bit != 0, home & bit != 0, wanted);
+            }
+            self.spindle.step(step_t);
+        }
+        self.feel();
+        let sample = self.measured();
+        self.under_way.push_back(sample);
+        self.number += 1;
+    }
+
+    /// The event of a setpoint, once.
+    fn carry_out(&mut self, setpoint: &Setpoint) {
+        let which = (setpoint.boot_id, setpoint.number);
+        if self.carried_out != Some(which) {
+            self.carried_out = Some(which);
+            if let Ok(Some(event)) = setpoint.event() {
+                self.spindle.take(event);
+            }
+        }
+    }
+
+    fn feel(&mut self) {
+        let Some((joint, at)) = self.probe else {
+            return;
+        };
+        let touches = self.joints.get(joint).is_some_and(|j| j.position() <= at);
+        if touches && !self.touches {
+            self.touch_count += 1;
+            self.touched = (self.positions(), self.now_ns);
+        }
+        self.touches = touches;
+    }
+
+    fn positions(&self) -> [f64; 9] {
+        let mut positions = [0.0; 9];
+        for (position, joint) in positions.iter_mut().zip(&self.joints) {
+            *position = joint.position();
+        }
+        positions
+    }
+
+    /// What is measured now, whether or not it will arrive.
+    #[must_use]
+    pub fn measured(&self) -> Feedback {
+        let mask = |is: &dyn Fn(&Joint) -> bool| {
+            let joints = self.joints.iter().enumerate();
+            joints
+                .filter(|(_, joint)| is(joint))
+                .fold(0, |mask, (index, _)| mask | 1 << index)
+        };
+        let mut feedback = Feedback {
+            boot_id: self.boot_id,
+            number: self.number,
+            sample_ns: self.now_ns,
+            reference: self.reference,
+            setpoint_number: self.setpoint_number,
+            joints: mask(&|_| true),
+            enabled: mask(&Joint::is_enabled),
+            homed: mask(&Joint::is_homed),
+            homing: mask(&Joint::is_homing),
+            fault: mask(&|joint| joint.fault_code != 0),
+            limit_low: mask(&|joint| joint.limits().0),
+            limit_high: mask(&|joint| joint.limits().1),
+            home_switch: mask(&Joint::is_at_home_switch),
+            position: self.positions(),
+            digital_in: u64::from(self.touches),
+            spindle_angle: self.spindle.angle,
+            spindle_v: self.spindle.speed,
+            spindle_index_count: self.spindle.index_count(),
+            spindle_flags: self.spindle.flags().0,
+            ..Feedback::zeroed()
+        };
+        for (index, joint) in self.joints.iter().enumerate() {
+            feedback.velocity[index] = joint.velocity();
+            feedback.fault_code[index] = joint.fault_code;
+            feedback.drive_state[index] = if joint.fault_code != 0 {
+                DriveState::Fault
+            } else if joint.is_enabled() {
+                DriveState::OperationEnabled
+            } else {
+                DriveState::Ready
+            }
+            .code();
+        }
+        let [latch, ..] = &mut feedback.latch;
+        latch.rising = 1;
+        (latch.position, latch.latch_ns) = self.touched;
+        latch.count = self.touch_count;
+        if self.touch_count > 0 {
+            latch.kind = LatchKind::Drive.code();
+        }
+        feedback
+    }
+
+    /// The newest feedback that has arrived, `None` if there is none or it stays away.
+    pub fn feedback(&mut self) -> Option<Feedback> {
+        let mut newest = None;
+        while let Some(first) = self.under_way.front()
+            && first.sample_ns + self.latency_ns <= self.now_ns
+        {
+            newest = self.under_way.pop_front();
+        }
+        newest.filter(|_| !self.is_silent)
+    }
+}

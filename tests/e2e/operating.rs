@@ -1,0 +1,148 @@
+//! A machine with drives: switched on, homed, used, lost, and switched on again.
+
+use std::time::Duration;
+
+use glidepath_link::{EndOfEpoch, FaultCause, MachineState, Power, Status, Transport};
+use glidepath_tests::{Instance, Process, Watchdog};
+use rustix::process::Signal;
+
+const PATIENCE: Duration = Duration::from_secs(240);
+
+const PROGRAM: &str = "G21 G90 G1 X8 Y2 F3000\nX-4 Y-6\nX5 Y5 Z3\nM2\n";
+
+/// The built-in machine, with drives that answer and look for their home.
+fn with_drives(instance: &Instance) -> String {
+    let printed = Process::start(instance, &["config", "--default"]).wait();
+    let text = printed.expect(0).stdout;
+    let text = text.replace("source = \"none\"", "source = \"drives\"");
+    let text = text.replace("homing = \"none\"", "homing = \"drive\"");
+    assert!(text.contains("source = \"drives\"") && text.contains("homing = \"drive\""));
+    instance.file("machine.toml", &text)
+}
+
+struct Machine<'a> {
+    instance: &'a Instance,
+    config: String,
+}
+
+impl Machine<'_> {
+    fn process(&self, arguments: &[&str]) -> Process {
+        Process::join(
+            self.instance,
+            &[arguments, &["--config", &self.config]].concat(),
+        )
+    }
+
+    fn operate(&self, arguments: &[&str]) {
+        let _done = self.process(arguments).wait().expect(0);
+    }
+
+    fn wait(&self, wanted: impl Fn(&Status) -> bool) -> Status {
+        let transport = self.instance.connect();
+        let mut source = transport.status_source().unwrap();
+        loop {
+            if let Some(status) = source.take().unwrap().filter(&wanted) {
+                return status;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    fn wait_for(&self, state: MachineState) -> Status {
+        self.wait(|status| status.state == state.code())
+    }
+
+    /// Off, with drives that say where they are.
+    fn wait_for_drives(&self) -> Status {
+        self.wait(|status| {
+            status.state == MachineState::Off.code() && status.feedback_age_ns < 12_000_000
+        })
+    }
+}
+
+#[test]
+fn a_machine_is_switched_on_homed_used_and_recovers_from_the_loss_of_its_drives() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let machine = Machine {
+        instance: &instance,
+        config: with_drives(&instance),
+    };
+    let program = instance.file("program.ngc", PROGRAM);
+    let interpolator = machine.process(&["interpolator", "--best-effort"]);
+    let status = machine.wait_for(MachineState::Off);
+    assert_eq!((status.power(), status.homed), (Ok(Power::Off), 0));
+    let refused = machine.process(&["enable"]).wait().expect(5);
+    assert!(refused.stderr.contains("where they are"), "{refused:#?}");
+
+    // The position is that of the drives, which count from anywhere.
+    let servo = machine.process(&["servo", "--stands", "12.5,-3,40"]);
+    let status = machine.wait_for_drives();
+    assert_eq!(status.joint_actual[..3], [0.0; 3]);
+    machine.operate(&["enable"]);
+    let status = machine.wait_for(MachineState::NotHomed);
+    assert_eq!((status.power(), status.homed), (Ok(Power::On), 0));
+    machine.operate(&["set-position", "J1", "7.25"]);
+    let _set = machine.wait(|status| status.position[1] == 7.25);
+    machine.operate(&["home"]);
+    let status = machine.wait_for(MachineState::Idle);
+    assert_eq!(status.position[..3], [7.5, -8.0, 35.0]);
+    assert_eq!(status.homed, 0b111);
+
+    // A program begins where the machine stands.
+    machine.operate(&["planner", &program]);
+    let status = machine.wait_for(MachineState::Idle);
+    assert_eq!(status.end_of_epoch(), Ok(EndOfEpoch::Completed));
+    assert_eq!(status.position[..3], [5.0, 5.0, 3.0]);
+    assert!(
+        status.following_peak[0] < 0.05,
+        "{:?}",
+        status.following_peak
+    );
+
+    // The servo stack dies in the middle of a motion.
+    let back = instance.file("back.ngc", "G21 G90 G1 X200 Y100 Z40 F3000\nM2\n");
+    let planner = machine.process(&["planner", &back]);
+    let _moving = machine.wait(|status| status.state == MachineState::Running.code());
+    let _under_way = machine.wait(|status| status.frames_executed > 100);
+    servo.signal(Signal::KILL);
+    let _killed = servo.wait();
+    let status = machine.wait_for(MachineState::Faulted);
+    assert_eq!(status.fault(), Ok(Some(FaultCause::FeedbackLost)));
+    let _planner = planner.wait().expect(5);
+    let _off = machine.wait(|status| status.power() == Ok(Power::Off));
+
+    // Another comes: nothing moves before the operator says so, and where it stands is its word.
+    let servo = machine.process(&["servo", "--stands", "1,2,3"]);
+    machine.wait(|status| status.feedback_age_ns < 12_000_000);
+    let refused = machine.process(&["enable"]).wait().expect(5);
+    assert!(refused.stderr.contains("reset"), "{refused:#?}");
+    machine.operate(&["reset"]);
+    let _off = machine.wait_for_drives();
+    machine.operate(&["enable"]);
+    let _on = machine.wait_for(MachineState::NotHomed);
+    machine.operate(&["home"]);
+    let status = machine.wait_for(MachineState::Idle);
+    assert_eq!(status.position[..3], [-4.0, -3.0, -2.0]);
+    machine.operate(&["planner", &program]);
+    machine.operate(&["disable"]);
+    let _off = machine.wait_for(MachineState::Off);
+    let _servo = servo.end().expect(0);
+    let _interpolator = interpolator.end().expect(0);
+}
+
+#[test]
+fn run_switches_a_machine_with_drives_on() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let config = with_drives(&instance);
+    let program = instance.file("program.ngc", "G21 G91 G1 X3 F3000\nY2\nM2\n");
+    let run = [
+        "run",
+        &program,
+        "--best-effort",
+        "--json",
+        "--config",
+        &config,
+    ];
+    let report = Process::start(&instance, &run).wait().expect(0).json();
+    assert_eq!(report["lost_setpoints"], 0);
+}
