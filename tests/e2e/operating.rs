@@ -82,7 +82,7 @@ fn a_machine_is_switched_on_homed_used_and_recovers_from_the_loss_of_its_drives(
     let status = machine.wait_for(MachineState::NotHomed);
     assert_eq!((status.power(), status.homed), (Ok(Power::On), 0));
     machine.operate(&["set-position", "J1", "7.25"]);
-    let _set = machine.wait(|status| status.position[1] == 7.25);
+    let _set = machine.wait(|status| (status.position[1] - 7.25).abs() < 1e-12);
     machine.operate(&["home"]);
     let status = machine.wait_for(MachineState::Idle);
     assert_eq!(status.position[..3], [7.5, -8.0, 35.0]);
