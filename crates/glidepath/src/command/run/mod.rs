@@ -177,7 +177,7 @@ impl Supervisor<'_> {
         let output = servo
             .take_output()
             .ok_or(Failure::Thread("the servo's output"))?;
-        let relay = Relay::start(output, self.args.file.path(), self.config, recording)?;
+        let relay = Relay::start(output, self.args.file.path(), self.config, recording);
         self.wait_for(&mut servo, || Ok(relay.seen.received() > 0))?;
 
         self.wait_for(&mut servo, || {

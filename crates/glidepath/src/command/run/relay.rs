@@ -66,12 +66,13 @@ impl Relay {
         program: &Path,
         config: &MachineConfig,
         recording: Recording,
-    ) -> Result<Self, Failure> {
+    ) -> Self {
         let seen = Arc::new(Seen::default());
-        let judge = Judge::new(program, config)?;
-        let (shared, period_t) = (Arc::clone(&seen), config.period_t());
-        let thread = std::thread::spawn(move || receive(from, judge, recording, &shared, period_t));
-        Ok(Self { seen, thread })
+        let shared = Arc::clone(&seen);
+        let (program, config) = (program.to_owned(), config.clone());
+        let thread =
+            std::thread::spawn(move || receive(from, (&program, &config), recording, &shared));
+        Self { seen, thread }
     }
 
     /// True if the servo's output has ended.
@@ -88,23 +89,40 @@ impl Relay {
 
 fn receive(
     from: impl Read + Send + 'static,
-    mut judge: Judge,
+    (program, config): (&Path, &MachineConfig),
     mut recording: Recording,
     seen: &Seen,
-    period_t: f64,
 ) -> Result<Received, Failure> {
+    let period_t = config.period_t();
     let replay = Replay::<Setpoint, _>::new(BufReader::new(from))?;
     // Only its counts are wanted: the servo process has played these setpoints in its own time.
     let mut servo = Servo::new(Box::new(replay), ServoSettings::default());
     let mut play_time = PlayTime::new(period_t);
+    // The program begins where the machine stands, which is known when the first setpoint comes that
+    // belongs to it: drives may have been switched on, and have gone home, before.
+    let mut stands = config.home();
+    let mut judge = None;
     while let Some(setpoint) = servo.receive(0)? {
         play_time.take(&setpoint);
-        let sample = judge.take(&setpoint, period_t, &mut recording);
+        let mut sample = Sample::received(&setpoint, period_t);
+        if setpoint.epoch == 0 {
+            stands = setpoint.position.into();
+        } else {
+            let judge = match &mut judge {
+                Some(judge) => judge,
+                none => none.insert(Judge::new(program, config, stands)?),
+            };
+            sample = judge.take(&setpoint, sample, &mut recording);
+        }
         recording.push(&sample)?;
         seen.line.store(setpoint.line, Ordering::Relaxed);
         seen.received.fetch_add(1, Ordering::Relaxed);
     }
     let counts = *servo.counts();
+    let judge = match judge {
+        Some(judge) => judge,
+        None => Judge::new(program, config, stands)?,
+    };
     let (audit, summary) = judge.finish(&mut recording);
     Ok(Received {
         counts,
@@ -126,8 +144,8 @@ struct Judge {
 }
 
 impl Judge {
-    fn new(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
-        let options = config.program_options(config.home());
+    fn new(path: &Path, config: &MachineConfig, stands: AxisVector) -> Result<Self, Failure> {
+        let options = config.program_options(stands);
         let program = FileSource::unchecked(path, options, &config.settings())?;
         let judged = AuditSettings {
             limits: config.limits(),
@@ -142,12 +160,8 @@ impl Judge {
         })
     }
 
-    /// Judges a setpoint; gives the sample of it, with what is known of it.
-    fn take(&mut self, setpoint: &Setpoint, period_t: f64, recording: &mut Recording) -> Sample {
-        let sample = Sample::received(setpoint, period_t);
-        if setpoint.epoch == 0 {
-            return sample;
-        }
+    /// Judges a setpoint of the program; gives its sample, with what is known of it.
+    fn take(&mut self, setpoint: &Setpoint, sample: Sample, recording: &mut Recording) -> Sample {
         while self.told_s < setpoint.path_s + AHEAD_MM && self.tell(recording) {}
         self.audit.sample(&audit::Sample {
             // Not the tick of the clock: after a missed tick the next setpoint is the next of the
