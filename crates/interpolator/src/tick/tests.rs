@@ -19,8 +19,12 @@ mod planned;
 mod supply;
 
 use super::*;
+use crate::config::Config;
 use crate::testing::{Numbers, Rig, lines, mill, plan, random_cases, records};
-use glidepath_link::{Command, MachineState, SetpointMarks};
+use glidepath_geometry::AxisVector;
+use glidepath_link::SetpointFrame;
+use glidepath_link::{Command, EndOfEpoch, MachineState, SetpointMarks};
+use glidepath_program::FrameFlags;
 use proptest::prelude::*;
 
 const INSIDE: f64 = 1.0 + 1e-6;

@@ -1,6 +1,7 @@
 //! Planners that are slow, die, and come back.
 
 use super::*;
+use crate::supply::Supply;
 
 #[test]
 fn a_planner_that_dies_leaves_the_machine_at_rest_on_the_path_with_the_cause() {

@@ -1,0 +1,136 @@
+//! What a tick does for those who move the machine without a program: the operator's orders, jogs,
+//! and what the drives say.
+
+use super::state::Interpolator;
+use crate::jog::Surroundings;
+use crate::message::{Inputs, Order};
+use glidepath_link::{Command, EndOfEpoch, MachineState, Setpoint};
+use glidepath_realtime::Wake;
+
+/// Orders taken in one tick.
+const ORDERS_PER_TICK: usize = 4;
+
+impl Interpolator<'_> {
+    pub(super) fn carry_out_orders(&mut self, inputs: &mut Inputs<'_>) {
+        for _ in 0..ORDERS_PER_TICK {
+            let Some(order) = inputs.orders.dequeue() else {
+                return;
+            };
+            match order {
+                Order::PlannerLives => self.supply.planner_lives(),
+                Order::Command(command) => self.drives.carry_out(command, self.is_open()),
+                Order::Cut(_) => self.lose_power(),
+                Order::Fault(_) => {}
+            }
+            if let Order::Command(command) = order
+                && !self.is_for_program(command)
+            {
+                continue;
+            }
+            let released = self.requests.carry_out(order, self.is_open());
+            if released.program_stop {
+                self.track.pass_stop();
+            }
+            if released.block_end {
+                self.block_stop.skip();
+                self.track.hold_at_block_end(None);
+            }
+        }
+    }
+
+    /// Carries out what a command is to the jog. Returns whether it is one to the program, too.
+    fn is_for_program(&mut self, command: Command) -> bool {
+        match command {
+            Command::Hold | Command::Abort => self.jog.cancel(),
+            Command::Return => {
+                let around = self.surroundings(0, false);
+                self.jog.go_back(&around);
+            }
+            Command::JogOverride(ratio) => self.jog.set_override(ratio),
+            // The path begins where the axes are not.
+            Command::Resume | Command::Step => return !self.jog.owns_axes(),
+            _ => {}
+        }
+        true
+    }
+
+    /// Takes the demands for a jog. They count from rest only, with a program held or none, and as
+    /// long as no program is about to begin.
+    pub(super) fn hear_demands(&mut self, now_ns: u64, inputs: &mut Inputs<'_>) {
+        if self.requests.is_stopping() {
+            self.jog.cancel();
+        }
+        let is_free = if self.is_open() {
+            let state = self.account.state();
+            matches!(state, MachineState::Held | MachineState::ProgramStop) && self.is_standing()
+        } else {
+            let state = self.account.state();
+            matches!(state, MachineState::Idle | MachineState::NotHomed)
+                && self.drives.following() == 0
+                && inputs.frames.peek().is_none()
+        };
+        let may_start = is_free && !self.requests.is_stopping();
+        while let Some(demand) = inputs.demands.dequeue() {
+            let around = self.surroundings(now_ns, may_start);
+            if self.jog.hear(&demand, &around) && self.is_open() {
+                // Whatever it is held for may end: it goes on when the operator says so.
+                self.requests.hold();
+            }
+        }
+    }
+
+    fn surroundings(&self, now_ns: u64, may_start: bool) -> Surroundings {
+        Surroundings {
+            now_ns,
+            position: self.output.published().position(),
+            may_start,
+            is_on_path: self.is_open(),
+            is_homed: self.drives.are_homed(),
+        }
+    }
+
+    /// Writes the setpoint of axes that a jog moves, or has moved away from the path.
+    pub(super) fn follow_jog(&mut self, due: &Wake, setpoint: &mut Setpoint) {
+        let motion = self.jog.step(due.scheduled_ns);
+        let (output, away) = (&mut self.output, self.jog.away());
+        let written = output.write_by_hand(self.epoch, &self.passed, &motion, &away, setpoint);
+        self.judge(written, due.tick);
+    }
+
+    /// Sees to what the drives say.
+    pub(super) fn attend_to_drives(&mut self, inputs: &mut Inputs<'_>) {
+        let is_open = self.is_open();
+        let place = (self.passed.line, self.passed.sequence);
+        let (output, requests) = (&mut self.output, &mut self.requests);
+        let observations = &mut inputs.observations;
+        let is_cut = self
+            .drives
+            .attend(observations, output, requests, is_open, place);
+        if is_cut {
+            self.end_motion();
+        }
+    }
+
+    /// What moved the drives is over: they have no power any more.
+    fn end_motion(&mut self) {
+        self.jog.end();
+        if self.is_open() {
+            self.close(EndOfEpoch::Faulted);
+        }
+        self.output.rest();
+    }
+
+    /// The drives lose their power at once; where they are is where they were last seen.
+    fn lose_power(&mut self) {
+        self.drives.cut();
+        self.output.begin_reference();
+        self.end_motion();
+    }
+
+    /// Writes the setpoint of a machine whose joints are where the drives say.
+    pub(super) fn write_following(&mut self, setpoint: &mut Setpoint) {
+        let (seen, follows) = (self.drives.seen(), self.drives.following());
+        self.output
+            .write_following(self.epoch, &self.passed, seen, follows, setpoint);
+    }
+}

@@ -1,0 +1,184 @@
+//! What a tick does for the program: takes its frames, advances its time, and ends its epoch.
+
+use super::state::Interpolator;
+use crate::block_stop::BlockStop;
+use crate::message::{Fault, Inputs};
+use crate::output::Written;
+use crate::program_time::ProgramTime;
+use crate::rate::{Situation, beside_full};
+use crate::rest::SAME_POSITION;
+use glidepath_geometry::AxisVector;
+use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, Setpoint, SetpointFrame};
+use glidepath_program::FrameFlags;
+
+/// Frames taken from the ring in one tick. More than one, so that the track fills up; few, so that
+/// a tick stays short.
+const FRAMES_PER_TICK: usize = 8;
+
+impl Interpolator<'_> {
+    /// Takes frames while there is room. What belongs to no epoch that is open here was under way
+    /// when its epoch ended, and is dropped.
+    pub(super) fn take_frames(&mut self, inputs: &mut Inputs<'_>) {
+        self.track.release_before(self.rate.now().time.sequence);
+        for _ in 0..FRAMES_PER_TICK {
+            if self.track.is_full() {
+                return;
+            }
+            let Some(next) = inputs.frames.peek() else {
+                return;
+            };
+            let is_first = next.has(FrameFlags::FIRST) && next.epoch > self.epoch;
+            if is_first && self.is_open() && self.requests.is_stopping() {
+                // The open epoch is about to end; then this one can begin.
+                return;
+            }
+            // Straight from the ring, and only then is its room there given back.
+            if self.is_open() && next.epoch == self.epoch {
+                self.track.push(next);
+            } else if is_first && self.requests.fault().is_none() && self.drives.are_ready() {
+                self.open(next);
+            }
+            let _taken = inputs.frames.dequeue();
+        }
+    }
+
+    /// Starts an epoch, instead of one that stands in the middle of its way.
+    fn open(&mut self, frame: &SetpointFrame) {
+        let away = AxisVector::from(frame.position) - self.output.published().position();
+        if away.amax() > SAME_POSITION || !self.output.published().is_at_rest() {
+            let cause = FaultCause::Frame(FrameRefusal::Elsewhere);
+            self.requests
+                .fail(Fault::new(cause, frame.line, frame.sequence));
+            return;
+        }
+        self.track.clear();
+        self.track.push(frame);
+        self.rate.begin_at(ProgramTime::at(frame.sequence));
+        self.epoch = frame.epoch;
+        self.end_of_epoch = EndOfEpoch::Open;
+        self.output.begin_epoch();
+        self.block_stop = BlockStop::none();
+        self.supply.begin_epoch();
+        self.requests.forget_epoch();
+    }
+
+    /// Looks whether there are frames enough, and stops for good if the planner is lost.
+    pub(super) fn watch_supply(&mut self) {
+        let holds = self.requests.holds(self.is_rapid());
+        let (track, rate, published) = (&self.track, &self.rate, self.output.published());
+        if self.is_open() && self.supply.watch(track, rate, published, holds) {
+            self.fail(FaultCause::PlannerLost);
+        }
+    }
+
+    /// Keeps in mind where the present block ends, if the motion is to rest there.
+    pub(super) fn look_for_block_end(&mut self) {
+        let (track, rate) = (&mut self.track, &mut self.rate);
+        self.block_stop
+            .look_ahead(&self.requests, rate, track, self.output.published());
+    }
+
+    /// Chooses the rate, and how to stop if no more frames come. Where the plan itself rests, any
+    /// rate is at rest, but it takes a new reserve to go on from there.
+    #[allow(clippy::float_cmp, reason = "a steady rate is a copy of the goal")]
+    pub(super) fn choose_rate(&mut self) {
+        let mut goal = self.goal();
+        let now = self.rate.now();
+        let rests = self.output.published().is_at_rest() && self.plan_rests();
+        if rests {
+            if self.rate.take_found_no_stop() {
+                self.block_stop.set_out_slower();
+            }
+            goal = goal.min(self.block_stop.sets_out_at());
+        }
+        if rests && now.rate != goal {
+            self.track.bar(now.time.sequence);
+            self.rate.rest_at(now.time, goal);
+        }
+        let program_stop = self.track.program_stop();
+        let situation = Situation {
+            track: &self.track,
+            published: self.output.published(),
+            allowed: self.output.allowed(),
+            reach: self.supply.reach(),
+            is_fully_supplied: self.supply.is_fully_supplied(),
+            block_end: self
+                .block_stop
+                .in_motion()
+                .filter(|end| program_stop.is_none_or(|stop| *end < stop)),
+        };
+        if !rests {
+            self.rate.choose_ramp(goal, &situation);
+        }
+        let arrives_at = situation.block_end;
+        if self.rate.ensure_stop(goal, &situation) {
+            self.track.unbar();
+        }
+        if arrives_at.is_some_and(|frame| self.rate.is_to_arrive_at(frame)) {
+            self.track.hold_at_block_end(None);
+        }
+    }
+
+    /// The rate that is wanted: the commanded override over the planned one, if nothing stops.
+    fn goal(&self) -> f64 {
+        if self.supply.is_short() {
+            return 0.0;
+        }
+        let planned_override = self.present().planned_override;
+        beside_full(self.requests.wanted_rate(self.is_rapid(), planned_override))
+    }
+
+    /// Advances program time, not past a frame that holds the motion.
+    pub(super) fn advance_program_time(&mut self, tick: u64) {
+        let before = self.rate.has_taken_reserve();
+        let time = self.rate.advance().time;
+        if self.rate.has_taken_reserve() && !before {
+            self.account.begin_reserve_stop(tick);
+        }
+        let held = time.held_at(self.track.holding_frame());
+        if held != time {
+            self.rate.rest_at(held, self.rate.now().rate);
+        }
+    }
+
+    /// Writes the setpoint at the present program time, and says if it should not be.
+    pub(super) fn write_moving(&mut self, tick: u64, setpoint: &mut Setpoint) {
+        let now = self.rate.now();
+        let (output, track) = (&mut self.output, &self.track);
+        let written = output.write_moving(self.epoch, &now, track, setpoint);
+        self.judge(written, tick);
+        if written == Written::Nothing {
+            // Every committed ramp ends on frames at hand, so this cannot be; if it were, standing
+            // still is all that is left.
+            self.fail(FaultCause::Output);
+            self.rate.rest_at(now.time, 0.0);
+            self.write_standing(setpoint);
+        }
+    }
+
+    /// What follows when program time stands: the end of the epoch, or a program stop.
+    pub(super) fn end_epoch_or_wait(&mut self) {
+        if !self.is_open() {
+            return;
+        }
+        let now = self.rate.now().time;
+        let present = self.present();
+        self.passed = present;
+        if self.requests.is_stopping() && self.is_standing() {
+            self.close(if self.requests.fault().is_some() {
+                EndOfEpoch::Faulted
+            } else {
+                EndOfEpoch::Aborted
+            });
+        } else if present.has(FrameFlags::LAST) && self.is_standing() {
+            self.close(EndOfEpoch::Completed);
+        } else {
+            if self.track.program_stop() == Some(now.sequence) {
+                self.requests.wait_for_operator();
+            }
+            if self.block_stop.is_at(now) && (self.rate.now().rate <= 0.0 || self.plan_rests()) {
+                self.requests.stand_at_block_end();
+            }
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! What the real-time thread keeps, and what every part of a tick asks of it.
+
+use crate::account::Account;
+use crate::block_stop::BlockStop;
+use crate::config::Config;
+use crate::drives::Drives;
+use crate::frame_summary::FrameSummary;
+use crate::jog::Jog;
+use crate::message::{Fault, Happening};
+use crate::output::{Output, Written};
+use crate::program_time::ProgramTime;
+use crate::rate::Rate;
+use crate::stop_requests::StopRequests;
+use crate::supply::Supply;
+use crate::track::Track;
+use glidepath_link::{EndOfEpoch, FaultCause, Setpoint};
+use glidepath_program::FrameFlags;
+use glidepath_realtime::EventWriter;
+
+/// Share of a limit by which a setpoint may exceed it before the motion is stopped for that.
+const EXCESS_FAULT: f64 = 0.05;
+
+/// The real-time thread's state.
+pub(crate) struct Interpolator<'a> {
+    pub(super) track: Track,
+    pub(super) rate: Rate,
+    pub(super) requests: StopRequests,
+    pub(super) supply: Supply,
+    pub(super) block_stop: BlockStop,
+    pub(super) jog: Jog,
+    pub(super) drives: Drives,
+    pub(super) output: Output,
+    /// The open or last epoch, 0 before the first.
+    pub(super) epoch: u64,
+    pub(super) end_of_epoch: EndOfEpoch,
+    /// What is kept of the last frame passed.
+    pub(super) passed: FrameSummary,
+    /// The machine has moved in the present epoch.
+    pub(super) has_moved: bool,
+    pub(super) account: Account<'a>,
+}
+
+impl<'a> Interpolator<'a> {
+    pub(crate) fn new(
+        config: &Config,
+        boot_id: u64,
+        happenings: EventWriter<'a, Happening>,
+    ) -> Self {
+        let period_t = config.period_t();
+        Self {
+            track: Track::new(period_t, config.limits),
+            rate: Rate::new(ProgramTime::at(0), 0.0),
+            requests: StopRequests::default(),
+            supply: Supply::new(config),
+            block_stop: BlockStop::none(),
+            jog: Jog::new(config),
+            drives: Drives::new(config),
+            output: Output::new(config, boot_id),
+            epoch: 0,
+            end_of_epoch: EndOfEpoch::None,
+            passed: FrameSummary::NONE,
+            has_moved: false,
+            account: Account::new(config, happenings),
+        }
+    }
+
+    /// True while an epoch is being executed.
+    pub(super) fn is_open(&self) -> bool {
+        !self.track.is_empty()
+    }
+
+    /// True where the plan itself is at rest.
+    pub(super) fn plan_rests(&self) -> bool {
+        self.track.rests_at(self.rate.now().time)
+    }
+
+    /// True if the machine stands, because program time does or because the plan rests.
+    pub(super) fn is_standing(&self) -> bool {
+        self.output.published().is_at_rest() && (self.rate.now().rate <= 0.0 || self.plan_rests())
+    }
+
+    /// What is known of the frame at or before the present program time.
+    pub(super) fn present(&self) -> FrameSummary {
+        let frame = self.track.frame(self.rate.now().time.sequence);
+        frame.map_or(self.passed, FrameSummary::of)
+    }
+
+    pub(super) fn is_rapid(&self) -> bool {
+        self.present().has(FrameFlags::RAPID)
+    }
+
+    /// Latches a fault; the motion stops on the path.
+    pub(super) fn fail(&mut self, cause: FaultCause) {
+        self.requests
+            .fail(Fault::new(cause, self.passed.line, self.passed.sequence));
+    }
+
+    /// Tells of a setpoint that exceeds a limit, and stops the motion for one that is far above.
+    pub(super) fn judge(&mut self, written: Written, tick: u64) {
+        if let Written::Excess(part) = written {
+            self.account.exceed(tick, part);
+            if part.is_nan() || part > EXCESS_FAULT {
+                self.fail(FaultCause::Output);
+            }
+        }
+    }
+
+    pub(super) fn close(&mut self, end: EndOfEpoch) {
+        // Where the machine stands is not at a frame in general.
+        if let Some(path) = self.track.path(self.rate.now().time) {
+            self.passed.path_s = path.path_s;
+        }
+        self.track.clear();
+        self.rate.rest_at(self.rate.now().time, 0.0);
+        self.jog.forget_path();
+        self.output.rest();
+        self.end_of_epoch = end;
+        self.supply.end_epoch();
+        self.requests.forget_epoch();
+    }
+
+    /// Writes the setpoint of a machine that stays where it is.
+    pub(super) fn write_standing(&mut self, setpoint: &mut Setpoint) {
+        self.output
+            .write_standing(self.epoch, &self.passed, setpoint);
+    }
+}
