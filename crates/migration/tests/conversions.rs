@@ -7,45 +7,12 @@
     reason = "a test that fails may panic"
 )]
 
+mod support;
+
 use glidepath_migration::{Conversion, from_grbl, from_klipper, from_linuxcnc};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-
-/// The samples: the control, the file, and the files it includes.
-const SAMPLES: [(&str, &str, &[&str]); 9] = [
-    ("linuxcnc", "mill-mm.ini", &[]),
-    ("linuxcnc", "gantry-inch.ini", &["gantry-axes.inc"]),
-    ("linuxcnc", "delta.ini", &[]),
-    ("grbl", "router.txt", &[]),
-    ("grbl", "router-force-origin.txt", &[]),
-    ("grbl", "grblhal.txt", &[]),
-    ("klipper", "cartesian.cfg", &["macros.cfg"]),
-    ("klipper", "corexy.cfg", &[]),
-    ("klipper", "delta.cfg", &[]),
-];
-
-fn folder(control: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../tests/data/migration")
-        .join(control)
-}
-
-fn read(control: &str, file: &str) -> String {
-    std::fs::read_to_string(folder(control).join(file)).expect("a sample")
-}
-
-fn convert(control: &str, text: &str) -> Conversion {
-    let include = |name: &str| {
-        std::fs::read_to_string(folder(control).join(name)).map_err(|error| error.to_string())
-    };
-    let converted = match control {
-        "linuxcnc" => from_linuxcnc(text, &include),
-        "grbl" => from_grbl(text),
-        _ => from_klipper(text, &include),
-    };
-    converted.unwrap_or_else(|error| panic!("{control}: {error}"))
-}
+use support::{SAMPLES, convert, folder, read};
 
 /// The keys of a text, counted without any of the code that converts it.
 fn keys_of(control: &str, text: &str) -> BTreeMap<String, u32> {
