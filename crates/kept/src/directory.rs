@@ -1,11 +1,17 @@
 //! A folder of the file system as storage.
+//!
+//! What is kept decides where a machine goes, so nobody but the folder's owner and those it was
+//! opened to by its group may write there: a folder or a file that everybody may write to is
+//! refused, and so is a folder to write in that is another user's. Files are never reached through
+//! symbolic links, and what is no file (a FIFO waits for ever) is not read.
 
 use crate::error::KeptError;
 use crate::storage::Storage;
-use rustix::fs::{FlockOperation, flock};
-use std::fs::{self, File, OpenOptions};
+use rustix::fs::{FlockOperation, OFlags, flock};
+use rustix::process::geteuid;
+use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read as _, Write as _};
-use std::os::unix::fs::{DirBuilderExt as _, OpenOptionsExt as _};
+use std::os::unix::fs::{DirBuilderExt as _, MetadataExt as _, OpenOptionsExt as _};
 use std::path::{Path, PathBuf};
 
 /// The file whose lock says who writes.
@@ -45,9 +51,24 @@ impl Directory {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists && path.is_dir() => {}
             Err(source) => return Err(KeptError::io("make the folder", &name)(source)),
         }
-        Ok(Self {
+        let folder = Self {
             path: path.to_owned(),
-        })
+        };
+        let checked = folder.check().and_then(|found| {
+            let user = geteuid();
+            let is_own = user.is_root() || [user.as_raw(), 0].contains(&found.uid());
+            let why = format!("it belongs to user {}", found.uid());
+            is_own.then_some(()).ok_or_else(|| refused(&why))
+        });
+        checked.map_err(KeptError::io("write in the folder", &name))?;
+        Ok(folder)
+    }
+
+    /// What the folder is, of which nothing is read or written if everybody may write there.
+    fn check(&self) -> io::Result<Metadata> {
+        let found = fs::metadata(&self.path)?;
+        check_closed(&found)?;
+        Ok(found)
     }
 
     /// A folder to read in, which need not be there: nothing is kept then.
@@ -58,13 +79,21 @@ impl Directory {
         }
     }
 
+    /// How a file in it is opened: the file itself, at once.
+    fn options() -> OpenOptions {
+        let flags = OFlags::NOFOLLOW | OFlags::NONBLOCK;
+        let mut options = OpenOptions::new();
+        options.custom_flags(flags.bits().cast_signed());
+        options
+    }
+
     /// Takes the right to write here, which one process has at a time.
     ///
     /// # Errors
     /// [`KeptError::Taken`]: another process has it; or the lock's file cannot be made.
     pub fn lock(&self) -> Result<DirectoryLock, KeptError> {
         let path = self.path.join(LOCK);
-        let file = OpenOptions::new()
+        let file = Self::options()
             .create(true)
             .truncate(false)
             .write(true)
@@ -86,29 +115,41 @@ impl Directory {
 
 impl Storage for Directory {
     fn read(&self, name: &str) -> io::Result<Option<Vec<u8>>> {
-        let file = match File::open(self.path.join(name)) {
+        let file = match Self::options().read(true).open(self.path.join(name)) {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(error),
         };
+        self.check()?;
+        let found = file.metadata()?;
+        check_closed(&found)?;
+        if !found.is_file() {
+            return Err(io::Error::new(io::ErrorKind::InvalidData, "it is no file"));
+        }
         let mut bytes = Vec::new();
         file.take(MOST_BYTES).read_to_end(&mut bytes)?;
         Ok(Some(bytes))
     }
 
     fn create(&mut self, name: &str) -> io::Result<()> {
-        let mut options = OpenOptions::new();
-        let options = options.create(true).truncate(true).write(true).mode(0o640);
-        options.open(self.path.join(name)).map(drop)
+        let path = self.path.join(name);
+        // What is there may be a link to something else.
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+        let mut options = Self::options();
+        let options = options.create_new(true).write(true).mode(0o640);
+        options.open(path).map(drop)
     }
 
     fn append(&mut self, name: &str, bytes: &[u8]) -> io::Result<()> {
-        let mut file = OpenOptions::new().append(true).open(self.path.join(name))?;
+        let mut file = Self::options().append(true).open(self.path.join(name))?;
         file.write_all(bytes)
     }
 
     fn sync(&mut self, name: &str) -> io::Result<()> {
-        OpenOptions::new()
+        Self::options()
             .write(true)
             .open(self.path.join(name))?
             .sync_all()
@@ -125,4 +166,20 @@ impl Storage for Directory {
     fn describe(&self, name: &str) -> String {
         self.path.join(name).display().to_string()
     }
+}
+
+/// Refuses what everybody may write to.
+fn check_closed(found: &Metadata) -> io::Result<()> {
+    const EVERYBODY: u32 = 0o002;
+    if found.mode() & EVERYBODY == 0 {
+        return Ok(());
+    }
+    Err(refused(
+        "everybody may write to it, and could send the machine elsewhere; look at what is kept, \
+         then `chmod o-w` it",
+    ))
+}
+
+fn refused(why: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::PermissionDenied, why)
 }

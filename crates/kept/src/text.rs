@@ -65,6 +65,9 @@ pub(crate) fn from_text(file: &str, bytes: &[u8]) -> Result<(u64, Kept), KeptErr
     let generation: u64 = generation
         .parse()
         .map_err(|_| damaged("its generation is no number"))?;
+    if generation == u64::MAX {
+        return Err(damaged("its generation leaves no number for the next"));
+    }
     if format!("{:016x}", checksum(found, generation, body)) != **sum {
         return Err(damaged("its checksum is another"));
     }

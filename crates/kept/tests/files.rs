@@ -10,7 +10,10 @@ mod generations;
 
 use generations::kept_of;
 use glidepath_kept::{Directory, KeptError, Rest, SLOTS, Store};
+use std::fs::Permissions;
 use std::io::{BufRead as _, BufReader};
+use std::os::unix::fs::{PermissionsExt as _, symlink};
+use std::os::unix::process::CommandExt as _;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
@@ -94,6 +97,89 @@ fn one_process_writes_at_a_time() {
     assert!(matches!(other.lock(), Err(KeptError::Taken { .. })));
     drop(lock);
     other.lock().expect("nobody writes any more");
+}
+
+/// What another user put there, or may put there, is neither read nor written through.
+#[test]
+fn what_others_may_change_is_not_taken_for_what_was_kept() {
+    let mode = |path: &Path, mode: u32| {
+        std::fs::set_permissions(path, Permissions::from_mode(mode)).expect("its mode is set");
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let here = folder.path().join("state");
+    let mut store = written(&here, 2);
+    let slot = here.join(SLOTS[0]);
+    let told = |result: Result<_, KeptError>| result.expect_err("it is refused").to_string();
+    for (open, closed) in [(&here, 0o750), (&slot, 0o640)] {
+        mode(open, closed | 0o002);
+        let error = told(store.read());
+        assert!(error.contains("everybody may write to it"), "{error}");
+        mode(open, closed);
+        store.read().expect("whole");
+    }
+    mode(&here, 0o777);
+    let error = Directory::open(&here)
+        .expect_err("it is refused")
+        .to_string();
+    assert!(error.contains("everybody may write to it"), "{error}");
+    mode(&here, 0o750);
+    // A file elsewhere is not written to in the place of a generation.
+    let victim = folder.path().join("victim");
+    std::fs::write(&victim, "the work of a week").expect("it is written");
+    symlink(&victim, here.join("kept.new")).expect("a link");
+    store.write(&kept_of(3)).expect("it is written");
+    let left = std::fs::read_to_string(&victim).expect("text");
+    assert_eq!(left, "the work of a week");
+    symlink(&victim, here.join("lock")).expect("a link");
+    let directory = Directory::open(&here).expect("a folder");
+    assert!(matches!(directory.lock(), Err(KeptError::Io { .. })));
+    // Nor is one that is linked there read, and what is no file is not waited for.
+    std::fs::rename(&slot, folder.path().join("other")).expect("it is moved");
+    symlink(folder.path().join("other"), &slot).expect("a link");
+    assert!(matches!(store.read(), Err(KeptError::Io { .. })));
+    std::fs::remove_file(&slot).expect("it is gone");
+    let made = Command::new("mkfifo").arg(&slot).status().expect("a FIFO");
+    assert!(made.success());
+    let error = told(store.read());
+    assert!(error.contains("it is no file"), "{error}");
+}
+
+/// Skipped, with a word about it, unless root runs it.
+#[test]
+fn nothing_is_written_in_the_folder_of_another_user() {
+    const NOBODY: u32 = 65_534;
+    const AS_NOBODY: &str = "GLIDEPATH_KEPT_NOBODY";
+    if let Some(folder) = std::env::var_os(AS_NOBODY) {
+        let error = Directory::open(Path::new(&folder)).expect_err("it is another's");
+        println!("refused: {error}");
+        return;
+    }
+    if !rustix::process::geteuid().is_root() {
+        println!("skipped: only root can be another user");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let shared = folder.path().join("state");
+    std::fs::create_dir(&shared).expect("a folder");
+    std::os::unix::fs::chown(&shared, Some(1), Some(NOBODY)).expect("it is given away");
+    for (path, mode) in [(folder.path(), 0o755), (&*shared, 0o770)] {
+        std::fs::set_permissions(path, Permissions::from_mode(mode)).expect("its mode is set");
+    }
+    // Another user cannot go where this test was built.
+    let own = folder.path().join("test");
+    std::fs::copy(std::env::current_exe().expect("this test"), &own).expect("a copy");
+    let output = Command::new(own)
+        .args(["--exact", "--nocapture"])
+        .arg("nothing_is_written_in_the_folder_of_another_user")
+        .env(AS_NOBODY, &shared)
+        .current_dir("/")
+        .uid(NOBODY)
+        .gid(NOBODY)
+        .output()
+        .expect("the other user");
+    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{output:?}");
+    assert!(told.contains("it belongs to user 1"), "{told}");
 }
 
 #[test]
