@@ -24,6 +24,12 @@ pub enum RunError {
          clears it"
     )]
     Fault(Fault),
+    /// The interpolator stopped by a fault, and somebody has reset it before its cause was read.
+    #[error("the interpolator stopped by a fault that was reset meanwhile{}", after_colon(.message))]
+    FaultReset {
+        /// What the interpolator said last.
+        message: String,
+    },
     /// The interpolator gave no sign of life, or was started anew.
     #[error("the interpolator is gone; it is restarted by `glidepath interpolator`")]
     InterpolatorLost,
@@ -68,8 +74,8 @@ pub enum RunError {
 /// A fault the interpolator has latched.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
-    /// What kind; `None` if the planner does not know the code.
-    pub cause: Option<FaultCause>,
+    /// What kind.
+    pub cause: FaultCause,
     /// Source line, 0 if it has none.
     pub line: u32,
     /// Axis, if the fault has one.
@@ -81,12 +87,11 @@ pub struct Fault {
 impl std::fmt::Display for Fault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self.cause {
-            Some(FaultCause::Frame(FrameRefusal::Elsewhere)) => {
+            FaultCause::Frame(FrameRefusal::Elsewhere) => {
                 write!(f, "the program does not start where the machine stands")?;
             }
-            Some(FaultCause::Frame(refusal)) => write!(f, "a frame was refused ({refusal:?})")?,
-            Some(cause) => write!(f, "{cause:?}")?,
-            None => write!(f, "unknown cause")?,
+            FaultCause::Frame(refusal) => write!(f, "a frame was refused ({refusal:?})")?,
+            cause => write!(f, "{cause:?}")?,
         }
         if let Some(axis) = self.axis {
             write!(f, ", axis {axis}")?;
@@ -94,21 +99,31 @@ impl std::fmt::Display for Fault {
         if self.line > 0 {
             write!(f, ", line {}", self.line)?;
         }
-        if !self.message.is_empty() {
-            write!(f, ": {}", self.message)?;
-        }
-        Ok(())
+        f.write_str(&after_colon(&self.message))
     }
+}
+
+/// A message that may be missing.
+fn after_colon(message: &str) -> String {
+    if message.is_empty() {
+        return String::new();
+    }
+    format!(": {message}")
 }
 
 impl RunError {
     /// The fault a status tells of.
     pub(crate) fn fault(status: &Status) -> Self {
-        Self::Fault(Fault {
-            cause: status.fault().unwrap_or(None),
-            line: status.fault_line,
-            axis: status.fault_axis(),
-            message: status.last_error.as_str().to_owned(),
-        })
+        let message = status.last_error.as_str().to_owned();
+        match status.fault() {
+            Ok(Some(cause)) => Self::Fault(Fault {
+                cause,
+                line: status.fault_line,
+                axis: status.fault_axis(),
+                message,
+            }),
+            Ok(None) => Self::FaultReset { message },
+            Err(error) => Self::Link(error.into()),
+        }
     }
 }

@@ -262,9 +262,32 @@ fn a_fault_is_reported_with_its_cause() {
         |control| run(&transport, Listed::new(&staircase(200)), pace(), control),
     );
     match result {
-        Err(RunError::Fault(fault)) => assert_eq!(fault.cause, Some(FaultCause::MissedTicks)),
+        Err(RunError::Fault(fault)) => assert_eq!(fault.cause, FaultCause::MissedTicks),
         other => panic!("{other:?}"),
     }
+}
+
+#[test]
+fn a_fault_that_was_reset_before_it_was_seen_is_called_that() {
+    let transport = InProcess::default();
+    let interpolator = RefCell::new(Interpolator::new(&transport, 128));
+    let (result, _) = attended(
+        &AtomicBool::new(false),
+        |time| {
+            let mut interpolator = interpolator.borrow_mut();
+            if interpolator.executed.len() >= 100 && interpolator.end() == EndOfEpoch::Open {
+                interpolator.fail(FaultCause::MissedTicks);
+                interpolator.reset();
+            }
+            interpolator.pass(time);
+        },
+        |control| run(&transport, Listed::new(&staircase(200)), pace(), control),
+    );
+    let told = result.unwrap_err().to_string();
+    assert_eq!(
+        told,
+        "the interpolator stopped by a fault that was reset meanwhile"
+    );
 }
 
 #[test]

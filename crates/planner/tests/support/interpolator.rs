@@ -80,6 +80,10 @@ impl Interpolator {
         self.queue.clear();
     }
 
+    pub(crate) fn reset(&mut self) {
+        (self.state, self.fault) = (MachineState::Idle, None);
+    }
+
     pub(crate) fn abort(&mut self) {
         if self.end == EndOfEpoch::Open {
             self.end = EndOfEpoch::Aborted;
@@ -115,7 +119,7 @@ impl Interpolator {
         for command in commands {
             match command {
                 Command::Abort => self.abort(),
-                Command::Reset => (self.state, self.fault) = (MachineState::Idle, None),
+                Command::Reset => self.reset(),
                 other => panic!("not simulated: {other:?}"),
             }
         }
