@@ -153,7 +153,7 @@ impl Jog {
 
     /// Takes a demand. Returns whether a jog begins with it.
     pub(crate) fn hear(&mut self, demand: &Demand, around: &Surroundings) -> bool {
-        let turned = self.wheel.turn(demand);
+        let turned = self.wheel.turn(demand, around.now_ns);
         let is_wheel = matches!(demand.mode, JogMode::Wheel | JogMode::WheelVelocity);
         if is_wheel && turned.amax() <= 0.0 {
             return false; // It stands. How long it has stood is looked at elsewhere.

@@ -32,11 +32,14 @@ impl Wheel {
 
     /// How far it turned since it was heard of last, mm: nothing the first time. To be asked for
     /// every demand, followed or not, so that what was turned meanwhile is not made up for later.
+    /// A demand that says it was sent later than now was not: a wrong stamp must not make the
+    /// counts after it look as if they came all at once.
     #[allow(
         clippy::cast_precision_loss,
         reason = "times between demands are short"
     )]
-    pub(crate) fn turn(&mut self, demand: &Demand) -> AxisVector {
+    pub(crate) fn turn(&mut self, demand: &Demand, now_ns: u64) -> AxisVector {
+        let sent_ns = demand.sent_ns.min(now_ns);
         if !matches!(demand.mode, JogMode::Wheel | JogMode::WheelVelocity) {
             self.client = None;
             return AxisVector::zeros();
@@ -50,13 +53,13 @@ impl Wheel {
         if turned.amax() > 0.0 {
             // After a pause the first counts say little about the velocity: as if they were made
             // within the time after which it stands.
-            let since_ns = demand.sent_ns.saturating_sub(self.heard_ns);
+            let since_ns = sent_ns.saturating_sub(self.heard_ns);
             let since_ns = since_ns.clamp(1_000_000, self.quiet_ns.max(1_000_000));
             self.speed = turned * (1e9 / since_ns as f64);
-            self.turned_ns = demand.sent_ns;
+            self.turned_ns = sent_ns;
         }
-        if !is_known || demand.sent_ns > self.heard_ns {
-            self.heard_ns = demand.sent_ns;
+        if !is_known || sent_ns > self.heard_ns {
+            self.heard_ns = sent_ns;
         }
         (self.client, self.counts) = (Some(demand.client), demand.value);
         turned

@@ -254,6 +254,32 @@ fn a_wheel_that_gives_a_velocity_stops_when_it_does() {
 }
 
 #[test]
+fn a_wheel_with_a_wrong_clock_is_not_taken_for_a_fast_one() {
+    let mut rig = jogged();
+    let mut hand = Hand::new(1);
+    hand.demand.scale = 0.1;
+    for turn in 0..40 {
+        hand.ask(
+            &mut rig,
+            JogMode::WheelVelocity,
+            [10.0 * f64::from(turn), 0.0, 0.0],
+        );
+        if turn == 20 {
+            // Once it says that it is tomorrow.
+            let sent_ns = hand.demand.sent_ns;
+            hand.demand.sent_ns += 86_400_000_000_000;
+            rig.jog(&hand.demand);
+            hand.demand.sent_ns = sent_ns;
+        }
+        rig.run(10);
+        let speed = rig.setpoints.last().unwrap().velocity[0];
+        // Heard of up to a tick late, which makes 40 ms 36.
+        assert!(speed < 28.0, "turn {turn}: {speed} mm/s");
+    }
+    settle(&mut rig, MachineState::Idle);
+}
+
+#[test]
 fn only_the_first_client_moves_the_axes_until_they_rest() {
     let mut rig = jogged();
     let (mut one, mut other) = (Hand::new(1), Hand::new(2));
