@@ -84,9 +84,23 @@ impl OutputFile {
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
             Err(error) => return Err(FileError::open(path)(error)),
         };
+        // As it is written a path says little: `/dev/../x` is no device, and links lead anywhere.
+        let folder = path.parent().filter(|folder| *folder != Path::new(""));
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize();
+        let folder = folder.map_err(FileError::open(path))?;
+        let is_same = |input: &PathBuf| {
+            let (input, there) = (input.metadata().ok(), there.as_ref());
+            input.zip(there).is_some_and(|(input, there)| {
+                there.is_file() && (input.dev(), input.ino()) == (there.dev(), there.ino())
+            })
+        };
+        if guard.inputs.iter().any(is_same) {
+            let reason = "the command reads it; give another file".to_owned();
+            return Err(FileError::guarded(path, reason));
+        }
         // Memory for files is below `/dev` too, and no device.
-        let is_stream = ["/dev", "/proc"].iter().any(|top| path.starts_with(top))
-            && !path.starts_with("/dev/shm");
+        let is_stream = ["/dev", "/proc"].iter().any(|top| folder.starts_with(top))
+            && !folder.starts_with("/dev/shm");
         if is_stream || there.as_ref().is_some_and(|there| !there.is_file()) {
             // Standard output that was opened anew would be written from its beginning.
             let file = if path == Path::new("/dev/stdout") {
@@ -100,16 +114,8 @@ impl OutputFile {
             return Ok(Self { path, target });
         }
         let mut mode = 0o666;
-        let mut place = path.to_owned();
+        let mut place = folder.join(path.file_name().unwrap_or_default());
         if let Some(there) = there {
-            let is_same = |input: &PathBuf| {
-                let input = input.metadata().ok();
-                input.is_some_and(|input| (input.dev(), input.ino()) == (there.dev(), there.ino()))
-            };
-            if guard.inputs.iter().any(is_same) {
-                let reason = "the command reads it; give another file".to_owned();
-                return Err(FileError::guarded(path, reason));
-            }
             if !guard.force && !begins_as(path, kind).map_err(FileError::open(path))? {
                 let reason = format!(
                     "there is a file that is not {}; give another name, or --force to overwrite it",
@@ -121,15 +127,13 @@ impl OutputFile {
             // A link stays, and what it points to is replaced.
             place = path.canonicalize().map_err(FileError::open(path))?;
         }
-        let folder = place
-            .parent()
-            .filter(|folder| !folder.as_os_str().is_empty());
+        let folder = place.parent().unwrap_or(&folder);
         let name = place.file_name().unwrap_or_default().to_string_lossy();
         let file = tempfile::Builder::new()
             .prefix(&format!(".{name}."))
             .suffix(".part")
             .permissions(PermissionsExt::from_mode(mode))
-            .tempfile_in(folder.unwrap_or(Path::new(".")))
+            .tempfile_in(folder)
             .map_err(FileError::open(path))?;
         Ok(Self {
             path: path.to_owned(),
@@ -151,7 +155,7 @@ impl OutputFile {
     pub fn has_place_of(&self, other: &Self) -> bool {
         let place = |file: &Self| match &file.target {
             Target::Direct(_) => None,
-            Target::Beside { place, .. } => Some(std::path::absolute(place).ok()?),
+            Target::Beside { place, .. } => Some(place.clone()),
         };
         place(self).is_some_and(|own| place(other) == Some(own))
     }

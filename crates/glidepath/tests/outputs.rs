@@ -97,6 +97,58 @@ fn a_file_of_another_kind_is_overwritten_only_when_told() {
     assert_eq!(names(here), ["link", "notes", "part.ngc"]);
 }
 
+/// A path that leads through a folder of devices is a path like another.
+#[test]
+fn what_only_looks_like_a_device_is_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path().canonicalize().unwrap();
+    let here = here.as_path();
+    fs::write(here.join("part.ngc"), SQUARE).unwrap();
+    fs::write(here.join("notes"), "the work of a week\n").unwrap();
+    std::os::unix::fs::symlink("/proc/self", here.join("me")).unwrap();
+    std::os::unix::fs::symlink(here, here.join("around")).unwrap();
+    let below = here.strip_prefix("/").unwrap().to_str().unwrap();
+    for way in [
+        format!("/dev/../{below}"),
+        format!("/dev/shm/../../{below}"),
+        "/proc/self/cwd".to_owned(),
+        "me/cwd".to_owned(),
+        "around".to_owned(),
+    ] {
+        for (name, why, force) in [
+            ("notes", "--force", &[][..]),
+            ("part.ngc", "the command reads it", &["--force"]),
+        ] {
+            let path = format!("{way}/{name}");
+            let args = [&["plan", "part.ngc", "--setpoints", &path], force].concat();
+            let (code, text) = said(&glidepath(here, &args));
+            assert_eq!(code, 2, "{path}: {text}");
+            assert!(text.contains(why), "{path}: {text}");
+        }
+        let new = format!("{way}/new");
+        let both = ["plan", "part.ngc", "--setpoints", &new, "--plot", "new"];
+        let (code, text) = said(&glidepath(here, &both));
+        assert_eq!(code, 2, "{new}: {text}");
+    }
+    // Nor is what is read appended to where it is standard output.
+    let status = Command::new(env!("CARGO_BIN_EXE_glidepath"))
+        .current_dir(here)
+        .args(["plan", "part.ngc", "--setpoints", "/dev/stdout"])
+        .stdout(
+            File::options()
+                .append(true)
+                .open(here.join("part.ngc"))
+                .unwrap(),
+        )
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(2));
+    assert_eq!(fs::read_to_string(here.join("part.ngc")).unwrap(), SQUARE);
+    let notes = fs::read_to_string(here.join("notes")).unwrap();
+    assert_eq!(notes, "the work of a week\n");
+    assert_eq!(names(here), ["around", "me", "notes", "part.ngc"]);
+}
+
 #[test]
 fn an_interrupted_command_leaves_what_was_there() {
     let folder = tempfile::tempdir().unwrap();
@@ -122,9 +174,10 @@ fn an_interrupted_command_leaves_what_was_there() {
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
-    // Both files have been begun.
+    // Both files have been begun; nothing that was there has been touched.
     let started = Instant::now();
-    while names(here).len() < 4 {
+    let is_kept = || fs::read_to_string(here.join("out.csv")).unwrap() == old;
+    while names(here).len() < 4 && is_kept() {
         assert!(child.try_wait().unwrap().is_none() && started.elapsed().as_secs() < 60);
         std::thread::sleep(Duration::from_millis(5));
     }

@@ -158,7 +158,7 @@ impl Process {
             (Some(error), ..) => error.to_owned(),
             (None, Some(code), _) => format!("exit code {code}"),
             (None, None, Some(signal)) => format!("killed by signal {signal}"),
-            (None, None, None) => "unknown cause".to_owned(),
+            (None, None, None) => "it ended without a code".to_owned(),
         };
         Failure::ProcessEnded {
             name: self.name,
