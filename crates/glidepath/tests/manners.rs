@@ -2,7 +2,7 @@
 
 #![allow(
     clippy::unwrap_used,
-    clippy::expect_used,
+    clippy::panic,
     reason = "a test that fails may panic"
 )]
 
@@ -11,6 +11,8 @@ mod support;
 use serde_json::Value;
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::channel;
+use std::time::Duration;
 use support::glidepath;
 
 struct Ended(Child);
@@ -34,8 +36,20 @@ fn first_line_with(words: &str, args: &[&str]) -> String {
         .unwrap();
     let mut child = Ended(child);
     let lines = BufReader::new(child.0.stderr.take().unwrap()).lines();
-    let mut lines = lines.map(Result::unwrap);
-    lines.find(|line| line.contains(words)).expect("its words")
+    let (sender, said) = channel();
+    std::thread::spawn(move || {
+        lines
+            .map_while(Result::ok)
+            .try_for_each(|line| sender.send(line))
+    });
+    let mut all = String::new();
+    while let Ok(line) = said.recv_timeout(Duration::from_secs(20)) {
+        if line.contains(words) {
+            return line;
+        }
+        all += &line;
+    }
+    panic!("it does not say \"{words}\": {all}");
 }
 
 #[test]
@@ -148,7 +162,7 @@ fn a_fault_is_reset_by_that_name() {
             if status["state"] == state {
                 return status;
             }
-            std::thread::sleep(std::time::Duration::from_millis(50));
+            std::thread::sleep(Duration::from_millis(50));
         }
         panic!("never {state}");
     };

@@ -6,9 +6,16 @@
     reason = "a test that fails may panic"
 )]
 
+mod support;
+
 use std::io::Write as _;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+use std::time::Duration;
+use support::finish;
+
+/// A command that waits for a pipe which it has read already never ends.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A program longer than what is read to tell its dialect, which ends with a line.
 fn long(last: &str) -> String {
@@ -57,7 +64,7 @@ fn fed(text: &str, args: &[&str], program: &Path) -> Output {
     let text = text.to_owned();
     // A command that is given a file does not read its input.
     let writer = std::thread::spawn(move || input.write_all(text.as_bytes()).ok());
-    let output = child.wait_with_output().unwrap();
+    let output = finish(child, PATIENCE);
     writer.join().unwrap();
     output
 }
