@@ -1,10 +1,11 @@
 //! What an interpolator is started with.
 
 use crate::feedback::FeedbackSettings;
+use crate::homing::JointBounds;
 use core::time::Duration;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{
-    AxisList, JointLimits, JointWatch, Kinematics as _, Mechanism, Trivial,
+    AxisList, JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism, Trivial,
 };
 use glidepath_link::ALL_JOINTS;
 use glidepath_program::Limits;
@@ -83,6 +84,19 @@ impl JogSettings {
     }
 }
 
+/// Axes that may be moved by two joints.
+const GANTRIES: usize = 4;
+
+/// A second joint that moves an axis of its own joint. It follows the other, and is squared when
+/// both find their home.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gantry {
+    /// The joint that it follows, by its index.
+    pub master: usize,
+    /// By how much the two may differ, mm or degrees, > 0. Beyond it the motion stops.
+    pub difference: f64,
+}
+
 /// Everything an interpolator depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Config {
@@ -97,6 +111,9 @@ pub struct Config {
     /// What each joint can do; without meaning where every axis has a drive of its own. Frames that
     /// ask for more are refused.
     pub joint_limits: JointLimits,
+    /// Second joints. They come after those of the mechanism, in this order; only where joints are
+    /// axes.
+    pub gantries: [Option<Gantry>; GANTRIES],
     /// Where the machine stands at the start.
     pub start_position: AxisVector,
     /// Most frames the planner keeps published ahead of the executed one: at rest in the middle of
@@ -133,6 +150,7 @@ impl Config {
                 axes: AxisList::new(&Axis::ALL),
             }),
             joint_limits: JointLimits::NONE,
+            gantries: [None; GANTRIES],
             start_position: AxisVector::zeros(),
             horizon_frames: 600_000_000 / period_ns.max(1),
             jog: JogSettings::new(&limits),
@@ -154,8 +172,57 @@ impl Config {
     /// The joints of the machine, one bit each, J0 lowest.
     #[must_use]
     pub fn joints(&self) -> u32 {
-        let count = u32::try_from(self.mechanism.joints()).unwrap_or(u32::BITS);
+        let count = self.mechanism.joints() + self.gantries.iter().flatten().count();
+        let count = u32::try_from(count).unwrap_or(u32::BITS);
         ALL_JOINTS & 1_u32.checked_shl(count).map_or(u32::MAX, |bit| bit - 1)
+    }
+
+    /// Second joints by their index, with what they follow.
+    pub(crate) fn second_joints(&self) -> impl Iterator<Item = (usize, Gantry)> {
+        let first = self.mechanism.joints();
+        let gantries = self.gantries.into_iter().flatten().enumerate();
+        gantries.map(move |(index, gantry)| (first + index, gantry))
+    }
+
+    /// The axis of each joint, where joints are axes.
+    pub(crate) fn axis_of_joint(&self) -> Option<[Option<Axis>; JOINTS]> {
+        let Mechanism::Trivial(trivial) = &self.mechanism else {
+            return None;
+        };
+        let mut of_joint = [None; JOINTS];
+        for (slot, axis) in of_joint.iter_mut().zip(trivial.axes.iter()) {
+            *slot = Some(axis);
+        }
+        for (joint, gantry) in self.second_joints() {
+            let axis = of_joint.get(gantry.master).copied().flatten();
+            if let Some(slot) = of_joint.get_mut(joint) {
+                *slot = axis;
+            }
+        }
+        Some(of_joint)
+    }
+
+    /// What each joint can do.
+    #[must_use]
+    pub fn joint_bounds(&self) -> [JointBounds; JOINTS] {
+        let mut bounds = self.joint_limits.0.map(|limit| JointBounds {
+            velocity: limit.velocity,
+            acceleration: limit.acceleration,
+            jerk: limit.jerk,
+        });
+        let of_joint = self.axis_of_joint().unwrap_or_default();
+        for (bounds, axis) in bounds.iter_mut().zip(of_joint) {
+            let Some(axis) = axis.map(Axis::index) else {
+                continue;
+            };
+            let of = |limits: &AxisVector| limits.get(axis).copied().unwrap_or(f64::MAX);
+            *bounds = JointBounds {
+                velocity: of(&self.limits.velocity),
+                acceleration: of(&self.limits.acceleration),
+                jerk: of(&self.limits.jerk),
+            };
+        }
+        bounds
     }
 
     /// The period in seconds.

@@ -136,6 +136,11 @@ impl Drives {
         }
     }
 
+    /// Whether they have power and follow, so that joints may be moved each for itself.
+    pub(crate) const fn are_on(&self) -> bool {
+        matches!(self.power, Power::On) && self.homing.joints == 0 && !self.goes_off
+    }
+
     /// Whether a program may begin.
     pub(crate) const fn are_ready(&self) -> bool {
         match self.power {
@@ -145,9 +150,13 @@ impl Drives {
         }
     }
 
-    /// Whether every joint knows where it is.
-    pub(crate) const fn are_homed(&self) -> bool {
-        self.are_simulated() || self.seen.homed == self.all
+    /// The joints that know where they are, one bit each.
+    pub(crate) const fn homed(&self) -> u32 {
+        if self.are_simulated() {
+            self.all
+        } else {
+            self.seen.homed
+        }
     }
 
     /// The state of the machine while no epoch is open and no fault latched.

@@ -36,7 +36,8 @@ use crate::config::{Config, JogSettings, SoftLimits};
 use crate::tracker::{Bounds, Motion, Profile};
 use clearance::Clearance;
 use course::{Course, Goal, JogLimits};
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AXES, Axis, AxisVector};
+use glidepath_kinematics::JOINTS;
 use glidepath_link::JogMode;
 use glidepath_program::Limits;
 use holder::{Heard, Holder};
@@ -58,8 +59,8 @@ pub(crate) struct Surroundings {
     pub(crate) may_start: bool,
     /// Whether a program is held there: where the jog begins is then to be found again.
     pub(crate) is_on_path: bool,
-    /// Whether the axes know where they are.
-    pub(crate) is_homed: bool,
+    /// The joints that know where they are, one bit each.
+    pub(crate) homed: u32,
 }
 
 /// What moves the axes by hand.
@@ -85,7 +86,12 @@ pub(crate) struct Jog {
     override_ratio: f64,
     /// Where the present jog began.
     began_at: AxisVector,
-    is_homed: bool,
+    /// The axes that knew where they are then.
+    is_homed: [bool; AXES],
+    /// The axis of each joint, where joints are axes.
+    of_joint: Option<[Option<Axis>; JOINTS]>,
+    /// Joints of the machine, one bit each.
+    joints: u32,
     /// Where the program was held, if the axes may be away from there.
     path: Option<AxisVector>,
     /// The places that are left on the way back: the last one first.
@@ -114,7 +120,9 @@ impl Jog {
             joint_v: f64::INFINITY,
             override_ratio: 1.0,
             began_at: config.start_position,
-            is_homed: true,
+            is_homed: [true; AXES],
+            of_joint: config.axis_of_joint(),
+            joints: config.joints(),
             path: None,
             way_back: [None; 2],
         }
@@ -182,10 +190,26 @@ impl Jog {
         self.clearance.begin();
         self.clearance.follow(&around.position);
         self.began_at = around.position;
-        self.is_homed = around.is_homed;
+        self.is_homed = self.homed_axes(around.homed);
         if around.is_on_path && self.path.is_none() {
             self.path = Some(around.position);
         }
+    }
+
+    /// The axes all of whose joints know where they are.
+    fn homed_axes(&self, joints: u32) -> [bool; AXES] {
+        let Some(of_joint) = &self.of_joint else {
+            // Every joint has to do with every axis.
+            return [joints == self.joints; AXES];
+        };
+        let mut homed = [true; AXES];
+        for (joint, axis) in of_joint.iter().enumerate() {
+            let slot = axis.and_then(|axis| homed.get_mut(axis.index()));
+            if let Some(slot) = slot.filter(|_| joints & (1 << joint) == 0) {
+                *slot = false;
+            }
+        }
+        homed
     }
 
     /// Makes a demand the one that is followed.
@@ -306,16 +330,14 @@ impl Jog {
     }
 
     fn travel(&self, position: &AxisVector) -> Travel {
-        if !self.is_homed {
-            return Travel::around(&self.soft_limits, &self.began_at);
-        }
-        Travel::from(&self.soft_limits, position)
+        Travel::from(&self.soft_limits, position, &self.began_at, &self.is_homed)
     }
 
     fn jog_limits(&self) -> JogLimits {
         let mut jog = self.limits;
-        if !self.is_homed {
-            jog.velocity = jog.velocity.inf(&self.settings.unhomed_velocity);
+        let slow = self.settings.unhomed_velocity.iter();
+        for ((most, slow), is_homed) in jog.velocity.iter_mut().zip(slow).zip(&self.is_homed) {
+            *most = if *is_homed { *most } else { most.min(*slow) };
         }
         let demanded_v = if self.is_returning() {
             self.settings.return_v

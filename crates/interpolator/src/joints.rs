@@ -3,7 +3,11 @@
 //! The setpoint leaves the real-time thread whole, so what a drive gets depends on no other thread.
 //! The inverse is bounded work without allocation, a closed form for every mechanism.
 
-use glidepath_kinematics::{JointVector, Kinematics as _, KinematicsError, Mechanism};
+use crate::config::Config;
+use glidepath_geometry::AxisVector;
+use glidepath_kinematics::{
+    JOINTS, JointMotion, JointVector, Kinematics as _, KinematicsError, Mechanism,
+};
 use glidepath_link::Setpoint;
 
 /// The joints of the machine.
@@ -15,12 +19,25 @@ pub(crate) struct Joints {
     /// What is added to the drives' count to have the machine's.
     offset: JointVector,
     has_offset: bool,
+    /// What a second joint of an axis follows, by its index.
+    follows: [Option<usize>; JOINTS],
+    /// How far a second joint is beside the first, in the machine's count. It stays so: nothing
+    /// squares a machine but its way home.
+    beside: JointVector,
 }
 
 impl Joints {
-    pub(crate) fn new(mechanism: Mechanism) -> Self {
+    pub(crate) fn new(config: &Config) -> Self {
+        let mut follows = [None; JOINTS];
+        for (joint, gantry) in config.second_joints() {
+            if let Some(slot) = follows.get_mut(joint) {
+                *slot = Some(gantry.master);
+            }
+        }
         Self {
-            mechanism,
+            mechanism: config.mechanism,
+            follows,
+            beside: JointVector::zeros(),
             last: JointVector::zeros(),
             offset: JointVector::zeros(),
             has_offset: false,
@@ -46,6 +63,72 @@ impl Joints {
         setpoint.joint_acceleration = JointVector::zeros().into();
     }
 
+    /// Where they were told to be last, as the drives count.
+    pub(crate) const fn last(&self) -> &JointVector {
+        &self.last
+    }
+
+    /// Writes into a setpoint what joints do that are moved each for itself, as the drives count.
+    /// Returns where the axes are then, and how they move.
+    pub(crate) fn write(
+        &mut self,
+        motion: &JointMotion,
+        setpoint: &mut Setpoint,
+    ) -> Result<[AxisVector; 3], KinematicsError> {
+        self.last = motion.position;
+        setpoint.joint_position = self.last.into();
+        setpoint.joint_velocity = motion.velocity.into();
+        setpoint.joint_acceleration = motion.acceleration.into();
+        // Joints are axes here, so that their rates go the same way as their positions.
+        let near = AxisVector::from(setpoint.position);
+        let axes = |joints: &JointVector| self.mechanism.forward(joints, &near);
+        Ok([
+            axes(&(motion.position + self.offset))?,
+            axes(&motion.velocity)?,
+            axes(&motion.acceleration)?,
+        ])
+    }
+
+    /// A second joint does what the first one of its axis does.
+    fn add_second_joints(&self, motion: &mut JointMotion) {
+        for (joint, master) in self.follows.iter().enumerate() {
+            let Some(master) = *master else { continue };
+            for rates in [
+                &mut motion.position,
+                &mut motion.velocity,
+                &mut motion.acceleration,
+            ] {
+                let leads = rates.get(master).copied().unwrap_or(0.0);
+                if let Some(slot) = rates.get_mut(joint) {
+                    *slot = leads;
+                }
+            }
+            if let (Some(slot), Some(beside)) =
+                (motion.position.get_mut(joint), self.beside.get(joint))
+            {
+                *slot += beside;
+            }
+        }
+    }
+
+    /// The joints stand there, in the machine's count; second joints stay where they are beside the
+    /// first ones.
+    pub(crate) fn stand(&mut self, joints: &JointVector) {
+        for (joint, master) in self.follows.iter().enumerate() {
+            let Some(master) = *master else { continue };
+            let at = |joint: usize| joints.get(joint).copied().unwrap_or(0.0);
+            if let Some(slot) = self.beside.get_mut(joint) {
+                *slot = at(joint) - at(master);
+            }
+        }
+    }
+
+    /// The same where they were told to be last.
+    pub(crate) fn stand_there(&mut self) {
+        let joints = self.last + self.offset;
+        self.stand(&joints);
+    }
+
     /// Writes into a setpoint what the joints are to do for its axes.
     ///
     /// # Errors
@@ -57,7 +140,8 @@ impl Joints {
             &setpoint.acceleration.into(),
         );
         match motion {
-            Ok(motion) => {
+            Ok(mut motion) => {
+                self.add_second_joints(&mut motion);
                 self.last = if self.has_offset {
                     motion.position - self.offset
                 } else {

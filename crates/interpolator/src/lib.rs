@@ -107,6 +107,7 @@ mod differences;
 mod drives;
 mod feedback;
 mod frame_summary;
+mod homing;
 mod jog;
 mod joints;
 mod loops;
@@ -137,8 +138,9 @@ mod tracker;
 #[global_allocator]
 static ALLOCATOR: glidepath_realtime::CountingAllocator = glidepath_realtime::CountingAllocator;
 
-pub use config::{Config, JogSettings, RealTime, SoftLimits};
+pub use config::{Config, Gantry, JogSettings, RealTime, SoftLimits};
 pub use feedback::{FeedbackSettings, JointFeedback};
+pub use homing::{HomingError, JointBounds, JointHoming};
 pub use loops::{RunError, lead_ns};
 pub use run::run;
 pub use stepped::{Stepped, stepped};

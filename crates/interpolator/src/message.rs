@@ -6,6 +6,7 @@
 //! ```
 
 use crate::feedback::Observation;
+use crate::homing::{JointsOrder, Moved};
 use crate::jog::Demand;
 use core::fmt;
 use glidepath_geometry::Axis;
@@ -176,6 +177,8 @@ pub(crate) enum Order {
     Cut(Fault),
     /// The planner has no new frames, but is there.
     PlannerLives,
+    /// Joints are moved each for itself.
+    Joints(JointsOrder),
 }
 
 /// How long a tick took, ns; all 0 before the first.
@@ -215,6 +218,7 @@ pub(crate) struct Report {
     pub(crate) reserve_stops: u64,
     pub(crate) starved_ticks: u64,
     pub(crate) power: Power,
+    pub(crate) moved: Moved,
 }
 
 impl Report {
@@ -239,6 +243,7 @@ impl Report {
             reserve_stops: 0,
             starved_ticks: 0,
             power: Power::Simulated,
+            moved: Moved::default(),
         }
     }
 }

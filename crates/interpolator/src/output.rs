@@ -10,7 +10,7 @@ use crate::rate::Progress;
 use crate::setpoint::SetpointWriter;
 use crate::track::Track;
 use glidepath_geometry::AxisVector;
-use glidepath_kinematics::KinematicsError;
+use glidepath_kinematics::{JointMotion, JointVector, KinematicsError};
 use glidepath_link::Setpoint;
 
 /// What became of the setpoint of a motion.
@@ -40,7 +40,7 @@ impl Output {
             published: Differences::at_rest(config.start_position),
             allowed: Allowed::new(&config.limits, period_t),
             setpoints: SetpointWriter::new(period_t, boot_id, config.joints()),
-            joints: Joints::new(config.mechanism),
+            joints: Joints::new(config),
         }
     }
 
@@ -94,6 +94,41 @@ impl Output {
         self.go_to(&motion.position)
     }
 
+    /// Joints that were moved each for itself stay where they are.
+    pub(crate) fn keep_joints(&mut self) {
+        self.joints.stand_there();
+    }
+
+    /// Where the joints were told to be last, as the drives count.
+    pub(crate) const fn joints(&self) -> &JointVector {
+        self.joints.last()
+    }
+
+    /// Writes the setpoint of joints that are moved each for itself, and compares the position of
+    /// their axes with the limits.
+    pub(crate) fn write_by_joints(
+        &mut self,
+        epoch: u64,
+        passed: &FrameSummary,
+        motion: &JointMotion,
+        setpoint: &mut Setpoint,
+    ) -> Written {
+        let standing: AxisVector = self.published.position();
+        setpoint.position = standing.into();
+        let Ok([position, velocity, acceleration]) = self.joints.write(motion, setpoint) else {
+            return Written::Nothing;
+        };
+        let axes = AxesMotion {
+            position,
+            velocity,
+            acceleration,
+        };
+        let away = AxisVector::zeros();
+        self.setpoints
+            .write_by_hand(epoch, passed, &axes, &away, setpoint);
+        self.go_to(&position)
+    }
+
     fn go_to(&mut self, position: &AxisVector) -> Written {
         let written = if self.published.allows(position, &self.allowed) {
             Written::Inside
@@ -131,6 +166,7 @@ impl Output {
     pub(crate) fn hand_over(&mut self, seen: &Observation) {
         self.published = Differences::at_rest(seen.axes);
         self.joints.count_from(&seen.offset);
+        self.joints.stand(&seen.joints);
         self.setpoints.begin_reference();
     }
 

@@ -187,7 +187,11 @@ impl<'a> Ports<'a> {
             }
             let is_new_fault = self.report.is_none_or(|before| before.fault.is_none());
             if let Some(fault) = report.fault.filter(|_| is_new_fault) {
-                self.tell(&fault.to_string());
+                let why = self
+                    .drives
+                    .as_mut()
+                    .and_then(|drives| drives.explain(&fault));
+                self.tell(&why.unwrap_or_else(|| fault.to_string()));
             }
             self.report = Some(report);
         }
@@ -219,7 +223,10 @@ impl<'a> Ports<'a> {
         // A full ring says that the real-time thread does not run; there is nobody to be told.
         self.ends.observations.enqueue(observation).ok();
         let (order, told) = drives.judge(report);
-        if let Some(order) = order {
+        for order in [order, drives.conduct(report, now_ns)]
+            .into_iter()
+            .flatten()
+        {
             self.ends.orders.enqueue(order).ok();
         }
         if let Some(told) = told {

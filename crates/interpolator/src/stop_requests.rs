@@ -73,7 +73,8 @@ impl StopRequests {
         match order {
             Order::Command(command) => return self.carry_out_command(command, is_open),
             Order::Fault(fault) | Order::Cut(fault) => self.fail(fault),
-            Order::PlannerLives => {} // This concerns the supply.
+            // These concern the supply and the joints.
+            Order::PlannerLives | Order::Joints(_) => {}
         }
         Released::NOTHING
     }

@@ -42,7 +42,9 @@ impl Interpolator<'_> {
         self.hear_demands(due.scheduled_ns, inputs);
         self.take_frames(inputs);
         self.watch_supply();
-        if self.jog.owns_axes() {
+        if self.mover.is_active() {
+            self.follow_mover(tick, &mut report.setpoint);
+        } else if self.jog.owns_axes() {
             self.follow_jog(due, &mut report.setpoint);
             self.write_joints(&mut report.setpoint);
         } else if self.is_open() {
@@ -96,8 +98,9 @@ impl Interpolator<'_> {
         let of_program = self.requests.state(is_open, stands, is_rapid, &self.supply);
         let state = match of_program {
             MachineState::Stopping => MachineState::Stopping,
-            _ if self.jog.is_active() && self.requests.is_stopping() => MachineState::Stopping,
+            _ if self.moves_by_hand() && self.requests.is_stopping() => MachineState::Stopping,
             _ if self.jog.is_active() => MachineState::Jogging,
+            _ if self.mover.is_active() => MachineState::Homing,
             MachineState::Idle => self.drives.state_at_rest(),
             _ => of_program,
         };
@@ -106,6 +109,11 @@ impl Interpolator<'_> {
         // are not its motion.
         self.account
             .enter(state, tick, self.passed.line, self.has_moved);
+    }
+
+    /// Whether something moves, or may, without a program.
+    const fn moves_by_hand(&self) -> bool {
+        self.jog.is_active() || self.mover.is_active()
     }
 
     /// Writes the state after this tick, and what the ports thread must know.
@@ -125,6 +133,7 @@ impl Interpolator<'_> {
         (report.feed_override, report.rapid_override) = (feed_override, rapid_override);
         report.jog_override = self.jog.override_ratio();
         report.power = self.drives.power();
+        report.moved = self.mover.moved();
         report.single_block = self.requests.is_single_block();
         self.account.fill(report);
     }

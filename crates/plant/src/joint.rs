@@ -17,6 +17,15 @@ pub struct HomeSettings {
     pub position: f64,
 }
 
+/// A home switch that the controller looks for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SwitchSettings {
+    /// Where its cam begins and ends, mm or degrees from the middle of the machine.
+    pub cam: (f64, f64),
+    /// How long its contact bounces after each change, ns.
+    pub bounce_ns: u64,
+}
+
 /// A joint. By default it is exact, at rest in the middle, and knows where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointSettings {
@@ -34,6 +43,10 @@ pub struct JointSettings {
     pub limits: (f64, f64),
     /// How it finds its home; `None` for an absolute encoder, which knows.
     pub home: Option<HomeSettings>,
+    /// The switch by which the controller finds its home.
+    pub switch: Option<SwitchSettings>,
+    /// Index pulses of its encoder: how far they are from each other, and where one is.
+    pub index: Option<(f64, f64)>,
 }
 
 impl Default for JointSettings {
@@ -46,8 +59,15 @@ impl Default for JointSettings {
             power_up_ns: 50_000_000,
             limits: (f64::NEG_INFINITY, f64::INFINITY),
             home: None,
+            switch: None,
+            index: None,
         }
     }
+}
+
+fn is_on_cam(settings: &JointSettings, place: f64) -> bool {
+    let cam = settings.switch.map(|switch| switch.cam);
+    cam.is_some_and(|(low, high)| (low..=high).contains(&place))
 }
 
 /// Slower than this a joint sticks, mm/s or °/s.
@@ -70,6 +90,13 @@ pub(crate) struct Joint {
     pub(crate) fault_code: u32,
     pub(crate) is_stuck: bool,
     pub(crate) has_power_source: bool,
+    /// The contact of its switch is dead (false) or stuck (true), whatever the cam does.
+    pub(crate) contact: Option<bool>,
+    was_on_cam: bool,
+    bounces_ns: u64,
+    is_closed: bool,
+    /// Index pulses so far, and the count at the last one.
+    pub(crate) index: (u64, f64),
 }
 
 impl Joint {
@@ -86,6 +113,11 @@ impl Joint {
             fault_code: 0,
             is_stuck: false,
             has_power_source: true,
+            contact: None,
+            was_on_cam: is_on_cam(settings, settings.start),
+            bounces_ns: 0,
+            is_closed: is_on_cam(settings, settings.start),
+            index: (0, 0.0),
         }
     }
 
@@ -114,7 +146,36 @@ impl Joint {
         (self.place <= low, self.place >= high)
     }
 
+    pub(crate) fn has_index(&self) -> bool {
+        self.settings.index.is_some()
+    }
+
+    /// What its contact does after a step, and whether an index pulse was passed in it.
+    fn feel(&mut self, before: f64, step_ns: u64) {
+        let is_on_cam = is_on_cam(&self.settings, self.place);
+        if is_on_cam != core::mem::replace(&mut self.was_on_cam, is_on_cam) {
+            self.bounces_ns = self.settings.switch.map_or(0, |switch| switch.bounce_ns);
+            self.is_closed = is_on_cam;
+        } else if self.bounces_ns > 0 {
+            self.is_closed = !self.is_closed;
+        } else {
+            self.is_closed = is_on_cam;
+        }
+        self.bounces_ns = self.bounces_ns.saturating_sub(step_ns);
+        if let Some((pitch, at)) = self.settings.index {
+            let turn = |place: f64| ((place - at) / pitch).floor();
+            let (from, to) = (turn(before), turn(self.place));
+            if (from - to).abs() > 0.5 {
+                let pulse = at + pitch * from.max(to);
+                self.index = (self.index.0 + 1, pulse + self.offset);
+            }
+        }
+    }
+
     pub(crate) fn is_at_home_switch(&self) -> bool {
+        if self.settings.switch.is_some() {
+            return self.contact.unwrap_or(self.is_closed);
+        }
         self.settings.home.is_some_and(|home| {
             if home.switch < 0.0 {
                 self.place <= home.switch
@@ -167,6 +228,7 @@ impl Joint {
             (self.is_homing, self.was_asked_home) = (false, false);
         }
         self.velocity = (self.place - before) / step_t;
+        self.feel(before, (step_t * 1e9) as u64);
     }
 
     fn go_to(&mut self, step_t: f64, target: f64) {

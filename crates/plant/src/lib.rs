@@ -30,5 +30,5 @@ mod joint;
 mod machine;
 mod spindle;
 
-pub use joint::{HomeSettings, JointSettings};
-pub use machine::{Plant, Upset};
+pub use joint::{HomeSettings, JointSettings, SwitchSettings};
+pub use machine::{INDEX_INPUT, Plant, Upset};

@@ -7,6 +7,9 @@ use glidepath_link::servo::{JointState, JointStates};
 use glidepath_link::{DriveState, Feedback, LatchKind, Setpoint};
 use std::collections::VecDeque;
 
+/// The input of the index pulse of joint 0; those of the others follow.
+pub const INDEX_INPUT: u32 = 16;
+
 /// Something that goes wrong, or right again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Upset {
@@ -20,6 +23,8 @@ pub enum Upset {
     Stuck(usize, bool),
     /// The feedback stays away, or comes again.
     Dropout(bool),
+    /// The contact of a home switch never closes (false), or never opens (true), or works again.
+    Contact(usize, Option<bool>),
     /// Somebody moves a joint by hand, by this much.
     Pushed(usize, f64),
 }
@@ -96,6 +101,7 @@ impl Plant {
             }
             Upset::DriveFault(joint, code) => self.joint(joint, |joint| joint.fault_code = code),
             Upset::Stuck(joint, stuck) => self.joint(joint, |joint| joint.is_stuck = stuck),
+            Upset::Contact(joint, contact) => self.joint(joint, |joint| joint.contact = contact),
             Upset::Pushed(joint, distance) => self.joint(joint, |joint| joint.push(distance)),
         }
     }
@@ -171,6 +177,10 @@ impl Plant {
 
     /// What is measured now, whether or not it will arrive.
     #[must_use]
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "there are nine joints at most"
+    )]
     pub fn measured(&self) -> Feedback {
         let mask = |is: &dyn Fn(&Joint) -> bool| {
             let joints = self.joints.iter().enumerate();
@@ -212,12 +222,19 @@ impl Plant {
             }
             .code();
         }
-        let [latch, ..] = &mut feedback.latch;
+        let [latch, indices @ ..] = &mut feedback.latch;
         latch.rising = 1;
         (latch.position, latch.latch_ns) = self.touched;
         latch.count = self.touch_count;
         if self.touch_count > 0 {
             latch.kind = LatchKind::Drive.code();
+        }
+        let with_index = self.joints.iter().enumerate();
+        let with_index = with_index.filter(|(_, joint)| joint.has_index());
+        for (latch, (index, joint)) in indices.iter_mut().zip(with_index) {
+            (latch.input, latch.rising) = (INDEX_INPUT + index as u32, 1);
+            latch.kind = LatchKind::Drive.code();
+            (latch.count, latch.position[index]) = joint.index;
         }
         feedback
     }

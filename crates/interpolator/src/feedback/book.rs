@@ -2,52 +2,71 @@
 
 use super::claims::{Claims, Joints};
 use super::demands::Demands;
-use super::following::{Finding, FollowingErrors};
+use super::following::FollowingErrors;
 use super::observation::Observation;
 use super::settings::FeedbackSettings;
 use crate::config::Config;
-use crate::message::{Fault, Order, Report};
+use crate::homing::{Conductor, Pair};
+use crate::message::Report;
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::{JOINTS, JointVector, Kinematics as _, Mechanism};
-use glidepath_link::{Command, FaultCause, Feedback, MachineState, Power, Status};
+use glidepath_link::{FaultCause, Feedback, Power, Status};
 
 /// Slower than this a joint is at rest, mm/s or °/s: more than a count in a millisecond.
 const REST_V: f64 = 1.0;
-/// After a hand-over, joints are not judged for so long.
-const SETTLING_NS: u64 = 100_000_000;
-
 /// The drives as their feedback shows them.
 #[derive(Debug)]
 pub(crate) struct DriveBook {
-    settings: FeedbackSettings,
-    mechanism: Mechanism,
+    pub(super) settings: FeedbackSettings,
+    pub(super) mechanism: Mechanism,
     /// Joints of the machine, one bit each, as all that follow.
-    all: u32,
+    pub(super) all: u32,
     /// Those that have to find their home.
-    homes: u32,
-    claims: Claims,
-    demands: Demands,
-    following: FollowingErrors,
+    pub(super) homes: u32,
+    /// Second joints of an axis.
+    pub(super) pairs: Vec<Pair>,
+    pub(super) conductor: Conductor,
+    /// Joints that found their home by the conductor, and in which life of their stack.
+    pub(super) found: u32,
+    pub(super) found_in: [u64; JOINTS],
+    pub(super) claims: Claims,
+    pub(super) demands: Demands,
+    pub(super) following: FollowingErrors,
     /// What is added to the drives' count.
-    offset: JointVector,
+    pub(super) offset: JointVector,
     /// Joints whose drives say that they know where they are, and are not believed.
-    unhomed: u32,
-    handover: u64,
+    pub(super) unhomed: u32,
+    pub(super) handover: u64,
     /// Where the axes were last, to choose among positions that belong to the same joints.
-    near: AxisVector,
-    was_on: bool,
+    pub(super) near: AxisVector,
+    pub(super) was_on: bool,
+    /// Why joints did not come home, until that is told with the fault.
+    pub(super) why: Option<(FaultCause, String)>,
     /// Whether an error was ordered for and the thread has not yet latched it.
-    ordered: bool,
+    pub(super) ordered: bool,
 }
 
 impl DriveBook {
     pub(crate) fn new(config: &Config, settings: FeedbackSettings) -> Self {
         let all = config.joints();
         let ns = |time: core::time::Duration| u64::try_from(time.as_nanos()).unwrap_or(u64::MAX);
+        let homing = settings.joints.map(|joint| joint.homing);
+        let pairs: Vec<Pair> = config
+            .second_joints()
+            .map(|(joint, gantry)| Pair {
+                joints: (gantry.master, joint),
+                difference: gantry.difference,
+            })
+            .collect();
+        let conductor = Conductor::new(homing, pairs.clone());
         let homes = (0..JOINTS)
             .filter(|joint| settings.joints.get(*joint).is_some_and(|joint| joint.homes))
-            .fold(0, |mask, joint| mask | 1 << joint);
+            .fold(conductor.joints(), |mask, joint| mask | 1 << joint);
         Self {
+            pairs,
+            conductor,
+            found: 0,
+            found_in: [0; JOINTS],
             settings,
             mechanism: config.mechanism,
             all,
@@ -60,6 +79,7 @@ impl DriveBook {
             handover: 0,
             near: config.start_position,
             was_on: false,
+            why: None,
             ordered: false,
         }
     }
@@ -78,6 +98,9 @@ impl DriveBook {
         if is_on && !self.was_on {
             self.following.begin();
         }
+        if self.was_on && !is_on {
+            self.found &= !self.conductor.mask(|joint| joint.is_volatile);
+        }
         self.was_on = is_on;
         self.ordered &= report.fault.is_none() && is_on;
         self.demands.push(&report.setpoint);
@@ -86,12 +109,16 @@ impl DriveBook {
     /// What the real-time thread is to know now.
     pub(crate) fn observe(&mut self, report: &Report, now_ns: u64) -> Observation {
         let joints = self.claims.joints();
+        self.forget_lost_homes(&joints);
         let setpoint = &report.setpoint;
         let follows = if report.power == Power::On {
             setpoint.home
         } else {
             self.all
         };
+        if follows == self.all {
+            self.forget_leaning_homes(&joints);
+        }
         let mut position = JointVector::zeros();
         for joint in (0..JOINTS).filter(|joint| self.all & (1 << joint) != 0) {
             let counted = if follows & (1 << joint) == 0 {
@@ -118,14 +145,14 @@ impl DriveBook {
             homed: self.homed(&joints),
             homing: joints.homing,
             faults: joints.fault,
-            limits: joints.limits,
+            limits: joints.limits & !self.conductor.ignores_limits(),
             fault_code: joints.fault_code.get(lowest_fault).copied().unwrap_or(0),
             handover: self.handover,
         }
     }
 
     /// How old the oldest sample of a joint is.
-    fn age_ns(&self, joints: &Joints, now_ns: u64) -> u64 {
+    pub(super) fn age_ns(&self, joints: &Joints, now_ns: u64) -> u64 {
         if joints.claimed != self.all {
             return u64::MAX;
         }
@@ -138,139 +165,40 @@ impl DriveBook {
     }
 
     fn homed(&self, joints: &Joints) -> u32 {
-        (self.all & !self.homes) | (joints.homed & !self.unhomed & self.homes)
+        let of_drives = self.homes & !self.conductor.joints();
+        (self.all & !self.homes) | (joints.homed & !self.unhomed & of_drives) | self.found
     }
 
-    /// Compares the joints with their demands. Returns what is to be ordered for it, and what is to
-    /// be told.
-    pub(crate) fn judge(&mut self, report: &Report) -> (Option<Order>, Option<String>) {
-        let joints = self.claims.joints();
-        if report.power != Power::On {
-            self.following.rest();
-            return (None, None);
-        }
-        let is_stopping = report.fault.is_some() || self.ordered;
-        let judged = self.all & joints.enabled & !report.setpoint.home;
-        let (mut order, mut told) = (None, None);
-        for joint in (0..JOINTS).filter(|joint| judged & (1 << joint) != 0) {
-            let sample_ns = joints.sample_ns[joint];
-            if sample_ns < self.demands.since_ns().saturating_add(SETTLING_NS) {
-                continue;
-            }
-            let Some(demand) = self.demands.at(joint, sample_ns) else {
-                continue;
-            };
-            let (position, allowed) = (joints.position[joint], &self.settings.joints[joint]);
-            let found = self
-                .following
-                .judge(joint, &demand, position, allowed, is_stopping);
-            let fault = |value, limit| Fault {
-                joint: Some(joint),
-                value,
-                limit,
-                ..Fault::new(
-                    FaultCause::FollowingError,
-                    report.setpoint.line,
-                    report.setpoint.sequence,
-                )
-            };
-            match found {
-                None => {}
-                Some(Finding::Warn(error, limit)) => {
-                    told = Some(format!(
-                        "joint J{joint} follows with an error of {error:.4} (allowed {limit:.4})"
-                    ));
-                }
-                Some(Finding::Stop(error, limit)) => {
-                    order = order.or(Some(Order::Fault(fault(error, limit))));
-                }
-                Some(Finding::Cut(error, limit)) => order = Some(Order::Cut(fault(error, limit))),
-            }
-        }
-        self.ordered |= order.is_some();
-        (order, told)
+    /// A stack that was started again counts anew: what was found does not hold any more.
+    fn forget_lost_homes(&mut self, joints: &Joints) {
+        let lives = joints.boot_id.iter().zip(&self.found_in).enumerate();
+        let lost = lives
+            .filter(|(joint, (now, then))| joints.claimed & (1 << joint) != 0 && now != then)
+            .fold(0, |mask, (joint, _)| mask | 1 << joint);
+        self.found &= !lost;
     }
 
-    /// Judges a command about drives and joints, and carries out what concerns their count. Returns
-    /// whether the real-time thread has to know of it.
-    ///
-    /// # Errors
-    /// Why it is not possible.
-    pub(crate) fn command(
-        &mut self,
-        command: Command,
-        report: &Report,
-        now_ns: u64,
-    ) -> Result<bool, String> {
-        use MachineState::{Idle, NotHomed, Off};
-        let joints = self.claims.joints();
-        let refuse = |is_possible: bool, why: &str| {
-            if is_possible {
-                Ok(())
-            } else {
-                Err(why.to_owned())
+    /// Two joints of an axis that gave way without power have to find their home again, if they are
+    /// too far apart. Nearer, they stay as they are: nothing moves by a hand-over.
+    fn forget_leaning_homes(&mut self, joints: &Joints) {
+        for pair in &self.pairs {
+            let (first, second) = pair.joints;
+            if self
+                .apart(joints, pair)
+                .is_some_and(|apart| apart > pair.difference)
+            {
+                self.found &= !(1 << first | 1 << second);
             }
-        };
-        match command {
-            Command::Enable => {
-                let is_clear = report.state != MachineState::Faulted;
-                refuse(is_clear, "a fault is latched: reset it first")?;
-                let is_off = report.state == Off && report.power == Power::Off;
-                refuse(is_off, "the drives are on, or were asked to be")?;
-                let stale_ns = self.settings.stale_after.as_nanos();
-                let is_fresh = u128::from(self.age_ns(&joints, now_ns)) <= stale_ns;
-                refuse(is_fresh, "the drives do not say where they are")?;
-                refuse(joints.fault == 0, "a drive reports a fault")?;
-                Ok(true)
-            }
-            Command::SetPosition { joint, position } => {
-                refuse(
-                    matches!(report.state, Off | NotHomed | Idle),
-                    "the machine has to be at rest, without a program",
-                )?;
-                let joint = joint as usize;
-                let is_own = joint < JOINTS && self.all & (1 << joint) != 0;
-                refuse(is_own, "the machine has no such joint")?;
-                let counted = if report.power == Power::On {
-                    report.setpoint.joint_position[joint]
-                } else {
-                    refuse(
-                        joints.claimed & (1 << joint) != 0,
-                        "nobody says where it is",
-                    )?;
-                    joints.position[joint]
-                };
-                self.offset[joint] = position - counted;
-                self.unhomed |= 1 << joint;
-                self.handover += 1;
-                Ok(false)
-            }
-            Command::Home(mask) => {
-                refuse(
-                    matches!(report.state, NotHomed | Idle),
-                    "the drives have to be on and at rest, without a program",
-                )?;
-                let can = mask != 0 && mask & !self.homes == 0;
-                refuse(
-                    can,
-                    "not all of these joints have a drive that finds a home",
-                )?;
-                for joint in (0..JOINTS).filter(|joint| mask & (1 << joint) != 0) {
-                    self.offset[joint] = 0.0;
-                }
-                self.unhomed &= !mask;
-                Ok(true)
-            }
-            Command::Unhome(mask) => {
-                refuse(
-                    matches!(report.state, Off | NotHomed | Idle),
-                    "the machine has to be at rest, without a program",
-                )?;
-                self.unhomed |= mask & self.all;
-                Ok(false)
-            }
-            _ => Ok(true),
         }
+    }
+
+    /// How far the joints of a pair are apart, if both have found their home.
+    pub(super) fn apart(&self, joints: &Joints, pair: &Pair) -> Option<f64> {
+        let (first, second) = pair.joints;
+        let bits = 1 << first | 1 << second;
+        let are_known = self.found & joints.claimed & bits == bits;
+        let place = |joint: usize| joints.position[joint] + self.offset[joint];
+        are_known.then(|| (place(second) - place(first)).abs())
     }
 
     /// Writes what is known of the drives.

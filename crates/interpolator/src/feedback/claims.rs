@@ -5,7 +5,7 @@
 //! that takes itself to drive somebody else's joint is set up wrongly.
 
 use glidepath_kinematics::JOINTS;
-use glidepath_link::{Feedback, Record as _};
+use glidepath_link::{Feedback, Latch, Record as _};
 
 /// What the stacks say of the joints together.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,11 +17,24 @@ pub(super) struct Joints {
     pub(super) homing: u32,
     pub(super) fault: u32,
     pub(super) limits: u32,
+    pub(super) home_switch: u32,
     /// As the drives count.
     pub(super) position: [f64; JOINTS],
     pub(super) velocity: [f64; JOINTS],
     pub(super) sample_ns: [u64; JOINTS],
     pub(super) fault_code: [u32; JOINTS],
+    /// The life of the stack that drives the joint.
+    pub(super) boot_id: [u64; JOINTS],
+    pub(super) edges: [Edges; JOINTS],
+}
+
+/// Where the home switch of a joint first closed and opened since that was forgotten last, as the
+/// drive counts: in the middle between the samples before and after, so that it is off by half of
+/// the way between them at most.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Edges {
+    pub(super) rising: Option<f64>,
+    pub(super) falling: Option<f64>,
 }
 
 impl Joints {
@@ -32,10 +45,16 @@ impl Joints {
         homing: 0,
         fault: 0,
         limits: 0,
+        home_switch: 0,
         position: [0.0; JOINTS],
         velocity: [0.0; JOINTS],
         sample_ns: [0; JOINTS],
         fault_code: [0; JOINTS],
+        boot_id: [0; JOINTS],
+        edges: [Edges {
+            rising: None,
+            falling: None,
+        }; JOINTS],
     };
 }
 
@@ -45,6 +64,7 @@ struct Stack {
     heard_ns: u64,
     /// Whether it was told that it claims what is not its own.
     is_refused: bool,
+    edges: [Edges; JOINTS],
 }
 
 /// The stacks that are heard.
@@ -59,6 +79,24 @@ pub(super) struct Claims {
     ahead_ns: u64,
     /// Whether it was said that a record cannot be used.
     has_told: bool,
+}
+
+impl Stack {
+    /// Looks whether home switches have changed with a newer record.
+    fn find_edges(&mut self, newer: &Feedback) {
+        let (before, after) = (self.last.home_switch, newer.home_switch);
+        let positions = self.last.position.iter().zip(&newer.position);
+        for (joint, (edges, (from, to))) in self.edges.iter_mut().zip(positions).enumerate() {
+            let bit = 1 << joint;
+            let middle = from.midpoint(*to);
+            if after & !before & bit != 0 {
+                edges.rising.get_or_insert(middle);
+            }
+            if before & !after & bit != 0 {
+                edges.falling.get_or_insert(middle);
+            }
+        }
+    }
 }
 
 /// Stacks that are kept: one for each joint, and as many that are refused.
@@ -105,6 +143,7 @@ impl Claims {
         if let Some(stack) = known.and_then(|index| self.stacks.get_mut(index)) {
             // Records overtake each other nowhere; an older one is a stack that is confused.
             if feedback.sample_ns >= stack.last.sample_ns {
+                stack.find_edges(feedback);
                 stack.last = *feedback;
                 stack.heard_ns = now_ns;
                 stack.is_refused = is_refused;
@@ -114,6 +153,7 @@ impl Claims {
                 last: *feedback,
                 heard_ns: now_ns,
                 is_refused,
+                edges: [Edges::default(); JOINTS],
             });
         }
         match (is_refused, was_refused) {
@@ -155,14 +195,39 @@ impl Claims {
             joints.homed |= said.homed & claimed;
             joints.homing |= said.homing & claimed;
             joints.fault |= said.fault & claimed;
+            joints.home_switch |= said.home_switch & claimed;
             joints.limits |= (said.limit_low | said.limit_high) & claimed;
             for joint in (0..JOINTS).filter(|joint| claimed & (1 << joint) != 0) {
                 joints.position[joint] = said.position[joint];
                 joints.velocity[joint] = said.velocity[joint];
                 joints.fault_code[joint] = said.fault_code[joint];
                 joints.sample_ns[joint] = said.sample_ns;
+                joints.boot_id[joint] = said.boot_id;
+                joints.edges[joint] = stack.edges[joint];
             }
         }
         joints
+    }
+
+    /// Forgets the edges of these joints, one bit each.
+    pub(super) fn forget_edges(&mut self, joints: u32) {
+        for stack in &mut self.stacks {
+            for (joint, edges) in stack.edges.iter_mut().enumerate() {
+                if joints & (1 << joint) != 0 {
+                    *edges = Edges::default();
+                }
+            }
+        }
+    }
+
+    /// How often an input was latched by the stack that drives a joint, and where the joint was
+    /// then; `None` if it latches no such input.
+    pub(super) fn latched(&self, joint: usize, input: u32) -> Option<(u64, f64)> {
+        let mine = |stack: &&Stack| !stack.is_refused && stack.last.joints & (1 << joint) != 0;
+        let said = &self.stacks.iter().find(mine)?.last;
+        let is_asked = |latch: &&Latch| latch.input == input && latch.rising == 1;
+        let latch = said.latch.iter().find(is_asked)?;
+        // One that was never latched has no kind yet.
+        Some((latch.count, *latch.position.get(joint)?))
     }
 }

@@ -12,8 +12,10 @@
 
 mod book;
 mod claims;
+mod commands;
 mod demands;
 mod following;
+mod judging;
 mod observation;
 mod settings;
 

@@ -1,5 +1,6 @@
 //! What is expected of the drives' feedback.
 
+use crate::homing::JointHoming;
 use core::time::Duration;
 use glidepath_kinematics::JOINTS;
 
@@ -16,6 +17,8 @@ pub struct JointFeedback {
     pub max_velocity: f64,
     /// Whether the drive has to say that the joint knows where it is before a program may start.
     pub homes: bool,
+    /// How the controller finds the joint's home; `None` if its drive does, or nobody.
+    pub homing: Option<JointHoming>,
 }
 
 /// How the feedback of the drives is judged.

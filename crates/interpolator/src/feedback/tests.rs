@@ -10,5 +10,6 @@
 
 mod bench;
 mod following;
+mod homing;
 mod life_cycle;
 mod upsets;

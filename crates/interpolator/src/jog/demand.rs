@@ -2,7 +2,6 @@
 
 use crate::config::Config;
 use glidepath_geometry::{AXES, Axis, AxisVector};
-use glidepath_kinematics::Mechanism;
 use glidepath_link::{JogDemand, JogMode, RecordError};
 use glidepath_program::Limits;
 
@@ -58,16 +57,7 @@ impl DemandReader {
         for (has, limit) in has_axis.iter_mut().zip(&config.limits.velocity) {
             *has = *limit < Limits::UNLIMITED;
         }
-        let of_joint = match &config.mechanism {
-            Mechanism::Trivial(trivial) => {
-                let mut of_joint = [None; AXES];
-                for (slot, axis) in of_joint.iter_mut().zip(trivial.axes.iter()) {
-                    *slot = Some(axis);
-                }
-                Some(of_joint)
-            }
-            _ => None,
-        };
+        let of_joint = config.axis_of_joint();
         Self { has_axis, of_joint }
     }
 

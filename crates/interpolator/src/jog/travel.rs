@@ -1,7 +1,7 @@
 //! Where a jog may go.
 
 use crate::config::SoftLimits;
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AXES, AxisVector};
 
 /// The box that a jog stays in.
 #[derive(Debug, Clone, Copy)]
@@ -11,23 +11,28 @@ pub(crate) struct Travel {
 }
 
 impl Travel {
-    /// From where the axes are: the travel, and where an axis stands outside of it, the way
-    /// inwards.
-    pub(crate) fn from(soft_limits: &SoftLimits, position: &AxisVector) -> Self {
-        Self {
+    /// From where the axes are. One that knows where that is has its travel, and where it stands
+    /// outside of it, the way inwards; one that does not has the whole length of travel to either
+    /// side of where it began.
+    pub(crate) fn from(
+        soft_limits: &SoftLimits,
+        position: &AxisVector,
+        began_at: &AxisVector,
+        is_homed: &[bool; AXES],
+    ) -> Self {
+        let mut travel = Self {
             lowest: soft_limits.lowest.inf(position),
             highest: soft_limits.highest.sup(position),
-        }
-    }
-
-    /// From where the axes are when nobody knows where that is: the whole length of travel to
-    /// either side.
-    pub(crate) fn around(soft_limits: &SoftLimits, position: &AxisVector) -> Self {
+        };
         let length = soft_limits.highest - soft_limits.lowest;
-        Self {
-            lowest: position - length,
-            highest: position + length,
+        let ends = travel.lowest.iter_mut().zip(travel.highest.iter_mut());
+        let around = began_at.iter().zip(&length);
+        for (((low, high), (began_at, length)), is_homed) in ends.zip(around).zip(is_homed) {
+            if !is_homed {
+                (*low, *high) = (began_at - length, began_at + length);
+            }
         }
+        travel
     }
 
     pub(crate) const fn lowest(&self) -> &AxisVector {

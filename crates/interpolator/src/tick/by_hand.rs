@@ -20,6 +20,10 @@ impl Interpolator<'_> {
                 Order::PlannerLives => self.supply.planner_lives(),
                 Order::Command(command) => self.drives.carry_out(command, self.is_open()),
                 Order::Cut(_) => self.lose_power(),
+                Order::Joints(order) => {
+                    let stands = self.may_move_joints().then(|| *self.output.joints());
+                    self.mover.take(&order, stands.as_ref());
+                }
                 Order::Fault(_) => {}
             }
             if let Order::Command(command) = order
@@ -41,7 +45,11 @@ impl Interpolator<'_> {
     /// Carries out what a command is to the jog. Returns whether it is one to the program, too.
     fn is_for_program(&mut self, command: Command) -> bool {
         match command {
-            Command::Hold | Command::Abort => self.jog.cancel(),
+            Command::Hold => self.jog.cancel(),
+            Command::Abort | Command::Disable => {
+                self.jog.cancel();
+                self.mover.cancel();
+            }
             Command::Return => {
                 let around = self.surroundings(0, false);
                 self.jog.go_back(&around);
@@ -67,6 +75,7 @@ impl Interpolator<'_> {
             let state = self.account.state();
             matches!(state, MachineState::Idle | MachineState::NotHomed)
                 && self.drives.following() == 0
+                && !self.mover.is_active()
                 && inputs.frames.peek().is_none()
         };
         let may_start = is_free && !self.requests.is_stopping();
@@ -79,13 +88,33 @@ impl Interpolator<'_> {
         }
     }
 
+    /// Whether joints may be moved each for itself: nothing else moves, or is about to.
+    fn may_move_joints(&self) -> bool {
+        let is_free = !self.is_open() && !self.jog.owns_axes() && self.requests.fault().is_none();
+        is_free && self.drives.are_on() && self.output.published().is_at_rest()
+    }
+
+    /// Writes the setpoint of joints that are moved each for itself.
+    pub(super) fn follow_mover(&mut self, tick: u64, setpoint: &mut Setpoint) {
+        if self.requests.fault().is_some() {
+            self.mover.cancel();
+        }
+        let motion = self.mover.step();
+        let output = &mut self.output;
+        let written = output.write_by_joints(self.epoch, &self.passed, &motion, setpoint);
+        self.judge(written, tick);
+        if !self.mover.is_active() {
+            self.output.keep_joints();
+        }
+    }
+
     fn surroundings(&self, now_ns: u64, may_start: bool) -> Surroundings {
         Surroundings {
             now_ns,
             position: self.output.published().position(),
             may_start,
             is_on_path: self.is_open(),
-            is_homed: self.drives.are_homed(),
+            homed: self.drives.homed(),
         }
     }
 
@@ -114,6 +143,7 @@ impl Interpolator<'_> {
     /// What moved the drives is over: they have no power any more.
     fn end_motion(&mut self) {
         self.jog.end();
+        self.mover.end();
         if self.is_open() {
             self.close(EndOfEpoch::Faulted);
         }

@@ -35,11 +35,16 @@ impl Interpolator<'_> {
             // Straight from the ring, and only then is its room there given back.
             if self.is_open() && next.epoch == self.epoch {
                 self.track.push(next);
-            } else if is_first && self.requests.fault().is_none() && self.drives.are_ready() {
+            } else if is_first && self.requests.fault().is_none() && self.may_begin() {
                 self.open(next);
             }
             let _taken = inputs.frames.dequeue();
         }
+    }
+
+    /// Whether a program may begin.
+    const fn may_begin(&self) -> bool {
+        self.drives.are_ready() && !self.mover.is_active()
     }
 
     /// Starts an epoch, instead of one that stands in the middle of its way.

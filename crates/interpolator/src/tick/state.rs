@@ -5,6 +5,7 @@ use crate::block_stop::BlockStop;
 use crate::config::Config;
 use crate::drives::Drives;
 use crate::frame_summary::FrameSummary;
+use crate::homing::Mover;
 use crate::jog::Jog;
 use crate::message::{Fault, Happening};
 use crate::output::{Output, Written};
@@ -28,6 +29,7 @@ pub(crate) struct Interpolator<'a> {
     pub(super) supply: Supply,
     pub(super) block_stop: BlockStop,
     pub(super) jog: Jog,
+    pub(super) mover: Mover,
     pub(super) drives: Drives,
     pub(super) output: Output,
     /// The open or last epoch, 0 before the first.
@@ -54,6 +56,7 @@ impl<'a> Interpolator<'a> {
             supply: Supply::new(config),
             block_stop: BlockStop::none(),
             jog: Jog::new(config),
+            mover: Mover::new(config),
             drives: Drives::new(config),
             output: Output::new(config, boot_id),
             epoch: 0,

@@ -51,6 +51,7 @@ pub(super) const ALLOWED: JointFeedback = JointFeedback {
     following_error: 2.0,
     max_velocity: 200.0,
     homes: false,
+    homing: None,
 };
 
 /// A mill with three axes and drives that answer.

@@ -1,0 +1,119 @@
+//! Commands about drives and joints: whether they are possible, and what concerns the count.
+
+use super::book::DriveBook;
+use crate::message::Report;
+use glidepath_kinematics::JOINTS;
+use glidepath_link::{Command, MachineState, Power};
+
+impl DriveBook {
+    /// Judges a command about drives and joints, and carries out what concerns their count. Returns
+    /// whether the real-time thread has to know of it.
+    ///
+    /// # Errors
+    /// Why it is not possible.
+    pub(crate) fn command(
+        &mut self,
+        command: Command,
+        report: &Report,
+        now_ns: u64,
+    ) -> Result<bool, String> {
+        match command {
+            Command::Enable => self.enable(report, now_ns).map(|()| true),
+            Command::SetPosition { joint, position } => self
+                .set_position(joint as usize, position, report)
+                .map(|()| false),
+            Command::Home(mask) => self.home(mask, report, now_ns),
+            Command::Unhome(mask) => {
+                refuse(rests(report), AT_REST)?;
+                self.unhomed |= mask & self.all;
+                self.found &= !mask;
+                Ok(false)
+            }
+            Command::Abort => {
+                self.conductor.drop_job();
+                Ok(true)
+            }
+            _ => Ok(true),
+        }
+    }
+
+    fn enable(&self, report: &Report, now_ns: u64) -> Result<(), String> {
+        let joints = self.claims.joints();
+        let is_clear = report.state != MachineState::Faulted;
+        refuse(is_clear, "a fault is latched: reset it first")?;
+        let is_off = report.state == MachineState::Off && report.power == Power::Off;
+        refuse(is_off, "the drives are on, or were asked to be")?;
+        let stale_ns = self.settings.stale_after.as_nanos();
+        let is_fresh = u128::from(self.age_ns(&joints, now_ns)) <= stale_ns;
+        refuse(is_fresh, "the drives do not say where they are")?;
+        refuse(joints.fault == 0, "a drive reports a fault")
+    }
+
+    fn set_position(&mut self, joint: usize, position: f64, report: &Report) -> Result<(), String> {
+        refuse(rests(report), AT_REST)?;
+        let is_own = joint < JOINTS && self.all & (1 << joint) != 0;
+        refuse(is_own, "the machine has no such joint")?;
+        let is_second = self.pairs.iter().any(|pair| pair.joints.1 == joint);
+        refuse(
+            !is_second,
+            "it is the second joint of its axis, and goes with the first",
+        )?;
+        let counted = if report.power == Power::On {
+            report.setpoint.joint_position[joint]
+        } else {
+            let joints = self.claims.joints();
+            refuse(
+                joints.claimed & (1 << joint) != 0,
+                "nobody says where it is",
+            )?;
+            joints.position[joint]
+        };
+        let shift = position - counted - self.offset[joint];
+        self.offset[joint] = position - counted;
+        self.unhomed |= 1 << joint;
+        self.found &= !(1 << joint);
+        for pair in self.pairs.iter().filter(|pair| pair.joints.0 == joint) {
+            self.offset[pair.joints.1] += shift;
+            self.found &= !(1 << pair.joints.1);
+        }
+        self.handover += 1;
+        Ok(())
+    }
+
+    fn home(&mut self, mask: u32, report: &Report, now_ns: u64) -> Result<bool, String> {
+        refuse(
+            matches!(report.state, MachineState::NotHomed | MachineState::Idle),
+            "the drives have to be on and at rest, without a program",
+        )?;
+        let can = mask != 0 && mask & !self.homes == 0;
+        refuse(can, "not all of these joints have a home to find")?;
+        let here = mask & self.conductor.joints();
+        if here != 0 {
+            let is_free = report.power == Power::On && !self.conductor.is_busy();
+            refuse(is_free, "joints are on their way home already")?;
+            let begun = self.conductor.begin(here, now_ns);
+            self.found &= !begun;
+            return Ok(false);
+        }
+        for joint in (0..JOINTS).filter(|joint| mask & (1 << joint) != 0) {
+            self.offset[joint] = 0.0;
+        }
+        self.unhomed &= !mask;
+        Ok(true)
+    }
+}
+
+const AT_REST: &str = "the machine has to be at rest, without a program";
+
+fn refuse(is_possible: bool, why: &str) -> Result<(), String> {
+    if is_possible {
+        Ok(())
+    } else {
+        Err(why.to_owned())
+    }
+}
+
+fn rests(report: &Report) -> bool {
+    use MachineState::{Idle, NotHomed, Off};
+    matches!(report.state, Off | NotHomed | Idle)
+}

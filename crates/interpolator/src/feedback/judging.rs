@@ -1,0 +1,167 @@
+//! What follows from what the drives say: following errors, joints that are apart, and joints on
+//! their way home.
+
+use super::book::DriveBook;
+use super::claims::Joints;
+use super::following::Finding;
+use crate::homing::{Outcome, Seen, Surroundings};
+use crate::message::{Fault, Order, Report};
+use glidepath_kinematics::JOINTS;
+use glidepath_link::{FaultCause, Power, Setpoint};
+
+/// After a hand-over, joints are not judged for so long.
+const SETTLING_NS: u64 = 100_000_000;
+
+/// Share of what is allowed by which two joints of an axis may be apart before power goes.
+const APART_CUT_R: f64 = 2.0;
+
+/// Two joints of an axis are apart.
+fn apart_fault(joint: usize, difference: f64, allowed: f64, report: &Report) -> Fault {
+    let Setpoint { line, sequence, .. } = report.setpoint;
+    Fault {
+        joint: Some(joint),
+        value: difference,
+        limit: allowed,
+        ..Fault::new(FaultCause::FollowingError, line, sequence)
+    }
+}
+
+impl DriveBook {
+    /// Compares the joints with their demands. Returns what is to be ordered for it, and what is to
+    /// be told.
+    pub(crate) fn judge(&mut self, report: &Report) -> (Option<Order>, Option<String>) {
+        let joints = self.claims.joints();
+        if report.power != Power::On {
+            self.following.rest();
+            return (None, None);
+        }
+        let is_stopping = report.fault.is_some() || self.ordered;
+        let judged = self.all & joints.enabled & !report.setpoint.home;
+        let (mut order, mut told) = (None, None);
+        for joint in (0..JOINTS).filter(|joint| judged & (1 << joint) != 0) {
+            let sample_ns = joints.sample_ns[joint];
+            if sample_ns < self.demands.since_ns().saturating_add(SETTLING_NS) {
+                continue;
+            }
+            let Some(demand) = self.demands.at(joint, sample_ns) else {
+                continue;
+            };
+            let (position, allowed) = (joints.position[joint], &self.settings.joints[joint]);
+            let found = self
+                .following
+                .judge(joint, &demand, position, allowed, is_stopping);
+            let fault = |value, limit| Fault {
+                joint: Some(joint),
+                value,
+                limit,
+                ..Fault::new(
+                    FaultCause::FollowingError,
+                    report.setpoint.line,
+                    report.setpoint.sequence,
+                )
+            };
+            match found {
+                None => {}
+                Some(Finding::Warn(error, limit)) => {
+                    told = Some(format!(
+                        "joint J{joint} follows with an error of {error:.4} (allowed {limit:.4})"
+                    ));
+                }
+                Some(Finding::Stop(error, limit)) => {
+                    order = order.or(Some(Order::Fault(fault(error, limit))));
+                }
+                Some(Finding::Cut(error, limit)) => order = Some(Order::Cut(fault(error, limit))),
+            }
+        }
+        if order.is_none() && !self.conductor.is_busy() {
+            order = self.judge_pairs(&joints, report);
+        }
+        self.ordered |= order.is_some();
+        (order, told)
+    }
+
+    /// Whether the two joints of an axis are apart.
+    fn judge_pairs(&self, joints: &Joints, report: &Report) -> Option<Order> {
+        self.pairs.iter().find_map(|pair| {
+            let apart = self.apart(joints, pair)?;
+            let fault = apart_fault(pair.joints.1, apart, pair.difference, report);
+            if apart > APART_CUT_R * pair.difference {
+                return Some(Order::Cut(fault));
+            }
+            (apart > pair.difference && report.fault.is_none()).then_some(Order::Fault(fault))
+        })
+    }
+
+    /// What is known of why a fault was latched, beside the fault.
+    pub(crate) fn explain(&mut self, fault: &Fault) -> Option<String> {
+        let (cause, why) = self.why.take()?;
+        (cause == fault.cause).then_some(why)
+    }
+
+    /// Sees to joints on their way home. Returns what is to be ordered for it.
+    pub(crate) fn conduct(&mut self, report: &Report, now_ns: u64) -> Option<Order> {
+        if !self.conductor.is_busy() {
+            return None;
+        }
+        let joints = self.claims.joints();
+        let mut seen = [Seen::default(); JOINTS];
+        for (joint, seen) in seen.iter_mut().enumerate() {
+            let homing = self.settings.joints[joint].homing;
+            let input = homing.and_then(|homing| homing.index_input);
+            *seen = Seen {
+                now_ns,
+                place: report.setpoint.joint_position[joint],
+                actual: joints.position[joint],
+                rests: false,
+                is_closed: joints.home_switch & (1 << joint) != 0,
+                rising: joints.edges[joint].rising,
+                falling: joints.edges[joint].falling,
+                index: input.and_then(|input| self.claims.latched(joint, input)),
+            };
+        }
+        let (order, outcome) = self.conductor.turn(&Surroundings {
+            now_ns,
+            moved: report.moved,
+            seen: &seen,
+        });
+        self.claims.forget_edges(self.conductor.take_forgotten());
+        let order = order.map(Order::Joints);
+        match outcome {
+            Outcome::Pending => order,
+            Outcome::Home {
+                joints: home,
+                offset,
+            } => {
+                for joint in (0..JOINTS).filter(|joint| home & (1 << joint) != 0) {
+                    self.offset[joint] = offset[joint];
+                    self.found_in[joint] = joints.boot_id[joint];
+                }
+                self.found |= home;
+                self.handover += 1;
+                order
+            }
+            Outcome::Failed { joint, why } => {
+                let fault = Fault {
+                    joint: Some(joint),
+                    ..Fault::new(FaultCause::Homing, 0, 0)
+                };
+                let why = format!("joint J{joint} did not find its home: {why}");
+                self.why = Some((FaultCause::Homing, why));
+                Some(Order::Fault(fault))
+            }
+            Outcome::Apart {
+                joint,
+                difference,
+                allowed,
+            } => {
+                let fault = apart_fault(joint, difference, allowed, report);
+                let why = format!(
+                    "joint J{joint} and the other one of its axis went apart on their way home by \
+                     {difference:.3} (allowed {allowed})"
+                );
+                self.why = Some((FaultCause::FollowingError, why));
+                Some(Order::Fault(fault))
+            }
+        }
+    }
+}
