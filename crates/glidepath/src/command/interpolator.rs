@@ -84,6 +84,7 @@ fn feedback(config: &MachineConfig) -> Option<FeedbackSettings> {
         following_error: given.following_error,
         max_velocity,
         homes: given.homes,
+        homing: None,
     };
     // Where joints are not axes they have limits of their own; else they are the axes in order.
     let own = config.joint_limits.0.iter().take(config.joints());
