@@ -122,15 +122,24 @@ fn numbers_at_the_ends_of_their_ranges_come_to_an_end() {
 #[test]
 fn a_slow_feed_takes_no_more_memory_than_another() {
     let folder = tempfile::tempdir().unwrap();
-    // Five minutes for a quarter of a millimetre.
+    // Five minutes for a quarter of a millimetre, and twenty-five.
     let small = ARCH.replace("20.0", "0.1").replace("30.0", "0.15");
-    let slow = small.replace("3000.0", "0.05");
-    std::fs::write(folder.path().join("c.toml"), slow).unwrap();
-    let (code, said) = bounded(folder.path(), "plan c.toml --json");
-    assert_eq!(code, 0, "{said}");
-    let object: serde_json::Value = serde_json::from_str(&said).unwrap();
-    let cycle_t = object["cycle_time_s"].as_f64().unwrap();
+    let plan = |feed: &str| {
+        let slow = small.replace("3000.0", feed);
+        std::fs::write(folder.path().join("c.toml"), slow).unwrap();
+        let (code, said) = bounded(folder.path(), "plan c.toml --json");
+        assert_eq!(code, 0, "{said}");
+        let object: serde_json::Value = serde_json::from_str(&said).unwrap();
+        let number = |key: &str| object[key].as_f64().unwrap();
+        (number("cycle_time_s"), number("peak_rss_bytes") / 1e6)
+    };
+    let ((cycle_t, megabytes), (slow_t, slow_megabytes)) = (plan("0.05"), plan("0.01"));
     assert!((280.0..330.0).contains(&cycle_t), "{cycle_t}");
+    assert!(slow_t > 4.5 * cycle_t, "{slow_t}");
+    assert!(
+        slow_megabytes < megabytes + 60.0,
+        "{megabytes} and {slow_megabytes} MB"
+    );
     let program = "G21 G90 F.05\nG5.2 P1 L3\nX.1 Y.1 P1\nX.2 Y0 P1\nG5.3\nM2\n";
     std::fs::write(folder.path().join("c.ngc"), program).unwrap();
     let (code, said) = bounded(folder.path(), "plan c.ngc");

@@ -8,6 +8,7 @@
 )]
 
 use std::fs::{self, File};
+use std::os::unix::fs::FileTypeExt as _;
 use std::os::unix::process::ExitStatusExt as _;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -15,8 +16,10 @@ use std::time::{Duration, Instant};
 
 const SQUARE: &str = "G21 G90\nG0 X1\nG1 X11 F3000\nY10\nX1\nY0\nM2\n";
 
+/// The command, to its end, or for a minute at most: a pipe may be waited for.
 fn glidepath(folder: &Path, args: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+    let mut command = Command::new("timeout");
+    command.args(["60", env!("CARGO_BIN_EXE_glidepath")]);
     command.current_dir(folder).args(args).output().unwrap()
 }
 
@@ -226,12 +229,15 @@ fn devices_and_pipes_are_written_as_they_are() {
             .unwrap()
             .success()
     );
-    let reader = std::thread::spawn(move || fs::read(fifo).unwrap());
+    let pipe = fifo.clone();
+    let reader = std::thread::spawn(move || fs::read(pipe).unwrap());
     let (code, text) = said(&glidepath(
         here,
         &["plan", "part.ngc", "--setpoints", "fifo"],
     ));
     assert_eq!(code, 0, "{text}");
+    // It is still there, or the reader would wait for ever.
+    assert!(fifo.metadata().unwrap().file_type().is_fifo());
     assert!(reader.join().unwrap().starts_with(b"tick,time_s,"));
 }
 

@@ -99,6 +99,10 @@ impl Stack {
     }
 }
 
+/// How far a joint may be from zero, mm or degrees: beyond any axis, and millions of turns. What is
+/// added to such a number and taken from it again still leaves a tenth of a micrometre.
+pub(super) const FARTHEST: f64 = 1e9;
+
 /// Stacks that are kept: one for each joint, and as many that are refused.
 const STACKS: usize = 2 * JOINTS;
 
@@ -172,6 +176,15 @@ impl Claims {
     fn unusable(&self, feedback: &Feedback, now_ns: u64) -> Option<String> {
         if let Err(error) = feedback.check() {
             return Some(error.to_string());
+        }
+        let claimed = feedback.joints & self.all;
+        let mut positions = feedback.position.iter().enumerate();
+        let far = positions.find(|(joint, p)| claimed & (1 << joint) != 0 && p.abs() > FARTHEST);
+        if let Some((joint, position)) = far {
+            return Some(format!(
+                "the servo stack {:#x} has J{joint} at {position:e}, which is no position of a joint",
+                feedback.boot_id
+            ));
         }
         let ahead_ns = feedback.sample_ns.saturating_sub(now_ns);
         (ahead_ns > self.ahead_ns).then(|| {

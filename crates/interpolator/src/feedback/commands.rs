@@ -1,6 +1,7 @@
 //! Commands about drives and joints: whether they are possible, and what concerns the count.
 
 use super::book::DriveBook;
+use super::claims::FARTHEST;
 use crate::message::Report;
 use glidepath_kinematics::JOINTS;
 use glidepath_link::{Command, MachineState, Power};
@@ -51,6 +52,7 @@ impl DriveBook {
 
     fn set_position(&mut self, joint: usize, position: f64, report: &Report) -> Result<(), String> {
         refuse(rests(report), AT_REST)?;
+        refuse(position.abs() <= FARTHEST, "that is no position of a joint")?;
         let is_own = joint < JOINTS && self.all & (1 << joint) != 0;
         refuse(is_own, "the machine has no such joint")?;
         let is_second = self.pairs.iter().any(|pair| pair.joints.1 == joint);

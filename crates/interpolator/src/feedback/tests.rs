@@ -11,5 +11,6 @@
 mod bench;
 mod following;
 mod homing;
+mod hostile;
 mod life_cycle;
 mod upsets;
