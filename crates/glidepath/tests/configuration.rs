@@ -81,7 +81,7 @@ fn a_misspelt_key_is_refused_with_the_right_one() {
             "unknown key `max_velocty`".to_owned(),
             Some((4, 1)),
             "did you mean `max_velocity`? The keys here are: min_position, max_position, \
-             max_velocity, max_acceleration, max_jerk, jog_velocity"
+             max_velocity, max_acceleration, max_jerk, jog_velocity, gantry_difference"
                 .to_owned()
         )
     );
@@ -315,4 +315,72 @@ fn a_rotary_axis_may_turn_without_end() {
         config.axes.last().map(|a| (a.axis, a.travel)),
         Some((Axis::A, None))
     );
+}
+
+/// A machine of one axis that the controller brings home, with these lines in the table of its
+/// joint.
+fn brought_home(lines: &str) -> String {
+    format!("{AXIS}[feedback]\nsource = 'drives'\nhoming = 'controller'\n[home.J0]\n{lines}")
+}
+
+#[test]
+fn a_way_home_is_judged_as_a_whole() {
+    let switch = "search_velocity = -20\nlatch_velocity = 1\nsearch_travel = 30\n";
+    let fits = brought_home(&format!("{switch}clearance = 1.2\noffset = -9\n"));
+    let config = config::parse("m.toml", &fits).expect("it fits");
+    let home = config.home_of_joints[0].expect("a table");
+    assert_eq!(
+        (home.search_v, home.latch_v, home.offset),
+        (-20.0, 1.0, -9.0)
+    );
+    assert_eq!((home.final_v, home.home, home.clearance), (100.0, 0.0, 1.2));
+    // Three periods and the stop from 20 mm/s: 0.24 + 0.894 mm.
+    let (message, ..) = only(&brought_home(&format!("{switch}clearance = 1.1\n")));
+    assert_eq!(
+        message,
+        "J0 cannot come home: at 20 mm/s it goes 1.134 mm past the edge of its switch, and there is \
+         room for 1.1 mm"
+    );
+    for (lines, why) in [
+        (switch, "clearance has to be more than 0"),
+        (
+            "search_velocity = 5\n",
+            "has no velocity to find its edge at",
+        ),
+        (
+            "latch_velocity = 5\n",
+            "neither for a switch nor for an index pulse",
+        ),
+        ("index_input = 3\n", "no velocity to find it at"),
+        ("position = 11\n", "is outside of the travel"),
+    ] {
+        let (message, ..) = only(&brought_home(lines));
+        assert!(message.contains(why), "{lines}: {message}");
+    }
+    let none = brought_home("").replace("[home.J0]", "");
+    assert_eq!(only(&none).0, "the table [home.J0] is missing");
+    let far = brought_home("[home.J1]\n");
+    assert_eq!(only(&far).0, "there is no such joint to bring home");
+}
+
+#[test]
+fn two_joints_of_an_axis_come_home_together() {
+    let gantry = brought_home("sequence = -1\n[home.J1]\nsequence = -1\n").replace(
+        "max_jerk = 10000\n",
+        "max_jerk = 10000\ngantry_difference = 0.5\n",
+    );
+    let config = config::parse("m.toml", &gantry).expect("a gantry");
+    assert_eq!(config.gantries, [(Axis::X, 0.5)]);
+    assert_eq!((config.drives(), config.axes.len()), (2, 1));
+    for other in ["sequence = -2", "sequence = 1", ""] {
+        let apart = gantry.replacen(
+            "[home.J1]\nsequence = -1",
+            &format!("[home.J1]\n{other}"),
+            1,
+        );
+        let (message, ..) = only(&apart);
+        assert!(message.contains("does not go with the first"), "{message}");
+    }
+    let by_drive = gantry.replace("'controller'", "'drive'");
+    assert!(only(&by_drive).0.contains("squared by the controller"));
 }

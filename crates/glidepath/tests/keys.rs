@@ -57,6 +57,11 @@ fn machine_with(key: &str) -> Table {
         put(&mut machine, "axis.Z.min_position", Value::Integer(500));
         return machine;
     }
+    if key.starts_with("home.") {
+        let mut machine = shipped("mill");
+        put(&mut machine, "home.J0.shared", Value::Boolean(false));
+        return machine;
+    }
     match key.split('.').nth(1) {
         Some(name @ ("scara" | "rotary-delta" | "hexapod")) => shipped(name),
         Some("J0") => shipped("scara"),

@@ -3,7 +3,7 @@
 use super::session;
 use crate::cli::InterpolatorArgs;
 use crate::command::failure::Failure;
-use crate::config::MachineConfig;
+use crate::config::{HomingBy, MachineConfig};
 use crate::exit::Exit;
 use crate::interrupt::{Interrupt, end_with};
 use crate::output;
@@ -11,9 +11,9 @@ use crate::report::{status_object, status_text};
 use crate::service_manager::ServiceManager;
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{Axis, AxisVector};
 use glidepath_interpolator::{
-    Config, FeedbackSettings, JogSettings, JointFeedback, RealTime, SoftLimits,
+    Config, FeedbackSettings, Gantry, JogSettings, JointFeedback, RealTime, SoftLimits,
 };
 use glidepath_link::{Ipc, Transport};
 use glidepath_realtime::{Mode, Request};
@@ -79,31 +79,54 @@ impl Drop for SetOnDrop<'_> {
 /// How the drives' feedback is judged, if drives answer.
 fn feedback(config: &MachineConfig) -> Option<FeedbackSettings> {
     let given = config.feedback;
-    let joint = |max_velocity| JointFeedback {
+    let by_drive = given.homing == HomingBy::Drive;
+    let joint = |max_velocity, homing| JointFeedback {
         min_following_error: given.min_following_error,
         following_error: given.following_error,
         max_velocity,
-        homes: given.homes,
-        homing: None,
+        homes: by_drive,
+        homing,
     };
-    // Where joints are not axes they have limits of their own; else they are the axes in order.
+    // Where joints are not axes they have limits of their own.
     let own = config.joint_limits.0.iter().take(config.joints());
     let own = own.map(|limit| limit.velocity);
-    let axes = config.axes.iter().map(|axis| axis.max_velocity);
+    let velocity = |of: Axis| {
+        let axis = config.axes.iter().find(|axis| axis.axis == of);
+        axis.map_or(f64::MAX, |axis| axis.max_velocity)
+    };
     let velocities: Vec<f64> = if config.joints() == 0 {
-        axes.collect()
+        config.axis_of_joints().into_iter().map(velocity).collect()
     } else {
         own.collect()
     };
-    let mut settings = FeedbackSettings::new(config.period_ns(), joint(f64::MAX));
-    for (slot, velocity) in settings.joints.iter_mut().zip(velocities) {
-        *slot = joint(velocity);
+    let by_controller = given.homing == HomingBy::Controller;
+    let mut settings = FeedbackSettings::new(config.period_ns(), joint(f64::MAX, None));
+    let homes = config
+        .home_of_joints
+        .map(|home| home.filter(|_| by_controller));
+    let joints = settings.joints.iter_mut().zip(velocities).zip(homes);
+    for ((slot, velocity), home) in joints {
+        *slot = joint(velocity, home);
     }
     if let Some(stale_t) = given.stale_t {
         settings.stale_after = Duration::from_secs_f64(stale_t);
     }
     settings.off_after = Duration::from_secs_f64(given.off_t).max(settings.stale_after);
     given.is_expected.then_some(settings)
+}
+
+/// The second joints of axes, which follow the first ones.
+fn gantries(config: &MachineConfig) -> [Option<Gantry>; 4] {
+    let mut gantries = [None; 4];
+    let names = config.axis_names();
+    for (slot, (axis, difference)) in gantries.iter_mut().zip(&config.gantries) {
+        let master = names.iter().position(|name| name == axis);
+        *slot = master.map(|master| Gantry {
+            master,
+            difference: *difference,
+        });
+    }
+    gantries
 }
 
 /// What the process is started with.
@@ -127,6 +150,7 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
         joint_limits: config.joint_limits,
         start_position: config.home(),
         feedback: feedback(config),
+        gantries: gantries(config),
         horizon_frames: session::pace(config).horizon_frames,
         jog: JogSettings {
             velocity: config.jog.velocity,

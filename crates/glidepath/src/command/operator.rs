@@ -9,7 +9,6 @@ use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::output;
 use crate::report::{state_name, status_object, status_text};
-use glidepath_kinematics::Kinematics as _;
 use glidepath_link::{
     Command, CommandRefusal, CommandReply, CommandRequest, InterpolatorProcess, LinkConfig,
     LinkError, Operator,
@@ -47,7 +46,7 @@ pub(super) fn joints(
     of: impl Fn(u32) -> Command,
 ) -> Result<Exit, Failure> {
     let given = args.joints.iter().fold(0, |mask, joint| mask | 1 << joint);
-    let all = (1 << config.mechanism.joints()) - 1;
+    let all = (1 << config.drives()) - 1;
     let mask = if given == 0 { all } else { given };
     command(&args.operator, config, name, of(mask))
 }

@@ -4,7 +4,7 @@
 use super::session;
 use crate::cli::ServoArgs;
 use crate::command::failure::Failure;
-use crate::config::MachineConfig;
+use crate::config::{HomingBy, MachineConfig};
 use crate::exit::Exit;
 use crate::interrupt::{Interrupt, end_with};
 use crate::output;
@@ -12,10 +12,11 @@ use crate::recording::Recording;
 use crate::report::grouped;
 use crate::sample::Sample;
 use glidepath_geometry::AXES;
+use glidepath_interpolator::JointHoming;
 use glidepath_kinematics::Kinematics as _;
 use glidepath_link::servo::{Servo, ServoCounts, ServoSettings, StopLimits};
 use glidepath_link::{Recorder, Setpoint, Transport as _};
-use glidepath_plant::{HomeSettings, JointSettings, Plant};
+use glidepath_plant::{HomeSettings, JointSettings, Plant, SwitchSettings};
 use glidepath_realtime::{Clock as _, Monotonic};
 use serde_json::json;
 use std::io::BufWriter;
@@ -128,29 +129,69 @@ fn play(
 const TO_HOME: f64 = 5.0;
 /// How fast it looks for it, mm/s or °/s.
 const HOMING_V: f64 = 10.0;
+/// How long the cam of its switch is, mm or degrees.
+const CAM: f64 = 50.0;
+/// How long the contact bounces, ns.
+const BOUNCE_NS: u64 = 3_000_000;
+/// How far its index pulses are from each other, mm or degrees.
+const PITCH: f64 = 4.0;
 
 /// The machine that is moved: it stands at the places given, else where programs begin. Drives that
 /// look for their home have not yet found it, and count from anywhere.
 fn plant(config: &MachineConfig, stands: &[f64]) -> Plant {
     let begins = config.mechanism.inverse(&config.home());
-    let begins = begins.map_or([0.0; AXES], <[f64; AXES]>::from);
-    let joints: Vec<JointSettings> = (0..config.mechanism.joints().min(AXES))
+    let mut begins = begins.map_or([0.0; AXES], <[f64; AXES]>::from);
+    if config.joints() == 0 {
+        let home = config.home();
+        for (begins, axis) in begins.iter_mut().zip(config.axis_of_joints()) {
+            *begins = home[axis.index()];
+        }
+    }
+    let joints: Vec<JointSettings> = (0..config.drives().min(AXES))
         .map(|joint| {
             let start = stands.get(joint).copied().unwrap_or(begins[joint]);
-            let home = config.feedback.homes.then_some(HomeSettings {
-                switch: start - TO_HOME,
-                velocity: HOMING_V,
-                position: start - TO_HOME,
-            });
-            JointSettings {
+            let at = JointSettings {
                 start,
-                count: if home.is_some() { 0.0 } else { start },
-                home,
+                count: start,
                 ..JointSettings::default()
+            };
+            match config.feedback.homing {
+                HomingBy::Nobody => at,
+                HomingBy::Drive => JointSettings {
+                    count: 0.0,
+                    home: Some(HomeSettings {
+                        switch: start - TO_HOME,
+                        velocity: HOMING_V,
+                        position: start - TO_HOME,
+                    }),
+                    ..at
+                },
+                HomingBy::Controller => with_switch(at, config.home_of_joints[joint].as_ref()),
             }
         })
         .collect();
     Plant::new(Monotonic.now_ns() ^ u64::from(std::process::id()), &joints)
+}
+
+/// A joint with the switch and the index pulses that the controller looks for. Its drive counts from
+/// where it was switched on.
+fn with_switch(joint: JointSettings, homing: Option<&JointHoming>) -> JointSettings {
+    let Some(homing) = homing else { return joint };
+    let edge = joint.start + TO_HOME.copysign(homing.search_v);
+    let end = edge + CAM.copysign(homing.search_v);
+    JointSettings {
+        count: if homing.absolute.is_some() {
+            joint.start - homing.offset
+        } else {
+            0.0
+        },
+        switch: (homing.search_v != 0.0).then_some(SwitchSettings {
+            cam: (edge.min(end), edge.max(end)),
+            bounce_ns: BOUNCE_NS,
+        }),
+        index: homing.index_input.map(|_| (PITCH, joint.start)),
+        ..joint
+    }
 }
 
 fn settings(config: &MachineConfig) -> ServoSettings {
@@ -158,14 +199,18 @@ fn settings(config: &MachineConfig) -> ServoSettings {
         patience_ns: PATIENCE_PERIODS * config.period_ns(),
         stop: [ServoSettings::default().stop[0]; AXES],
     };
-    // Where joints are not axes they have limits of their own; else they are the axes in order.
+    // Where joints are not axes they have limits of their own.
     let limits = config.joint_limits.0.iter().take(config.joints());
     let joints = limits.map(|joint| (joint.acceleration, joint.jerk));
-    let axes = config
-        .axes
-        .iter()
-        .take(if config.joints() == 0 { AXES } else { 0 });
-    let axes = axes.map(|axis| (axis.max_acceleration, axis.max_jerk));
+    let of_joints = if config.joints() == 0 {
+        config.axis_of_joints()
+    } else {
+        Vec::new()
+    };
+    let axes = of_joints
+        .into_iter()
+        .filter_map(|of| config.axes.iter().find(|axis| axis.axis == of))
+        .map(|axis| (axis.max_acceleration, axis.max_jerk));
     for (stop, (acceleration, jerk)) in settings.stop.iter_mut().zip(joints.chain(axes)) {
         *stop = StopLimits { acceleration, jerk };
     }

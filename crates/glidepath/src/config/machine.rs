@@ -3,8 +3,9 @@
 use super::program::ProgramConfig;
 use glidepath_gcode::{LoopLimits, Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
+use glidepath_interpolator::JointHoming;
 use glidepath_kinematics::{
-    AxisRates, AxisShare, JointLimits, JointWatch, Kinematics as _, Mechanism, PathCaps,
+    AxisRates, AxisShare, JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism, PathCaps,
 };
 use glidepath_motion::preview::AdvanceRetreat;
 use glidepath_program::{Effort, Limits, PathBounds, Settings, Smoothing};
@@ -72,13 +73,24 @@ pub struct JogConfig {
     pub tool_axis: Axis,
 }
 
+/// Who brings joints home.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HomingBy {
+    /// Nobody: the position is believed.
+    Nobody,
+    /// Every drive by itself.
+    Drive,
+    /// The controller, as the `[home.J0]` tables say.
+    Controller,
+}
+
 /// What the drives say, and how that is judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackConfig {
     /// Whether drives answer; if not, they are taken to do what the setpoints say.
     pub is_expected: bool,
-    /// Whether every joint has to find its home, by its drive, before a program starts.
-    pub homes: bool,
+    /// Who brings joints home, before a program starts.
+    pub homing: HomingBy,
     /// How far a joint may be from its demand at its highest speed, mm or degrees.
     pub following_error: f64,
     /// The same at rest.
@@ -104,6 +116,10 @@ pub struct MachineConfig {
     pub path: PathConfig,
     /// The real-time side.
     pub interpolator: InterpolatorConfig,
+    /// How each joint comes home where the controller sees to that; `None` without a table.
+    pub home_of_joints: [Option<JointHoming>; JOINTS],
+    /// Axes with a second joint, in the order of those joints, and by how much the two may differ.
+    pub gantries: Vec<(Axis, f64)>,
     /// How it is moved by hand.
     pub jog: JogConfig,
     /// What the drives say.
@@ -147,6 +163,19 @@ impl MachineConfig {
             Mechanism::Trivial(_) => 0,
             mechanism => mechanism.joints(),
         }
+    }
+
+    /// The axis of each joint, where joints are axes: each has its own, and second ones follow.
+    #[must_use]
+    pub fn axis_of_joints(&self) -> Vec<Axis> {
+        let second = self.gantries.iter().map(|(axis, _)| *axis);
+        self.axis_names().into_iter().chain(second).collect()
+    }
+
+    /// How many drives the machine has.
+    #[must_use]
+    pub fn drives(&self) -> usize {
+        self.mechanism.joints() + self.gantries.len()
     }
 
     /// The judge of the joints' motion, where joints are not axes.

@@ -22,7 +22,7 @@ pub use diagnostic::{ConfigDiagnostic, ConfigError, DiagnosticReport};
 pub use instance::{INSTANCE_RULE, is_instance_name};
 pub use judge::{MAX_FRAMES_AHEAD, effort, tolerance};
 pub use machine::{
-    AxisConfig, FeedbackConfig, InterpolatorConfig, JogConfig, MachineConfig, PathConfig,
+    AxisConfig, FeedbackConfig, HomingBy, InterpolatorConfig, JogConfig, MachineConfig, PathConfig,
 };
 pub use program::ProgramConfig;
 

@@ -18,6 +18,8 @@ pub(super) struct RawConfig {
     #[serde(default)]
     pub(super) joint: BTreeMap<Spanned<String>, Spanned<RawJoint>>,
     #[serde(default)]
+    pub(super) home: BTreeMap<Spanned<String>, Spanned<RawHome>>,
+    #[serde(default)]
     pub(super) path: RawPath,
     #[serde(default)]
     pub(super) interpolator: RawInterpolator,
@@ -83,6 +85,7 @@ pub(super) struct RawAxis {
     pub(super) max_acceleration: Spanned<f64>,
     pub(super) max_jerk: Spanned<f64>,
     pub(super) jog_velocity: Optional<f64>,
+    pub(super) gantry_difference: Optional<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -127,6 +130,24 @@ pub(super) struct RawFeedback {
     pub(super) min_following_error: Optional<f64>,
     pub(super) stale_s: Optional<f64>,
     pub(super) off_s: Optional<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawHome {
+    pub(super) search_velocity: Optional<f64>,
+    pub(super) latch_velocity: Optional<f64>,
+    pub(super) final_velocity: Optional<f64>,
+    pub(super) index_input: Optional<i64>,
+    pub(super) offset: Optional<f64>,
+    pub(super) position: Optional<f64>,
+    pub(super) absolute: Optional<String>,
+    pub(super) sequence: Optional<i64>,
+    pub(super) shared: bool,
+    pub(super) volatile: bool,
+    pub(super) ignore_limits: bool,
+    pub(super) search_travel: Optional<f64>,
+    pub(super) clearance: Optional<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]

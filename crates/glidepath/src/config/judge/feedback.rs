@@ -1,7 +1,7 @@
 //! `[feedback]`: what the drives say of themselves.
 
 use super::values::{Judge, Range};
-use crate::config::machine::FeedbackConfig;
+use crate::config::machine::{FeedbackConfig, HomingBy};
 use crate::config::raw::RawFeedback;
 
 impl Judge {
@@ -30,10 +30,14 @@ impl Judge {
                 raw.source,
                 &[("none", false), ("drives", true)],
             ),
-            homes: self.choice(
+            homing: self.choice(
                 "feedback.homing",
                 raw.homing,
-                &[("none", false), ("drive", true)],
+                &[
+                    ("none", HomingBy::Nobody),
+                    ("drive", HomingBy::Drive),
+                    ("controller", HomingBy::Controller),
+                ],
             ),
             following_error: self.number_or(
                 "feedback.following_error",

@@ -4,6 +4,7 @@
 mod axes;
 mod axis_share;
 mod feedback;
+mod home;
 mod horizon;
 mod interpolator;
 mod jog;
@@ -26,6 +27,7 @@ use super::raw::RawConfig;
 use axis_share::axis_share;
 use glidepath_geometry::Axis;
 use glidepath_kinematics::AxisShare;
+use home::HomeSurroundings;
 use toml::Spanned;
 use values::Judge;
 
@@ -80,15 +82,30 @@ pub(super) fn judge(
         raw.jog,
         raw_axes().filter_map(|(axis, raw)| Some((axis, raw.as_ref()?.as_ref()))),
     );
+    let feedback = judge.feedback(raw.feedback);
+    let of_axes = raw_axes().filter_map(|(axis, raw)| Some((axis, raw.as_ref()?.as_ref())));
+    let gantries = judge.gantries(of_axes, &mechanism, feedback.homing);
+    let home_of_joints = judge.homes(
+        &raw.home,
+        &HomeSurroundings {
+            mechanism: &mechanism,
+            axes: &axes,
+            gantries: &gantries,
+            homing: feedback.homing,
+            period_t: f64::from(interpolator.period_us) * 1e-6,
+        },
+    );
     let config = MachineConfig {
         mechanism,
+        home_of_joints,
+        gantries,
         joint_limits,
         axis_share,
         axes,
         path: judge.path(raw.path),
         interpolator,
         jog,
-        feedback: judge.feedback(raw.feedback),
+        feedback,
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
         program: judge.program(raw.program),

@@ -16,6 +16,7 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         tables::MACHINE,
         tables::AXIS,
         tables::JOINT,
+        tables::HOME,
         tables::PATH,
         tables::INTERPOLATOR,
         tables::JOG,
@@ -70,7 +71,7 @@ fn general(name: &str) -> String {
     let mut parts: Vec<&str> = name.split('.').collect();
     match parts.as_mut_slice() {
         ["axis", axis, ..] if axis.len() == 1 && "XYZABCUVW".contains(*axis) => *axis = "X",
-        ["joint", joint, ..] if is_joint(joint) => *joint = "J0",
+        ["joint" | "home", joint, ..] if is_joint(joint) => *joint = "J0",
         _ => {}
     }
     parts.join(".")

@@ -73,6 +73,13 @@ pub(super) const AXIS: &[Key] = &[
         LeftOut::Means("jog.velocity"),
         "top speed of a jog of this axis",
     ),
+    key(
+        "axis.X.gantry_difference",
+        number(1e-6, 1e3, "mm or °"),
+        LeftOut::Means("the axis has one joint"),
+        "a second joint moves the axis, too; it comes after those of the axes. By so much the two may \
+         differ: beyond it the motion stops, beyond twice of it the power goes",
+    ),
 ];
 
 pub(super) const JOINT: &[Key] = &[
@@ -105,6 +112,107 @@ pub(super) const JOINT: &[Key] = &[
         number(1e-3, 1e10, "mm/s³ or °/s³"),
         LeftOut::Refused,
         "how fast the joint's acceleration may change",
+    ),
+];
+
+pub(super) const HOME: &[Key] = &[
+    key(
+        "home.J0.search_velocity",
+        number(-1e5, 1e5, "mm/s or °/s"),
+        LeftOut::Value("0"),
+        "velocity of the search for the home switch, with its direction; 0: there is none. LinuxCNC's \
+         HOME_SEARCH_VEL",
+    ),
+    key(
+        "home.J0.latch_velocity",
+        number(-1e5, 1e5, "mm/s or °/s"),
+        LeftOut::Value("0"),
+        "velocity at which the place is found: of the search's sign onto the edge of the switch, of \
+         the other one off it; with index_input, to the index pulse. Without a search and without a \
+         latch, the joint is where its offset says. LinuxCNC's HOME_LATCH_VEL",
+    ),
+    key(
+        "home.J0.final_velocity",
+        number(1e-3, 1e5, "mm/s or °/s"),
+        LeftOut::Means("the joint's highest"),
+        "velocity of the way from there to the home position. LinuxCNC's HOME_FINAL_VEL",
+    ),
+    key(
+        "home.J0.index_input",
+        Takes::Whole {
+            min: 0,
+            max: 63,
+            unit: "",
+        },
+        LeftOut::Means("the edge of the switch is the place"),
+        "the digital input that is the index pulse of the encoder, which the drive has to latch. \
+         LinuxCNC's HOME_USE_INDEX",
+    ),
+    key(
+        "home.J0.offset",
+        number(-1e6, 1e6, "mm or °"),
+        LeftOut::Value("0"),
+        "position of the edge of the switch, or of the index pulse; of an absolute encoder what is \
+         added to its count. LinuxCNC's HOME_OFFSET",
+    ),
+    key(
+        "home.J0.position",
+        number(-1e6, 1e6, "mm or °"),
+        LeftOut::Value("0"),
+        "where the joint goes in the end; inside the travel of its axis. LinuxCNC's HOME",
+    ),
+    key(
+        "home.J0.absolute",
+        Takes::Choice {
+            of: &["no", "stay", "move"],
+        },
+        LeftOut::Value("\"no\""),
+        "\"stay\", \"move\": the encoder is absolute, nothing is searched, and the joint stays or goes \
+         home. LinuxCNC's HOME_ABSOLUTE_ENCODER 2 and 1",
+    ),
+    key(
+        "home.J0.sequence",
+        Takes::Whole {
+            min: -100,
+            max: 100,
+            unit: "",
+        },
+        LeftOut::Value("0"),
+        "groups of joints come home one after the other, in rising order of the amount; a group that \
+         fails stops those after it. Negative: its joints make the last way together, as the two \
+         joints of an axis have to. LinuxCNC's HOME_SEQUENCE",
+    ),
+    key(
+        "home.J0.shared",
+        Takes::Flag,
+        LeftOut::Value("false"),
+        "other joints use the same switch: a search does not begin while it is closed. LinuxCNC's \
+         HOME_IS_SHARED",
+    ),
+    key(
+        "home.J0.volatile",
+        Takes::Flag,
+        LeftOut::Value("false"),
+        "the joint is not homed any more once its power was off. LinuxCNC's VOLATILE_HOME",
+    ),
+    key(
+        "home.J0.ignore_limits",
+        Takes::Flag,
+        LeftOut::Value("false"),
+        "limit switches do not stop the joint while it comes home. LinuxCNC's HOME_IGNORE_LIMITS",
+    ),
+    key(
+        "home.J0.search_travel",
+        number(1e-3, 1e6, "mm or °"),
+        LeftOut::Means("refused where something is searched"),
+        "most way of a search; without a find it ends there, as a fault",
+    ),
+    key(
+        "home.J0.clearance",
+        number(1e-3, 1e6, "mm or °"),
+        LeftOut::Means("refused where a switch is searched"),
+        "how far the joint may go past the edge of its switch. Three periods at the velocity of the \
+         search and the stop from there have to fit in, else the file is refused",
     ),
 ];
 
@@ -274,11 +382,12 @@ pub(super) const FEEDBACK: &[Key] = &[
     key(
         "feedback.homing",
         Takes::Choice {
-            of: &["none", "drive"],
+            of: &["none", "drive", "controller"],
         },
         LeftOut::Value("\"none\""),
-        "\"drive\": no program starts before every drive has said that its joint is homed; \"none\": \
-         the position is believed as it is",
+        "\"drive\": no program starts before every drive has said that its joint is homed; \
+         \"controller\": nor before every joint was brought home as its [home.J0] says; \"none\": the \
+         position is believed as it is",
     ),
     key(
         "feedback.following_error",
