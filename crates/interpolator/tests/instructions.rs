@@ -26,7 +26,7 @@ mod synthetic;
 use counted::cannot_count;
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::{Config, Stepped, stepped};
-use glidepath_link::{Command, Setpoint};
+use glidepath_link::{Command, JogDemand, JogMode, Setpoint};
 use std::hint::black_box;
 use std::process::Command as Process;
 use synthetic::{hexapod, lines, mill, plan, records};
@@ -56,6 +56,8 @@ struct Case {
     /// Every axis at limits of its own, instead of along lines.
     is_hard: bool,
     has_joints: bool,
+    /// The axes are jogged, with another velocity, step or wheel every 0.16 s, and no program runs.
+    is_jogged: bool,
     average: u64,
     most: u64,
 }
@@ -66,12 +68,13 @@ const fn case(name: &'static str, operator: Operator, average: u64, most: u64) -
         operator,
         is_hard: false,
         has_joints: false,
+        is_jogged: false,
         average,
         most,
     }
 }
 
-const CASES: [Case; 7] = [
+const CASES: [Case; 9] = [
     case("rate 1", Operator::Once(None), 3_800, 25_500),
     case("rate 0.5", HALF, 2_550, 24_600),
     case("held", Operator::Once(Some(Command::Hold)), 2_100, 2_100),
@@ -87,6 +90,15 @@ const CASES: [Case; 7] = [
     Case {
         has_joints: true,
         ..case("hexapod", Operator::Once(None), 5_400, 27_000)
+    },
+    Case {
+        is_jogged: true,
+        ..case("jog", Operator::Once(None), 1, 1)
+    },
+    Case {
+        is_jogged: true,
+        has_joints: true,
+        ..case("jog, hexapod", Operator::Once(None), 1, 1)
     },
 ];
 const HALF: Operator = Operator::Once(Some(Command::FeedOverride(0.5)));
@@ -112,6 +124,31 @@ fn one_counted_tick(stepped: &mut Stepped<'_>) -> Setpoint {
     black_box(stepped.tick())
 }
 
+/// A jog of several axes that wants something else every 40 ticks, and is alive in between.
+fn jog(tick: usize) -> JogDemand {
+    let mut demand = JogDemand {
+        client: 1,
+        number: 1 + (tick / 40) as u64,
+        sent_ns: tick as u64 * 4_000_000,
+        mask: 0b111_1111,
+        scale: 0.05,
+        velocity_v: 120.0,
+        ..bytemuck::Zeroable::zeroed()
+    };
+    let side = if tick / 80 % 2 == 0 { 1.0 } else { -1.0 };
+    let (mode, value) = match tick / 40 % 4 {
+        0 => (JogMode::Continuous, 100.0 * side),
+        1 => (JogMode::Continuous, -60.0 * side),
+        2 => (JogMode::Incremental, 5.0 * side),
+        _ => (JogMode::Continuous, 30.0),
+    };
+    demand.mode = mode.code();
+    for (axis, slot) in demand.value.iter_mut().take(6).enumerate() {
+        *slot = value * [1.0, -0.5, 0.25, 0.1, 0.05, -0.1][axis];
+    }
+    demand
+}
+
 fn drive(case: &Case) {
     let ticks = BEFORE + TICKS;
     let frames = if case.is_hard {
@@ -119,7 +156,11 @@ fn drive(case: &Case) {
     } else {
         lines(1, AXES, ticks, &mill(), 0.004)
     };
-    let frames = records(&frames, 1, 4_000_000);
+    let frames = if case.is_jogged {
+        Vec::new()
+    } else {
+        records(&frames, 1, 4_000_000)
+    };
     let mut config = Config::new(mill(), 4_000_000);
     if case.has_joints {
         config.mechanism = hexapod();
@@ -132,6 +173,9 @@ fn drive(case: &Case) {
                 && stepped.offer(frame)
             {
                 sent += 1;
+            }
+            if case.is_jogged {
+                stepped.jog(&jog(tick));
             }
             if let Some(command) = case.operator.command(tick) {
                 stepped.command(command);

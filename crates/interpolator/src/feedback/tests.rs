@@ -13,4 +13,5 @@ mod following;
 mod homing;
 mod hostile;
 mod life_cycle;
+mod matrix;
 mod upsets;

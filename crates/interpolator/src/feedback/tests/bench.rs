@@ -10,11 +10,11 @@ use glidepath_geometry::AxisVector;
 use glidepath_link::servo::{Servo, ServoSettings};
 use glidepath_link::{
     Client, Command, CommandReply, CommandRequest, Delivery, FaultCause, Feedback, FrameSink,
-    InProcess, MachineState, Power, Publisher, Setpoint, SetpointFrame, Status, Subscriber,
-    Transport,
+    InProcess, JogDemand, MachineState, Power, Publisher, Setpoint, SetpointFrame, Status,
+    Subscriber, Transport,
 };
 use glidepath_plant::{JointSettings, Plant, Upset};
-use glidepath_realtime::{Events, Wake, event_ring};
+use glidepath_realtime::{CountingAllocator, Events, Wake, event_ring};
 use heapless::spsc::Producer;
 use std::collections::VecDeque;
 
@@ -34,6 +34,7 @@ pub(super) struct Bench {
     sink: Box<dyn Publisher<Feedback>>,
     frames: Box<dyn FrameSink>,
     client: Box<dyn Client<CommandRequest, CommandReply>>,
+    jogs: Box<dyn Publisher<JogDemand>>,
     statuses: Box<dyn Subscriber<Status>>,
     pub(super) link: InProcess,
     pub(super) setpoints: Vec<Setpoint>,
@@ -95,6 +96,7 @@ impl Bench {
             sink: link.feedback_sink().unwrap(),
             frames: link.frame_sink().unwrap(),
             client: link.command_client().unwrap(),
+            jogs: link.jog_sink().unwrap(),
             statuses: link.status_source().unwrap(),
             link,
             setpoints: Vec::new(),
@@ -133,9 +135,12 @@ impl Bench {
             missed: 0,
         };
         let mut report = Report::blank();
+        // Whatever the drives do: the real-time thread's part of it does not allocate.
+        let calls = CountingAllocator::calls_of_this_thread();
         self.interpolator
             .prepare(&wake, &mut self.inputs, &mut report);
         self.interpolator.stamp(&mut report, &wake);
+        assert_eq!(CountingAllocator::calls_of_this_thread(), calls);
         self.reports.enqueue(report).unwrap();
         self.ports.turn(scheduled_ns + 200_000);
         while let Some(status) = self.statuses.take().unwrap() {
@@ -208,6 +213,11 @@ impl Bench {
             Ok(()) => Ok(()),
             Err(_) => Err(reply.message.as_str().to_owned()),
         }
+    }
+
+    /// A client demands a jog.
+    pub(super) fn jog(&mut self, demand: &JogDemand) {
+        self.jogs.publish(demand).unwrap();
     }
 
     /// Switches on and waits until a state.

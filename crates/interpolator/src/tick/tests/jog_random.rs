@@ -13,6 +13,13 @@ fn sequences(usual: u64) -> u64 {
     wanted.map_or(usual, |text| text.parse().unwrap())
 }
 
+/// Most way of a step, mm.
+const STEP_MM: f64 = 30.0;
+/// How far an axis goes at most that stops from whatever it does, mm: at 150 mm/s and the full
+/// acceleration it takes 50 ms and 9.17 mm until that is gone and the speed is 200 mm/s, and 15 mm
+/// from there.
+const FARTHEST_STOP_MM: f64 = 24.17;
+
 /// How long a stop from a constant speed of an axis takes, s.
 fn stop_t(v: f64) -> f64 {
     if v <= 100.0 {
@@ -38,7 +45,7 @@ fn play(rig: &mut Rig, numbers: &mut Numbers, most_v: f64) {
                 _ => size * (2.0 * numbers.unit() - 1.0),
             })
         };
-        let (speed, step, turn) = (vector(1.5 * most_v), vector(30.0), vector(60.0));
+        let (speed, step, turn) = (vector(1.5 * most_v), vector(STEP_MM), vector(60.0));
         hand.demand.velocity_v = most_v * (0.1 + 0.9 * numbers.unit());
         match numbers.whole(0, 11) {
             0..=3 => hand.ask(rig, JogMode::Continuous, speed),
@@ -80,7 +87,8 @@ fn at_random_the_axes_stay_inside_limits_and_travel_and_stop_when_nobody_demands
         let mut numbers = Numbers::new(seed + 1);
         play(&mut rig, &mut numbers, 200.0);
         // Killed: what was demanded last ends within the dead-man and a stop, or where its way
-        // does: that of a step, or 15 mm ahead of a wheel.
+        // does: that of a step, or 15 mm ahead of a wheel. A step begins where the axis was when it
+        // was asked for, which may be on the way in the other direction.
         let from = rig.setpoints.len() - 1;
         let last = |rig: &Rig| AxisVector::from(rig.setpoints.last().unwrap().position);
         let before = last(&rig);
@@ -93,7 +101,7 @@ fn at_random_the_axes_stay_inside_limits_and_travel_and_stop_when_nobody_demands
         let bound = if after.len() as f64 * 0.004 <= 0.158 + stop_t(v) {
             v * 0.158 + 0.5 * v * stop_t(v) + 1e-6
         } else {
-            45.0
+            STEP_MM + FARTHEST_STOP_MM
         };
         assert!(way <= bound, "seed {seed}: {way} mm instead of {bound}");
         rig.run(50);
