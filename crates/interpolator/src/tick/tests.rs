@@ -14,6 +14,7 @@
 mod block_ends;
 mod commands;
 mod jog;
+mod jog_in_a_hold;
 mod jog_random;
 mod planned;
 mod supply;
