@@ -10,6 +10,18 @@ use std::path::Path;
 /// # Errors
 /// The file cannot be read, is too long, or is no UTF-8.
 pub fn read(path: &Path, most_bytes: u64) -> io::Result<String> {
+    String::from_utf8(bytes(path, most_bytes)?).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let message = format!("it is no UTF-8 text from byte {at} on");
+        io::Error::new(io::ErrorKind::InvalidData, message)
+    })
+}
+
+/// The bytes of such a file, whatever they are.
+///
+/// # Errors
+/// The file cannot be read, or is too long.
+pub fn bytes(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
     let mut text = Vec::new();
     File::open(path)?
         .take(most_bytes + 1)
@@ -18,9 +30,5 @@ pub fn read(path: &Path, most_bytes: u64) -> io::Result<String> {
         let message = format!("it has more than {most_bytes} bytes, the most that are read");
         return Err(io::Error::new(io::ErrorKind::InvalidData, message));
     }
-    String::from_utf8(text).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        let message = format!("it is no UTF-8 text from byte {at} on");
-        io::Error::new(io::ErrorKind::InvalidData, message)
-    })
+    Ok(text)
 }

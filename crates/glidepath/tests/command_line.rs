@@ -116,6 +116,29 @@ fn a_refused_configuration_ends_with_3_and_shows_the_place() {
     );
 }
 
+/// A table is read as a whole or not at all: tools beyond what is read would be missing unseen.
+#[test]
+fn a_tool_table_that_is_too_long_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let part = file(
+        folder.path(),
+        "part.ngc",
+        "G21 G90 F600\nT7 M6\nG43 G1 X1\nM2\n",
+    );
+    let line = format!(";{}\n", "x".repeat(1023));
+    for (lines, code) in [(4000, 0), (4200, 2)] {
+        let text = line.repeat(lines) + "T7 P7 Z5.0\n";
+        let table = file(folder.path(), "tool.tbl", &text);
+        let args = ["check", part.to_str().unwrap(), "--tool-table"];
+        let output = glidepath(&[&args[..], &[table.to_str().unwrap()]].concat());
+        assert_eq!(exit(&output), code, "{}", stderr(&output));
+        let is_told = stderr(&output).contains("it has more than 4194304 bytes");
+        assert_eq!(is_told, code == 2, "{}", stderr(&output));
+    }
+    let args = ["check", part.to_str().unwrap(), "--tool-table", "/dev/zero"];
+    assert_eq!(exit(&glidepath(&args)), 2);
+}
+
 #[test]
 fn check_lists_all_findings_of_all_programs() {
     let folder = tempfile::tempdir().unwrap();

@@ -5,9 +5,10 @@ use crate::cli::Command;
 use crate::command::failure::Failure;
 use crate::config::{MachineConfig, ProgramConfig};
 use crate::file_error::FileError;
-use crate::kept::read::{read, set_up};
+use crate::kept::read::{MOST_TABLE_BYTES, read, set_up};
 use crate::output;
 use crate::program_file::ProgramFile;
+use crate::text_file;
 use glidepath_gcode::{Dialect, ToolTable};
 use glidepath_kinematics::AxisShare;
 use std::fs::File;
@@ -17,8 +18,6 @@ use std::sync::Arc;
 
 /// How much of a program tells its dialect, bytes.
 const BEGINNING: u64 = 64 * 1024;
-/// Largest tool table, bytes.
-const LARGEST_TABLE: u64 = 4 * 1024 * 1024;
 
 /// Takes up what the command line says about programs, and reads the tool table.
 ///
@@ -92,11 +91,7 @@ fn tell_share(share: &AxisShare) {
 }
 
 fn tool_table(path: &Path) -> Result<ToolTable, Failure> {
-    let file = File::open(path).map_err(FileError::open(path))?;
-    let mut text = Vec::new();
-    file.take(LARGEST_TABLE)
-        .read_to_end(&mut text)
-        .map_err(FileError::file("read", path))?;
+    let text = text_file::bytes(path, MOST_TABLE_BYTES).map_err(FileError::open(path))?;
     ToolTable::parse(&text).map_err(|diagnostics| Failure::Rejected {
         program: path.display().to_string(),
         diagnostics,

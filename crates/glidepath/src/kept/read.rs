@@ -4,9 +4,13 @@ use crate::config::MachineConfig;
 use crate::kept::convert::{axis_words, begun_with, system_name, with_tools};
 use crate::kept::error::StateError;
 use crate::kept::machine::{fingerprint, fingerprint_of};
+use crate::text_file;
 use glidepath_kept::{Directory, Kept, Store};
 use std::path::Path;
 use std::sync::Arc;
+
+/// Largest tool table, bytes.
+pub(crate) const MOST_TABLE_BYTES: u64 = 4 << 20;
 
 /// What is kept for a machine; `None` if it keeps nothing, or nothing yet.
 ///
@@ -76,7 +80,7 @@ pub(crate) fn set_up(config: &mut MachineConfig, kept: &Kept) -> Vec<String> {
 /// The fingerprint of the tool table's file; 0 if there is none.
 pub(crate) fn table_fingerprint(config: &MachineConfig) -> u64 {
     let table = config.program.tool_table.as_ref();
-    let bytes = table.and_then(|path| std::fs::read(path).ok());
+    let bytes = table.and_then(|path| text_file::bytes(path, MOST_TABLE_BYTES).ok());
     bytes.map_or(0, |bytes| fingerprint_of(&bytes))
 }
 
