@@ -100,6 +100,12 @@ pub trait Subscriber<R> {
     fn take(&mut self) -> Result<Option<R>, LinkError>;
 }
 
+impl<R, S: Subscriber<R> + ?Sized> Subscriber<R> for Box<S> {
+    fn take(&mut self) -> Result<Option<R>, LinkError> {
+        (**self).take()
+    }
+}
+
 /// Requests of one client that may be unanswered at a time.
 pub const MAX_UNANSWERED: usize = 32;
 

@@ -14,7 +14,7 @@ use crate::sample::Sample;
 use glidepath_geometry::AXES;
 use glidepath_interpolator::JointHoming;
 use glidepath_kinematics::Kinematics as _;
-use glidepath_link::servo::{Servo, ServoCounts, ServoSettings, StopLimits};
+use glidepath_link::servo::{JumpLimits, OwnStop, Servo, ServoCounts, ServoSettings, StopLimits};
 use glidepath_link::{Recorder, Setpoint, Transport as _};
 use glidepath_plant::{HomeSettings, JointSettings, Plant, SwitchSettings};
 use glidepath_realtime::{Clock as _, Monotonic};
@@ -99,6 +99,7 @@ fn play(
     let mut plant = plant(config, &args.stands);
     let waits_from = Instant::now();
     let mut is_told = args.relay;
+    let mut jumps_told = 0;
     while !interrupt.is_set() {
         if !is_told && servo.counts().received == 0 && waits_from.elapsed() > NOTICE_AFTER {
             is_told = true;
@@ -116,6 +117,12 @@ fn play(
         // A real servo stack hands this to its drives, and asks them where they are.
         let now_ns = Monotonic.now_ns();
         let demand = servo.demand(now_ns);
+        if let Some(OwnStop::Jump(jump)) = servo.stopped()
+            && servo.counts().jumps > jumps_told
+        {
+            jumps_told = servo.counts().jumps;
+            output::note(&format!("servo: stopped, {jump}"));
+        }
         plant.step(now_ns, servo.last(), demand.as_ref());
         if let Some(measured) = plant.feedback() {
             feedback.publish(&measured)?;
@@ -197,11 +204,11 @@ fn with_switch(joint: JointSettings, homing: Option<&JointHoming>) -> JointSetti
 fn settings(config: &MachineConfig) -> ServoSettings {
     let mut settings = ServoSettings {
         patience_ns: PATIENCE_PERIODS * config.period_ns(),
-        stop: [ServoSettings::default().stop[0]; AXES],
+        ..ServoSettings::default()
     };
     // Where joints are not axes they have limits of their own.
     let limits = config.joint_limits.0.iter().take(config.joints());
-    let joints = limits.map(|joint| (joint.acceleration, joint.jerk));
+    let joints = limits.map(|joint| (joint.velocity, joint.acceleration, joint.jerk));
     let of_joints = if config.joints() == 0 {
         config.axis_of_joints()
     } else {
@@ -210,9 +217,11 @@ fn settings(config: &MachineConfig) -> ServoSettings {
     let axes = of_joints
         .into_iter()
         .filter_map(|of| config.axes.iter().find(|axis| axis.axis == of))
-        .map(|axis| (axis.max_acceleration, axis.max_jerk));
-    for (stop, (acceleration, jerk)) in settings.stop.iter_mut().zip(joints.chain(axes)) {
+        .map(|axis| (axis.max_velocity, axis.max_acceleration, axis.max_jerk));
+    let drives = settings.stop.iter_mut().zip(&mut settings.jump);
+    for ((stop, jump), (velocity, acceleration, jerk)) in drives.zip(joints.chain(axes)) {
         *stop = StopLimits { acceleration, jerk };
+        *jump = JumpLimits::above(velocity, acceleration);
     }
     settings
 }

@@ -24,8 +24,10 @@ pub struct ServoCounts {
     /// Times the position was taken anew from the drives, or given another meaning, while this
     /// listened.
     pub references: u64,
-    /// Own stops because setpoints stayed away.
+    /// Own stops, whatever they were for.
     pub stops: u64,
+    /// Setpoints, among those received, that were not played because they jumped.
+    pub jumps: u64,
 }
 
 /// What a setpoint is, seen after the one before it.

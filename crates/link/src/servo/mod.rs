@@ -10,7 +10,15 @@
 //! Where the interpolator takes the position from the drives, setpoints with a new
 //! [`Setpoint::reference`] do not continue those before. The servo then has no demand until one of
 //! them is at rest with power on, and begins there; it never goes from the old position to the new
-//! one. As long as it has none, the drives are to stay where they are.
+//! one. As long as it has none, the drives are to stay where they are. Whoever knows where the drives
+//! are says so with [`Servo::rearm_at`]: then the servo begins only where they stand.
+//!
+//! A servo also stops the joints by itself when it is told to ([`Servo::stop`]: a drive failed, and
+//! the others are to rest), and when a setpoint would have them jump ([`JumpLimits`]). Why it
+//! stopped, [`Servo::stopped`] says.
+//!
+//! A real-time thread takes its setpoints from a [`ring`], which another thread fills: then neither
+//! [`Servo::receive`] nor [`Servo::demand`] makes a system call or an allocation.
 //!
 //! ```no_run
 //! # fn main() -> Result<(), Box<dyn core::error::Error>> {
@@ -37,13 +45,17 @@
 //! ```
 
 mod count;
+mod guard;
 mod hermite;
 mod player;
+mod ring;
 mod stop;
 
 pub use count::ServoCounts;
+pub use guard::{Jump, JumpLimits, JumpOf};
 pub use hermite::{JointState, quintic};
 pub use player::JointStates;
+pub use ring::{RingFiller, RingSource, ring};
 pub use stop::{Stop, StopLimits};
 
 use crate::{LinkError, MachineState, Record, RecordError, Setpoint, Subscriber};
@@ -52,17 +64,19 @@ use count::Sequel;
 use glidepath_geometry::AXES;
 use player::Player;
 
-/// How a servo behaves when setpoints stay away.
+/// How a servo behaves when setpoints stay away, or jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ServoSettings {
     /// How long after the time of the last setpoint the joints go on at constant acceleration, ns.
     pub patience_ns: u64,
     /// What each joint's own stop may use.
     pub stop: [StopLimits; AXES],
+    /// What each joint is never asked for.
+    pub jump: [JumpLimits; AXES],
 }
 
 impl Default for ServoSettings {
-    /// Three periods of 4 ms; 2000 mm/s² and 40 000 mm/s³.
+    /// Three periods of 4 ms; 2000 mm/s² and 40 000 mm/s³; no guard against jumps.
     fn default() -> Self {
         let stop = StopLimits {
             acceleration: 2000.0,
@@ -71,13 +85,40 @@ impl Default for ServoSettings {
         Self {
             patience_ns: 12_000_000,
             stop: [stop; AXES],
+            jump: [JumpLimits::default(); AXES],
         }
     }
 }
 
+/// Why a servo stopped the joints by itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum OwnStop {
+    /// Setpoints stayed away.
+    Silence,
+    /// [`Servo::stop`] was called.
+    Asked,
+    /// A setpoint jumped.
+    Jump(Jump),
+}
+
+/// Where the drives stand, and how near the first setpoint has to be.
+#[derive(Debug, Clone, Copy)]
+struct Stand {
+    actual: [f64; AXES],
+    window: [f64; AXES],
+}
+
+impl Stand {
+    fn is_met_by(&self, setpoint: &Setpoint) -> bool {
+        let places = self.actual.iter().zip(&setpoint.joint_position);
+        let mut places = places.zip(&self.window);
+        places.all(|((actual, told), window)| (told - actual).abs() <= *window)
+    }
+}
+
 /// A consumer of setpoints.
-pub struct Servo {
-    source: Box<dyn Subscriber<Setpoint>>,
+pub struct Servo<S: Subscriber<Setpoint> = Box<dyn Subscriber<Setpoint>>> {
+    source: S,
     player: Player,
     counts: ServoCounts,
     last: Option<Setpoint>,
@@ -87,6 +128,9 @@ pub struct Servo {
     armed: bool,
     /// Whether it has to be handed the position, by a setpoint at rest, before it plays any.
     waits: bool,
+    /// Where it has to be handed it, if that was said.
+    stand: Option<Stand>,
+    stopped: Option<OwnStop>,
 }
 
 /// Whether no joint is told to move.
@@ -97,7 +141,7 @@ fn is_at_rest(setpoint: &Setpoint) -> bool {
         .all(|rate| *rate == 0.0)
 }
 
-impl fmt::Debug for Servo {
+impl<S: Subscriber<Setpoint>> fmt::Debug for Servo<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Servo")
             .field("counts", &self.counts)
@@ -107,11 +151,12 @@ impl fmt::Debug for Servo {
     }
 }
 
-impl Servo {
-    /// A servo that listens to a subscriber's end.
+impl<S: Subscriber<Setpoint>> Servo<S> {
+    /// A servo that listens to a subscriber's end. It plays setpoints from the first on; one that
+    /// knows where its drives are calls [`Servo::rearm_at`] before it receives any.
     #[must_use]
-    pub fn new(source: Box<dyn Subscriber<Setpoint>>, settings: ServoSettings) -> Self {
-        let player = Player::new(settings.patience_ns, settings.stop);
+    pub fn new(source: S, settings: ServoSettings) -> Self {
+        let player = Player::new(settings.patience_ns, settings.stop, settings.jump);
         let counts = ServoCounts::default();
         Self {
             source,
@@ -121,11 +166,14 @@ impl Servo {
             last_refusal: None,
             armed: true,
             waits: false,
+            stand: None,
+            stopped: None,
         }
     }
 
     /// The next new setpoint that has arrived, `None` if there is no more yet. Duplicates and
-    /// records that fail their check are counted and left out. `now_ns` is of `CLOCK_MONOTONIC`.
+    /// records that fail their check are counted and left out. One that jumps is given out, but not
+    /// played: the joints stop. `now_ns` is of `CLOCK_MONOTONIC`.
     ///
     /// # Errors
     ///
@@ -142,13 +190,13 @@ impl Servo {
                 Sequel::New => {}
                 Sequel::Reference => {
                     // The drives were asked where they are: whatever stopped this is settled.
-                    self.armed = true;
+                    (self.armed, self.stand, self.stopped) = (true, None, None);
                     self.wait();
                 }
-                Sequel::Restart => self.armed = self.last.is_none(),
+                Sequel::Restart => self.armed &= self.last.is_none(),
             }
             self.last = Some(setpoint);
-            self.play(&setpoint);
+            self.play(&setpoint, now_ns);
             return Ok(Some(setpoint));
         }
         Ok(None)
@@ -159,18 +207,51 @@ impl Servo {
         self.player.reset();
     }
 
-    fn play(&mut self, setpoint: &Setpoint) {
+    fn play(&mut self, setpoint: &Setpoint, now_ns: u64) {
         let is_off = setpoint.enable == 0 || setpoint.state == MachineState::Off.code();
         if is_off {
             self.wait();
         } else if self.armed && self.waits {
-            if is_at_rest(setpoint) {
+            if is_at_rest(setpoint) && self.stand.is_none_or(|stand| stand.is_met_by(setpoint)) {
                 self.player.stand_at(setpoint);
-                self.waits = false;
+                (self.waits, self.stand) = (false, None);
             }
-        } else if self.armed {
-            self.player.push(setpoint);
+        } else if self.armed
+            && let Err(jump) = self.player.push(setpoint)
+        {
+            self.counts.jumps += 1;
+            self.begin_stop(now_ns, OwnStop::Jump(jump));
         }
+    }
+
+    fn begin_stop(&mut self, now_ns: u64, why: OwnStop) {
+        let was_stopping = self.player.is_stopping();
+        self.player.stop(now_ns);
+        self.note_stop(was_stopping, why);
+        self.armed = false;
+        // The first cause is the one to know, if there was a motion to stop or none.
+        self.stopped.get_or_insert(why);
+    }
+
+    fn note_stop(&mut self, was_stopping: bool, why: OwnStop) {
+        if self.player.is_stopping() && !was_stopping {
+            self.counts.stops += 1;
+            self.armed = false;
+            // The way back to a setpoint may be the jump, too.
+            let why = self.player.jump().map_or(why, OwnStop::Jump);
+            self.counts.jumps += u64::from(self.player.jump().is_some());
+            self.stopped = Some(why);
+        }
+    }
+
+    /// Brings the joints to rest within their own limits, off the path if need be, and plays no
+    /// setpoint until [`Servo::rearm`] or a new reference: a drive failed, the bus is lost, or
+    /// whoever drives the joints ends. The interpolator does not know of it; tell it by feedback,
+    /// or with an abort.
+    ///
+    /// `now_ns` is of `CLOCK_MONOTONIC`, not before that of any call so far.
+    pub fn stop(&mut self, now_ns: u64) {
+        self.begin_stop(now_ns, OwnStop::Asked);
     }
 
     /// What the joints are to do at a time; `None` before the first setpoint's, and while the drives
@@ -179,14 +260,12 @@ impl Servo {
     pub fn demand(&mut self, now_ns: u64) -> Option<JointStates> {
         let was_stopping = self.player.is_stopping();
         let demand = self.player.demand(now_ns);
-        if self.player.is_stopping() && !was_stopping {
-            self.counts.stops += 1;
-            self.armed = false;
-        }
+        self.note_stop(was_stopping, OwnStop::Silence);
         demand
     }
 
-    /// Whether setpoints are played. Not after an own stop or a new start of the interpolator.
+    /// Whether setpoints are played. Not after an own stop or a new start of the interpolator. What
+    /// is armed may still wait for the first setpoint that it can begin at.
     #[must_use]
     pub const fn is_armed(&self) -> bool {
         self.armed
@@ -196,7 +275,29 @@ impl Servo {
     /// joints are where the interpolator takes them to be.
     pub fn rearm(&mut self) {
         self.player.reset();
-        self.armed = true;
+        (self.armed, self.stand, self.stopped) = (true, None, None);
+    }
+
+    /// Plays setpoints again once one of them is at rest with power on and tells every joint to
+    /// stand within `window` of `actual`, where its drive says that it stands; both mm or degrees.
+    /// Until then there is no demand. `f64::INFINITY` is a window for a joint that there is not.
+    ///
+    /// For servo stacks that know where their drives are: at their start, and after an own stop. A
+    /// new [`Setpoint::reference`] was taken from the drives and takes the place of `actual`.
+    pub fn rearm_at(&mut self, actual: &[f64; AXES], window: &[f64; AXES]) {
+        self.rearm();
+        self.wait();
+        self.stand = Some(Stand {
+            actual: *actual,
+            window: *window,
+        });
+    }
+
+    /// Why the joints were stopped by the servo itself; `None` if they were not, or setpoints are
+    /// played again.
+    #[must_use]
+    pub const fn stopped(&self) -> Option<&OwnStop> {
+        self.stopped.as_ref()
     }
 
     /// What arrived so far.

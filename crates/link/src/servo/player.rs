@@ -6,12 +6,14 @@
 //!   from ──┼─ ─ ─ ─                        nothing newer: constant acceleration, for a while
 //!                  ·                       a newer one, half a period ahead: back to it
 //!   from ─ ─ ─ ─ ─ ─ ─ ─ ┼ ╲_              nothing for too long: the joints' own stop, latched
+//!   from ─────┼ ╲_       × to              the next one jumps: likewise, at once
 //! ```
 //!
 //! Position, velocity and acceleration are continuous throughout. After a gap the way back takes at
 //! least half a period, because making good a small error in a shorter time would take large forces.
 //! Not a whole one: setpoints arrive less than a period ahead.
 
+use super::guard::{Jump, JumpLimits, find_jump};
 use super::{JointState, Stop, StopLimits, quintic};
 use crate::Setpoint;
 use glidepath_geometry::AXES;
@@ -78,6 +80,8 @@ enum Mode {
     Stopping {
         since_ns: u64,
         stops: [Stop; AXES],
+        /// Where the way back to the setpoints would have been a jump.
+        jump: Option<Jump>,
     },
 }
 
@@ -88,34 +92,62 @@ pub(super) struct Player {
     queue: VecDeque<Knot>,
     patience_ns: u64,
     limits: [StopLimits; AXES],
+    jumps: [JumpLimits; AXES],
 }
 
 impl Player {
     /// `patience_ns`: how long to go on at constant acceleration without a newer setpoint.
-    pub(super) fn new(patience_ns: u64, limits: [StopLimits; AXES]) -> Self {
+    pub(super) fn new(
+        patience_ns: u64,
+        limits: [StopLimits; AXES],
+        jumps: [JumpLimits; AXES],
+    ) -> Self {
         let queue = VecDeque::with_capacity(QUEUE);
         Self {
             mode: Mode::Waiting,
             queue,
             patience_ns,
             limits,
+            jumps,
         }
     }
 
     /// Takes a setpoint for later. One that is not after the last in the queue is left out.
-    pub(super) fn push(&mut self, setpoint: &Setpoint) {
+    ///
+    /// # Errors
+    ///
+    /// The way from the setpoint before is a jump. This one was not taken.
+    pub(super) fn push(&mut self, setpoint: &Setpoint) -> Result<(), Jump> {
         let knot = Knot::of(setpoint);
-        if self
-            .queue
-            .back()
-            .is_some_and(|last| last.at_ns >= knot.at_ns)
-        {
-            return;
+        if let Some(last) = self.last_setpoint() {
+            if last.at_ns >= knot.at_ns {
+                return Ok(());
+            }
+            self.judge(last, &knot).map_or(Ok(()), Err)?;
         }
         if self.queue.len() == QUEUE {
             self.queue.pop_front();
         }
         self.queue.push_back(knot);
+        Ok(())
+    }
+
+    /// The last setpoint that is played or to be played. None while the joints coast: where they
+    /// are when the next is taken up is not known before.
+    fn last_setpoint(&self) -> Option<&Knot> {
+        match &self.mode {
+            Mode::Playing {
+                from,
+                coasting: false,
+                ..
+            } => Some(self.queue.back().unwrap_or(from)),
+            _ => self.queue.back(),
+        }
+    }
+
+    fn judge(&self, from: &Knot, to: &Knot) -> Option<Jump> {
+        let span_t = seconds(to.at_ns, from.at_ns);
+        find_jump(&from.joints, &to.joints, span_t, &self.jumps)
     }
 
     /// Begins anew at a setpoint at rest, at once.
@@ -139,15 +171,67 @@ impl Player {
         matches!(self.mode, Mode::Stopping { .. })
     }
 
+    /// The jump that the way back to the setpoints would have been, if that is why the joints stop.
+    pub(super) const fn jump(&self) -> Option<Jump> {
+        match &self.mode {
+            Mode::Stopping { jump, .. } => *jump,
+            _ => None,
+        }
+    }
+
+    /// Begins the joints' own stop. Without a demand there is nothing to be stopped, and what was
+    /// to come is forgotten.
+    pub(super) fn stop(&mut self, now_ns: u64) {
+        let joints = self.demand(now_ns);
+        if self.is_stopping() {
+            return;
+        }
+        match joints {
+            Some(joints) => self.begin_stop(now_ns, &joints, None),
+            None => self.reset(),
+        }
+    }
+
+    fn begin_stop(&mut self, since_ns: u64, joints: &JointStates, jump: Option<Jump>) {
+        let mut stops = [Stop::default(); AXES];
+        for (stop, (joint, limits)) in stops.iter_mut().zip(joints.iter().zip(self.limits)) {
+            *stop = Stop::new(*joint, limits);
+        }
+        self.mode = Mode::Stopping {
+            since_ns,
+            stops,
+            jump,
+        };
+    }
+
+    /// Begins the stop at a time that is past, and gives what the joints are to do now.
+    fn stopped(
+        &mut self,
+        now_ns: u64,
+        since_ns: u64,
+        joints: &JointStates,
+        jump: Option<Jump>,
+    ) -> JointStates {
+        self.begin_stop(since_ns, joints, jump);
+        let Mode::Stopping { stops, .. } = self.mode else {
+            return *joints;
+        };
+        stops.map(|stop| stop.at(seconds(now_ns, since_ns)))
+    }
+
     /// What the joints are to do now. Times do not go back from call to call.
     pub(super) fn demand(&mut self, now_ns: u64) -> Option<JointStates> {
         self.take_up(now_ns);
         match self.mode {
             Mode::Waiting => None,
-            Mode::Stopping { since_ns, stops } => {
-                Some(stops.map(|stop| stop.at(seconds(now_ns, since_ns))))
-            }
-            Mode::Playing { from, heard_ns, .. } => Some(self.play(from, heard_ns, now_ns)),
+            Mode::Stopping {
+                since_ns, stops, ..
+            } => Some(stops.map(|stop| stop.at(seconds(now_ns, since_ns)))),
+            Mode::Playing {
+                from,
+                heard_ns,
+                coasting,
+            } => Some(self.play(from, heard_ns, coasting, now_ns)),
         }
     }
 
@@ -197,8 +281,12 @@ impl Player {
         }
     }
 
-    fn play(&mut self, from: Knot, heard_ns: u64, now_ns: u64) -> JointStates {
+    fn play(&mut self, from: Knot, heard_ns: u64, coasting: bool, now_ns: u64) -> JointStates {
         if let Some(to) = self.queue.front() {
+            // The way between setpoints was judged when the second came.
+            if coasting && let Some(jump) = self.judge(&from, to) {
+                return self.stopped(now_ns, from.at_ns, &from.joints, Some(jump));
+            }
             self.mode = Mode::Playing {
                 from,
                 heard_ns,
@@ -225,16 +313,7 @@ impl Player {
             };
             return coasted.joints;
         }
-        let mut stops = [Stop::default(); AXES];
-        for (stop, (joint, limits)) in stops.iter_mut().zip(coasted.joints.iter().zip(self.limits))
-        {
-            *stop = Stop::new(*joint, limits);
-        }
-        self.mode = Mode::Stopping {
-            since_ns: coasted.at_ns,
-            stops,
-        };
-        stops.map(|stop| stop.at(seconds(now_ns, coasted.at_ns)))
+        self.stopped(now_ns, coasted.at_ns, &coasted.joints, None)
     }
 }
 

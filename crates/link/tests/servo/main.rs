@@ -1,4 +1,4 @@
-//! The servo: interpolation, counting, gaps, and the stop of its own.
+//! The servo: interpolation, counting, gaps, the stop of its own, the guard, and the ring.
 #![allow(
     clippy::unwrap_used,
     clippy::float_cmp,
@@ -10,8 +10,10 @@
 
 mod counting;
 mod curves;
+mod own_stop;
 mod playing;
 mod references;
+mod ring;
 
 use bytemuck::Zeroable;
 use glidepath_link::servo::{JointState, Servo, ServoSettings};
@@ -63,8 +65,12 @@ struct Bench {
 
 impl Bench {
     fn new() -> Self {
+        Self::with(ServoSettings::default())
+    }
+
+    fn with(settings: ServoSettings) -> Self {
         let link = InProcess::default();
-        let servo = Servo::new(link.setpoint_source().unwrap(), ServoSettings::default());
+        let servo = Servo::new(link.setpoint_source().unwrap(), settings);
         Self {
             sink: link.setpoint_sink().unwrap(),
             servo,

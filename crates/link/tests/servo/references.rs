@@ -3,7 +3,7 @@
 use super::*;
 
 /// A setpoint that stands at a position, of a reference and in a state.
-fn standing(number: u64, reference: u64, state: MachineState, position: f64) -> Setpoint {
+pub(super) fn standing(number: u64, reference: u64, state: MachineState, position: f64) -> Setpoint {
     let mut standing = Setpoint {
         reference,
         state: state.code(),
