@@ -123,7 +123,8 @@ impl Player {
             if last.at_ns >= knot.at_ns {
                 return Ok(());
             }
-            self.judge(last, &knot).map_or(Ok(()), Err)?;
+            let is_next = knot.at_ns - last.at_ns <= knot.period_ns + knot.period_ns / 4;
+            self.judge(last, &knot, is_next).map_or(Ok(()), Err)?;
         }
         if self.queue.len() == QUEUE {
             self.queue.pop_front();
@@ -145,9 +146,9 @@ impl Player {
         }
     }
 
-    fn judge(&self, from: &Knot, to: &Knot) -> Option<Jump> {
+    fn judge(&self, from: &Knot, to: &Knot, is_whole: bool) -> Option<Jump> {
         let span_t = seconds(to.at_ns, from.at_ns);
-        find_jump(&from.joints, &to.joints, span_t, &self.jumps)
+        find_jump(&from.joints, &to.joints, span_t, &self.jumps, is_whole)
     }
 
     /// Begins anew at a setpoint at rest, at once.
@@ -284,7 +285,7 @@ impl Player {
     fn play(&mut self, from: Knot, heard_ns: u64, coasting: bool, now_ns: u64) -> JointStates {
         if let Some(to) = self.queue.front() {
             // The way between setpoints was judged when the second came.
-            if coasting && let Some(jump) = self.judge(&from, to) {
+            if coasting && let Some(jump) = self.judge(&from, to, false) {
                 return self.stopped(now_ns, from.at_ns, &from.joints, Some(jump));
             }
             self.mode = Mode::Playing {
