@@ -113,6 +113,7 @@ macro_rules! houses {
 
 houses! {
     audit: "audit",
+    capi: "capi",
     curve: "curve",
     fit: "fit",
     gcode: "gcode",

@@ -1,0 +1,159 @@
+//! The numbers that stand in records, by name.
+
+use super::own::{Stopped, TooMuch};
+use crate::failure::Code;
+use glidepath_link::{
+    CommandKind, CommandRefusal, DriveState, EndOfEpoch, EventKind, FaultCause, Grants, LatchKind,
+    MachineState, MotionMode, Power, SetpointMarks, SpindleFlags,
+};
+use glidepath_program::FrameFlags;
+
+/// Names that belong together, with their numbers.
+#[derive(Debug)]
+pub(super) struct Codes {
+    /// What all names begin with, after `GP_`.
+    pub(super) prefix: &'static str,
+    pub(super) about: &'static str,
+    /// Whether they are bits, of which several may be set.
+    pub(super) are_bits: bool,
+    pub(super) values: Vec<(String, i64)>,
+}
+
+/// `NotReady` as `NOT_READY`, `Frame(NotFinite)` as `FRAME_NOT_FINITE`.
+fn in_c(name: &str) -> String {
+    let mut text = String::new();
+    for letter in name.chars().filter(|letter| *letter != ')') {
+        match letter {
+            '(' => {}
+            _ if letter.is_ascii_uppercase() && !text.is_empty() => text.extend(['_', letter]),
+            _ => text.push(letter.to_ascii_uppercase()),
+        }
+    }
+    text
+}
+
+macro_rules! all {
+    ($prefix:literal, $about:literal, $type:ty) => {
+        Codes {
+            prefix: $prefix,
+            about: $about,
+            are_bits: false,
+            values: <$type>::ALL
+                .iter()
+                .map(|value| (in_c(&format!("{value:?}")), value.code().into()))
+                .collect(),
+        }
+    };
+}
+
+fn bits(prefix: &'static str, about: &'static str, values: &[(&str, u32)]) -> Codes {
+    Codes {
+        prefix,
+        about,
+        are_bits: true,
+        values: values
+            .iter()
+            .map(|(name, bit)| ((*name).to_owned(), i64::from(*bit)))
+            .collect(),
+    }
+}
+
+fn faults() -> Codes {
+    let known = (1..0x200).filter_map(|code| Some((FaultCause::from_code(code)?, code)));
+    let named = known.map(|(cause, code)| (in_c(&format!("{cause:?}")), i64::from(code)));
+    Codes {
+        prefix: "FAULT",
+        about: "Why the interpolator stopped by itself.",
+        are_bits: false,
+        values: core::iter::once(("NONE".to_owned(), 0))
+            .chain(named)
+            .collect(),
+    }
+}
+
+/// An enumeration of the library's own.
+macro_rules! own {
+    ($prefix:literal, $about:literal, $type:ident: $($value:ident),+) => {
+        Codes {
+            prefix: $prefix,
+            about: $about,
+            are_bits: false,
+            values: vec![$((in_c(stringify!($value)), i64::from($type::$value as i32))),+],
+        }
+    };
+}
+
+/// All that the library knows.
+pub(super) fn codes() -> Vec<Codes> {
+    vec![
+        own!("E", "What functions return that fail; gp_last_error has the text.", Code:
+            Argument, Abi, Thread, NoServer, Version, Taken, Record, Transport, Panic, Refused),
+        all!("STATE", "What the interpolator is doing.", MachineState),
+        all!("COMMAND", "What can be commanded.", CommandKind),
+        all!("REFUSAL", "Why a command was refused.", CommandRefusal),
+        all!("END", "How an epoch ended.", EndOfEpoch),
+        faults(),
+        all!(
+            "POWER",
+            "Whether the drives have power, as far as the interpolator knows.",
+            Power
+        ),
+        all!("MODE", "What moves the axes.", MotionMode),
+        all!(
+            "EVENT",
+            "What the lowest byte of event_kind says.",
+            EventKind
+        ),
+        all!(
+            "DRIVE",
+            "What a drive does, by the states of CiA 402.",
+            DriveState
+        ),
+        all!("LATCH", "How a latched position was found.", LatchKind),
+        bits(
+            "FLAG",
+            "Properties of a frame.",
+            &[
+                ("FIRST", FrameFlags::FIRST.0),
+                ("LAST", FrameFlags::LAST.0),
+                ("RAPID", FrameFlags::RAPID.0),
+                ("EXACT_STOP", FrameFlags::EXACT_STOP.0),
+                ("DWELL", FrameFlags::DWELL.0),
+                ("PROGRAM_STOP", FrameFlags::PROGRAM_STOP.0),
+            ],
+        ),
+        bits(
+            "MARK",
+            "Properties of a setpoint.",
+            &[
+                ("LATE", SetpointMarks::LATE.0),
+                ("AFTER_MISSED", SetpointMarks::AFTER_MISSED.0),
+            ],
+        ),
+        bits(
+            "GRANT",
+            "Which real-time grants the interpolator holds.",
+            &[
+                ("FIFO", Grants::FIFO.0),
+                ("PINNED", Grants::PINNED.0),
+                ("MEMORY_LOCKED", Grants::MEMORY_LOCKED.0),
+                ("PREFAULTED", Grants::PREFAULTED.0),
+                ("DMA_LATENCY", Grants::DMA_LATENCY.0),
+                ("BEST_EFFORT", Grants::BEST_EFFORT.0),
+            ],
+        ),
+        bits(
+            "SPINDLE",
+            "What the spindle does.",
+            &[
+                ("AT_SPEED", SpindleFlags::AT_SPEED.0),
+                ("STOPPED", SpindleFlags::STOPPED.0),
+                ("ORIENTED", SpindleFlags::ORIENTED.0),
+                ("FAULT", SpindleFlags::FAULT.0),
+            ],
+        ),
+        own!("STOPPED", "Why a servo stopped the joints by itself.", Stopped:
+            Not, Silence, Asked, Jump),
+        own!("JUMP", "What of a jump is too much.", TooMuch: None, Velocity, Acceleration),
+    ]
+}

@@ -1,0 +1,151 @@
+//! Compiles programs as a user of the library would.
+
+use crate::machine::Machine;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Language {
+    C,
+    Cpp,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Linked {
+    Shared,
+    Static,
+}
+
+/// What a static library of Rust needs beside it: `rustc --print native-static-libs`.
+const NATIVE: [&str; 6] = ["-lgcc_s", "-lutil", "-lrt", "-lpthread", "-lm", "-ldl"];
+
+const STRICT: [&str; 4] = ["-Wall", "-Wextra", "-Werror", "-pedantic"];
+
+impl Language {
+    const fn compiler(self) -> &'static str {
+        match self {
+            Self::C => "cc",
+            Self::Cpp => "c++",
+        }
+    }
+
+    const fn standard(self) -> &'static str {
+        match self {
+            Self::C => "-std=c11",
+            Self::Cpp => "-std=c++17",
+        }
+    }
+
+    const fn suffix(self) -> &'static str {
+        match self {
+            Self::C => "c",
+            Self::Cpp => "cpp",
+        }
+    }
+
+    fn is_there(self) -> bool {
+        Command::new(self.compiler())
+            .arg("--version")
+            .output()
+            .is_ok()
+    }
+}
+
+/// A file of this crate.
+pub(crate) fn source(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+    path.to_str().unwrap().to_owned()
+}
+
+/// The library that cargo has built for this test.
+pub(crate) fn library(linked: Linked) -> PathBuf {
+    let this = std::env::current_exe().unwrap();
+    let name = match linked {
+        Linked::Shared => "libglidepath.so",
+        Linked::Static => "libglidepath.a",
+    };
+    let path = this.with_file_name(name);
+    assert!(path.is_file(), "{} is not there", path.display());
+    path
+}
+
+/// A folder with the library under the name that programs look for.
+pub(crate) fn library_folder(machine: &Machine) -> PathBuf {
+    let folder = machine.directory().join("lib");
+    if !folder.exists() {
+        std::fs::create_dir(&folder).unwrap();
+        let shared = library(Linked::Shared);
+        for name in ["libglidepath.so", "libglidepath.so.0"] {
+            std::os::unix::fs::symlink(&shared, folder.join(name)).unwrap();
+        }
+    }
+    folder
+}
+
+/// Compiles an example; gives its path, or `None` without a compiler.
+pub(crate) fn example(
+    machine: &Machine,
+    name: &str,
+    language: Language,
+    linked: Linked,
+) -> Option<String> {
+    if !language.is_there() {
+        return None;
+    }
+    let folder = library_folder(machine);
+    let program = machine
+        .directory()
+        .join(format!("{name}-{language:?}-{linked:?}"));
+    let mut compile = Command::new(language.compiler());
+    compile
+        .arg(language.standard())
+        .args(STRICT)
+        .args(["-O1", "-pthread", "-I", &source("include"), "-o"])
+        .arg(&program)
+        .arg(source(&format!("examples/{name}.{}", language.suffix())));
+    match linked {
+        Linked::Shared => {
+            let at = format!("-Wl,-rpath,{}", folder.display());
+            compile.arg("-L").arg(&folder).args(["-lglidepath", &at]);
+        }
+        Linked::Static => {
+            compile.arg(library(Linked::Static)).args(NATIVE);
+        }
+    }
+    let output = compile.output().unwrap();
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        output.status.success(),
+        "{name}, {language:?}, {linked:?}: {message}"
+    );
+    Some(program.to_str().unwrap().to_owned())
+}
+
+/// Whether a text compiles with a header; the compiler's words if it does not, `None` without one.
+pub(crate) fn compiles(
+    machine: &Machine,
+    header: &str,
+    text: &str,
+    language: Language,
+) -> Option<Result<(), String>> {
+    if !language.is_there() {
+        return None;
+    }
+    let include = machine.directory().join("include");
+    std::fs::create_dir_all(&include).unwrap();
+    std::fs::write(include.join("glidepath.h"), header).unwrap();
+    let file = include.join(format!("text.{}", language.suffix()));
+    std::fs::write(&file, text).unwrap();
+    let output = Command::new(language.compiler())
+        .arg(language.standard())
+        .args(STRICT)
+        .args(["-fsyntax-only", "-I"])
+        .args([&include, &file])
+        .output()
+        .unwrap();
+    Some(if output.status.success() {
+        Ok(())
+    } else {
+        Err(String::from_utf8_lossy(&output.stderr).into_owned())
+    })
+}

@@ -1,0 +1,321 @@
+//! The interpolator's part: setpoints, status, answers to commands, and an ear for feedback.
+
+use bytemuck::Zeroable as _;
+use glidepath_link::{
+    Command, CommandRefusal, CommandReply, CommandRequest, Feedback, Ipc, LinkConfig, MachineState,
+    Record as _, Setpoint, Status, Transport as _, remove_leftovers,
+};
+use rustix::time::{ClockId, clock_gettime};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const BOOT: u64 = 0x1122_3344_5566_7788;
+
+pub(crate) fn now_ns() -> u64 {
+    let now = clock_gettime(ClockId::Monotonic);
+    now.tv_sec.unsigned_abs() * 1_000_000_000 + now.tv_nsec.unsigned_abs()
+}
+
+/// One in which no two fields are the same. The joint goes to and fro within 20 mm, 1 Hz.
+#[allow(clippy::cast_precision_loss, reason = "small numbers")]
+pub(crate) fn setpoint(number: u64) -> Setpoint {
+    let mut setpoint = Setpoint {
+        boot_id: BOOT,
+        reference: 3,
+        number,
+        tick: number + 1000,
+        scheduled_ns: 5_000_000_000 + number * 4_000_000,
+        apply_ns: 5_004_000_000 + number * 4_000_000,
+        lateness_ns: 17 * number,
+        missed_ticks: 2,
+        epoch: 4,
+        sequence: 7 * number,
+        fraction: 0.25,
+        line: 42,
+        flags: 1,
+        marks: 1,
+        state: MachineState::Running.code(),
+        event_kind: 0,
+        block: 5,
+        enable: 7,
+        home: 0,
+        event_value: 0.0,
+        path_s: 0.1 * number as f64,
+        feed_v: 33.25,
+        effective_override: 1.25,
+        ..Setpoint::zeroed()
+    };
+    let omega = std::f64::consts::TAU;
+    let (sin, cos) = (omega * 0.004 * number as f64).sin_cos();
+    for (joint, at) in (0_u8..9).map(|joint| (usize::from(joint), f64::from(joint))) {
+        setpoint.position[joint] = 10.0 * at + 0.5;
+        setpoint.velocity[joint] = -3.0 * at;
+        setpoint.acceleration[joint] = 7.0 / (at + 3.0);
+        setpoint.joint_position[joint] = 20.0 * sin * (1.0 + 0.01 * at);
+        setpoint.joint_velocity[joint] = 20.0 * omega * cos * (1.0 + 0.01 * at);
+        setpoint.joint_acceleration[joint] = -20.0 * omega * omega * sin * (1.0 + 0.01 * at);
+        setpoint.away[joint] = 0.001 * at;
+    }
+    setpoint
+}
+
+/// One of a motion that begins at rest: the joints go to and fro within 20 mm, 1 Hz.
+#[allow(clippy::cast_precision_loss, reason = "small numbers")]
+pub(crate) fn from_rest(number: u64) -> Setpoint {
+    let omega = std::f64::consts::TAU;
+    let (sin, cos) = (omega * 0.004 * number as f64).sin_cos();
+    let mut setpoint = setpoint(number);
+    setpoint.joint_position = [20.0 * (1.0 - cos); 9];
+    setpoint.joint_velocity = [20.0 * omega * sin; 9];
+    // The first is at rest, as a motion is before it begins.
+    let begun = f64::from(u8::from(number > 0));
+    setpoint.joint_acceleration = [20.0 * omega * omega * cos * begun; 9];
+    setpoint
+}
+
+enum Order {
+    Publish(Setpoint),
+}
+
+#[derive(Debug, Default)]
+struct Heard {
+    received: u64,
+    gaps: u64,
+    last: Option<Feedback>,
+}
+
+/// An instance of its own, with somebody who plays the interpolator.
+#[derive(Debug)]
+pub(crate) struct Machine {
+    root: TempDir,
+    config: LinkConfig,
+    orders: Option<Sender<Order>>,
+    heard: Arc<Mutex<Heard>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl std::fmt::Debug for Order {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("an order")
+    }
+}
+
+impl Machine {
+    pub(crate) fn start() -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let root = tempfile::Builder::new()
+            .prefix("glidepath-capi")
+            .tempdir_in("/dev/shm")
+            .unwrap();
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let mut config = LinkConfig::new(&format!("capi-{}-{number}", std::process::id()));
+        // Where processes look that have this directory as their runtime directory.
+        config.root = root.path().join("glidepath");
+        let (orders, given) = channel();
+        let heard = Arc::new(Mutex::new(Heard::default()));
+        let (ready, is_ready) = channel();
+        let thread = {
+            let (config, heard) = (config.clone(), Arc::clone(&heard));
+            std::thread::spawn(move || play(&config, &given, &heard, &ready))
+        };
+        is_ready.recv().unwrap();
+        Self {
+            root,
+            config,
+            orders: Some(orders),
+            heard,
+            thread: Some(thread),
+        }
+    }
+
+    pub(crate) fn directory(&self) -> &Path {
+        self.root.path()
+    }
+
+    pub(crate) fn instance(&self) -> &str {
+        &self.config.instance
+    }
+
+    fn give(&self, setpoint: Setpoint) {
+        let orders = self.orders.as_ref().unwrap();
+        orders.send(Order::Publish(setpoint)).unwrap();
+    }
+
+    /// Publishes setpoints as fast as it goes.
+    pub(crate) fn publish(&self, numbers: Range<u64>, make: impl Fn(u64) -> Setpoint) {
+        for number in numbers {
+            self.give(make(number));
+        }
+    }
+
+    /// Publishes setpoints of [`from_rest`] when they are due.
+    pub(crate) fn publish_in_time(&self, count: u64, period: Duration) {
+        let (start, period_ns) = (Instant::now(), u64::try_from(period.as_nanos()).unwrap());
+        let start_ns = now_ns();
+        for number in 0..count {
+            let due = start + period * u32::try_from(number).unwrap();
+            std::thread::sleep(due.saturating_duration_since(Instant::now()));
+            let scheduled_ns = start_ns + number * period_ns;
+            self.give(Setpoint {
+                scheduled_ns,
+                apply_ns: scheduled_ns + period_ns,
+                ..from_rest(number)
+            });
+        }
+    }
+
+    /// Publishes setpoints until what this gives is dropped.
+    pub(crate) fn keep_publishing(&self) -> Ticking {
+        let over = Arc::new(AtomicBool::new(false));
+        let (is_over, orders) = (Arc::clone(&over), self.orders.clone().unwrap());
+        let thread = std::thread::spawn(move || {
+            for number in 0.. {
+                if is_over.load(Ordering::Relaxed) {
+                    return;
+                }
+                let now_ns = now_ns();
+                let mut standing = setpoint(number);
+                (standing.scheduled_ns, standing.apply_ns) = (now_ns, now_ns + 4_000_000);
+                standing.joint_position = setpoint(10).joint_position;
+                standing.joint_velocity = [0.0; 9];
+                standing.joint_acceleration = [0.0; 9];
+                orders.send(Order::Publish(standing)).unwrap();
+                std::thread::sleep(Duration::from_millis(4));
+            }
+        });
+        Ticking {
+            over,
+            thread: Some(thread),
+        }
+    }
+
+    /// A subscriber in Rust, which is there when this returns.
+    pub(crate) fn follow(&self, count: u64) -> JoinHandle<Vec<u8>> {
+        let config = self.config.clone();
+        let (ready, is_ready) = channel();
+        let thread = std::thread::spawn(move || {
+            let link = Ipc::connect(&config).unwrap();
+            let mut source = link.setpoint_source().unwrap();
+            ready.send(()).unwrap();
+            let (mut bytes, mut received) = (Vec::new(), 0);
+            while received < count {
+                let Some(setpoint) = source.take().unwrap() else {
+                    std::thread::sleep(Duration::from_millis(1));
+                    continue;
+                };
+                setpoint.check().unwrap();
+                received += 1;
+                bytes.extend_from_slice(bytemuck::bytes_of(&setpoint));
+            }
+            bytes
+        });
+        is_ready.recv().unwrap();
+        thread
+    }
+
+    /// Feedback that was received, gaps in its numbers, and the last of it.
+    pub(crate) fn feedback(&self) -> (u64, u64, Feedback) {
+        let heard = self.heard.lock().unwrap();
+        (heard.received, heard.gaps, heard.last.unwrap())
+    }
+}
+
+impl Drop for Machine {
+    fn drop(&mut self) {
+        drop(self.orders.take());
+        let played = self.thread.take().unwrap().join();
+        if !std::thread::panicking() {
+            played.unwrap();
+            // Nothing of an instance is left behind by those who took part in it.
+            assert!(matches!(remove_leftovers(&self.config), Ok(true)));
+        }
+    }
+}
+
+/// Publishes until it is dropped.
+#[derive(Debug)]
+pub(crate) struct Ticking {
+    over: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Drop for Ticking {
+    fn drop(&mut self) {
+        self.over.store(true, Ordering::Relaxed);
+        let _ = self.thread.take().map(JoinHandle::join);
+    }
+}
+
+/// Owns the ports until no more orders can come.
+fn play(config: &LinkConfig, orders: &Receiver<Order>, heard: &Mutex<Heard>, ready: &Sender<()>) {
+    let link = Ipc::connect(config).unwrap();
+    let mut setpoints = link.setpoint_sink().unwrap();
+    let mut status = link.status_sink().unwrap();
+    let mut commands = link.command_server().unwrap();
+    let mut feedback = link.feedback_source().unwrap();
+    ready.send(()).unwrap();
+    let mut shown = 0;
+    loop {
+        match orders.recv_timeout(Duration::from_micros(500)) {
+            Ok(Order::Publish(setpoint)) => setpoints.publish(&setpoint).unwrap(),
+            Err(std::sync::mpsc::RecvTimeoutError::Timeout) => setpoints.refresh().unwrap(),
+            Err(std::sync::mpsc::RecvTimeoutError::Disconnected) => return,
+        }
+        shown += 1;
+        status.publish(&status_now(shown)).unwrap();
+        while commands.serve(&mut answer).unwrap() {}
+        while let Some(record) = feedback.take().unwrap() {
+            record.check().unwrap();
+            let mut heard = heard.lock().unwrap();
+            let is_next =
+                |last: Feedback| (last.boot_id, last.number + 1) == (record.boot_id, record.number);
+            let gap = heard.last.is_some_and(|last| !is_next(last));
+            heard.gaps += u64::from(gap);
+            heard.received += 1;
+            heard.last = Some(record);
+        }
+    }
+}
+
+fn status_now(shown: u64) -> Status {
+    Status {
+        boot_id: BOOT,
+        updated_ns: now_ns(),
+        period_ns: 4_000_000,
+        tick: shown,
+        state: MachineState::Held.code(),
+        pid: std::process::id(),
+        feed_override: 1.5,
+        last_event: glidepath_link::Text::new("held by the operator"),
+        ..Status::zeroed()
+    }
+}
+
+/// Accepts everything but to resume.
+fn answer(request: &CommandRequest) -> CommandReply {
+    let (outcome, message) = match request.command() {
+        Ok(Command::Resume) => (Err(CommandRefusal::WrongState), "it is not held"),
+        Ok(Command::SetPosition {
+            joint: 2,
+            position: -12.5,
+        }) => (Ok(()), "J2"),
+        Ok(Command::SetPosition { .. }) => (Err(CommandRefusal::Malformed), "another joint"),
+        Ok(Command::Acknowledge { event, done }) => {
+            let is_it = (event.boot_id, event.epoch, event.sequence, done) == (7, 8, 9, true);
+            if is_it {
+                (Ok(()), "that event")
+            } else {
+                (Err(CommandRefusal::Malformed), "another event")
+            }
+        }
+        Ok(_) => (Ok(()), ""),
+        Err(_) => (Err(CommandRefusal::Malformed), "malformed"),
+    };
+    CommandReply::new(BOOT, request.number, outcome, MachineState::Held, message)
+}
