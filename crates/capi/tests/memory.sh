@@ -30,7 +30,7 @@ for name in follow servo; do
     if command -v valgrind >/dev/null; then
         compile "$name"
         echo "== $name, valgrind"
-        valgrind --quiet --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite \
+        valgrind --quiet --error-exitcode=9 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
             "$work/$name" "${arguments[@]}"
     else
         echo "SKIPPED: valgrind is not installed"

@@ -5,7 +5,7 @@ use glidepath_link::{
     Command, CommandRefusal, CommandReply, CommandRequest, Feedback, Ipc, LinkConfig, MachineState,
     Record as _, Setpoint, Status, Transport as _, remove_leftovers,
 };
-use rustix::time::{ClockId, clock_gettime};
+use glidepath_realtime::{Clock as _, Monotonic};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -17,9 +17,8 @@ use tempfile::TempDir;
 
 const BOOT: u64 = 0x1122_3344_5566_7788;
 
-pub(crate) fn now_ns() -> u64 {
-    let now = clock_gettime(ClockId::Monotonic);
-    now.tv_sec.unsigned_abs() * 1_000_000_000 + now.tv_nsec.unsigned_abs()
+fn now_ns() -> u64 {
+    Monotonic.now_ns()
 }
 
 /// One in which no two fields are the same. The joint goes to and fro within 20 mm, 1 Hz.
