@@ -3,7 +3,12 @@
 use super::*;
 
 /// A setpoint that stands at a position, of a reference and in a state.
-pub(super) fn standing(number: u64, reference: u64, state: MachineState, position: f64) -> Setpoint {
+pub(super) fn standing(
+    number: u64,
+    reference: u64,
+    state: MachineState,
+    position: f64,
+) -> Setpoint {
     let mut standing = Setpoint {
         reference,
         state: state.code(),
