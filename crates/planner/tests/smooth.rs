@@ -47,8 +47,6 @@ const FAMILIES: [(&str, f64); 18] = [
 ];
 /// Times of it that a plan may take, or two periods more than it.
 const MOST: f64 = 1.06;
-/// Letters are short corners in a row, where times are split between strokes: they take more.
-const MOST_OF_LETTERS: f64 = 1.07;
 
 /// Periods more after which an axis stands still to the bit.
 const STANDING: usize = 27;
@@ -181,12 +179,7 @@ fn circles_are_round_however_they_are_written() {
 fn families_come_near_the_least_time_in_the_tube_and_do_not_tremble() {
     for (name, tube_t) in FAMILIES {
         let (_, report) = planned(&family(name));
-        let most = if name == "letters_ab3" {
-            MOST_OF_LETTERS
-        } else {
-            MOST
-        };
-        let most_t = (most * tube_t).max(tube_t + 2.0 * PERIOD_T);
+        let most_t = (MOST * tube_t).max(tube_t + 2.0 * PERIOD_T);
         let cycle_t = report.cycle_time_s;
         assert!(cycle_t <= most_t, "{name}: {cycle_t} s of {tube_t} s");
         assert_eq!(report.tremor_count, 0, "{name}: {:#?}", report.tremors);

@@ -5,6 +5,7 @@ use super::ledger::{Ledger, LedgerEntry};
 use super::path::Reference;
 use super::period::Period;
 use super::planner::TubePlanner;
+use super::window::SearchWeights;
 use super::works::Works;
 use crate::PlanError;
 use crate::grid::{FrameGrid, Moving};
@@ -18,6 +19,7 @@ use glidepath_program::{Frame, FrameFlags, Item, Override, Settings};
 pub(crate) struct InTubeEngine {
     settings: Settings,
     wanted: Override,
+    weights: SearchWeights,
     works: Works,
     flattener: Flattener,
     grid: FrameGrid,
@@ -61,10 +63,16 @@ struct ExactPath {
 
 impl InTubeEngine {
     /// An engine for a machine at rest at `start`, under an override from the first move on.
-    pub(crate) fn new(settings: Settings, start: AxisVector, wanted: Override) -> Self {
+    pub(crate) fn new(
+        settings: Settings,
+        start: AxisVector,
+        wanted: Override,
+        weights: SearchWeights,
+    ) -> Self {
         Self {
             settings,
             wanted,
+            weights,
             works: Works::new(settings, start),
             flattener: Flattener::new(settings),
             grid: FrameGrid::new(settings.period_t, start),
@@ -168,7 +176,7 @@ impl InTubeEngine {
                 limits, period_t, ..
             } = &self.settings;
             self.drive = Drive::Window(Stretch {
-                planner: TubePlanner::new(limits, *period_t, self.position),
+                planner: TubePlanner::new(limits, *period_t, self.position, self.weights),
                 ledger: Ledger::new(self.wanted),
                 length_s: 0.0,
                 end: self.position,

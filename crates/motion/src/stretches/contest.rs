@@ -1,15 +1,17 @@
-//! A short stretch, planned both ways: the faster one is driven.
+//! A short stretch, planned three ways: the fastest is driven.
 //!
 //! Neither wing is the faster one for certain. In the tube corners are cut as far as the tolerance
 //! allows, but where the mode of the path changes the motion stops, and curves come in chords;
-//! along the path nothing stops that need not. So both plan the stretch from rest to rest, and the
-//! one with fewer frames is taken; where they are equal, the one in the tube, which is smoother.
+//! along the path nothing stops that need not. And what is found in the tube is the best of its
+//! neighbourhood only, so it is searched twice, with heavier and with lighter weights beside time:
+//! on small things a few periods are some per cent. The plan from rest to rest with the fewest frames
+//! is taken; where they are equal, the one in the tube with the heavier weights, which is smoother.
 //! With that no such stretch takes longer than with effort "fast", which in turn knows the way with
 //! a stop at every block.
 
-use super::way::Way;
+use super::way::{Manner, Way};
 use crate::PlanError;
-use crate::wing::Wing;
+use crate::in_tube::SearchWeights;
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Frame, Item, ItemKind, Override, PathMode, Settings};
 use std::sync::Arc;
@@ -31,7 +33,7 @@ pub(crate) struct Entry {
 #[derive(Debug, Clone)]
 pub(crate) struct Planned {
     entry: Entry,
-    wing: Wing,
+    manner: Manner,
     frames: Arc<[Frame]>,
     taken: usize,
     length_s: f64,
@@ -40,23 +42,31 @@ pub(crate) struct Planned {
 impl Planned {
     /// The faster way along a stretch; `None` if it takes too long to be kept.
     pub(crate) fn new(entry: Entry) -> Result<Option<Self>, PlanError> {
-        let on_path = Self::by(Wing::OnPath, entry.clone());
+        let on_path = Self::by(Manner::OnPath, entry.clone());
         if is_settled(&entry.items) || matches!(on_path, Ok(None)) {
             return on_path;
         }
-        match (on_path, Self::by(Wing::InTube, entry)) {
-            (Ok(Some(on_path)), Ok(Some(in_tube)))
-                if on_path.frames.len() >= in_tube.frames.len() =>
-            {
-                Ok(Some(in_tube))
+        let usual = Self::by(Manner::InTube(SearchWeights::USUAL), entry.clone());
+        let light = Self::by(Manner::InTube(SearchWeights::LIGHT), entry);
+        Self::faster(Self::faster(usual, light), on_path)
+    }
+
+    /// Of two plans the one that takes less time, if there are two; the first if it takes as long.
+    fn faster(
+        first: Result<Option<Self>, PlanError>,
+        second: Result<Option<Self>, PlanError>,
+    ) -> Result<Option<Self>, PlanError> {
+        match (first, second) {
+            (Ok(Some(first)), Ok(Some(second))) if second.frames.len() < first.frames.len() => {
+                Ok(Some(second))
             }
-            (Ok(Some(on_path)), _) => Ok(Some(on_path)),
-            (_, in_tube) => in_tube,
+            (Ok(Some(first)), _) => Ok(Some(first)),
+            (_, second) => second,
         }
     }
 
-    fn by(wing: Wing, entry: Entry) -> Result<Option<Self>, PlanError> {
-        let mut way = entry.way(wing)?;
+    fn by(manner: Manner, entry: Entry) -> Result<Option<Self>, PlanError> {
+        let mut way = entry.way(manner)?;
         let mut frames = Vec::new();
         let mut time_t = 0.0;
         while let Some(frame) = way.pop_frame()? {
@@ -69,7 +79,7 @@ impl Planned {
         let length_s = way.length_s().ok_or(entry.no_motion())?;
         Ok(Some(Self {
             entry,
-            wing,
+            manner,
             frames: frames.into(),
             taken: 0,
             length_s,
@@ -90,7 +100,7 @@ impl Planned {
 
     /// The same way under way after the frame given out last: to be gone on differently.
     pub(crate) fn resumed(&self) -> Result<Way, PlanError> {
-        let mut way = self.entry.way(self.wing)?;
+        let mut way = self.entry.way(self.manner)?;
         for _ in 0..self.taken {
             way.pop_frame()?;
         }
@@ -99,9 +109,9 @@ impl Planned {
 }
 
 impl Entry {
-    /// The whole stretch, to be driven by a wing.
-    pub(crate) fn way(&self, wing: Wing) -> Result<Way, PlanError> {
-        let mut way = Way::new(wing, self.settings, self.start, self.wanted);
+    /// The whole stretch, to be driven in some manner.
+    pub(crate) fn way(&self, manner: Manner) -> Result<Way, PlanError> {
+        let mut way = Way::new(manner, self.settings, self.start, self.wanted);
         for item in &*self.items {
             way.push(item)?;
         }

@@ -2,12 +2,15 @@
 
 use super::contest::{Entry, Planned};
 use super::gathering::{Gathering, Task};
-use super::way::Way;
+use super::way::{Manner, Way};
 use crate::PlanError;
 use crate::grid::FrameGrid;
-use crate::wing::Wing;
+use crate::in_tube::SearchWeights;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, Item, Override, Settings};
+
+/// How a stretch is driven that is planned as it comes.
+const ALONE: Manner = Manner::InTube(SearchWeights::USUAL);
 
 /// Plans stretch by stretch, as [`crate::Planner`] uses it.
 #[derive(Debug, Clone)]
@@ -121,12 +124,12 @@ impl StretchEngine {
                 };
                 self.drive = match Planned::new(entry.clone())? {
                     Some(planned) => Drive::Planned(Box::new(planned)),
-                    None => Drive::Live(entry.way(Wing::InTube)?),
+                    None => Drive::Live(entry.way(ALONE)?),
                 };
             }
             Task::Part(item) => {
                 if matches!(self.drive, Drive::None) {
-                    let way = Way::new(Wing::InTube, self.settings, self.position, self.wanted);
+                    let way = Way::new(ALONE, self.settings, self.position, self.wanted);
                     self.drive = Drive::Live(way);
                 }
                 if let Drive::Live(way) = &mut self.drive {

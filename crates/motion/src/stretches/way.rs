@@ -1,9 +1,8 @@
 //! A way to drive one stretch: an engine that is given the items of it, and no others.
 
 use crate::PlanError;
-use crate::in_tube::InTubeEngine;
+use crate::in_tube::{InTubeEngine, SearchWeights};
 use crate::on_path::OnPathEngine;
-use crate::wing::Wing;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, FrameFlags, Item, Override, Settings};
 
@@ -16,6 +15,13 @@ pub(crate) struct Way {
     length_s: Option<f64>,
 }
 
+/// How a stretch is driven.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Manner {
+    OnPath,
+    InTube(SearchWeights),
+}
+
 #[derive(Debug, Clone)]
 enum Engine {
     OnPath(Box<OnPathEngine>),
@@ -24,10 +30,18 @@ enum Engine {
 
 impl Way {
     /// A way for a machine at rest at `start`.
-    pub(crate) fn new(wing: Wing, settings: Settings, start: AxisVector, wanted: Override) -> Self {
-        let engine = match wing {
-            Wing::OnPath => Engine::OnPath(Box::new(OnPathEngine::new(settings, start, wanted))),
-            Wing::InTube => Engine::InTube(Box::new(InTubeEngine::new(settings, start, wanted))),
+    pub(crate) fn new(
+        manner: Manner,
+        settings: Settings,
+        start: AxisVector,
+        wanted: Override,
+    ) -> Self {
+        let engine = match manner {
+            Manner::OnPath => Engine::OnPath(Box::new(OnPathEngine::new(settings, start, wanted))),
+            Manner::InTube(weights) => {
+                let engine = InTubeEngine::new(settings, start, wanted, weights);
+                Engine::InTube(Box::new(engine))
+            }
         };
         Self {
             engine,

@@ -12,6 +12,7 @@ mod extremes;
 
 use super::state::ActiveMotion;
 use super::*;
+use crate::in_tube::SearchWeights;
 use crate::in_tube::path::Reference;
 use crate::in_tube::period::Period;
 use crate::in_tube::window::PLAN_WORK;
@@ -59,7 +60,12 @@ impl Case {
     }
 
     fn planner(&self) -> TubePlanner {
-        TubePlanner::new(&self.limits, self.period_t, self.points[0])
+        TubePlanner::new(
+            &self.limits,
+            self.period_t,
+            self.points[0],
+            SearchWeights::USUAL,
+        )
     }
 
     fn plan(&self) -> Vec<Period> {

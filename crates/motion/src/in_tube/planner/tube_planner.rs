@@ -4,6 +4,7 @@ use super::state::{ActiveMotion, PlannerState};
 use crate::in_tube::path::Reference;
 use crate::in_tube::period::Period;
 use crate::in_tube::verify::FEED_SLACK;
+use crate::in_tube::window::SearchWeights;
 use glidepath_geometry::AxisVector;
 use glidepath_program::Limits;
 
@@ -15,9 +16,14 @@ pub(crate) struct TubePlanner {
 
 impl TubePlanner {
     /// A planner for a machine at rest at `start`, period in seconds.
-    pub(crate) fn new(limits: &Limits, period_t: f64, start: AxisVector) -> Self {
+    pub(crate) fn new(
+        limits: &Limits,
+        period_t: f64,
+        start: AxisVector,
+        weights: SearchWeights,
+    ) -> Self {
         Self {
-            state: PlannerState::new(limits, period_t, start),
+            state: PlannerState::new(limits, period_t, start, weights),
         }
     }
 

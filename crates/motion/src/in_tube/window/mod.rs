@@ -41,3 +41,4 @@ pub(crate) use attempt::{
 pub(crate) use budget::FIRST_WORK;
 pub(crate) use budget::PLAN_WORK;
 pub(crate) use spline::Grid;
+pub(crate) use window_start::SearchWeights;

@@ -5,11 +5,31 @@ use super::scaled_path::ScaledPath;
 use super::spline::Grid;
 use super::tube::{FEED_R, Style};
 
-/// What an offset of the whole radius costs while the search goes on, and what jerk at its limit
-/// does: far less than the time that can be gained by them, and enough to be the only thing that
-/// counts where none can.
-const PULL: f64 = 0.03;
-const JERK: f64 = 0.01;
+/// What counts beside time while the search goes on: far less than the time that can be gained by
+/// them, and enough to be the only thing that counts where none can.
+///
+/// Convex problems in turn find one of many local best motions, and which one depends on such
+/// weights: heavy ones lead there with less work, light ones a little further.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SearchWeights {
+    /// What an offset of the whole radius costs at one sample.
+    pub(crate) pull: f64,
+    /// What jerk at its limit costs.
+    pub(crate) jerk: f64,
+}
+
+impl SearchWeights {
+    /// For whatever is planned once.
+    pub(crate) const USUAL: Self = Self {
+        pull: 0.03,
+        jerk: 0.01,
+    };
+    /// For another look at the same stretch.
+    pub(crate) const LIGHT: Self = Self {
+        pull: 0.001,
+        jerk: 0.001,
+    };
+}
 
 /// What a window starts from.
 #[derive(Debug)]
@@ -28,6 +48,7 @@ pub(crate) struct WindowStart<'a, const D: usize> {
     pub(crate) period_t: f64,
     /// Periods after which the next window will start.
     pub(crate) commit: usize,
+    pub(crate) weights: SearchWeights,
 }
 
 impl<const D: usize> WindowStart<'_, D> {
@@ -42,8 +63,8 @@ impl<const D: usize> WindowStart<'_, D> {
             feed_r: FEED_R,
             is_centred: false,
             keep_r: 0.995,
-            ridge: PULL,
-            jerk: JERK,
+            ridge: self.weights.pull,
+            jerk: self.weights.jerk,
             has_motion,
         }
     }
