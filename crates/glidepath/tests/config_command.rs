@@ -10,8 +10,9 @@ mod support;
 
 use serde_json::Value;
 use std::path::Path;
-use std::process::Output;
-use support::glidepath;
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
+use support::{finish, glidepath};
 
 fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
@@ -147,5 +148,33 @@ fn effort_and_tolerance_override_the_configuration() {
         let refused = glidepath(&["plan", &part, option, value]);
         assert_eq!(refused.status.code(), Some(2));
         assert!(stderr(&refused).contains(told), "{}", stderr(&refused));
+    }
+}
+
+/// A file that is converted must not keep whoever converts it waiting at a pipe it names.
+#[test]
+fn what_is_included_is_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = Command::new("mkfifo")
+        .arg(folder.path().join("pipe"))
+        .status()
+        .unwrap();
+    assert!(made.success());
+    for (control, text) in [
+        ("from-linuxcnc", "[EMC]\n#INCLUDE pipe\n"),
+        ("from-linuxcnc", "[EMC]\n#INCLUDE /dev/zero\n"),
+        ("from-klipper", "[include pipe]\n"),
+    ] {
+        let path = file(folder.path(), "machine.ini", text);
+        let child = Command::new(env!("CARGO_BIN_EXE_glidepath"))
+            .args(["config", control, &path])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let output = finish(child, Duration::from_secs(20));
+        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        let told = stderr(&output);
+        assert!(told.contains("it is no ordinary file"), "{told}");
     }
 }

@@ -183,6 +183,9 @@ fn linuxcnc_s_parameters_come_and_go_in_their_units() {
     );
     // The units have to be said.
     machine.refused(&["offsets", "import", &file], 2);
+    // Neither of two numbers for one axis can be the one that is meant.
+    let told = machine.refused(&["offsets", "set", "G54", "X1", "Y2", "x10"], 2);
+    assert!(told.contains("given before"), "{told}");
     let bad = machine.file("bad.var", "5221\t1\n5161\t1\n");
     let told = machine.refused(&["offsets", "import", &bad, "--linear-units", "mm"], 2);
     assert!(

@@ -19,7 +19,7 @@ const SQUARE: &str = "G21 G90\nG0 X1\nG1 X11 F3000\nY10\nX1\nY0\nM2\n";
 /// The command, to its end, or for a minute at most: a pipe may be waited for.
 fn glidepath(folder: &Path, args: &[&str]) -> Output {
     let mut command = Command::new("timeout");
-    command.args(["60", env!("CARGO_BIN_EXE_glidepath")]);
+    command.args(["--signal=KILL", "60", env!("CARGO_BIN_EXE_glidepath")]);
     command.current_dir(folder).args(args).output().unwrap()
 }
 

@@ -109,14 +109,23 @@ impl Default for Offsets {
     }
 }
 
+/// How far anything may be from zero, mm or degrees: beyond every axis. A double resolves a tenth of
+/// a micrometre there, and no sum of such numbers is infinite.
+const FARTHEST: f64 = 1e9;
+
+/// Whether a number says where something is.
+fn is_place(number: f64) -> bool {
+    number.abs() <= FARTHEST
+}
+
 impl Offsets {
     /// What is no state of a machine, in words.
     fn fault(&self) -> Option<String> {
         let system = |system: &System| system.origin.into_iter().chain([system.rotation_deg]);
         let numbers = self.systems.iter().flat_map(system);
         let others = [self.g28, self.g30, self.g92].into_iter().flatten();
-        if !numbers.chain(others).all(f64::is_finite) {
-            return Some("a coordinate is no number".to_owned());
+        if !numbers.chain(others).all(is_place) {
+            return Some("a coordinate is no number, or beyond 1e9".to_owned());
         }
         if !(1..=9).contains(&self.active) {
             return Some(format!("there is no coordinate system {}", self.active));
@@ -133,14 +142,14 @@ impl Kept {
         let mut tools = tools.chain(under_way.iter().flat_map(|program| &program.tools));
         let is_number = |tool: &Tool| {
             let mut numbers = tool.offset.into_iter().chain([tool.diameter_mm]);
-            numbers.all(f64::is_finite)
+            numbers.all(is_place)
         };
         if !tools.all(is_number) {
-            return Some("a tool's offset is no number".to_owned());
+            return Some("a tool's offset is no number, or beyond 1e9".to_owned());
         }
         let rest = self.rest.iter().flat_map(|rest| rest.position);
-        if !rest.into_iter().all(f64::is_finite) {
-            return Some("the position of the last rest is no number".to_owned());
+        if !rest.into_iter().all(is_place) {
+            return Some("the position of the last rest is no number, or beyond 1e9".to_owned());
         }
         let begun = under_way.and_then(|program| program.offsets.fault());
         self.offsets.fault().or(begun)

@@ -236,6 +236,12 @@ fn what_is_no_number_is_not_kept() {
         store.write(&bad),
         Err(KeptError::NotKeepable { .. })
     ));
+    for far in [f64::INFINITY, 1e300, -1e10] {
+        bad = kept_of(2);
+        bad.offsets.systems[3].origin[1] = far;
+        let refused = store.write(&bad).expect_err("no machine is there");
+        assert!(matches!(refused, KeptError::NotKeepable { .. }), "{far}");
+    }
     bad = kept_of(2);
     bad.offsets.active = 10;
     assert!(matches!(

@@ -20,7 +20,7 @@ proptest! {
         let mut store = Store::new(Directory::open(folder.path()).expect("a folder"));
         let mut kept = Kept::default();
         for (value, bits) in kept.offsets.systems[4].origin.iter_mut().zip(bits) {
-            *value = Some(f64::from_bits(bits)).filter(|v| v.is_finite()).unwrap_or(-0.0);
+            *value = Some(f64::from_bits(bits)).filter(|v| v.abs() <= 1e9).unwrap_or(-0.0);
         }
         store.write(&kept).expect("it is written");
         let (_, read) = store.read().expect("whole").expect("something");

@@ -124,7 +124,12 @@ fn converted(from: &ConfigSource, as_json: bool) -> Result<Exit, Failure> {
     // Included files are named from where the first one is.
     let folder = args.file.parent().unwrap_or(Path::new(""));
     let include = |name: &str| {
-        text_file::read(&folder.join(name), MOST_BYTES).map_err(|error| error.to_string())
+        let path = folder.join(name);
+        // The name is what a file says: it must not keep the command waiting at a pipe.
+        if path.metadata().is_ok_and(|there| !there.is_file()) {
+            return Err("it is no ordinary file".to_owned());
+        }
+        text_file::read(&path, MOST_BYTES).map_err(|error| error.to_string())
     };
     let converted = match from {
         ConfigSource::FromLinuxcnc(_) => from_linuxcnc(&text, &include),

@@ -147,27 +147,31 @@ fn set(kept: &mut Kept, args: &SetArgs) -> Result<(), Failure> {
             &mut system.origin
         }
     };
+    let mut given = Vec::new();
     for word in &args.words {
         let refuse = || {
             let help = "give an axis and a number, such as X12.5, or R and an angle";
             Failure::Word(word.clone(), help)
         };
         let (letter, number) = word.split_at_checked(1).ok_or_else(refuse)?;
+        let letter = letter.to_ascii_uppercase();
+        if given.contains(&letter) {
+            let help = "that axis was given before, and only one number can be meant";
+            return Err(Failure::Word(word.clone(), help));
+        }
         let value: f64 = number
             .parse()
             .ok()
             .filter(|v: &f64| v.abs() <= 1e9)
             .ok_or_else(refuse)?;
-        match (
-            "XYZABCUVW".find(&letter.to_ascii_uppercase()),
-            &mut rotation_deg,
-        ) {
+        match ("XYZABCUVW".find(&letter), &mut rotation_deg) {
             (Some(axis), _) => vector[axis] = value,
-            (None, Some(rotation_deg)) if letter.eq_ignore_ascii_case("R") => {
+            (None, Some(rotation_deg)) if letter == "R" => {
                 **rotation_deg = value;
             }
             _ => return Err(refuse()),
         }
+        given.push(letter);
     }
     Ok(())
 }

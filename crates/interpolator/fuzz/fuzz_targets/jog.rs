@@ -69,6 +69,8 @@ fuzz_target!(|turns: Vec<Turn>| {
                 positions.push(AxisVector::from(setpoint.position));
             }
         }
+        // Demands and commands come by ways of their own: what was demanded last is heard first.
+        positions.push(AxisVector::from(machine.tick().position));
         machine.command(Command::Abort);
         let rests = (0..STOP_TICKS).any(|_| {
             let setpoint = machine.tick();
