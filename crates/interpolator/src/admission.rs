@@ -7,7 +7,7 @@
 //! more: the motion stops on the frames that did pass.
 
 use crate::config::{Config, SoftLimits};
-use crate::message::Fault;
+use crate::fault::Fault;
 use crate::rest::{SAME_POSITION, is_at_rest};
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_kinematics::{JointFault, JointViolation, JointWatch, Quantity};

@@ -12,8 +12,8 @@
 //! and setpoints continue it.
 
 use crate::config::Config;
+use crate::fault::Fault;
 use crate::feedback::Observation;
-use crate::message::Fault;
 use crate::output::Output;
 use crate::stop_requests::StopRequests;
 use glidepath_link::{Command, FaultCause, MachineState, Power};

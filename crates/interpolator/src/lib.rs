@@ -105,6 +105,7 @@ mod config;
 mod counters;
 mod differences;
 mod drives;
+mod fault;
 mod feedback;
 mod frame_summary;
 mod homing;

@@ -8,9 +8,10 @@
 use crate::admission::{Admission, Machine, Verdict};
 use crate::commands::{answer, is_refusal};
 use crate::config::Config;
+use crate::fault::Fault;
 use crate::feedback::DriveBook;
 use crate::jog::DemandReader;
-use crate::message::{Fault, Happening, Order, PortsEnds, Report};
+use crate::message::{Happening, Order, PortsEnds, Report};
 use crate::status::{StatusBook, grants_of};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{

@@ -16,7 +16,8 @@
 //! That the operator wants to rest at the end of a block is no reason to stop before the motion is
 //! there; how it gets there is for the rate of program time.
 
-use crate::message::{Fault, Order};
+use crate::fault::Fault;
+use crate::message::Order;
 use crate::supply::Supply;
 use glidepath_link::{Command, MachineState};
 

@@ -15,8 +15,8 @@ use crate::admission::{Admission, Machine, Verdict};
 #[path = "../../src/admission.rs"]
 mod admission;
 #[allow(dead_code, reason = "only the judge is used")]
-#[path = "../../src/message.rs"]
-mod message;
+#[path = "../../src/fault.rs"]
+mod fault;
 #[path = "../../src/rest.rs"]
 mod rest;
 #[allow(dead_code, reason = "what the tests share")]
@@ -25,18 +25,6 @@ mod synthetic;
 
 mod config {
     pub(crate) use glidepath_interpolator::{Config, SoftLimits};
-}
-
-/// What messages carry besides frames.
-mod feedback {
-    #[derive(Debug, Clone, Copy)]
-    pub(crate) struct Observation;
-}
-
-/// The same.
-mod jog {
-    #[derive(Debug, Clone, Copy)]
-    pub(crate) struct Demand;
 }
 
 const PERIOD_NS: u64 = 4_000_000;

@@ -4,8 +4,9 @@
 use super::book::DriveBook;
 use super::claims::Joints;
 use super::following::Finding;
+use crate::fault::Fault;
 use crate::homing::{Outcome, Seen, Surroundings};
-use crate::message::{Fault, Order, Report};
+use crate::message::{Order, Report};
 use glidepath_kinematics::JOINTS;
 use glidepath_link::{FaultCause, Power, Setpoint};
 

@@ -2,8 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
 
 use super::*;
+use crate::fault::Fault;
 use crate::jog::Demand;
-use crate::message::{Fault, Order, PortsEnds};
+use crate::message::{Order, PortsEnds};
 use crate::testing::{Rig, hexapod, lines, mill, records};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Command, FaultCause, JogMode, MachineState, SetpointFrame};

@@ -2,7 +2,8 @@
 
 use super::state::Interpolator;
 use crate::block_stop::BlockStop;
-use crate::message::{Fault, Inputs};
+use crate::fault::Fault;
+use crate::message::Inputs;
 use crate::output::Written;
 use crate::program_time::ProgramTime;
 use crate::rate::{Situation, beside_full};
