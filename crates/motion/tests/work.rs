@@ -62,7 +62,7 @@ const CASES: [Case; 5] = [
         feed_v: 5.0,
         is_audited: true,
         blocks: 400,
-        most: 220_000,
+        most: 245_000,
     },
     Case {
         name: "fast, corners",
@@ -88,8 +88,8 @@ const CASES: [Case; 5] = [
         path: zigzag,
         feed_v: 100.0,
         is_audited: false,
-        blocks: 40,
-        most: 52_500_000,
+        blocks: 120,
+        most: 60_000_000,
     },
 ];
 

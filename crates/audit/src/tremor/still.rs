@@ -72,6 +72,9 @@ impl StillAxes {
         for axis in Axis::ALL {
             let i = axis.index();
             let state = &mut self.axes[i];
+            if place.still[i] && state.is_quiet() && is_near(place.position[i], place.level[i]) {
+                continue;
+            }
             state.settle(axis, settled, found);
             if !place.still[i] {
                 // What is still open is within the settling time of this move, and what leads to
@@ -118,6 +121,11 @@ impl StillAxes {
 }
 
 impl StillAxis {
+    /// True if nothing is open: as nearly always.
+    fn is_quiet(&self) -> bool {
+        matches!(self.last_move, LastMove::Over) && self.open.is_empty() && self.growing.is_none()
+    }
+
     /// Whether a sample is to be judged; `settled` is the tick before which a move was long ago.
     fn is_settled(&mut self, settled: u64, off_mm: f64) -> bool {
         if let LastMove::At(tick) = self.last_move
