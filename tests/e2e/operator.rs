@@ -10,6 +10,38 @@ use crate::programs::PROGRAM;
 
 const PATIENCE: Duration = Duration::from_secs(240);
 
+#[test]
+fn a_machine_is_watched_until_somebody_has_seen_enough() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let program = instance.file("program.ngc", PROGRAM);
+    let services = Services::start(&instance);
+    let planner = Process::join(&instance, &["planner", &program]);
+    let _moving = services.wait(|status| status.frames_executed > 60);
+    let arguments = ["status", "--watch", &program, "--json", "--every", "0.05"];
+    let watch = Process::join(&instance, &arguments);
+    let _planner = planner.wait().expect(0);
+    let _rests = services.wait_for(MachineState::Idle);
+    watch.signal(rustix::process::Signal::INT);
+    let output = watch.wait().expect(0);
+    let looks: Vec<serde_json::Value> = output
+        .stdout
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    let running = looks.iter().filter(|look| look["state"] == "running");
+    let running: Vec<_> = running.collect();
+    assert!(running.len() > 5, "{} of {}", running.len(), looks.len());
+    // The text of the block, and a progress that goes on to its end.
+    let lines: Vec<&str> = PROGRAM.lines().collect();
+    let told = running.iter().rev().find(|look| look["progress"].is_f64());
+    let told = told.unwrap();
+    let line = usize::try_from(told["line"].as_u64().unwrap()).unwrap();
+    assert_eq!(told["block_text"], lines[line - 1]);
+    let left = told["left_s"].as_f64().unwrap();
+    assert!(left < told["planned_s"].as_f64().unwrap(), "{told}");
+    drop(services.end());
+}
+
 fn operate(instance: &Instance, command: &[&str]) {
     let _output = Process::join(instance, command).wait().expect(0);
 }

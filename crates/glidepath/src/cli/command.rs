@@ -10,7 +10,7 @@ use super::motion::{
 };
 use super::offsets::OffsetsCommand;
 use super::operator::{
-    AbortArgs, JointsArgs, OperatorArgs, OverrideArgs, SetPositionArgs, SingleBlockArgs,
+    AbortArgs, JointsArgs, OperatorArgs, OverrideArgs, SetPositionArgs, SingleBlockArgs, StatusArgs,
 };
 use super::path::PathArgs;
 use super::program::ProgramArgs;
@@ -45,8 +45,8 @@ pub enum Command {
     #[command(after_help = "Example: glidepath feed part.ngc --instance mill-1")]
     Feed(FeedArgs),
     /// Show the state of a running interpolator
-    #[command(after_help = "Example: glidepath status --json")]
-    Status(OperatorArgs),
+    #[command(after_help = "Examples: glidepath status --json · glidepath status --watch part.ngc")]
+    Status(StatusArgs),
     /// Feed hold: come to rest on the path
     #[command(after_help = "Example: glidepath hold")]
     Hold(OperatorArgs),
@@ -157,8 +157,8 @@ impl Command {
             Self::Planner(args) => &args.basic,
             Self::Servo(args) => &args.basic,
             Self::Feed(args) => &args.basic,
-            Self::Status(args)
-            | Self::Hold(args)
+            Self::Status(args) => &args.operator.basic,
+            Self::Hold(args)
             | Self::Resume(args)
             | Self::Step(args)
             | Self::StopAtBlockEnd(args)

@@ -26,7 +26,8 @@ pub use offsets::{
     UseArgs,
 };
 pub use operator::{
-    AbortArgs, JointsArgs, OperatorArgs, OverrideArgs, SetPositionArgs, SingleBlockArgs, Switch,
+    AbortArgs, JointsArgs, OperatorArgs, OverrideArgs, SetPositionArgs, SingleBlockArgs,
+    StatusArgs, Switch,
 };
 pub use path::PathArgs;
 pub use program::ProgramArgs;

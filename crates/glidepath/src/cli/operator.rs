@@ -2,6 +2,7 @@
 
 use super::basic::{BasicArgs, InstanceArgs};
 use clap::{Args, ValueEnum};
+use std::path::PathBuf;
 
 /// Arguments of the commands that talk to a running interpolator.
 #[derive(Debug, Args)]
@@ -12,6 +13,32 @@ pub struct OperatorArgs {
     /// The instance, by which processes find each other.
     #[command(flatten)]
     pub instance: InstanceArgs,
+}
+
+/// Arguments of `status`.
+#[derive(Debug, Args)]
+pub struct StatusArgs {
+    /// The program that runs, to show its lines, how far it is and how long it takes yet
+    #[arg(value_name = "PROGRAM", requires = "watch")]
+    pub program: Option<PathBuf>,
+    /// Show it again and again until Ctrl-C; with --json one object a line
+    #[arg(long)]
+    pub watch: bool,
+    /// Time between two looks
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.25, value_parser = seconds, requires = "watch")]
+    pub every: f64,
+    /// The interpolator that is meant.
+    #[command(flatten)]
+    pub operator: OperatorArgs,
+}
+
+fn seconds(text: &str) -> Result<f64, &'static str> {
+    let number: f64 = text.parse().map_err(|_| "give a number")?;
+    if (0.02..=3600.0).contains(&number) {
+        Ok(number)
+    } else {
+        Err("give 0.02 to 3600")
+    }
 }
 
 /// Arguments of `abort`.

@@ -23,6 +23,7 @@ mod run;
 mod servo;
 mod session;
 mod subroutines;
+mod watch;
 
 use crate::cli::{Cli, Command, Switch};
 use crate::config::{self, MachineConfig};
@@ -81,7 +82,8 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Planner(args) => planner::planner(args, &config()?),
         Command::Servo(args) => servo::servo(args, &config()?),
         Command::Feed(args) => feed::feed(args, &config()?),
-        Command::Status(args) => operator::status(args, &config()?),
+        Command::Status(args) if args.watch => watch::watch(args, &config()?),
+        Command::Status(args) => operator::status(&args.operator, &config()?),
         Command::Hold(args) => operator::command(args, &config()?, "hold", link::Command::Hold),
         Command::Resume(args) => {
             operator::command(args, &config()?, "resume", link::Command::Resume)

@@ -11,7 +11,7 @@ use crate::output;
 use crate::report::{state_name, status_object, status_text};
 use glidepath_link::{
     Command, CommandRefusal, CommandReply, CommandRequest, InterpolatorProcess, LinkConfig,
-    LinkError, Operator,
+    LinkError, Operator, Status,
 };
 use serde_json::json;
 use std::time::{Duration, Instant};
@@ -201,13 +201,21 @@ pub(super) fn status(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit
     let instance = session::instance(&args.instance, config);
     let link = session::link(&instance, config);
     let operator = reach(&link)?;
-    let shown = operator.status(PATIENCE);
-    let shown = shown.map_err(|error| of_link(error, &link))?;
-    let status = shown.ok_or_else(|| silent(&operator, &link))?;
+    let status = read_status(&operator, &link)?;
     if args.basic.json {
         output::object(&status_object(&instance, &status));
     } else {
         output::result(&status_text(&instance, &status));
     }
     Ok(Exit::Done)
+}
+
+/// The next status of an interpolator.
+///
+/// # Errors
+/// It ended, or shows none.
+pub(super) fn read_status(operator: &Operator, link: &LinkConfig) -> Result<Status, Failure> {
+    let shown = operator.status(PATIENCE);
+    let shown = shown.map_err(|error| of_link(error, link))?;
+    shown.ok_or_else(|| silent(operator, link))
 }

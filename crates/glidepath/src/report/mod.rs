@@ -10,6 +10,7 @@ mod quantity;
 mod run;
 mod smoothness;
 mod status;
+mod view;
 
 pub use diagnosis::{DiagnosisReport, PlaceReport};
 pub use diagnostic::{ProgramDiagnostic, diagnostic_object};
@@ -23,3 +24,4 @@ pub use status::{
     fault_text, quantiles_object, quantiles_text, realtime_object, realtime_text, state_name,
     status_object, status_text, timing_text,
 };
+pub use view::{Modal, Place, View, WorkOffset, doing, view_object, view_text};

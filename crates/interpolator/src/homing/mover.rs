@@ -109,6 +109,12 @@ impl Mover {
 
     /// What became of the orders.
     pub(crate) fn moved(&self) -> Moved {
+        if !self.is_active {
+            return Moved {
+                number: self.number,
+                ..Moved::default()
+            };
+        }
         let resting = self.trackers.iter().enumerate();
         Moved {
             is_active: self.is_active,

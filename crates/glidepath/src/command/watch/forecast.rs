@@ -1,0 +1,208 @@
+//! How far a program is, and how long it takes yet: it is planned beside the machine, since planned
+//! time is run time.
+
+use crate::command::failure::Failure;
+use crate::config::MachineConfig;
+use crate::file_error::FileError;
+use crate::kept::read::{read, set_up};
+use crate::plan_steps::PlanSteps;
+use crate::report::{Modal, Place};
+use glidepath_link::Status;
+use glidepath_planner::{FileSource, ItemSource as _, Step};
+use glidepath_program::Event;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+
+/// Larger programs are shown without the text of their blocks.
+const MOST_TEXT: u64 = 64 << 20;
+/// Blocks that are remembered; longer programs are shown without progress.
+const MOST_BLOCKS: usize = 4_000_000;
+
+/// Where a block begins.
+#[derive(Debug, Clone, Copy)]
+struct Begin {
+    block: u32,
+    sequence: u64,
+    path_s: f64,
+}
+
+/// What is known of the plan so far.
+#[derive(Debug, Default)]
+struct Plan {
+    /// Which program it is, once that is known.
+    fingerprint: Option<u64>,
+    begins: Vec<Begin>,
+    events: Vec<(u64, Event)>,
+    frames: u64,
+    path_s: f64,
+    /// The whole program was planned.
+    is_whole: bool,
+    /// It cannot be planned, or not be remembered.
+    has_failed: bool,
+}
+
+/// A program that is planned in the background.
+pub(super) struct Forecast {
+    name: String,
+    lines: Vec<String>,
+    period_t: f64,
+    plan: Arc<Mutex<Plan>>,
+    over: Arc<AtomicBool>,
+    planner: Option<JoinHandle<()>>,
+}
+
+impl Forecast {
+    /// Begins to plan a program.
+    pub(super) fn start(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
+        let size = std::fs::metadata(path)
+            .map_err(FileError::open(path))?
+            .len();
+        let text = if size <= MOST_TEXT {
+            let bytes = std::fs::read(path).map_err(FileError::open(path))?;
+            String::from_utf8_lossy(&bytes).into_owned()
+        } else {
+            String::new()
+        };
+        // Read as the planner does: with the offsets that the machine keeps.
+        let mut machine = config.clone();
+        if let Ok(Some(kept)) = read(config) {
+            set_up(&mut machine, &kept);
+        }
+        let (plan, over) = (Arc::<Mutex<Plan>>::default(), Arc::<AtomicBool>::default());
+        let planner = {
+            let (path, plan, over) = (path.to_owned(), Arc::clone(&plan), Arc::clone(&over));
+            std::thread::spawn(move || work(&path, &machine, &plan, &over))
+        };
+        Ok(Self {
+            name: path.display().to_string(),
+            lines: text.lines().map(str::to_owned).collect(),
+            period_t: config.period_t(),
+            plan,
+            over,
+            planner: Some(planner),
+        })
+    }
+
+    /// Where a machine is in the program; `None` if it executes another one.
+    pub(super) fn place(&self, status: &Status) -> Option<Place> {
+        let line = usize::try_from(status.line).ok()?.checked_sub(1);
+        let text = line.and_then(|line| self.lines.get(line)).cloned();
+        let plan = self.plan.lock().unwrap_or_else(PoisonError::into_inner);
+        if plan.fingerprint != Some(status.program) {
+            return None;
+        }
+        let now = plan.sequence(status);
+        let whole = plan.is_whole.then_some(plan.frames);
+        #[allow(clippy::cast_precision_loss, reason = "counts of frames are exact")]
+        let time = |frames: u64| frames as f64 * self.period_t;
+        Some(Place {
+            program: self.name.clone(),
+            text: text.unwrap_or_default(),
+            planned_t: whole.map(time),
+            elapsed_t: now.map(time),
+            has_failed: plan.has_failed,
+            modal: now.map(|now| plan.modal(now)).unwrap_or_default(),
+        })
+    }
+}
+
+impl Drop for Forecast {
+    fn drop(&mut self) {
+        self.over.store(true, Ordering::Relaxed);
+        // What a planner that failed had to say is said.
+        let _ended = self.planner.take().map(JoinHandle::join);
+    }
+}
+
+fn work(path: &Path, config: &MachineConfig, plan: &Mutex<Plan>, over: &AtomicBool) {
+    let options = config.program_options(config.home());
+    let Ok(source) = FileSource::open(path, options, &config.settings()) else {
+        // The planner said what is wrong with it.
+        return;
+    };
+    {
+        let mut plan = plan.lock().unwrap_or_else(PoisonError::into_inner);
+        plan.fingerprint = Some(source.fingerprint());
+    }
+    let mut steps = PlanSteps::on_one_core(source, config, config.home());
+    while !over.load(Ordering::Relaxed) {
+        let step = steps.step();
+        let mut plan = plan.lock().unwrap_or_else(PoisonError::into_inner);
+        match step {
+            Ok(Step::Frame) => plan.take(steps.frame()),
+            Ok(Step::Item | Step::Pending) => {}
+            Ok(Step::End) => {
+                plan.is_whole = !plan.has_failed;
+                return;
+            }
+            Err(_) => {
+                plan.has_failed = true;
+                return;
+            }
+        }
+        if plan.has_failed {
+            return;
+        }
+    }
+}
+
+impl Plan {
+    fn take(&mut self, frame: &glidepath_program::Frame) {
+        self.frames = frame.sequence + 1;
+        self.path_s = frame.path_s;
+        if let Some(event) = frame.event {
+            self.events.push((frame.sequence, event));
+        }
+        if self
+            .begins
+            .last()
+            .is_none_or(|last| last.block != frame.block)
+        {
+            self.begins.push(Begin {
+                block: frame.block,
+                sequence: frame.sequence,
+                path_s: frame.path_s,
+            });
+        }
+        self.has_failed = self.begins.len() + self.events.len() > MOST_BLOCKS;
+    }
+
+    /// The planned frame of what is executed: by the block and the part of its path that is done, so
+    /// that it holds under overrides and after a program was gone on with.
+    #[allow(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "counts of frames are exact, and a part of them is below"
+    )]
+    fn sequence(&self, status: &Status) -> Option<u64> {
+        let at = self
+            .begins
+            .partition_point(|begin| begin.block <= status.block);
+        let begin = self.begins.get(at.checked_sub(1)?)?;
+        let (end, end_s) = match self.begins.get(at) {
+            Some(next) => (next.sequence, next.path_s),
+            None => (self.frames, self.path_s),
+        };
+        let way = end_s - begin.path_s;
+        let done = status.path_s - status.block_path_s;
+        let part = if way > 0.0 {
+            (done / way).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        let frames = end.saturating_sub(begin.sequence) as f64 * part;
+        Some(begin.sequence + frames as u64)
+    }
+
+    /// What the program has told tool, spindle and coolant by then.
+    fn modal(&self, now: u64) -> Modal {
+        let mut modal = Modal::default();
+        for (_, event) in self.events.iter().take_while(|(at, _)| *at <= now) {
+            modal.take(*event);
+        }
+        modal
+    }
+}

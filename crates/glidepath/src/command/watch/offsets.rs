@@ -1,0 +1,50 @@
+//! The work offsets that the machine keeps.
+
+use crate::config::MachineConfig;
+use crate::kept::convert::system_name;
+use crate::report::WorkOffset;
+use glidepath_kept::{Directory, Store};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Between two looks.
+const EVERY: Duration = Duration::from_secs(1);
+
+/// What is kept, looked at now and then.
+pub(super) struct KeptOffsets {
+    folder: Option<PathBuf>,
+    looked: Option<Instant>,
+    offset: Option<WorkOffset>,
+}
+
+impl KeptOffsets {
+    pub(super) fn new(config: &MachineConfig) -> Self {
+        Self {
+            folder: config.state_directory.clone(),
+            looked: None,
+            offset: None,
+        }
+    }
+
+    /// The coordinate system in force; `None` if none is kept, or it cannot be read just now.
+    pub(super) fn look(&mut self) -> Option<WorkOffset> {
+        let is_due = self.looked.is_none_or(|looked| looked.elapsed() >= EVERY);
+        if is_due {
+            self.looked = Some(Instant::now());
+            self.offset = self.read();
+        }
+        self.offset.clone()
+    }
+
+    fn read(&self) -> Option<WorkOffset> {
+        let folder = self.folder.as_deref()?;
+        let (_, kept) = Store::new(Directory::at(folder)).read().ok()??;
+        let system = usize::from(kept.offsets.active).checked_sub(1)?;
+        let system = kept.offsets.systems.get(system)?;
+        Some(WorkOffset {
+            name: system_name(kept.offsets.active),
+            origin: system.origin,
+            rotation_deg: system.rotation_deg,
+        })
+    }
+}
