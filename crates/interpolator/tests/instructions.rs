@@ -136,7 +136,11 @@ fn jog(tick: usize) -> JogDemand {
         velocity_v: 120.0,
         ..bytemuck::Zeroable::zeroed()
     };
-    let side = if tick / 80 % 2 == 0 { 1.0 } else { -1.0 };
+    let side = if (tick / 80).is_multiple_of(2) {
+        1.0
+    } else {
+        -1.0
+    };
     let (mode, value) = match tick / 40 % 4 {
         0 => (JogMode::Continuous, 100.0 * side),
         1 => (JogMode::Continuous, -60.0 * side),

@@ -288,7 +288,8 @@ impl Machine {
                     "soft limits are always judged; switches belong to the drive"
                 }
                 ("$", Some(22..=27 | 43..=49)) => {
-                    "homing is not described here: the machine begins where its drives say it is"
+                    "joints come home as [home.J0] says, where drives send feedback: give velocities with their \
+                     directions, and bounds"
                 }
                 ("$", Some(30 | 31 | 33..=36)) => "the spindle takes S words as they are",
                 ("$", Some(32)) => "there is no laser mode",

@@ -255,7 +255,8 @@ impl Machine {
             let reason = match (first, key.as_str()) {
                 _ if is_repeated => "it stands there before, or again in what is saved",
                 (_, key) if key.starts_with("homing_") || key == "position_endstop" => {
-                    "homing is not described here: the machine begins where its drives say it is"
+                    "joints come home as [home.J0] says, where drives send feedback: give velocities with their \
+                     directions, and bounds"
                 }
                 ("printer", "minimum_cruise_ratio" | "max_accel_to_decel") => {
                     "jerk makes short moves gentle here"

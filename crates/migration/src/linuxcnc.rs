@@ -1,6 +1,7 @@
 //! From LinuxCNC's machine configuration (INI).
 
 mod axes;
+mod homing;
 mod joints;
 mod others;
 mod units;
@@ -39,6 +40,7 @@ pub fn from_linuxcnc(text: &str, include: Include<'_>) -> Result<Conversion, Rea
     machine.mechanism();
     machine.axes();
     machine.joints();
+    machine.homing();
     machine.path();
     machine.others();
     Ok(machine
@@ -63,9 +65,16 @@ impl Machine {
         once.sort_unstable();
         once.dedup();
         if once.len() < letters.len() {
-            let note = "a letter stands there twice: two joints of one axis have no counterpart, one \
-                        joint is converted, and the drives have to be coupled elsewhere";
+            let note = "a letter stands there twice: the second joint of that axis comes after those of \
+                        all axes here";
             self.inputs.decide(at, Fate::Changed, note);
+            for (joint, letter) in letters.iter().enumerate() {
+                if letters.get(..joint).unwrap_or(&[]).contains(letter) {
+                    let why = "the axis has two joints: by how much may they differ before the motion stops";
+                    let table = format!("axis.{letter}");
+                    self.draft.choose(&table, "gantry_difference", why);
+                }
+            }
         } else {
             self.inputs
                 .decide(at, Fate::Converted, "one table [axis.…] for each");

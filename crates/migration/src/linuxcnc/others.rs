@@ -44,16 +44,19 @@ const SECTIONS: [(&str, &str); 14] = [
 const JOINT_KEYS: [(&str, &str); 20] = [
     (
         "HOME",
-        "homing is not described here: the machine begins where its drives say it is",
+        "joints that are not axes come home by their drives: feedback.homing = \"drive\"",
     ),
-    ("VOLATILE_HOME", "homing is not described here"),
+    (
+        "VOLATILE_HOME",
+        "joints that are not axes come home by their drives: feedback.homing = \"drive\"",
+    ),
     ("LOCKING_INDEXER", "there are no locking indexers"),
     (
         "WRAPPED_ROTARY",
         "a rotary axis counts on; it does not wrap",
     ),
-    ("FERROR", "following errors are watched by the drive"),
-    ("MIN_FERROR", "following errors are watched by the drive"),
+    ("FERROR", "see feedback.following_error"),
+    ("MIN_FERROR", "see feedback.min_following_error"),
     ("BACKLASH", "it is compensated by the drive"),
     ("COMP_FILE", "it is compensated by the drive"),
     ("TYPE", "letters say which axes turn"),
