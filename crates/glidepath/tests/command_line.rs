@@ -6,31 +6,19 @@
     reason = "a test that fails may panic"
 )]
 
+mod support;
+
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
+use support::{glidepath, object};
 
 const PART: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/part.ngc");
 const MILL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/mill.toml");
 const SQUARE: &str = "G21 G90\nG0 X1\nG1 X11 F3000\nY10\nX1\nY0\nG4 P0.1\nM2\n";
 
-fn glidepath(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_glidepath"))
-        .args(args)
-        .output()
-        .unwrap()
-}
-
 fn exit(output: &Output) -> i32 {
     output.status.code().unwrap()
-}
-
-/// The one object on standard output.
-fn object(output: &Output) -> Value {
-    let text = String::from_utf8(output.stdout.clone()).unwrap();
-    let value: Value = serde_json::from_str(&text).expect(&text);
-    assert!(value.is_object());
-    value
 }
 
 fn stderr(output: &Output) -> String {

@@ -12,7 +12,7 @@ use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
-use support::{finish, glidepath};
+use support::{finish, glidepath, object};
 
 fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
@@ -20,10 +20,6 @@ fn stdout(output: &Output) -> String {
 
 fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
-}
-
-fn object(output: &Output) -> Value {
-    serde_json::from_str(&stdout(output)).expect("one object")
 }
 
 fn file(folder: &Path, name: &str, text: &str) -> String {

@@ -23,7 +23,9 @@ pub(crate) fn glidepath(args: &[&str]) -> Output {
 /// The one object of `--json`.
 pub(crate) fn object(output: &Output) -> Value {
     let text = String::from_utf8(output.stdout.clone()).unwrap();
-    serde_json::from_str(&text).expect(&text)
+    let value: Value = serde_json::from_str(&text).expect(&text);
+    assert!(value.is_object(), "{text}");
+    value
 }
 
 /// Waits for a process; kills it and fails when that takes too long.
