@@ -38,6 +38,11 @@ impl DriveBook {
         }
     }
 
+    /// Whether joints are on their way home by the controller, or about to be.
+    pub(crate) const fn is_homing(&self) -> bool {
+        self.conductor.is_busy()
+    }
+
     fn enable(&self, report: &Report, now_ns: u64) -> Result<(), String> {
         let joints = self.claims.joints();
         let is_clear = report.state != MachineState::Faulted;

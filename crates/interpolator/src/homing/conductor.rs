@@ -73,7 +73,9 @@ struct Job {
     left: Vec<u32>,
     group: Option<Group>,
     began_ns: u64,
-    /// Whether the real-time thread has begun.
+    /// Whether the real-time thread was asked to begin: once, so that nothing begins late.
+    has_asked: bool,
+    /// Whether it has begun.
     has_begun: bool,
     began_at: [f64; JOINTS],
     /// Nothing is done before.
@@ -173,6 +175,7 @@ impl Conductor {
             left: groups.into_iter().map(|(_, mask)| mask).collect(),
             group: None,
             began_ns: now_ns,
+            has_asked: false,
             has_begun: false,
             began_at: [0.0; JOINTS],
             goes_on_ns: 0,
@@ -198,7 +201,9 @@ impl Conductor {
                 self.job = None;
                 return (None, Outcome::Pending);
             }
-            // Asked for until it is seen to begin.
+            if core::mem::replace(&mut job.has_asked, true) {
+                return (None, Outcome::Pending);
+            }
             order.begins = true;
             self.number = order.number;
             return (Some(order), Outcome::Pending);

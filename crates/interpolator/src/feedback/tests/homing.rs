@@ -407,6 +407,20 @@ fn homing_ends_at_rest_when_it_is_aborted_and_nothing_jumps() {
     }
 }
 
+#[test]
+fn an_abort_at_once_leaves_nothing_behind_that_begins_late() {
+    for after in 0..6 {
+        let mut bench = mill(SWITCH, 5.0);
+        bench.enable(MachineState::NotHomed);
+        bench.command(Command::Home(1)).unwrap();
+        bench.run(after);
+        bench.command(Command::Abort).unwrap();
+        bench.run(60);
+        assert_eq!(bench.state(), MachineState::NotHomed, "{after}");
+        home_again(&mut bench);
+    }
+}
+
 /// An axis with two joints, of which the second hangs behind.
 fn gantry(lean: f64) -> Bench {
     let mut settings = Config {
