@@ -85,6 +85,63 @@ impl Guard {
     }
 }
 
+/// Frames one after the other, each looked at before it is given out.
+#[derive(Debug, Clone)]
+pub(crate) struct GuardedFrames {
+    guard: Guard,
+    /// The frame made last.
+    frame: Frame,
+    /// Why there are no more.
+    failed: Option<PlanError>,
+}
+
+impl GuardedFrames {
+    /// At rest at `start`.
+    pub(crate) fn new(settings: &Settings, start: AxisVector) -> Self {
+        Self {
+            guard: Guard::new(settings),
+            frame: Frame::blank(start),
+            failed: None,
+        }
+    }
+
+    /// Has the next frame made in the place of the last one; false if there is none. After an error
+    /// there is none any more.
+    #[inline]
+    pub(crate) fn make(
+        &mut self,
+        next: impl FnOnce(&mut Frame) -> Result<bool, PlanError>,
+    ) -> Result<bool, PlanError> {
+        self.check()?;
+        let made = next(&mut self.frame).and_then(|is_made| {
+            if is_made {
+                self.guard.check(&self.frame)?;
+            }
+            Ok(is_made)
+        });
+        self.failed = made.err();
+        made
+    }
+
+    /// No frame follows any more.
+    pub(crate) const fn fail(&mut self, error: PlanError) {
+        self.failed = Some(error);
+    }
+
+    /// Why there are no more frames, if there are none.
+    pub(crate) fn check(&self) -> Result<(), PlanError> {
+        self.failed.map_or(Ok(()), Err)
+    }
+
+    pub(crate) const fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    pub(crate) const fn frame_mut(&mut self) -> &mut Frame {
+        &mut self.frame
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,6 @@
 //! The planner: items in, frames out.
 
-use super::guard::Guard;
+use super::guard::GuardedFrames;
 use super::on_path::OnPathEngine;
 use super::stretches::StretchEngine;
 use crate::PlanError;
@@ -18,11 +18,7 @@ use glidepath_program::{Frame, Item, Override, Settings};
 #[derive(Debug, Clone)]
 pub struct Planner {
     engine: Engine,
-    guard: Guard,
-    /// The frame made last.
-    frame: Frame,
-    /// Why there are no more frames.
-    failed: Option<PlanError>,
+    frames: GuardedFrames,
 }
 
 /// How motion is planned.
@@ -49,9 +45,7 @@ impl Planner {
     pub fn new(settings: Settings, start: AxisVector) -> Self {
         Self {
             engine: Engine::new(settings, start),
-            guard: Guard::new(&settings),
-            frame: Frame::blank(start),
-            failed: None,
+            frames: GuardedFrames::new(&settings, start),
         }
     }
 
@@ -62,9 +56,7 @@ impl Planner {
     /// tolerance or dwell out of range. The planner is then as if the item had not been given.
     /// After [`Planner::pop_frame`] has failed, its error.
     pub fn push(&mut self, item: &Item) -> Result<(), PlanError> {
-        if let Some(error) = self.failed {
-            return Err(error);
-        }
+        self.frames.check()?;
         match &mut self.engine {
             Engine::OnPath(engine) => engine.push(item),
             Engine::Stretches(engine) => engine.push(item),
@@ -87,7 +79,7 @@ impl Planner {
     /// motion within the limits. No more frames follow, and every call gives the same error.
     /// Whoever plays the frames must then stop on those it has.
     pub fn pop_frame(&mut self) -> Result<Option<Frame>, PlanError> {
-        Ok(self.make_frame()?.then_some(self.frame))
+        Ok(self.make_frame()?.then_some(*self.frame()))
     }
 
     /// As [`Planner::pop_frame`], but the frame stays where [`Planner::frame`] shows it: a frame is
@@ -96,36 +88,25 @@ impl Planner {
     /// # Errors
     /// As [`Planner::pop_frame`].
     pub fn make_frame(&mut self) -> Result<bool, PlanError> {
-        if let Some(error) = self.failed {
-            return Err(error);
-        }
-        let made = match &mut self.engine {
-            Engine::OnPath(engine) => engine.make_frame(&mut self.frame),
+        self.frames.make(|made| match &mut self.engine {
+            Engine::OnPath(engine) => engine.make_frame(made),
             Engine::Stretches(engine) => engine.pop_frame().map(|frame| {
                 let is_made = frame.is_some();
-                self.frame = frame.unwrap_or(self.frame);
+                *made = frame.unwrap_or(*made);
                 is_made
             }),
-        };
-        let made = made.and_then(|is_made| {
-            if is_made {
-                self.guard.check(&self.frame)?;
-            }
-            Ok(is_made)
-        });
-        self.failed = made.err();
-        made
+        })
     }
 
     /// [`Planner::frame`], for who completes it: numbers its line and path position by others.
     pub const fn frame_mut(&mut self) -> &mut Frame {
-        &mut self.frame
+        self.frames.frame_mut()
     }
 
     /// The frame that was made last; before the first one at rest at the start.
     #[must_use]
     pub const fn frame(&self) -> &Frame {
-        &self.frame
+        self.frames.frame()
     }
 
     /// Plans what no frame was taken of with another override: rates times their override, limits

@@ -2,7 +2,7 @@
 
 use super::part_step::{PartStep, StepKind};
 use crate::PlanError;
-use crate::guard::Guard;
+use crate::guard::GuardedFrames;
 use crate::on_path::OnPathEngine;
 use crate::wing::Wing;
 use glidepath_geometry::AxisVector;
@@ -13,11 +13,7 @@ use std::collections::VecDeque;
 #[derive(Debug)]
 pub struct Joiner {
     joint: Joint,
-    guard: Guard,
-    /// The frame made last.
-    frame: Frame,
-    /// Why there are no more frames.
-    failed: Option<PlanError>,
+    frames: GuardedFrames,
 }
 
 #[derive(Debug)]
@@ -47,9 +43,7 @@ impl Joiner {
                     origin_s: 0.0,
                 },
             },
-            guard: Guard::new(&settings),
-            frame: Frame::blank(start),
-            failed: None,
+            frames: GuardedFrames::new(&settings, start),
         }
     }
 
@@ -58,7 +52,7 @@ impl Joiner {
         match (&mut self.joint, step.0) {
             (Joint::OnPath(engine), StepKind::Motion(settled)) => engine.add_settled(settled),
             (Joint::InTube { waiting, .. }, step) => waiting.push_back(step),
-            (Joint::OnPath(_), StepKind::Failed(error)) => self.failed = Some(error),
+            (Joint::OnPath(_), StepKind::Failed(error)) => self.frames.fail(error),
             (Joint::OnPath(_), StepKind::Frame(_) | StepKind::Origin(_)) => {}
         }
     }
@@ -68,36 +62,25 @@ impl Joiner {
     /// # Errors
     /// As [`crate::Planner::make_frame`].
     pub fn make_frame(&mut self) -> Result<bool, PlanError> {
-        if let Some(error) = self.failed {
-            return Err(error);
-        }
-        let made = match &mut self.joint {
-            Joint::OnPath(engine) => engine.make_frame(&mut self.frame),
+        self.frames.make(|made| match &mut self.joint {
+            Joint::OnPath(engine) => engine.make_frame(made),
             Joint::InTube {
                 waiting,
                 sequence,
                 origin_s,
-            } => next_frame(waiting, sequence, origin_s, &mut self.frame),
-        };
-        let made = made.and_then(|is_made| {
-            if is_made {
-                self.guard.check(&self.frame)?;
-            }
-            Ok(is_made)
-        });
-        self.failed = made.err();
-        made
+            } => next_frame(waiting, sequence, origin_s, made),
+        })
     }
 
     /// [`Joiner::frame`], for who completes it.
     pub const fn frame_mut(&mut self) -> &mut Frame {
-        &mut self.frame
+        self.frames.frame_mut()
     }
 
     /// The frame that was made last; before the first one at rest at the start.
     #[must_use]
     pub const fn frame(&self) -> &Frame {
-        &self.frame
+        self.frames.frame()
     }
 }
 
