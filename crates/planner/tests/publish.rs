@@ -228,8 +228,8 @@ fn the_stop_flag_aborts() {
     assert_eq!(interpolator.into_inner().end(), EndOfEpoch::Aborted);
 }
 
-#[test]
-fn an_abort_by_somebody_else_is_reported() {
+/// What comes of a run to whose interpolator something happens after a hundred frames.
+fn upset_under_way(upset: impl Fn(&mut Interpolator)) -> Result<Statistics, RunError> {
     let transport = InProcess::default();
     let interpolator = RefCell::new(Interpolator::new(&transport, 128));
     let (result, _) = attended(
@@ -238,29 +238,23 @@ fn an_abort_by_somebody_else_is_reported() {
             let mut interpolator = interpolator.borrow_mut();
             interpolator.pass(time);
             if interpolator.executed.len() == 100 {
-                interpolator.abort();
+                upset(&mut interpolator);
             }
         },
         |control| run(&transport, Listed::new(&staircase(200)), pace(), control),
     );
+    result
+}
+
+#[test]
+fn an_abort_by_somebody_else_is_reported() {
+    let result = upset_under_way(|interpolator| interpolator.abort());
     assert!(matches!(result, Err(RunError::Aborted)), "{result:?}");
 }
 
 #[test]
 fn a_fault_is_reported_with_its_cause() {
-    let transport = InProcess::default();
-    let interpolator = RefCell::new(Interpolator::new(&transport, 128));
-    let (result, _) = attended(
-        &AtomicBool::new(false),
-        |time| {
-            let mut interpolator = interpolator.borrow_mut();
-            interpolator.pass(time);
-            if interpolator.executed.len() == 100 {
-                interpolator.fail(FaultCause::MissedTicks);
-            }
-        },
-        |control| run(&transport, Listed::new(&staircase(200)), pace(), control),
-    );
+    let result = upset_under_way(|interpolator| interpolator.fail(FaultCause::MissedTicks));
     match result {
         Err(RunError::Fault(fault)) => assert_eq!(fault.cause, FaultCause::MissedTicks),
         other => panic!("{other:?}"),
