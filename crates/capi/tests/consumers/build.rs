@@ -1,6 +1,5 @@
 //! Compiles programs as a user of the library would.
 
-use crate::machine::Machine;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -14,6 +13,14 @@ pub(crate) enum Language {
 pub(crate) enum Linked {
     Shared,
     Static,
+}
+
+/// Where a test works: its folder, which is the runtime directory of its processes, and the name of its
+/// instance.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place<'a> {
+    pub(crate) directory: &'a Path,
+    pub(crate) instance: &'a str,
 }
 
 /// What a static library of Rust needs beside it: `rustc --print native-static-libs`.
@@ -70,8 +77,8 @@ pub(crate) fn library(linked: Linked) -> PathBuf {
 }
 
 /// A folder with the library under the name that programs look for.
-pub(crate) fn library_folder(machine: &Machine) -> PathBuf {
-    let folder = machine.directory().join("lib");
+pub(crate) fn library_folder(place: Place<'_>) -> PathBuf {
+    let folder = place.directory.join("lib");
     if !folder.exists() {
         std::fs::create_dir(&folder).unwrap();
         let shared = library(Linked::Shared);
@@ -84,7 +91,7 @@ pub(crate) fn library_folder(machine: &Machine) -> PathBuf {
 
 /// Compiles an example; gives its path, or `None` without a compiler.
 pub(crate) fn example(
-    machine: &Machine,
+    place: Place<'_>,
     name: &str,
     language: Language,
     linked: Linked,
@@ -92,9 +99,9 @@ pub(crate) fn example(
     if !language.is_there() {
         return None;
     }
-    let folder = library_folder(machine);
-    let program = machine
-        .directory()
+    let folder = library_folder(place);
+    let program = place
+        .directory
         .join(format!("{name}-{language:?}-{linked:?}"));
     let mut compile = Command::new(language.compiler());
     compile
@@ -123,7 +130,7 @@ pub(crate) fn example(
 
 /// Whether a text compiles with a header; the compiler's words if it does not, `None` without one.
 pub(crate) fn compiles(
-    machine: &Machine,
+    place: Place<'_>,
     header: &str,
     text: &str,
     language: Language,
@@ -131,7 +138,7 @@ pub(crate) fn compiles(
     if !language.is_there() {
         return None;
     }
-    let include = machine.directory().join("include");
+    let include = place.directory.join("include");
     std::fs::create_dir_all(&include).unwrap();
     std::fs::write(include.join("glidepath.h"), header).unwrap();
     let file = include.join(format!("text.{}", language.suffix()));

@@ -1,7 +1,6 @@
 //! Consumers as processes.
 
-use crate::build;
-use crate::machine::Machine;
+use crate::build::{self, Place};
 use std::io::{BufRead as _, BufReader, Read as _};
 use std::path::PathBuf;
 use std::process::{Child, ChildStdout, Command, Stdio};
@@ -24,31 +23,37 @@ pub(crate) struct Consumer {
 }
 
 impl Consumer {
-    /// One that follows as many setpoints as the test publishes, and writes them to a file.
-    pub(crate) fn follow(machine: &Machine, name: &str, program: &str, first: &[&str]) -> Self {
-        let file = machine.directory().join(format!("{name}.bin"));
-        let count = crate::COUNT.to_string();
-        let rest = [machine.instance(), &count, file.to_str().unwrap()];
+    /// One that follows so many setpoints, and writes them to a file.
+    pub(crate) fn follow(
+        place: Place<'_>,
+        name: &str,
+        program: &str,
+        first: &[&str],
+        count: u64,
+    ) -> Self {
+        let file = place.directory.join(format!("{name}.bin"));
+        let count = count.to_string();
+        let rest = [place.instance, &count, file.to_str().unwrap()];
         let arguments: Vec<&str> = first.iter().copied().chain(rest).collect();
-        Self::run(machine, name, program, &arguments)
+        Self::run(place, name, program, &arguments)
     }
 
     /// One that is given the instance, behind its script, and before its other arguments.
-    pub(crate) fn start(machine: &Machine, name: &str, program: &str, others: &[&str]) -> Self {
+    pub(crate) fn start(place: Place<'_>, name: &str, program: &str, others: &[&str]) -> Self {
         let (scripts, others): (Vec<&str>, Vec<&str>) = others
             .iter()
             .partition(|argument| argument.ends_with(".py"));
         let mut arguments = scripts;
-        arguments.push(machine.instance());
+        arguments.push(place.instance);
         arguments.extend(others);
-        Self::run(machine, name, program, &arguments)
+        Self::run(place, name, program, &arguments)
     }
 
-    fn run(machine: &Machine, name: &str, program: &str, arguments: &[&str]) -> Self {
-        let library = build::library_folder(machine).join("libglidepath.so.0");
+    fn run(place: Place<'_>, name: &str, program: &str, arguments: &[&str]) -> Self {
+        let library = build::library_folder(place).join("libglidepath.so.0");
         let mut child = Command::new(program)
             .args(arguments)
-            .env("XDG_RUNTIME_DIR", machine.directory())
+            .env("XDG_RUNTIME_DIR", place.directory)
             .env("GLIDEPATH_LIBRARY", library)
             .env("PYTHONPATH", build::source("python"))
             .env("PYTHONDONTWRITEBYTECODE", "1")
@@ -60,7 +65,7 @@ impl Consumer {
             name: name.to_owned(),
             child,
             output,
-            file: machine.directory().join(format!("{name}.bin")),
+            file: place.directory.join(format!("{name}.bin")),
         }
     }
 
