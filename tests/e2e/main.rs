@@ -14,5 +14,6 @@ mod operator;
 mod programs;
 mod resume;
 mod run;
+mod service;
 mod services;
 mod subscribers;

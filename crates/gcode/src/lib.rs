@@ -66,8 +66,11 @@ pub use check::{Diagnostics, Report, check, diagnostics};
 pub use diagnostic::code::DiagnosticCode;
 pub use diagnostic::excerpt::Excerpt;
 pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS};
+pub use execute::auxiliary::input_wait::{Input, InputWait, WaitFor};
 pub use execute::program::Program;
+pub use execute::state::in_force::InForce;
 pub use execute::state::modal::{Feed, Modal};
+pub use setup::m_codes::MCodes;
 pub use setup::machine::{Machine, Travel};
 pub use setup::options::{Connections, LoopLimits, Options};
 pub use setup::subroutine_file::{
@@ -75,6 +78,7 @@ pub use setup::subroutine_file::{
 };
 pub use setup::tool_table::{MAX_TOOLS, Tool, ToolTable};
 pub use setup::work_offsets::{CoordinateSystem, SYSTEMS, WorkOffsets};
+pub use summary::remark::{Remark, RemarkKind};
 pub use summary::survey::{Corner, Survey};
 pub use summary::totals::Totals;
 pub use syntax::cursor::MAX_NUMBER;

@@ -8,6 +8,7 @@
 
 use crate::config::{Config, SoftLimits};
 use crate::fault::Fault;
+use crate::gates::Gates;
 use crate::rest::{SAME_POSITION, is_at_rest};
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_kinematics::{JointFault, JointViolation, JointWatch, Quantity};
@@ -59,6 +60,7 @@ struct Last {
 #[derive(Debug)]
 pub(crate) struct Admission {
     period_ns: u64,
+    gates: Gates,
     period_t: f64,
     limits: Limits,
     soft_limits: SoftLimits,
@@ -74,6 +76,7 @@ impl Admission {
     pub(crate) fn new(config: &Config) -> Self {
         Self {
             period_ns: config.period_ns,
+            gates: config.gates,
             period_t: config.period_t(),
             limits: config.limits,
             soft_limits: config.soft_limits,
@@ -208,7 +211,8 @@ impl Admission {
             return Err(fault(FrameRefusal::Period));
         }
         let must_rest = [FrameFlags::LAST, FrameFlags::PROGRAM_STOP];
-        if must_rest.iter().any(|&flag| frame.has(flag)) && !is_at_rest(frame) {
+        let is_gate = self.gates.of_frame(frame).is_some();
+        if (is_gate || must_rest.iter().any(|&flag| frame.has(flag))) && !is_at_rest(frame) {
             return Err(fault(FrameRefusal::NotAtRest));
         }
         let on_axis = |refusal, (axis, value, limit)| Fault {

@@ -3,7 +3,8 @@
 use crate::feedback::DriveBook;
 use crate::message::{Order, PortsEnds, Report};
 use glidepath_link::{
-    Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, MachineState,
+    Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, EndOfEpoch, EventId,
+    MachineState,
 };
 
 /// Answers a command: passes it on to the real-time thread, or says why not.
@@ -15,11 +16,25 @@ pub(crate) fn answer(
     report: &Report,
     boot_id: u64,
     drives: Option<(&mut DriveBook, u64)>,
+    answered: &mut Option<EventId>,
     ends: &mut PortsEnds<'_>,
 ) -> CommandReply {
     let (outcome, message) = match request.command() {
         Err(error) => (Err(CommandRefusal::Malformed), error.to_string()),
-        Ok(Command::Ping) => (Ok(()), String::new()),
+        Ok(Command::Ping | Command::Tell) => (Ok(()), String::new()),
+        Ok(Command::Acknowledge { event, done }) => {
+            match judge_acknowledgement(event, done, report, boot_id, *answered) {
+                Err(why) => (Err(CommandRefusal::WrongState), why.to_owned()),
+                Ok(()) => {
+                    let command = Command::Acknowledge { event, done };
+                    let (outcome, message) = pass_on(command, report.state, ends);
+                    if outcome.is_ok() {
+                        *answered = Some(event);
+                    }
+                    (outcome, message)
+                }
+            }
+        }
         Ok(command) => match judge(command, report, drives) {
             Err(why) => (Err(CommandRefusal::WrongState), why),
             Ok(false) => (Ok(()), String::new()),
@@ -49,6 +64,43 @@ fn judge(
     })
 }
 
+/// Whether an event may be acknowledged now.
+fn judge_acknowledgement(
+    event: EventId,
+    done: bool,
+    report: &Report,
+    boot_id: u64,
+    answered: Option<EventId>,
+) -> Result<(), &'static str> {
+    if event.boot_id != boot_id {
+        return Err("that event is of another life of the interpolator");
+    }
+    if answered == Some(event) {
+        return Err("that event was answered already");
+    }
+    let Some(awaited) = report.awaited else {
+        let is_ahead = event.epoch == report.setpoint.epoch
+            && event.sequence > report.setpoint.sequence
+            && report.end_of_epoch == EndOfEpoch::Open;
+        return Err(if is_ahead {
+            "too early: the machine has not come to that event yet"
+        } else {
+            "no event is awaited"
+        });
+    };
+    let is_it = awaited.id(boot_id) == event;
+    if !is_it && (event.epoch, event.sequence) > (awaited.epoch, awaited.sequence) {
+        return Err("too early: the machine waits for another event before that one");
+    }
+    if !is_it {
+        return Err("another event is awaited");
+    }
+    if done && awaited.by_feedback {
+        return Err("the drives' feedback answers that event, and nobody else");
+    }
+    Ok(())
+}
+
 fn pass_on(
     command: Command,
     state: MachineState,
@@ -73,12 +125,14 @@ fn pass_on(
 /// Why a command is not possible as things are, if it is not.
 fn objection(command: Command, report: &Report, has_drives: bool) -> Option<&'static str> {
     use MachineState::{
-        Faulted, Held, Holding, Homing, Idle, Jogging, NotHomed, Off, ProgramStop, Stopping,
+        Awaiting, Faulted, Held, Holding, Homing, Idle, Jogging, NotHomed, Off, ProgramStop,
+        Stopping,
     };
     const AWAY: &str = "the axes are away from the path: return first";
     let (state, is_away) = (report.state, report.is_away);
     let (is_possible, why) = match command {
         Command::Ping
+        | Command::Tell
         | Command::FeedOverride(_)
         | Command::RapidOverride(_)
         | Command::JogOverride(_)
@@ -124,10 +178,11 @@ fn objection(command: Command, report: &Report, has_drives: bool) -> Option<&'st
             "the axes are on the path: there is nowhere to return to",
         ),
         Command::Return => (
-            matches!(state, Held | ProgramStop),
+            matches!(state, Held | ProgramStop | Awaiting),
             "the axes are moving: return when they are at rest",
         ),
-        Command::Acknowledge { .. } => (false, "no event is awaited"),
+        // It is judged by itself.
+        Command::Acknowledge { .. } => return None,
     };
     (!is_possible).then_some(why)
 }

@@ -1,6 +1,7 @@
 //! What an interpolator is started with.
 
 use crate::feedback::FeedbackSettings;
+use crate::gates::Gates;
 use crate::homing::JointBounds;
 use core::time::Duration;
 use glidepath_geometry::{Axis, AxisVector};
@@ -132,6 +133,8 @@ pub struct Config {
     /// How the drives' feedback is judged; `None` if there is none: then the drives are taken to do
     /// what the setpoints say, and always to be on and homed.
     pub feedback: Option<FeedbackSettings>,
+    /// The M codes that are to be answered before the motion goes on.
+    pub gates: Gates,
     /// Ends the process at the first system call of the real-time thread other than the sleep and
     /// the clock. For tests; [`run`](crate::run) does not return then.
     pub forbid_system_calls: bool,
@@ -158,6 +161,7 @@ impl Config {
             missed_ticks_allowed: None,
             planner_lost_after: Some(Duration::from_secs(2)),
             feedback: None,
+            gates: Gates::NONE,
             forbid_system_calls: false,
         }
     }

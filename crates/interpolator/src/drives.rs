@@ -115,6 +115,10 @@ impl Drives {
         matches!(self.power, Power::Simulated)
     }
 
+    pub(crate) const fn period_ns(&self) -> u64 {
+        self.period_ns
+    }
+
     /// What was last seen of the drives.
     pub(crate) const fn seen(&self) -> &Observation {
         &self.seen

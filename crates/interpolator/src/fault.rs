@@ -50,6 +50,7 @@ impl fmt::Display for Fault {
             FaultCause::Drive => write!(f, "a drive reports a fault")?,
             FaultCause::EnableLost => write!(f, "a drive lost its power")?,
             FaultCause::AuxTimeout => write!(f, "an event was not acknowledged in time")?,
+            FaultCause::AuxFailed => write!(f, "what an event asked for has failed")?,
             FaultCause::LimitSwitch => write!(f, "a joint stands at its limit switch")?,
             FaultCause::Homing => write!(f, "a joint did not find its home")?,
         }

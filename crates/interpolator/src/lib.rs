@@ -24,8 +24,8 @@
 //! * `tick` is one period of the real-time thread, done just before the deadline but for the time
 //!   stamp. It owns a `track` (the frames ahead), a `rate` (of program time: the essay on hold,
 //!   resume and override is there, and the diagram of its states), a `supply` (are there frames
-//!   enough?), `stop_requests` (what stops the motion) and a `block_stop` (the end of a block to
-//!   rest at);
+//!   enough?), `stop_requests` (what stops the motion), a `block_stop` (the end of a block to
+//!   rest at) and a `wait` (for the answer to an event);
 //! * `jog` moves the axes by hand, and away from a path that is held and back to it, with a `tracker`
 //!   for what follows no program;
 //! * `setpoint` writes what is published, and `joints` turns its axes into those of the mechanism;
@@ -98,6 +98,7 @@
 
 mod account;
 mod admission;
+mod auxiliary;
 mod block_end;
 mod block_stop;
 mod commands;
@@ -108,6 +109,7 @@ mod drives;
 mod fault;
 mod feedback;
 mod frame_summary;
+mod gates;
 mod homing;
 mod jog;
 mod joints;
@@ -133,6 +135,7 @@ mod testing;
 mod tick;
 mod track;
 mod tracker;
+mod wait;
 
 /// Unit tests prove that the real-time thread does not allocate.
 #[cfg(test)]
@@ -141,6 +144,7 @@ static ALLOCATOR: glidepath_realtime::CountingAllocator = glidepath_realtime::Co
 
 pub use config::{Config, Gantry, JogSettings, RealTime, SoftLimits};
 pub use feedback::{FeedbackSettings, JointFeedback};
+pub use gates::{Answer, Gate, Gates, MAX_GATES};
 pub use homing::{HomingError, JointBounds, JointHoming};
 pub use loops::{RunError, lead_ns};
 pub use run::run;

@@ -10,7 +10,7 @@ use crate::feedback::Observation;
 use crate::homing::{JointsOrder, Moved};
 use crate::jog::Demand;
 use core::fmt;
-use glidepath_link::{Command, EndOfEpoch, MachineState, Power, Setpoint, SetpointFrame};
+use glidepath_link::{Command, EndOfEpoch, EventId, MachineState, Power, Setpoint, SetpointFrame};
 use heapless::spsc::{Consumer, Producer, Queue};
 
 /// Frames under way between the threads, one less.
@@ -94,6 +94,35 @@ pub(crate) enum Order {
     Joints(JointsOrder),
 }
 
+/// An event that is awaited.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Awaited {
+    pub(crate) epoch: u64,
+    /// Of its frame.
+    pub(crate) sequence: u64,
+    pub(crate) line: u32,
+    /// As in a setpoint.
+    pub(crate) event_kind: u32,
+    pub(crate) event_value: f64,
+    /// Since when, ns of `CLOCK_MONOTONIC`.
+    pub(crate) since_ns: u64,
+    /// Number of the setpoint that told of it.
+    pub(crate) told_by: u64,
+    /// The drives answer it, and nobody else.
+    pub(crate) by_feedback: bool,
+}
+
+impl Awaited {
+    /// Which event, in a life of the interpolator.
+    pub(crate) const fn id(&self, boot_id: u64) -> EventId {
+        EventId {
+            boot_id,
+            epoch: self.epoch,
+            sequence: self.sequence,
+        }
+    }
+}
+
 /// How long a tick took, ns; all 0 before the first.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Timing {
@@ -112,6 +141,7 @@ pub(crate) struct Report {
     pub(crate) state: MachineState,
     pub(crate) end_of_epoch: EndOfEpoch,
     pub(crate) fault: Option<Fault>,
+    pub(crate) awaited: Option<Awaited>,
     /// On the way back to the path, after a jog in a hold.
     pub(crate) is_returning: bool,
     /// The axes are not where the program is held.
@@ -142,6 +172,7 @@ impl Report {
             state: MachineState::Idle,
             end_of_epoch: EndOfEpoch::None,
             fault: None,
+            awaited: None,
             is_returning: false,
             is_away: false,
             frames_executed: 0,

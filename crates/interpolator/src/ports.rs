@@ -6,6 +6,7 @@
 //! not notice.
 
 use crate::admission::{Admission, Machine, Verdict};
+use crate::auxiliary::AuxiliaryBook;
 use crate::commands::{answer, is_refusal};
 use crate::config::Config;
 use crate::fault::Fault;
@@ -15,8 +16,9 @@ use crate::message::{Happening, Order, PortsEnds, Report};
 use crate::status::{StatusBook, grants_of};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, Feedback, JogDemand, LinkError,
-    MachineState, Publisher, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
+    Auxiliary, Command, CommandReply, CommandRequest, EndOfEpoch, EventId, FaultCause, Feedback,
+    JogDemand, LinkError, MachineState, Publisher, Server, Setpoint, SetpointFrame, Status,
+    Subscriber, Transport,
 };
 use glidepath_realtime::{EventReader, Grants, Mode};
 
@@ -39,6 +41,7 @@ struct Links {
     frames: Box<dyn Subscriber<SetpointFrame>>,
     setpoints: Box<dyn Publisher<Setpoint>>,
     status: Box<dyn Publisher<Status>>,
+    auxiliary: Box<dyn Publisher<Auxiliary>>,
     commands: Box<dyn Server<CommandRequest, CommandReply>>,
     demands: Box<dyn Subscriber<JogDemand>>,
     feedback: Option<Box<dyn Subscriber<Feedback>>>,
@@ -50,6 +53,7 @@ impl Links {
             frames: transport.frame_source()?,
             setpoints: transport.setpoint_sink()?,
             status: transport.status_sink()?,
+            auxiliary: transport.auxiliary_sink()?,
             commands: transport.command_server()?,
             demands: transport.jog_source()?,
             feedback: has_feedback
@@ -77,6 +81,9 @@ pub(crate) struct Ports<'a> {
     pending: Option<SetpointFrame>,
     report: Option<Report>,
     book: StatusBook,
+    auxiliary: AuxiliaryBook,
+    /// The event that was acknowledged last.
+    answered: Option<EventId>,
     boot_id: u64,
     status_due_ns: u64,
     clean_up_due_ns: u64,
@@ -107,6 +114,8 @@ impl<'a> Ports<'a> {
             pending: None,
             report: None,
             book: StatusBook::new(config, boot_id),
+            auxiliary: AuxiliaryBook::new(boot_id, config.gates),
+            answered: None,
             boot_id,
             status_due_ns: 0,
             clean_up_due_ns: 0,
@@ -183,6 +192,7 @@ impl<'a> Ports<'a> {
             }
             result = result.and(published);
             self.book.count(&report);
+            self.auxiliary.note(&report);
             if let Some(drives) = &mut self.drives {
                 drives.note(&report);
             }
@@ -195,6 +205,9 @@ impl<'a> Ports<'a> {
                 self.tell(&why.unwrap_or_else(|| fault.to_string()));
             }
             self.report = Some(report);
+        }
+        if let Some(record) = self.auxiliary.changed() {
+            result = result.and(self.links.auxiliary.publish(record));
         }
         result
     }
@@ -246,14 +259,30 @@ impl<'a> Ports<'a> {
             book,
             boot_id,
             drives,
+            answered,
+            log,
             ..
         } = self;
         for _ in 0..COMMANDS_PER_TURN {
             let served = links.commands.serve(&mut |request| {
                 let reply = {
                     let drives = drives.as_mut().map(|drives| (drives, now_ns));
-                    answer(request, &report, *boot_id, drives, ends)
+                    answer(request, &report, *boot_id, drives, answered, ends)
                 };
+                let text = request.text.as_str();
+                match request.command() {
+                    Ok(Command::Tell) => {
+                        log(text);
+                        book.last_event(text);
+                    }
+                    Ok(Command::Acknowledge { done: false, .. })
+                        if !is_refusal(&reply) && !text.is_empty() =>
+                    {
+                        log(text);
+                        book.last_error(text);
+                    }
+                    _ => {}
+                }
                 book.status.commands_served += 1;
                 book.status.commands_refused += u64::from(is_refusal(&reply));
                 reply
@@ -362,6 +391,7 @@ impl<'a> Ports<'a> {
             drives.write(&mut self.book.status, now_ns);
         }
         self.links.setpoints.refresh()?;
+        self.links.auxiliary.refresh()?;
         self.links.status.publish(&self.book.status)
     }
 

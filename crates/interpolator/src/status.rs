@@ -131,6 +131,12 @@ impl StatusBook {
         status.work = quantiles(&self.work);
         status.latency = quantiles(&self.latency);
         status.response = quantiles(&self.response);
+        let awaited = report.awaited;
+        status.awaited_sequence = awaited.map_or(0, |awaited| awaited.sequence);
+        status.awaited_since_ns = awaited.map_or(0, |awaited| awaited.since_ns);
+        status.awaited_value = awaited.map_or(0.0, |awaited| awaited.event_value);
+        status.awaited_kind = awaited.map_or(0, |awaited| awaited.event_kind);
+        status.awaited_line = awaited.map_or(0, |awaited| awaited.line);
         self.write_fault(report);
     }
 

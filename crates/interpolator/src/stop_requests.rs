@@ -86,6 +86,7 @@ impl StopRequests {
             Command::Disable => self.abort = is_open,
             // The ports thread has answered them, or they concern drives or the jog.
             Command::Ping
+            | Command::Tell
             | Command::Enable
             | Command::SetPosition { .. }
             | Command::Home(_)

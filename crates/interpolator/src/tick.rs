@@ -20,6 +20,7 @@
 mod by_hand;
 mod program;
 mod state;
+mod waiting;
 
 pub(crate) use state::Interpolator;
 
@@ -42,6 +43,7 @@ impl Interpolator<'_> {
         self.hear_demands(due.scheduled_ns, inputs);
         self.take_frames(inputs);
         self.watch_supply();
+        self.watch_wait();
         if self.mover.is_active() {
             self.follow_mover(tick, &mut report.setpoint);
         } else if self.jog.owns_axes() {
@@ -60,6 +62,7 @@ impl Interpolator<'_> {
             self.write_joints(&mut report.setpoint);
         }
         self.end_epoch_or_wait();
+        self.stand_at_gate(due.scheduled_ns, report.setpoint.number);
         self.update_state(tick);
         self.fill(report);
     }
@@ -102,6 +105,11 @@ impl Interpolator<'_> {
             _ if self.jog.is_active() => MachineState::Jogging,
             _ if self.mover.is_active() => MachineState::Homing,
             MachineState::Idle => self.drives.state_at_rest(),
+            MachineState::Running | MachineState::Waiting | MachineState::Starved
+                if self.wait.awaited().is_some() =>
+            {
+                MachineState::Awaiting
+            }
             _ => of_program,
         };
         self.has_moved = is_open && (self.has_moved || !stands);
@@ -122,6 +130,7 @@ impl Interpolator<'_> {
         let (feed_override, rapid_override) = self.requests.overrides();
         report.end_of_epoch = self.end_of_epoch;
         report.fault = self.requests.fault().copied();
+        report.awaited = self.wait.awaited();
         report.is_returning = self.jog.is_returning();
         report.is_away = self.jog.owns_axes() && self.is_open();
         report.frames_executed = if self.epoch == 0 { 0 } else { now + 1 };

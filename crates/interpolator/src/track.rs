@@ -7,12 +7,13 @@
 //! released │ oldest … now … newest │ free          a ring over sequence numbers
 //! ```
 //!
-//! Three kinds of frames hold the motion: the next program stop, and the end of a block where the
-//! plan rests, until the operator lets it pass, and the *barrier*, the latest frame at rest, until
-//! it is known how to stop after it. Program time stands there: everything later is evaluated as
-//! that frame.
+//! Four kinds of frames hold the motion: the next program stop, and the end of a block where the
+//! plan rests, until the operator lets it pass, the next *gate*, whose event is to be answered
+//! first, and the *barrier*, the latest frame at rest, until it is known how to stop after it.
+//! Program time stands there: everything later is evaluated as that frame.
 
 use crate::differences::{Allowed, Differences};
+use crate::gates::{Gate, Gates};
 use crate::program_time::ProgramTime;
 use crate::quintic::{Kinematic, Quintic};
 use crate::rest::is_at_rest;
@@ -42,17 +43,20 @@ pub(crate) struct Track {
     len: usize,
     /// The first program stop not yet passed.
     program_stop: Option<u64>,
+    /// The first frame not yet passed whose event is to be answered before the motion goes on.
+    gate: Option<u64>,
     /// A frame at rest that motion may not pass.
     barrier: Option<u64>,
     /// The end of a block, at rest, at which the operator wants to stand.
     block_end: Option<u64>,
     period_t: f64,
     limits: StopLimits,
+    gates: Gates,
 }
 
 impl Track {
     /// An empty track. Allocates all it will ever use.
-    pub(crate) fn new(period_t: f64, limits: Limits) -> Self {
+    pub(crate) fn new(period_t: f64, limits: Limits, gates: Gates) -> Self {
         let blank = <SetpointFrame as bytemuck::Zeroable>::zeroed();
         let quintic = Quintic::zeros();
         Self {
@@ -62,10 +66,12 @@ impl Track {
             oldest: 0,
             len: 0,
             program_stop: None,
+            gate: None,
             barrier: None,
             block_end: None,
             period_t,
             limits: StopLimits::new(&limits),
+            gates,
         }
     }
 
@@ -78,6 +84,7 @@ impl Track {
     pub(crate) const fn clear(&mut self) {
         self.len = 0;
         self.program_stop = None;
+        self.gate = None;
         self.barrier = None;
         self.block_end = None;
     }
@@ -114,6 +121,9 @@ impl Track {
         }
         if self.program_stop.is_none() && frame.has(FrameFlags::PROGRAM_STOP) {
             self.program_stop = Some(frame.sequence);
+        }
+        if self.gate.is_none() && self.gates.of_frame(frame).is_some() {
+            self.gate = Some(frame.sequence);
         }
     }
 
@@ -165,7 +175,7 @@ impl Track {
 
     /// The first frame that holds the motion: program time stands there by itself.
     pub(crate) fn holding_frame(&self) -> Option<u64> {
-        [self.program_stop, self.barrier, self.block_end]
+        [self.program_stop, self.gate, self.barrier, self.block_end]
             .into_iter()
             .flatten()
             .min()
@@ -183,7 +193,7 @@ impl Track {
 
     /// True if the motion comes to rest by itself on the frames at hand.
     pub(crate) fn ends_at_rest(&self) -> bool {
-        self.program_stop.is_some() || self.newest().is_some_and(is_at_rest)
+        self.program_stop.is_some() || self.gate.is_some() || self.newest().is_some_and(is_at_rest)
     }
 
     /// True if the last frame of the program is here.
@@ -201,9 +211,33 @@ impl Track {
             self.frame(s)
                 .is_some_and(|f| f.has(FrameFlags::PROGRAM_STOP))
         });
-        self.barrier = (passed..self.end())
+        self.bar_from(passed);
+    }
+
+    /// The latest frame at rest, from one on, is the barrier.
+    fn bar_from(&mut self, first: u64) {
+        self.barrier = (first..self.end())
             .rev()
             .find(|&s| self.frame(s).is_some_and(is_at_rest));
+    }
+
+    /// The first frame whose event is to be answered, and by what.
+    pub(crate) fn gate(&self) -> Option<(&SetpointFrame, Gate)> {
+        let frame = self.frame(self.gate?)?;
+        Some((frame, self.gates.of_frame(frame)?))
+    }
+
+    /// Lets motion pass the gate it stands at, once it is known how to stop after it.
+    pub(crate) fn pass_gate(&mut self) {
+        let Some(passed) = self.gate else {
+            return;
+        };
+        let waits = |s: &u64| {
+            self.frame(*s)
+                .is_some_and(|f| self.gates.of_frame(f).is_some())
+        };
+        self.gate = (passed + 1..self.end()).find(waits);
+        self.bar_from(passed);
     }
 
     /// The longest of the stop times of up to `count` frames from one on.
@@ -309,7 +343,7 @@ mod tests {
         let p = |x: f64| 3.0 + x * (20.0 + x * (-500.0 + x * (8e3 + x * (1e5 - x * 7e6))));
         let v = |x: f64| 20.0 + x * (-1e3 + x * (24e3 + x * (4e5 - x * 35e6)));
         let a = |x: f64| -1e3 + x * (48e3 + x * (12e5 - x * 140e6));
-        let mut track = Track::new(t, mill());
+        let mut track = Track::new(t, mill(), Gates::NONE);
         for (k, x) in [(0, 0.0), (1, t)] {
             track.push(&frame_of(k, [p(x)], [v(x)], [a(x)]));
         }
@@ -328,7 +362,7 @@ mod tests {
 
     #[test]
     fn the_ring_owns_consecutive_frames() {
-        let mut track = Track::new(0.004, mill());
+        let mut track = Track::new(0.004, mill(), Gates::NONE);
         for k in 0..TRACK_CAPACITY as u64 {
             track.push(&frame_of(k, [0.1], [1.0], [0.0]));
         }

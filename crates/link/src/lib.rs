@@ -65,12 +65,14 @@ pub use port::{
     Client, Delivery, FrameSink, MAX_UNANSWERED, Publisher, Server, Subscriber, Transport,
 };
 pub use record::{
-    ALL_JOINTS, COMMAND_KINDS, Command, CommandKind, CommandOutcome, CommandRefusal, CommandReply,
-    CommandRequest, DriveState, EndOfEpoch, EventId, EventKind, FRAME_REFUSALS, FaultCause,
-    Feedback, FrameRefusal, Grants, JogDemand, JogMode, LATCHES, Latch, LatchKind, MachineState,
+    ALL_JOINTS, ANALOG_OUTPUTS, Auxiliary, COMMAND_KINDS, Command, CommandKind, CommandOutcome,
+    CommandRefusal, CommandReply, CommandRequest, Coolant, DriveState, EndOfEpoch, EventId,
+    EventKind, FRAME_REFUSALS, FaultCause, Feedback, FrameRefusal, Grants, JobKind, JobReply,
+    JobRequest, JobState, JogDemand, JogMode, LATCHES, Latch, LatchKind, LongText, MachineState,
     ModeCode, MotionMode, OVERRIDE_MAX, PERIOD_NS_MAX, PlaneCode, Power, Quantiles, Record,
     RecordError, RequestKind, SegmentOutcome, SegmentRefusal, SegmentReply, SegmentRequest,
-    Setpoint, SetpointFrame, SetpointMarks, SpindleFlags, Status, StreamItem, Text, decode,
+    Setpoint, SetpointFrame, SetpointMarks, SpindleFlags, SpindleState, Status, StreamItem, Text,
+    decode,
 };
 pub use recording::{Recorder, Recording, RecordingError, Replay};
 pub use service::Capacity;

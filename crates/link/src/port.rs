@@ -4,7 +4,9 @@
 //!   planner ──FrameSink──► Subscriber<SetpointFrame>  interpolator
 //!   clients ──Client<CommandRequest, …>──► Server     interpolator
 //!   clients ──Client<SegmentRequest, …>──► Server     planner
+//!   operators ──Client<JobRequest, …>──► Server       planner
 //!   interpolator ──Publisher<Setpoint>, Publisher<Status>──► Subscriber  anybody
+//!   interpolator ──Publisher<Auxiliary>──► Subscriber     spindle, coolant, tools, outputs
 //!   servo stacks ──Publisher<Feedback>──► Subscriber      interpolator, anybody
 //!   panels ──Publisher<JogDemand>──► Subscriber           interpolator
 //! ```
@@ -17,8 +19,8 @@
 //! thread calls them.
 
 use crate::{
-    CommandReply, CommandRequest, Feedback, JogDemand, LinkError, SegmentReply, SegmentRequest,
-    Setpoint, SetpointFrame, Status,
+    Auxiliary, CommandReply, CommandRequest, Feedback, JobReply, JobRequest, JogDemand, LinkError,
+    SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status,
 };
 use core::sync::atomic::{AtomicBool, Ordering};
 use core::time::Duration;
@@ -180,6 +182,10 @@ pub trait Transport {
     fn status_sink(&self) -> Result<Box<dyn Publisher<Status>>, LinkError>;
     /// For everybody. It holds the latest status only.
     fn status_source(&self) -> Result<Box<dyn Subscriber<Status>>, LinkError>;
+    /// For the interpolator.
+    fn auxiliary_sink(&self) -> Result<Box<dyn Publisher<Auxiliary>>, LinkError>;
+    /// For whatever works spindle, coolant, tools and outputs. It holds the latest state only.
+    fn auxiliary_source(&self) -> Result<Box<dyn Subscriber<Auxiliary>>, LinkError>;
     /// For servo stacks. Each sends what it knows of its own joints.
     fn feedback_sink(&self) -> Result<Box<dyn Publisher<Feedback>>, LinkError>;
     /// For the interpolator, and whoever wants to see what the drives do.
@@ -196,6 +202,11 @@ pub trait Transport {
     fn segment_client(&self) -> Result<Box<dyn Client<SegmentRequest, SegmentReply>>, LinkError>;
     /// For a listening planner.
     fn segment_server(&self) -> Result<Box<dyn Server<SegmentRequest, SegmentReply>>, LinkError>;
+
+    /// For operators who have lines and files executed.
+    fn job_client(&self) -> Result<Box<dyn Client<JobRequest, JobReply>>, LinkError>;
+    /// For the planner's service.
+    fn job_server(&self) -> Result<Box<dyn Server<JobRequest, JobReply>>, LinkError>;
 
     /// Frees what dead processes of this instance hold. To be called every 200 ms or so by a
     /// process that runs for long, outside any real-time thread. Returns how many dead it found.

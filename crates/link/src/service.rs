@@ -6,10 +6,15 @@ pub(crate) const FRAMES: &str = "glidepath/frames";
 pub(crate) const SETPOINTS: &str = "glidepath/setpoints";
 /// Interpolator to everybody.
 pub(crate) const STATUS: &str = "glidepath/status";
+/// Interpolator to whatever works spindle, coolant, tools and outputs.
+pub(crate) const AUXILIARY: &str = "glidepath/auxiliary";
 /// Everybody to the interpolator.
 pub(crate) const COMMANDS: &str = "glidepath/commands";
 /// Other programs to a listening planner.
 pub(crate) const SEGMENTS: &str = "glidepath/segments";
+
+/// Operators to the planner's service.
+pub(crate) const JOBS: &str = "glidepath/jobs";
 
 /// Servo stacks to the interpolator.
 pub(crate) const FEEDBACK: &str = "glidepath/feedback";

@@ -2,8 +2,8 @@
 
 use core::mem::{align_of, offset_of, size_of};
 use glidepath_link::{
-    CommandReply, CommandRequest, EventId, Feedback, JogDemand, Latch, Quantiles, Record,
-    SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status, Text,
+    Auxiliary, CommandReply, CommandRequest, EventId, Feedback, JobReply, JobRequest, JogDemand,
+    Latch, Quantiles, Record, SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status, Text,
 };
 
 macro_rules! layout {
@@ -35,7 +35,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v3", 656, {
     acceleration: 296, joint_position: 368, joint_velocity: 440, joint_acceleration: 512,
     away: 584,
 });
-layout!(status, Status, "glidepath.Status.v5", 1240, {
+layout!(status, Status, "glidepath.Status.v6", 1256, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_joint: 88, drive_fault: 92,
@@ -43,15 +43,21 @@ layout!(status, Status, "glidepath.Status.v5", 1240, {
     single_block: 132, program: 136, program_start: 144, position: 216, away: 288, power: 360,
     mode: 364, joints: 368, enabled: 372, homed: 376, drive_faults: 380, reference: 384,
     feedback_age_ns: 392, joint_actual: 400, following_error: 472, following_peak: 544,
-    awaited_sequence: 616, awaited_since_ns: 624, path_s: 632, block_path_s: 640, feed_v: 648,
-    feed_override: 656, rapid_override: 664, jog_override: 672, effective_override: 680, ticks: 688,
-    missed_ticks: 696, late_ticks: 704, setpoints_published: 712, setpoints_lost: 720,
-    reserve_stops: 728, starved_ticks: 736, commands_served: 744, commands_refused: 752,
-    frames_refused: 760, lateness: 856, work: 888, latency: 920, response: 952, last_error: 984,
-    last_event: 1112,
+    awaited_sequence: 616, awaited_since_ns: 624, awaited_value: 632,
+    awaited_kind: 640, awaited_line: 644, path_s: 648, block_path_s: 656, feed_v: 664,
+    feed_override: 672, rapid_override: 680, jog_override: 688, effective_override: 696, ticks: 704,
+    missed_ticks: 712, late_ticks: 720, setpoints_published: 728, setpoints_lost: 736,
+    reserve_stops: 744, starved_ticks: 752, commands_served: 760, commands_refused: 768,
+    frames_refused: 776, lateness: 872, work: 904, latency: 936, response: 968, last_error: 1000,
+    last_event: 1128,
 });
-layout!(command_request, CommandRequest, "glidepath.CommandRequest.v3", 56, {
-    client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32,
+layout!(command_request, CommandRequest, "glidepath.CommandRequest.v4", 184, {
+    client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, text: 56,
+});
+layout!(auxiliary, Auxiliary, "glidepath.Auxiliary.v1", 632, {
+    boot_id: 0, generation: 8, epoch: 16, sequence: 24, awaited: 32, awaited_since_ns: 56,
+    awaited_until_ns: 64, awaited_value: 72, awaited_kind: 80, line: 84, spindle_speed: 88,
+    spindle: 96, coolant: 100, tool: 104, prepared_tool: 108, digital_out: 112, analog_out: 120,
 });
 layout!(command_reply, CommandReply, "glidepath.CommandReply.v3", 152, {
     boot_id: 0, number: 8, refusal: 16, state: 20, message: 24,
@@ -66,6 +72,12 @@ layout!(feedback, Feedback, "glidepath.Feedback.v1", 808, {
 layout!(jog_demand, JogDemand, "glidepath.JogDemand.v1", 128, {
     client: 0, number: 8, sent_ns: 16, mode: 24, mask: 28, by_joint: 32, reserved: 36,
     velocity_v: 40, scale: 48, value: 56,
+});
+layout!(job_request, JobRequest, "glidepath.JobRequest.v1", 1056, {
+    client: 0, number: 8, kind: 16, from_line: 20, pass: 24, confirmed: 28, text: 32,
+});
+layout!(job_reply, JobReply, "glidepath.JobReply.v1", 1048, {
+    client: 0, number: 8, state: 16, reserved: 20, text: 24,
 });
 layout!(segment_request, SegmentRequest, "glidepath.SegmentRequest.v2", 352, {
     session: 0, number: 8, kind: 16, line: 20, rapid: 24, mode: 28, plane: 32, event_kind: 36,

@@ -65,7 +65,7 @@ impl ChangeLog {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ItemSource as _, ProgramSource, Supply};
+    use crate::{Attending, ItemSource as _, ProgramSource, Supply};
     use glidepath_gcode::Options;
 
     #[test]
@@ -73,7 +73,10 @@ mod tests {
         let text = "G0 X1\nG0 X2\nG10 L2 P2 X5\nG10 L2 P2 X6\nG0 X3\nT7 M6\nG0 X4\nM2\n";
         let log = ChangeLog::default();
         let mut source =
-            ProgramSource::new(text.as_bytes(), Options::default()).noting(log.clone());
+            ProgramSource::new(text.as_bytes(), Options::default()).attended(Attending {
+                changes: Some(log.clone()),
+                ..Attending::default()
+            });
         let mut items = 0;
         while let Supply::Item(_) = source.next_item() {
             items += 1;

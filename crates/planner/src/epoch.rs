@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use glidepath_link::SetpointFrame;
+use glidepath_program::Event;
 
 use crate::machine::Standing;
 use crate::{Progress, Refusal, Statistics};
@@ -104,6 +105,14 @@ impl Epoch {
     pub(crate) const fn delivered(&mut self) {
         (self.last, self.hungry) = (self.in_hand.take(), Duration::ZERO);
         self.delivered += 1;
+    }
+
+    /// Whether every frame at hand was executed, and the last one has an M code at rest.
+    pub(crate) fn rests_at_m_code(&self, code: u32) -> bool {
+        let Some(last) = self.last.filter(|_| self.in_hand.is_none()) else {
+            return false;
+        };
+        last.event() == Ok(Some(Event::MCode(code))) && self.executed() > last.sequence
     }
 
     /// Whether any frame was delivered.

@@ -4,11 +4,11 @@ use std::io::{self, BufReader, Read as _};
 use std::path::Path;
 
 use glidepath_curve::NurbsFile;
-use glidepath_gcode::{Diagnostics, Options, Report, check, diagnostics};
+use glidepath_gcode::{Diagnostics, InForce, Options, Report, check, diagnostics};
 use glidepath_program::Settings;
 
 use crate::unchanged_file::UnchangedFile;
-use crate::{ChangeLog, CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Supply};
+use crate::{Attending, CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Supply};
 
 /// Bytes read from a file at a time.
 const BUFFER: usize = 64 * 1024;
@@ -62,13 +62,22 @@ impl FileSource {
         Self::unchecked(path, options, settings)
     }
 
-    /// The same source, which notes what a program changes of how the machine is set up.
+    /// The same source, which shares what it comes to with whoever attends to its run.
     #[must_use]
-    pub fn noting(self, log: ChangeLog) -> Self {
+    pub fn attended(self, attending: Attending) -> Self {
         match self {
-            Self::Program(source) => Self::Program(Box::new(source.noting(log))),
-            // Curves change nothing.
+            Self::Program(source) => Self::Program(Box::new(source.attended(attending))),
+            // Curves change, say and ask nothing.
             curve @ (Self::Curve(_) | Self::Nurbs(_)) => curve,
+        }
+    }
+
+    /// What is in force behind the items given out; `None` for curves, which change nothing.
+    #[must_use]
+    pub fn in_force(&self) -> Option<InForce> {
+        match self {
+            Self::Program(source) => Some(source.in_force()),
+            Self::Curve(_) | Self::Nurbs(_) => None,
         }
     }
 
@@ -185,6 +194,13 @@ pub fn find_in_file(
 }
 
 impl ItemSource for FileSource {
+    fn is_on_contour(&self) -> bool {
+        match self {
+            Self::Program(source) => source.is_on_contour(),
+            Self::Curve(_) | Self::Nurbs(_) => false,
+        }
+    }
+
     fn next_item(&mut self) -> Supply {
         match self {
             Self::Program(source) => source.next_item(),

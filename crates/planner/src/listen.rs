@@ -18,6 +18,7 @@ use glidepath_link::{LinkError, SegmentRefusal, SegmentReply, SegmentRequest, Se
 use glidepath_motion::PlanError;
 use glidepath_program::Settings;
 
+use crate::jobs::{Job, JobDesk, JobRunner};
 use crate::stream::refuse;
 use crate::{
     Control, ItemSource, Notice, Pace, Pipeline, Publisher, Refusal, RunError, SoftLimits,
@@ -57,14 +58,37 @@ pub fn listen(
     listening: &Listening,
     control: &mut Control<'_>,
 ) -> Result<(), RunError> {
+    serve(transport, listening, None, control)
+}
+
+/// Serves streams, and the lines and files that operators hand in, until the stop flag is set.
+///
+/// # Errors
+/// As [`listen`].
+pub fn serve(
+    transport: &dyn Transport,
+    listening: &Listening,
+    mut runner: Option<&mut dyn JobRunner>,
+    control: &mut Control<'_>,
+) -> Result<(), RunError> {
+    let jobs = runner.is_some().then(|| transport.job_server());
     let mut listener = Listener {
         server: transport.segment_server()?,
+        jobs: jobs.transpose()?.map(JobDesk::new),
         publisher: Publisher::connect(transport, listening.pace)?,
         last: None,
     };
     loop {
         (control.notify)(&Notice::Listening);
-        let (stream, position) = listener.accept(listening, control)?;
+        let (stream, position) = match listener.accept(listening, control)? {
+            Accepted::Stream(stream, position) => (*stream, position),
+            Accepted::Job(job, start) => {
+                if let Some(runner) = runner.as_deref_mut() {
+                    listener.run(runner, &job, start, control)?;
+                }
+                continue;
+            }
+        };
         (control.notify)(&Notice::StreamOpened {
             session: stream.session(),
         });
@@ -84,20 +108,27 @@ const fn ends_the_listener(error: &RunError) -> bool {
     )
 }
 
+/// What is to be executed.
+enum Accepted {
+    Stream(Box<Stream>, AxisVector),
+    Job(Job, AxisVector),
+}
+
 struct Listener<'t> {
     server: Box<Segments>,
+    jobs: Option<JobDesk>,
     publisher: Publisher<'t>,
     /// The stream before, whose client may still ask how it ended.
     last: Option<Stream>,
 }
 
 impl Listener<'_> {
-    /// Waits for a client that opens a stream while the machine is ready for it.
+    /// Waits for a client that opens a stream, or hands in a job, while the machine is ready for it.
     fn accept(
         &mut self,
         listening: &Listening,
         control: &mut Control<'_>,
-    ) -> Result<(Stream, AxisVector), RunError> {
+    ) -> Result<Accepted, RunError> {
         loop {
             if control.is_stopped() {
                 return Err(RunError::Interrupted);
@@ -108,8 +139,13 @@ impl Listener<'_> {
                 Err(error) if ends_the_listener(&error) => return Err(error),
                 Err(error) => Err(error.to_string()),
             };
-            if let Some(opened) = self.serve_waiting(&ready, listening.limits)? {
-                return Ok(opened);
+            if let Some((stream, position)) = self.serve_waiting(&ready, listening.limits)? {
+                return Ok(Accepted::Stream(Box::new(stream), position));
+            }
+            if let Some(jobs) = &mut self.jobs
+                && let Some((job, start)) = jobs.serve_idle(&ready)?
+            {
+                return Ok(Accepted::Job(job, start));
             }
             self.publisher.idle(control)?;
         }
@@ -152,6 +188,39 @@ impl Listener<'_> {
         Ok(None)
     }
 
+    /// Has a job executed; whoever asks for anything else meanwhile is told that the planner is
+    /// busy.
+    fn run(
+        &mut self,
+        runner: &mut dyn JobRunner,
+        job: &Job,
+        start: AxisVector,
+        control: &mut Control<'_>,
+    ) -> Result<(), RunError> {
+        const BUSY: &str = "the planner executes a line or a file; wait for its end, or abort it";
+        let Self {
+            server,
+            jobs,
+            publisher,
+            ..
+        } = self;
+        let Some(jobs) = jobs else { return Ok(()) };
+        let mut failed = Ok(());
+        let mut attend = |_: Duration| {
+            let refused = (SegmentRefusal::Busy, BUSY.to_owned());
+            let served = server.serve(&mut |request| refuse(request, &refused));
+            let served = served.map(|_| ()).and(jobs.serve_busy(BUSY));
+            if failed.is_ok() {
+                failed = served;
+            }
+        };
+        let end = runner.run(job, start, publisher, &mut attend, control);
+        jobs.finish(&end);
+        // Its client may ask how it ended before anything else is taken.
+        jobs.serve_busy(BUSY)?;
+        failed.map_err(Into::into)
+    }
+
     /// Plans and publishes a stream to its end, and keeps it for its client's last questions.
     fn execute(
         &mut self,
@@ -171,7 +240,14 @@ impl Listener<'_> {
         };
         let mut pipeline = Pipeline::new(StreamSource(&received), listening.settings, position)
             .with_joints(listening.joints);
-        let mut attend = |waited| attendant.attend(waited);
+        let jobs = &mut self.jobs;
+        let mut attend = |waited| {
+            attendant.attend(waited);
+            if let Some(jobs) = jobs {
+                // A port that fails is told when the stream is over.
+                jobs.serve_busy("another program streams segments").ok();
+            }
+        };
         let outcome = self
             .publisher
             .publish_and_attend(&mut pipeline, &mut attend, control);

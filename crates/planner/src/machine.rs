@@ -179,16 +179,30 @@ impl Machine {
         self.alive = false;
     }
 
+    /// Has a text shown to people.
+    pub(crate) fn tell(&mut self, text: &str, control: &mut Control<'_>) -> Result<(), RunError> {
+        self.ask(Command::Tell, text, control)
+    }
+
     /// Sends a command and waits for the answer.
     pub(crate) fn command(
         &mut self,
         command: Command,
         control: &mut Control<'_>,
     ) -> Result<(), RunError> {
+        self.ask(command, "", control)
+    }
+
+    fn ask(
+        &mut self,
+        command: Command,
+        text: &str,
+        control: &mut Control<'_>,
+    ) -> Result<(), RunError> {
         self.commands_sent += 1;
         let number = self.commands_sent;
         self.commands
-            .ask(&CommandRequest::new(self.client, number, command))?;
+            .ask(&CommandRequest::new(self.client, number, command).saying(text))?;
         let mut waited = Duration::ZERO;
         while waited < COMMAND_PATIENCE {
             while let Some(reply) = self.commands.reply()? {

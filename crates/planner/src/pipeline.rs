@@ -276,6 +276,12 @@ impl<S: ItemSource> Pipeline<S> {
         self.planning.block()
     }
 
+    /// Where the items come from.
+    #[must_use]
+    pub const fn source(&self) -> &S {
+        &self.source
+    }
+
     /// Which program it is: see [`ItemSource::fingerprint`].
     pub(crate) fn fingerprint(&self) -> u64 {
         self.source.fingerprint()

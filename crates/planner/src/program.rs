@@ -6,19 +6,23 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
+use std::time::Duration;
 
-use glidepath_gcode::{Options, Program, Subroutines, diagnostics};
+use glidepath_gcode::{InForce, Options, Program, Subroutines, diagnostics};
 use glidepath_program::{Event, ItemKind};
 
 use crate::fingerprint::Fingerprinting;
 use crate::unchanged_file::UnchangedFile;
-use crate::{ChangeLog, ItemSource, Refusal, SetUp, Supply};
+use crate::{Attending, ChangeLog, InputDesk, ItemSource, Refusal, RemarkLog, SetUp, Supply};
 
 /// Bytes read from a file or pipe at a time.
 const BUFFER: usize = 64 * 1024;
 
 /// Items read ahead from a pipe.
 const READ_AHEAD: usize = 1024;
+
+/// Between two looks for the answer to an M66.
+const ANSWER_POLL: Duration = Duration::from_millis(2);
 
 /// Items of a program text, read as they are wanted.
 #[derive(Debug)]
@@ -29,6 +33,10 @@ pub struct ProgramSource<R> {
     given: u32,
     /// Where changes of how the machine is set up are noted, and how many of them were.
     log: Option<(ChangeLog, u64)>,
+    remarks: Option<RemarkLog>,
+    /// Where inputs are asked, and the line of the M66 whose answer is awaited.
+    inputs: Option<InputDesk>,
+    asking: bool,
 }
 
 impl<R: BufRead> ProgramSource<R> {
@@ -40,15 +48,65 @@ impl<R: BufRead> ProgramSource<R> {
             fingerprint: 0,
             given: 0,
             log: None,
+            remarks: None,
+            inputs: None,
+            asking: false,
         }
     }
 
-    /// The same source, which notes what the program changes of how the machine is set up.
+    /// The same source, which shares what it comes to with whoever attends to its run.
     #[must_use]
-    pub fn noting(self, log: ChangeLog) -> Self {
+    pub fn attended(self, attending: Attending) -> Self {
+        let Attending {
+            changes,
+            remarks,
+            inputs,
+        } = attending;
+        let program = if remarks.is_some() {
+            self.program.with_remarks()
+        } else {
+            self.program
+        };
         Self {
-            log: Some((log, 0)),
+            program,
+            remarks,
+            inputs,
+            log: changes.map(|log| (log, 0)),
             ..self
+        }
+    }
+
+    /// What is in force behind the items given out.
+    #[must_use]
+    pub fn in_force(&self) -> InForce {
+        self.program.in_force()
+    }
+
+    /// Asks for what the M66 given out last waits for. False if nobody answers.
+    fn ask(&mut self) -> bool {
+        let (Some(desk), Some(wait)) = (&self.inputs, self.program.take_input_wait()) else {
+            return true;
+        };
+        self.asking = desk.ask(wait);
+        self.asking
+    }
+
+    /// Whether the source has to wait for an answer.
+    fn awaits_answer(&mut self) -> bool {
+        if self.asking
+            && let Some(value) = self.inputs.as_ref().and_then(InputDesk::take_answer)
+        {
+            self.program.answer_input(value);
+            self.asking = false;
+        }
+        self.asking
+    }
+
+    fn note_remarks(&mut self) {
+        if let Some(log) = &self.remarks {
+            for remark in self.program.take_remarks() {
+                log.note(self.given, remark);
+            }
         }
     }
 
@@ -121,13 +179,20 @@ impl ProgramSource<BufReader<UnchangedFile>> {
 
 impl<R: BufRead> ItemSource for ProgramSource<R> {
     fn next_item(&mut self) -> Supply {
+        if self.awaits_answer() {
+            return Supply::Pending;
+        }
         let next = self.program.next();
         self.note_changes();
+        self.note_remarks();
         match next {
             Some(Ok(item)) => {
                 self.given = self.given.saturating_add(1);
                 if matches!(item.kind, ItemKind::Event(Event::MCode(6 | 61))) {
                     self.note_tool();
+                }
+                if item.kind == ItemKind::Event(Event::MCode(66)) && !self.ask() {
+                    return Supply::Refused(Refusal::AnswerUnknown { line: item.line });
                 }
                 Supply::Item(item)
             }
@@ -146,6 +211,10 @@ impl<R: BufRead> ItemSource for ProgramSource<R> {
     fn fingerprint(&self) -> u64 {
         self.fingerprint
     }
+
+    fn is_on_contour(&self) -> bool {
+        self.program.is_on_contour()
+    }
 }
 
 /// A program from a pipe. It is read in a thread of its own, so that a pipe that is slow never
@@ -158,15 +227,14 @@ pub struct PipeSource {
 
 impl PipeSource {
     /// Starts to read. The thread ends with the input, or when the source is dropped and the input
-    /// gives another item. What the program changes of how the machine is set up is noted in the
-    /// log, if there is one.
+    /// gives another item. It shares what it comes to with whoever attends to its run.
     ///
     /// # Errors
     /// The thread cannot be started.
     pub fn spawn<R: Read + Send + 'static>(
         input: R,
         options: Options,
-        log: Option<ChangeLog>,
+        attending: Attending,
     ) -> Result<Self, Refusal> {
         let (sender, pieces) = sync_channel(READ_AHEAD);
         let lines = Arc::new(AtomicU64::new(0));
@@ -174,11 +242,8 @@ impl PipeSource {
         std::thread::Builder::new()
             .name("program reader".to_owned())
             .spawn(move || {
-                let source = ProgramSource::new(BufReader::with_capacity(BUFFER, input), options);
-                let source = match log {
-                    Some(log) => source.noting(log),
-                    None => source,
-                };
+                let source = ProgramSource::new(BufReader::with_capacity(BUFFER, input), options)
+                    .attended(attending);
                 read_all(source, &sender, &counter);
             })?;
         Ok(Self { pieces, lines })
@@ -192,6 +257,10 @@ fn read_all<R: BufRead>(
 ) {
     loop {
         let supply = source.next_item();
+        if matches!(supply, Supply::Pending) {
+            std::thread::sleep(ANSWER_POLL);
+            continue;
+        }
         let last = !matches!(supply, Supply::Item(_));
         lines.store(source.lines_read(), Ordering::Relaxed);
         if sender.send(supply).is_err() || last {

@@ -31,13 +31,16 @@
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
-use glidepath_link::{Command, Delivery, FrameSink, LinkError, SetpointFrame, Transport};
+use glidepath_link::{
+    Auxiliary, Command, Delivery, FrameSink, LinkError, Record as _, SetpointFrame, Transport,
+};
 use glidepath_program::Override;
 
 use crate::ahead::{FrameQueue, Next, planned_ahead};
 use crate::epoch::Epoch;
+use crate::inputs::InputWatch;
 use crate::machine::{HUNGRY_POLL, Machine, POLL, SILENCE, Standing};
-use crate::{Control, ItemSource, Notice, Pace, Pipeline, RunError, Statistics};
+use crate::{Control, InputDesk, ItemSource, Notice, Pace, Pipeline, RunError, Statistics};
 
 /// Frames offered between two looks at status and stop flag.
 const FRAMES_PER_TURN: u32 = 512;
@@ -56,6 +59,7 @@ pub struct Publisher<'t> {
     pub(crate) pace: Pace,
     /// Time waited without an epoch.
     pub(crate) idle_t: Duration,
+    inputs: Option<InputWatch>,
 }
 
 impl std::fmt::Debug for Publisher<'_> {
@@ -102,7 +106,60 @@ impl<'t> Publisher<'t> {
             machine,
             pace,
             idle_t: Duration::ZERO,
+            inputs: None,
         })
+    }
+
+    /// From now on answers at a desk what the machine's inputs are.
+    ///
+    /// # Errors
+    /// Feedback cannot be received.
+    pub fn attend_inputs(&mut self, desk: InputDesk) -> Result<(), LinkError> {
+        // The ports of the desk before are given back first.
+        self.inputs = None;
+        let source = self.transport.feedback_source()?;
+        self.inputs = Some(InputWatch::new(desk, source));
+        Ok(())
+    }
+
+    /// What spindle, coolant, tool and outputs do, as far as the interpolator knows.
+    ///
+    /// # Errors
+    /// The link fails.
+    pub fn auxiliary(&self, control: &mut Control<'_>) -> Result<Auxiliary, LinkError> {
+        let mut source = self.transport.auxiliary_source()?;
+        let mut waited = Duration::ZERO;
+        while waited < SILENCE {
+            if let Some(record) = source.take()? {
+                record.check()?;
+                return Ok(record);
+            }
+            (control.pause)(POLL);
+            waited += POLL;
+        }
+        Ok(Auxiliary::default())
+    }
+
+    /// Number of the block that the machine is on, 0 if unknown.
+    #[must_use]
+    pub fn block(&self) -> u32 {
+        self.machine.block()
+    }
+
+    /// Has a text shown as the last event of the status.
+    ///
+    /// # Errors
+    /// The interpolator does not answer.
+    pub fn tell(&mut self, text: &str, control: &mut Control<'_>) -> Result<(), RunError> {
+        self.machine.tell(text, control)
+    }
+
+    /// Answers what the program asks of inputs, once the machine rests where it asks.
+    fn answer_inputs(&mut self, epoch: &Epoch, waited: Duration) -> Result<(), LinkError> {
+        let Some(inputs) = &mut self.inputs else {
+            return Ok(());
+        };
+        inputs.look(epoch.rests_at_m_code(66), waited)
     }
 
     /// Where the machine was last said to be, mm and degrees.
@@ -128,7 +185,10 @@ impl<'t> Publisher<'t> {
 
     /// As [`Publisher::publish`], for a source that has others to answer to: `attend` is called
     /// every few milliseconds, with the time waited since the last call.
-    pub(crate) fn publish_and_attend<S: ItemSource + Send>(
+    ///
+    /// # Errors
+    /// As [`Publisher::publish`].
+    pub fn publish_and_attend<S: ItemSource + Send>(
         &mut self,
         pipeline: &mut Pipeline<S>,
         attend: &mut dyn FnMut(Duration),
@@ -166,6 +226,7 @@ impl<'t> Publisher<'t> {
             }
             self.machine.observe()?;
             attend(waited);
+            self.answer_inputs(&epoch, waited)?;
             epoch.follow(self.standing(&epoch)?);
             if epoch.is_over() {
                 self.report(&epoch, &plan, control);

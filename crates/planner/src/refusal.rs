@@ -28,6 +28,15 @@ pub enum Refusal {
         /// Where the check was given up.
         line: u32,
     },
+    /// The program asked an input what to do, and what that said is not known any more.
+    #[error(
+        "line {line} asked an input what to do (M66), and what that said when this part of the \
+         program ran is not kept; run the program from a line behind it"
+    )]
+    AnswerUnknown {
+        /// The line of the M66.
+        line: u32,
+    },
     /// An item cannot be planned.
     #[error(transparent)]
     Plan(#[from] PlanError),

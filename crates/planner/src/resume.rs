@@ -98,6 +98,22 @@ impl<S: ItemSource> Remainder<S> {
         Ok(rest)
     }
 
+    /// The rest of a program from these items on, with which it is to begin.
+    pub(crate) const fn beginning_with(
+        source: S,
+        point: ResumePoint,
+        first_block: u32,
+        ahead: VecDeque<Item>,
+    ) -> Self {
+        Self {
+            source,
+            point,
+            first_block,
+            ahead,
+            last: None,
+        }
+    }
+
     /// Drops what lies before the point.
     fn cut(&mut self, search: MachineSearch) -> Result<(), RunError> {
         let line = self.ahead.front().map_or(0, |item| item.line);
@@ -131,6 +147,12 @@ impl<S: ItemSource> Remainder<S> {
             self.first_block += 1;
         }
         Ok(())
+    }
+
+    /// Where the items come from.
+    #[must_use]
+    pub const fn source(&self) -> &S {
+        &self.source
     }
 
     /// Where the program was left.

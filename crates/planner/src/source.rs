@@ -42,4 +42,10 @@ pub trait ItemSource {
     fn fingerprint(&self) -> u64 {
         0
     }
+
+    /// Whether the item handed over last is on a contour beside the tool (G41, G42), which cannot
+    /// be begun in its middle.
+    fn is_on_contour(&self) -> bool {
+        false
+    }
 }

@@ -15,7 +15,7 @@ use glidepath_gcode::{DiagnosticCode, Options};
 use glidepath_geometry::AxisVector;
 use glidepath_motion::PlanError;
 use glidepath_planner::{
-    FileSource, ItemSource, Output, PipeSource, Pipeline, Refusal, Statistics,
+    Attending, FileSource, ItemSource, Output, PipeSource, Pipeline, Refusal, Statistics,
 };
 use glidepath_program::{Frame, FrameFlags, Item};
 use proptest::prelude::*;
@@ -81,7 +81,7 @@ fn a_file_and_a_pipe_give_the_same_frames() {
         }
     });
     let (from_pipe, piped, refusal) =
-        drain(PipeSource::spawn(reader, Options::default(), None).unwrap());
+        drain(PipeSource::spawn(reader, Options::default(), Attending::default()).unwrap());
     typist.join().unwrap();
     assert!(refusal.is_none(), "{refusal:?}");
     assert_eq!(piped, statistics);
@@ -139,7 +139,7 @@ fn a_pipe_with_an_error_is_planned_to_a_stop_before_it() {
     let bad = format!("{good}G1 X\nG1 X0 Y0\n");
     let read = |text: &str| {
         let input = std::io::Cursor::new(text.to_owned());
-        drain(PipeSource::spawn(input, Options::default(), None).unwrap())
+        drain(PipeSource::spawn(input, Options::default(), Attending::default()).unwrap())
     };
     let (frames, _, refusal) = read(&bad);
     match refusal {

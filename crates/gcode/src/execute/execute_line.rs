@@ -24,6 +24,9 @@ impl<R: BufRead> Program<R> {
     pub(crate) fn execute_parsed(&mut self, number: u32, parsed: Outcome<()>) -> Outcome<bool> {
         self.begun |= self.block.any || parsed.is_err();
         parsed?;
+        if !self.block.comment.is_empty() {
+            self.remark(number);
+        }
         match self.block.kind {
             LineKind::Block if self.block.any => {}
             LineKind::Block => return Ok(true),

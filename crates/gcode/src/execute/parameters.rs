@@ -65,6 +65,11 @@ impl Parameters {
         self.levels.len().saturating_sub(1)
     }
 
+    /// Ends all calls, and forgets what the program had for itself.
+    pub(crate) fn leave_all(&mut self) {
+        self.levels = vec![Locals::default()];
+    }
+
     /// Starts a call with these arguments.
     pub(crate) fn enter(&mut self, arguments: &[f64]) {
         let mut locals = Locals::default();

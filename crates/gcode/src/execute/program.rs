@@ -9,6 +9,7 @@ use glidepath_program::Item;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::auxiliary::input_wait::InputWait;
 use crate::execute::dialect::tape::Tape;
 use crate::execute::flow::activation::Flow;
 use crate::execute::interpreter::Interpreter;
@@ -20,6 +21,7 @@ use crate::execute::state::modal::Modal;
 use crate::setup::options::Options;
 use crate::setup::tool_table::ToolTable;
 use crate::setup::work_offsets::WorkOffsets;
+use crate::summary::remark::Remark;
 use crate::summary::totals::Totals;
 use crate::syntax::block::Block;
 use crate::syntax::cursor::Cursor;
@@ -61,13 +63,17 @@ pub struct Program<R> {
     pub(crate) ended: bool,
     /// The input ended, and not the program: it has no M2, M30 or percent line at its end.
     pub(crate) ran_out: bool,
+    /// What was said to people, if that is kept.
+    pub(crate) keeps_remarks: bool,
+    pub(crate) remarks: Vec<Remark>,
 }
 
 impl<R: BufRead> Program<R> {
     /// Starts to read a program. Nothing is read before the first item is asked for.
     pub fn new(reader: R, options: Options) -> Self {
-        let block = Block::of(options.dialect);
-        Self {
+        let block = Block::of(options.dialect, &options.m_codes);
+        let in_force = options.in_force.clone();
+        let mut program = Self {
             source: LineSource::new(reader),
             interpreter: Interpreter::new(options),
             parameters: Parameters::new(),
@@ -87,13 +93,37 @@ impl<R: BufRead> Program<R> {
             begun: false,
             ended: false,
             ran_out: false,
+            keeps_remarks: false,
+            remarks: Vec::new(),
+        };
+        if let Some(in_force) = in_force {
+            program.begin_with(&in_force);
         }
+        program
+    }
+
+    /// What an M66 among the items of the last block waits for; once, and only of a machine whose
+    /// inputs are [real](crate::Connections::Real). Nothing more is to be read before
+    /// [`Program::answer_input`].
+    pub const fn take_input_wait(&mut self) -> Option<InputWait> {
+        self.interpreter.input_wait.take()
+    }
+
+    /// What an input was found to be: `#5399` from now on.
+    pub const fn answer_input(&mut self, value: f64) {
+        self.interpreter.state.input = value;
     }
 
     /// The same program to be judged alone: its items and totals leave out most moves.
     pub(crate) const fn only_judged(mut self) -> Self {
         self.interpreter.only_judges = true;
         self
+    }
+
+    /// True where G41 or G42 is in force.
+    #[must_use]
+    pub const fn is_on_contour(&self) -> bool {
+        self.interpreter.state.on_contour || self.interpreter.state.leaving_contour
     }
 
     /// Modal state after the last block read.

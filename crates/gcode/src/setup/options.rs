@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use glidepath_geometry::{Axis, AxisVector};
 
+use crate::execute::state::in_force::InForce;
+use crate::setup::m_codes::MCodes;
 use crate::setup::machine::Machine;
 use crate::setup::subroutine_file::Subroutines;
 use crate::setup::tool_table::ToolTable;
@@ -37,6 +39,13 @@ pub struct Options {
     /// How far the pieces a spline is made of may be away from it, mm, > 0. G64 P overrides it with
     /// a thousandth of P.
     pub spline_tolerance_mm: f64,
+    /// M codes that the machine has beside those of every program.
+    pub m_codes: Arc<MCodes>,
+    /// A change of the spindle's speed is told once more at rest, by the code of its direction, so
+    /// that it can be waited for.
+    pub waits_for_speed: bool,
+    /// What is in force when the program begins; `None`: what is so at the start-up of a control.
+    pub in_force: Option<InForce>,
     /// How long loops may go on.
     pub loops: LoopLimits,
 }
@@ -50,6 +59,9 @@ pub enum Connections {
     /// Simulated: outputs are events, inputs read zero and never keep waiting, and the probe makes
     /// contact at the end of its move.
     Simulated,
+    /// The machine's: outputs are events, and M66 waits until [`crate::Program::answer_input`] says
+    /// what an input is. There is no probe.
+    Real,
 }
 
 /// How long subroutines and loops may go on.
@@ -92,6 +104,9 @@ impl Default for Options {
             extruder: None,
             connections: Connections::None,
             spline_tolerance_mm: 1e-5,
+            m_codes: Arc::default(),
+            waits_for_speed: false,
+            in_force: None,
             loops: LoopLimits::default(),
         }
     }

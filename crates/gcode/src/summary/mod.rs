@@ -1,4 +1,5 @@
 //! What a program comes to: counts and sums, and what is seen along its path.
 
+pub(crate) mod remark;
 pub(crate) mod survey;
 pub(crate) mod totals;

@@ -3,11 +3,14 @@
 //! Nothing here depends on the modal state but the parameters a line reads. A block is filled again
 //! for every line, so that none is allocated.
 
+use std::sync::Arc;
+
 use glidepath_geometry::Axis;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::setup::m_codes::MCodes;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::codes::{Coded, Codes};
 use crate::syntax::cursor::Cursor;
@@ -46,6 +49,10 @@ pub(crate) struct Block {
     pub(crate) assignments: Vec<Assignment>,
     /// True if the line has any word or code.
     pub(crate) any: bool,
+    /// What the last comment in parentheses says.
+    pub(crate) comment: Vec<u8>,
+    /// M codes that the machine's builder declared.
+    declared: Arc<MCodes>,
 }
 
 /// A polar word: distance or angle.
@@ -64,10 +71,11 @@ pub(crate) struct Assignment {
 }
 
 impl Block {
-    /// A block to be filled with lines of a dialect.
-    pub(crate) fn of(dialect: Dialect) -> Self {
+    /// A block to be filled with lines of a dialect, for a machine with these M codes of its own.
+    pub(crate) fn of(dialect: Dialect, declared: &Arc<MCodes>) -> Self {
         Self {
             dialect,
+            declared: Arc::clone(declared),
             ..Self::default()
         }
     }
@@ -150,6 +158,7 @@ impl Block {
         self.codes.motion = None;
         if !self.is_plain {
             self.assignments.clear();
+            self.comment.clear();
             self.polar = [None, None];
             self.codes = Codes::default();
             self.kind = LineKind::Block;
@@ -192,7 +201,13 @@ impl Block {
         let mut start_of_block = true;
         while let Some(byte) = cursor.next_visible() {
             match byte {
-                b'(' => cursor.skip_comment()?,
+                b'(' => {
+                    let start = cursor.at() + 1;
+                    cursor.skip_comment()?;
+                    let said = text.get(start..cursor.at() - 1);
+                    self.comment.clear();
+                    self.comment.extend_from_slice(said.unwrap_or_default());
+                }
                 b';' => break,
                 b'A'..=b'Z' | b'a'..=b'z' => {
                     let letter = byte.to_ascii_uppercase();
@@ -307,8 +322,10 @@ impl Block {
         self.any = true;
         match letter {
             b'G' => self.codes.add_g(value, span),
-            b'M' if self.dialect == Dialect::Marlin => self.codes.add_printer_m(value, span),
-            b'M' => self.codes.add_m(value, span),
+            b'M' if self.dialect == Dialect::Marlin => {
+                self.codes.add_printer_m(value, span, &self.declared)
+            }
+            b'M' => self.codes.add_m(value, span, &self.declared),
             _ => self
                 .add_value(Slot::of(letter), value, span)
                 .ok_or_else(|| duplicate(char::from(letter), span)),

@@ -8,6 +8,7 @@ use glidepath_program::PathMode;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::setup::m_codes::MCodes;
 use crate::syntax::dialect::marlin::is_function;
 use crate::syntax::modes::{
     CannedCycle, CutterRadius, Distance, FeedMode, LatheCycle, Motion, NonModal, Pockets, Probe,
@@ -56,6 +57,8 @@ pub(crate) struct Codes {
     pub(crate) input_output: Option<Coded<u32>>,
     /// M82 and M83 of printers; true: E words are relative.
     pub(crate) extruder: Option<Coded<bool>>,
+    /// An M code that the machine's builder declared.
+    pub(crate) user: Option<Coded<u32>>,
     /// An M code of printers that takes the words of its block.
     pub(crate) function: Option<Coded<u32>>,
 }
@@ -146,6 +149,7 @@ impl Codes {
             || self.orient.is_some()
             || self.input_output.is_some()
             || self.saved_state.is_some()
+            || self.user.is_some()
     }
 
     /// G80 may stand beside another motion code, as in the first line of many programs; that
@@ -162,16 +166,21 @@ impl Codes {
     }
 
     /// Adds an M word of a printer's program.
-    pub(crate) fn add_printer_m(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
+    pub(crate) fn add_printer_m(
+        &mut self,
+        value: f64,
+        span: SourceSpan,
+        declared: &MCodes,
+    ) -> Outcome<()> {
         match code_number(value) {
             Some(number @ (82 | 83)) => set(&mut self.extruder, number == 83, span),
             Some(number) if is_function(number) => set(&mut self.function, number, span),
-            _ => self.add_m(value, span),
+            _ => self.add_m(value, span, declared),
         }
     }
 
     /// Adds an M word.
-    pub(crate) fn add_m(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
+    pub(crate) fn add_m(&mut self, value: f64, span: SourceSpan, declared: &MCodes) -> Outcome<()> {
         let Some(number) = code_number(value) else {
             return Err(unknown_m(value, span));
         };
@@ -186,6 +195,7 @@ impl Codes {
             70..=73 => set(&mut self.saved_state, number, span),
             19 => set(&mut self.orient, number, span),
             62..=68 => set(&mut self.input_output, number, span),
+            _ if declared.contains(number) => set(&mut self.user, number, span),
             _ => Err(refused_m(number, value, span)),
         }
     }

@@ -10,7 +10,8 @@ use super::motion::{
 };
 use super::offsets::OffsetsCommand;
 use super::operator::{
-    AbortArgs, JointsArgs, OperatorArgs, OverrideArgs, SetPositionArgs, SingleBlockArgs, StatusArgs,
+    AbortArgs, AcknowledgeArgs, JointsArgs, MdiArgs, OperatorArgs, OverrideArgs, RunFileArgs,
+    SetPositionArgs, SingleBlockArgs, StatusArgs,
 };
 use super::path::PathArgs;
 use super::program::ProgramArgs;
@@ -38,6 +39,13 @@ pub enum Command {
                             glidepath planner --listen · glidepath planner part.ngc --resume"
     )]
     Planner(PlannerArgs),
+    /// Have the planner's service execute a program
+    #[command(after_help = "Examples: glidepath run-file part.ngc · \
+                            glidepath run-file part.ngc --from-line 120 --pass 2")]
+    RunFile(RunFileArgs),
+    /// Have the planner's service execute a line
+    #[command(after_help = "Example: glidepath mdi 'G54 G0 X0 Y0'")]
+    Mdi(MdiArgs),
     /// A mock servo: receives setpoints and reports what it saw
     #[command(after_help = "Example: glidepath servo --setpoints received.csv")]
     Servo(ServoArgs),
@@ -74,6 +82,10 @@ pub enum Command {
     /// Go back to the path, after a jog in a hold
     #[command(after_help = "Example: glidepath return && glidepath resume")]
     Return(OperatorArgs),
+    /// Say that what an M code asked for is done, or has failed: the motion waits for it
+    #[command(after_help = "Examples: glidepath acknowledge · \
+                            glidepath acknowledge --fail \"no tool 7 in the magazine\"")]
+    Acknowledge(AcknowledgeArgs),
     /// Come to rest on the path and drop the rest of the program
     #[command(after_help = "Examples: glidepath abort · glidepath abort --signal")]
     Abort(AbortArgs),
@@ -155,6 +167,8 @@ impl Command {
             Self::Check(args) => &args.basic,
             Self::Interpolator(args) => &args.basic,
             Self::Planner(args) => &args.basic,
+            Self::RunFile(args) => &args.basic,
+            Self::Mdi(args) => &args.basic,
             Self::Servo(args) => &args.basic,
             Self::Feed(args) => &args.basic,
             Self::Status(args) => &args.operator.basic,
@@ -169,6 +183,7 @@ impl Command {
             Self::Home(args) | Self::Unhome(args) => &args.operator.basic,
             Self::SetPosition(args) => &args.operator.basic,
             Self::Abort(args) => &args.operator.basic,
+            Self::Acknowledge(args) => &args.operator.basic,
             Self::SingleBlock(args) => &args.operator.basic,
             Self::Override(args) => &args.operator.basic,
             Self::Jog(args) => &args.operator.basic,

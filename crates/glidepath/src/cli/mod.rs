@@ -26,8 +26,8 @@ pub use offsets::{
     UseArgs,
 };
 pub use operator::{
-    AbortArgs, JointsArgs, OperatorArgs, OverrideArgs, SetPositionArgs, SingleBlockArgs,
-    StatusArgs, Switch,
+    AbortArgs, AcknowledgeArgs, JointsArgs, MdiArgs, OperatorArgs, OverrideArgs, RunFileArgs,
+    SetPositionArgs, SingleBlockArgs, StatusArgs, Switch,
 };
 pub use path::PathArgs;
 pub use program::ProgramArgs;

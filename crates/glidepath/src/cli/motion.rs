@@ -103,7 +103,8 @@ pub struct PlannerArgs {
     /// The G-code program, or `-` for standard input
     #[arg(required_unless_present = "listen", conflicts_with = "listen", value_parser = program_file())]
     pub file: Option<ProgramFile>,
-    /// Take segments from other processes instead of a program
+    /// Be the service of the machine: execute lines (`mdi`), programs (`run-file`) and segments of
+    /// other processes (`feed`), one at a time
     #[arg(long)]
     pub listen: bool,
     /// Go on with the program from where the machine stands on its path

@@ -70,6 +70,61 @@ pub struct OverrideArgs {
     pub operator: OperatorArgs,
 }
 
+/// Arguments of `acknowledge`.
+#[derive(Debug, Args)]
+pub struct AcknowledgeArgs {
+    /// What the event asked for has failed: the reason, for people
+    #[arg(long, value_name = "TEXT")]
+    pub fail: Option<String>,
+    /// Only this event, as `awaited` of `status --json` has it: EPOCH/SEQUENCE
+    #[arg(long, value_name = "EVENT", value_parser = event)]
+    pub event: Option<(u64, u64)>,
+    /// The interpolator that is meant.
+    #[command(flatten)]
+    pub operator: OperatorArgs,
+}
+
+/// Arguments of `mdi`.
+#[derive(Debug, Args)]
+pub struct MdiArgs {
+    /// The line, such as 'G0 X10 Y5'
+    #[arg(required = true, allow_hyphen_values = true, value_name = "LINE")]
+    pub line: Vec<String>,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// The instance, by which processes find each other.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+}
+
+/// Arguments of `run-file`.
+#[derive(Debug, Args)]
+pub struct RunFileArgs {
+    /// The G-code program, where the service can read it
+    pub file: PathBuf,
+    /// Begin with this line, as if all before it had been executed
+    ///
+    /// What differs from what the program expects there is shown first: position, tool, spindle,
+    /// coolant, outputs. Agreed to, the tool axis goes up, what differs is made so, the other axes
+    /// go there, and the tool axis down at the feed.
+    #[arg(long, value_name = "LINE", value_parser = clap::value_parser!(u32).range(1..))]
+    pub from_line: Option<u32>,
+    /// At which of the times that the line is executed
+    #[arg(long, value_name = "COUNT", default_value_t = 1, requires = "from_line",
+          value_parser = clap::value_parser!(u32).range(1..))]
+    pub pass: u32,
+    /// Agree to what would be asked
+    #[arg(long, requires = "from_line")]
+    pub yes: bool,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// The instance, by which processes find each other.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+}
+
 /// On or off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Switch {
@@ -112,6 +167,13 @@ pub struct SetPositionArgs {
     /// The interpolator that is meant.
     #[command(flatten)]
     pub operator: OperatorArgs,
+}
+
+fn event(text: &str) -> Result<(u64, u64), &'static str> {
+    let parts = text.split_once('/');
+    let numbers =
+        parts.and_then(|(epoch, sequence)| Some((epoch.parse().ok()?, sequence.parse().ok()?)));
+    numbers.ok_or("give an event, such as 3/812")
 }
 
 fn joint(text: &str) -> Result<u32, &'static str> {

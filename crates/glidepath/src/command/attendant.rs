@@ -6,8 +6,11 @@ use crate::config::MachineConfig;
 use crate::kept::keeper::Keeper;
 use crate::output;
 use crate::report::{grouped, state_name};
+use glidepath_gcode::{Connections, Remark};
 use glidepath_geometry::AxisVector;
-use glidepath_planner::{ChangeLog, Notice, Publisher, ResumeError, RunError, Statistics};
+use glidepath_planner::{
+    Attending, InputDesk, Notice, Publisher, RemarkLog, ResumeError, RunError, Statistics,
+};
 use std::cell::{Cell, RefCell};
 
 /// Attends to one program.
@@ -17,6 +20,8 @@ pub(super) struct Attendant {
     /// Whether a frame was delivered.
     has_started: Cell<bool>,
     keeper: RefCell<Option<Keeper>>,
+    remarks: RemarkLog,
+    inputs: InputDesk,
 }
 
 impl Attendant {
@@ -37,6 +42,8 @@ impl Attendant {
             quiet,
             has_started: Cell::new(false),
             keeper: RefCell::new(keeper),
+            remarks: RemarkLog::default(),
+            inputs: InputDesk::default(),
         })
     }
 
@@ -44,9 +51,43 @@ impl Attendant {
         self.quiet
     }
 
-    /// Where the source of the program notes what is changed.
-    pub(super) fn log(&self) -> Option<ChangeLog> {
-        self.keeper.borrow().as_ref().map(Keeper::log)
+    /// What the source of the program shares with this.
+    pub(super) fn attending(&self) -> Attending {
+        Attending {
+            changes: self.keeper.borrow().as_ref().map(Keeper::log),
+            remarks: Some(self.remarks.clone()),
+            inputs: Some(self.inputs.clone()),
+        }
+    }
+
+    /// Has the publisher answer what the program asks of inputs, where they are the machine's.
+    ///
+    /// # Errors
+    /// Feedback cannot be received.
+    pub(super) fn attend_inputs(
+        &self,
+        publisher: &mut Publisher<'_>,
+        config: &MachineConfig,
+    ) -> Result<(), Failure> {
+        if config.program.connections == Connections::Real {
+            publisher.attend_inputs(self.inputs.clone())?;
+        }
+        Ok(())
+    }
+
+    /// Whether a frame was delivered.
+    pub(super) fn has_started(&self) -> bool {
+        self.has_started.get()
+    }
+
+    /// Whether what programs leave behind is kept in files.
+    pub(super) fn keeps(&self) -> bool {
+        self.keeper.borrow().is_some()
+    }
+
+    /// From now on what the program asks of inputs is answered.
+    pub(super) fn open_inputs(&self) {
+        self.inputs.open();
     }
 
     /// Has the program that is resumed begin with what it began with.
@@ -80,6 +121,7 @@ impl Attendant {
                 if let Some(keeper) = &mut *self.keeper.borrow_mut() {
                     keeper.executed(progress.block, config);
                 }
+                show(&self.remarks.executed(progress.block));
             }
             _ => {}
         }
@@ -96,6 +138,9 @@ impl Attendant {
         publisher: &Publisher<'_>,
         config: &MachineConfig,
     ) -> Result<(), Failure> {
+        if published.is_ok() {
+            show(&self.remarks.all_executed());
+        }
         let Some(keeper) = self.keeper.take() else {
             return Ok(());
         };
@@ -117,6 +162,13 @@ impl Attendant {
             output::note(&format!("planner: {failure}"));
         }
         failed
+    }
+}
+
+/// Shows what the program says: also in the output of a process that started this one.
+fn show(remarks: &[Remark]) {
+    for remark in remarks {
+        output::note(&format!("line {}: {}", remark.line, remark.text));
     }
 }
 

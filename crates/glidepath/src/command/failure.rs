@@ -174,6 +174,20 @@ pub(super) enum Failure {
         /// Why.
         reason: String,
     },
+    /// The planner's service did not execute a job to its end.
+    #[error("{text}")]
+    Job {
+        /// Why.
+        text: String,
+        /// What that is.
+        exit: Exit,
+    },
+    /// Nobody executes lines and files.
+    #[error(
+        "no planner serves this machine: start `glidepath planner --listen`, or the service \
+         glidepath-planner"
+    )]
+    NoService,
     /// The interpolator could not start or failed.
     #[error(transparent)]
     Interpolator(#[from] interpolator::RunError),
@@ -301,6 +315,7 @@ impl Failure {
             | Self::Terminal(_)
             | Self::NoInterpolator { .. }
             | Self::CommandRefused { .. }
+            | Self::NoService
             | Self::Silent { .. }
             | Self::NotStopped { .. }
             | Self::DoesNotEnd { .. }
@@ -312,7 +327,7 @@ impl Failure {
             | Self::Process(_)
             | Self::Jitter(_)
             | Self::Thread(_) => Exit::Fault,
-            Self::ProcessEnded { exit, .. } => *exit,
+            Self::ProcessEnded { exit, .. } | Self::Job { exit, .. } => *exit,
         }
     }
 }

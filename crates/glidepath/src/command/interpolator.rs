@@ -151,6 +151,7 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
         start_position: config.home(),
         feedback: feedback(config),
         gantries: gantries(config),
+        gates: config.gates(),
         horizon_frames: session::pace(config).horizon_frames,
         jog: JogSettings {
             velocity: config.jog.velocity,

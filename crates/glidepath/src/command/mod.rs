@@ -1,9 +1,11 @@
 //! The subcommands, one file each.
 
+mod acknowledge;
 mod attendant;
 mod bench;
 mod check;
 mod configuration;
+mod differences;
 mod doctor;
 mod failure;
 mod failure_report;
@@ -11,6 +13,7 @@ mod feed;
 mod fit;
 mod interpolator;
 mod jitter;
+mod jobs;
 mod jog;
 mod offsets;
 mod operator;
@@ -24,6 +27,7 @@ mod servo;
 mod session;
 mod subroutines;
 mod watch;
+mod workshop;
 
 use crate::cli::{Cli, Command, Switch};
 use crate::config::{self, MachineConfig};
@@ -80,6 +84,8 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Check(args) => check::check(args, &config()?),
         Command::Interpolator(args) => interpolator::interpolator(args, &config()?),
         Command::Planner(args) => planner::planner(args, &config()?),
+        Command::RunFile(args) => jobs::run_file(args, &config()?),
+        Command::Mdi(args) => jobs::mdi(args, &config()?),
         Command::Servo(args) => servo::servo(args, &config()?),
         Command::Feed(args) => feed::feed(args, &config()?),
         Command::Status(args) if args.watch => watch::watch(args, &config()?),
@@ -99,6 +105,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
             let command = link::Command::SingleBlock(args.switch == Switch::On);
             operator::command(&args.operator, &config()?, "single-block", command)
         }
+        Command::Acknowledge(args) => acknowledge::acknowledge(args, &config()?),
         Command::Abort(args) => operator::abort(args, &config()?),
         Command::Reset(args) => operator::command(args, &config()?, "reset", link::Command::Reset),
         Command::Enable(args) => {

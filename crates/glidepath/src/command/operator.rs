@@ -17,7 +17,7 @@ use serde_json::json;
 use std::time::{Duration, Instant};
 
 /// How long an interpolator may take to answer.
-const PATIENCE: Duration = Duration::from_secs(2);
+pub(super) const PATIENCE: Duration = Duration::from_secs(2);
 /// How long one that was signalled may take to end: 5 s to come to rest, and to clean up.
 const END_PATIENCE: Duration = Duration::from_secs(10);
 const POLL: Duration = Duration::from_millis(2);
@@ -117,7 +117,20 @@ pub(super) fn send(
     link: &LinkConfig,
     command: Command,
 ) -> Result<CommandReply, Failure> {
-    let request = CommandRequest::new(u64::from(std::process::id()), 1, command);
+    send_saying(operator, link, command, "")
+}
+
+/// The same with a word for people.
+///
+/// # Errors
+/// The errors of [`send`].
+pub(super) fn send_saying(
+    operator: &Operator,
+    link: &LinkConfig,
+    command: Command,
+    text: &str,
+) -> Result<CommandReply, Failure> {
+    let request = CommandRequest::new(u64::from(std::process::id()), 1, command).saying(text);
     let reply = operator.call(&request, PATIENCE);
     let reply = reply.map_err(|error| of_link(error, link))?;
     reply.ok_or_else(|| silent(operator, link))
@@ -132,7 +145,7 @@ fn of_link(error: LinkError, link: &LinkConfig) -> Failure {
     }
 }
 
-fn silent(operator: &Operator, link: &LinkConfig) -> Failure {
+pub(super) fn silent(operator: &Operator, link: &LinkConfig) -> Failure {
     Failure::Silent {
         instance: link.instance.clone(),
         process: operator.interpolator().id(),
@@ -178,7 +191,7 @@ pub(super) fn abort(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Fa
     Ok(Exit::Done)
 }
 
-fn refusal_text(refusal: CommandRefusal, message: &str) -> String {
+pub(super) fn refusal_text(refusal: CommandRefusal, message: &str) -> String {
     let reason = match refusal {
         CommandRefusal::Malformed => "the command is malformed",
         CommandRefusal::Unsupported => "this version cannot do that",

@@ -2,6 +2,7 @@
 
 use super::attendant::{Attendant, tell};
 use super::session;
+use super::workshop::Workshop;
 use crate::cli::PlannerArgs;
 use crate::clock;
 use crate::command::failure::Failure;
@@ -17,7 +18,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_link::{Ipc, Transport};
 use glidepath_planner::{
     Control, FileSource, ItemSource, Listening, Notice, PipeSource, Pipeline, Publisher, Refusal,
-    Remainder, RunError, SoftLimits, Statistics, listen,
+    Remainder, RunError, SoftLimits, Statistics, serve as serve_jobs,
 };
 use serde_json::{Value, json};
 
@@ -91,16 +92,19 @@ impl Job<'_> {
         self.file.name().display().to_string()
     }
 
+    fn publisher(&self) -> Result<Publisher<'_>, Failure> {
+        let mut publisher = Publisher::connect(self.transport, session::pace(self.config))?;
+        self.attendant.attend_inputs(&mut publisher, self.config)?;
+        Ok(publisher)
+    }
+
     /// The program as a file, checked from its beginning to its end.
     fn open(&self, start: AxisVector, config: &MachineConfig) -> Result<FileSource, Refusal> {
         let file = self.file.path();
         joints::check_plan(file, config, start, &mut |_| {})?;
         let options = config.program_options(start);
         let source = FileSource::open(file, options, &config.settings())?;
-        Ok(match self.attendant.log() {
-            Some(log) => source.noting(log),
-            None => source,
-        })
+        Ok(source.attended(self.attendant.attending()))
     }
 
     /// A program that comes through standard input.
@@ -112,7 +116,7 @@ impl Job<'_> {
         }
         self.run(control, true, |start| {
             let options = self.config.program_options(start);
-            PipeSource::spawn(std::io::stdin(), options, self.attendant.log())
+            PipeSource::spawn(std::io::stdin(), options, self.attendant.attending())
         })
     }
 
@@ -124,7 +128,8 @@ impl Job<'_> {
         open: impl FnOnce(AxisVector) -> Result<S, Refusal>,
     ) -> Result<Statistics, Failure> {
         let name = self.name();
-        let mut publisher = Publisher::connect(self.transport, session::pace(self.config))?;
+        let mut publisher = self.publisher()?;
+        self.attendant.open_inputs();
         let start = publisher.wait_until_ready(control)?;
         let source = open(start).map_err(|refusal| Failure::refused(&name, refusal, false))?;
         self.attendant.begin(source.fingerprint(), &start)?;
@@ -143,7 +148,7 @@ impl Job<'_> {
 
     /// The rest of a program, from where the machine stands on its path.
     fn resume(&self, control: &mut Control<'_>) -> Result<Statistics, Failure> {
-        let mut publisher = Publisher::connect(self.transport, session::pace(self.config))?;
+        let mut publisher = self.publisher()?;
         let point = publisher.wait_until_left(control)?;
         // What it began with, not what it has made of that meanwhile.
         let mut config = self.config.clone();
@@ -153,6 +158,7 @@ impl Job<'_> {
             .map_err(|refusal| Failure::refused(&self.name(), refusal, false))?;
         let settings = config.settings();
         let remainder = Remainder::find(source, point, settings.tolerance_mm)?;
+        self.attendant.open_inputs();
         // Only now is a fault reset: one that resumes nothing leaves it to whoever looks at it.
         let start = publisher.wait_until_ready(control)?;
         self.attendant.begin(point.program, &start)?;
@@ -167,7 +173,7 @@ impl Job<'_> {
     }
 }
 
-/// Streams, until asked to end.
+/// Streams, lines and files, until asked to end.
 fn serve(
     transport: &dyn Transport,
     config: &MachineConfig,
@@ -181,7 +187,8 @@ fn serve(
         pace: session::pace(config),
         limits: Some(SoftLimits { low, high }),
     };
-    match listen(transport, &listening, control) {
+    let mut workshop = Workshop::new(config);
+    match serve_jobs(transport, &listening, Some(&mut workshop), control) {
         Ok(()) | Err(RunError::Interrupted) => Ok(interrupt.exit()),
         Err(error) => Err(error.into()),
     }

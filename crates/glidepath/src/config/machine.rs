@@ -1,15 +1,16 @@
 //! A configuration that has been judged: what the rest of the program works with.
 
 use super::program::ProgramConfig;
-use glidepath_gcode::{LoopLimits, Machine, Options, Travel};
+use glidepath_gcode::{Connections, LoopLimits, MCodes, Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_interpolator::JointHoming;
+use glidepath_interpolator::{Answer, Gate, Gates, JointHoming};
 use glidepath_kinematics::{
     AxisRates, AxisShare, JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism, PathCaps,
 };
 use glidepath_motion::preview::AdvanceRetreat;
 use glidepath_program::{Effort, Limits, PathBounds, Settings, Smoothing};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// One axis: mm, or degrees for A, B and C.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -130,6 +131,9 @@ pub struct MachineConfig {
     pub instance: Option<String>,
     /// How programs are read.
     pub program: ProgramConfig,
+    /// M codes that the machine has of its own, and those that are waited for; of two rules for a
+    /// code the first one counts.
+    pub m_codes: Vec<Gate>,
     /// Folder of what is kept over a restart; `None`: nothing is.
     pub state_directory: Option<PathBuf>,
 }
@@ -272,6 +276,10 @@ impl MachineConfig {
                 },
             );
         let default_feed_mm_min = self.path.default_feed;
+        let mut m_codes = MCodes::default();
+        for rule in &self.m_codes {
+            m_codes.declare(rule.first, rule.last);
+        }
         Options {
             machine,
             default_feed_mm_min,
@@ -282,6 +290,9 @@ impl MachineConfig {
             dialect: self.program.dialect.unwrap_or_default(),
             extruder: self.program.extruder,
             connections: self.program.connections,
+            in_force: self.program.in_force.clone(),
+            m_codes: Arc::new(m_codes),
+            waits_for_speed: self.waits_for_speed(),
             spline_tolerance_mm: SPLINE_SHARE * self.path.tolerance_mm,
             loops: LoopLimits {
                 may_run_unchecked: self.program.may_run_unchecked,
@@ -289,6 +300,30 @@ impl MachineConfig {
             },
             ..Options::default()
         }
+    }
+
+    /// The M codes that are to be answered before the motion goes on.
+    #[must_use]
+    pub fn gates(&self) -> Gates {
+        let input = (self.program.connections == Connections::Real).then_some(Gate {
+            first: 66,
+            last: 66,
+            answer: Answer::Planner,
+            within: None,
+        });
+        let rules: Vec<Gate> = input.into_iter().chain(self.m_codes.clone()).collect();
+        Gates::new(&rules).unwrap_or_default()
+    }
+
+    /// Whether programs wait for the spindle to turn as fast as it was told to.
+    fn waits_for_speed(&self) -> bool {
+        let is_speed = |rule: &Gate| {
+            rule.answer == Answer::SpindleAtSpeed
+                && [3, 4]
+                    .iter()
+                    .any(|code| (rule.first..=rule.last).contains(code))
+        };
+        self.m_codes.iter().any(is_speed)
     }
 
     /// Where a machine stands at the start of a program when nothing else is known: at zero, or at

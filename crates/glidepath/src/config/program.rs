@@ -1,6 +1,6 @@
 //! How programs are read.
 
-use glidepath_gcode::{Connections, Dialect, Subroutines, ToolTable, WorkOffsets};
+use glidepath_gcode::{Connections, Dialect, InForce, Subroutines, ToolTable, WorkOffsets};
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -25,6 +25,8 @@ pub struct ProgramConfig {
     pub connections: Connections,
     /// The axis E words move.
     pub extruder: Option<Axis>,
+    /// What is in force when the program begins, behind others of the same service.
+    pub in_force: Option<InForce>,
     /// Whether a program may run that could not be checked to its end.
     pub may_run_unchecked: bool,
 }

@@ -34,6 +34,8 @@ pub(super) struct RawConfig {
     #[serde(default)]
     pub(super) program: RawProgram,
     #[serde(default)]
+    pub(super) m_codes: BTreeMap<Spanned<String>, Spanned<RawMCode>>,
+    #[serde(default)]
     pub(super) state: RawState,
 }
 
@@ -41,6 +43,13 @@ pub(super) struct RawConfig {
 #[serde(deny_unknown_fields, default)]
 pub(super) struct RawState {
     pub(super) directory: Optional<String>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawMCode {
+    pub(super) done: Optional<String>,
+    pub(super) timeout_s: Optional<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]

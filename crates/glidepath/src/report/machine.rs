@@ -4,6 +4,7 @@ use super::quantity::microseconds;
 use core::fmt::Write as _;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{MotionMode, Power, Status};
+use glidepath_program::Event;
 use serde_json::{Map, Value, json};
 
 /// Whether the drives have power, in one word.
@@ -62,10 +63,33 @@ fn awaited(status: &Status) -> Option<Value> {
     (status.awaited_since_ns != 0).then(|| {
         let waited_ns = status.updated_ns.saturating_sub(status.awaited_since_ns);
         json!({
+            "event": awaited_name(status),
+            "line": status.awaited_line,
             "epoch": status.epoch,
             "sequence": status.awaited_sequence,
             "waited_s": microseconds(waited_ns) / 1e6,
         })
+    })
+}
+
+/// The name of the event that is awaited.
+fn awaited_name(status: &Status) -> String {
+    match status.awaited_event() {
+        Ok(Some(Event::MCode(code))) => format!("M{code}"),
+        _ => "an event".to_owned(),
+    }
+}
+
+/// What is awaited, and for how long, in words; nothing if nothing is.
+pub(super) fn awaited_text(status: &Status) -> Option<String> {
+    (status.awaited_since_ns != 0).then(|| {
+        let waited_ns = status.updated_ns.saturating_sub(status.awaited_since_ns);
+        format!(
+            "the answer to {} of line {}, for {:.1} s (glidepath acknowledge)",
+            awaited_name(status),
+            status.awaited_line,
+            microseconds(waited_ns) / 1e6
+        )
     })
 }
 

@@ -1,6 +1,6 @@
 //! The state of an interpolator, as text and as JSON.
 
-use super::machine::{by_axis, machine_object, power_text};
+use super::machine::{awaited_text, by_axis, machine_object, power_text};
 use super::quantity::{grouped, microseconds};
 use core::fmt::Write as _;
 use glidepath_geometry::Axis;
@@ -112,6 +112,7 @@ pub fn fault_text(status: &Status) -> Option<String> {
         FaultCause::Drive => "a drive reports a fault".to_owned(),
         FaultCause::EnableLost => "a drive lost its power".to_owned(),
         FaultCause::AuxTimeout => "an event was not acknowledged in time".to_owned(),
+        FaultCause::AuxFailed => "what an event asked for has failed".to_owned(),
         FaultCause::LimitSwitch => "a joint stands at its limit switch".to_owned(),
         FaultCause::Homing => "a joint did not find its home".to_owned(),
     };
@@ -213,6 +214,9 @@ pub fn status_text(instance: &str, status: &Status) -> String {
     if let Some(fault) = fault_text(status) {
         let _ = writeln!(text, "  fault         {fault}");
         let _ = writeln!(text, "  to clear it   {HOW_TO_CLEAR}");
+    }
+    if let Some(awaited) = awaited_text(status) {
+        let _ = writeln!(text, "  awaits        {awaited}");
     }
     let _ = writeln!(text, "  position      {}", position.join("  "));
     let _ = writeln!(text, "  power         {}", power_text(status));

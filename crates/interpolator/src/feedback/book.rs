@@ -148,6 +148,9 @@ impl DriveBook {
             limits: joints.limits & !self.conductor.ignores_limits(),
             fault_code: joints.fault_code.get(lowest_fault).copied().unwrap_or(0),
             handover: self.handover,
+            digital_in: joints.digital_in,
+            spindle: joints.spindle,
+            played: joints.played,
         }
     }
 

@@ -5,7 +5,7 @@
 //! that takes itself to drive somebody else's joint is set up wrongly.
 
 use glidepath_kinematics::JOINTS;
-use glidepath_link::{Feedback, Latch, Record as _};
+use glidepath_link::{Feedback, Latch, Record as _, SpindleFlags};
 
 /// What the stacks say of the joints together.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,6 +26,11 @@ pub(super) struct Joints {
     /// The life of the stack that drives the joint.
     pub(super) boot_id: [u64; JOINTS],
     pub(super) edges: [Edges; JOINTS],
+    /// Digital inputs and spindle, of all stacks together.
+    pub(super) digital_in: u64,
+    pub(super) spindle: SpindleFlags,
+    /// Number of the last setpoint that every stack has played.
+    pub(super) played: u64,
 }
 
 /// Where the home switch of a joint first closed and opened since that was forgotten last, as the
@@ -55,6 +60,9 @@ impl Joints {
             rising: None,
             falling: None,
         }; JOINTS],
+        digital_in: 0,
+        spindle: SpindleFlags(0),
+        played: 0,
     };
 }
 
@@ -200,6 +208,11 @@ impl Claims {
     /// What is known of the joints.
     pub(super) fn joints(&self) -> Joints {
         let mut joints = Joints::NONE;
+        let heard = self.stacks.iter().filter(|stack| !stack.is_refused);
+        joints.played = heard
+            .map(|stack| stack.last.setpoint_number)
+            .min()
+            .unwrap_or(0);
         for stack in self.stacks.iter().filter(|stack| !stack.is_refused) {
             let said = &stack.last;
             let claimed = said.joints & self.all;
@@ -209,6 +222,8 @@ impl Claims {
             joints.homing |= said.homing & claimed;
             joints.fault |= said.fault & claimed;
             joints.home_switch |= said.home_switch & claimed;
+            joints.digital_in |= said.digital_in;
+            joints.spindle = SpindleFlags(joints.spindle.0 | said.spindle_flags);
             joints.limits |= (said.limit_low | said.limit_high) & claimed;
             for joint in (0..JOINTS).filter(|joint| claimed & (1 << joint) != 0) {
                 joints.position[joint] = said.position[joint];

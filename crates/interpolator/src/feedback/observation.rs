@@ -2,6 +2,7 @@
 
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::JointVector;
+use glidepath_link::SpindleFlags;
 
 /// The drives at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +30,11 @@ pub(crate) struct Observation {
     pub(crate) fault_code: u32,
     /// Counts how often the position got another meaning: a new number asks for a hand-over.
     pub(crate) handover: u64,
+    /// Digital inputs and spindle, of all stacks together.
+    pub(crate) digital_in: u64,
+    pub(crate) spindle: SpindleFlags,
+    /// Number of the last setpoint that every stack has played.
+    pub(crate) played: u64,
 }
 
 impl Observation {
@@ -48,6 +54,9 @@ impl Observation {
             limits: 0,
             fault_code: 0,
             handover: 0,
+            digital_in: 0,
+            spindle: SpindleFlags(0),
+            played: 0,
         }
     }
 }

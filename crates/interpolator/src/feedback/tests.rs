@@ -10,6 +10,7 @@
 
 mod bench;
 mod following;
+mod gates;
 mod homing;
 mod hostile;
 mod life_cycle;

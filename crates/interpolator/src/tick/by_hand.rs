@@ -55,6 +55,10 @@ impl Interpolator<'_> {
                 self.jog.go_back(&around);
             }
             Command::JogOverride(ratio) => self.jog.set_override(ratio),
+            Command::Acknowledge { event, done } => {
+                self.wait.acknowledge(event, done);
+                return false;
+            }
             // The path begins where the axes are not.
             Command::Resume | Command::Step => return !self.jog.owns_axes(),
             _ => {}
@@ -70,7 +74,11 @@ impl Interpolator<'_> {
         }
         let is_free = if self.is_open() {
             let state = self.account.state();
-            matches!(state, MachineState::Held | MachineState::ProgramStop) && self.is_standing()
+            let is_held = matches!(
+                state,
+                MachineState::Held | MachineState::ProgramStop | MachineState::Awaiting
+            );
+            is_held && self.is_standing()
         } else {
             let state = self.account.state();
             matches!(state, MachineState::Idle | MachineState::NotHomed)

@@ -65,12 +65,14 @@ impl Interpolator<'_> {
         self.output.begin_epoch();
         self.block_stop = BlockStop::none();
         self.supply.begin_epoch();
+        self.wait.end();
         self.requests.forget_epoch();
     }
 
     /// Looks whether there are frames enough, and stops for good if the planner is lost.
     pub(super) fn watch_supply(&mut self) {
-        let holds = self.requests.holds(self.is_rapid());
+        let is_awaiting = self.wait.awaited().is_some();
+        let holds = self.requests.holds(self.is_rapid()) || is_awaiting;
         let (track, rate, published) = (&self.track, &self.rate, self.output.published());
         if self.is_open() && self.supply.watch(track, rate, published, holds) {
             self.fail(FaultCause::PlannerLost);
@@ -101,7 +103,9 @@ impl Interpolator<'_> {
             self.track.bar(now.time.sequence);
             self.rate.rest_at(now.time, goal);
         }
+        let gate = self.track.gate().map(|(frame, _)| frame.sequence);
         let program_stop = self.track.program_stop();
+        let stop = [program_stop, gate].into_iter().flatten().min();
         let situation = Situation {
             track: &self.track,
             published: self.output.published(),
@@ -111,7 +115,7 @@ impl Interpolator<'_> {
             block_end: self
                 .block_stop
                 .in_motion()
-                .filter(|end| program_stop.is_none_or(|stop| *end < stop)),
+                .filter(|end| stop.is_none_or(|stop| *end < stop)),
         };
         if !rests {
             self.rate.choose_ramp(goal, &situation);

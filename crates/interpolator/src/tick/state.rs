@@ -15,6 +15,7 @@ use crate::rate::Rate;
 use crate::stop_requests::StopRequests;
 use crate::supply::Supply;
 use crate::track::Track;
+use crate::wait::Wait;
 use glidepath_link::{EndOfEpoch, FaultCause, Setpoint};
 use glidepath_program::FrameFlags;
 use glidepath_realtime::EventWriter;
@@ -29,6 +30,7 @@ pub(crate) struct Interpolator<'a> {
     pub(super) requests: StopRequests,
     pub(super) supply: Supply,
     pub(super) block_stop: BlockStop,
+    pub(super) wait: Wait,
     pub(super) jog: Jog,
     pub(super) mover: Mover,
     pub(super) drives: Drives,
@@ -51,11 +53,12 @@ impl<'a> Interpolator<'a> {
     ) -> Self {
         let period_t = config.period_t();
         Self {
-            track: Track::new(period_t, config.limits),
+            track: Track::new(period_t, config.limits, config.gates),
             rate: Rate::new(ProgramTime::at(0), 0.0),
             requests: StopRequests::default(),
             supply: Supply::new(config),
             block_stop: BlockStop::none(),
+            wait: Wait::default(),
             jog: Jog::new(config),
             mover: Mover::new(config),
             drives: Drives::new(config),
@@ -117,6 +120,7 @@ impl<'a> Interpolator<'a> {
         self.track.clear();
         self.rate.rest_at(self.rate.now().time, 0.0);
         self.jog.forget_path();
+        self.wait.end();
         self.output.rest();
         self.end_of_epoch = end;
         self.supply.end_epoch();

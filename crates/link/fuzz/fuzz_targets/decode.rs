@@ -5,7 +5,7 @@
 #![no_main]
 
 use glidepath_link::{
-    CommandReply, CommandRequest, Feedback, JogDemand, Record, Replay, SegmentReply,
+    Auxiliary, CommandReply, CommandRequest, Feedback, JogDemand, Record, Replay, SegmentReply,
     SegmentRequest, Setpoint, SetpointFrame, Status, StreamItem, decode,
 };
 use libfuzzer_sys::fuzz_target;
@@ -14,7 +14,7 @@ fuzz_target!(|data: &[u8]| {
     let Some((&choice, bytes)) = data.split_first() else {
         return;
     };
-    match choice % 10 {
+    match choice % 11 {
         0 => {
             if let Some(record) = read::<SetpointFrame>(bytes) {
                 let frame = record.to_frame().expect("it was checked");
@@ -63,6 +63,11 @@ fuzz_target!(|data: &[u8]| {
         8 => {
             if let Some(record) = read::<JogDemand>(bytes) {
                 record.mode().expect("it was checked");
+            }
+        }
+        9 => {
+            if let Some(record) = read::<Auxiliary>(bytes) {
+                record.spindle().expect("it was checked");
             }
         }
         _ => {

@@ -9,12 +9,13 @@ mod shared;
 mod topic;
 
 use crate::service::{
-    COMMANDS, Capacity, FEEDBACK, FEEDBACK_DEPTH, FRAMES, JOG, JOG_DEPTH, PEERS, SEGMENTS, SENDERS,
-    SETPOINTS, STATUS,
+    AUXILIARY, COMMANDS, Capacity, FEEDBACK, FEEDBACK_DEPTH, FRAMES, JOBS, JOG, JOG_DEPTH, PEERS,
+    SEGMENTS, SENDERS, SETPOINTS, STATUS,
 };
 use crate::{
-    Client, CommandReply, CommandRequest, Feedback, FrameSink, JogDemand, LinkError, Publisher,
-    SegmentReply, SegmentRequest, Server, Setpoint, SetpointFrame, Status, Subscriber, Transport,
+    Auxiliary, Client, CommandReply, CommandRequest, Feedback, FrameSink, JobReply, JobRequest,
+    JogDemand, LinkError, Publisher, SegmentReply, SegmentRequest, Server, Setpoint, SetpointFrame,
+    Status, Subscriber, Transport,
 };
 use queue::FrameQueue;
 use request::Exchange;
@@ -27,10 +28,12 @@ pub struct InProcess {
     frames: Shared<FrameQueue>,
     setpoints: Shared<Topic<Setpoint>>,
     status: Shared<Topic<Status>>,
+    auxiliary: Shared<Topic<Auxiliary>>,
     feedback: Shared<Topic<Feedback>>,
     jog: Shared<Topic<JogDemand>>,
     commands: Shared<Exchange<CommandRequest, CommandReply>>,
     segments: Shared<Exchange<SegmentRequest, SegmentReply>>,
+    jobs: Shared<Exchange<JobRequest, JobReply>>,
 }
 
 impl InProcess {
@@ -46,6 +49,7 @@ impl InProcess {
                 SENDERS,
             )),
             status: Shared::new(Topic::new(STATUS, 1, capacity.subscribers, SENDERS)),
+            auxiliary: Shared::new(Topic::new(AUXILIARY, 1, capacity.subscribers, SENDERS)),
             feedback: Shared::new(Topic::new(
                 FEEDBACK,
                 FEEDBACK_DEPTH,
@@ -55,6 +59,7 @@ impl InProcess {
             jog: Shared::new(Topic::new(JOG, JOG_DEPTH, capacity.subscribers, PEERS)),
             commands: Shared::new(Exchange::new(COMMANDS)),
             segments: Shared::new(Exchange::new(SEGMENTS)),
+            jobs: Shared::new(Exchange::new(JOBS)),
         }
     }
 }
@@ -90,6 +95,14 @@ impl Transport for InProcess {
         Ok(Box::new(topic::Source::new(&self.status)?))
     }
 
+    fn auxiliary_sink(&self) -> Result<Box<dyn Publisher<Auxiliary>>, LinkError> {
+        Ok(Box::new(topic::Sink::new(&self.auxiliary)?))
+    }
+
+    fn auxiliary_source(&self) -> Result<Box<dyn Subscriber<Auxiliary>>, LinkError> {
+        Ok(Box::new(topic::Source::new(&self.auxiliary)?))
+    }
+
     fn feedback_sink(&self) -> Result<Box<dyn Publisher<Feedback>>, LinkError> {
         Ok(Box::new(topic::Sink::new(&self.feedback)?))
     }
@@ -120,6 +133,14 @@ impl Transport for InProcess {
 
     fn segment_server(&self) -> Result<Box<dyn Server<SegmentRequest, SegmentReply>>, LinkError> {
         Ok(Box::new(request::Answering::new(&self.segments)?))
+    }
+
+    fn job_client(&self) -> Result<Box<dyn Client<JobRequest, JobReply>>, LinkError> {
+        Ok(Box::new(request::Asking::new(&self.jobs)?))
+    }
+
+    fn job_server(&self) -> Result<Box<dyn Server<JobRequest, JobReply>>, LinkError> {
+        Ok(Box::new(request::Answering::new(&self.jobs)?))
     }
 
     fn clean_up_dead_peers(&self) -> Result<usize, LinkError> {

@@ -34,13 +34,13 @@ pub use operator::Operator;
 pub use presence::remove_leftovers;
 
 use crate::service::{
-    COMMANDS, Capacity, FEEDBACK, FEEDBACK_DEPTH, FRAMES, JOG, JOG_DEPTH, PEERS, SEGMENTS, SENDERS,
-    SETPOINTS, STATUS,
+    AUXILIARY, COMMANDS, Capacity, FEEDBACK, FEEDBACK_DEPTH, FRAMES, JOBS, JOG, JOG_DEPTH, PEERS,
+    SEGMENTS, SENDERS, SETPOINTS, STATUS,
 };
 use crate::{
-    Client, CommandReply, CommandRequest, Feedback, FrameSink, JogDemand, LinkError, Publisher,
-    Record, SegmentReply, SegmentRequest, Server, Setpoint, SetpointFrame, Status, Subscriber,
-    Transport,
+    Auxiliary, Client, CommandReply, CommandRequest, Feedback, FrameSink, JobReply, JobRequest,
+    JogDemand, LinkError, Publisher, Record, SegmentReply, SegmentRequest, Server, Setpoint,
+    SetpointFrame, Status, Subscriber, Transport,
 };
 use interpolator_lock::InterpolatorLock;
 use node::{Session, TopicSettings};
@@ -187,6 +187,14 @@ impl Transport for Ipc {
         self.subscriber(STATUS, self.status())
     }
 
+    fn auxiliary_sink(&self) -> Result<Box<dyn Publisher<Auxiliary>>, LinkError> {
+        self.publisher(AUXILIARY, self.status())
+    }
+
+    fn auxiliary_source(&self) -> Result<Box<dyn Subscriber<Auxiliary>>, LinkError> {
+        self.subscriber(AUXILIARY, self.status())
+    }
+
     fn feedback_sink(&self) -> Result<Box<dyn Publisher<Feedback>>, LinkError> {
         self.publisher(FEEDBACK, self.reports(FEEDBACK_DEPTH))
     }
@@ -224,6 +232,14 @@ impl Transport for Ipc {
 
     fn segment_server(&self) -> Result<Box<dyn Server<SegmentRequest, SegmentReply>>, LinkError> {
         self.server(SEGMENTS)
+    }
+
+    fn job_client(&self) -> Result<Box<dyn Client<JobRequest, JobReply>>, LinkError> {
+        self.client(JOBS)
+    }
+
+    fn job_server(&self) -> Result<Box<dyn Server<JobRequest, JobReply>>, LinkError> {
+        self.server(JOBS)
     }
 
     fn clean_up_dead_peers(&self) -> Result<usize, LinkError> {

@@ -44,6 +44,8 @@ coded! {
         Acknowledge = 17,
         /// See [`Command::JogOverride`].
         JogOverride = 18,
+        /// See [`Command::Tell`].
+        Tell = 19,
     }
 }
 
@@ -100,6 +102,9 @@ pub enum Command {
     },
     /// Set the part of their speed that jogs have, a ratio from 0 to 1.
     JogOverride(f64),
+    /// What the program says to people: the text of the request becomes the last event of the
+    /// status.
+    Tell,
 }
 
 /// Which event: no two have the same.
@@ -139,6 +144,7 @@ impl Command {
             Self::Return => CommandKind::Return,
             Self::Acknowledge { .. } => CommandKind::Acknowledge,
             Self::JogOverride(_) => CommandKind::JogOverride,
+            Self::Tell => CommandKind::Tell,
         }
     }
 }
@@ -146,7 +152,7 @@ impl Command {
 /// A command on its way.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.CommandRequest.v3")]
+#[type_name("glidepath.CommandRequest.v4")]
 pub struct CommandRequest {
     /// Who asks: any number the client keeps, for the log.
     pub client: u64,
@@ -162,6 +168,8 @@ pub struct CommandRequest {
     pub joints: u32,
     /// Which event is acknowledged, else 0.
     pub event: EventId,
+    /// Why what an event asked for has failed, or what the program says, for people; else empty.
+    pub text: Text,
 }
 
 impl CommandRequest {
@@ -175,6 +183,7 @@ impl CommandRequest {
             kind: command.kind().code(),
             joints: 0,
             event: EventId::default(),
+            text: Text::default(),
         };
         match command {
             Command::FeedOverride(ratio)
@@ -197,9 +206,19 @@ impl CommandRequest {
             | Command::Step
             | Command::Enable
             | Command::Disable
-            | Command::Return => {}
+            | Command::Return
+            | Command::Tell => {}
         }
         record
+    }
+
+    /// The same with a word for people, cut where it is too long.
+    #[must_use]
+    pub fn saying(self, text: &str) -> Self {
+        Self {
+            text: Text::new(text),
+            ..self
+        }
     }
 
     /// The command.
@@ -237,6 +256,7 @@ impl CommandRequest {
             CommandKind::Home => Command::Home(self.joints),
             CommandKind::Unhome => Command::Unhome(self.joints),
             CommandKind::Return => Command::Return,
+            CommandKind::Tell => Command::Tell,
             CommandKind::Acknowledge => Command::Acknowledge {
                 event: self.event,
                 done: self.switch()?,
@@ -269,10 +289,11 @@ impl CommandRequest {
 }
 
 impl Record for CommandRequest {
-    const NAME: &'static str = "glidepath.CommandRequest.v3";
+    const NAME: &'static str = "glidepath.CommandRequest.v4";
 
     fn check(&self) -> Result<(), RecordError> {
-        self.command().map(|_| ())
+        self.command()?;
+        self.text.check(Self::NAME, "text")
     }
 }
 

@@ -13,12 +13,14 @@
     reason = "the derives of `Pod` and `ZeroCopySend` expand to `unsafe impl`; both check the fields"
 )]
 
+mod auxiliary;
 mod check;
 mod code;
 mod command;
 mod event;
 mod feedback;
 mod frame;
+mod job;
 mod jog;
 mod joint;
 mod segment;
@@ -28,6 +30,7 @@ mod state;
 mod status;
 mod text;
 
+pub use auxiliary::{ANALOG_OUTPUTS, Auxiliary, Coolant, SpindleState};
 pub use check::{RecordError, decode};
 pub use command::{
     COMMAND_KINDS, Command, CommandKind, CommandOutcome, CommandRefusal, CommandReply,
@@ -36,6 +39,7 @@ pub use command::{
 pub use event::EventKind;
 pub use feedback::{DriveState, Feedback, LATCHES, Latch, LatchKind, SpindleFlags};
 pub use frame::{PERIOD_NS_MAX, SetpointFrame};
+pub use job::{JobKind, JobReply, JobRequest, JobState};
 pub use jog::{JogDemand, JogMode};
 pub use joint::ALL_JOINTS;
 pub use segment::{ModeCode, PlaneCode, RequestKind, SegmentRequest, StreamItem};
@@ -45,7 +49,7 @@ pub use state::{
     EndOfEpoch, FRAME_REFUSALS, FaultCause, FrameRefusal, MachineState, MotionMode, Power,
 };
 pub use status::{Grants, Quantiles, Status};
-pub use text::Text;
+pub use text::{LongText, Text};
 
 use iceoryx2::prelude::ZeroCopySend;
 use joint::HIGHEST_JOINT;

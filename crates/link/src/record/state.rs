@@ -171,6 +171,8 @@ pub enum FaultCause {
     LimitSwitch,
     /// A joint did not find its home.
     Homing,
+    /// What an event asked for has failed.
+    AuxFailed,
 }
 
 impl FaultCause {
@@ -193,6 +195,7 @@ impl FaultCause {
             Self::AuxTimeout => 10,
             Self::LimitSwitch => 11,
             Self::Homing => 12,
+            Self::AuxFailed => 13,
             Self::Frame(refusal) => Self::FRAME + refusal.code(),
         }
     }
@@ -213,6 +216,7 @@ impl FaultCause {
             10 => Some(Self::AuxTimeout),
             11 => Some(Self::LimitSwitch),
             12 => Some(Self::Homing),
+            13 => Some(Self::AuxFailed),
             Self::FRAME.. => match FrameRefusal::from_code(code - Self::FRAME) {
                 Some(refusal) => Some(Self::Frame(refusal)),
                 None => None,

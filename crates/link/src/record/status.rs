@@ -3,9 +3,10 @@
 use super::check::{Fields, RecordError};
 use super::{
     ALL_JOINTS, EndOfEpoch, FRAME_REFUSALS, FaultCause, MachineState, MotionMode, OVERRIDE_MAX,
-    Power, Record, Text,
+    Power, Record, Text, event,
 };
 use glidepath_geometry::{AXES, Axis};
+use glidepath_program::Event;
 use iceoryx2::prelude::ZeroCopySend;
 
 /// Which real-time grants the interpolator holds, one bit each.
@@ -60,7 +61,7 @@ pub struct Quantiles {
 /// What the interpolator does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v5")]
+#[type_name("glidepath.Status.v6")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -149,6 +150,12 @@ pub struct Status {
     pub awaited_sequence: u64,
     /// Since when it is awaited, ns of `CLOCK_MONOTONIC`; 0 if nothing is.
     pub awaited_since_ns: u64,
+    /// The event's number, as in a setpoint.
+    pub awaited_value: f64,
+    /// The event's code, as in a setpoint; 0 if nothing is awaited.
+    pub awaited_kind: u32,
+    /// Its source line.
+    pub awaited_line: u32,
     /// Path position, mm.
     pub path_s: f64,
     /// Path position of the first setpoint of the block, mm.
@@ -216,6 +223,15 @@ impl Status {
         Fields(Self::NAME).code("end_of_epoch", self.end_of_epoch)
     }
 
+    /// The event that is awaited, if one is.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code, or a number that does not fit it.
+    pub fn awaited_event(&self) -> Result<Option<Event>, RecordError> {
+        event::decode(Self::NAME, self.awaited_kind, self.awaited_value)
+    }
+
     /// The latched fault.
     ///
     /// # Errors
@@ -267,7 +283,7 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v5";
+    const NAME: &'static str = "glidepath.Status.v6";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -320,6 +336,7 @@ impl Record for Status {
             });
         }
         self.state()?;
+        self.awaited_event()?;
         self.end_of_epoch()?;
         self.fault()?;
         self.last_event.check(Self::NAME, "last_event")?;

@@ -1,20 +1,20 @@
-//! Short text of fixed size.
+//! Text of fixed size.
 
 use super::check::RecordError;
 use iceoryx2::prelude::ZeroCopySend;
 
-const CAPACITY: usize = 128;
-
-/// Up to 128 bytes of UTF-8, padded with zeros.
+macro_rules! text {
+    ($(#[$about:meta])* $name:ident, $capacity:literal) => {
+$(#[$about])*
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-pub struct Text {
-    bytes: [u8; CAPACITY],
+pub struct $name {
+    bytes: [u8; $capacity],
 }
 
-impl Text {
+impl $name {
     /// Longest text, bytes.
-    pub const CAPACITY: usize = CAPACITY;
+    pub const CAPACITY: usize = $capacity;
 
     /// A text, cut at the last whole character that fits.
     #[must_use]
@@ -55,10 +55,23 @@ impl Text {
     }
 }
 
-impl Default for Text {
+impl Default for $name {
     fn default() -> Self {
         Self {
             bytes: [0; Self::CAPACITY],
         }
     }
 }
+    };
+}
+
+text!(
+    /// Up to 128 bytes of UTF-8, padded with zeros.
+    Text,
+    128
+);
+text!(
+    /// Up to 1024 bytes of UTF-8, padded with zeros.
+    LongText,
+    1024
+);

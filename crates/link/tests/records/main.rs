@@ -167,7 +167,7 @@ fn numbers_that_are_not_finite_are_refused() {
     refuses_not_finite(&good_setpoint(), &[(80, 88), (120, 656)]);
     refuses_not_finite(
         &good_status(),
-        &[(104, 120), (144, 360), (400, 616), (632, 680)],
+        &[(104, 120), (144, 360), (400, 616), (632, 640), (648, 696)],
     );
     refuses_not_finite(&good_segment(), &[(40, 240)]);
     refuses_not_finite(&CommandRequest::new(1, 1, Command::Ping), &[(16, 24)]);
@@ -248,7 +248,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_setpoint(), |s| s.state = 0),
         refused(good_setpoint(), |s| s.state = 16),
         refused(good_status(), |s| s.state = 0),
-        refused(good_status(), |s| s.fault = 13),
+        refused(good_status(), |s| s.fault = 14),
         refused(good_status(), |s| s.fault_axis = 10),
         refused(good_status(), |s| s.fault_axis = u32::MAX),
         refused(good_status(), |s| s.end_of_epoch = 5),
@@ -259,7 +259,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(Feedback::zeroed(), |f| f.latch[3].kind = 4),
         refused(JogDemand::zeroed(), |j| j.mode = 5),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 0),
-        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 19),
+        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 20),
         refused(SegmentReply::zeroed(), |r| r.refusal = 11),
         refused(good_segment(), |s| s.kind = 0),
         refused(good_segment(), |s| s.mode = 5),
@@ -343,7 +343,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(MachineState::ALL.iter().map(|code| code.code()), 1, 15);
     in_sequence(EndOfEpoch::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(FrameRefusal::ALL.iter().map(|code| code.code()), 1, 12);
-    in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 18);
+    in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 19);
     in_sequence(CommandRefusal::ALL.iter().map(|code| code.code()), 1, 5);
     in_sequence(SegmentRefusal::ALL.iter().map(|code| code.code()), 1, 10);
     in_sequence(Power::ALL.iter().map(|code| code.code()), 0, 3);
@@ -362,7 +362,7 @@ fn codes_are_consecutive_and_known() {
     let faults: Vec<u32> = (0..0x200)
         .filter(|code| FaultCause::from_code(*code).is_some())
         .collect();
-    assert_eq!(faults, (1..=12).chain(0x101..=0x10c).collect::<Vec<_>>());
+    assert_eq!(faults, (1..=13).chain(0x101..=0x10c).collect::<Vec<_>>());
     for code in faults {
         assert_eq!(FaultCause::from_code(code).unwrap().code(), code);
     }

@@ -138,6 +138,7 @@ pub(crate) fn command() -> impl Strategy<Value = Command> {
             Command::Enable,
             Command::Disable,
             Command::Return,
+            Command::Tell,
         ]),
         (0.0..=OVERRIDE_MAX).prop_map(Command::FeedOverride),
         (0.0..=OVERRIDE_MAX).prop_map(Command::RapidOverride),

@@ -8,13 +8,15 @@
 //! | M67 E Q, M68 E Q | analog output E to the value Q |
 //! | M19 R | stops the spindle in a known position |
 //!
-//! They are refused unless the program is read with [`Connections::Simulated`].
+//! They are refused unless the program is read with [`Connections::Simulated`] or
+//! [`Connections::Real`]. M codes that the machine's builder declared are events at rest.
 
 use glidepath_program::{Event, Item, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::auxiliary::input_wait::{Input, InputWait, WaitFor};
 use crate::execute::interpreter::Interpreter;
 use crate::setup::options::Connections;
 use crate::syntax::block::Block;
@@ -30,6 +32,9 @@ impl Interpreter {
         if let Some(Coded { code, span }) = block.codes.orient {
             self.require_connection(span, "spindle that stops in a known position")?;
             self.state.spindle.turning = None;
+            self.push(out, ItemKind::Event(Event::MCode(code)));
+        }
+        if let Some(Coded { code, .. }) = block.codes.user {
             self.push(out, ItemKind::Event(Event::MCode(code)));
         }
         let Some(Coded { code, span }) = block.codes.input_output else {
@@ -54,8 +59,9 @@ impl Interpreter {
                 Event::AnalogOutput { number, value }
             }
             _ => {
-                self.check_wait(block, span)?;
+                let wait = self.read_wait(block, span)?;
                 self.state.input = 0.0;
+                self.input_wait = (self.options.connections == Connections::Real).then_some(wait);
                 Event::MCode(code)
             }
         };
@@ -64,7 +70,7 @@ impl Interpreter {
     }
 
     /// The words of M66.
-    fn check_wait(&self, block: &Block, span: SourceSpan) -> Outcome<()> {
+    fn read_wait(&self, block: &Block, span: SourceSpan) -> Outcome<InputWait> {
         let digital = whole(block, b'P', MAX_PORT)?;
         let analog = whole(block, b'E', MAX_PORT)?;
         if digital.is_some() == analog.is_some() {
@@ -91,12 +97,25 @@ impl Interpreter {
                 "how long to wait at most, seconds above zero",
             ));
         }
-        Ok(())
+        Ok(InputWait {
+            input: match (digital, analog) {
+                (Some(number), _) => Input::Digital(number),
+                (None, number) => Input::Analog(number.unwrap_or(0)),
+            },
+            until: match mode {
+                1 => WaitFor::Rise,
+                2 => WaitFor::Fall,
+                3 => WaitFor::High,
+                4 => WaitFor::Low,
+                _ => WaitFor::Nothing,
+            },
+            limit_s: block.get(b'Q').unwrap_or(0.0),
+        })
     }
 
     /// Refuses what the machine does not have connected.
     pub(crate) fn require_connection(&self, span: SourceSpan, what: &str) -> Outcome<()> {
-        if self.options.connections == Connections::Simulated {
+        if self.options.connections != Connections::None {
             return Ok(());
         }
         let message = format!("no {what} is connected");

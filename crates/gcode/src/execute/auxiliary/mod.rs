@@ -3,6 +3,7 @@
 
 mod feed;
 mod input_output;
+pub(crate) mod input_wait;
 mod non_modal;
 mod order;
 mod overrides;

@@ -15,9 +15,11 @@ use crate::syntax::word_check::{missing, negative};
 impl Interpreter {
     /// S, T, tool change, spindle, coolant, overrides, inputs and outputs, dwell.
     pub(crate) fn auxiliary(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        let speed = self.state.spindle.speed;
         self.spindle_speed(block, out)?;
         self.select_tool(block, out)?;
         let codes = &block.codes;
+        self.tell_speed_at_rest(block, speed, out);
         if let Some(Coded { code, .. }) = codes.spindle {
             self.state.spindle.turning = match code {
                 3 => Some(SpindleDirection::Clockwise),

@@ -74,6 +74,19 @@ impl Interpreter {
         Ok(())
     }
 
+    /// A new speed of a spindle that turns is told at rest, if it is to be waited for. With G96 the
+    /// speed follows the tool, and is not waited for.
+    pub(crate) fn tell_speed_at_rest(&mut self, block: &Block, before: f64, out: &mut Vec<Item>) {
+        let Some(direction) = self.state.spindle.turning else {
+            return;
+        };
+        let spindle = &self.state.spindle;
+        let is_new = (spindle.speed - before).abs() > 0.0 && spindle.surface.is_none();
+        if self.options.waits_for_speed && is_new && block.codes.spindle.is_none() {
+            self.push(out, ItemKind::Event(Event::MCode(direction.code())));
+        }
+    }
+
     fn tell_speed(&mut self, speed: f64, out: &mut Vec<Item>) {
         self.state.spindle.speed = speed;
         self.push(out, ItemKind::Event(Event::SpindleSpeed(speed)));

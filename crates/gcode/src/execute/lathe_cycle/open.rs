@@ -1,8 +1,8 @@
 //! A lathe cycle whose profile is being read.
 
-use crate::execute::interpreter::State;
 use crate::execute::lathe_cycle::profile::LatheProfile;
 use crate::execute::line_origin::SourceLine;
+use crate::execute::state::program_state::State;
 use crate::syntax::block::Block;
 use crate::syntax::modes::LatheCycle;
 

@@ -9,16 +9,21 @@ use glidepath_program::{Item, PathMode};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::MIN_MOVE;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::probe_result::ProbeResult;
+use crate::setup::options::Connections;
 use crate::syntax::block::Block;
 use crate::syntax::modes::FeedMode;
 
 impl Interpreter {
     pub(crate) fn probe(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
         let span = block.motion_span();
+        if self.options.connections == Connections::Real {
+            return Err(no_probe(span));
+        }
         self.require_connection(span, "probe")?;
         if self.state.modal.feed_mode != FeedMode::PerMinute {
             let message = "probing needs a feedrate per minute";
@@ -44,4 +49,10 @@ impl Interpreter {
         };
         Ok(())
     }
+}
+
+fn no_probe(span: SourceSpan) -> Box<Fault> {
+    Fault::new(DiagnosticCode::NotConnected, span, "no probe is connected")
+        .because("inputs are the machine's, and no probe is read among them")
+        .help("remove the block, or read the program with simulated inputs and outputs")
 }

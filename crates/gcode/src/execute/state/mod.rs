@@ -2,10 +2,12 @@
 
 pub(crate) mod coolant;
 pub(crate) mod course;
+pub(crate) mod in_force;
 pub(crate) mod modal;
 pub(crate) mod offsets;
 pub(crate) mod open_spline;
 pub(crate) mod probe_result;
+pub(crate) mod program_state;
 pub(crate) mod saved_states;
 pub(crate) mod soft_limits;
 pub(crate) mod spindle;

@@ -10,6 +10,7 @@ mod interpolator;
 mod jog;
 mod joints;
 mod link;
+mod m_codes;
 mod mechanism;
 mod path;
 mod path_words;
@@ -95,6 +96,7 @@ pub(super) fn judge(
             period_t: f64::from(interpolator.period_us) * 1e-6,
         },
     );
+    let expects_feedback = feedback.is_expected;
     let config = MachineConfig {
         mechanism,
         home_of_joints,
@@ -108,7 +110,8 @@ pub(super) fn judge(
         feedback,
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
-        program: judge.program(raw.program),
+        program: judge.program(raw.program, expects_feedback),
+        m_codes: judge.m_codes(raw.m_codes),
         state_directory: raw.state.directory.map(|path| path.into_inner().into()),
     };
     if judge.diagnostics.is_empty() {

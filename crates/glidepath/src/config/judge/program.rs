@@ -1,14 +1,16 @@
 //! `[program]`: how programs are read.
 
 use super::values::Judge;
+use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::program::ProgramConfig;
 use crate::config::raw::RawProgram;
 use glidepath_gcode::{Connections, Dialect, WorkOffsets};
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
+use toml::Spanned;
 
 impl Judge {
-    pub(super) fn program(&mut self, raw: RawProgram) -> ProgramConfig {
+    pub(super) fn program(&mut self, raw: RawProgram, expects_feedback: bool) -> ProgramConfig {
         let dialects = [
             ("auto", None),
             ("linuxcnc", Some(Dialect::LinuxCnc)),
@@ -19,7 +21,18 @@ impl Judge {
         let connections = [
             ("none", Connections::None),
             ("simulated", Connections::Simulated),
+            ("feedback", Connections::Real),
         ];
+        let span = raw.inputs_outputs.as_ref().map(Spanned::span);
+        let connections = self.choice("program.inputs_outputs", raw.inputs_outputs, &connections);
+        if connections == Connections::Real && !expects_feedback {
+            self.diagnostics.push(ConfigDiagnostic {
+                key: "program.inputs_outputs".to_owned(),
+                message: "program.inputs_outputs = \"feedback\", and nobody sends any".to_owned(),
+                help: Some("set feedback.source = \"drives\"".to_owned()),
+                span,
+            });
+        }
         let extruders = [
             ("none", None),
             ("U", Some(Axis::U)),
@@ -33,8 +46,9 @@ impl Judge {
             offsets: WorkOffsets::default(),
             subroutine_path: raw.subroutine_path.into_iter().map(PathBuf::from).collect(),
             subroutines: None,
-            connections: self.choice("program.inputs_outputs", raw.inputs_outputs, &connections),
+            connections,
             extruder: self.choice("program.extruder", raw.extruder, &extruders),
+            in_force: None,
             may_run_unchecked: false,
         }
     }

@@ -23,6 +23,7 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         tables::FEEDBACK,
         tables::LINK,
         tables::PROGRAM,
+        tables::M_CODES,
         tables::PREVIEW,
         tables::STATE,
     ];
@@ -72,6 +73,7 @@ fn general(name: &str) -> String {
     match parts.as_mut_slice() {
         ["axis", axis, ..] if axis.len() == 1 && "XYZABCUVW".contains(*axis) => *axis = "X",
         ["joint" | "home", joint, ..] if is_joint(joint) => *joint = "J0",
+        ["m_codes", code, ..] if code.starts_with('M') => *code = "M6",
         _ => {}
     }
     parts.join(".")

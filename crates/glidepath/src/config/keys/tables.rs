@@ -453,10 +453,12 @@ pub(super) const PROGRAM: &[Key] = &[
     key(
         "program.inputs_outputs",
         Takes::Choice {
-            of: &["none", "simulated"],
+            of: &["none", "simulated", "feedback"],
         },
         LeftOut::Value("\"none\""),
-        "\"simulated\": M62 to M68, M19 and probing are accepted, and simulated",
+        "\"simulated\": M62 to M68, M19 and probing are accepted, and simulated; \"feedback\": M66 \
+         reads the inputs of feedback, outputs are those of the auxiliary record, and there is no \
+         probe",
     ),
     key(
         "program.extruder",
@@ -465,6 +467,25 @@ pub(super) const PROGRAM: &[Key] = &[
         },
         LeftOut::Value("\"none\""),
         "the axis that E words of printers move",
+    ),
+];
+
+pub(super) const M_CODES: &[Key] = &[
+    key(
+        "m_codes.M6.done",
+        Takes::Text {
+            rule: "\"acknowledge\", \"spindle-at-speed\", \"spindle-stopped\", \
+                   \"spindle-oriented\", \"input 3 high\", \"input 3 low\" or \"nothing\"",
+        },
+        LeftOut::Means("\"acknowledge\""),
+        "the motion does not pass the code before this; a code or a range that programs do not \
+         have by themselves (M428, M100-M199) is declared by its table",
+    ),
+    key(
+        "m_codes.M6.timeout_s",
+        number(0.1, 86_400.0, "s"),
+        LeftOut::Means("it is waited for ever"),
+        "waiting for longer is a fault",
     ),
 ];
 

@@ -2,18 +2,19 @@
 
 use crate::config::Config;
 use crate::feedback::{FeedbackSettings, JointFeedback};
-use crate::message::{HAPPENINGS, Happening, Inputs, Report};
+use crate::message::{Awaited, HAPPENINGS, Happening, Inputs, Report};
 use crate::ports::Ports;
 use crate::testing::{Numbers, Rig, audit, mill, plan, records};
 use crate::tick::Interpolator;
 use glidepath_geometry::AxisVector;
 use glidepath_link::servo::{Servo, ServoSettings};
 use glidepath_link::{
-    Client, Command, CommandReply, CommandRequest, Delivery, FaultCause, Feedback, FrameSink,
-    InProcess, JogDemand, MachineState, Power, Publisher, Setpoint, SetpointFrame, Status,
-    Subscriber, Transport,
+    Client, Command, CommandReply, CommandRequest, Delivery, EventId, EventKind, FaultCause,
+    Feedback, FrameSink, InProcess, JogDemand, MachineState, Power, Publisher, Setpoint,
+    SetpointFrame, Status, Subscriber, Transport,
 };
 use glidepath_plant::{JointSettings, Plant, Upset};
+use glidepath_program::FrameFlags;
 use glidepath_realtime::{CountingAllocator, Events, Wake, event_ring};
 use heapless::spsc::Producer;
 use std::collections::VecDeque;
@@ -44,6 +45,8 @@ pub(super) struct Bench {
     status: Option<Status>,
     tick: u64,
     config: Config,
+    /// What the last report told to be awaited.
+    reported: Option<Awaited>,
 }
 
 /// What joints of the tests are allowed.
@@ -106,6 +109,7 @@ impl Bench {
             status: None,
             tick: 0,
             config,
+            reported: None,
         }
     }
 
@@ -156,6 +160,7 @@ impl Bench {
             }
         }
         self.setpoints.push(report.setpoint);
+        self.reported = report.awaited;
         report.setpoint
     }
 
@@ -235,6 +240,60 @@ impl Bench {
         self.epoch += 1;
         self.feed = records(&frames, self.epoch, PERIOD_NS).into();
         self.sent = 0;
+    }
+
+    /// Lines up stretches of motion of about so many ticks, with an M code at rest before each.
+    pub(super) fn load_codes(&mut self, seed: u64, ticks: usize, codes: &[u32]) {
+        let mut at = AxisVector::from(self.last().position);
+        let mut frames: Vec<SetpointFrame> = Vec::new();
+        self.epoch += 1;
+        for (stretch, code) in codes.iter().enumerate() {
+            let limits = self.config.limits;
+            let planned = plan(seed + stretch as u64, 3, ticks, &limits, 0.004, at);
+            at = planned[planned.len() - 1].position;
+            let mut part = records(&planned, self.epoch, PERIOD_NS);
+            let rest = SetpointFrame {
+                event_kind: EventKind::MCode.code(),
+                event_value: f64::from(*code),
+                line: stretch as u32 + 1,
+                ..part[0]
+            };
+            part.insert(1, rest);
+            part.insert(1, part[0]);
+            frames.extend(part);
+        }
+        let last = frames.len() - 1;
+        for (sequence, frame) in frames.iter_mut().enumerate() {
+            frame.sequence = sequence as u64;
+            frame.flags = match sequence {
+                0 => FrameFlags::FIRST.0,
+                n if n == last => FrameFlags::LAST.0,
+                _ => 0,
+            };
+        }
+        self.feed = frames.into();
+        self.sent = 0;
+    }
+
+    /// What is awaited, by the status.
+    pub(super) fn awaited(&mut self) -> Option<EventId> {
+        let status = self.status();
+        (status.awaited_since_ns != 0).then_some(EventId {
+            boot_id: status.boot_id,
+            epoch: status.epoch,
+            sequence: status.awaited_sequence,
+        })
+    }
+
+    /// What was awaited at the last tick.
+    pub(super) fn last_awaited(&self) -> Option<EventId> {
+        self.reported.map(|awaited| awaited.id(77))
+    }
+
+    /// The sequence of the frame with an M code that is still to be published.
+    pub(super) fn feed_of(&self, code: f64) -> u64 {
+        let is_it = |frame: &&SetpointFrame| frame.event_value == code;
+        self.feed.iter().find(is_it).unwrap().sequence
     }
 
     pub(super) fn upset(&mut self, upset: Upset) {

@@ -1,0 +1,36 @@
+//! What M66 waits for.
+
+/// An input of the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Input {
+    /// A digital one, 0 to 63.
+    Digital(u32),
+    /// An analog one, 0 to 63.
+    Analog(u32),
+}
+
+/// What an input is to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WaitFor {
+    /// Nothing: it is read at once (L0).
+    Nothing,
+    /// To become high (L1).
+    Rise,
+    /// To become low (L2).
+    Fall,
+    /// To be high (L3).
+    High,
+    /// To be low (L4).
+    Low,
+}
+
+/// What M66 waits for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InputWait {
+    /// The input.
+    pub input: Input,
+    /// What it is to do.
+    pub until: WaitFor,
+    /// How long at most, s; what was not until then gives −1.
+    pub limit_s: f64,
+}

@@ -1,0 +1,66 @@
+//! From one program to the next: what is in force.
+
+use std::io::BufRead;
+use std::sync::Arc;
+
+use glidepath_geometry::Plane;
+
+use crate::execute::program::Program;
+use crate::execute::state::coolant::Coolant;
+use crate::execute::state::in_force::{InForce, InForceParts};
+use crate::execute::state::spindle::Spindle;
+use crate::syntax::modes::{Distance, FeedMode, Motion};
+
+impl<R: BufRead> Program<R> {
+    /// What is in force behind the line read last, as the next program begins: cutter radius
+    /// compensation, open curves, saved states (M70) and what is local to subroutines end with a program. One that ended
+    /// by M2 or M30 leaves what these leave in LinuxCNC.
+    #[must_use]
+    pub fn in_force(&self) -> InForce {
+        let interpreter = &self.interpreter;
+        let mut state = interpreter.state;
+        (state.on_contour, state.leaving_contour, state.cubic_tail) = (false, false, None);
+        if self.ended && !self.ran_out {
+            let modal = &mut state.modal;
+            modal.plane = Plane::Xy;
+            modal.distance = Distance::Absolute;
+            modal.feed_mode = FeedMode::PerMinute;
+            modal.motion = Some(Motion::Linear);
+            state.spindle = Spindle {
+                turning: None,
+                ..state.spindle
+            };
+            state.coolant = Coolant::default();
+            state.overrides_off = false;
+        }
+        let mut parameters = self.parameters.clone();
+        parameters.leave_all();
+        InForce(Arc::new(InForceParts {
+            state,
+            offsets: interpreter.offsets.clone(),
+            tools: interpreter.tools.clone(),
+            parameters,
+        }))
+    }
+
+    /// Begins with what is in force, where the options say that the machine stands. Coordinate
+    /// systems and reference positions are those of the options.
+    pub(crate) fn begin_with(&mut self, in_force: &InForce) {
+        let InForceParts {
+            state,
+            offsets,
+            tools,
+            parameters,
+        } = in_force.0.as_ref();
+        let interpreter = &mut self.interpreter;
+        let start = interpreter.options.start;
+        interpreter.state = *state;
+        (interpreter.state.position, interpreter.state.path_end) = (start, start);
+        interpreter.offsets.tool = offsets.tool;
+        interpreter.offsets.active = offsets.active;
+        interpreter.offsets.shift = offsets.shift;
+        interpreter.offsets.saved_shift = offsets.saved_shift;
+        interpreter.tools = interpreter.tools.take().or_else(|| tools.clone());
+        self.parameters = parameters.clone();
+    }
+}

@@ -1,0 +1,42 @@
+//! What is in force behind a program, for the next one to begin with.
+
+use std::sync::Arc;
+
+use crate::execute::parameters::Parameters;
+use crate::execute::state::offsets::Offsets;
+use crate::execute::state::program_state::State;
+use crate::setup::tool_table::ToolTable;
+use crate::setup::work_offsets::WorkOffsets;
+
+/// All that is in force behind a block: modes, feed, spindle, tool, offsets, parameters. Where the
+/// machine stands is no part of it. Clones are the same; it equals nothing but them.
+#[derive(Debug, Clone)]
+pub struct InForce(pub(crate) Arc<InForceParts>);
+
+#[derive(Debug)]
+pub(crate) struct InForceParts {
+    pub(crate) state: State,
+    pub(crate) offsets: Offsets,
+    pub(crate) tools: Option<Arc<ToolTable>>,
+    pub(crate) parameters: Parameters,
+}
+
+impl PartialEq for InForce {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl InForce {
+    /// Coordinate systems, reference positions and the offset of G92.
+    #[must_use]
+    pub fn work_offsets(&self) -> WorkOffsets {
+        self.0.offsets.set_up()
+    }
+
+    /// The tool table with what G10 has made of it.
+    #[must_use]
+    pub fn tools(&self) -> Option<&Arc<ToolTable>> {
+        self.0.tools.as_ref()
+    }
+}

@@ -1,0 +1,99 @@
+//! What differs between the machine as it is and as a program expects it at a line.
+
+use super::failure::Failure;
+use crate::config::MachineConfig;
+use core::fmt::Write as _;
+use glidepath_geometry::AxisVector;
+use glidepath_link::{Auxiliary, Coolant, SpindleState};
+use glidepath_planner::{Approach, Control, LineStart, Publisher, StartLine};
+
+/// How the machine goes to where the program is to begin.
+///
+/// # Errors
+/// The link fails.
+pub(super) fn approach(
+    config: &MachineConfig,
+    position: AxisVector,
+    publisher: &Publisher<'_>,
+    control: &mut Control<'_>,
+) -> Result<Approach, Failure> {
+    let tool_axis = config.jog.tool_axis;
+    let axis = config.axes.iter().find(|axis| axis.axis == tool_axis);
+    let now = publisher.auxiliary(control)?;
+    Ok(Approach {
+        position,
+        now,
+        tool_axis,
+        top: axis.and_then(|axis| axis.travel).map(|(_, top)| top),
+    })
+}
+
+/// What has to be agreed to before the machine moves.
+pub(super) fn agreement<S: glidepath_planner::ItemSource>(
+    from: StartLine,
+    found: &LineStart<S>,
+    approach: &Approach,
+    config: &MachineConfig,
+) -> String {
+    let (now, then) = (&approach.now, found.expected());
+    let mut text = format!("begins with line {}, time {}", from.line, from.pass);
+    // Writing to a String does not fail.
+    let mut differs = |what: &str, now: String, then: String| {
+        if now != then {
+            let _ = write!(text, "\n{what}: {now} -> {then}");
+        }
+    };
+    let place = |position: &AxisVector| {
+        let axes = config.axes.iter().map(|axis| {
+            let value = position[axis.axis.index()];
+            format!("{}{value:.4}", axis.axis)
+        });
+        axes.collect::<Vec<_>>().join(" ")
+    };
+    differs(
+        "position",
+        place(&approach.position),
+        place(&found.begins_at()),
+    );
+    differs("tool", format!("T{}", now.tool), format!("T{}", then.tool));
+    let prepared = |record: &Auxiliary| format!("T{}", record.prepared_tool);
+    differs("tool selected", prepared(now), prepared(then));
+    differs("spindle", spindle(now), spindle(then));
+    differs("coolant", coolant(now), coolant(then));
+    let outputs = |record: &Auxiliary| format!("{:#x}", record.digital_out);
+    differs("digital outputs", outputs(now), outputs(then));
+    let analog = |record: &Auxiliary| format!("{:?}", record.analog_out);
+    if analog(now) != analog(then) {
+        text.push_str("\nanalog outputs differ");
+    }
+    let _ = write!(
+        text,
+        "\nthe way: {} up, what differs, the other axes at rapid, {} down at the feed",
+        approach.tool_axis, approach.tool_axis
+    );
+    text
+}
+
+fn spindle(record: &Auxiliary) -> String {
+    let speed = record.spindle_speed;
+    match record.spindle() {
+        Ok(SpindleState::Clockwise) => format!("M3 S{speed}"),
+        Ok(SpindleState::Counterclockwise) => format!("M4 S{speed}"),
+        Ok(SpindleState::Oriented) => "M19".to_owned(),
+        _ => "M5".to_owned(),
+    }
+}
+
+fn coolant(record: &Auxiliary) -> String {
+    let on = [(Coolant::MIST, "M7"), (Coolant::FLOOD, "M8")];
+    let on: Vec<&str> = on
+        .iter()
+        .filter(|(of, _)| record.coolant().contains(*of))
+        .map(|(_, name)| *name)
+        .collect();
+    if on.is_empty() {
+        "M9".to_owned()
+    } else {
+        on.join(" ")
+    }
+}

@@ -1,0 +1,133 @@
+//! `[m_codes.M…]`: the M codes that the machine has of its own, and those that are waited for.
+
+use super::values::{Judge, Range};
+use crate::config::diagnostic::ConfigDiagnostic;
+use crate::config::raw::{Optional, RawMCode};
+use glidepath_gcode::MCodes;
+use glidepath_interpolator::{Answer, Gate, MAX_GATES};
+use std::collections::BTreeMap;
+use std::time::Duration;
+use toml::Spanned;
+
+/// Codes of every program that may be waited for: those at which the machine is at rest anyway.
+const MAY_WAIT: [u32; 9] = [3, 4, 5, 6, 7, 8, 9, 19, 61];
+
+/// The rule of M66 is the machine's own, so one less.
+const MOST: usize = MAX_GATES - 1;
+
+impl Judge {
+    pub(super) fn m_codes(
+        &mut self,
+        raw: BTreeMap<Spanned<String>, Spanned<RawMCode>>,
+    ) -> Vec<Gate> {
+        let mut rules = Vec::new();
+        for (name, raw) in raw {
+            let key = format!("m_codes.{}", name.as_ref());
+            let raw = raw.into_inner();
+            let seconds = Range {
+                min: 0.1,
+                max: 86_400.0,
+                unit: "s",
+                help: "longer than it ever takes when all is well",
+            };
+            let timeout_key = format!("{key}.timeout_s");
+            let within = raw
+                .timeout_s
+                .as_ref()
+                .map(|value| self.number(&timeout_key, value, &seconds))
+                .map(Duration::from_secs_f64);
+            let answer = self.answer(&format!("{key}.done"), raw.done);
+            match codes(name.as_ref()) {
+                Some((first, last)) if (first..=last).all(is_possible) => rules.push(Gate {
+                    first,
+                    last,
+                    answer,
+                    within,
+                }),
+                _ => self.diagnostics.push(ConfigDiagnostic {
+                    message: format!("{key} names no M code that can be declared"),
+                    key,
+                    help: Some(
+                        "give a code or a range such as M428 or M100-M199; of the codes of every \
+                         program, M3 to M9, M19 and M61 can be waited for"
+                            .to_owned(),
+                    ),
+                    span: Some(name.span()),
+                }),
+            }
+        }
+        // The more particular rule counts.
+        rules.sort_by_key(|rule| (rule.last - rule.first, rule.first));
+        if rules.len() > MOST {
+            self.diagnostics.push(ConfigDiagnostic {
+                key: "m_codes".to_owned(),
+                message: format!("more than {MOST} rules for M codes"),
+                help: Some("give ranges such as M100-M199".to_owned()),
+                span: None,
+            });
+        }
+        rules
+    }
+
+    /// What ends the wait for a code.
+    fn answer(&mut self, key: &str, done: Optional<String>) -> Answer {
+        let Some(done) = done else {
+            return Answer::Acknowledgement;
+        };
+        let answer = match done.as_ref().as_str() {
+            "nothing" => Some(Answer::Nobody),
+            "acknowledge" => Some(Answer::Acknowledgement),
+            "spindle-at-speed" => Some(Answer::SpindleAtSpeed),
+            "spindle-stopped" => Some(Answer::SpindleStopped),
+            "spindle-oriented" => Some(Answer::SpindleOriented),
+            other => input(other),
+        };
+        if answer.is_none() {
+            self.diagnostics.push(ConfigDiagnostic {
+                key: key.to_owned(),
+                message: format!("{key} = \"{}\" is not known", done.as_ref()),
+                help: Some(
+                    "give \"acknowledge\", \"spindle-at-speed\", \"spindle-stopped\", \
+                     \"spindle-oriented\", \"input 3 high\", \"input 3 low\" or \"nothing\""
+                        .to_owned(),
+                ),
+                span: Some(done.span()),
+            });
+        }
+        answer.unwrap_or(Answer::Nobody)
+    }
+}
+
+fn input(text: &str) -> Option<Answer> {
+    let (number, level) = text.strip_prefix("input ")?.split_once(' ')?;
+    let number = number.parse().ok().filter(|number| *number < 64)?;
+    match level {
+        "high" => Some(Answer::Input { number, high: true }),
+        "low" => Some(Answer::Input {
+            number,
+            high: false,
+        }),
+        _ => None,
+    }
+}
+
+/// The codes of a name such as M428 or M100-M199.
+fn codes(name: &str) -> Option<(u32, u32)> {
+    let code = |name: &str| {
+        let digits = name.strip_prefix('M')?;
+        let is_plain = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+        let number = digits.parse().ok().filter(|number| *number < 10_000)?;
+        is_plain.then_some(number)
+    };
+    match name.split_once('-') {
+        None => Some((code(name)?, code(name)?)),
+        Some((first, last)) => {
+            let (first, last) = (code(first)?, code(last)?);
+            (first <= last).then_some((first, last))
+        }
+    }
+}
+
+fn is_possible(code: u32) -> bool {
+    MCodes::is_free(code) || MAY_WAIT.contains(&code)
+}

@@ -1,0 +1,62 @@
+//! What the events of setpoints have come to: the record that spindle, coolant, tools and outputs
+//! obey.
+
+use crate::gates::Gates;
+use crate::message::{Awaited, Report};
+use glidepath_link::{Auxiliary, EventId};
+
+/// The record, and what it was when it was published last.
+#[derive(Debug)]
+pub(crate) struct AuxiliaryBook {
+    record: Auxiliary,
+    published: Option<Auxiliary>,
+    gates: Gates,
+}
+
+impl AuxiliaryBook {
+    pub(crate) fn new(boot_id: u64, gates: Gates) -> Self {
+        Self {
+            record: Auxiliary {
+                boot_id,
+                ..bytemuck::Zeroable::zeroed()
+            },
+            published: None,
+            gates,
+        }
+    }
+
+    /// Takes up what happens with a setpoint.
+    pub(crate) fn note(&mut self, report: &Report) {
+        let setpoint = &report.setpoint;
+        if let Ok(Some(event)) = setpoint.event() {
+            self.record.take(event);
+            (self.record.epoch, self.record.sequence) = (setpoint.epoch, setpoint.sequence);
+            self.record.line = setpoint.line;
+        }
+        self.await_event(report.awaited);
+    }
+
+    fn await_event(&mut self, awaited: Option<Awaited>) {
+        let record = &mut self.record;
+        let Some(awaited) = awaited else {
+            record.awaited = EventId::default();
+            (record.awaited_since_ns, record.awaited_until_ns) = (0, 0);
+            (record.awaited_kind, record.awaited_value) = (0, 0.0);
+            return;
+        };
+        record.awaited = awaited.id(record.boot_id);
+        (record.awaited_kind, record.awaited_value) = (awaited.event_kind, awaited.event_value);
+        record.awaited_since_ns = awaited.since_ns;
+        record.awaited_until_ns = self.gates.deadline_ns(record, awaited.since_ns);
+    }
+
+    /// The record, with a new generation, if it has changed since it was asked for last.
+    pub(crate) fn changed(&mut self) -> Option<&Auxiliary> {
+        if self.published == Some(self.record) {
+            return None;
+        }
+        self.record.generation += 1;
+        self.published = Some(self.record);
+        self.published.as_ref()
+    }
+}

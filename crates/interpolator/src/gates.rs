@@ -1,0 +1,169 @@
+//! Which M codes are waited for, and what ends the wait.
+
+use core::time::Duration;
+use glidepath_link::{Auxiliary, EventKind, SetpointFrame, SpindleFlags};
+use glidepath_program::Event;
+
+/// Most rules of a machine.
+pub const MAX_GATES: usize = 32;
+
+/// What says that what an M code asked for is done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// Nobody: it is not waited for.
+    Nobody,
+    /// Somebody does, by [`glidepath_link::Command::Acknowledge`].
+    Acknowledgement,
+    /// The spindle turns as fast as it was told to, by feedback.
+    SpindleAtSpeed,
+    /// The spindle stands, by feedback.
+    SpindleStopped,
+    /// The spindle stands at its angle, by feedback.
+    SpindleOriented,
+    /// A digital input, 0 to 63, by feedback.
+    Input {
+        /// Its number.
+        number: u8,
+        /// What it is to be.
+        high: bool,
+    },
+    /// The planner, by going on: it asked an input what the program is to do (M66).
+    Planner,
+}
+
+impl Answer {
+    /// Whether it takes the feedback of drives.
+    #[must_use]
+    pub const fn needs_feedback(self) -> bool {
+        !matches!(self, Self::Nobody | Self::Acknowledgement | Self::Planner)
+    }
+
+    /// Whether inputs and the spindle say that it is done.
+    pub(crate) const fn is_given(self, digital_in: u64, spindle: SpindleFlags) -> bool {
+        match self {
+            Self::Nobody => true,
+            Self::Acknowledgement | Self::Planner => false,
+            Self::SpindleAtSpeed => spindle.contains(SpindleFlags::AT_SPEED),
+            Self::SpindleStopped => spindle.contains(SpindleFlags::STOPPED),
+            Self::SpindleOriented => spindle.contains(SpindleFlags::ORIENTED),
+            Self::Input { number, high } => (digital_in >> (number & 63) & 1 == 1) == high,
+        }
+    }
+}
+
+/// The motion does not pass some M codes before they are answered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Gate {
+    /// The first M code that this is about.
+    pub first: u32,
+    /// The last one.
+    pub last: u32,
+    /// What ends the wait.
+    pub answer: Answer,
+    /// How long it may take; longer is a fault. `None`: for ever.
+    pub within: Option<Duration>,
+}
+
+/// All M codes that are waited for. A code that several rules are about obeys the first of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Gates {
+    rules: [Option<Gate>; MAX_GATES],
+}
+
+impl Gates {
+    /// Nothing waits.
+    pub const NONE: Self = Self {
+        rules: [None; MAX_GATES],
+    };
+
+    /// The gates of these rules; `None` if there are more than [`MAX_GATES`].
+    #[must_use]
+    pub fn new(rules: &[Gate]) -> Option<Self> {
+        let mut gates = Self::NONE;
+        if rules.len() > MAX_GATES {
+            return None;
+        }
+        for (to, rule) in gates.rules.iter_mut().zip(rules) {
+            *to = Some(*rule);
+        }
+        Some(gates)
+    }
+
+    /// The rule for an M code.
+    #[must_use]
+    pub fn of(&self, code: u32) -> Option<Gate> {
+        let rules = self.rules.iter().map_while(|rule| *rule);
+        rules
+            .into_iter()
+            .find(|rule| (rule.first..=rule.last).contains(&code))
+            .filter(|rule| rule.answer != Answer::Nobody)
+    }
+
+    /// The rule for the event of a frame.
+    pub(crate) fn of_frame(&self, frame: &SetpointFrame) -> Option<Gate> {
+        if frame.event_kind != EventKind::MCode.code() {
+            return None;
+        }
+        match frame.event() {
+            Ok(Some(Event::MCode(code))) => self.of(code),
+            _ => None,
+        }
+    }
+
+    /// The longest that is waited for an event, as a record has it: ns of `CLOCK_MONOTONIC`.
+    pub(crate) fn deadline_ns(&self, auxiliary: &Auxiliary, since_ns: u64) -> u64 {
+        let within = match auxiliary.awaited_event() {
+            Ok(Some(Event::MCode(code))) => self.of(code).and_then(|gate| gate.within),
+            _ => None,
+        };
+        within.map_or(0, |within| {
+            since_ns.saturating_add(u64::try_from(within.as_nanos()).unwrap_or(u64::MAX))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_rule_of_a_code_counts() {
+        let gate = |first, last, answer| Gate {
+            first,
+            last,
+            answer,
+            within: None,
+        };
+        let spindle = gate(3, 4, Answer::SpindleAtSpeed);
+        let exception = gate(120, 120, Answer::SpindleStopped);
+        let told = gate(122, 122, Answer::Nobody);
+        let users = gate(100, 199, Answer::Acknowledgement);
+        let gates = Gates::new(&[spindle, exception, told, users]).unwrap();
+        assert_eq!(gates.of(4), Some(spindle));
+        assert_eq!(gates.of(120), Some(exception));
+        assert_eq!(gates.of(121), Some(users));
+        assert_eq!(
+            (gates.of(5), gates.of(200), gates.of(122)),
+            (None, None, None)
+        );
+        assert!(Gates::new(&[users; MAX_GATES + 1]).is_none());
+    }
+
+    #[test]
+    fn feedback_answers() {
+        let high = Answer::Input {
+            number: 3,
+            high: true,
+        };
+        let low = Answer::Input {
+            number: 3,
+            high: false,
+        };
+        let quiet = SpindleFlags::default();
+        assert!(high.is_given(0b1000, quiet) && !low.is_given(0b1000, quiet));
+        assert!(!high.is_given(0b0111, quiet) && low.is_given(0b0111, quiet));
+        assert!(Answer::SpindleAtSpeed.is_given(0, SpindleFlags::AT_SPEED));
+        assert!(!Answer::SpindleAtSpeed.is_given(u64::MAX, SpindleFlags::STOPPED));
+        assert!(!Answer::Acknowledgement.is_given(u64::MAX, SpindleFlags::STOPPED));
+    }
+}

@@ -1,0 +1,46 @@
+//! What a tick does for events that are to be answered before the motion goes on.
+
+use super::state::Interpolator;
+use crate::gates::Answer;
+use crate::message::Awaited;
+use crate::program_time::ProgramTime;
+use crate::wait::Outcome;
+
+impl Interpolator<'_> {
+    /// Looks whether what the motion stands for was answered.
+    pub(super) fn watch_wait(&mut self) {
+        let Some(awaited) = self.wait.awaited() else {
+            return;
+        };
+        let has_more = self.track.end() > awaited.sequence + 1;
+        match self.wait.watch(&self.drives, has_more) {
+            Outcome::Open => {}
+            Outcome::Answered => {
+                self.wait.end();
+                self.track.pass_gate();
+            }
+            Outcome::Failed(cause) => self.fail(cause),
+        }
+    }
+
+    /// Begins to wait where the motion stands at an event that is to be answered.
+    pub(super) fn stand_at_gate(&mut self, scheduled_ns: u64, number: u64) {
+        let now = self.rate.now().time;
+        if let Some((frame, gate)) = self.track.gate()
+            && ProgramTime::at(frame.sequence) == now
+            && !self.requests.is_stopping()
+        {
+            let awaited = Awaited {
+                epoch: frame.epoch,
+                sequence: frame.sequence,
+                line: frame.line,
+                event_kind: frame.event_kind,
+                event_value: frame.event_value,
+                since_ns: scheduled_ns,
+                told_by: number,
+                by_feedback: gate.answer != Answer::Acknowledgement,
+            };
+            self.wait.begin(gate, awaited);
+        }
+    }
+}

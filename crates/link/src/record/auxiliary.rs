@@ -1,0 +1,175 @@
+//! Interpolator to whatever works spindle, coolant, tools and outputs: what they are to do now.
+
+use super::check::{Fields, RecordError};
+use super::code::coded;
+use super::{EventId, Record, event};
+use glidepath_program::Event;
+use iceoryx2::prelude::ZeroCopySend;
+
+/// Analog outputs, as many as there are numbers for them in programs.
+pub const ANALOG_OUTPUTS: usize = 64;
+
+coded! {
+    /// What the spindle is to do.
+    pub enum SpindleState {
+        /// Stand (M5), or nothing was said since the interpolator began.
+        Stopped = 0,
+        /// Turn clockwise (M3).
+        Clockwise = 1,
+        /// Turn counterclockwise (M4).
+        Counterclockwise = 2,
+        /// Stand at a known angle (M19).
+        Oriented = 3,
+    }
+}
+
+/// What of the coolant is to be on, one bit each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Coolant(pub u32);
+
+impl Coolant {
+    /// Mist (M7).
+    pub const MIST: Self = Self(1);
+    /// Flood (M8).
+    pub const FLOOD: Self = Self(1 << 1);
+
+    const KNOWN: u32 = (1 << 2) - 1;
+
+    /// True if all of `other` are on.
+    #[must_use]
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+}
+
+/// What spindle, coolant, tools and outputs are to do now: all that the events of setpoints have
+/// come to since the interpolator began.
+///
+/// Events are edges, and whoever comes late, or loses one, obeys this instead: it is latched, and a
+/// subscriber gets the last one at once.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
+#[type_name("glidepath.Auxiliary.v1")]
+pub struct Auxiliary {
+    /// Identifies one life of the interpolator.
+    pub boot_id: u64,
+    /// Counts the changes of this record in this life.
+    pub generation: u64,
+    /// Epoch of the last event, 0 before the first.
+    pub epoch: u64,
+    /// Sequence of its frame.
+    pub sequence: u64,
+    /// The event that is awaited; means something if `awaited_since_ns` does.
+    pub awaited: EventId,
+    /// Since when it is awaited, ns of `CLOCK_MONOTONIC`; 0 if nothing is.
+    pub awaited_since_ns: u64,
+    /// When waiting becomes a fault, ns of `CLOCK_MONOTONIC`; 0 if never.
+    pub awaited_until_ns: u64,
+    /// The number of the event that is awaited, as in a setpoint.
+    pub awaited_value: f64,
+    /// The code of the event that is awaited, as in a setpoint; 0 if nothing is.
+    pub awaited_kind: u32,
+    /// Source line of the last event.
+    pub line: u32,
+    /// Speed that the spindle is to have when it turns, rev/min.
+    pub spindle_speed: f64,
+    /// Code of a [`SpindleState`].
+    pub spindle: u32,
+    /// Bits of [`Coolant`].
+    pub coolant: u32,
+    /// The tool that M6 put into the spindle last, 0 for none or if nothing was said yet.
+    pub tool: u32,
+    /// The tool that was selected last.
+    pub prepared_tool: u32,
+    /// Digital outputs, one bit each.
+    pub digital_out: u64,
+    /// Analog outputs, in whatever unit they have.
+    pub analog_out: [f64; ANALOG_OUTPUTS],
+}
+
+impl Auxiliary {
+    /// What the spindle is to do.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn spindle(&self) -> Result<SpindleState, RecordError> {
+        Fields(Self::NAME).code("spindle", self.spindle)
+    }
+
+    /// What of the coolant is to be on.
+    #[must_use]
+    pub const fn coolant(&self) -> Coolant {
+        Coolant(self.coolant)
+    }
+
+    /// The event that is awaited, if one is.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code, or a number that does not fit it.
+    pub fn awaited_event(&self) -> Result<Option<Event>, RecordError> {
+        event::decode(Self::NAME, self.awaited_kind, self.awaited_value)
+    }
+
+    /// Takes an event up. Returns whether it changed anything.
+    pub fn take(&mut self, event: Event) -> bool {
+        let before = *self;
+        match event {
+            Event::SpindleSpeed(speed) => self.spindle_speed = speed,
+            Event::SelectTool(tool) => self.prepared_tool = tool,
+            Event::MCode(code) => self.take_m_code(code),
+            Event::DigitalOutput { number, on } => {
+                let bit = 1_u64.checked_shl(number).unwrap_or(0);
+                self.digital_out &= !bit;
+                self.digital_out |= if on { bit } else { 0 };
+            }
+            Event::AnalogOutput { number, value } => {
+                let output = usize::try_from(number).ok();
+                if let Some(output) = output.and_then(|n| self.analog_out.get_mut(n)) {
+                    *output = value;
+                }
+            }
+            Event::ProgramStop(_) | Event::OptionalStop => {}
+        }
+        *self != before
+    }
+
+    const fn take_m_code(&mut self, code: u32) {
+        match code {
+            3 => self.spindle = SpindleState::Clockwise.code(),
+            4 => self.spindle = SpindleState::Counterclockwise.code(),
+            5 => self.spindle = SpindleState::Stopped.code(),
+            19 => self.spindle = SpindleState::Oriented.code(),
+            // Tools are changed with the spindle at rest.
+            6 => {
+                self.tool = self.prepared_tool;
+                self.spindle = SpindleState::Stopped.code();
+            }
+            7 => self.coolant |= Coolant::MIST.0,
+            8 => self.coolant |= Coolant::FLOOD.0,
+            9 => self.coolant = 0,
+            _ => {}
+        }
+    }
+}
+
+impl Default for Auxiliary {
+    /// As nothing was said yet.
+    fn default() -> Self {
+        bytemuck::Zeroable::zeroed()
+    }
+}
+
+impl Record for Auxiliary {
+    const NAME: &'static str = "glidepath.Auxiliary.v1";
+
+    fn check(&self) -> Result<(), RecordError> {
+        let fields = Fields(Self::NAME);
+        self.spindle()?;
+        fields.flags("coolant", self.coolant, Coolant::KNOWN)?;
+        fields.finite("spindle_speed", self.spindle_speed)?;
+        fields.all_finite("analog_out", &self.analog_out)?;
+        self.awaited_event().map(|_| ())
+    }
+}

@@ -1,0 +1,14 @@
+//! What a program shares with whoever attends to its run.
+
+use crate::{ChangeLog, InputDesk, RemarkLog};
+
+/// What a program shares with whoever attends to its run. Clones are the same.
+#[derive(Debug, Clone, Default)]
+pub struct Attending {
+    /// Where changes of how the machine is set up are noted.
+    pub changes: Option<ChangeLog>,
+    /// Where is noted what the program says to people.
+    pub remarks: Option<RemarkLog>,
+    /// Where inputs are asked, where the program's inputs are real.
+    pub inputs: Option<InputDesk>,
+}
