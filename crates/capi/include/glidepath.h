@@ -49,7 +49,7 @@ extern "C" {
 /* The version of the ABI: functions and structures. */
 #define GP_ABI 1u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x7453b1b261e0ba78)
+#define GP_LAYOUT UINT64_C(0x25c54546ebd615a9)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -105,7 +105,8 @@ enum {
     GP_COMMAND_UNHOME = 15,
     GP_COMMAND_RETURN = 16,
     GP_COMMAND_ACKNOWLEDGE = 17,
-    GP_COMMAND_JOG_OVERRIDE = 18
+    GP_COMMAND_JOG_OVERRIDE = 18,
+    GP_COMMAND_TELL = 19
 };
 
 /* Why a command was refused. */
@@ -141,6 +142,8 @@ enum {
     GP_FAULT_AUX_TIMEOUT = 10,
     GP_FAULT_LIMIT_SWITCH = 11,
     GP_FAULT_HOMING = 12,
+    GP_FAULT_AUX_FAILED = 13,
+    GP_FAULT_AUX_FAILED = 13,
     GP_FAULT_FRAME_NOT_FINITE = 0x101,
     GP_FAULT_FRAME_MALFORMED = 0x102,
     GP_FAULT_FRAME_PERIOD = 0x103,
@@ -415,7 +418,7 @@ GP_FIELD(gp_setpoint, joint_acceleration, 512, 72);
 GP_FIELD(gp_setpoint, away, 584, 72);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
-   glidepath.Status.v5. */
+   glidepath.Status.v6. */
 typedef struct gp_status {
     /* Identifies one life of the interpolator. */
     uint64_t boot_id;
@@ -504,6 +507,12 @@ typedef struct gp_status {
     uint64_t awaited_sequence;
     /* Since when it is awaited, ns of CLOCK_MONOTONIC; 0 if nothing is. */
     uint64_t awaited_since_ns;
+    /* The event's number, as in a setpoint. */
+    double awaited_value;
+    /* The event's code, as in a setpoint; 0 if nothing is awaited. */
+    uint32_t awaited_kind;
+    /* Its source line. */
+    uint32_t awaited_line;
     /* Path position, mm. */
     double path_s;
     /* Path position of the first setpoint of the block, mm. */
@@ -552,7 +561,7 @@ typedef struct gp_status {
     /* The last thing that happened (a change of state, missed ticks, ...), for people. */
     char last_event[128];
 } gp_status;
-GP_ASSERT(sizeof(gp_status) == 1240, "gp_status has another size");
+GP_ASSERT(sizeof(gp_status) == 1256, "gp_status has another size");
 GP_FIELD(gp_status, boot_id, 0, 8);
 GP_FIELD(gp_status, updated_ns, 8, 8);
 GP_FIELD(gp_status, period_ns, 16, 8);
@@ -594,29 +603,32 @@ GP_FIELD(gp_status, following_error, 472, 72);
 GP_FIELD(gp_status, following_peak, 544, 72);
 GP_FIELD(gp_status, awaited_sequence, 616, 8);
 GP_FIELD(gp_status, awaited_since_ns, 624, 8);
-GP_FIELD(gp_status, path_s, 632, 8);
-GP_FIELD(gp_status, block_path_s, 640, 8);
-GP_FIELD(gp_status, feed_v, 648, 8);
-GP_FIELD(gp_status, feed_override, 656, 8);
-GP_FIELD(gp_status, rapid_override, 664, 8);
-GP_FIELD(gp_status, jog_override, 672, 8);
-GP_FIELD(gp_status, effective_override, 680, 8);
-GP_FIELD(gp_status, ticks, 688, 8);
-GP_FIELD(gp_status, missed_ticks, 696, 8);
-GP_FIELD(gp_status, late_ticks, 704, 8);
-GP_FIELD(gp_status, setpoints_published, 712, 8);
-GP_FIELD(gp_status, setpoints_lost, 720, 8);
-GP_FIELD(gp_status, reserve_stops, 728, 8);
-GP_FIELD(gp_status, starved_ticks, 736, 8);
-GP_FIELD(gp_status, commands_served, 744, 8);
-GP_FIELD(gp_status, commands_refused, 752, 8);
-GP_FIELD(gp_status, frames_refused, 760, 96);
-GP_FIELD(gp_status, lateness, 856, 32);
-GP_FIELD(gp_status, work, 888, 32);
-GP_FIELD(gp_status, latency, 920, 32);
-GP_FIELD(gp_status, response, 952, 32);
-GP_FIELD(gp_status, last_error, 984, 128);
-GP_FIELD(gp_status, last_event, 1112, 128);
+GP_FIELD(gp_status, awaited_value, 632, 8);
+GP_FIELD(gp_status, awaited_kind, 640, 4);
+GP_FIELD(gp_status, awaited_line, 644, 4);
+GP_FIELD(gp_status, path_s, 648, 8);
+GP_FIELD(gp_status, block_path_s, 656, 8);
+GP_FIELD(gp_status, feed_v, 664, 8);
+GP_FIELD(gp_status, feed_override, 672, 8);
+GP_FIELD(gp_status, rapid_override, 680, 8);
+GP_FIELD(gp_status, jog_override, 688, 8);
+GP_FIELD(gp_status, effective_override, 696, 8);
+GP_FIELD(gp_status, ticks, 704, 8);
+GP_FIELD(gp_status, missed_ticks, 712, 8);
+GP_FIELD(gp_status, late_ticks, 720, 8);
+GP_FIELD(gp_status, setpoints_published, 728, 8);
+GP_FIELD(gp_status, setpoints_lost, 736, 8);
+GP_FIELD(gp_status, reserve_stops, 744, 8);
+GP_FIELD(gp_status, starved_ticks, 752, 8);
+GP_FIELD(gp_status, commands_served, 760, 8);
+GP_FIELD(gp_status, commands_refused, 768, 8);
+GP_FIELD(gp_status, frames_refused, 776, 96);
+GP_FIELD(gp_status, lateness, 872, 32);
+GP_FIELD(gp_status, work, 904, 32);
+GP_FIELD(gp_status, latency, 936, 32);
+GP_FIELD(gp_status, response, 968, 32);
+GP_FIELD(gp_status, last_error, 1000, 128);
+GP_FIELD(gp_status, last_event, 1128, 128);
 
 /* What a servo stack knows of the joints it drives, at one moment. The record
    glidepath.Feedback.v1. */

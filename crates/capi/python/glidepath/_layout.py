@@ -7,7 +7,7 @@ import ctypes
 import enum
 
 ABI = 1
-LAYOUT = 0x7453b1b261e0ba78
+LAYOUT = 0x25c54546ebd615a9
 AXES = 9
 
 
@@ -67,6 +67,7 @@ class Command(enum.IntEnum):
     RETURN = 16
     ACKNOWLEDGE = 17
     JOG_OVERRIDE = 18
+    TELL = 19
 
 
 class Refusal(enum.IntEnum):
@@ -105,6 +106,7 @@ class Fault(enum.IntEnum):
     AUX_TIMEOUT = 10
     LIMIT_SWITCH = 11
     HOMING = 12
+    AUX_FAILED = 13
     FRAME_NOT_FINITE = 257
     FRAME_MALFORMED = 258
     FRAME_PERIOD = 259
@@ -346,6 +348,9 @@ class StatusRecord(ctypes.Structure):
         ("following_peak", ctypes.c_double * 9),
         ("awaited_sequence", ctypes.c_uint64),
         ("awaited_since_ns", ctypes.c_uint64),
+        ("awaited_value", ctypes.c_double),
+        ("awaited_kind", ctypes.c_uint32),
+        ("awaited_line", ctypes.c_uint32),
         ("path_s", ctypes.c_double),
         ("block_path_s", ctypes.c_double),
         ("feed_v", ctypes.c_double),
@@ -547,7 +552,7 @@ PLACES = {
         "joint_acceleration": 512,
         "away": 584,
     }),
-    StatusRecord: (1240, {
+    StatusRecord: (1256, {
         "boot_id": 0,
         "updated_ns": 8,
         "period_ns": 16,
@@ -589,29 +594,32 @@ PLACES = {
         "following_peak": 544,
         "awaited_sequence": 616,
         "awaited_since_ns": 624,
-        "path_s": 632,
-        "block_path_s": 640,
-        "feed_v": 648,
-        "feed_override": 656,
-        "rapid_override": 664,
-        "jog_override": 672,
-        "effective_override": 680,
-        "ticks": 688,
-        "missed_ticks": 696,
-        "late_ticks": 704,
-        "setpoints_published": 712,
-        "setpoints_lost": 720,
-        "reserve_stops": 728,
-        "starved_ticks": 736,
-        "commands_served": 744,
-        "commands_refused": 752,
-        "frames_refused": 760,
-        "lateness": 856,
-        "work": 888,
-        "latency": 920,
-        "response": 952,
-        "last_error": 984,
-        "last_event": 1112,
+        "awaited_value": 632,
+        "awaited_kind": 640,
+        "awaited_line": 644,
+        "path_s": 648,
+        "block_path_s": 656,
+        "feed_v": 664,
+        "feed_override": 672,
+        "rapid_override": 680,
+        "jog_override": 688,
+        "effective_override": 696,
+        "ticks": 704,
+        "missed_ticks": 712,
+        "late_ticks": 720,
+        "setpoints_published": 728,
+        "setpoints_lost": 736,
+        "reserve_stops": 744,
+        "starved_ticks": 752,
+        "commands_served": 760,
+        "commands_refused": 768,
+        "frames_refused": 776,
+        "lateness": 872,
+        "work": 904,
+        "latency": 936,
+        "response": 968,
+        "last_error": 1000,
+        "last_event": 1128,
     }),
     FeedbackRecord: (808, {
         "boot_id": 0,

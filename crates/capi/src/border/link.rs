@@ -8,7 +8,7 @@ use crate::layout::{ABI, LAYOUT};
 use core::time::Duration;
 use glidepath_link::{
     CommandKind, CommandReply, CommandRequest, EventId, Ipc, LinkConfig, Operator, Record as _,
-    Status,
+    Status, Text,
 };
 
 /// A thread's part in an instance.
@@ -134,6 +134,7 @@ fn request(kind: u32, value: f64, joints: u32, event: EventId) -> CommandRequest
         kind,
         joints,
         event,
+        text: Text::default(),
     }
 }
 

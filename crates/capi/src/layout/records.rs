@@ -129,7 +129,7 @@ structure! {
 
 structure! {
     /// What the interpolator does and how well. Counts are of this life of it.
-    STATUS: "gp_status" = Status, Status::NAME, 1240 {
+    STATUS: "gp_status" = Status, Status::NAME, 1256 {
         /// Identifies one life of the interpolator.
         boot_id: u64,
         /// When this was true, ns of CLOCK_MONOTONIC. A reader takes an old one for a dead
@@ -217,6 +217,12 @@ structure! {
         awaited_sequence: u64,
         /// Since when it is awaited, ns of CLOCK_MONOTONIC; 0 if nothing is.
         awaited_since_ns: u64,
+        /// The event's number, as in a setpoint.
+        awaited_value: f64,
+        /// The event's code, as in a setpoint; 0 if nothing is awaited.
+        awaited_kind: u32,
+        /// Its source line.
+        awaited_line: u32,
         /// Path position, mm.
         path_s: f64,
         /// Path position of the first setpoint of the block, mm.
