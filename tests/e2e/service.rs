@@ -22,6 +22,7 @@ fn machine(instance: &Instance) -> String {
     // A host of tests stands still for tens of milliseconds, and its drives with it.
     let text = text.replace("# stale_s = 0.012 ", "stale_s = 0.25 ");
     let text = text.replace("off_s = 0.1 ", "off_s = 0.5 ");
+    let text = text.replace("\nlift = 0.0 ", "\nlift = 3.5 ");
     instance.file("machine.toml", &format!("{text}{M_CODES}"))
 }
 
@@ -162,10 +163,11 @@ fn lines_and_files_are_executed_by_one_service() {
     let running = bench.process(&["run-file", &long]);
     let _moving = bench.wait(|status| status.frames_executed > 60 && status.line == 2);
     bench.operate(&["abort"]);
+    assert_at([bench.position()[2], 0.0, 0.0], [7.5, 0.0, 0.0]);
     let output = running.wait().expect(5);
     assert!(output.stderr.contains("abort"), "{output:#?}");
     bench.operate(&["mdi", "X3"]);
-    assert_at(bench.position(), [13.0, 3.0, 4.0]);
+    assert_at(bench.position(), [13.0, 3.0, 7.5]);
 
     // What is not answered in time, or failed, is a fault at rest.
     for (line, cause) in [
@@ -189,7 +191,7 @@ fn lines_and_files_are_executed_by_one_service() {
     let _idle = bench.wait_for(MachineState::Idle);
     std::thread::sleep(Duration::from_millis(300));
     bench.operate(&["mdi", "G0 X2"]);
-    assert_at(bench.position(), [2.0, 3.0, 4.0]);
+    assert_at(bench.position(), [2.0, 3.0, 7.5]);
     let _ended = service.end().expect(0);
     let _servo = servo.end().expect(0);
     let _interpolator = interpolator.end().expect(0);

@@ -47,6 +47,9 @@ pub struct AbortArgs {
     /// By SIGTERM: needs no shared memory, and the interpolator ends. The last resort
     #[arg(long)]
     pub signal: bool,
+    /// Do not take the tool axis up by `jog.lift` of the configuration
+    #[arg(long)]
+    pub no_lift: bool,
     /// The interpolator that is meant.
     #[command(flatten)]
     pub operator: OperatorArgs,

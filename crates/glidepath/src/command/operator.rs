@@ -2,6 +2,7 @@
 //! `override`, `abort` and `status`, talking to a running interpolator by its panel, and
 //! `abort --signal`, which reaches the process itself.
 
+use super::jog::lift;
 use super::session;
 use crate::cli::{AbortArgs, JointsArgs, OperatorArgs, OverrideArgs};
 use crate::command::failure::Failure;
@@ -10,8 +11,8 @@ use crate::exit::Exit;
 use crate::output;
 use crate::report::{state_name, status_object, status_text};
 use glidepath_link::{
-    Command, CommandRefusal, CommandReply, CommandRequest, InterpolatorProcess, LinkConfig,
-    LinkError, Operator, Status,
+    Command, CommandRefusal, CommandReply, CommandRequest, EndOfEpoch, InterpolatorProcess,
+    LinkConfig, LinkError, Operator, Status,
 };
 use serde_json::json;
 use std::time::{Duration, Instant};
@@ -160,7 +161,7 @@ pub(super) fn silent(operator: &Operator, link: &LinkConfig) -> Failure {
 /// The errors of [`command`], or the process does not end.
 pub(super) fn abort(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     if !args.signal {
-        return command(&args.operator, config, "abort", Command::Abort);
+        return abort_and_lift(args, config);
     }
     let instance = session::instance(&args.operator.instance, config);
     let found = InterpolatorProcess::find(&session::link(&instance, config))?;
@@ -189,6 +190,22 @@ pub(super) fn abort(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Fa
         output::result(&text);
     }
     Ok(Exit::Done)
+}
+
+/// By command; then the tool axis goes up, if a program was under way and that is configured.
+fn abort_and_lift(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let instance = session::instance(&args.operator.instance, config);
+    let link = session::link(&instance, config);
+    let lifts = config.jog.lift > 0.0 && !args.no_lift;
+    let was_open = lifts
+        && reach(&link)?
+            .status(PATIENCE)?
+            .is_some_and(|status| status.end_of_epoch() == Ok(EndOfEpoch::Open));
+    let exit = command(&args.operator, config, "abort", Command::Abort)?;
+    if was_open {
+        lift(&link, config)?;
+    }
+    Ok(exit)
 }
 
 pub(super) fn refusal_text(refusal: CommandRefusal, message: &str) -> String {

@@ -72,6 +72,8 @@ pub struct JogConfig {
     pub dead_man_ms: u32,
     /// The axis that goes last on the way back to the path.
     pub tool_axis: Axis,
+    /// By how much it goes up behind an abort of a program, mm; 0: it stays.
+    pub lift: f64,
 }
 
 /// Who brings joints home.

@@ -128,6 +128,7 @@ pub(super) struct RawJog {
     pub(super) increments: Optional<Vec<f64>>,
     pub(super) dead_man_ms: Optional<i64>,
     pub(super) tool_axis: Optional<String>,
+    pub(super) lift: Optional<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -2,6 +2,7 @@
 
 mod demands;
 mod keys;
+mod lift;
 mod panel;
 mod steps;
 mod terminal;
@@ -11,6 +12,7 @@ use super::session;
 use crate::cli::JogArgs;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
+pub(super) use lift::lift;
 use panel::Panel;
 
 /// Moves the axes by hand.

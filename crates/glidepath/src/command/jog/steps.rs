@@ -75,7 +75,11 @@ pub(super) fn jog(
 
 /// Waits until the machine moves, or has moved. Says it again meanwhile: the interpolator may just
 /// have learnt of this client.
-fn set_out(panel: &mut Panel, start: &[(Axis, f64)], interrupt: &Interrupt) -> Result<(), Failure> {
+pub(super) fn set_out(
+    panel: &mut Panel,
+    start: &[(Axis, f64)],
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
     let started = Instant::now();
     while panel.state()? != MachineState::Jogging && panel.position() == start {
         if interrupt.is_set() || started.elapsed() > PATIENCE {

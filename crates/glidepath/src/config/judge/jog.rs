@@ -34,6 +34,13 @@ impl Judge {
             let help = "ms without a sign of life after which a jog stops";
             self.whole("jog.dead_man_ms", value, (50, 1_000), help)
         });
+        let range = Range {
+            min: 0.0,
+            max: 1e3,
+            unit: "mm",
+            help: "how far the tool axis goes up behind an abort",
+        };
+        let lift = self.number_or("jog.lift", &raw.lift, &range, 0.0);
         let names = Axis::ALL.map(|axis| (axis.to_string(), axis));
         let mut known: Vec<(&str, Axis)> = names
             .iter()
@@ -48,6 +55,7 @@ impl Judge {
             increments: self.increments(raw.increments),
             // A value that does not fit was found already: the configuration is refused.
             dead_man_ms: dead_man.unwrap_or(150),
+            lift,
             tool_axis: self.choice("jog.tool_axis", raw.tool_axis, &known),
         }
     }

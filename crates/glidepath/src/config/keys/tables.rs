@@ -350,6 +350,13 @@ pub(super) const JOG: &[Key] = &[
         "the steps that jogging by keys offers",
     ),
     key(
+        "jog.lift",
+        number(0.0, 1e3, "mm"),
+        LeftOut::Value("0"),
+        "by how much `glidepath abort` takes the tool axis up when a program was under way, not beyond \
+         its travel",
+    ),
+    key(
         "jog.dead_man_ms",
         Takes::Whole {
             min: 50,
