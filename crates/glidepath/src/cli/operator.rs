@@ -91,8 +91,7 @@ pub struct AcknowledgeArgs {
 #[derive(Debug, Args)]
 pub struct MdiArgs {
     /// The line, such as 'G0 X10 Y5'
-    #[arg(required = true, allow_hyphen_values = true, value_name = "LINE")]
-    pub line: Vec<String>,
+    pub line: String,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,

@@ -15,8 +15,10 @@ use glidepath_link::{
 };
 use serde_json::json;
 use std::io::{BufRead as _, IsTerminal as _};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
+/// How long a service may take to start.
+const PATIENCE: Duration = Duration::from_secs(2);
 /// Between two looks at how a job stands.
 const POLL: Duration = Duration::from_millis(20);
 
@@ -25,9 +27,9 @@ const POLL: Duration = Duration::from_millis(20);
 /// # Errors
 /// No service runs, it refuses, or the motion ended before the line did.
 pub(super) fn mdi(args: &MdiArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let line = args.line.join(" ");
-    let request = JobRequest::new(client(), 1, JobKind::Line, &line);
-    if request.text.as_str() != line {
+    let request = JobRequest::new(client(), 1, JobKind::Line, &args.line);
+    if request.text.as_str() != args.line {
+        let line = args.line.clone();
         return Err(Failure::Word(line, "a line has at most 1024 bytes"));
     }
     let text = execute(&args.instance, config, request, false)?;
@@ -127,11 +129,20 @@ fn ask(
     client: &mut dyn Client<JobRequest, JobReply>,
     request: &JobRequest,
 ) -> Result<JobReply, Failure> {
-    let asked = client.ask(request);
-    if matches!(asked, Err(LinkError::NoServer { .. })) {
-        return Err(Failure::NoService);
+    let started = Instant::now();
+    loop {
+        match client.ask(request) {
+            // It may have been started just now.
+            Err(LinkError::NoServer { .. }) if started.elapsed() < PATIENCE => {
+                std::thread::sleep(POLL);
+            }
+            Err(LinkError::NoServer { .. }) => return Err(Failure::NoService),
+            asked => {
+                asked?;
+                break;
+            }
+        }
     }
-    asked?;
     loop {
         // A long program is read before it is answered; a service that ended is an error here.
         if let Some(reply) = client.reply()? {
