@@ -64,7 +64,8 @@ impl Player {
         Ok(match case.fault {
             Fault::PausePipe => {
                 let mut planner = bench.planner(&["-"]);
-                let lines = case.chance.below(3) + 5;
+                // So many that what is planned of them goes beyond the first corner.
+                let lines = case.chance.below(3) + 7;
                 let cut = PROGRAM
                     .match_indices('\n')
                     .nth(lines)
