@@ -56,6 +56,7 @@ fn answered(conversion: &Conversion) -> Result<MachineConfig, String> {
         "rod" => "800.0",
         "radius" => "200.0",
         "tolerance" => "0.02",
+        "gantry_difference" => "0.5",
         other => panic!("nobody answers {other}"),
     };
     let mut text = String::new();
@@ -98,6 +99,12 @@ fn values_are_those_of_the_other_control_in_our_units() {
     near(mill.axes[0].max_velocity, 95.0);
     near(mill.axes[0].max_acceleration, 900.0);
     assert_eq!(mill.program.subroutine_path.len(), 2);
+    let home = mill.home_of_joints[0].unwrap();
+    assert_eq!(
+        (home.search_v, home.latch_v, home.offset),
+        (-20.0, 1.5, -2.0)
+    );
+    assert_eq!(mill.jog.increments, [1.0, 0.1, 0.01]);
 
     let gantry = machine("linuxcnc", "gantry-inch.ini");
     near(gantry.axes[0].travel.unwrap().1, 1219.2);
@@ -106,6 +113,11 @@ fn values_are_those_of_the_other_control_in_our_units() {
     assert_eq!(gantry.axes[3].travel, None);
     near(gantry.axes[3].max_velocity, 60.0);
     near(gantry.path.tolerance_mm, 0.0254);
+    // The second joint of Y, J2 there, comes after those of all axes.
+    assert_eq!(gantry.gantries.len(), 1);
+    let sequence = |joint: usize| gantry.home_of_joints[joint].map(|home| home.sequence);
+    assert_eq!([sequence(1), sequence(4)], [Some(-2), Some(-2)]);
+    near(gantry.home_of_joints[0].unwrap().search_v, 0.5 * 25.4);
 
     let router = machine("grbl", "router.txt");
     near(router.axes[0].max_velocity, 5000.0 / 60.0);
