@@ -1,14 +1,12 @@
-//! What an operator looks at while the machine works: one screen of 80 columns.
+//! The view for people: one screen of 80 columns.
 
-use super::machine::power_text;
-use super::quantity::grouped;
-use super::status::{fault_text, state_name};
+use super::seen::{View, clock, doing};
+use crate::report::machine::{awaited_text, power_text};
+use crate::report::quantity::grouped;
+use crate::report::status::{fault_text, state_name};
 use core::fmt::Write as _;
-use core::time::Duration;
-use glidepath_geometry::{AXES, Axis};
-use glidepath_link::{MachineState, Status};
-use glidepath_program::Event;
-use serde_json::{Map, Value, json};
+use glidepath_geometry::AXES;
+use glidepath_link::Status;
 
 /// Columns.
 const WIDTH: usize = 80;
@@ -16,217 +14,6 @@ const WIDTH: usize = 80;
 const INDENT: usize = 12;
 /// Columns of the bar of progress.
 const BAR: usize = 24;
-
-/// What a program has told tool, spindle and coolant.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Modal {
-    tool: Option<u32>,
-    speed_rpm: f64,
-    /// 3, 4 or 5.
-    spindle: u32,
-    mist: bool,
-    flood: bool,
-}
-
-impl Modal {
-    /// Takes an event of the program into account.
-    pub const fn take(&mut self, event: Event) {
-        match event {
-            Event::SpindleSpeed(rpm) => self.speed_rpm = rpm,
-            Event::SelectTool(tool) => self.tool = Some(tool),
-            Event::MCode(code @ 3..=5) => self.spindle = code,
-            Event::MCode(7) => self.mist = true,
-            Event::MCode(8) => self.flood = true,
-            Event::MCode(9) => (self.mist, self.flood) = (false, false),
-            Event::MCode(2 | 30) => {
-                self.spindle = 5;
-                (self.mist, self.flood) = (false, false);
-            }
-            _ => {}
-        }
-    }
-
-    fn words(&self) -> String {
-        let tool = self
-            .tool
-            .map_or_else(|| "no tool named".to_owned(), |tool| format!("T{tool}"));
-        let spindle = match self.spindle {
-            3 => format!("spindle {:.0} rev/min (M3)", self.speed_rpm),
-            4 => format!("spindle {:.0} rev/min backwards (M4)", self.speed_rpm),
-            _ => "spindle off".to_owned(),
-        };
-        let coolant = match (self.mist, self.flood) {
-            (false, false) => "coolant off",
-            (true, false) => "mist on",
-            (false, true) => "flood on",
-            (true, true) => "mist and flood on",
-        };
-        format!("{tool}, {spindle}, {coolant}")
-    }
-}
-
-/// Where the machine is in a program that is known.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Place {
-    /// The program's name.
-    pub program: String,
-    /// Text of the line that is executed; empty if it is not known.
-    pub text: String,
-    /// How long the whole of it takes, s; `None` while that is not known yet.
-    pub planned_t: Option<f64>,
-    /// How much of that is done, s.
-    pub elapsed_t: Option<f64>,
-    /// It could not be planned here.
-    pub has_failed: bool,
-    /// What it has told tool, spindle and coolant.
-    pub modal: Modal,
-}
-
-/// A coordinate system.
-#[derive(Debug, Clone, PartialEq)]
-pub struct WorkOffset {
-    /// Its name, as G54.
-    pub name: String,
-    /// Its zero, in machine coordinates, mm or degrees.
-    pub origin: [f64; AXES],
-    /// How far X and Y are turned about Z, degrees.
-    pub rotation_deg: f64,
-}
-
-impl WorkOffset {
-    /// A machine position in this system.
-    fn work(&self, machine: &[f64; AXES]) -> [f64; AXES] {
-        let mut work = *machine;
-        for (place, origin) in work.iter_mut().zip(&self.origin) {
-            *place -= origin;
-        }
-        let (sin, cos) = self.rotation_deg.to_radians().sin_cos();
-        let [x, y, ..] = work;
-        if self.rotation_deg != 0.0 {
-            [work[0], work[1]] = [x * cos + y * sin, y * cos - x * sin];
-        }
-        work
-    }
-}
-
-/// What is shown.
-#[derive(Debug)]
-pub struct View<'a> {
-    /// Name of the machine's instance.
-    pub instance: &'a str,
-    /// What the interpolator says.
-    pub status: &'a Status,
-    /// The machine's axes.
-    pub axes: &'a [Axis],
-    /// Where it is in the program; `None` if that is not known.
-    pub place: Option<Place>,
-    /// The coordinate system in force; `None` if none is kept.
-    pub offsets: Option<WorkOffset>,
-    /// What happened lately, the newest first, and how long ago.
-    pub events: Vec<(Duration, String)>,
-}
-
-/// What the machine does, as one says it.
-#[must_use]
-pub const fn doing(state: MachineState) -> &'static str {
-    match state {
-        MachineState::Idle => "ready: at rest, no program",
-        MachineState::Running => "the program runs",
-        MachineState::Holding => "slowing down for a hold",
-        MachineState::Held => "held: `glidepath resume` goes on",
-        MachineState::Starving => "slowing down for want of a plan",
-        MachineState::Starved => "waits for the planner",
-        MachineState::ProgramStop => "stopped by the program: `glidepath resume` goes on",
-        MachineState::Stopping => "stopping",
-        MachineState::Faulted => "a fault: `glidepath reset` takes note of it",
-        MachineState::Waiting => "waits for more of the program",
-        MachineState::Awaiting => "waits for an answer of the machine",
-        MachineState::Jogging => "moved by hand",
-        MachineState::Homing => "joints are on their way home",
-        MachineState::Off => "off: `glidepath enable` switches on",
-        MachineState::NotHomed => "not homed: `glidepath home`",
-    }
-}
-
-/// A time as people read it: 1:02:03, 2:03 or 3.4 s.
-fn clock(t: f64) -> String {
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a time that is not negative"
-    )]
-    let s = t.max(0.0).round() as u64;
-    match (s / 3600, s / 60 % 60, s % 60) {
-        (0, 0, _) if t < 10.0 => format!("{t:.1} s"),
-        (0, 0, s) => format!("{s} s"),
-        (0, min, s) => format!("{min}:{s:02}"),
-        (h, min, s) => format!("{h}:{min:02}:{s:02}"),
-    }
-}
-
-impl View<'_> {
-    /// What is done of the program, 0 to 1.
-    fn progress(&self) -> Option<f64> {
-        let place = self.place.as_ref()?;
-        let (all, done) = (place.planned_t?, place.elapsed_t?);
-        (all > 0.0).then(|| (done / all).clamp(0.0, 1.0))
-    }
-
-    /// How long it takes yet under the present override, s.
-    fn left_t(&self) -> Option<f64> {
-        let place = self.place.as_ref()?;
-        let left = place.planned_t? - place.elapsed_t?;
-        let ratio = self.status.feed_override;
-        (ratio > 0.0).then(|| left.max(0.0) / ratio)
-    }
-
-    /// What is awaited, and for how long, s.
-    fn awaited(&self) -> Option<(String, f64)> {
-        let status = self.status;
-        (status.awaited_since_ns != 0).then(|| {
-            let waited = status.updated_ns.saturating_sub(status.awaited_since_ns);
-            let what = format!(
-                "the answer to the event of frame {}",
-                status.awaited_sequence
-            );
-            (what, Duration::from_nanos(waited).as_secs_f64())
-        })
-    }
-}
-
-/// What a view tells besides its status, as an object.
-#[must_use]
-pub fn view_object(view: &View<'_>) -> Map<String, Value> {
-    let by_axis = |values: &[f64; AXES]| -> Map<String, Value> {
-        let axes = view.axes.iter();
-        axes.filter_map(|axis| Some((axis.to_string(), (*values.get(axis.index())?).into())))
-            .collect()
-    };
-    let place = view.place.as_ref();
-    let object = json!({
-        "updated_ns": view.status.updated_ns,
-        "program": place.map(|place| place.program.as_str()),
-        "block_text": place.map(|place| place.text.as_str()),
-        "progress": view.progress(),
-        "planned_s": place.and_then(|place| place.planned_t),
-        "left_s": view.left_t(),
-        "tool": place.and_then(|place| place.modal.tool),
-        "offset": view.offsets.as_ref().map(|offset| json!({
-            "system": offset.name,
-            "origin": by_axis(&offset.origin),
-            "rotation_deg": offset.rotation_deg,
-        })),
-        "work_position": view.offsets.as_ref()
-            .map(|offset| by_axis(&offset.work(&view.status.position))),
-        "events": view.events.iter()
-            .map(|(ago, text)| json!({ "ago_s": ago.as_secs_f64(), "text": text }))
-            .collect::<Vec<_>>(),
-    });
-    match object {
-        Value::Object(object) => object,
-        _ => Map::new(),
-    }
-}
 
 /// The screen.
 #[must_use]
@@ -268,8 +55,8 @@ pub fn view_text(view: &View<'_>) -> String {
             |words| format!("{words}, says the program")
         )
     ));
-    if let Some((what, waited_t)) = view.awaited() {
-        lines.push(format!("  waits     {} for {what}", clock(waited_t)));
+    if let Some(awaited) = awaited_text(status) {
+        lines.push(format!("  waits for {awaited}"));
     }
     lines.push(format!("  drives    {}", power_text(status)));
     health_lines(status, &mut lines);
@@ -418,6 +205,13 @@ mod tests {
     #![allow(clippy::float_cmp, reason = "values are exact")]
 
     use super::*;
+    use crate::report::view::object::view_object;
+    use crate::report::view::seen::{Modal, Place, WorkOffset};
+    use core::time::Duration;
+    use glidepath_geometry::Axis;
+    use glidepath_link::MachineState;
+    use glidepath_program::Event;
+    use serde_json::Value;
 
     #[test]
     fn a_screen_has_eighty_columns_and_says_what_an_operator_asks() {
@@ -490,7 +284,7 @@ mod tests {
         let line = "  drives    ".to_owned() + &"on, homed ".repeat(12);
         let lines = wrapped(line.trim_end());
         assert!(lines.len() == 2 && lines.iter().all(|line| line.chars().count() <= WIDTH));
-        assert!(lines[1].starts_with("            on, homed"), "{lines:?}");
+        assert!(lines[1].starts_with("            homed on,"), "{lines:?}");
         assert_eq!(wrapped(&"x".repeat(200)).len(), 3);
     }
 

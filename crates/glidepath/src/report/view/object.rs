@@ -1,0 +1,39 @@
+//! The view for other programs.
+
+use super::seen::View;
+use glidepath_geometry::AXES;
+use serde_json::{Map, Value, json};
+
+/// What a view tells besides its status, as an object.
+#[must_use]
+pub fn view_object(view: &View<'_>) -> Map<String, Value> {
+    let by_axis = |values: &[f64; AXES]| -> Map<String, Value> {
+        let axes = view.axes.iter();
+        axes.filter_map(|axis| Some((axis.to_string(), (*values.get(axis.index())?).into())))
+            .collect()
+    };
+    let place = view.place.as_ref();
+    let object = json!({
+        "updated_ns": view.status.updated_ns,
+        "program": place.map(|place| place.program.as_str()),
+        "block_text": place.map(|place| place.text.as_str()),
+        "progress": view.progress(),
+        "planned_s": place.and_then(|place| place.planned_t),
+        "left_s": view.left_t(),
+        "tool": place.and_then(|place| place.modal.tool),
+        "offset": view.offsets.as_ref().map(|offset| json!({
+            "system": offset.name,
+            "origin": by_axis(&offset.origin),
+            "rotation_deg": offset.rotation_deg,
+        })),
+        "work_position": view.offsets.as_ref()
+            .map(|offset| by_axis(&offset.work(&view.status.position))),
+        "events": view.events.iter()
+            .map(|(ago, text)| json!({ "ago_s": ago.as_secs_f64(), "text": text }))
+            .collect::<Vec<_>>(),
+    });
+    match object {
+        Value::Object(object) => object,
+        _ => Map::new(),
+    }
+}
