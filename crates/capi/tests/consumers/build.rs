@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Language {
@@ -64,8 +65,24 @@ pub(crate) fn source(name: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// The library that cargo has built for this test.
+/// The library. What is a test of a library for other languages does not make cargo build it, so it
+/// is built here, once, with all it needs being there.
 pub(crate) fn library(linked: Linked) -> PathBuf {
+    static BUILT: OnceLock<()> = OnceLock::new();
+    BUILT.get_or_init(|| {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let mut build = Command::new(cargo);
+        build.args(["build", "--quiet", "--offline", "--package"]);
+        build.arg(env!("CARGO_PKG_NAME"));
+        if !cfg!(debug_assertions) {
+            build.arg("--release");
+        }
+        let output = build
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{output:?}");
+    });
     let this = std::env::current_exe().unwrap();
     let name = match linked {
         Linked::Shared => "libglidepath.so",
