@@ -22,6 +22,8 @@ fn machine(instance: &Instance) -> String {
     // A host of tests stands still for tens of milliseconds, and its drives with it.
     let text = text.replace("# stale_s = 0.012 ", "stale_s = 0.25 ");
     let text = text.replace("off_s = 0.1 ", "off_s = 0.5 ");
+    let text = text.replace("\nfollowing_error = 1.0 ", "\nfollowing_error = 50.0 ");
+    let text = text.replace("min_following_error = 0.1 ", "min_following_error = 50.0 ");
     let text = text.replace("\nlift = 0.0 ", "\nlift = 3.5 ");
     instance.file("machine.toml", &format!("{text}{M_CODES}"))
 }

@@ -1,7 +1,9 @@
 //! The planner's service: lines and files that operators want executed, one at a time.
 //!
 //! A request that is sent again asks how its job stands, so nothing is executed twice. While a job
-//! runs, others are told that the service is busy.
+//! runs, others are told that the service is busy. One that comes while the machine is not ready
+//! waits a moment before it is refused: what is known of the machine is from before whatever made it
+//! ready just now.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -13,6 +15,8 @@ use crate::{Control, Publisher, StartLine};
 
 /// Requests served between two looks at the motion.
 const REQUESTS_PER_TURN: u32 = 32;
+/// How long a job waits for a machine that is not ready.
+const NEWS: Duration = Duration::from_millis(250);
 
 /// Something to execute.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -79,44 +83,67 @@ pub(crate) struct JobDesk {
     server: Box<dyn Server<JobRequest, JobReply>>,
     /// The job taken last, and how it stands.
     last: Option<JobReply>,
+    /// That job, and how long it has waited for the machine to be ready.
+    waiting: Option<(Job, Duration)>,
 }
 
 impl JobDesk {
     pub(crate) const fn new(server: Box<dyn Server<JobRequest, JobReply>>) -> Self {
-        Self { server, last: None }
+        Self {
+            server,
+            last: None,
+            waiting: None,
+        }
     }
 
-    /// Answers what came in while nothing is executed; returns a job if one was taken.
+    /// Answers what came in while nothing is executed; returns a job if one is to be executed now.
+    /// `waited` is the time since the last call.
     pub(crate) fn serve_idle(
         &mut self,
         ready: &Result<AxisVector, String>,
+        waited: Duration,
     ) -> Result<Option<(Job, AxisVector)>, LinkError> {
-        let mut taken = None;
+        if self.waiting.is_none() {
+            self.take()?;
+        } else {
+            self.serve_busy("waits for the machine to be ready")?;
+        }
+        match (self.waiting.take(), ready) {
+            (Some((job, _)), Ok(start)) => Ok(Some((job, *start))),
+            (Some((_, since)), Err(why)) if since >= NEWS => {
+                self.end(JobState::NotReady, why);
+                Ok(None)
+            }
+            (Some((job, since)), Err(_)) => {
+                self.waiting = Some((job, since + waited));
+                Ok(None)
+            }
+            (None, _) => Ok(None),
+        }
+    }
+
+    /// Takes the next job that came in.
+    fn take(&mut self) -> Result<(), LinkError> {
         for _ in 0..REQUESTS_PER_TURN {
-            let last = &mut self.last;
+            let (last, waiting) = (&mut self.last, &mut self.waiting);
             let any = self.server.serve(&mut |request| {
                 if let Some(known) = answered(*last, request) {
                     return known;
                 }
-                let reply = match (request.check(), Job::of(request), ready) {
-                    (Err(error), ..) => {
-                        return JobReply::new(request, JobState::Refused, &error.to_string());
-                    }
-                    (_, None, _) => return JobReply::new(request, JobState::Refused, "unknown"),
-                    (_, _, Err(why)) => return JobReply::new(request, JobState::NotReady, why),
-                    (Ok(()), Some(job), Ok(start)) => {
-                        taken = Some((job, *start));
-                        JobReply::new(request, JobState::Running, "")
-                    }
+                if let Err(error) = request.check() {
+                    return JobReply::new(request, JobState::Refused, &error.to_string());
+                }
+                let Some(job) = Job::of(request) else {
+                    return JobReply::new(request, JobState::Refused, "unknown");
                 };
-                *last = Some(reply);
-                reply
+                *waiting = Some((job, Duration::ZERO));
+                *last.insert(JobReply::new(request, JobState::Running, ""))
             })?;
-            if taken.is_some() || !any {
+            if self.waiting.is_some() || !any {
                 break;
             }
         }
-        Ok(taken)
+        Ok(())
     }
 
     /// Answers what came in while something is executed.
@@ -142,6 +169,10 @@ impl JobDesk {
             JobEnd::Failed(text) => (JobState::Failed, text),
             JobEnd::ToConfirm(text) => (JobState::ToConfirm, text),
         };
+        self.end(state, text);
+    }
+
+    fn end(&mut self, state: JobState, text: &str) {
         if let Some(last) = &mut self.last {
             (last.state, last.text) = (state.code(), glidepath_link::LongText::new(text));
         }

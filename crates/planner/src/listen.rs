@@ -19,6 +19,7 @@ use glidepath_motion::PlanError;
 use glidepath_program::Settings;
 
 use crate::jobs::{Job, JobDesk, JobRunner};
+use crate::machine::POLL;
 use crate::stream::refuse;
 use crate::{
     Control, ItemSource, Notice, Pace, Pipeline, Publisher, Refusal, RunError, SoftLimits,
@@ -139,13 +140,13 @@ impl Listener<'_> {
                 Err(error) if ends_the_listener(&error) => return Err(error),
                 Err(error) => Err(error.to_string()),
             };
-            if let Some((stream, position)) = self.serve_waiting(&ready, listening.limits)? {
-                return Ok(Accepted::Stream(Box::new(stream), position));
-            }
             if let Some(jobs) = &mut self.jobs
-                && let Some((job, start)) = jobs.serve_idle(&ready)?
+                && let Some((job, start)) = jobs.serve_idle(&ready, POLL)?
             {
                 return Ok(Accepted::Job(job, start));
+            }
+            if let Some((stream, position)) = self.serve_waiting(&ready, listening.limits)? {
+                return Ok(Accepted::Stream(Box::new(stream), position));
             }
             self.publisher.idle(control)?;
         }

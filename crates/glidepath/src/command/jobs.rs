@@ -19,9 +19,6 @@ use std::time::{Duration, Instant};
 
 /// How long a service may take to start.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// How long a service may take to hear that the machine is ready: after `reset`, say, or at the end
-/// of the motion before.
-const NEWS: Duration = Duration::from_millis(500);
 /// Between two looks at how a job stands.
 const POLL: Duration = Duration::from_millis(20);
 
@@ -89,7 +86,6 @@ fn execute(
     let transport = session::join(args, config)?;
     let mut client = transport.job_client()?;
     let mut is_aborted = false;
-    let asked = Instant::now();
     loop {
         let reply = ask(&mut *client, &request)?;
         let text = reply.text.as_str().to_owned();
@@ -111,7 +107,6 @@ fn execute(
                     exit: Exit::Rejected,
                 });
             }
-            JobState::NotReady if asked.elapsed() < NEWS => request.number += 1,
             JobState::Failed | JobState::Busy | JobState::NotReady => {
                 return Err(Failure::Job {
                     text,
