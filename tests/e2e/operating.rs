@@ -2,91 +2,25 @@
 
 use std::time::Duration;
 
-use glidepath_link::{EndOfEpoch, FaultCause, MachineState, Power, Status, Transport};
-use glidepath_tests::{Instance, Process, Watchdog};
+use glidepath_link::{EndOfEpoch, FaultCause, MachineState, Power};
+use glidepath_tests::{Instance, Operated, Process, Watchdog};
 use rustix::process::Signal;
 
 const PATIENCE: Duration = Duration::from_secs(240);
 
 const PROGRAM: &str = "G21 G90 G1 X8 Y2 F3000\nX-4 Y-6\nX5 Y5 Z3\nM2\n";
 
-/// The built-in machine, with drives that answer and look for their home.
-fn with_drives(instance: &Instance) -> String {
-    let printed = Process::start(instance, &["config", "--default"]).wait();
-    let text = printed.expect(0).stdout;
-    let text = text.replace("source = \"none\"", "source = \"drives\"");
-    let text = text.replace("homing = \"none\"", "homing = \"drive\"");
-    // A host of tests stands still for tens of milliseconds, and its drives with it.
-    let text = text.replace("# stale_s = 0.012 ", "stale_s = 0.25 ");
-    let text = text.replace("off_s = 0.1 ", "off_s = 0.5 ");
-    let wanted = [
-        "source = \"drives\"",
-        "homing = \"drive\"",
-        "\nstale_s",
-        "off_s = 0.5",
-    ];
-    assert!(wanted.iter().all(|wanted| text.contains(wanted)), "{text}");
-    instance.file("machine.toml", &text)
-}
-
-struct Machine<'a> {
-    instance: &'a Instance,
-    config: String,
-}
-
-impl Machine<'_> {
-    fn process(&self, arguments: &[&str]) -> Process {
-        Process::join(
-            self.instance,
-            &[arguments, &["--config", &self.config]].concat(),
-        )
-    }
-
-    fn operate(&self, arguments: &[&str]) {
-        let _done = self.process(arguments).wait().expect(0);
-    }
-
-    /// The first status that is wanted; the test ends with the last one if none comes in a minute.
-    fn wait(&self, wanted: impl Fn(&Status) -> bool) -> Status {
-        let transport = self.instance.connect();
-        let mut source = transport.status_source().unwrap();
-        let started = std::time::Instant::now();
-        let mut last = None;
-        loop {
-            last = source.take().unwrap().or(last);
-            if let Some(status) = last.filter(&wanted) {
-                return status;
-            }
-            assert!(started.elapsed() < PATIENCE / 4, "{last:#?}");
-            std::thread::sleep(Duration::from_millis(2));
-        }
-    }
-
-    fn wait_for(&self, state: MachineState) -> Status {
-        self.wait(|status| status.state == state.code())
-    }
-
-    /// Off, with drives that say where they are.
-    fn wait_for_drives(&self) -> Status {
-        self.wait(|status| {
-            status.state == MachineState::Off.code() && status.feedback_age_ns < 12_000_000
-        })
-    }
-}
+const LOOKS_FOR_HOME: (&str, &str) = ("homing = \"none\"", "homing = \"drive\"");
 
 #[test]
 fn a_machine_is_switched_on_homed_used_and_recovers_from_the_loss_of_its_drives() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
-    let machine = Machine {
-        instance: &instance,
-        config: with_drives(&instance),
-    };
+    let machine = Operated::new(&instance, &[LOOKS_FOR_HOME], "");
     let program = instance.file("program.ngc", PROGRAM);
     let interpolator = machine.process(&["interpolator", "--best-effort"]);
     let status = machine.wait_for(MachineState::Off);
     assert_eq!((status.power(), status.homed), (Ok(Power::Off), 0));
-    let refused = machine.process(&["enable"]).wait().expect(5);
-    assert!(refused.stderr.contains("where they are"), "{refused:#?}");
+    machine.refused(&["enable"], 5, "where they are");
 
     // The position is that of the drives, which count from anywhere.
     let servo = machine.process(&["servo", "--stands", "12.5,-3,40"]);
@@ -128,8 +62,7 @@ fn a_machine_is_switched_on_homed_used_and_recovers_from_the_loss_of_its_drives(
     // Another comes: nothing moves before the operator says so, and where it stands is its word.
     let servo = machine.process(&["servo", "--stands", "1,2,3"]);
     machine.wait(|status| status.feedback_age_ns < 12_000_000);
-    let refused = machine.process(&["enable"]).wait().expect(5);
-    assert!(refused.stderr.contains("reset"), "{refused:#?}");
+    machine.refused(&["enable"], 5, "reset");
     machine.operate(&["reset"]);
     let _off = machine.wait_for_drives();
     machine.operate(&["enable"]);
@@ -147,7 +80,7 @@ fn a_machine_is_switched_on_homed_used_and_recovers_from_the_loss_of_its_drives(
 #[test]
 fn run_switches_a_machine_with_drives_on() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
-    let config = with_drives(&instance);
+    let machine = Operated::new(&instance, &[LOOKS_FOR_HOME], "");
     let program = instance.file("program.ngc", "G21 G91 G1 X3 F3000\nY2\nM2\n");
     let run = [
         "run",
@@ -155,7 +88,7 @@ fn run_switches_a_machine_with_drives_on() {
         "--best-effort",
         "--json",
         "--config",
-        &config,
+        machine.config(),
     ];
     let report = Process::start(&instance, &run).wait().expect(0).json();
     assert_eq!(report["lost_setpoints"], 0);

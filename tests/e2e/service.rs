@@ -3,8 +3,8 @@
 
 use std::time::Duration;
 
-use glidepath_link::{FaultCause, MachineState, Status, Transport};
-use glidepath_tests::{Instance, Output, Process, Watchdog};
+use glidepath_link::{FaultCause, MachineState, Transport};
+use glidepath_tests::{Instance, Operated, Watchdog};
 
 const PATIENCE: Duration = Duration::from_secs(240);
 
@@ -14,76 +14,6 @@ const M_CODES: &str = "\n[m_codes.M3]\ndone = \"spindle-at-speed\"\ntimeout_s = 
 const PART: &str = "G21 G90 G54\nT2 M6 (change to tool 2)\nS600 M3\nM8\n(MSG, cutting)\n\
                     G1 X5 F3000\nM101\nX8 Y3\nX2\nM5 M9\nM2\n";
 
-/// The built-in machine, with drives that answer and know where they are.
-fn machine(instance: &Instance) -> String {
-    let printed = Process::start(instance, &["config", "--default"]).wait();
-    let text = printed.expect(0).stdout;
-    let text = text.replace("source = \"none\"", "source = \"drives\"");
-    // A host of tests stands still for tens of milliseconds, and its drives with it.
-    let text = text.replace("# stale_s = 0.012 ", "stale_s = 0.25 ");
-    let text = text.replace("off_s = 0.1 ", "off_s = 0.5 ");
-    let text = text.replace("\nfollowing_error = 1.0 ", "\nfollowing_error = 50.0 ");
-    let text = text.replace("min_following_error = 0.1 ", "min_following_error = 50.0 ");
-    let text = text.replace("\nlift = 0.0 ", "\nlift = 3.5 ");
-    instance.file("machine.toml", &format!("{text}{M_CODES}"))
-}
-
-struct Bench<'a> {
-    instance: &'a Instance,
-    config: String,
-}
-
-impl Bench<'_> {
-    fn process(&self, arguments: &[&str]) -> Process {
-        Process::join(
-            self.instance,
-            &[arguments, &["--config", &self.config]].concat(),
-        )
-    }
-
-    fn operate(&self, arguments: &[&str]) -> Output {
-        self.process(arguments).wait().expect(0)
-    }
-
-    fn refused(&self, arguments: &[&str], exit: i32, words: &str) {
-        let output = self.process(arguments).wait().expect(exit);
-        assert!(output.stderr.contains(words), "{words}: {output:#?}");
-    }
-
-    /// The first status that is wanted; the test ends with the last one if none comes in a minute.
-    fn wait(&self, wanted: impl Fn(&Status) -> bool) -> Status {
-        let transport = self.instance.connect();
-        let mut source = transport.status_source().unwrap();
-        let started = std::time::Instant::now();
-        let mut last = None;
-        loop {
-            last = source.take().unwrap().or(last);
-            if let Some(status) = last.filter(&wanted) {
-                return status;
-            }
-            assert!(started.elapsed() < PATIENCE / 4, "{last:#?}");
-            std::thread::sleep(Duration::from_millis(2));
-        }
-    }
-
-    fn wait_for(&self, state: MachineState) -> Status {
-        self.wait(|status| status.state == state.code())
-    }
-
-    fn position(&self) -> [f64; 3] {
-        let status = self.wait_for(MachineState::Idle);
-        [status.position[0], status.position[1], status.position[2]]
-    }
-}
-
-fn assert_at(position: [f64; 3], wanted: [f64; 3]) {
-    let is_there = position
-        .iter()
-        .zip(wanted)
-        .all(|(a, b)| (a - b).abs() < 1e-9);
-    assert!(is_there, "{position:?}, wanted {wanted:?}");
-}
-
 #[test]
 #[allow(
     clippy::too_many_lines,
@@ -91,10 +21,8 @@ fn assert_at(position: [f64; 3], wanted: [f64; 3]) {
 )]
 fn lines_and_files_are_executed_by_one_service() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
-    let bench = Bench {
-        instance: &instance,
-        config: machine(&instance),
-    };
+    let lift = ("\nlift = 0.0 ", "\nlift = 3.5 ");
+    let bench = Operated::new(&instance, &[lift], M_CODES);
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
     let servo = bench.process(&["servo", "--stands", "12.5,3,4"]);
     let _seen = bench.wait(|status| status.feedback_age_ns < 12_000_000);
@@ -102,7 +30,7 @@ fn lines_and_files_are_executed_by_one_service() {
     let service = bench.process(&["planner", "--listen"]);
     bench.operate(&["enable"]);
     let _ready = bench.wait_for(MachineState::Idle);
-    assert_at(bench.position(), [12.5, 3.0, 4.0]);
+    bench.assert_at([12.5, 3.0, 4.0]);
 
     // Modes last from line to line, and a line that is refused changes nothing.
     bench.operate(&["mdi", "G91 G0 X2"]);
@@ -110,10 +38,10 @@ fn lines_and_files_are_executed_by_one_service() {
     bench.refused(&["mdi", "G90 X1O"], 1, "line 1");
     bench.refused(&["mdi", "G90 X1e9"], 1, "line 1");
     bench.operate(&["mdi", "X0.5"]);
-    assert_at(bench.position(), [17.0, 4.0, 4.0]);
+    bench.assert_at([17.0, 4.0, 4.0]);
     bench.operate(&["mdi", "G10 L20 P1 X7 Y4 Z4"]);
     bench.operate(&["mdi", "G90 X0"]);
-    assert_at(bench.position(), [10.0, 4.0, 4.0]);
+    bench.assert_at([10.0, 4.0, 4.0]);
 
     // A program waits for its tool, its spindle and the code of the machine's own.
     let part = instance.file("part.ngc", PART);
@@ -141,7 +69,7 @@ fn lines_and_files_are_executed_by_one_service() {
     let _held = bench.wait_for(MachineState::Held);
     bench.operate(&["resume"]);
     let _done = running.wait().expect(0);
-    assert_at(bench.position(), [12.0, 3.0, 4.0]);
+    bench.assert_at([12.0, 3.0, 4.0]);
 
     // From a line on: what differs is shown, and nothing moves before that is agreed to.
     let line = ["run-file", &part, "--from-line", "9"];
@@ -154,9 +82,9 @@ fn lines_and_files_are_executed_by_one_service() {
     ] {
         assert!(output.stderr.contains(words), "{words}: {output:#?}");
     }
-    assert_at(bench.position(), [12.0, 3.0, 4.0]);
+    bench.assert_at([12.0, 3.0, 4.0]);
     bench.operate(&[&line[..], &["--yes"]].concat());
-    assert_at(bench.position(), [12.0, 3.0, 4.0]);
+    bench.assert_at([12.0, 3.0, 4.0]);
     let none = ["run-file", &part, "--from-line", "5", "--yes"];
     bench.refused(&none, 1, "line 6 is the next");
 
@@ -165,11 +93,11 @@ fn lines_and_files_are_executed_by_one_service() {
     let running = bench.process(&["run-file", &long]);
     let _moving = bench.wait(|status| status.frames_executed > 60 && status.line == 2);
     bench.operate(&["abort"]);
-    assert_at([bench.position()[2], 0.0, 0.0], [7.5, 0.0, 0.0]);
+    assert!((bench.position()[2] - 7.5).abs() < 1e-9);
     let output = running.wait().expect(5);
     assert!(output.stderr.contains("abort"), "{output:#?}");
     bench.operate(&["mdi", "X3"]);
-    assert_at(bench.position(), [13.0, 3.0, 7.5]);
+    bench.assert_at([13.0, 3.0, 7.5]);
 
     // What is not answered in time, or failed, is a fault at rest.
     for (line, cause) in [
@@ -193,7 +121,7 @@ fn lines_and_files_are_executed_by_one_service() {
     let _idle = bench.wait_for(MachineState::Idle);
     std::thread::sleep(Duration::from_millis(300));
     bench.operate(&["mdi", "G0 X2"]);
-    assert_at(bench.position(), [2.0, 3.0, 7.5]);
+    bench.assert_at([2.0, 3.0, 7.5]);
     let _ended = service.end().expect(0);
     let _servo = servo.end().expect(0);
     let _interpolator = interpolator.end().expect(0);

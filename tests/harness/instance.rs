@@ -3,11 +3,15 @@
 use std::fs::File;
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
 
-use glidepath_link::{Ipc, LinkConfig, remove_leftovers};
+use glidepath_link::{Ipc, LinkConfig, Status, Transport, remove_leftovers};
 use tempfile::TempDir;
 
 use crate::glidepath;
+
+/// How long a status is waited for: far longer than it ever takes.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// An instance of its own. While it lives no other test has one, in this process or another: the
 /// tests run processes at the speed of the clock, and would take each other's processor.
@@ -70,6 +74,22 @@ impl Instance {
     #[must_use]
     pub fn connect(&self) -> Ipc {
         Ipc::connect(&self.config).unwrap()
+    }
+
+    /// Waits for a status that pleases; the test ends with the last one if none comes.
+    pub fn wait_for_status(&self, wanted: impl Fn(&Status) -> bool) -> Status {
+        let transport = self.connect();
+        let mut source = transport.status_source().unwrap();
+        let begun = Instant::now();
+        let mut last = None;
+        loop {
+            last = source.take().unwrap().or(last);
+            if let Some(status) = last.filter(&wanted) {
+                return status;
+            }
+            assert!(begun.elapsed() < PATIENCE, "{last:#?}");
+            std::thread::sleep(Duration::from_millis(2));
+        }
     }
 
     /// Writes a file for the test; returns its path.

@@ -5,6 +5,7 @@
 //! * [`Watchdog`]: ends a test that hangs;
 //! * [`Process`]: processes of the real binary, which [`glidepath`] finds and builds;
 //! * [`Services`]: an interpolator and a servo as processes;
+//! * [`Operated`]: the same with drives that answer, and what an operator types;
 //! * [`Machine`]: interpolator, recorder and planner as threads of the test, joined by the
 //!   transport that real processes use.
 #![allow(
@@ -18,6 +19,7 @@
 mod binary;
 mod instance;
 mod machine;
+mod operated;
 mod process;
 mod services;
 mod setpoint_file;
@@ -26,6 +28,7 @@ mod watchdog;
 pub use binary::glidepath;
 pub use instance::Instance;
 pub use machine::{Machine, Recording, Watch, audit, plan, program, program_from, settings};
+pub use operated::Operated;
 pub use process::{Output, Process};
 pub use services::{Services, planned};
 pub use setpoint_file::SetpointFile;

@@ -1,9 +1,8 @@
 //! The processes of a machine, each by itself.
 
 use std::path::Path;
-use std::time::Duration;
 
-use glidepath_link::{MachineState, Status, Transport};
+use glidepath_link::{MachineState, Status};
 use rustix::process::Signal;
 use serde_json::Value;
 
@@ -56,14 +55,7 @@ impl<'a> Services<'a> {
     /// Waits for a status that pleases.
     #[must_use]
     pub fn wait(&self, wanted: impl Fn(&Status) -> bool) -> Status {
-        let transport = self.instance.connect();
-        let mut source = transport.status_source().unwrap();
-        loop {
-            if let Some(status) = source.take().unwrap().filter(&wanted) {
-                return status;
-            }
-            std::thread::sleep(Duration::from_millis(2));
-        }
+        self.instance.wait_for_status(wanted)
     }
 
     /// Kills the interpolator, and ends the servo, which misses it.

@@ -9,10 +9,13 @@
 )]
 
 mod bench;
+mod client;
 mod following;
+mod gantry;
 mod gates;
 mod homing;
 mod hostile;
+mod jogging;
 mod life_cycle;
 mod matrix;
 mod upsets;

@@ -1,7 +1,6 @@
 //! Joints that are brought home by the controller.
 
 use super::bench::{Bench, config, numbers};
-use crate::config::{Config, Gantry};
 use crate::homing::JointHoming;
 use glidepath_link::{Command, FaultCause, MachineState};
 use glidepath_plant::{INDEX_INPUT, JointSettings, SwitchSettings, Upset};
@@ -27,7 +26,7 @@ pub(super) const SWITCH: JointHoming = JointHoming {
 const EDGE: f64 = -10.0;
 
 /// A joint that stands somewhere, whose drive counts from anywhere.
-fn joint(start: f64) -> JointSettings {
+pub(super) fn joint(start: f64) -> JointSettings {
     JointSettings {
         start,
         count: 1000.0 + start,
@@ -40,80 +39,94 @@ fn joint(start: f64) -> JointSettings {
 }
 
 /// A machine whose first joint is homed so, and whose others are where they are.
-fn homed_by(homing: JointHoming, joints: [JointSettings; 3]) -> Bench {
+fn homed_by(homing: JointHoming, first: JointSettings) -> Bench {
     let mut settings = config(false);
     settings.feedback.as_mut().unwrap().joints[0].homing = Some(homing);
-    Bench::new(settings, &joints)
+    Bench::new(settings, &among_others(first))
+}
+
+fn among_others(first: JointSettings) -> [JointSettings; 3] {
+    let others = JointSettings::default();
+    [first, others, others]
 }
 
 fn mill(homing: JointHoming, start: f64) -> Bench {
-    let others = JointSettings::default();
-    homed_by(homing, [joint(start), others, others])
+    homed_by(homing, joint(start))
 }
 
-/// Homes, and returns how far the first joint is from where its home is in truth, `truth` being
-/// what its count says at the place that the offset names.
-fn home(bench: &mut Bench, truth: f64) -> f64 {
+/// Has power, and is on its way home.
+pub(super) fn set_out(bench: &mut Bench, joints: u32) {
     bench.enable(MachineState::NotHomed);
-    bench.command(Command::Home(1)).unwrap();
+    bench.command(Command::Home(joints)).unwrap();
     assert!(bench.run_to(MachineState::Homing, 3));
+}
+
+pub(super) fn arrive(bench: &mut Bench) {
     assert!(
-        bench.run_to(MachineState::Idle, 4_000),
+        bench.run_to(MachineState::Idle, 8_000),
         "{:?}",
         bench.fault()
     );
+}
+
+pub(super) fn home_again(bench: &mut Bench) {
+    bench.command(Command::Home(1)).unwrap();
+    assert!(bench.run_to(MachineState::Homing, 3));
+    arrive(bench);
+}
+
+pub(super) fn lose_power(bench: &mut Bench) {
+    bench.command(Command::Disable).unwrap();
+    assert!(bench.run_to(MachineState::Off, 20));
+}
+
+pub(super) fn assert_inside_limits(bench: &Bench) {
+    assert!(bench.worst_ratio() <= 1.0 + 1e-6, "{}", bench.worst_ratio());
+}
+
+/// Homes, and asserts that the first joint is within so much of where its home is in truth,
+/// `truth` being what its count says at the place that the offset names.
+fn assert_home(bench: &mut Bench, truth: f64, within: f64) {
+    set_out(bench, 1);
+    arrive(bench);
     bench.run(10);
     assert_eq!(bench.status().homed, 0b111);
-    assert!(bench.worst_ratio() <= 1.0 + 1e-6, "{}", bench.worst_ratio());
+    assert_inside_limits(bench);
     bench.assert_no_joint_jumps();
     // The number that its position has, less the one that it should have.
-    bench.last().position[0] - (bench.joints()[0] - truth)
+    let off = bench.last().position[0] - (bench.joints()[0] - truth);
+    assert!(off.abs() < within, "{off}");
 }
 
-#[test]
-fn off_the_switch_again_at_the_speed_of_the_latch() {
-    let mut bench = mill(SWITCH, 5.0);
-    // The count is 1000 in the middle of the machine; the edge has the position −10.5.
-    let off = home(&mut bench, 1000.0 + EDGE + 10.5);
-    // Half of the way between two samples at 1 mm/s, and what the bounce may hide.
-    assert!(off.abs() < 0.0006, "{off}");
-    assert!((bench.last().position[0] - SWITCH.home).abs() < 1e-9);
-}
+/// The count is 1000 in the middle of the machine; the edge has the position −10.5.
+const EDGE_COUNTED: f64 = 1000.0 + EDGE + 10.5;
+/// Half of the way between two samples at 1 mm/s, and what the bounce may hide.
+const SAMPLED: f64 = 0.0006;
+const EXACT: f64 = 1e-9;
 
 #[test]
-fn onto_the_switch_again_at_the_speed_of_the_latch() {
-    let homing = JointHoming {
-        latch_v: -1.0,
-        ..SWITCH
-    };
-    let off = home(&mut mill(homing, 5.0), 1000.0 + EDGE + 10.5);
-    assert!(off.abs() < 0.0006, "{off}");
-}
-
-#[test]
-fn from_the_switch_itself() {
+fn the_edge_is_latched_from_either_side_wherever_the_joint_begins() {
     for latch_v in [1.0, -1.0] {
-        let homing = JointHoming { latch_v, ..SWITCH };
-        let off = home(&mut mill(homing, EDGE - 3.0), 1000.0 + EDGE + 10.5);
-        assert!(off.abs() < 0.0006, "{off}");
+        for start in [5.0, EDGE - 3.0] {
+            let mut bench = mill(JointHoming { latch_v, ..SWITCH }, start);
+            assert_home(&mut bench, EDGE_COUNTED, SAMPLED);
+            assert!((bench.last().position[0] - SWITCH.home).abs() < 1e-9);
+        }
     }
 }
 
 #[test]
 fn late_feedback_changes_nothing_of_where_the_edge_is() {
     let mut bench = mill(SWITCH, 5.0);
-    let others = JointSettings::default();
-    bench.plant =
-        glidepath_plant::Plant::new(5, &[joint(5.0), others, others]).with_latency(5_000_000);
-    let off = home(&mut bench, 1000.0 + EDGE + 10.5);
-    assert!(off.abs() < 0.0006, "{off}");
+    let plant = glidepath_plant::Plant::new(5, &among_others(joint(5.0)));
+    bench.plant = plant.with_latency(5_000_000);
+    assert_home(&mut bench, EDGE_COUNTED, SAMPLED);
 }
 
 #[test]
 fn the_index_pulse_after_the_switch() {
     let mut first = joint(5.0);
     first.index = Some((4.0, -7.3));
-    let others = JointSettings::default();
     let homing = JointHoming {
         index_input: Some(INDEX_INPUT),
         latch_v: 2.0,
@@ -121,17 +134,15 @@ fn the_index_pulse_after_the_switch() {
         home: 8.0,
         ..SWITCH
     };
-    let mut bench = homed_by(homing, [first, others, others]);
+    let mut bench = homed_by(homing, first);
     // The first pulse off the switch is at −7.3, and is latched by the drive: exact.
-    let off = home(&mut bench, 1000.0 - 7.3 - 3.0);
-    assert!(off.abs() < 1e-9, "{off}");
+    assert_home(&mut bench, 1000.0 - 7.3 - 3.0, EXACT);
 }
 
 #[test]
 fn the_index_pulse_alone() {
     let mut first = joint(5.0);
     first.index = Some((4.0, 0.7));
-    let others = JointSettings::default();
     let homing = JointHoming {
         search_v: 0.0,
         latch_v: -3.0,
@@ -139,10 +150,9 @@ fn the_index_pulse_alone() {
         offset: 0.0,
         ..SWITCH
     };
-    let mut bench = homed_by(homing, [first, others, others]);
+    let mut bench = homed_by(homing, first);
     // From 5.0 downwards the first pulse is at 4.7.
-    let off = home(&mut bench, 1000.0 + 4.7);
-    assert!(off.abs() < 1e-9, "{off}");
+    assert_home(&mut bench, 1000.0 + 4.7, EXACT);
 }
 
 #[test]
@@ -155,8 +165,7 @@ fn without_a_search_the_place_is_believed() {
         ..SWITCH
     };
     let mut bench = mill(homing, 5.0);
-    let off = home(&mut bench, 1005.0 - 7.0);
-    assert!(off.abs() < 1e-9, "{off}");
+    assert_home(&mut bench, 1005.0 - 7.0, EXACT);
     assert!((bench.joints()[0] - 1007.0).abs() < 1e-9);
 }
 
@@ -170,21 +179,15 @@ fn an_absolute_encoder_is_believed_and_moves_only_if_asked_to() {
             ..SWITCH
         };
         let mut bench = mill(homing, 5.0);
-        let off = home(&mut bench, 990.0);
-        assert!(off.abs() < 1e-9, "{off}");
+        assert_home(&mut bench, 990.0, EXACT);
         let stands = if moves { 1002.0 } else { 1005.0 };
         assert!((bench.joints()[0] - stands).abs() < 1e-9);
     }
 }
 
 /// Homes into a failure; returns where the joint came to rest from the middle of the machine.
-fn fail(bench: &mut Bench, upset: Option<Upset>, why: &str) -> f64 {
-    bench.enable(MachineState::NotHomed);
-    if let Some(upset) = upset {
-        bench.upset(upset);
-    }
-    bench.command(Command::Home(1)).unwrap();
-    assert!(bench.run_to(MachineState::Homing, 3));
+fn fail(bench: &mut Bench, why: &str) -> f64 {
+    set_out(bench, 1);
     assert!(bench.run_to(MachineState::Faulted, 4_000));
     let status = bench.status();
     assert_eq!(status.fault(), Ok(Some(FaultCause::Homing)));
@@ -195,7 +198,7 @@ fn fail(bench: &mut Bench, upset: Option<Upset>, why: &str) -> f64 {
         status.last_error.as_str()
     );
     assert_eq!(status.homed, 0b110);
-    assert!(bench.worst_ratio() <= 1.0 + 1e-6);
+    assert_inside_limits(bench);
     let rest = bench.joints();
     bench.run(50);
     assert_eq!(bench.joints(), rest);
@@ -209,11 +212,8 @@ fn fail(bench: &mut Bench, upset: Option<Upset>, why: &str) -> f64 {
 #[test]
 fn a_dead_switch_ends_the_search_at_its_bound() {
     let mut bench = mill(SWITCH, 5.0);
-    let rest = fail(
-        &mut bench,
-        Some(Upset::Contact(0, Some(false))),
-        "did not close",
-    );
+    bench.upset(Upset::Contact(0, Some(false)));
+    let rest = fail(&mut bench, "did not close");
     assert!((rest - (5.0 - 60.0)).abs() < 1e-6, "{rest}");
 }
 
@@ -221,16 +221,12 @@ fn a_dead_switch_ends_the_search_at_its_bound() {
 fn a_stuck_switch_ends_the_way_off_it_at_its_bound() {
     let mut bench = mill(SWITCH, 5.0);
     // Taken to stand on it, so it backs off.
-    let rest = fail(
-        &mut bench,
-        Some(Upset::Contact(0, Some(true))),
-        "did not open",
-    );
+    bench.upset(Upset::Contact(0, Some(true)));
+    let rest = fail(&mut bench, "did not open");
     assert!((rest - (5.0 + 60.0)).abs() < 1e-6, "{rest}");
     // Stuck once it has closed: twice the clearance off it is the bound.
     let mut bench = mill(SWITCH, 5.0);
-    bench.enable(MachineState::NotHomed);
-    bench.command(Command::Home(1)).unwrap();
+    set_out(&mut bench, 1);
     assert!((0..1_000).any(|_| {
         bench.tick();
         bench.joints()[0] - 1000.0 < EDGE
@@ -239,7 +235,7 @@ fn a_stuck_switch_ends_the_way_off_it_at_its_bound() {
     assert!(bench.run_to(MachineState::Faulted, 4_000));
     let rest = bench.joints()[0] - 1000.0;
     assert!(rest > EDGE - 2.0 && rest < EDGE + 4.0, "{rest}");
-    assert!(bench.worst_ratio() <= 1.0 + 1e-6);
+    assert_inside_limits(&bench);
 }
 
 #[test]
@@ -249,9 +245,7 @@ fn a_cam_that_is_shorter_than_the_way_past_it_is_told() {
         cam: (EDGE - 0.2, EDGE),
         bounce_ns: 0,
     });
-    let others = JointSettings::default();
-    let mut bench = homed_by(SWITCH, [first, others, others]);
-    fail(&mut bench, None, "opened again");
+    fail(&mut homed_by(SWITCH, first), "opened again");
 }
 
 #[test]
@@ -261,7 +255,7 @@ fn a_shared_switch_that_is_closed_is_not_searched() {
         ..SWITCH
     };
     let mut bench = mill(homing, EDGE - 3.0);
-    let rest = fail(&mut bench, None, "shared");
+    let rest = fail(&mut bench, "shared");
     assert!((rest - (EDGE - 3.0)).abs() < 1e-9, "it did not move");
 }
 
@@ -279,8 +273,7 @@ fn a_search_goes_no_further_past_the_edge_than_it_says() {
         let allowed = homing.overshoot(&bounds, 0.004);
         let start = EDGE + 3.0 + 0.01 * f64::from(numbers.whole(0, 300) as u32);
         let mut bench = mill(homing, start);
-        bench.enable(MachineState::NotHomed);
-        bench.command(Command::Home(1)).unwrap();
+        set_out(&mut bench, 1);
         let mut lowest = f64::INFINITY;
         for _ in 0..400 {
             bench.tick();
@@ -294,23 +287,15 @@ fn a_search_goes_no_further_past_the_edge_than_it_says() {
 
 #[test]
 fn groups_go_home_in_their_order_and_a_failed_one_stops_the_others() {
-    let settings = |orders: [i32; 3]| {
-        let mut settings = config(false);
-        let joints = &mut settings.feedback.as_mut().unwrap().joints;
-        for (joint, sequence) in joints.iter_mut().zip(orders) {
-            joint.homing = Some(JointHoming { sequence, ..SWITCH });
-        }
-        settings
-    };
+    let mut settings = config(false);
+    let joints = &mut settings.feedback.as_mut().unwrap().joints;
+    for (joint, sequence) in joints.iter_mut().zip([2, 1, 1]) {
+        joint.homing = Some(JointHoming { sequence, ..SWITCH });
+    }
     let joints = [joint(5.0), joint(3.0), joint(1.0)];
-    let mut bench = Bench::new(settings([2, 1, 1]), &joints);
-    bench.enable(MachineState::NotHomed);
-    bench.command(Command::Home(0b111)).unwrap();
-    assert!(
-        bench.run_to(MachineState::Idle, 8_000),
-        "{:?}",
-        bench.fault()
-    );
+    let mut bench = Bench::new(settings, &joints);
+    set_out(&mut bench, 0b111);
+    arrive(&mut bench);
     let first_move = |joint: usize| {
         let from = bench.setpoints[40].joint_position[joint];
         let moved = |s: &glidepath_link::Setpoint| (s.joint_position[joint] - from).abs() > 1e-6;
@@ -319,13 +304,12 @@ fn groups_go_home_in_their_order_and_a_failed_one_stops_the_others() {
     assert!(first_move(1).abs_diff(first_move(2)) <= 1);
     assert!(first_move(0) > first_move(1) + 100);
     assert_eq!(bench.status().homed, 0b111);
-    assert!(bench.worst_ratio() <= 1.0 + 1e-6);
+    assert_inside_limits(&bench);
     bench.assert_no_joint_jumps();
 
-    let mut bench = Bench::new(settings([2, 1, 1]), &joints);
-    bench.enable(MachineState::NotHomed);
+    let mut bench = Bench::new(settings, &joints);
     bench.upset(Upset::Contact(2, Some(false)));
-    bench.command(Command::Home(0b111)).unwrap();
+    set_out(&mut bench, 0b111);
     assert!(bench.run_to(MachineState::Faulted, 8_000));
     bench.run(100);
     assert_eq!(bench.joints()[0], 1005.0, "the later group never set out");
@@ -349,24 +333,12 @@ fn homed_is_not_believed_at_the_start_nor_from_a_stack_that_was_started_again() 
     bench.feed.clear();
     home_again(&mut bench);
     // Power goes and comes: homed, unless that is volatile.
-    bench.command(Command::Disable).unwrap();
-    assert!(bench.run_to(MachineState::Off, 20));
+    lose_power(&mut bench);
     bench.enable(MachineState::Idle);
     // The stack is started again, and counts from elsewhere.
-    let others = JointSettings::default();
-    bench.plant = glidepath_plant::Plant::new(6, &[joint(5.0), others, others]);
+    bench.plant = glidepath_plant::Plant::new(6, &among_others(joint(5.0)));
     bench.run(100);
     assert_eq!(bench.status().homed, 0b110);
-}
-
-fn home_again(bench: &mut Bench) {
-    bench.command(Command::Home(1)).unwrap();
-    assert!(bench.run_to(MachineState::Homing, 3));
-    assert!(
-        bench.run_to(MachineState::Idle, 4_000),
-        "{:?}",
-        bench.fault()
-    );
 }
 
 #[test]
@@ -378,8 +350,7 @@ fn a_volatile_home_goes_with_the_power() {
     let mut bench = mill(homing, 5.0);
     bench.enable(MachineState::NotHomed);
     home_again(&mut bench);
-    bench.command(Command::Disable).unwrap();
-    assert!(bench.run_to(MachineState::Off, 20));
+    lose_power(&mut bench);
     bench.enable(MachineState::NotHomed);
 }
 
@@ -418,111 +389,5 @@ fn an_abort_at_once_leaves_nothing_behind_that_begins_late() {
         bench.run(60);
         assert_eq!(bench.state(), MachineState::NotHomed, "{after}");
         home_again(&mut bench);
-    }
-}
-
-/// An axis with two joints, of which the second hangs behind.
-fn gantry(lean: f64) -> Bench {
-    let mut settings = Config {
-        gantries: [
-            Some(Gantry {
-                master: 0,
-                difference: 1.5,
-            }),
-            None,
-            None,
-            None,
-        ],
-        ..config(false)
-    };
-    let homing = JointHoming {
-        sequence: -1,
-        ..SWITCH
-    };
-    let joints = &mut settings.feedback.as_mut().unwrap().joints;
-    joints[0].homing = Some(homing);
-    joints[3].homing = Some(homing);
-    let others = JointSettings::default();
-    let second = JointSettings {
-        count: -500.0,
-        ..joint(5.0 + lean)
-    };
-    Bench::new(settings, &[joint(5.0), others, others, second])
-}
-
-#[test]
-fn two_joints_of_an_axis_go_together_and_are_squared_on_their_way_home() {
-    let lean = 0.7;
-    let mut bench = gantry(lean);
-    bench.enable(MachineState::NotHomed);
-    // Power moves neither of them.
-    bench.run(50);
-    assert_eq!((bench.joints()[0], bench.joints()[3]), (1005.0, -500.0));
-    bench.command(Command::Home(0b1)).unwrap();
-    assert!(bench.run_to(MachineState::Homing, 3));
-    assert!(
-        bench.run_to(MachineState::Idle, 4_000),
-        "{:?}",
-        bench.fault()
-    );
-    bench.run(10);
-    assert_eq!(bench.status().homed, 0b1111);
-    // Both are at the same place of the machine now.
-    let places = [bench.joints()[0] - 1000.0, bench.joints()[3] + 505.0 + lean];
-    assert!((places[0] - places[1]).abs() < 0.001, "{places:?}");
-    assert!(bench.worst_ratio() <= 1.0 + 1e-6);
-    // They left their switches to go home at the same tick.
-    let homeward = |joint: usize| {
-        let fast = |s: &glidepath_link::Setpoint| s.joint_velocity[joint] > 5.0;
-        bench.setpoints.iter().rposition(fast).unwrap()
-    };
-    assert!(homeward(0).abs_diff(homeward(3)) <= 12);
-    bench.load(8, 300);
-    assert!(bench.run_to(MachineState::Running, 50));
-    bench.run(100);
-    let s = bench.last();
-    let moved = [0, 3].map(|joint| s.joint_velocity[joint]);
-    assert_eq!(moved[0], moved[1]);
-    assert!(bench.run_to(MachineState::Idle, 1_000));
-    bench.run(20);
-    let apart = [bench.joints()[0] - 1000.0, bench.joints()[3] + 505.0 + lean];
-    assert!((apart[0] - apart[1]).abs() < 0.001, "{apart:?}");
-}
-
-#[test]
-fn two_joints_of_an_axis_that_go_apart_are_a_fault() {
-    // On the way home: the second one's switch is dead, so it goes on where the first one stops.
-    let mut bench = gantry(0.0);
-    bench.enable(MachineState::NotHomed);
-    bench.upset(Upset::Contact(3, Some(false)));
-    bench.command(Command::Home(0b1)).unwrap();
-    assert!(bench.run_to(MachineState::Faulted, 4_000));
-    let status = bench.status();
-    assert_eq!(status.fault(), Ok(Some(FaultCause::FollowingError)));
-    assert_eq!(status.fault_joint(), Some(3));
-    let apart = (bench.joints()[0] - 1005.0 - (bench.joints()[3] + 500.0)).abs();
-    // What is allowed, three periods at the speed of the search, and the way to rest.
-    assert!(apart > 1.5 && apart < 1.5 + 0.24 + 0.45 + 0.08, "{apart}");
-
-    // Without power one of them gives way: nothing moves by a hand-over, and beyond what is allowed
-    // both have to be squared again.
-    for (push, homed) in [(0.9, 0b1111), (1.8, 0b0110)] {
-        let mut bench = gantry(0.0);
-        bench.enable(MachineState::NotHomed);
-        home_again(&mut bench);
-        bench.command(Command::Disable).unwrap();
-        assert!(bench.run_to(MachineState::Off, 20));
-        bench.upset(Upset::Pushed(3, push));
-        bench.run(20);
-        let stands = bench.joints();
-        bench.enable(if homed == 0b1111 {
-            MachineState::Idle
-        } else {
-            MachineState::NotHomed
-        });
-        bench.run(50);
-        assert_eq!(bench.joints(), stands);
-        assert_eq!(bench.status().homed, homed);
-        assert_eq!(bench.status().fault, 0);
     }
 }

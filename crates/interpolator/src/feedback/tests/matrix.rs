@@ -11,11 +11,11 @@
 //! somebody asks for motion, with a cause that fits; without power setpoints are where the joints
 //! are; no joint with power jumps; and the operator can go on.
 
-use super::bench::{Bench, config, numbers};
-use super::homing::SWITCH;
+use super::bench::{Bench, numbers};
+use super::client::Machine;
 use crate::testing::Numbers;
-use glidepath_link::{Command, FaultCause, JogDemand, JogMode, MachineState};
-use glidepath_plant::{JointSettings, SwitchSettings, Upset};
+use glidepath_link::{Command, FaultCause, MachineState};
+use glidepath_plant::Upset;
 
 /// What the machine does when it goes wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -114,66 +114,7 @@ impl Wrong {
     }
 }
 
-/// A mill whose first joint is brought home by the controller; its client jogs.
-struct Machine {
-    bench: Bench,
-    demand: JogDemand,
-}
-
 impl Machine {
-    fn new() -> Self {
-        let mut settings = config(false);
-        settings.feedback.as_mut().unwrap().joints[0].homing = Some(SWITCH);
-        let others = JointSettings::default();
-        let first = JointSettings {
-            start: 2.0,
-            count: 300.0,
-            switch: Some(SwitchSettings {
-                cam: (-18.0, -10.0),
-                bounce_ns: 3_000_000,
-            }),
-            ..others
-        };
-        let demand = JogDemand {
-            client: 3,
-            mask: 0b111,
-            mode: JogMode::Continuous.code(),
-            ..bytemuck::Zeroable::zeroed()
-        };
-        Self {
-            bench: Bench::new(settings, &[first, others, others]),
-            demand,
-        }
-    }
-
-    /// A key is pressed, or still is.
-    fn press(&mut self, velocity: [f64; 3], is_new: bool) {
-        self.demand.number += u64::from(is_new);
-        self.demand.value[..3].copy_from_slice(&velocity);
-        self.demand.sent_ns = self.bench.now_ns();
-        self.bench.jog(&self.demand);
-    }
-
-    fn let_go(&mut self) {
-        self.demand.mode = JogMode::None.code();
-        self.press([0.0; 3], true);
-        self.demand.mode = JogMode::Continuous.code();
-    }
-
-    /// Keeps a key pressed for so many ticks.
-    fn jog(&mut self, velocity: [f64; 3], ticks: usize) {
-        for tick in 0..ticks {
-            self.press(velocity, tick == 0);
-            self.bench.tick();
-        }
-    }
-
-    fn home(&mut self) {
-        self.bench.command(Command::Home(1)).unwrap();
-        assert!(self.bench.run_to(MachineState::Homing, 3));
-        assert!(self.bench.run_to(MachineState::Idle, 4_000));
-    }
-
     /// Brings the machine into a situation; returns what its client keeps pressed.
     fn bring(
         &mut self,
@@ -277,22 +218,12 @@ fn play(situation: Situation, wrong: Wrong, seed: u64) -> Checked {
         _ => numbers.whole(20, 90),
     };
     // The key stays pressed the whole time.
-    for _ in 0..lasts {
-        if let Some(velocity) = pressed {
-            machine.press(velocity, false);
-        }
-        machine.bench.tick();
-    }
+    machine.run(lasts as usize, pressed);
     never_leads(&machine.bench, wrong, begun)?;
     if let Some((_, end)) = upsets {
         machine.bench.upset(end);
     }
-    for _ in 0..60 {
-        if let Some(velocity) = pressed {
-            machine.press(velocity, false);
-        }
-        machine.bench.tick();
-    }
+    machine.run(60, pressed);
     comes_to_rest(&mut machine, situation, wrong)?;
     goes_on(&mut machine, situation, seed)
 }
@@ -395,89 +326,4 @@ fn whatever_goes_wrong_in_whatever_situation_the_machine_rests_and_can_go_on() {
         println!("{count} cases in {cells} cells, {} bad", bad.len());
     }
     assert!(bad.is_empty(), "{bad:#?}");
-}
-
-#[test]
-fn a_key_that_stays_pressed_moves_nothing_after_an_emergency_stop() {
-    for seed in 0..12 {
-        let mut numbers = numbers(seed);
-        let mut machine = Machine::new();
-        machine.bring(Situation::Jogging, seed, &mut numbers);
-        machine.bench.upset(Upset::EmergencyStop(true));
-        let keep = |machine: &mut Machine, ticks: usize| {
-            for _ in 0..ticks {
-                machine.press([30.0, 0.0, 0.0], false);
-                machine.bench.tick();
-            }
-        };
-        keep(&mut machine, 30);
-        let rest = machine.bench.joints();
-        machine.bench.upset(Upset::EmergencyStop(false));
-        keep(&mut machine, 40);
-        machine.bench.command(Command::Reset).unwrap();
-        keep(&mut machine, 10);
-        machine.bench.command(Command::Enable).unwrap();
-        keep(&mut machine, 120);
-        assert_eq!(machine.bench.state(), MachineState::Idle);
-        assert_eq!(machine.bench.joints(), rest, "{seed}");
-        // Let go and pressed again, it moves.
-        machine.let_go();
-        machine.bench.run(2);
-        machine.jog([30.0, 0.0, 0.0], 20);
-        assert_eq!(machine.bench.state(), MachineState::Jogging);
-    }
-}
-
-#[test]
-fn an_axis_that_is_not_home_is_slow_and_the_others_keep_their_travel() {
-    use crate::config::SoftLimits;
-    use glidepath_geometry::AxisVector;
-    let mut settings = config(false);
-    settings.feedback.as_mut().unwrap().joints[0].homing = Some(SWITCH);
-    settings.soft_limits = SoftLimits {
-        lowest: AxisVector::repeat(-5.0),
-        highest: AxisVector::repeat(5.0),
-    };
-    // The second joint stands outside of its travel, by 3 mm.
-    let outside = JointSettings {
-        start: 8.0,
-        count: 8.0,
-        ..JointSettings::default()
-    };
-    let others = JointSettings::default();
-    let mut machine = Machine {
-        bench: Bench::new(settings, &[others, outside, others]),
-        ..Machine::new()
-    };
-    machine.bench.enable(MachineState::NotHomed);
-    machine.jog([100.0, 0.0, 0.0], 400);
-    machine.let_go();
-    assert!(machine.bench.run_to(MachineState::NotHomed, 200));
-    let fastest = |bench: &Bench, joint: usize| {
-        let speeds = bench
-            .setpoints
-            .iter()
-            .map(|s| s.joint_velocity[joint].abs());
-        speeds.fold(0.0, f64::max)
-    };
-    // A tenth of the axis' speed, and the length of travel from where it began.
-    assert!((fastest(&machine.bench, 0) - 20.0).abs() < 1e-9);
-    assert!((machine.bench.last().position[0] - 10.0).abs() < 1e-9);
-    // Those at home: outwards not at all, inwards to the other end.
-    machine.jog([0.0, 50.0, 0.0], 100);
-    machine.let_go();
-    assert!(machine.bench.run_to(MachineState::NotHomed, 200));
-    let at = machine.bench.last().position;
-    assert!((at[1] - 8.0).abs() < 1e-9, "{at:?}");
-    // Together along a line, which ends where the first of them is at its end.
-    machine.jog([0.0, -50.0, 25.0], 250);
-    machine.let_go();
-    assert!(machine.bench.run_to(MachineState::NotHomed, 200));
-    let at = machine.bench.last().position;
-    assert!((at[1] + 2.0).abs() < 1e-9 && (at[2] - 5.0).abs() < 1e-9);
-    machine.jog([0.0, -50.0, 0.0], 100);
-    machine.let_go();
-    assert!(machine.bench.run_to(MachineState::NotHomed, 200));
-    assert!((machine.bench.last().position[1] + 5.0).abs() < 1e-9);
-    assert!(machine.bench.worst_ratio() <= 1.0 + 1e-6);
 }
