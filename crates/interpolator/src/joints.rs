@@ -19,8 +19,9 @@ pub(crate) struct Joints {
     /// What is added to the drives' count to have the machine's.
     offset: JointVector,
     has_offset: bool,
-    /// What a second joint of an axis follows, by its index.
-    follows: [Option<usize>; JOINTS],
+    /// The second joints of axes, each with the joint that it follows. A list, because every tick
+    /// walks along it, and few machines have any.
+    second: heapless::Vec<(usize, usize), JOINTS>,
     /// How far a second joint is beside the first, in the machine's count. It stays so: nothing
     /// squares a machine but its way home.
     beside: JointVector,
@@ -28,15 +29,12 @@ pub(crate) struct Joints {
 
 impl Joints {
     pub(crate) fn new(config: &Config) -> Self {
-        let mut follows = [None; JOINTS];
-        for (joint, gantry) in config.second_joints() {
-            if let Some(slot) = follows.get_mut(joint) {
-                *slot = Some(gantry.master);
-            }
-        }
+        let pairs = config
+            .second_joints()
+            .map(|(joint, gantry)| (joint, gantry.master));
         Self {
             mechanism: config.mechanism,
-            follows,
+            second: pairs.take(JOINTS).collect(),
             beside: JointVector::zeros(),
             last: JointVector::zeros(),
             offset: JointVector::zeros(),
@@ -91,8 +89,7 @@ impl Joints {
 
     /// A second joint does what the first one of its axis does.
     fn add_second_joints(&self, motion: &mut JointMotion) {
-        for (joint, master) in self.follows.iter().enumerate() {
-            let Some(master) = *master else { continue };
+        for &(joint, master) in &self.second {
             for rates in [
                 &mut motion.position,
                 &mut motion.velocity,
@@ -114,8 +111,7 @@ impl Joints {
     /// The joints stand there, in the machine's count; second joints stay where they are beside the
     /// first ones.
     pub(crate) fn stand(&mut self, joints: &JointVector) {
-        for (joint, master) in self.follows.iter().enumerate() {
-            let Some(master) = *master else { continue };
+        for &(joint, master) in &self.second {
             let at = |joint: usize| joints.get(joint).copied().unwrap_or(0.0);
             if let Some(slot) = self.beside.get_mut(joint) {
                 *slot = at(joint) - at(master);

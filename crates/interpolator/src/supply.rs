@@ -158,13 +158,13 @@ impl Supply {
             0
         };
         self.end = track.end();
-        let stands = published.is_at_rest() && rate.now().rate <= 0.0;
+        let stands = || rate.now().rate <= 0.0 && published.is_at_rest();
         // Frames that end at rest while more are coming in are no reason to go: motion would only
         // stand again where they end.
         let is_all = track.ends_at_last() || self.quiet_ticks >= QUIET_TICKS;
         if ahead >= self.enough || (track.ends_at_rest() && is_all) {
             self.short = false;
-        } else if rate.has_taken_reserve() || is_barred || (stands && !holds) {
+        } else if rate.has_taken_reserve() || is_barred || (!holds && stands()) {
             self.short = true;
         }
         self.out = track.ends_at_rest() && ahead == 0;

@@ -87,7 +87,7 @@ impl Interpolator<'_> {
         self.account.keep_timing(timing);
     }
 
-    fn write_joints(&mut self, setpoint: &mut Setpoint) {
+    pub(super) fn write_joints(&mut self, setpoint: &mut Setpoint) {
         if self.output.write_joints(setpoint).is_err() {
             // Every frame passed a judge of the joints, so this cannot be; if it were, the motion
             // ends.

@@ -158,6 +158,11 @@ impl Track {
         self.program_stop
     }
 
+    /// Where the motion is to wait next, for the operator or for an answer.
+    pub(crate) fn waits_at(&self) -> Option<u64> {
+        [self.program_stop, self.gate].into_iter().flatten().min()
+    }
+
     /// The frame at rest that motion may not pass.
     pub(crate) const fn barrier(&self) -> Option<u64> {
         self.barrier

@@ -33,6 +33,11 @@ impl AxisList {
         Axis::ALL.into_iter().filter(|axis| self.has[axis.index()])
     }
 
+    /// Whether the axis of that index is among them.
+    pub(crate) const fn has(&self, index: usize) -> bool {
+        self.has[index]
+    }
+
     /// How many.
     #[must_use]
     pub fn len(&self) -> usize {

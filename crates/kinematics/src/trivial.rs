@@ -1,9 +1,9 @@
 //! Each axis has a drive of its own.
 
 use crate::machine::{AxisSeries, Conditioning, JointMotion, JointSeries, JointVector, Kinematics};
-use crate::{AxisList, KinematicsError};
-use glidepath_geometry::AxisVector;
+use crate::{AxisList, JOINTS, KinematicsError};
 use glidepath_geometry::number::{Number, Series};
+use glidepath_geometry::{AXES, AxisVector};
 
 /// Joint 0 is the machine's first axis, joint 1 its second, and so on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,7 +21,7 @@ impl Kinematics for Trivial {
         &self,
         axes: &AxisSeries<N>,
     ) -> Result<JointSeries<N>, KinematicsError> {
-        let mut joints = [Series::constant(0.0); crate::JOINTS];
+        let mut joints = [Series::constant(0.0); JOINTS];
         pass_through(self.axes, axes, &mut joints);
         Ok(joints)
     }
@@ -38,11 +38,14 @@ impl Kinematics for Trivial {
             velocity: JointVector::zeros(),
             acceleration: JointVector::zeros(),
         };
-        for (joint, axis) in self.axes.iter().enumerate() {
-            let axis = axis.index();
-            motion.position[joint] = position[axis];
-            motion.velocity[joint] = velocity[axis];
-            motion.acceleration[joint] = acceleration[axis];
+        let mut joint = 0;
+        for axis in 0..AXES {
+            if joint < JOINTS && self.axes.has(axis) {
+                motion.position[joint] = position[axis];
+                motion.velocity[joint] = velocity[axis];
+                motion.acceleration[joint] = acceleration[axis];
+                joint += 1;
+            }
         }
         Ok(motion)
     }

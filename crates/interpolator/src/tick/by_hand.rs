@@ -4,7 +4,8 @@
 use super::state::Interpolator;
 use crate::jog::Surroundings;
 use crate::message::{Inputs, Order};
-use glidepath_link::{Command, EndOfEpoch, MachineState, Setpoint};
+use crate::output::Written;
+use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState, Setpoint};
 use glidepath_realtime::Wake;
 
 /// Orders taken in one tick.
@@ -111,6 +112,14 @@ impl Interpolator<'_> {
         let output = &mut self.output;
         let written = output.write_by_joints(self.epoch, &self.passed, &motion, setpoint);
         self.judge(written, tick);
+        if written == Written::Nothing {
+            // Joints are axes wherever they are moved so, so this cannot be; if it were, standing
+            // still is all that is left.
+            self.fail(FaultCause::Output);
+            self.mover.end();
+            self.write_standing(setpoint);
+            self.write_joints(setpoint);
+        }
         if !self.mover.is_active() {
             self.output.keep_joints();
         }

@@ -103,9 +103,7 @@ impl Interpolator<'_> {
             self.track.bar(now.time.sequence);
             self.rate.rest_at(now.time, goal);
         }
-        let gate = self.track.gate().map(|(frame, _)| frame.sequence);
-        let program_stop = self.track.program_stop();
-        let stop = [program_stop, gate].into_iter().flatten().min();
+        let stop = self.track.waits_at();
         let situation = Situation {
             track: &self.track,
             published: self.output.published(),
