@@ -10,7 +10,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glidepath_gcode::{
-    MAX_SUBROUTINE_BYTES, NoSubroutineFile, Options, Program, SubroutineFile, Subroutines, check,
+    Dialect, MAX_SUBROUTINE_BYTES, NoSubroutineFile, Options, Program, SubroutineFile, Subroutines,
+    check,
 };
 use glidepath_program::ItemKind;
 
@@ -240,4 +241,88 @@ fn block_delete_holds_in_files_too() {
         path("o<a> call", options).len()
     };
     assert_eq!((read(false), read(true)), (2, 1));
+}
+
+fn fanuc(files: &[(&str, &str)]) -> Options {
+    Options {
+        dialect: Dialect::Fanuc,
+        ..options(files)
+    }
+}
+
+#[test]
+fn a_fanuc_subprogram_is_in_a_file_of_its_number() {
+    for name in ["O0020", "O20", "O00020.nc", "o0020.NC", "20.nc", "0020"] {
+        let files = [(name, "%\nO0020 (STEP)\nG91 G0 X1\nG90\nM99\n%\nX7")];
+        let text = "O1\nG0 X5\nM98 P20 L2\nX0\nM30";
+        let expected = [(2, 5.0), (3, 6.0), (3, 7.0), (4, 0.0)];
+        assert_eq!(path(text, fanuc(&files)), expected, "{name}");
+    }
+    // The first of the order in which they are looked for.
+    let files = [
+        ("20", "G0 X1\nM99"),
+        ("O0020.nc", "G0 X2\nM99"),
+        ("O0020", "G0 X3\nM99"),
+    ];
+    assert_eq!(path("M98 P20\nM30", fanuc(&files)), [(1, 3.0)]);
+}
+
+#[test]
+fn a_fanuc_macro_in_a_file_has_its_arguments_loops_and_jumps() {
+    let files = [
+        (
+            "O9010.nc",
+            "O9010\nWHILE [#1 GT 0] DO 1\nG0 X[#24+#1]\n#1=#1-1\nEND 1\nIF [#1 EQ 0] GOTO 5\nX99\n\
+             N5 M98 P11\nM99\nO11\nX-1\nM99",
+        ),
+        ("O0012", "G65 P13 X#1\nM99"),
+        ("O0013", "G0 X#24\nM99"),
+    ];
+    let text = "O1\n#1=8\nG65 P9010 A2 X10\nM98 P12\nM98 P11\nM30\nO11\nX-2\nM99";
+    // O11 is in the text of each caller.
+    let expected = [(3, 12.0), (3, 11.0), (3, -1.0), (4, 8.0), (8, -2.0)];
+    assert_eq!(path(text, fanuc(&files)), expected);
+}
+
+#[test]
+fn what_the_program_has_comes_before_files_for_a_fanuc_too() {
+    let files = [("O0011", "G0 X1\nM99"), ("O0012", "M98 P11\nM99")];
+    let text = "M98 P11\nM98 P12\nM30\nO11\nG91 G0 X5\nG90\nM99";
+    assert_eq!(path(text, fanuc(&files)), [(5, 5.0), (5, 10.0)]);
+}
+
+#[test]
+fn fanuc_files_that_are_wrong_are_refused_where_they_are() {
+    let files = [
+        ("O0001", "O1\n\nG0 X1 X2\nM99"),
+        ("O0002", "O7\nG0 X1\nM99"),
+        ("O0003", "G0 X1\n\n(no return)"),
+        ("O0004", "O4\nG0 X1\nO5\nX2\nM99"),
+        ("O0006", "M98 P6\nM99"),
+        ("O0008", "G0 X1\nGOTO 3\nM99"),
+    ];
+    let found = |program: u32| {
+        let text = format!("N10 M98 P{program}\nN3 M30");
+        let report = check(text.as_bytes(), fanuc(&files));
+        let d = report.diagnostics.first().expect("a diagnostic");
+        assert!(!d.reason.is_empty() || !d.help.is_empty(), "{d}");
+        format!(
+            "{}:{}:{} {}",
+            d.file.as_deref().unwrap_or("-"),
+            d.line,
+            d.column,
+            d.code
+        )
+    };
+    assert_eq!(found(1), "lib/O0001:3:7 duplicate-word");
+    assert_eq!(found(2), "-:1:5 unknown-subroutine");
+    assert_eq!(found(3), "lib/O0003:3:1 flow-structure");
+    assert_eq!(found(4), "lib/O0004:3:1 flow-structure");
+    assert_eq!(found(6), "lib/O0006:1:1 call-depth");
+    assert_eq!(found(8), "lib/O0008:2:5 flow-structure");
+    assert_eq!(found(9), "-:1:5 unknown-subroutine");
+    let text = "M98 P51001";
+    let refused = finds(text, fanuc(&files), "-:1:1 unknown-subroutine");
+    assert!(refused.help.contains("M98 P1001 L5"), "{refused}");
+    assert!(refused.reason.contains("here, lib"), "{refused}");
 }

@@ -211,6 +211,9 @@ impl<R: BufRead> Program<R> {
     pub(crate) fn line_of_program(&self) -> u32 {
         match &self.origin {
             LineOrigin::Stream => self.source.number(),
+            LineOrigin::Tape(line) if line.file.is_some() => {
+                self.tape.calls.last().map_or(0, |call| call.called_from)
+            }
             LineOrigin::Past(line) | LineOrigin::Tape(line) => line.number,
             LineOrigin::Kept(part, index) if part.file.is_none() => {
                 part.lines.get(*index).map_or(0, |line| line.number)
@@ -240,7 +243,9 @@ impl<R: BufRead> Program<R> {
     }
 
     pub(crate) fn set_tape_origin(&mut self, number: u32, text: &[u8]) {
-        self.origin = LineOrigin::Tape(SourceLine::new(number, text));
+        let file = self.tape.file().map(Arc::clone);
+        let line = SourceLine::new(number, text);
+        self.origin = LineOrigin::Tape(SourceLine { file, ..line });
     }
 
     /// The end of the input, or of the tape: false, or a diagnostic if a part is not complete.

@@ -43,8 +43,13 @@ fn find(folders: &[PathBuf], name: &str) -> Result<SubroutineFile, NoSubroutineF
 
 /// The text of a file; of one that is too long, as much as shows it.
 fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let kind = path.metadata()?;
+    if kind.is_dir() {
+        // Program 20 of a FANUC is looked for as `20`, too, which may well be a folder.
+        return Err(io::ErrorKind::NotFound.into());
+    }
     // A pipe would keep whoever opens it waiting.
-    if !path.metadata()?.is_file() {
+    if !kind.is_file() {
         return Err(io::Error::new(
             io::ErrorKind::InvalidInput,
             "it is no ordinary file",

@@ -5,31 +5,20 @@
 //! G65 P n arguments · M98 P n L k · M99
 //! ```
 //!
-//! Programs and subprograms are in one file, each from its O number to M99 or M30. A jump looks for
-//! its block number from the next line to the end of the program, then from its beginning.
-//! Arguments of G65 are the parameters of their letters (A is #1, X is #24); M98 shares those of
-//! its caller.
+//! A jump looks for its block number from the next line to the end of the program, then from its
+//! beginning. Where subprograms are is in [`super::fanuc_call`].
 
 use std::io::BufRead;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::dialect::tape::SubprogramCall;
-use crate::execute::flow::activation::MAX_CALLS;
+use crate::execute::dialect::fanuc_call::not_returned;
 use crate::execute::program::Program;
-use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::fanuc::{Statement, is_label, is_loop, is_numbered, statement};
 use crate::syntax::dialect::line_body::{body, starts_with_word};
-use crate::syntax::expression::scope::LOCALS;
 use crate::syntax::expression::value::value;
-use crate::syntax::word_check::{missing, unused};
-
-/// Parameters of the letters of G65, by letter from A; zero: not an argument.
-const ARGUMENTS: [usize; 26] = [
-    1, 2, 3, 7, 8, 9, 0, 11, 4, 5, 6, 0, 13, 0, 0, 0, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26,
-];
 
 /// The text with blanks in the place of its first bytes, which keeps the columns of the rest.
 fn without_head(text: &[u8], length: usize) -> Vec<u8> {
@@ -47,13 +36,14 @@ impl<R: BufRead> Program<R> {
     /// Reads and executes the next line; false at the end.
     pub(crate) fn read_fanuc(&mut self) -> Outcome<bool> {
         if !self.tape.advance(&mut self.source)? {
-            return self.end_of_input();
+            return self.fanuc_end();
         }
         let index = self.tape.next - 1;
         let Some((number, text)) = self.tape.get(index).cloned() else {
             return self.end_of_input();
         };
         self.set_tape_origin(number, &text);
+        let number = self.line_of_program();
         self.count_idle().inspect_err(|_| self.end())?;
         if self.interpreter.options.block_delete && text.trim_ascii_start().starts_with(b"/") {
             return Ok(true);
@@ -61,6 +51,10 @@ impl<R: BufRead> Program<R> {
         let (statement, at) = statement(&text);
         match statement {
             Statement::Block => return self.execute_text(number, &text),
+            Statement::Label(_) if !self.tape.calls.is_empty() => {
+                self.end();
+                return Err(not_returned(&text));
+            }
             Statement::Label(_) => return self.execute_text(number, &without_head(&text, at)),
             Statement::If => {
                 if let Some(then) = self.fanuc_if(&text, at).inspect_err(|_| self.end())? {
@@ -93,13 +87,18 @@ impl<R: BufRead> Program<R> {
             Statement::While => self.fanuc_while(index, text, at)?,
             Statement::End => {
                 let number = self.fanuc_number(text, at, true)?;
+                if let Some(start) = self.tape.known_jump(index, number) {
+                    self.tape.next = start;
+                    return Ok(true);
+                }
                 let start =
                     self.tape
                         .search_back(index, |line| is_loop(line, b"DO", number), is_label);
-                self.tape.next = start.ok_or_else(|| {
+                let start = start.ok_or_else(|| {
                     fault(SourceSpan::new(at, text.len()), "an END without its DO")
                         .help("give both the same number")
                 })?;
+                self.tape.jump(index, number, start);
             }
             Statement::Macro | Statement::Subprogram => {
                 self.fanuc_call(text, at, statement == Statement::Macro)?;
@@ -111,7 +110,7 @@ impl<R: BufRead> Program<R> {
     }
 
     /// A whole number at `at`, computed or not; nothing may follow if it is the `last`.
-    fn fanuc_number(&self, text: &[u8], at: usize, last: bool) -> Outcome<u32> {
+    pub(super) fn fanuc_number(&self, text: &[u8], at: usize, last: bool) -> Outcome<u32> {
         let mut cursor = Cursor::new(text);
         cursor.seek(at);
         let number = value(&mut cursor, at.saturating_sub(1), &self.scope())?;
@@ -189,123 +188,40 @@ impl<R: BufRead> Program<R> {
         if holds {
             return Ok(());
         }
+        if let Some(behind) = self.tape.known_jump(index, number) {
+            self.tape.next = behind;
+            return Ok(());
+        }
         let end = self.tape.search(
             index + 1,
             &mut self.source,
             |line| is_loop(line, b"END", number),
             is_label,
         )?;
-        self.tape.next = 1 + end.ok_or_else(|| {
+        let end = end.ok_or_else(|| {
             fault(SourceSpan::new(at, text.len()), "a loop without its END")
                 .help(format!("add `END {number}`"))
         })?;
+        self.tape.jump(index, number, end + 1);
         Ok(())
     }
 
     fn fanuc_go_to(&mut self, index: usize, number: u32, at: usize) -> Outcome<()> {
+        if let Some(block) = self.tape.known_jump(index, number) {
+            self.tape.next = block;
+            return Ok(());
+        }
         let wanted = |line: &[u8]| is_numbered(line, number);
         let ahead = self
             .tape
             .search(index + 1, &mut self.source, wanted, is_label)?;
         let found = ahead.or_else(|| self.tape.search_back(index + 1, wanted, is_label));
-        self.tape.next = found.ok_or_else(|| {
+        let found = found.ok_or_else(|| {
             let message = format!("there is no block N{number} in the program");
             fault(SourceSpan::new(at, at + 4), message)
                 .help("add the block number, or correct the jump")
         })?;
+        self.tape.jump(index, number, found);
         Ok(())
-    }
-
-    /// G65 and M98.
-    fn fanuc_call(&mut self, text: &[u8], at: usize, is_macro: bool) -> Outcome<()> {
-        let span = SourceSpan::new(body(text), at);
-        let mut arguments = [0.0; LOCALS];
-        let (mut program, mut turns) = (None, 1);
-        let mut cursor = Cursor::new(text);
-        cursor.seek(at);
-        while let Some(byte) = cursor.next_visible() {
-            let start = cursor.at();
-            let letter = byte.to_ascii_uppercase();
-            match letter {
-                b';' => break,
-                b'(' => {
-                    cursor.skip_comment()?;
-                    continue;
-                }
-                b'A'..=b'Z' => cursor.advance(),
-                _ => return Err(bad_byte(text, start)),
-            }
-            let argument = value(&mut cursor, start, &self.scope())?;
-            let slot = ARGUMENTS[usize::from(letter - b'A')];
-            match letter {
-                b'P' => program = Some(self.fanuc_number(text, start + 1, false)?),
-                b'L' | b'K' if !is_macro || letter == b'L' => {
-                    turns = self.fanuc_number(text, start + 1, false)?;
-                }
-                _ if is_macro && slot > 0 => arguments[slot - 1] = argument,
-                _ => {
-                    let span = SourceSpan::new(start, cursor.end_of_word());
-                    return Err(unused(char::from(letter), span));
-                }
-            }
-        }
-        let Some(program) = program else {
-            return Err(missing(span, "the call", "P", "the program's number"));
-        };
-        let wanted = |line: &[u8]| statement(line).0 == Statement::Label(program);
-        let first = self.tape.search(0, &mut self.source, wanted, |_| false)?;
-        let Some(first) = first else {
-            let message = format!("there is no program O{program}");
-            return Err(Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
-                .because("a subprogram is in the same file as its caller")
-                .help("copy it behind the end of this program"));
-        };
-        if self.tape.calls.len() >= MAX_CALLS {
-            let message = format!("more than {MAX_CALLS} calls in each other");
-            return Err(Fault::new(DiagnosticCode::CallDepth, span, message)
-                .because("the depth of calls is bounded")
-                .help("check what should end the recursion"));
-        }
-        if turns == 0 {
-            return Ok(());
-        }
-        self.tape.calls.push(SubprogramCall {
-            first: first + 1,
-            back: self.tape.next,
-            again: turns - 1,
-            own_parameters: is_macro,
-        });
-        self.tape.next = first + 1;
-        if is_macro {
-            self.parameters.enter(&arguments);
-        }
-        Ok(())
-    }
-
-    /// M99: back to the caller, or the end of the program.
-    fn fanuc_return(&mut self, text: &[u8], at: usize) -> Outcome<bool> {
-        let mut cursor = Cursor::new(text);
-        cursor.seek(at);
-        if !matches!(cursor.next_visible(), None | Some(b'(' | b';' | b'%')) {
-            let span = SourceSpan::new(cursor.at(), text.len());
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, "words behind M99")
-                .because("a return leads to behind the call, and a program that repeats itself never ends")
-                .help("write M99 alone; use GOTO inside the caller"));
-        }
-        let Some(call) = self.tape.calls.last_mut() else {
-            return self.end_of_input();
-        };
-        if call.again > 0 {
-            call.again -= 1;
-            self.tape.next = call.first;
-            return Ok(true);
-        }
-        let call = *call;
-        self.tape.calls.pop();
-        self.tape.next = call.back;
-        if call.own_parameters {
-            self.parameters.leave(None);
-        }
-        Ok(true)
     }
 }

@@ -1,6 +1,9 @@
-//! The lines of a program that may jump: kept as they are read, up to a bound.
+//! The lines of a program that may jump: kept as they are read, up to a bound; and those of the
+//! files of its subprograms.
 
+use std::collections::BTreeMap;
 use std::io::BufRead;
+use std::sync::Arc;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
@@ -12,35 +15,124 @@ const MAX_BYTES: usize = 32 * 1024 * 1024;
 /// Bytes a kept line costs besides its text.
 const LINE_OVERHEAD: usize = 40;
 
+/// Most jumps whose ends are remembered.
+const MAX_JUMPS: usize = 100_000;
+
 /// A line of the program: its number and text.
 pub(crate) type TapeLine = (u32, Box<[u8]>);
+
+/// Where a line is: which text, and which line of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(crate) struct TapePlace {
+    /// 0: the program itself; others: files of subprograms.
+    pub(crate) text: usize,
+    pub(crate) line: usize,
+}
 
 /// A subprogram in progress.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SubprogramCall {
     /// First line of the subprogram.
-    pub(crate) first: usize,
+    pub(crate) first: TapePlace,
     /// Where the caller goes on.
-    pub(crate) back: usize,
+    pub(crate) back: TapePlace,
+    /// The line of the program that calls it.
+    pub(crate) called_from: u32,
     /// How many more times it runs.
     pub(crate) again: u32,
     /// True for G65: the subprogram has parameters of its own.
     pub(crate) own_parameters: bool,
 }
 
-/// Lines read so far, and which comes next.
+/// The program, or the file of a subprogram.
 #[derive(Debug, Default)]
-pub(crate) struct Tape {
+struct TapeText {
+    /// `None`: the program itself.
+    file: Option<Arc<str>>,
     lines: Vec<TapeLine>,
+}
+
+/// Lines read so far, and which comes next.
+#[derive(Debug)]
+pub(crate) struct Tape {
+    /// The program itself, then the files in the order of their calls.
+    texts: Vec<TapeText>,
     bytes: usize,
+    /// The text that is executed.
+    text: usize,
+    /// The line of it that comes next.
     pub(crate) next: usize,
     pub(crate) calls: Vec<SubprogramCall>,
+    /// Where jumps have led: a search through a long program for every turn of a loop would take
+    /// as long as all its lines do.
+    jumps: BTreeMap<(TapePlace, u32), usize>,
+    /// Where programs begin, by the text that calls them and their number.
+    programs: BTreeMap<(usize, u32), TapePlace>,
+}
+
+impl Default for Tape {
+    fn default() -> Self {
+        Self {
+            texts: vec![TapeText::default()],
+            bytes: 0,
+            text: 0,
+            next: 0,
+            calls: Vec::new(),
+            jumps: BTreeMap::new(),
+            programs: BTreeMap::new(),
+        }
+    }
 }
 
 impl Tape {
-    /// A kept line.
+    fn lines(&self) -> &[TapeLine] {
+        self.texts.get(self.text).map_or(&[], |text| &text.lines)
+    }
+
+    /// A line of the text that is executed.
     pub(crate) fn get(&self, index: usize) -> Option<&TapeLine> {
-        self.lines.get(index)
+        self.lines().get(index)
+    }
+
+    /// The file that is executed; `None`: the program itself.
+    pub(crate) fn file(&self) -> Option<&Arc<str>> {
+        self.texts.get(self.text)?.file.as_ref()
+    }
+
+    /// The line that comes next.
+    pub(crate) const fn place(&self) -> TapePlace {
+        TapePlace {
+            text: self.text,
+            line: self.next,
+        }
+    }
+
+    /// Goes to a line.
+    pub(crate) const fn go_to(&mut self, place: TapePlace) {
+        self.text = place.text;
+        self.next = place.line;
+    }
+
+    /// The text of a file that was taken up.
+    pub(crate) fn text_of(&self, file: &str) -> Option<usize> {
+        let of_file = |text: &TapeText| text.file.as_deref() == Some(file);
+        self.texts.iter().position(of_file)
+    }
+
+    /// Takes up the lines of a file: which text it is.
+    pub(crate) fn take_up(&mut self, file: Arc<str>, lines: Vec<TapeLine>) -> usize {
+        let file = Some(file);
+        self.texts.push(TapeText { file, lines });
+        self.texts.len() - 1
+    }
+
+    /// Where a program begins that the text being executed has called before.
+    pub(crate) fn known_program(&self, number: u32) -> Option<TapePlace> {
+        self.programs.get(&(self.text, number)).copied()
+    }
+
+    pub(crate) fn remember_program(&mut self, number: u32, place: TapePlace) {
+        self.programs.insert((self.text, number), place);
     }
 
     /// Makes sure that the line is kept, reading on if need be; false behind the end.
@@ -49,7 +141,10 @@ impl Tape {
         index: usize,
         source: &mut LineSource<R>,
     ) -> Outcome<bool> {
-        while self.lines.len() <= index {
+        let Some(program) = self.texts.first_mut().filter(|_| self.text == 0) else {
+            return Ok(index < self.lines().len());
+        };
+        while program.lines.len() <= index {
             if !source.advance()? {
                 return Ok(false);
             }
@@ -57,7 +152,7 @@ impl Tape {
             if self.bytes > 2 * MAX_BYTES {
                 return Err(too_long());
             }
-            self.lines.push((source.number(), source.text().into()));
+            program.lines.push((source.number(), source.text().into()));
         }
         Ok(true)
     }
@@ -67,8 +162,15 @@ impl Tape {
     /// The beginning of a program that is longer than what is kept is forgotten: it can still go
     /// on, but not back there.
     pub(crate) fn advance<R: BufRead>(&mut self, source: &mut LineSource<R>) -> Outcome<bool> {
-        if self.bytes > MAX_BYTES && self.next >= self.lines.len() && self.calls.is_empty() {
-            self.lines.clear();
+        if let Some(program) = self.texts.first_mut()
+            && self.bytes > MAX_BYTES
+            && self.text == 0
+            && self.next >= program.lines.len()
+            && self.calls.is_empty()
+        {
+            program.lines.clear();
+            self.jumps.clear();
+            self.programs.clear();
             self.bytes = 0;
             self.next = 0;
         }
@@ -77,17 +179,39 @@ impl Tape {
         Ok(any)
     }
 
+    /// Where the jump in a line led before; `number` tells the jumps of a line apart.
+    pub(crate) fn known_jump(&self, index: usize, number: u32) -> Option<usize> {
+        let from = TapePlace {
+            text: self.text,
+            line: index,
+        };
+        self.jumps.get(&(from, number)).copied()
+    }
+
+    /// Jumps, and remembers where to.
+    pub(crate) fn jump(&mut self, index: usize, number: u32, to: usize) {
+        if self.jumps.len() >= MAX_JUMPS {
+            self.jumps.clear();
+        }
+        let from = TapePlace {
+            text: self.text,
+            line: index,
+        };
+        self.jumps.insert((from, number), to);
+        self.next = to;
+    }
+
     /// The first line from `from` on that is wanted, before the end and before `stop` says so.
     pub(crate) fn search<R: BufRead>(
         &mut self,
         from: usize,
         source: &mut LineSource<R>,
-        wanted: impl Fn(&[u8]) -> bool,
+        mut wanted: impl FnMut(&[u8]) -> bool,
         stop: impl Fn(&[u8]) -> bool,
     ) -> Outcome<Option<usize>> {
         let mut index = from;
         while self.reach(index, source)? {
-            let text = self.lines.get(index).map_or(&[][..], |(_, text)| text);
+            let text = self.get(index).map_or(&[][..], |(_, text)| text);
             if wanted(text) {
                 return Ok(Some(index));
             }
@@ -103,10 +227,11 @@ impl Tape {
     pub(crate) fn search_back(
         &self,
         before: usize,
-        wanted: impl Fn(&[u8]) -> bool,
+        mut wanted: impl FnMut(&[u8]) -> bool,
         stop: impl Fn(&[u8]) -> bool,
     ) -> Option<usize> {
-        let kept = self.lines.get(..before.min(self.lines.len()))?;
+        let lines = self.lines();
+        let kept = lines.get(..before.min(lines.len()))?;
         for (index, (_, text)) in kept.iter().enumerate().rev() {
             if wanted(text) {
                 return Some(index);

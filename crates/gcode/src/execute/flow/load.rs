@@ -173,10 +173,22 @@ fn not_taken(label: &Label, name: &str, span: SourceSpan, why: NotTaken) -> Box<
                 "define it before this line, or add the folder of its file: --subroutine-path, or \
                  `subroutine_path` of [program]",
             ),
+        why => unusable(&format!("subroutine {label}"), span, why),
+    }
+}
+
+/// A file that is there and cannot be taken; `what` is looked for in it.
+pub(crate) fn unusable(what: &str, span: SourceSpan, why: NotTaken) -> Box<Fault> {
+    match why {
+        NotTaken::None(NoSubroutineFile::Missing { .. }) => Fault::new(
+            DiagnosticCode::UnknownSubroutine,
+            span,
+            format!("there is no {what}"),
+        ),
         NotTaken::None(NoSubroutineFile::Unreadable { path, reason }) => {
             let message = format!("cannot read {path}: {reason}");
             Fault::new(DiagnosticCode::ReadFailed, span, message)
-                .because(format!("the subroutine {label} is looked for there"))
+                .because(format!("the {what} is looked for there"))
         }
         NotTaken::TooLong(path) => {
             let message = format!("{path} is too long for a subroutine");

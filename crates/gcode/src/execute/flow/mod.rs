@@ -23,6 +23,6 @@
 
 pub(crate) mod activation;
 pub(crate) mod kept_lines;
-mod load;
+pub(crate) mod load;
 mod o_words;
 pub(crate) mod recorder;

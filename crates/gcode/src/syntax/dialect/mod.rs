@@ -17,6 +17,7 @@ pub(crate) mod siemens;
 /// | line check | – | `N… *…` verified | – | – |
 /// | parameters | `#1`, `#<name>` | – | `#1` | `R1` |
 /// | expressions | `X[#1+2]` | – | `X[#1+2]`, `X#1` | `X=R1+2` |
+/// | subprograms in files | `o<name> call` | – | `M98 P`, `G65 P` | – |
 /// | flow | O words | – | `IF` `GOTO` `THEN`, `WHILE` `DO` `END`, `G65`, `M98`, `M99` | refused |
 /// | dwell | `G4 P` s | `G4 P` ms, `S` s | `G4 P` ms, `X` s | `G4 F` s |
 /// | G0 | rapid | at feed | rapid | rapid |

@@ -1,0 +1,309 @@
+//! FANUC's subprograms: G65, M98 and M99.
+//!
+//! A subprogram is looked for in the text of its caller, from its O number to M99 or M30, then in
+//! the program itself, then in a file: program 20 in `O0020`, `O20` or `20`, as it is or with `.nc`
+//! behind it, in capitals or not ([`file_names`] has the order). Of a file the lines from its
+//! O number on are executed, or all of them if it has none. Arguments of G65 are the parameters of
+//! their letters (A is #1, X is #24); M98 shares those of its caller.
+
+use std::io::BufRead;
+use std::sync::Arc;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::tape::{SubprogramCall, TapeLine, TapePlace};
+use crate::execute::flow::activation::MAX_CALLS;
+use crate::execute::flow::load::unusable;
+use crate::execute::line_origin::{LineOrigin, SourceLine};
+use crate::execute::program::{Program, is_percent};
+use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken, SubroutineFile, Subroutines};
+use crate::syntax::bad_byte::bad_byte;
+use crate::syntax::cursor::Cursor;
+use crate::syntax::dialect::fanuc::{Statement, statement};
+use crate::syntax::dialect::line_body::body;
+use crate::syntax::expression::scope::LOCALS;
+use crate::syntax::expression::value::value;
+use crate::syntax::line_source::LineSource;
+use crate::syntax::word_check::{missing, unused};
+
+/// Parameters of the letters of G65, by letter from A; zero: not an argument.
+const ARGUMENTS: [usize; 26] = [
+    1, 2, 3, 7, 8, 9, 0, 11, 4, 5, 6, 0, 13, 0, 0, 0, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26,
+];
+
+/// The files that program may be in, in the order in which they are looked for.
+fn file_names(program: u32) -> impl Iterator<Item = String> {
+    let stems = [
+        format!("O{program:04}"),
+        format!("O{program:05}"),
+        format!("O{program}"),
+        format!("o{program:04}"),
+        format!("o{program}"),
+        format!("{program:04}"),
+        format!("{program}"),
+    ];
+    let mut names = Vec::new();
+    for ending in ["", ".nc", ".NC"] {
+        for stem in &stems {
+            let name = format!("{stem}{ending}");
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+    }
+    names.into_iter()
+}
+
+/// The file of a program.
+fn find(subroutines: &Subroutines, program: u32) -> Result<SubroutineFile, NotTaken> {
+    let mut missing = NotTaken::None(NoSubroutineFile::Missing {
+        looked_in: Vec::new(),
+    });
+    for name in file_names(program) {
+        match subroutines.get(&name) {
+            Err(none @ NotTaken::None(NoSubroutineFile::Missing { .. })) => missing = none,
+            found => return found,
+        }
+    }
+    Err(missing)
+}
+
+impl<R: BufRead> Program<R> {
+    /// G65 and M98.
+    pub(super) fn fanuc_call(&mut self, text: &[u8], at: usize, is_macro: bool) -> Outcome<()> {
+        let span = SourceSpan::new(body(text), at);
+        let mut arguments = [0.0; LOCALS];
+        let (mut program, mut turns) = (None, 1);
+        let mut cursor = Cursor::new(text);
+        cursor.seek(at);
+        while let Some(byte) = cursor.next_visible() {
+            let start = cursor.at();
+            let letter = byte.to_ascii_uppercase();
+            match letter {
+                b';' => break,
+                b'(' => {
+                    cursor.skip_comment()?;
+                    continue;
+                }
+                b'A'..=b'Z' => cursor.advance(),
+                _ => return Err(bad_byte(text, start)),
+            }
+            let argument = value(&mut cursor, start, &self.scope())?;
+            let slot = ARGUMENTS[usize::from(letter - b'A')];
+            match letter {
+                b'P' => program = Some(self.fanuc_number(text, start + 1, false)?),
+                b'L' | b'K' if !is_macro || letter == b'L' => {
+                    turns = self.fanuc_number(text, start + 1, false)?;
+                }
+                _ if is_macro && slot > 0 => arguments[slot - 1] = argument,
+                _ => {
+                    let span = SourceSpan::new(start, cursor.end_of_word());
+                    return Err(unused(char::from(letter), span));
+                }
+            }
+        }
+        let Some(program) = program else {
+            return Err(missing(span, "the call", "P", "the program's number"));
+        };
+        let first = self.fanuc_program(program, span)?;
+        if self.tape.calls.len() >= MAX_CALLS {
+            let message = format!("more than {MAX_CALLS} calls in each other");
+            return Err(Fault::new(DiagnosticCode::CallDepth, span, message)
+                .because("the depth of calls is bounded")
+                .help("check what should end the recursion"));
+        }
+        if turns == 0 {
+            return Ok(());
+        }
+        self.tape.calls.push(SubprogramCall {
+            first,
+            back: self.tape.place(),
+            called_from: self.line_of_program(),
+            again: turns - 1,
+            own_parameters: is_macro,
+        });
+        self.tape.go_to(first);
+        if is_macro {
+            self.parameters.enter(&arguments);
+        }
+        Ok(())
+    }
+
+    /// Where that program begins: its first line.
+    fn fanuc_program(&mut self, program: u32, span: SourceSpan) -> Outcome<TapePlace> {
+        let here = self.tape.place();
+        if let Some(place) = self.tape.known_program(program) {
+            return Ok(place);
+        }
+        let mut texts = vec![here.text, 0];
+        texts.dedup();
+        let mut found = None;
+        for text in texts {
+            self.tape.go_to(TapePlace { text, line: 0 });
+            let wanted = |line: &[u8]| statement(line).0 == Statement::Label(program);
+            let label = self.tape.search(0, &mut self.source, wanted, |_| false);
+            self.tape.go_to(here);
+            if let Some(label) = label? {
+                let line = label + 1;
+                found = Some(TapePlace { text, line });
+                break;
+            }
+        }
+        let place = match found {
+            Some(place) => place,
+            None => self.fanuc_file(program, span)?,
+        };
+        self.tape.remember_program(program, place);
+        Ok(place)
+    }
+
+    /// The program of that number in a file of its own.
+    fn fanuc_file(&mut self, program: u32, span: SourceSpan) -> Outcome<TapePlace> {
+        let Some(subroutines) = &self.interpreter.options.subroutines else {
+            return Err(unknown(program, span, &[]));
+        };
+        let file = find(subroutines, program).map_err(|why| match why {
+            NotTaken::None(NoSubroutineFile::Missing { looked_in }) => {
+                unknown(program, span, &looked_in)
+            }
+            why => unusable(&format!("program O{program}"), span, why),
+        })?;
+        let text = match self.tape.text_of(&file.name) {
+            Some(text) => text,
+            None => {
+                let lines = lines_of(&file).map_err(|(fault, line)| {
+                    self.origin = LineOrigin::Past(line);
+                    fault
+                })?;
+                self.tape.take_up(Arc::clone(&file.name), lines)
+            }
+        };
+        let here = self.tape.place();
+        self.tape.go_to(TapePlace { text, line: 0 });
+        let mut others = false;
+        let wanted = |line: &[u8]| match statement(line).0 {
+            Statement::Label(number) => {
+                others |= number != program;
+                number == program
+            }
+            _ => false,
+        };
+        let label = self.tape.search(0, &mut self.source, wanted, |_| false);
+        self.tape.go_to(here);
+        match label? {
+            Some(label) => Ok(TapePlace {
+                text,
+                line: label + 1,
+            }),
+            None if others => {
+                let message = format!("{} has other programs than O{program}", file.name);
+                Err(Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
+                    .because("the O numbers in a file say which programs it has")
+                    .help(format!(
+                        "write O{program} at its beginning, or remove the O numbers"
+                    )))
+            }
+            None => Ok(TapePlace { text, line: 0 }),
+        }
+    }
+
+    /// The end of the text: of the program, or of a file, which should have had M99 before.
+    pub(super) fn fanuc_end(&mut self) -> Outcome<bool> {
+        let Some(file) = self.tape.file() else {
+            return self.end_of_input();
+        };
+        let file = Some(Arc::clone(file));
+        let last = self.tape.next.saturating_sub(1);
+        let (number, text) = self.tape.get(last).cloned().unwrap_or_default();
+        let fault = not_returned(&text);
+        self.origin = LineOrigin::Past(SourceLine { file, number, text });
+        Err(fault)
+    }
+
+    /// M99: back to the caller, or the end of the program.
+    pub(super) fn fanuc_return(&mut self, text: &[u8], at: usize) -> Outcome<bool> {
+        let mut cursor = Cursor::new(text);
+        cursor.seek(at);
+        if !matches!(cursor.next_visible(), None | Some(b'(' | b';' | b'%')) {
+            let span = SourceSpan::new(cursor.at(), text.len());
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, "words behind M99")
+                .because("a return leads to behind the call, and a program that repeats itself never ends")
+                .help("write M99 alone; use GOTO inside the caller"));
+        }
+        let Some(call) = self.tape.calls.last_mut() else {
+            return self.end_of_input();
+        };
+        if call.again > 0 {
+            call.again -= 1;
+            let first = call.first;
+            self.tape.go_to(first);
+            return Ok(true);
+        }
+        let call = *call;
+        self.tape.calls.pop();
+        self.tape.go_to(call.back);
+        if call.own_parameters {
+            self.parameters.leave(None);
+        }
+        Ok(true)
+    }
+}
+
+/// A subprogram that runs into its end or into the next one; `text` is the line there.
+pub(super) fn not_returned(text: &[u8]) -> Box<Fault> {
+    let span = SourceSpan::new(0, text.len());
+    let message = "the subprogram is not ended";
+    Fault::new(DiagnosticCode::FlowStructure, span, message)
+        .because("a subprogram that was called leads back by M99")
+        .help("write M99 at its end")
+}
+
+/// The lines of a file, from percent sign to percent sign.
+fn lines_of(file: &SubroutineFile) -> Result<Vec<TapeLine>, (Box<Fault>, SourceLine)> {
+    let mut source = LineSource::new(&*file.text);
+    let mut lines = Vec::new();
+    loop {
+        let more = source.advance().map_err(|fault| {
+            let line = SourceLine {
+                file: Some(Arc::clone(&file.name)),
+                ..SourceLine::new(source.number(), source.text())
+            };
+            (fault, line)
+        })?;
+        if !more || is_percent(source.text()) && !lines.is_empty() {
+            return Ok(lines);
+        }
+        if !is_percent(source.text()) {
+            lines.push((source.number(), source.text().into()));
+        }
+    }
+}
+
+fn unknown(program: u32, span: SourceSpan, looked_in: &[String]) -> Box<Fault> {
+    let message = format!("there is no program O{program}");
+    let fault = Fault::new(DiagnosticCode::UnknownSubroutine, span, message);
+    let fault = if looked_in.is_empty() {
+        fault.because(
+            "it is not in the text of its caller, and there is no folder to look for it in",
+        )
+    } else {
+        fault.because(format!(
+            "it is not in the text of its caller, and there is no file O{program:04}, O{program} or \
+             {program}, with or without .nc, in {}",
+            looked_in.join(", ")
+        ))
+    };
+    if program > 9999 {
+        return fault.help(format!(
+            "if its first digits are repetitions, write M98 P{} L{}; else add the program or its \
+             folder",
+            program % 10_000,
+            program / 10_000
+        ));
+    }
+    fault.help(
+        "copy it behind the end of this program, or give the folder of its file: --subroutine-path, \
+         or `subroutine_path` of [program]",
+    )
+}
