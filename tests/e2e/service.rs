@@ -54,6 +54,10 @@ fn lines_and_files_are_executed_by_one_service() {
     bench.operate(&["acknowledge"]);
     let status = bench.wait(|status| (status.awaited_value - 101.0).abs() < 1e-9);
     assert!((status.position[0] - 15.0).abs() < 1e-9);
+    // What the program says is there for whoever comes late, until another program begins.
+    assert_eq!(status.message.as_str(), "cutting");
+    let shown = bench.operate(&["status"]).stdout;
+    assert!(shown.contains("  says          cutting"), "{shown}");
     let auxiliary = instance.connect();
     let mut auxiliary = auxiliary.auxiliary_source().unwrap();
     let record = loop {
@@ -71,6 +75,7 @@ fn lines_and_files_are_executed_by_one_service() {
     let _done = running.wait().expect(0);
     bench.assert_at([12.0, 3.0, 4.0]);
 
+    assert_eq!(bench.wait(|_| true).message.as_str(), "cutting");
     // From a line on: what differs is shown, and nothing moves before that is agreed to.
     let line = ["run-file", &part, "--from-line", "9"];
     let output = bench.process(&line).wait().expect(1);
@@ -85,6 +90,7 @@ fn lines_and_files_are_executed_by_one_service() {
     bench.assert_at([12.0, 3.0, 4.0]);
     bench.operate(&[&line[..], &["--yes"]].concat());
     bench.assert_at([12.0, 3.0, 4.0]);
+    assert_eq!(bench.wait(|_| true).message.as_str(), "");
     let none = ["run-file", &part, "--from-line", "5", "--yes"];
     bench.refused(&none, 1, "line 6 is the next");
 

@@ -49,7 +49,7 @@ extern "C" {
 /* The version of the ABI: functions and structures. */
 #define GP_ABI 1u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x25c54546ebd615a9)
+#define GP_LAYOUT UINT64_C(0x139f88e84996cc50)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -417,7 +417,7 @@ GP_FIELD(gp_setpoint, joint_acceleration, 512, 72);
 GP_FIELD(gp_setpoint, away, 584, 72);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
-   glidepath.Status.v6. */
+   glidepath.Status.v7. */
 typedef struct gp_status {
     /* Identifies one life of the interpolator. */
     uint64_t boot_id;
@@ -559,8 +559,11 @@ typedef struct gp_status {
     char last_error[128];
     /* The last thing that happened (a change of state, missed ticks, ...), for people. */
     char last_event[128];
+    /* What the program said last to people: MSG, DEBUG, the comment of a stop; empty before
+       that. */
+    char message[128];
 } gp_status;
-GP_ASSERT(sizeof(gp_status) == 1256, "gp_status has another size");
+GP_ASSERT(sizeof(gp_status) == 1384, "gp_status has another size");
 GP_FIELD(gp_status, boot_id, 0, 8);
 GP_FIELD(gp_status, updated_ns, 8, 8);
 GP_FIELD(gp_status, period_ns, 16, 8);
@@ -628,6 +631,7 @@ GP_FIELD(gp_status, latency, 936, 32);
 GP_FIELD(gp_status, response, 968, 32);
 GP_FIELD(gp_status, last_error, 1000, 128);
 GP_FIELD(gp_status, last_event, 1128, 128);
+GP_FIELD(gp_status, message, 1256, 128);
 
 /* What a servo stack knows of the joints it drives, at one moment. The record
    glidepath.Feedback.v1. */

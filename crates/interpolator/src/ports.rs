@@ -273,7 +273,7 @@ impl<'a> Ports<'a> {
                 match request.command() {
                     Ok(Command::Tell) => {
                         log(text);
-                        book.last_event(text);
+                        book.message(text);
                     }
                     Ok(Command::Acknowledge { done: false, .. })
                         if !is_refusal(&reply) && !text.is_empty() =>

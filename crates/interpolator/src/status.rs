@@ -67,9 +67,13 @@ impl StatusBook {
     }
 
     /// A frame passed to the real-time thread. The first one of a program tells which program that
-    /// is, and where it starts; that of a planner that goes on with one tells of a block.
-    pub(crate) const fn passed(&mut self, frame: &SetpointFrame) {
-        if frame.sequence == 0 && frame.block == 0 {
+    /// is, and where it starts; that of a planner that goes on with one tells of a block of the same.
+    pub(crate) fn passed(&mut self, frame: &SetpointFrame) {
+        if frame.sequence > 0 {
+            return;
+        }
+        self.message("");
+        if frame.block == 0 || frame.program != self.status.program {
             self.status.program = frame.program;
             self.status.program_start = frame.position;
         }
@@ -77,6 +81,11 @@ impl StatusBook {
 
     pub(crate) fn last_error(&mut self, text: &str) {
         self.status.last_error = Text::new(text);
+    }
+
+    /// What the program says.
+    pub(crate) fn message(&mut self, text: &str) {
+        self.status.message = Text::new(text);
     }
 
     pub(crate) fn last_event(&mut self, text: &str) {

@@ -35,7 +35,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v3", 656, {
     acceleration: 296, joint_position: 368, joint_velocity: 440, joint_acceleration: 512,
     away: 584,
 });
-layout!(status, Status, "glidepath.Status.v6", 1256, {
+layout!(status, Status, "glidepath.Status.v7", 1384, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_joint: 88, drive_fault: 92,
@@ -49,7 +49,7 @@ layout!(status, Status, "glidepath.Status.v6", 1256, {
     missed_ticks: 712, late_ticks: 720, setpoints_published: 728, setpoints_lost: 736,
     reserve_stops: 744, starved_ticks: 752, commands_served: 760, commands_refused: 768,
     frames_refused: 776, lateness: 872, work: 904, latency: 936, response: 968, last_error: 1000,
-    last_event: 1128,
+    last_event: 1128, message: 1256,
 });
 layout!(command_request, CommandRequest, "glidepath.CommandRequest.v4", 184, {
     client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, text: 56,

@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use glidepath_gcode::Remark;
 use glidepath_link::MachineState;
 
 use crate::{RunError, Statistics};
@@ -32,6 +33,8 @@ pub enum Notice<'a> {
         /// Its epoch.
         epoch: u64,
     },
+    /// The machine has come to something that the program says to people.
+    Remark(&'a Remark),
     /// How far it has come.
     Progress(Progress),
 }

@@ -179,7 +179,7 @@ impl Machine {
         self.alive = false;
     }
 
-    /// Has a text shown to people.
+    /// Has shown, to whoever looks at the machine, what the program says.
     pub(crate) fn tell(&mut self, text: &str, control: &mut Control<'_>) -> Result<(), RunError> {
         self.ask(Command::Tell, text, control)
     }

@@ -40,7 +40,9 @@ use crate::ahead::{FrameQueue, Next, planned_ahead};
 use crate::epoch::Epoch;
 use crate::inputs::InputWatch;
 use crate::machine::{HUNGRY_POLL, Machine, POLL, SILENCE, Standing};
-use crate::{Control, InputDesk, ItemSource, Notice, Pace, Pipeline, RunError, Statistics};
+use crate::{
+    Control, InputDesk, ItemSource, Notice, Pace, Pipeline, RemarkLog, RunError, Statistics,
+};
 
 /// Frames offered between two looks at status and stop flag.
 const FRAMES_PER_TURN: u32 = 512;
@@ -60,6 +62,7 @@ pub struct Publisher<'t> {
     /// Time waited without an epoch.
     pub(crate) idle_t: Duration,
     inputs: Option<InputWatch>,
+    remarks: Option<RemarkLog>,
 }
 
 impl std::fmt::Debug for Publisher<'_> {
@@ -107,6 +110,7 @@ impl<'t> Publisher<'t> {
             pace,
             idle_t: Duration::ZERO,
             inputs: None,
+            remarks: None,
         })
     }
 
@@ -120,6 +124,12 @@ impl<'t> Publisher<'t> {
         let source = self.transport.feedback_source()?;
         self.inputs = Some(InputWatch::new(desk, source));
         Ok(())
+    }
+
+    /// Tells what the next program notes in a log when the machine comes there: by notices, and in the
+    /// status of the interpolator.
+    pub fn attend_remarks(&mut self, log: RemarkLog) {
+        self.remarks = Some(log);
     }
 
     /// What spindle, coolant, tool and outputs do, as far as the interpolator knows.
@@ -144,14 +154,6 @@ impl<'t> Publisher<'t> {
     #[must_use]
     pub fn block(&self) -> u32 {
         self.machine.block()
-    }
-
-    /// Has a text shown as the last event of the status.
-    ///
-    /// # Errors
-    /// The interpolator does not answer.
-    pub fn tell(&mut self, text: &str, control: &mut Control<'_>) -> Result<(), RunError> {
-        self.machine.tell(text, control)
     }
 
     /// Answers what the program asks of inputs, once the machine rests where it asks.
@@ -207,6 +209,7 @@ impl<'t> Publisher<'t> {
             };
             self.publish_planned(plan, epoch, attend, control)
         });
+        self.remarks = None;
         published.map_err(RunError::NoThread)??;
         Ok(pipeline.statistics())
     }
@@ -288,6 +291,8 @@ impl<'t> Publisher<'t> {
                 }
                 epoch.delivered();
                 if frame.sequence == 0 {
+                    // What was said in front of where a program is gone on with was said.
+                    let _before = self.remarks.as_ref().map(|log| log.executed(frame.block));
                     (control.notify)(&Notice::Started {
                         epoch: epoch.number,
                     });
@@ -326,10 +331,29 @@ impl<'t> Publisher<'t> {
             .standing(epoch.boot_id, epoch.number, epoch.is_known())
     }
 
-    fn report(&self, epoch: &Epoch, plan: &Plan<'_>, control: &mut Control<'_>) {
+    fn report(&mut self, epoch: &Epoch, plan: &Plan<'_>, control: &mut Control<'_>) {
         let at = (self.machine.line(), self.machine.block());
         let progress = epoch.progress(plan.queue.statistics(), at, self.pace.period_ns);
+        let is_whole = epoch.is_over() && matches!(epoch.ended, Some(Ok(())));
+        let upto = if is_whole { u32::MAX } else { progress.block };
+        self.pass_on_remarks(upto, control);
         (control.notify)(&Notice::Progress(progress));
+    }
+
+    /// Tells what the program says in front of a block.
+    fn pass_on_remarks(&mut self, block: u32, control: &mut Control<'_>) {
+        let Some(log) = &self.remarks else {
+            return;
+        };
+        let remarks = log.executed(block);
+        for remark in &remarks {
+            (control.notify)(&Notice::Remark(remark));
+        }
+        // A status has room for one. An interpolator that does not answer is found by its silence,
+        // and ends no motion that goes on.
+        let _told = remarks
+            .last()
+            .map(|remark| self.machine.tell(&remark.text, control));
     }
 
     /// Tells the interpolator, now and then, that there will be more.

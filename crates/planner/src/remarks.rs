@@ -18,19 +18,17 @@ impl RemarkLog {
         self.remarks().push_back((behind, remark));
     }
 
+    /// Drops the remarks of a program that begins with a block: but for those right in front of it.
+    pub fn begin_with(&self, block: u32) {
+        let _before = self.executed(block.saturating_sub(1));
+    }
+
     /// The remarks in front of a block that is being executed.
-    #[must_use]
-    pub fn executed(&self, block: u32) -> Vec<Remark> {
+    pub(crate) fn executed(&self, block: u32) -> Vec<Remark> {
         let mut remarks = self.remarks();
         let count = remarks.iter().take_while(|(behind, _)| *behind < block);
         let count = count.count();
         remarks.drain(..count).map(|(_, remark)| remark).collect()
-    }
-
-    /// All that is left, when all of the program is executed.
-    #[must_use]
-    pub fn all_executed(&self) -> Vec<Remark> {
-        self.executed(u32::MAX)
     }
 
     fn remarks(&self) -> MutexGuard<'_, VecDeque<(u32, Remark)>> {

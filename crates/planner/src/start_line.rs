@@ -143,6 +143,11 @@ impl<S: ItemSource> LineStart<S> {
         &self.expected
     }
 
+    /// The number of its first item.
+    pub const fn block(&self) -> u32 {
+        self.block
+    }
+
     /// Where the machine is to stand there.
     pub const fn begins_at(&self) -> AxisVector {
         self.begins_at

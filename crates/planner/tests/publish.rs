@@ -6,9 +6,11 @@ use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use glidepath_gcode::Options;
 use glidepath_link::{Capacity, EndOfEpoch, FaultCause, InProcess, MachineState, Transport};
 use glidepath_planner::{
-    Control, ItemSource, Pace, Pipeline, Publisher, Refusal, RunError, Statistics, Supply,
+    Attending, Control, ItemSource, Pace, Pipeline, ProgramSource, Publisher, Refusal, RemarkLog,
+    RunError, Statistics, Supply,
 };
 use support::attended;
 use support::interpolator::Interpolator;
@@ -58,6 +60,47 @@ fn every_frame_is_executed_once_and_in_order() {
     assert_eq!(interpolator.end(), EndOfEpoch::Completed);
     assert_eq!(interpolator.starved, 0);
     assert_eq!(notices, ["Started { epoch: 1 }"]);
+}
+
+#[test]
+fn what_a_program_says_is_told_when_the_machine_comes_to_it() {
+    const TEXT: &str = "(MSG, begins)\nG21 G90 G1 X1 F600\n(MSG, half)\n(DEBUG, at #5420)\nX30\n\
+                        (MSG, over)\nM2\n";
+    let transport = InProcess::default();
+    let interpolator = RefCell::new(Interpolator::new(&transport, 128));
+    let positions = RefCell::new(Vec::new());
+    let (result, notices) = attended(
+        &AtomicBool::new(false),
+        |time| {
+            let mut interpolator = interpolator.borrow_mut();
+            interpolator.pass(time);
+            if interpolator.told.len() > positions.borrow().len() {
+                positions.borrow_mut().push(interpolator.position[0]);
+            }
+        },
+        |control| {
+            let mut publisher = Publisher::connect(&transport, pace())?;
+            let start = publisher.wait_until_ready(control)?;
+            let log = RemarkLog::default();
+            publisher.attend_remarks(log.clone());
+            let source = ProgramSource::new(TEXT.as_bytes(), Options::default());
+            let source = source.attended(Attending {
+                remarks: Some(log),
+                ..Attending::default()
+            });
+            publisher.publish(&mut Pipeline::new(source, settings(), start), control)
+        },
+    );
+    result.unwrap();
+    // A status has room for one: the last of those that come together.
+    let told = &interpolator.borrow().told;
+    assert_eq!(told, &["begins", "at 1.000000", "over"]);
+    let positions = positions.into_inner();
+    assert!(positions[0] < 1.0, "{positions:?}");
+    assert!(positions[1] > 1.0 && positions[1] < 5.0, "{positions:?}");
+    assert!((positions[2] - 30.0).abs() < 1e-9, "{positions:?}");
+    let remarks: Vec<&String> = notices.iter().filter(|n| n.contains("Remark")).collect();
+    assert_eq!(remarks.len(), 4, "{notices:#?}");
 }
 
 #[test]

@@ -7,7 +7,7 @@ import ctypes
 import enum
 
 ABI = 1
-LAYOUT = 0x25c54546ebd615a9
+LAYOUT = 0x139f88e84996cc50
 AXES = 9
 
 
@@ -374,6 +374,7 @@ class StatusRecord(ctypes.Structure):
         ("response", QuantilesRecord),
         ("last_error", ctypes.c_char * 128),
         ("last_event", ctypes.c_char * 128),
+        ("message", ctypes.c_char * 128),
     ]
 
 
@@ -552,7 +553,7 @@ PLACES = {
         "joint_acceleration": 512,
         "away": 584,
     }),
-    StatusRecord: (1256, {
+    StatusRecord: (1384, {
         "boot_id": 0,
         "updated_ns": 8,
         "period_ns": 16,
@@ -620,6 +621,7 @@ PLACES = {
         "response": 968,
         "last_error": 1000,
         "last_event": 1128,
+        "message": 1256,
     }),
     FeedbackRecord: (808, {
         "boot_id": 0,

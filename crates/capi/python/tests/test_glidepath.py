@@ -54,6 +54,7 @@ class Instance(unittest.TestCase):
         self.assertEqual(status.period_ns, 4_000_000)
         self.assertEqual(status.feed_override, 1.5)
         self.assertEqual(status.last_event.decode(), "held by the operator")
+        self.assertEqual(status.message.decode(), "turn the part over")
 
     def test_commands(self):
         self.assertEqual(self.link.hold().refusal, 0)

@@ -129,7 +129,7 @@ structure! {
 
 structure! {
     /// What the interpolator does and how well. Counts are of this life of it.
-    STATUS: "gp_status" = Status, Status::NAME, 1256 {
+    STATUS: "gp_status" = Status, Status::NAME, 1384 {
         /// Identifies one life of the interpolator.
         boot_id: u64,
         /// When this was true, ns of CLOCK_MONOTONIC. A reader takes an old one for a dead
@@ -270,6 +270,8 @@ structure! {
         last_error: Text,
         /// The last thing that happened (a change of state, missed ticks, ...), for people.
         last_event: Text,
+        /// What the program said last to people: MSG, DEBUG, the comment of a stop; empty before that.
+        message: Text,
     }
 }
 

@@ -291,6 +291,7 @@ fn status_now(shown: u64) -> Status {
         pid: std::process::id(),
         feed_override: 1.5,
         last_event: glidepath_link::Text::new("held by the operator"),
+        message: glidepath_link::Text::new("turn the part over"),
         ..Status::zeroed()
     }
 }

@@ -6,7 +6,7 @@ use crate::config::MachineConfig;
 use crate::kept::keeper::Keeper;
 use crate::output;
 use crate::report::{grouped, state_name};
-use glidepath_gcode::{Connections, Remark};
+use glidepath_gcode::Connections;
 use glidepath_geometry::AxisVector;
 use glidepath_planner::{
     Attending, InputDesk, Notice, Publisher, RemarkLog, ResumeError, RunError, Statistics,
@@ -60,15 +60,17 @@ impl Attendant {
         }
     }
 
-    /// Has the publisher answer what the program asks of inputs, where they are the machine's.
+    /// Has the publisher tell what the program says, and answer what it asks of inputs, where they
+    /// are the machine's.
     ///
     /// # Errors
     /// Feedback cannot be received.
-    pub(super) fn attend_inputs(
+    pub(super) fn engage(
         &self,
         publisher: &mut Publisher<'_>,
         config: &MachineConfig,
     ) -> Result<(), Failure> {
+        publisher.attend_remarks(self.remarks.clone());
         if config.program.connections == Connections::Real {
             publisher.attend_inputs(self.inputs.clone())?;
         }
@@ -83,6 +85,11 @@ impl Attendant {
     /// Whether what programs leave behind is kept in files.
     pub(super) fn keeps(&self) -> bool {
         self.keeper.borrow().is_some()
+    }
+
+    /// The program begins with a block: what it says before is not said.
+    pub(super) fn begin_with(&self, block: u32) {
+        self.remarks.begin_with(block);
     }
 
     /// From now on what the program asks of inputs is answered.
@@ -113,7 +120,7 @@ impl Attendant {
         Ok(())
     }
 
-    /// Takes notice of how the run goes.
+    /// Takes notice of how the run goes, and says nothing of it.
     pub(super) fn notice(&self, notice: &Notice<'_>, config: &MachineConfig) {
         match notice {
             Notice::Started { .. } => self.has_started.set(true),
@@ -121,11 +128,9 @@ impl Attendant {
                 if let Some(keeper) = &mut *self.keeper.borrow_mut() {
                     keeper.executed(progress.block, config);
                 }
-                show(&self.remarks.executed(progress.block));
             }
             _ => {}
         }
-        tell(notice, self.quiet);
     }
 
     /// The motion is over, for better or worse. When this returns, what was executed is kept.
@@ -138,9 +143,6 @@ impl Attendant {
         publisher: &Publisher<'_>,
         config: &MachineConfig,
     ) -> Result<(), Failure> {
-        if published.is_ok() {
-            show(&self.remarks.all_executed());
-        }
         let Some(keeper) = self.keeper.take() else {
             return Ok(());
         };
@@ -165,13 +167,6 @@ impl Attendant {
     }
 }
 
-/// Shows what the program says: also in the output of a process that started this one.
-fn show(remarks: &[Remark]) {
-    for remark in remarks {
-        output::note(&format!("line {}: {}", remark.line, remark.text));
-    }
-}
-
 /// Says what happens.
 pub(super) fn tell(notice: &Notice<'_>, quiet: bool) {
     let words = match notice {
@@ -187,6 +182,11 @@ pub(super) fn tell(notice: &Notice<'_>, quiet: bool) {
         }
         Notice::StreamBroken(error) => format!("the stream broke off: {error}"),
         Notice::Started { epoch } => format!("epoch {epoch} starts"),
+        Notice::Remark(remark) => {
+            // Also in the output of a process that started this one, and is quiet.
+            output::note(&format!("line {}: {}", remark.line, remark.text));
+            return;
+        }
         Notice::Progress(_) => return,
     };
     if !quiet {

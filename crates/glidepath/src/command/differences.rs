@@ -2,9 +2,10 @@
 
 use super::failure::Failure;
 use crate::config::MachineConfig;
+use crate::report::{coolant_words, spindle_words};
 use core::fmt::Write as _;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{Auxiliary, Coolant, SpindleState};
+use glidepath_link::Auxiliary;
 use glidepath_planner::{Approach, Control, LineStart, Publisher, StartLine};
 
 /// How the machine goes to where the program is to begin.
@@ -58,8 +59,8 @@ pub(super) fn agreement<S: glidepath_planner::ItemSource>(
     differs("tool", format!("T{}", now.tool), format!("T{}", then.tool));
     let prepared = |record: &Auxiliary| format!("T{}", record.prepared_tool);
     differs("tool selected", prepared(now), prepared(then));
-    differs("spindle", spindle(now), spindle(then));
-    differs("coolant", coolant(now), coolant(then));
+    differs("spindle", spindle_words(now), spindle_words(then));
+    differs("coolant", coolant_words(now), coolant_words(then));
     let outputs = |record: &Auxiliary| format!("{:#x}", record.digital_out);
     differs("digital outputs", outputs(now), outputs(then));
     let analog = |record: &Auxiliary| format!("{:?}", record.analog_out);
@@ -72,28 +73,4 @@ pub(super) fn agreement<S: glidepath_planner::ItemSource>(
         approach.tool_axis, approach.tool_axis
     );
     text
-}
-
-fn spindle(record: &Auxiliary) -> String {
-    let speed = record.spindle_speed;
-    match record.spindle() {
-        Ok(SpindleState::Clockwise) => format!("M3 S{speed}"),
-        Ok(SpindleState::Counterclockwise) => format!("M4 S{speed}"),
-        Ok(SpindleState::Oriented) => "M19".to_owned(),
-        _ => "M5".to_owned(),
-    }
-}
-
-fn coolant(record: &Auxiliary) -> String {
-    let on = [(Coolant::MIST, "M7"), (Coolant::FLOOD, "M8")];
-    let on: Vec<&str> = on
-        .iter()
-        .filter(|(of, _)| record.coolant().contains(*of))
-        .map(|(_, name)| *name)
-        .collect();
-    if on.is_empty() {
-        "M9".to_owned()
-    } else {
-        on.join(" ")
-    }
 }

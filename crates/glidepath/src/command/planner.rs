@@ -53,7 +53,10 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
     }
     let mut config = config.clone();
     let attendant = Attendant::new(&mut config, quiet)?;
-    let mut notify = |notice: &Notice<'_>| attendant.notice(notice, &config);
+    let mut notify = |notice: &Notice<'_>| {
+        attendant.notice(notice, &config);
+        tell(notice, quiet);
+    };
     let mut control = Control {
         stop: interrupt.flag(),
         pause: &mut std::thread::sleep,
@@ -94,7 +97,7 @@ impl Job<'_> {
 
     fn publisher(&self) -> Result<Publisher<'_>, Failure> {
         let mut publisher = Publisher::connect(self.transport, session::pace(self.config))?;
-        self.attendant.attend_inputs(&mut publisher, self.config)?;
+        self.attendant.engage(&mut publisher, self.config)?;
         Ok(publisher)
     }
 

@@ -114,6 +114,7 @@ impl<'c> Workshop<'c> {
                 if !confirmed {
                     return Err(Stop::ToConfirm(agreement(from, &found, &approach, &config)));
                 }
+                attendant.begin_with(found.block());
                 let rest = found.approached(&approach);
                 let pipeline = Pipeline::resuming(rest, config.settings());
                 Self::publish(pipeline, (&config, &attendant), start, bench, |rest| {
@@ -148,7 +149,7 @@ impl<'c> Workshop<'c> {
             .with_joints(config.path_caps())
             .with_clock(clock::elapsed);
         let begun = attendant
-            .attend_inputs(bench.publisher, config)
+            .engage(bench.publisher, config)
             .and_then(|()| attendant.begin(pipeline.source().fingerprint(), &start));
         if let Err(failure) = begun {
             return (Err(failure.into()), None);

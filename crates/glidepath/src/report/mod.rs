@@ -1,5 +1,6 @@
 //! What commands report, as text and as JSON.
 
+mod auxiliary;
 mod diagnosis;
 mod diagnostic;
 mod fit;
@@ -12,6 +13,7 @@ mod smoothness;
 mod status;
 mod view;
 
+pub use auxiliary::{coolant_words, spindle_words};
 pub use diagnosis::{DiagnosisReport, PlaceReport};
 pub use diagnostic::{ProgramDiagnostic, diagnostic_object};
 pub use fit::{FitReport, FittedRun};
@@ -24,4 +26,4 @@ pub use status::{
     fault_text, quantiles_object, quantiles_text, realtime_object, realtime_text, state_name,
     status_object, status_text, timing_text,
 };
-pub use view::{Modal, Place, View, WorkOffset, doing, view_object, view_text};
+pub use view::{Place, View, WorkOffset, doing, view_object, view_text};

@@ -191,6 +191,7 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
         "realtime": realtime_object(status.grants()),
         "last_error": status.last_error.as_str(),
         "last_event": status.last_event.as_str(),
+        "message": status.message.as_str(),
     });
     if let Value::Object(object) = &mut object {
         object.extend(machine_object(status));
@@ -249,6 +250,10 @@ pub fn status_text(instance: &str, status: &Status) -> String {
         status.queue_depth
     );
     let _ = writeln!(text, "  last event    {}", status.last_event.as_str());
+    let message = status.message.as_str();
+    if !message.is_empty() {
+        let _ = writeln!(text, "  says          {message}");
+    }
     text + &timing_text(status)
 }
 

@@ -102,8 +102,7 @@ pub enum Command {
     },
     /// Set the part of their speed that jogs have, a ratio from 0 to 1.
     JogOverride(f64),
-    /// What the program says to people: the text of the request becomes the last event of the
-    /// status.
+    /// What the program says to people: the text of the request becomes the message of the status.
     Tell,
 }
 

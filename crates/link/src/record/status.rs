@@ -61,7 +61,7 @@ pub struct Quantiles {
 /// What the interpolator does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v6")]
+#[type_name("glidepath.Status.v7")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -202,6 +202,9 @@ pub struct Status {
     pub last_error: Text,
     /// The last thing that happened (a change of state, missed ticks, …), for people.
     pub last_event: Text,
+    /// What the program of the present or last epoch said last to people: `(MSG, …)`, `(DEBUG, …)`,
+    /// the comment of a stop. Empty before it said anything.
+    pub message: Text,
 }
 
 impl Status {
@@ -283,7 +286,7 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v6";
+    const NAME: &'static str = "glidepath.Status.v7";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -340,6 +343,7 @@ impl Record for Status {
         self.end_of_epoch()?;
         self.fault()?;
         self.last_event.check(Self::NAME, "last_event")?;
+        self.message.check(Self::NAME, "message")?;
         self.last_error.check(Self::NAME, "last_error")
     }
 }

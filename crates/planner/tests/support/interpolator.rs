@@ -37,6 +37,8 @@ pub(crate) struct Interpolator {
     pub(crate) starved: u64,
     /// Times the last frame came again.
     pub(crate) repeated: u64,
+    /// What it was told that the program says.
+    pub(crate) told: Vec<String>,
 }
 
 impl Interpolator {
@@ -60,6 +62,7 @@ impl Interpolator {
             deepest: 0,
             starved: 0,
             repeated: 0,
+            told: Vec::new(),
         }
     }
 
@@ -112,12 +115,13 @@ impl Interpolator {
         let mut commands = Vec::new();
         let state = self.state;
         let mut answer = |request: &CommandRequest| {
-            commands.push(request.command().unwrap());
+            commands.push((request.command().unwrap(), *request));
             CommandReply::new(BOOT_ID, request.number, Ok(()), state, "")
         };
         while self.commands.serve(&mut answer).unwrap() {}
-        for command in commands {
+        for (command, request) in commands {
             match command {
+                Command::Tell => self.told.push(request.text.as_str().to_owned()),
                 Command::Abort => self.abort(),
                 Command::Reset => self.reset(),
                 other => panic!("not simulated: {other:?}"),
@@ -188,6 +192,7 @@ impl Interpolator {
         status.end_of_epoch = self.end.code();
         status.fault = self.fault.map_or(0, FaultCause::code);
         status.position = self.position.into();
+        status.block = self.executed.last().map_or(0, |frame| frame.block);
         status.last_error = Text::new("");
         status
     }

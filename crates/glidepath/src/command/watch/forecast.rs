@@ -6,10 +6,9 @@ use crate::config::MachineConfig;
 use crate::file_error::FileError;
 use crate::kept::read::{read, set_up};
 use crate::plan_steps::PlanSteps;
-use crate::report::{Modal, Place};
+use crate::report::Place;
 use glidepath_link::Status;
 use glidepath_planner::{FileSource, ItemSource as _, Step};
-use glidepath_program::Event;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -34,7 +33,6 @@ struct Plan {
     /// Which program it is, once that is known.
     fingerprint: Option<u64>,
     begins: Vec<Begin>,
-    events: Vec<(u64, Event)>,
     frames: u64,
     path_s: f64,
     /// The whole program was planned.
@@ -103,7 +101,6 @@ impl Forecast {
             planned_t: whole.map(time),
             elapsed_t: now.map(time),
             has_failed: plan.has_failed,
-            modal: now.map(|now| plan.modal(now)).unwrap_or_default(),
         })
     }
 }
@@ -152,9 +149,6 @@ impl Plan {
     fn take(&mut self, frame: &glidepath_program::Frame) {
         self.frames = frame.sequence + 1;
         self.path_s = frame.path_s;
-        if let Some(event) = frame.event {
-            self.events.push((frame.sequence, event));
-        }
         if self
             .begins
             .last()
@@ -166,7 +160,7 @@ impl Plan {
                 path_s: frame.path_s,
             });
         }
-        self.has_failed = self.begins.len() + self.events.len() > MOST_BLOCKS;
+        self.has_failed = self.begins.len() > MOST_BLOCKS;
     }
 
     /// The planned frame of what is executed: by the block and the part of its path that is done, so
@@ -195,14 +189,5 @@ impl Plan {
         };
         let frames = end.saturating_sub(begin.sequence) as f64 * part;
         Some(begin.sequence + frames as u64)
-    }
-
-    /// What the program has told tool, spindle and coolant by then.
-    fn modal(&self, now: u64) -> Modal {
-        let mut modal = Modal::default();
-        for (_, event) in self.events.iter().take_while(|(at, _)| *at <= now) {
-            modal.take(*event);
-        }
-        modal
     }
 }

@@ -15,6 +15,7 @@ pub(super) struct History {
     state: Option<MachineState>,
     missed: u64,
     error: String,
+    message: String,
 }
 
 impl History {
@@ -35,6 +36,13 @@ impl History {
         self.missed = status.missed_ticks;
         if missed > 0 && !is_first {
             self.add(format!("the host let {missed} ticks pass"));
+        }
+        let message = status.message.as_str();
+        if message != self.message {
+            message.clone_into(&mut self.message);
+            if !message.is_empty() {
+                self.add(format!("the program says: {message}"));
+            }
         }
         let error = status.last_error.as_str();
         if error != self.error {

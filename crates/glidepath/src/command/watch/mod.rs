@@ -14,6 +14,7 @@ use crate::interrupt::Interrupt;
 use crate::output;
 use crate::report::{View, status_object, view_object, view_text};
 use forecast::Forecast;
+use glidepath_link::{LinkError, Record as _, Transport as _};
 use history::History;
 use offsets::KeptOffsets;
 use serde_json::Value;
@@ -44,6 +45,9 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
         Some(path) => Some(Forecast::start(path, config)?),
         None => None,
     };
+    let transport = session::join(&args.operator.instance, config)?;
+    let mut told = transport.auxiliary_source()?;
+    let mut auxiliary = None;
     let as_json = args.operator.basic.json;
     let screen = Screen::new(as_json);
     let mut history = History::default();
@@ -53,12 +57,17 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
         let looked = Instant::now();
         let status = read_status(&operator, &link)?;
         history.take(&status);
+        while let Some(record) = told.take()? {
+            record.check().map_err(LinkError::from)?;
+            auxiliary = Some(record);
+        }
         let place = forecast
             .as_ref()
             .and_then(|forecast| forecast.place(&status));
         let view = View {
             instance: &instance,
             status: &status,
+            auxiliary: auxiliary.as_ref(),
             axes: &config.axis_names(),
             place,
             offsets: offsets.look(),

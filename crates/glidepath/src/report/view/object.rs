@@ -1,6 +1,7 @@
 //! The view for other programs.
 
 use super::seen::View;
+use crate::report::auxiliary::{coolant_words, spindle_words};
 use glidepath_geometry::AXES;
 use serde_json::{Map, Value, json};
 
@@ -20,7 +21,10 @@ pub fn view_object(view: &View<'_>) -> Map<String, Value> {
         "progress": view.progress(),
         "planned_s": place.and_then(|place| place.planned_t),
         "left_s": view.left_t(),
-        "tool": place.and_then(|place| place.modal.tool),
+        "tool": view.auxiliary.map(|record| record.tool),
+        "tool_selected": view.auxiliary.map(|record| record.prepared_tool),
+        "spindle": view.auxiliary.map(spindle_words),
+        "coolant": view.auxiliary.map(coolant_words),
         "offset": view.offsets.as_ref().map(|offset| json!({
             "system": offset.name,
             "origin": by_axis(&offset.origin),

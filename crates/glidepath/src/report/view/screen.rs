@@ -1,6 +1,7 @@
 //! The view for people: one screen of 80 columns.
 
 use super::seen::{View, clock, doing};
+use crate::report::auxiliary::auxiliary_words;
 use crate::report::machine::{awaited_text, power_text};
 use crate::report::quantity::grouped;
 use crate::report::status::{fault_text, state_name};
@@ -46,15 +47,13 @@ pub fn view_text(view: &View<'_>) -> String {
             ""
         }
     ));
-    let modal = view.place.as_ref().map(|place| place.modal.words());
-    let unknown = "known only with the program: status --watch PROGRAM";
-    lines.push(format!(
-        "  tool      {}",
-        modal.map_or_else(
-            || unknown.to_owned(),
-            |words| format!("{words}, says the program")
-        )
-    ));
+    let told = view.auxiliary.map(auxiliary_words);
+    let told = told.unwrap_or_else(|| "nothing is known of it yet".to_owned());
+    lines.push(format!("  tool      {told}"));
+    let message = status.message.as_str();
+    if !message.is_empty() {
+        lines.push(format!("  says      {message}"));
+    }
     if let Some(awaited) = awaited_text(status) {
         lines.push(format!("  waits for {awaited}"));
     }
@@ -206,10 +205,10 @@ mod tests {
 
     use super::*;
     use crate::report::view::object::view_object;
-    use crate::report::view::seen::{Modal, Place, WorkOffset};
+    use crate::report::view::seen::{Place, WorkOffset};
     use core::time::Duration;
     use glidepath_geometry::Axis;
-    use glidepath_link::MachineState;
+    use glidepath_link::{Auxiliary, MachineState};
     use glidepath_program::Event;
     use serde_json::Value;
 
@@ -221,20 +220,24 @@ mod tests {
         (status.line, status.program, status.feed_override) = (12, 7, 0.5);
         (status.queue_depth, status.queue_capacity) = (150, 768);
         status.position = [110.0, 0.0, -1.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        let mut modal = Modal::default();
+        status.message = glidepath_link::Text::new("clean the vice");
+        let mut auxiliary = Auxiliary::default();
         for event in [
             Event::SelectTool(3),
+            Event::MCode(6),
+            Event::SelectTool(4),
             Event::SpindleSpeed(8000.0),
             Event::MCode(3),
             Event::MCode(8),
         ] {
-            modal.take(event);
+            auxiliary.take(event);
         }
         let mut origin = [0.0; AXES];
         origin[0] = 100.0;
         let view = View {
             instance: "mill",
             status: &status,
+            auxiliary: Some(&auxiliary),
             axes: &[Axis::X, Axis::Y, Axis::Z],
             place: Some(Place {
                 program: "part.ngc".to_owned(),
@@ -242,7 +245,6 @@ mod tests {
                 planned_t: Some(100.0),
                 elapsed_t: Some(25.0),
                 has_failed: false,
-                modal,
             }),
             offsets: Some(WorkOffset {
                 name: "G54".to_owned(),
@@ -266,7 +268,8 @@ mod tests {
             "  line      12     G1 X10 F1200 (a long",
             "  progress  [######------------------] 25 % of 1:40, about 2:30 left",
             "  X             110.0000       10.0000",
-            "  tool      T3, spindle 8000 rev/min (M3), flood on, says the program",
+            "  tool      T3, T4 selected, spindle M3 S8000, coolant M8",
+            "  says      clean the vice",
             "  buffer    150 of 768 frames, 0.60 s; starved for 0 ticks so far",
             "      1:15 ago  the program runs, line 1",
         ] {
@@ -276,7 +279,14 @@ mod tests {
         assert_eq!(object["progress"], 0.25);
         assert_eq!(object["left_s"], 150.0);
         assert_eq!(object["work_position"]["X"], 10.0);
-        assert_eq!(object["tool"], 3);
+        assert_eq!(
+            (&object["tool"], &object["tool_selected"]),
+            (&3.into(), &4.into())
+        );
+        assert_eq!(
+            (&object["spindle"], &object["coolant"]),
+            (&"M3 S8000".into(), &"M8".into())
+        );
     }
 
     #[test]

@@ -2,56 +2,7 @@
 
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
-use glidepath_link::{MachineState, Status};
-use glidepath_program::Event;
-
-/// What a program has told tool, spindle and coolant.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Modal {
-    pub(super) tool: Option<u32>,
-    speed_rpm: f64,
-    /// 3, 4 or 5.
-    spindle: u32,
-    mist: bool,
-    flood: bool,
-}
-
-impl Modal {
-    /// Takes an event of the program into account.
-    pub const fn take(&mut self, event: Event) {
-        match event {
-            Event::SpindleSpeed(rpm) => self.speed_rpm = rpm,
-            Event::SelectTool(tool) => self.tool = Some(tool),
-            Event::MCode(code @ 3..=5) => self.spindle = code,
-            Event::MCode(7) => self.mist = true,
-            Event::MCode(8) => self.flood = true,
-            Event::MCode(9) => (self.mist, self.flood) = (false, false),
-            Event::MCode(2 | 30) => {
-                self.spindle = 5;
-                (self.mist, self.flood) = (false, false);
-            }
-            _ => {}
-        }
-    }
-
-    pub(super) fn words(&self) -> String {
-        let tool = self
-            .tool
-            .map_or_else(|| "no tool named".to_owned(), |tool| format!("T{tool}"));
-        let spindle = match self.spindle {
-            3 => format!("spindle {:.0} rev/min (M3)", self.speed_rpm),
-            4 => format!("spindle {:.0} rev/min backwards (M4)", self.speed_rpm),
-            _ => "spindle off".to_owned(),
-        };
-        let coolant = match (self.mist, self.flood) {
-            (false, false) => "coolant off",
-            (true, false) => "mist on",
-            (false, true) => "flood on",
-            (true, true) => "mist and flood on",
-        };
-        format!("{tool}, {spindle}, {coolant}")
-    }
-}
+use glidepath_link::{Auxiliary, MachineState, Status};
 
 /// Where the machine is in a program that is known.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,8 +17,6 @@ pub struct Place {
     pub elapsed_t: Option<f64>,
     /// It could not be planned here.
     pub has_failed: bool,
-    /// What it has told tool, spindle and coolant.
-    pub modal: Modal,
 }
 
 /// A coordinate system.
@@ -104,6 +53,8 @@ pub struct View<'a> {
     pub instance: &'a str,
     /// What the interpolator says.
     pub status: &'a Status,
+    /// What spindle, coolant and tool are to do; `None` if nobody said yet.
+    pub auxiliary: Option<&'a Auxiliary>,
     /// The machine's axes.
     pub axes: &'a [Axis],
     /// Where it is in the program; `None` if that is not known.
