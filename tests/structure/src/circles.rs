@@ -115,6 +115,8 @@ houses! {
     audit: "audit",
     capi: "capi",
     curve: "curve",
+    emulator: "emulator",
+    ethercat: "ethercat",
     fit: "fit",
     gcode: "gcode",
     geometry: "geometry",

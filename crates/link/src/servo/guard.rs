@@ -103,16 +103,18 @@ impl fmt::Display for Jump {
 }
 
 /// What is wrong with the way from one state of the joints to another, if anything is; `is_whole` if
-/// no setpoint is missing on it.
+/// no setpoint is missing on it. The joints in `led` are not looked at, one bit each: their drives
+/// lead, and setpoints repeat what they report.
 pub(super) fn find_jump(
     from: &[JointState; AXES],
     to: &[JointState; AXES],
     span_t: f64,
     limits: &[JumpLimits; AXES],
-    is_whole: bool,
+    (is_whole, led): (bool, u32),
 ) -> Option<Jump> {
     let ways = from.iter().zip(to).zip(limits).enumerate();
-    ways.filter(|(_, (_, limits))| limits.velocity.min(limits.acceleration).is_finite())
+    ways.filter(|(joint, _)| led & 1 << joint == 0)
+        .filter(|(_, (_, limits))| limits.velocity.min(limits.acceleration).is_finite())
         .find_map(|(joint, ((from, to), limits))| {
             let quarters = [0.25, 0.5, 0.75, 1.0];
             let peaks = quarters.map(|part| quintic(from, to, span_t, part * span_t));

@@ -28,6 +28,8 @@ struct Knot {
     at_ns: u64,
     period_ns: u64,
     joints: JointStates,
+    /// The joints whose drives look for their home by themselves, one bit each.
+    home: u32,
 }
 
 impl Knot {
@@ -51,6 +53,7 @@ impl Knot {
             at_ns,
             period_ns: at_ns.saturating_sub(setpoint.scheduled_ns),
             joints,
+            home: setpoint.home,
         }
     }
 
@@ -148,7 +151,14 @@ impl Player {
 
     fn judge(&self, from: &Knot, to: &Knot, is_whole: bool) -> Option<Jump> {
         let span_t = seconds(to.at_ns, from.at_ns);
-        find_jump(&from.joints, &to.joints, span_t, &self.jumps, is_whole)
+        let led = from.home & to.home;
+        find_jump(
+            &from.joints,
+            &to.joints,
+            span_t,
+            &self.jumps,
+            (is_whole, led),
+        )
     }
 
     /// Begins anew at a setpoint at rest, at once.

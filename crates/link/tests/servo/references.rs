@@ -1,6 +1,7 @@
 //! Positions that are taken over, and not gone to.
 
 use super::*;
+use glidepath_link::servo::JumpLimits;
 
 /// A setpoint that stands at a position, of a reference and in a state.
 pub(super) fn standing(
@@ -78,4 +79,28 @@ fn a_servo_that_stopped_by_itself_begins_again_when_the_position_was_taken_over(
     let joints = bench.run_to(ns_of(82), &[]);
     assert!(bench.servo.is_armed());
     assert!(joints.iter().all(|(_, j)| j.position == rest + 1.0));
+}
+
+#[test]
+fn a_drive_that_counts_anew_at_its_home_is_no_jump() {
+    let jump = JumpLimits::above(200.0, 2000.0);
+    let mut bench = Bench::with(ServoSettings {
+        jump: [jump; 9],
+        ..ServoSettings::default()
+    });
+    for number in 0..20 {
+        let position = if number < 10 { 3.0 } else { -250.0 };
+        let mut homing = standing(number, 0, MachineState::Homing, position);
+        homing.home = 1;
+        bench.publish(&homing);
+        let _joints = bench.run_to(ns_of(number + 1), &[]);
+    }
+    assert_eq!(bench.servo.counts().jumps, 0);
+    // Once the drive does not lead any more, it is one.
+    for number in 20..23 {
+        let place = if number == 22 { 3.0 } else { -250.0 };
+        bench.publish(&standing(number, 0, MachineState::Idle, place));
+        let _joints = bench.run_to(ns_of(number + 1), &[]);
+    }
+    assert_eq!(bench.servo.counts().jumps, 1);
 }

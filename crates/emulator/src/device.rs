@@ -1,0 +1,404 @@
+//! A device: what its registers do when they are read and written, and when time passes.
+
+use crate::clock::DeviceClock;
+use crate::coe::Mailbox;
+use crate::dictionary::{Dictionary, INPUTS_ASSIGNED, Mapped, OUTPUTS_ASSIGNED};
+use crate::drive::{Drive, DriveSettings, Outputs};
+use crate::eeprom::{self, MAILBOX, MAILBOX_OUT};
+use crate::memory::{
+    AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, DL_STATUS, EEPROM_CONTROL, LATCHED_TIME, Memory,
+    PORT_TIMES, STATION_ADDRESS, SYNC_ACTIVATION, SYNC_MANAGER, SYNC_START, SYNC0_CYCLE,
+    SYSTEM_TIME, TIME_DELAY, TIME_DIFFERENCE, TIME_OFFSET, WATCHDOG_DIVIDER, WATCHDOG_OUTPUTS,
+};
+use crate::process;
+use crate::states::{self, ERROR, INIT, OP, PRE_OP, SAFE_OP};
+use crate::upset::Upset;
+
+/// Time from a device to the next one, ns.
+pub(crate) const HOP_NS: u64 = 500;
+
+/// What a drive did at one SYNC0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SyncRecord {
+    /// When it was, by the clock of the host, ns.
+    pub at_ns: u64,
+    /// The number of the datagram that brought the outputs.
+    pub index: u8,
+    /// The target that took effect.
+    pub target: i32,
+    /// Where the motor was then.
+    pub actual: i32,
+    /// The statusword from then on.
+    pub status: u16,
+    /// Whether the target counted: in OP, with power.
+    pub follows: bool,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Device {
+    settings: DriveSettings,
+    memory: Memory,
+    eeprom: Vec<u8>,
+    objects: Dictionary,
+    mailbox: Mailbox,
+    clock: DeviceClock,
+    pub(crate) drive: Drive,
+    outputs: Vec<Mapped>,
+    inputs: Vec<Mapped>,
+    /// When the next SYNC0 is, by the system time; `None` without.
+    next_sync: Option<f64>,
+    stepped_ns: u64,
+    followed_ns: u64,
+    /// When outputs came last.
+    heard_ns: u64,
+    index: u8,
+    pub(crate) records: Option<Vec<SyncRecord>>,
+}
+
+impl Device {
+    pub(crate) fn new(settings: &DriveSettings, is_last: bool, host_ns: u64) -> Self {
+        let mut memory = Memory::new();
+        memory.put(0, &[0x11, 0, 0, 0, 8, 8, 8, 0x0f]);
+        if settings.has_clock {
+            memory.put(8, &0x010c_u16.to_le_bytes());
+        }
+        // Links at ports 0 and 1, the others closed.
+        let links: u16 = if is_last { 0x5611 } else { 0x5a31 };
+        memory.put(DL_STATUS, &links.to_le_bytes());
+        memory.put(WATCHDOG_DIVIDER, &2498_u16.to_le_bytes());
+        memory.put(WATCHDOG_OUTPUTS, &1000_u16.to_le_bytes());
+        memory.put(AL_STATUS, &[INIT]);
+        let ramp = 1_000_000_000;
+        Self {
+            eeprom: eeprom::image(settings.identity, &settings.name),
+            objects: Dictionary::new(settings.identity, settings.following_counts, ramp),
+            mailbox: Mailbox::default(),
+            clock: DeviceClock::new(host_ns, 0.0, settings.drift_ppm),
+            drive: Drive::new(settings),
+            outputs: Vec::new(),
+            inputs: Vec::new(),
+            next_sync: None,
+            stepped_ns: host_ns,
+            followed_ns: host_ns,
+            heard_ns: host_ns,
+            index: 0,
+            records: None,
+            settings: settings.clone(),
+            memory,
+        }
+    }
+
+    pub(crate) fn station_address(&self) -> u16 {
+        self.memory.word(STATION_ADDRESS)
+    }
+
+    fn state(&self) -> u8 {
+        self.memory.byte(AL_STATUS) & 15
+    }
+
+    fn set_state(&mut self, state: u8, code: u16) {
+        self.memory.put(AL_STATUS, &[state, 0]);
+        self.memory.put(AL_CODE, &code.to_le_bytes());
+    }
+
+    /// Something goes wrong, or right again.
+    pub(crate) fn upset(&mut self, upset: Upset, is_last: bool, now_ns: u64) {
+        match upset {
+            Upset::Emergency(code) => self.mailbox.emergency(&mut self.memory, code),
+            Upset::Drop(code) if self.state() == OP => {
+                self.set_state(SAFE_OP | ERROR, code);
+                self.drive.lose_bus();
+            }
+            Upset::Reboot => {
+                let records = self.records.take();
+                let drive = self.drive.rebooted(&self.settings);
+                *self = Self::new(&self.settings, is_last, now_ns);
+                (self.drive, self.records) = (drive, records);
+            }
+            upset => self.drive.upset(upset),
+        }
+    }
+
+    #[allow(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_wrap,
+        reason = "times of a session; the offset is a signed number"
+    )]
+    fn offset_ns(&self) -> f64 {
+        self.memory.number(TIME_OFFSET, 8) as i64 as f64
+    }
+
+    fn system_ns(&self, now_ns: u64) -> f64 {
+        self.clock.local_ns(now_ns) + self.offset_ns()
+    }
+
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a register wraps"
+    )]
+    fn system_register(&self, now_ns: u64) -> u64 {
+        self.system_ns(now_ns) as i64 as u64
+    }
+
+    /// Lets time pass: what is due until then happens, in order.
+    pub(crate) fn advance(&mut self, now_ns: u64) {
+        loop {
+            let sync_ns = self
+                .next_sync
+                .map(|sync| self.clock.host_at(sync - self.offset_ns()))
+                .filter(|at| *at <= now_ns);
+            let watchdog_ns = Some(self.heard_ns + self.watchdog_ns())
+                .filter(|at| *at <= now_ns && self.state() == OP && self.watchdog_ns() > 0);
+            match (sync_ns, watchdog_ns) {
+                (None, None) => return,
+                (sync, Some(dog)) if sync.is_none_or(|sync| dog < sync) => {
+                    self.set_state(SAFE_OP | ERROR, 0x1b);
+                    self.drive.lose_bus();
+                }
+                (Some(sync), _) => self.sync(sync),
+                (None, Some(_)) => return,
+            }
+        }
+    }
+
+    /// How long outputs may stay away, ns; 0 for ever.
+    fn watchdog_ns(&self) -> u64 {
+        let tick_ns = (u64::from(self.memory.word(WATCHDOG_DIVIDER)) + 2) * 40;
+        u64::from(self.memory.word(WATCHDOG_OUTPUTS)) * tick_ns
+    }
+
+    #[allow(clippy::cast_precision_loss, reason = "a period")]
+    fn sync(&mut self, at_ns: u64) {
+        let cycle_ns = self.memory.number(SYNC0_CYCLE, 4);
+        self.next_sync = self.next_sync.map(|sync| sync + cycle_ns.max(1) as f64);
+        self.step(at_ns);
+    }
+
+    /// What the drive does with the outputs there are.
+    #[allow(clippy::cast_precision_loss, reason = "a period")]
+    fn step(&mut self, at_ns: u64) {
+        let outputs = if self.state() == OP {
+            process::outputs(&self.memory, &self.outputs)
+        } else {
+            Outputs::default()
+        };
+        let step_t = at_ns.saturating_sub(self.stepped_ns).max(1) as f64 * 1e-9;
+        self.stepped_ns = at_ns;
+        self.drive.step(step_t, outputs, &self.objects);
+        let inputs = self.drive.inputs();
+        process::put_inputs(&mut self.memory, &self.inputs, inputs);
+        let index = self.index;
+        if let Some(records) = &mut self.records {
+            records.push(SyncRecord {
+                at_ns,
+                index,
+                target: outputs.target,
+                actual: inputs.actual,
+                status: inputs.status,
+                follows: inputs.status & 0x1000 != 0,
+            });
+        }
+    }
+
+    fn has(&self, address: u16, length: usize) -> bool {
+        let is_clock = CLOCK.contains(&address) && !self.settings.has_clock;
+        !is_clock && self.memory.get(address, length).is_some()
+    }
+
+    /// Reads for the master; `None` if the device does not answer.
+    pub(crate) fn read(&mut self, address: u16, length: usize, now_ns: u64) -> Option<Vec<u8>> {
+        if !self.has(address, length) {
+            return None;
+        }
+        if address <= SYSTEM_TIME && usize::from(SYSTEM_TIME) < usize::from(address) + length {
+            let time = self.system_register(now_ns).to_le_bytes();
+            self.memory.put(SYSTEM_TIME, &time);
+        }
+        let mailbox = self.memory.sync_manager(1);
+        let is_mailbox = mailbox.is_enabled && address == mailbox.start;
+        if is_mailbox && !Mailbox::is_full(&self.memory) {
+            return None;
+        }
+        let bytes = self.memory.get(address, length)?.to_vec();
+        if mailbox.is_completed_by(address, length) {
+            self.mailbox.taken(&mut self.memory);
+        }
+        Some(bytes)
+    }
+
+    /// Writes for the master; false if the device does not answer.
+    pub(crate) fn write(&mut self, address: u16, bytes: &[u8], now_ns: u64) -> bool {
+        if !self.has(address, bytes.len()) {
+            return false;
+        }
+        let end = usize::from(address) + bytes.len();
+        let touches = |register: u16| address <= register && usize::from(register) < end;
+        match address {
+            PORT_TIMES => self.latch_times(now_ns),
+            SYSTEM_TIME => self.follow(bytes, now_ns),
+            AL_STATUS..0x0136 => return false,
+            _ => self.memory.put(address, bytes),
+        }
+        self.clear_managers(address, end);
+        if touches(AL_CONTROL) {
+            self.request(self.memory.byte(AL_CONTROL), now_ns);
+        }
+        if touches(EEPROM_CONTROL + 1) {
+            eeprom::serve(&mut self.memory, &self.eeprom);
+        }
+        if touches(SYNC_ACTIVATION) {
+            self.activate_sync(now_ns);
+        }
+        if self
+            .memory
+            .sync_manager(0)
+            .is_completed_by(address, bytes.len())
+        {
+            let message = self.memory.get(MAILBOX_OUT, MAILBOX.into());
+            let message = message.unwrap_or_default().to_vec();
+            let is_fixed = self.state() > PRE_OP;
+            let refused =
+                |index: u16| is_fixed && matches!(index, 0x1600..=0x1bff | 0x1c12 | 0x1c13);
+            self.mailbox
+                .receive(&mut self.memory, &mut self.objects, &message, refused);
+        }
+        true
+    }
+
+    /// A sync manager that is configured anew has an empty mailbox.
+    fn clear_managers(&mut self, address: u16, end: usize) {
+        for manager in 0..8 {
+            let at = SYNC_MANAGER + 8 * manager;
+            if usize::from(at) < end && address < at + 8 {
+                self.memory.put(at + 5, &[0]);
+            }
+        }
+    }
+
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "registers wrap"
+    )]
+    fn latch_times(&mut self, now_ns: u64) {
+        let local_ns = self.clock.local_ns(now_ns) as u64;
+        self.memory
+            .put(PORT_TIMES, &(local_ns as u32).to_le_bytes());
+        self.memory.put(LATCHED_TIME, &local_ns.to_le_bytes());
+    }
+
+    /// The frame that latched the times came back from the devices behind this one.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "registers wrap"
+    )]
+    pub(crate) fn latch_return(&mut self, now_ns: u64) {
+        let local_ns = self.clock.local_ns(now_ns) as u64;
+        self.memory
+            .put(PORT_TIMES + 4, &(local_ns as u32).to_le_bytes());
+    }
+
+    /// The time of the reference clock comes by.
+    #[allow(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_possible_wrap,
+        reason = "differences of nanoseconds"
+    )]
+    fn follow(&mut self, reference: &[u8], now_ns: u64) {
+        let mut bytes = [0; 8];
+        for (place, byte) in bytes.iter_mut().zip(reference) {
+            *place = *byte;
+        }
+        let own = self.system_register(now_ns);
+        let told = u64::from_le_bytes(bytes).wrapping_add(self.memory.number(TIME_DELAY, 4));
+        let mask = if reference.len() < 8 {
+            u64::from(u32::MAX)
+        } else {
+            u64::MAX
+        };
+        let ahead = (told & mask).wrapping_sub(own & mask);
+        let ahead = if mask == u64::MAX {
+            ahead as i64
+        } else {
+            i64::from(ahead as u32 as i32)
+        };
+        // Sign and magnitude: bit 31 says that this clock is ahead.
+        let sign = u32::from(ahead < 0) << 31;
+        let difference = sign | ahead.unsigned_abs().min(0x7fff_ffff) as u32;
+        self.memory.put(TIME_DIFFERENCE, &difference.to_le_bytes());
+        let since_t = now_ns.saturating_sub(self.followed_ns) as f64 * 1e-9;
+        self.followed_ns = now_ns;
+        self.clock.follow(now_ns, ahead as f64, since_t);
+    }
+
+    /// SYNC0 begins at its start time: never, for hundreds of years, if that is past.
+    #[allow(clippy::cast_precision_loss, reason = "times of a session")]
+    fn activate_sync(&mut self, now_ns: u64) {
+        let is_active = self.memory.byte(SYNC_ACTIVATION) & 3 == 3;
+        let start = self.memory.number(SYNC_START, 8);
+        let has_cycle = self.memory.number(SYNC0_CYCLE, 4) > 0;
+        let is_ahead = start > self.system_register(now_ns);
+        self.next_sync = (is_active && has_cycle && is_ahead).then_some(start as f64);
+        self.stepped_ns = now_ns;
+    }
+
+    /// The master asks for a state.
+    fn request(&mut self, control: u8, now_ns: u64) {
+        let (wanted, present) = (control & 15, self.state());
+        let has_error = self.memory.byte(AL_STATUS) & ERROR != 0;
+        if has_error && control & ERROR == 0 && wanted >= present {
+            return;
+        }
+        let has_sync = self.next_sync.is_some();
+        let code = states::objection(&self.memory, &self.objects, has_sync, wanted, present);
+        if code != 0 {
+            self.set_state(present | ERROR, code);
+            return;
+        }
+        if present == OP && wanted != OP {
+            self.drive.lose_bus();
+        }
+        if wanted <= PRE_OP {
+            self.mailbox.clear();
+            self.next_sync = None;
+        }
+        if wanted == SAFE_OP {
+            (self.outputs, _) = self.objects.mapped(OUTPUTS_ASSIGNED);
+            (self.inputs, _) = self.objects.mapped(INPUTS_ASSIGNED);
+            process::put_inputs(&mut self.memory, &self.inputs, self.drive.inputs());
+        }
+        self.heard_ns = now_ns;
+        self.set_state(wanted, 0);
+    }
+
+    /// A datagram of the logical address space passes. Returns what is to be counted.
+    pub(crate) fn exchange(
+        &mut self,
+        at: u32,
+        data: &mut [u8],
+        ways: (bool, bool),
+        index: u8,
+        now_ns: u64,
+    ) -> u16 {
+        if self.state() < SAFE_OP {
+            return 0;
+        }
+        // A device that fell out of OP does not take outputs any more.
+        let takes_outputs = self.memory.byte(AL_STATUS) & ERROR == 0;
+        let (was_read, was_written) =
+            process::exchange(&mut self.memory, at, data, ways, takes_outputs);
+        if was_written {
+            (self.heard_ns, self.index) = (now_ns, index);
+            if self.memory.byte(SYNC_ACTIVATION) & 3 != 3 {
+                // Without SYNC0 a drive works with the frame.
+                self.step(now_ns);
+            }
+        }
+        let both = if ways.0 { 2 } else { 1 };
+        u16::from(was_read) + if was_written { both } else { 0 }
+    }
+}

@@ -1,0 +1,131 @@
+//! The objects of a drive, as CoE tells them.
+
+use crate::eeprom::Identity;
+use std::collections::BTreeMap;
+
+/// Index and subindex.
+pub(crate) type Object = (u16, u8);
+
+pub(crate) const OUTPUTS_ASSIGNED: u16 = 0x1c12;
+pub(crate) const INPUTS_ASSIGNED: u16 = 0x1c13;
+pub(crate) const FOLLOWING_WINDOW: Object = (0x6065, 0);
+pub(crate) const FOLLOWING_TIMEOUT: Object = (0x6066, 0);
+pub(crate) const HOME_OFFSET: Object = (0x607c, 0);
+pub(crate) const QUICK_STOP: Object = (0x6085, 0);
+pub(crate) const HOMING_METHOD: Object = (0x6098, 0);
+pub(crate) const HOMING_SPEED: Object = (0x6099, 1);
+pub(crate) const SYNC_OUTPUTS: Object = (0x1c32, 1);
+
+/// An object in the process data: which, where it begins, how many bytes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Mapped {
+    pub(crate) index: u16,
+    pub(crate) offset: u16,
+    pub(crate) length: u16,
+}
+
+/// Objects with their size in bytes and value.
+#[derive(Debug, Clone)]
+pub(crate) struct Dictionary(BTreeMap<Object, (u8, u32)>);
+
+impl Dictionary {
+    /// The objects of a drive as it is delivered.
+    pub(crate) fn new(identity: Identity, following_counts: u32, quick_stop: u32) -> Self {
+        let mut objects = BTreeMap::new();
+        let mut set = |index, sub, size, value| {
+            objects.insert((index, sub), (size, value));
+        };
+        set(0x1000, 0, 4, 0x0002_0192);
+        set(0x1018, 0, 1, 4);
+        for (sub, value) in (1..).zip(identity) {
+            set(0x1018, sub, 4, value);
+        }
+        set(0x1c00, 0, 1, 4);
+        for sub in 1..=4 {
+            set(0x1c00, sub, 1, sub.into());
+        }
+        for (assigned, map) in [(0x1c12, 0x1600), (0x1c13, 0x1a00)] {
+            set(assigned, 0, 1, 1);
+            set(assigned, 1, 2, map);
+        }
+        // What it maps before anybody asks: less than a master needs.
+        set(0x1600, 0, 1, 2);
+        set(0x1600, 1, 4, 0x6040_0010);
+        set(0x1600, 2, 4, 0x607a_0020);
+        set(0x1a00, 0, 1, 2);
+        set(0x1a00, 1, 4, 0x6041_0010);
+        set(0x1a00, 2, 4, 0x6064_0020);
+        for map in [0x1600, 0x1a00] {
+            for sub in 3..=8 {
+                set(map, sub, 4, 0);
+            }
+        }
+        for sync in [0x1c32, 0x1c33] {
+            set(sync, 0, 1, 32);
+            set(sync, 1, 2, 0);
+            set(sync, 2, 4, 0);
+            set(sync, 4, 2, 0x1c07);
+            set(sync, 5, 4, 125_000);
+            set(sync, 6, 4, 30_000);
+        }
+        set(0x605a, 0, 2, 2);
+        set(0x605e, 0, 2, 2);
+        set(0x6065, 0, 4, following_counts);
+        set(0x6066, 0, 2, 10);
+        set(0x607c, 0, 4, 0);
+        set(0x6085, 0, 4, quick_stop);
+        for ratio in [0x608f, 0x6091, 0x6092] {
+            set(ratio, 0, 1, 2);
+            set(ratio, 1, 4, 1);
+            set(ratio, 2, 4, 1);
+        }
+        set(0x6098, 0, 1, 0);
+        set(0x6099, 0, 1, 2);
+        set(0x6099, 1, 4, 0);
+        set(0x6099, 2, 4, 0);
+        set(0x609a, 0, 4, 0);
+        set(0x60c2, 0, 1, 2);
+        set(0x60c2, 1, 1, 1);
+        set(0x60c2, 2, 1, 0xfd);
+        set(0x6502, 0, 4, 1 << 7 | 1 << 5);
+        Self(objects)
+    }
+
+    pub(crate) fn get(&self, object: Object) -> Option<(u8, u32)> {
+        self.0.get(&object).copied()
+    }
+
+    pub(crate) fn value(&self, object: Object) -> u32 {
+        self.get(object).map_or(0, |(_, value)| value)
+    }
+
+    pub(crate) fn has_index(&self, index: u16) -> bool {
+        self.0.range((index, 0)..=(index, u8::MAX)).next().is_some()
+    }
+
+    /// Puts another value in the place of one that there is.
+    pub(crate) fn set(&mut self, object: Object, value: u32) {
+        if let Some((_, place)) = self.0.get_mut(&object) {
+            *place = value;
+        }
+    }
+
+    /// What an assignment maps, in order, and how many bytes that is.
+    #[allow(clippy::cast_possible_truncation, reason = "parts of a mapping entry")]
+    pub(crate) fn mapped(&self, assigned: u16) -> (Vec<Mapped>, u16) {
+        let (mut mapped, mut bits) = (Vec::new(), 0_u16);
+        for nth in 1..=self.value((assigned, 0)) as u8 {
+            let map = self.value((assigned, nth)) as u16;
+            for sub in 1..=self.value((map, 0)) as u8 {
+                let entry = self.value((map, sub));
+                mapped.push(Mapped {
+                    index: (entry >> 16) as u16,
+                    offset: bits / 8,
+                    length: (entry & 0xff) as u16 / 8,
+                });
+                bits += (entry & 0xff) as u16;
+            }
+        }
+        (mapped, bits.div_ceil(8))
+    }
+}

@@ -1,0 +1,321 @@
+//! A drive with its motor: what happens at every SYNC0.
+//!
+//! The motor follows its target with a lag of first order, so that at a speed v it is v·τ behind:
+//! `x += (target − x) (1 − e^(−T/τ))`. A motor without current stands: it has a brake.
+
+use crate::dictionary::{
+    Dictionary, FOLLOWING_TIMEOUT, FOLLOWING_WINDOW, HOME_OFFSET, HOMING_METHOD, HOMING_SPEED,
+    QUICK_STOP,
+};
+use crate::power::Power;
+use crate::upset::Upset;
+
+const CYCLIC_POSITION: i8 = 8;
+const HOMING: i8 = 6;
+/// Homing methods that take the present position for home.
+const HERE: [u32; 2] = [35, 37];
+
+/// The drive's own number of a following error.
+const FOLLOWING_ERROR: u16 = 0x8611;
+/// The same for a bus that is lost while there is power.
+const BUS_LOST: u16 = 0x7500;
+
+/// A switch at which a drive finds its home.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct HomeSwitch {
+    /// Where it is, as the encoder counts.
+    pub at_counts: i64,
+}
+
+/// A drive as it is delivered.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DriveSettings {
+    /// Vendor, product, revision and serial number.
+    pub identity: [u32; 4],
+    /// Its name in the EEPROM.
+    pub name: String,
+    /// What it counts at the start.
+    pub start_counts: i32,
+    /// Time constant of its lag, s; 0 for none.
+    pub lag_t: f64,
+    /// How long it takes from "switched on" to "operation enabled", s: a brake opens.
+    pub brake_t: f64,
+    /// Deviation of its quartz, ppm.
+    pub drift_ppm: f64,
+    /// The switch by which it finds its home; `None` fails every homing but those at the present
+    /// position.
+    pub home: Option<HomeSwitch>,
+    /// The window of following errors that it is delivered with, counts.
+    pub following_counts: u32,
+    /// Whether it has a distributed clock.
+    pub has_clock: bool,
+}
+
+impl Default for DriveSettings {
+    /// A drive that begins at zero, 2 ms behind, with an exact quartz.
+    fn default() -> Self {
+        Self {
+            identity: [0x0000_0e1e, 0x0402, 1, 0],
+            name: "GPDRIVE".to_owned(),
+            start_counts: 0,
+            lag_t: 0.002,
+            brake_t: 0.02,
+            drift_ppm: 0.0,
+            home: None,
+            following_counts: u32::MAX,
+            has_clock: true,
+        }
+    }
+}
+
+/// What the master tells the drive.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Outputs {
+    pub(crate) control: u16,
+    pub(crate) target: i32,
+    pub(crate) mode: i8,
+}
+
+/// What the drive tells the master.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Inputs {
+    pub(crate) status: u16,
+    pub(crate) actual: i32,
+    pub(crate) mode: i8,
+    pub(crate) fault: u16,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Homing {
+    No,
+    Under,
+    Done,
+    Failed,
+}
+
+/// A drive as it is.
+#[derive(Debug, Clone)]
+pub(crate) struct Drive {
+    lag_t: f64,
+    brake_t: f64,
+    home: Option<HomeSwitch>,
+    power: Power,
+    /// Where the motor is, counts from zero of its encoder.
+    place: f64,
+    /// What is added to that in what is told.
+    offset: f64,
+    /// counts/s.
+    velocity: f64,
+    outputs: Outputs,
+    fault: u16,
+    /// How long the following error was too large, s.
+    behind_t: f64,
+    /// How long it has been on its way to "operation enabled", s.
+    opening_t: f64,
+    homing: Homing,
+    refuses_power: bool,
+    has_voltage: bool,
+    is_stuck: bool,
+}
+
+impl Drive {
+    pub(crate) fn new(settings: &DriveSettings) -> Self {
+        Self {
+            lag_t: settings.lag_t,
+            brake_t: settings.brake_t,
+            home: settings.home,
+            power: Power::SwitchOnDisabled,
+            place: settings.start_counts.into(),
+            offset: 0.0,
+            velocity: 0.0,
+            outputs: Outputs::default(),
+            fault: 0,
+            behind_t: 0.0,
+            opening_t: 0.0,
+            homing: Homing::No,
+            refuses_power: false,
+            has_voltage: true,
+            is_stuck: false,
+        }
+    }
+
+    /// The drive after its supply was away for a moment.
+    pub(crate) fn rebooted(&self, settings: &DriveSettings) -> Self {
+        Self {
+            place: self.place,
+            ..Self::new(settings)
+        }
+    }
+
+    pub(crate) const fn upset(&mut self, upset: Upset) {
+        match upset {
+            Upset::Fault(code) => self.fail(code),
+            Upset::RefusesPower(refuses) => self.refuses_power = refuses,
+            Upset::NoVoltage(is_away) => {
+                self.has_voltage = !is_away;
+                if is_away && self.power.drives() {
+                    self.power = Power::SwitchOnDisabled;
+                }
+            }
+            Upset::Stuck(is_stuck) => self.is_stuck = is_stuck,
+            Upset::Emergency(_) | Upset::Drop(_) | Upset::Reboot => {}
+        }
+    }
+
+    const fn fail(&mut self, code: u16) {
+        self.fault = code;
+        self.power = if self.power.drives() {
+            Power::FaultReaction
+        } else {
+            Power::Fault
+        };
+    }
+
+    /// The bus is lost: a drive with power does not wait for it.
+    pub(crate) const fn lose_bus(&mut self) {
+        if matches!(self.power, Power::Enabled | Power::QuickStop) {
+            self.fail(BUS_LOST);
+        }
+    }
+
+    #[allow(clippy::cast_possible_truncation, reason = "a drive wraps, too")]
+    const fn actual(&self) -> i32 {
+        (self.place + self.offset).round() as i64 as i32
+    }
+
+    /// What it tells.
+    pub(crate) const fn inputs(&self) -> Inputs {
+        let follows = matches!(self.power, Power::Enabled) && self.outputs.mode == CYCLIC_POSITION;
+        let mut status = self.power.status() | 0x200;
+        if self.has_voltage {
+            status |= 0x10;
+        }
+        if follows {
+            status |= 0x1000;
+        }
+        if self.outputs.mode == HOMING {
+            status |= match self.homing {
+                Homing::Done => 0x1400,
+                Homing::Failed => 0x2000,
+                Homing::No => 0x0400,
+                Homing::Under => 0,
+            };
+        }
+        Inputs {
+            status,
+            actual: self.actual(),
+            mode: self.outputs.mode,
+            fault: self.fault,
+        }
+    }
+
+    /// A step of `step_t` seconds, with what the master said last.
+    pub(crate) fn step(&mut self, step_t: f64, outputs: Outputs, objects: &Dictionary) {
+        let resets = outputs.control & 0x80 != 0 && self.outputs.control & 0x80 == 0;
+        let starts_homing = outputs.control & 0x10 != 0 && self.outputs.control & 0x10 == 0;
+        self.outputs = outputs;
+        if resets && self.power == Power::Fault {
+            self.fault = 0;
+        }
+        self.change_power(step_t, resets);
+        let before = self.place;
+        let ramp = f64::from(objects.value(QUICK_STOP)).max(1.0);
+        match self.power {
+            Power::QuickStop | Power::FaultReaction => self.ramp_down(step_t, ramp),
+            Power::Enabled if self.is_stuck => {}
+            Power::Enabled if outputs.mode == HOMING => {
+                self.go_home(step_t, starts_homing, objects);
+            }
+            Power::Enabled if outputs.mode == CYCLIC_POSITION => self.follow(step_t),
+            _ => {}
+        }
+        if outputs.mode != HOMING {
+            self.homing = Homing::No;
+        }
+        self.velocity = (self.place - before) / step_t;
+        self.watch_following(step_t, objects);
+    }
+
+    fn change_power(&mut self, step_t: f64, resets: bool) {
+        let control = self.outputs.control;
+        let may = self.has_voltage && !self.refuses_power;
+        let next = self.power.next(control, resets, may);
+        if next == Power::Enabled && self.power == Power::SwitchedOn {
+            self.opening_t += step_t;
+            if self.opening_t < self.brake_t {
+                return;
+            }
+        }
+        self.opening_t = 0.0;
+        self.power = next;
+    }
+
+    fn ramp_down(&mut self, step_t: f64, ramp: f64) {
+        let speed = (self.velocity.abs() - ramp * step_t).max(0.0);
+        if !self.is_stuck {
+            self.place += speed.copysign(self.velocity) * step_t;
+        }
+        if speed <= 0.0 && self.power == Power::FaultReaction {
+            self.power = Power::Fault;
+        }
+    }
+
+    fn follow(&mut self, step_t: f64) {
+        let target = f64::from(self.outputs.target) - self.offset;
+        let share = if self.lag_t > 0.0 {
+            1.0 - (-step_t / self.lag_t).exp()
+        } else {
+            1.0
+        };
+        self.place += (target - self.place) * share;
+    }
+
+    fn watch_following(&mut self, step_t: f64, objects: &Dictionary) {
+        let window = objects.value(FOLLOWING_WINDOW);
+        let follows = self.power == Power::Enabled && self.outputs.mode == CYCLIC_POSITION;
+        let behind = f64::from(self.outputs.target) - self.place - self.offset;
+        if !follows || window == u32::MAX || behind.abs() <= f64::from(window) {
+            self.behind_t = 0.0;
+            return;
+        }
+        self.behind_t += step_t;
+        if self.behind_t * 1e3 > f64::from(objects.value(FOLLOWING_TIMEOUT)) {
+            self.behind_t = 0.0;
+            self.fail(FOLLOWING_ERROR);
+        }
+    }
+
+    #[allow(
+        clippy::cast_possible_wrap,
+        clippy::cast_precision_loss,
+        reason = "the offset is a signed object; places are far below 2⁵³"
+    )]
+    fn go_home(&mut self, step_t: f64, starts: bool, objects: &Dictionary) {
+        if starts {
+            self.homing = Homing::Under;
+        }
+        if self.outputs.control & 0x10 == 0 && self.homing == Homing::Under {
+            self.homing = Homing::No;
+        }
+        if self.homing != Homing::Under {
+            return;
+        }
+        let home = if HERE.contains(&objects.value(HOMING_METHOD)) {
+            self.place
+        } else if let Some(home) = self.home {
+            home.at_counts as f64
+        } else {
+            self.homing = Homing::Failed;
+            return;
+        };
+        let away = home - self.place;
+        let way = f64::from(objects.value(HOMING_SPEED)).max(1.0) * step_t;
+        if away.abs() > way {
+            self.place += way.copysign(away);
+            return;
+        }
+        self.place = home;
+        self.offset = f64::from(objects.value(HOME_OFFSET) as i32) - home;
+        self.homing = Homing::Done;
+    }
+}

@@ -1,0 +1,93 @@
+//! The EEPROM of a device (SII): who it is, and what sync managers it has.
+
+use crate::memory::{EEPROM_ADDRESS, EEPROM_CONTROL, EEPROM_DATA, Memory};
+
+/// Mailboxes, both of this length.
+pub(crate) const MAILBOX: u16 = 128;
+/// Where what the master writes goes, and where it reads.
+pub(crate) const MAILBOX_OUT: u16 = 0x1000;
+pub(crate) const MAILBOX_IN: u16 = 0x1080;
+/// Where process data is.
+const OUTPUTS: u16 = 0x1100;
+const INPUTS: u16 = 0x1180;
+
+/// Vendor, product, revision, serial number.
+pub(crate) type Identity = [u32; 4];
+
+/// CRC-8 of the first 14 bytes: polynomial x⁸ + x² + x + 1, from 0xFF.
+fn checksum(bytes: &[u8]) -> u8 {
+    bytes.iter().fold(0xff, |crc, byte| {
+        (0..8).fold(crc ^ byte, |crc, _| {
+            if crc & 0x80 == 0 {
+                crc << 1
+            } else {
+                crc << 1 ^ 0x07
+            }
+        })
+    })
+}
+
+/// The image of a drive with a mailbox, CoE and four sync managers.
+pub(crate) fn image(identity: Identity, name: &str) -> Vec<u8> {
+    let mut image = vec![0; 128];
+    image[0] = 0x05;
+    image[14] = checksum(&image[..14]);
+    for (at, value) in (16..).step_by(4).zip(identity) {
+        image[at..at + 4].copy_from_slice(&value.to_le_bytes());
+    }
+    // Words 0x18 to 0x1C: mailboxes for the standard protocol, and that it is CoE.
+    for (at, value) in (0x30..)
+        .step_by(2)
+        .zip([MAILBOX_OUT, MAILBOX, MAILBOX_IN, MAILBOX, 4])
+    {
+        image[at..at + 2].copy_from_slice(&value.to_le_bytes());
+    }
+    // Word 0x3E: size in KiBit less one; word 0x3F: version.
+    image[0x7c] = 15;
+    image[0x7e] = 1;
+    let mut strings = vec![1, u8::try_from(name.len()).unwrap_or(0)];
+    strings.extend_from_slice(name.as_bytes());
+    category(&mut image, 10, &strings);
+    let mut general = [0; 32];
+    // The name is string 1, CoE has SDO, SDO information, PDO assignment and PDO configuration.
+    (general[2], general[3], general[5], general[14]) = (1, 1, 0x0f, 0x11);
+    category(&mut image, 30, &general);
+    category(&mut image, 40, &[1, 2, 3, 0]);
+    let managers = [
+        (MAILBOX_OUT, MAILBOX, 0x26, 1),
+        (MAILBOX_IN, MAILBOX, 0x22, 2),
+        (OUTPUTS, 0, 0x64, 3),
+        (INPUTS, 0, 0x20, 4),
+    ];
+    let managers = managers.map(|(start, length, control, kind)| {
+        let ([s0, s1], [l0, l1]) = (start.to_le_bytes(), length.to_le_bytes());
+        [s0, s1, l0, l1, control, 0, 1, kind]
+    });
+    category(&mut image, 41, &managers.concat());
+    image.extend_from_slice(&[0xff; 64]);
+    image
+}
+
+fn category(image: &mut Vec<u8>, kind: u16, data: &[u8]) {
+    let words = u16::try_from(data.len().div_ceil(2)).unwrap_or(0);
+    image.extend_from_slice(&kind.to_le_bytes());
+    image.extend_from_slice(&words.to_le_bytes());
+    image.extend_from_slice(data);
+    image.resize(image.len() + data.len() % 2, 0);
+}
+
+/// Answers a command that was written to the interface of the EEPROM: reading takes no time, and
+/// gives eight bytes.
+pub(crate) fn serve(memory: &mut Memory, image: &[u8]) {
+    let reads = memory.byte(EEPROM_CONTROL + 1) & 7 == 1;
+    if reads {
+        let from = 2 * usize::from(memory.word(EEPROM_ADDRESS));
+        let mut data = [0xff; 8];
+        for (place, byte) in data.iter_mut().zip(image.iter().skip(from)) {
+            *place = *byte;
+        }
+        memory.put(EEPROM_DATA, &data);
+    }
+    // Not busy, no error, eight bytes at a time.
+    memory.put(EEPROM_CONTROL, &[0x40, 0]);
+}

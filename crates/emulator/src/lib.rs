@@ -1,0 +1,52 @@
+//! EtherCAT drives that are not there: what hangs on the wire of `glidepath ethercat` in tests, and
+//! on the desk.
+//!
+//! ```text
+//!   frame ─► device 0 ─► device 1 ─► … ─► frame, with answers and working counters
+//!              │ registers, EEPROM, mailbox, clock          (this crate does no I/O)
+//!              └ drive: CiA 402 at every SYNC0, motor with lag
+//! ```
+//!
+//! A [`Segment`] is handed frames as they come from the wire, changes them as the devices would,
+//! and is told the time with each: it reads no clock. Everything between two frames happens in
+//! order when the next one comes, because nothing but frames can change its course.
+//!
+//! It shares no code with the master, whose judge it is: not even the addresses of registers. How
+//! the registers behave follows ETG.1000 and the data sheets of Beckhoff's controllers; masters by other
+//! people bring its drives into operation, too.
+//!
+//! What it does not have: redundancy, segmented SDO and complete access, hot connect, the
+//! propagation of electric signals but for a constant time from device to device.
+//!
+//! ```
+//! use glidepath_emulator::{DriveSettings, Segment};
+//!
+//! let mut segment = Segment::new(&[DriveSettings::default(); 3]);
+//! // BRD of the type register: every device answers, and counts itself.
+//! let mut frame = vec![0; 60];
+//! frame[12..14].copy_from_slice(&[0x88, 0xa4]);
+//! frame[14..16].copy_from_slice(&(0x1000_u16 | 13).to_le_bytes());
+//! frame[16] = 7;
+//! frame[22] = 1;
+//! segment.pass(&mut frame, 0);
+//! assert_eq!(frame[26], 0x11);
+//! assert_eq!(u16::from_le_bytes([frame[27], frame[28]]), 3);
+//! ```
+
+mod clock;
+mod coe;
+mod device;
+mod dictionary;
+mod drive;
+mod eeprom;
+mod frame;
+mod memory;
+mod power;
+mod process;
+mod segment;
+mod states;
+mod upset;
+
+pub use drive::{DriveSettings, HomeSwitch};
+pub use segment::{Segment, SyncRecord};
+pub use upset::Upset;

@@ -1,0 +1,78 @@
+//! Process data of a drive in the memory of its device.
+
+use crate::dictionary::Mapped;
+use crate::drive::{Inputs, Outputs};
+use crate::memory::Memory;
+
+/// What the master has written.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "objects have the size of their type"
+)]
+pub(crate) fn outputs(memory: &Memory, mapped: &[Mapped]) -> Outputs {
+    let start = memory.sync_manager(2).start;
+    let mut outputs = Outputs::default();
+    for object in mapped {
+        let value = memory.number(start + object.offset, object.length.into());
+        match object.index {
+            0x6040 => outputs.control = value as u16,
+            0x607a => outputs.target = value as u32 as i32,
+            0x6060 => outputs.mode = value as u8 as i8,
+            _ => {}
+        }
+    }
+    outputs
+}
+
+/// What the master will read.
+pub(crate) fn put_inputs(memory: &mut Memory, mapped: &[Mapped], inputs: Inputs) {
+    let start = memory.sync_manager(3).start;
+    for object in mapped {
+        let at = start + object.offset;
+        match object.index {
+            0x6041 => memory.put(at, &inputs.status.to_le_bytes()),
+            0x6064 => memory.put(at, &inputs.actual.to_le_bytes()),
+            0x6061 => memory.put(at, &inputs.mode.to_le_bytes()),
+            0x603f => memory.put(at, &inputs.fault.to_le_bytes()),
+            _ => {}
+        }
+    }
+}
+
+/// A datagram of the logical address space passes: what its windows show is read and written.
+/// `takes_outputs` if writing is allowed. Returns whether anything was read, and written.
+pub(crate) fn exchange(
+    memory: &mut Memory,
+    at: u32,
+    data: &mut [u8],
+    (reads, writes): (bool, bool),
+    takes_outputs: bool,
+) -> (bool, bool) {
+    let sent = data.to_vec();
+    let (mut was_read, mut was_written) = (false, false);
+    let windows: Vec<_> = memory.fmmus().collect();
+    let end = at + u32::try_from(data.len()).unwrap_or(0);
+    for window in windows {
+        let low = at.max(window.logical);
+        let high = end.min(window.logical + u32::from(window.length));
+        if low >= high {
+            continue;
+        }
+        let into = u16::try_from(low - window.logical).unwrap_or(u16::MAX);
+        let physical = window.physical.saturating_add(into);
+        let part = (low - at) as usize..(high - at) as usize;
+        if writes && window.writes && takes_outputs {
+            memory.put(physical, &sent[part.clone()]);
+            was_written = true;
+        }
+        if reads
+            && window.reads
+            && let Some(bytes) = memory.get(physical, part.len())
+        {
+            data[part].copy_from_slice(bytes);
+            was_read = true;
+        }
+    }
+    (was_read, was_written)
+}

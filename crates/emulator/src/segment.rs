@@ -1,0 +1,144 @@
+//! The devices in a row, and the frames that pass them.
+
+use crate::device::{Device, HOP_NS};
+use crate::drive::DriveSettings;
+use crate::frame::{Datagram, datagrams};
+use crate::memory::PORT_TIMES;
+use crate::upset::Upset;
+
+pub use crate::device::SyncRecord;
+
+/// Devices in a row, from the master on.
+#[derive(Debug, Clone)]
+pub struct Segment {
+    devices: Vec<Device>,
+}
+
+impl Segment {
+    /// Drives that have just been switched on.
+    #[must_use]
+    pub fn new(drives: &[DriveSettings]) -> Self {
+        Self::new_at(drives, 0)
+    }
+
+    /// The same, at a time of the host, ns.
+    #[must_use]
+    pub fn new_at(drives: &[DriveSettings], now_ns: u64) -> Self {
+        let last = drives.len().saturating_sub(1);
+        let devices = drives.iter().enumerate();
+        Self {
+            devices: devices
+                .map(|(nth, drive)| Device::new(drive, nth == last, now_ns))
+                .collect(),
+        }
+    }
+
+    /// Keeps a record of every SYNC0 from here on.
+    pub fn keep_records(&mut self) {
+        for device in &mut self.devices {
+            device.records.get_or_insert_default();
+        }
+    }
+
+    /// What a drive did since this was asked last.
+    pub fn take_records(&mut self, drive: usize) -> Vec<SyncRecord> {
+        let device = self.devices.get_mut(drive);
+        let records = device.and_then(|device| device.records.as_mut());
+        records.map(core::mem::take).unwrap_or_default()
+    }
+
+    /// Something goes wrong with a drive, or right again.
+    pub fn upset(&mut self, drive: usize, upset: Upset, now_ns: u64) {
+        self.advance(now_ns);
+        let is_last = drive + 1 == self.devices.len();
+        if let Some(device) = self.devices.get_mut(drive) {
+            device.upset(upset, is_last, now_ns);
+        }
+    }
+
+    /// Lets time pass without a frame.
+    pub fn advance(&mut self, now_ns: u64) {
+        for device in &mut self.devices {
+            device.advance(now_ns);
+        }
+    }
+
+    /// A frame passes, at a time of the host that is not before that of any call so far. It comes
+    /// back with the answers in it; a frame that is not EtherCAT's comes back as it is.
+    pub fn pass(&mut self, frame: &mut [u8], now_ns: u64) {
+        self.advance(now_ns);
+        let found = datagrams(frame);
+        if found.is_empty() {
+            return;
+        }
+        // The first device marks frames that were on the wire.
+        frame[6] |= 2;
+        for mut datagram in found {
+            let counted = self.answer(&mut datagram, frame, now_ns);
+            datagram.close(frame, counted);
+        }
+    }
+
+    fn answer(&mut self, datagram: &mut Datagram, frame: &mut [u8], now_ns: u64) -> u16 {
+        let Some(data) = frame.get_mut(datagram.data.clone()) else {
+            return 0;
+        };
+        let mut counted = 0_u16;
+        let devices = self.devices.len() as u64;
+        for (device, nth) in self.devices.iter_mut().zip(0..) {
+            let at_ns = now_ns + nth * HOP_NS;
+            counted += pass_device(device, datagram, data, at_ns);
+            if datagram.command == 8 && datagram.address == PORT_TIMES && nth + 1 < devices {
+                // There and back again.
+                device.latch_return(now_ns + (2 * devices - 2 - nth) * HOP_NS);
+            }
+        }
+        counted
+    }
+}
+
+/// A datagram passes a device. Returns what it adds to the working counter.
+fn pass_device(device: &mut Device, datagram: &mut Datagram, data: &mut [u8], at_ns: u64) -> u16 {
+    let address = datagram.address;
+    // APRD…APRW and ARMW count devices, FPRD…FPRW and FRMW name one, BRD…BRW are for all.
+    let is_meant = match datagram.command {
+        1..=3 | 13 => {
+            let is_meant = datagram.device == 0;
+            datagram.device = datagram.device.wrapping_add(1);
+            is_meant
+        }
+        7..=9 => {
+            datagram.device = datagram.device.wrapping_add(1);
+            true
+        }
+        4..=6 | 14 => datagram.device == device.station_address(),
+        10..=12 => {
+            let ways = (datagram.command != 11, datagram.command != 10);
+            return device.exchange(datagram.logical(), data, ways, datagram.index, at_ns);
+        }
+        _ => return 0,
+    };
+    let multiple = matches!(datagram.command, 13 | 14);
+    if multiple && !is_meant {
+        return u16::from(device.write(address, data, at_ns));
+    }
+    if !is_meant {
+        return 0;
+    }
+    let sent = data.to_vec();
+    let mut counted = 0;
+    if matches!(datagram.command, 1 | 3 | 4 | 6 | 7 | 9 | 13 | 14)
+        && let Some(read) = device.read(address, data.len(), at_ns)
+    {
+        let is_broadcast = matches!(datagram.command, 7 | 9);
+        for (place, byte) in data.iter_mut().zip(read) {
+            *place = if is_broadcast { *place | byte } else { byte };
+        }
+        counted += 1;
+    }
+    if matches!(datagram.command, 2 | 3 | 5 | 6 | 8 | 9) && device.write(address, &sent, at_ns) {
+        let is_both = matches!(datagram.command, 3 | 6 | 9);
+        counted += if is_both { 2 } else { 1 };
+    }
+    counted
+}

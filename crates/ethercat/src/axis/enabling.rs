@@ -1,0 +1,49 @@
+//! On the way to power, one state after the other. The last step is taken when all drives are ready
+//! for it: all of them, or none.
+
+use super::step::{DISABLE_VOLTAGE, ENABLE_OPERATION, Next, SHUTDOWN, SWITCH_ON, Step};
+use crate::image::CYCLIC_POSITION;
+use crate::state::{FOLLOWS, REMOTE};
+use crate::trouble::Trouble;
+use glidepath_link::DriveState;
+
+/// How long all of it may take: a contactor, a charging DC link, a brake.
+const PATIENCE_NS: u64 = 5_000_000_000;
+
+#[derive(Debug, Clone)]
+pub(super) struct Enabling {
+    since_ns: u64,
+}
+
+impl Enabling {
+    pub(super) const fn new(since_ns: u64) -> Self {
+        Self { since_ns }
+    }
+
+    pub(super) fn step(&self, step: &mut Step<'_>) -> Next {
+        let (sight, joint) = (step.sight, step.settings.joint);
+        let state = sight.state();
+        step.stand(match state {
+            DriveState::SwitchOnDisabled => SHUTDOWN,
+            DriveState::Ready => SWITCH_ON,
+            DriveState::SwitchedOn if !step.wish.are_all_ready => SWITCH_ON,
+            DriveState::SwitchedOn | DriveState::OperationEnabled => ENABLE_OPERATION,
+            _ => DISABLE_VOLTAGE,
+        });
+        if !step.wish.enable || !sight.is_present {
+            return Next::Stop(None);
+        }
+        let is_on = state == DriveState::OperationEnabled;
+        if is_on && sight.inputs.mode == CYCLIC_POSITION && sight.has(FOLLOWS) {
+            return Next::Follow;
+        }
+        if sight.now_ns.saturating_sub(self.since_ns) > PATIENCE_NS {
+            return Next::Stop(Some(if sight.has(REMOTE) {
+                Trouble::NotEnabled(joint, state)
+            } else {
+                Trouble::NotRemote(joint)
+            }));
+        }
+        Next::Stay
+    }
+}

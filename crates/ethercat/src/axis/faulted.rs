@@ -1,0 +1,30 @@
+//! The drive has a fault. It is reset once for each time that the operator asks for it, never in a
+//! loop.
+
+use super::step::{DISABLE_VOLTAGE, Next, RESET_FAULT, Step};
+use glidepath_link::DriveState;
+
+#[derive(Debug, Clone, Default)]
+pub(super) struct Faulted {
+    /// It is to be reset when its reaction is over.
+    is_asked: bool,
+}
+
+pub(super) const fn rest(step: &mut Step<'_>) {
+    step.stand(DISABLE_VOLTAGE);
+}
+
+impl Faulted {
+    pub(super) const fn step(&mut self, step: &mut Step<'_>) -> Next {
+        rest(step);
+        self.is_asked |= step.wish.reset;
+        if !step.sight.is_faulted() {
+            return Next::Off;
+        }
+        if self.is_asked && matches!(step.sight.state(), DriveState::Fault) {
+            self.is_asked = false;
+            step.outputs.control = RESET_FAULT;
+        }
+        Next::Stay
+    }
+}

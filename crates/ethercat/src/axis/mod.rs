@@ -1,0 +1,191 @@
+//! A joint with its drive: one file for each thing that it can be at.
+//!
+//! ```text
+//!        enable            has power            home
+//!  Off ─────────► Enabling ─────────► Following ◄────► Homing
+//!   ▲                │ refused            │ disable        │
+//!   └── Stopping ◄───┴────────────────────┴────────────────┘
+//!   └── Faulted ◄── from anywhere, when the drive says so; left by a reset
+//! ```
+
+mod enabling;
+mod faulted;
+mod following;
+mod homing;
+mod off;
+mod sight;
+mod step;
+mod stopping;
+
+pub(crate) use sight::{Sight, Wish};
+
+use crate::event::Event;
+use crate::image::{Inputs, Outputs};
+use crate::settings::DriveSettings;
+use crate::state;
+use crate::trouble::Trouble;
+use enabling::Enabling;
+use faulted::Faulted;
+use following::Following;
+use glidepath_link::DriveState;
+use homing::Homing;
+use step::{Next, Step};
+use stopping::Stopping;
+
+#[derive(Debug, Clone)]
+enum Phase {
+    Off,
+    Enabling(Enabling),
+    Following(Following),
+    Homing(Homing),
+    Stopping(Stopping),
+    Faulted(Faulted),
+}
+
+/// A joint and its drive.
+#[derive(Debug, Clone)]
+pub(crate) struct Axis {
+    pub(crate) settings: DriveSettings,
+    phase: Phase,
+    outputs: Outputs,
+    is_homed: bool,
+    /// It had trouble, and gets power again only when that was taken from it and asked for anew.
+    is_latched: bool,
+    /// Fault that was told.
+    told: u16,
+}
+
+impl Axis {
+    pub(crate) const fn new(settings: DriveSettings) -> Self {
+        Self {
+            phase: Phase::Off,
+            outputs: Outputs {
+                control: 0,
+                target: 0,
+                mode: crate::image::CYCLIC_POSITION,
+            },
+            is_homed: settings.homing.is_none(),
+            is_latched: false,
+            told: 0,
+            settings,
+        }
+    }
+
+    /// Whether it has power and follows, or looks for its home.
+    pub(crate) const fn is_enabled(&self) -> bool {
+        matches!(self.phase, Phase::Following(_) | Phase::Homing(_))
+    }
+
+    pub(crate) const fn is_homed(&self) -> bool {
+        self.is_homed
+    }
+
+    pub(crate) const fn is_homing(&self) -> bool {
+        matches!(&self.phase, Phase::Homing(homing) if homing.is_under_way())
+    }
+
+    pub(crate) const fn is_off(&self) -> bool {
+        matches!(self.phase, Phase::Off | Phase::Faulted(_))
+    }
+
+    /// Whether only the others keep it from power.
+    pub(crate) fn is_ready(&self, inputs: &Inputs) -> bool {
+        let state = state::of(inputs.status);
+        let has_come = matches!(state, DriveState::SwitchedOn | DriveState::OperationEnabled);
+        self.is_enabled() || (matches!(self.phase, Phase::Enabling(_)) && has_come)
+    }
+
+    /// Has no power until it is asked for anew.
+    pub(crate) const fn latch(&mut self) {
+        self.is_latched = true;
+    }
+
+    /// A cycle: what the drive is to be told, from what it told last and what is wanted.
+    pub(crate) fn step(
+        &mut self,
+        sight: &Sight,
+        wish: &Wish,
+        tell: &mut dyn FnMut(Event),
+    ) -> Outputs {
+        let joint = self.settings.joint;
+        self.is_latched &= wish.enable;
+        let wish = Wish {
+            enable: wish.enable && !self.is_latched,
+            ..*wish
+        };
+        let mut step = Step {
+            settings: &self.settings,
+            sight,
+            wish: &wish,
+            outputs: self.outputs,
+        };
+        let is_faulted = matches!(self.phase, Phase::Faulted(_));
+        let next = if sight.is_faulted() && !is_faulted {
+            faulted::rest(&mut step);
+            Next::Fault
+        } else {
+            match &mut self.phase {
+                Phase::Off => off::step(&mut step),
+                Phase::Enabling(enabling) => enabling.step(&mut step),
+                Phase::Following(following) => following.step(&mut step),
+                Phase::Homing(homing) => homing.step(&mut step),
+                Phase::Stopping(stopping) => stopping.step(&mut step),
+                Phase::Faulted(faulted) => faulted.step(&mut step),
+            }
+        };
+        self.outputs = step.outputs;
+        self.enter(next, sight, joint, tell);
+        if sight.fault != self.told {
+            self.told = sight.fault;
+            if sight.fault != 0 {
+                tell(Event::Fault(joint, sight.fault));
+            }
+        }
+        self.outputs
+    }
+
+    fn enter(&mut self, next: Next, sight: &Sight, joint: usize, tell: &mut dyn FnMut(Event)) {
+        let now_ns = sight.now_ns;
+        self.phase = match next {
+            Next::Stay => return,
+            Next::Off => {
+                if matches!(self.phase, Phase::Faulted(_)) {
+                    tell(Event::Reset(joint));
+                } else {
+                    tell(Event::Off(joint));
+                }
+                Phase::Off
+            }
+            Next::Enable => Phase::Enabling(Enabling::new(now_ns)),
+            Next::Follow => {
+                if !matches!(self.phase, Phase::Homing(_)) {
+                    tell(Event::Follows(joint));
+                }
+                Phase::Following(Following::new(self.outputs.target))
+            }
+            Next::Home => {
+                self.is_homed = false;
+                tell(Event::Homing(joint));
+                Phase::Homing(Homing::new(now_ns))
+            }
+            Next::Found => {
+                self.is_homed = true;
+                tell(Event::Home(joint));
+                return;
+            }
+            Next::Stop(trouble) => {
+                if let Some(trouble) = trouble {
+                    self.is_latched = true;
+                    tell(Event::Trouble(trouble));
+                }
+                Phase::Stopping(Stopping::new(now_ns))
+            }
+            Next::Fault => Phase::Faulted(Faulted::default()),
+        };
+    }
+}
+
+/// Whether a trouble takes the power from all.
+pub(crate) const fn is_common(event: &Event) -> bool {
+    matches!(event, Event::Trouble(trouble) if Trouble::is_common(*trouble))
+}

@@ -1,0 +1,12 @@
+//! Without power: the target goes with the joint.
+
+use super::step::{DISABLE_VOLTAGE, Next, Step};
+
+pub(super) const fn step(step: &mut Step<'_>) -> Next {
+    step.stand(DISABLE_VOLTAGE);
+    if step.wish.enable && step.sight.is_present {
+        Next::Enable
+    } else {
+        Next::Stay
+    }
+}

@@ -1,0 +1,51 @@
+//! One cycle of a drive, as each file of this folder sees it.
+
+use super::sight::{Sight, Wish};
+use crate::image::{CYCLIC_POSITION, Outputs};
+use crate::settings::DriveSettings;
+use crate::trouble::Trouble;
+
+/// What there is, and what the drive is to be told.
+#[derive(Debug)]
+pub(super) struct Step<'a> {
+    pub(super) settings: &'a DriveSettings,
+    pub(super) sight: &'a Sight,
+    pub(super) wish: &'a Wish,
+    /// As they were told last.
+    pub(super) outputs: Outputs,
+}
+
+impl Step<'_> {
+    /// A controlword, and the target where the joint is.
+    pub(super) const fn stand(&mut self, control: u16) {
+        self.outputs = Outputs {
+            control,
+            target: self.sight.inputs.actual,
+            mode: CYCLIC_POSITION,
+        };
+    }
+}
+
+/// What the drive is at next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Next {
+    Stay,
+    Off,
+    Enable,
+    Follow,
+    Home,
+    /// Home was found, and is stayed at.
+    Found,
+    /// To rest by its own ramp, then without power; with the trouble that is the reason.
+    Stop(Option<Trouble>),
+    Fault,
+}
+
+/// Controlwords.
+pub(super) const DISABLE_VOLTAGE: u16 = 0x00;
+pub(super) const QUICK_STOP: u16 = 0x02;
+pub(super) const SHUTDOWN: u16 = 0x06;
+pub(super) const SWITCH_ON: u16 = 0x07;
+pub(super) const ENABLE_OPERATION: u16 = 0x0f;
+pub(super) const START_HOMING: u16 = 0x1f;
+pub(super) const RESET_FAULT: u16 = 0x80;

@@ -1,0 +1,344 @@
+//! Between setpoints and drives: what each drive is to be told in a cycle, and what is said of it.
+
+use crate::axis::{self, Axis, Sight, Wish};
+use crate::bus::{DeviceState, StateCode};
+use crate::event::Event;
+use crate::image::{Inputs, Outputs};
+use crate::settings::Settings;
+use crate::state;
+use bytemuck::Zeroable as _;
+use glidepath_geometry::AXES;
+use glidepath_link::servo::{JointStates, OwnStop, Servo};
+use glidepath_link::{DriveState, Feedback, MachineState, Setpoint, Subscriber};
+
+/// Over how many cycles a velocity is taken: a count is not to look like a motion.
+const WINDOW: usize = 16;
+/// How long the motion may go on after a drive has failed, ns. Then the joints stop by themselves.
+const LED_NS: u64 = 1_000_000_000;
+/// Added to the code of a state, where that is told in the place of a drive's own fault.
+const AL_CODE: u32 = 0x1_0000;
+
+/// A drive and what is known of it.
+#[derive(Debug)]
+struct Drive {
+    axis: Axis,
+    inputs: Inputs,
+    device: DeviceState,
+    /// The last places, mm or degrees.
+    places: [f64; WINDOW],
+    told: DeviceState,
+}
+
+impl Drive {
+    const fn is_present(&self) -> bool {
+        self.device.state == StateCode::OP && !self.device.has_error
+    }
+
+    const fn has_failed(&self) -> bool {
+        !self.is_present()
+            || matches!(
+                state::of(self.inputs.status),
+                DriveState::Fault | DriveState::FaultReaction
+            )
+    }
+}
+
+/// The drives of a machine, led by setpoints.
+#[derive(Debug)]
+pub struct Bridge<S: Subscriber<Setpoint>> {
+    servo: Servo<S>,
+    joints: u32,
+    period_ns: u64,
+    drives: Vec<Drive>,
+    outputs: Vec<Outputs>,
+    boot_id: u64,
+    number: u64,
+    cycles: usize,
+    /// The state of the setpoint before.
+    state: Option<(u64, u32)>,
+    resets: bool,
+    /// No drive gets power before it was taken from all, and asked for anew.
+    is_latched: bool,
+    ends: bool,
+    failed_ns: Option<u64>,
+    stops_told: u64,
+    restarts_told: u64,
+}
+
+impl<S: Subscriber<Setpoint>> Bridge<S> {
+    /// A bridge whose drives have just been switched on. That somebody starts it counts as a reset
+    /// of what faults there are.
+    #[must_use]
+    pub fn new(settings: &Settings, source: S) -> Self {
+        let drive = |settings| Drive {
+            axis: Axis::new(settings),
+            inputs: Inputs::default(),
+            device: DeviceState::default(),
+            places: [0.0; WINDOW],
+            told: DeviceState::default(),
+        };
+        Self {
+            servo: Servo::new(source, settings.servo),
+            joints: settings.joints(),
+            period_ns: settings.bus.period_ns,
+            drives: settings.drives.iter().copied().map(drive).collect(),
+            outputs: vec![Outputs::default(); settings.drives.len()],
+            boot_id: 0,
+            number: 0,
+            cycles: 0,
+            state: None,
+            resets: true,
+            is_latched: true,
+            ends: false,
+            failed_ns: None,
+            stops_told: 0,
+            restarts_told: 0,
+        }
+    }
+
+    /// The bus was brought up, and says this: the drives count anew, maybe elsewhere. `boot_id` is a
+    /// number of this life of the bus.
+    pub fn begin(&mut self, boot_id: u64, inputs: &[Inputs]) {
+        let is_first = self.boot_id == 0;
+        self.boot_id = boot_id;
+        (self.number, self.cycles) = (0, 0);
+        // Nobody gets power by a setpoint of before.
+        self.is_latched = true;
+        let (mut actual, mut window) = ([0.0; AXES], [f64::INFINITY; AXES]);
+        for (drive, inputs) in self.drives.iter_mut().zip(inputs) {
+            let settings = drive.axis.settings;
+            drive.axis = Axis::new(settings);
+            drive.inputs = *inputs;
+            drive.device = DeviceState {
+                state: StateCode::OP,
+                ..DeviceState::default()
+            };
+            drive.told = drive.device;
+            let place = settings.place(inputs.actual);
+            drive.places = [place; WINDOW];
+            if let (Some(actual), Some(window)) = (
+                actual.get_mut(settings.joint),
+                window.get_mut(settings.joint),
+            ) {
+                (*actual, *window) = (place, settings.enable_window);
+            }
+        }
+        if is_first {
+            self.servo.rearm_at(&actual, &window);
+        }
+    }
+
+    /// The drives that answered, and in what states they are.
+    pub fn hear(&mut self, inputs: &[Inputs], states: &[DeviceState], tell: &mut dyn FnMut(Event)) {
+        for (drive, (inputs, device)) in self.drives.iter_mut().zip(inputs.iter().zip(states)) {
+            drive.device = *device;
+            if drive.is_present() {
+                drive.inputs = *inputs;
+            }
+            if drive.device != drive.told {
+                drive.told = drive.device;
+                let joint = drive.axis.settings.joint;
+                if drive.device.state == 0 {
+                    tell(Event::Gone(joint));
+                } else if !drive.is_present() {
+                    tell(Event::LeftOp(joint, drive.device.code));
+                }
+            }
+        }
+    }
+
+    /// Nothing is known of the drives: if they hear, they stop by their own ramp, and lose their power.
+    /// No setpoint is played until the position was taken over anew.
+    pub fn lose_bus(&mut self, now_ns: u64) {
+        self.servo.stop(now_ns);
+        self.is_latched = true;
+    }
+
+    /// From here on the joints come to rest, and lose their power then.
+    pub fn end(&mut self, now_ns: u64) {
+        if !self.ends {
+            self.ends = true;
+            self.servo.stop(now_ns);
+        }
+    }
+
+    /// Whether no drive has power.
+    #[must_use]
+    pub fn is_off(&self) -> bool {
+        self.drives.iter().all(|drive| drive.axis.is_off())
+    }
+
+    /// Whether a drive is not in OP.
+    #[must_use]
+    pub fn has_lost_drive(&self) -> bool {
+        !self.drives.iter().all(Drive::is_present)
+    }
+
+    /// A cycle: takes setpoints in, and says what each drive is to be told, by the SYNC0 at
+    /// `sync_ns`. `since_ns` is the time since targets reached the drives last. Times are of
+    /// `CLOCK_MONOTONIC`.
+    pub fn cycle(
+        &mut self,
+        now_ns: u64,
+        sync_ns: u64,
+        since_ns: u64,
+        tell: &mut dyn FnMut(Event),
+    ) -> &[Outputs] {
+        // A source that fails falls silent.
+        while let Ok(Some(_)) = self.servo.receive(now_ns) {
+            self.look_at_state();
+        }
+        let demand = self.servo.demand(sync_ns);
+        self.watch_motion(now_ns, demand.as_ref(), tell);
+        self.tell_stops(tell);
+        let (enable, home) = self.servo.last().map_or((0, 0), |s| (s.enable, s.home));
+        self.is_latched &= enable & self.joints != 0;
+        let rests = demand.is_none_or(|joints| joints.iter().all(|joint| joint.velocity == 0.0));
+        let may_power = !(self.is_latched || self.ends && rests);
+        let are_all_ready = self
+            .drives
+            .iter()
+            .all(|drive| drive.axis.is_ready(&drive.inputs));
+        let looks = self.next_to_home(home);
+        let resets = core::mem::take(&mut self.resets);
+        let mut latches = false;
+        for (drive, output) in self.drives.iter_mut().zip(&mut self.outputs) {
+            let bit = 1 << drive.axis.settings.joint;
+            let sight = Sight {
+                now_ns,
+                since_ns: since_ns.max(self.period_ns),
+                inputs: drive.inputs,
+                is_present: drive.is_present(),
+                fault: if drive.has_failed() {
+                    drive.inputs.fault
+                } else {
+                    0
+                },
+            };
+            let homing = drive.axis.settings.homing;
+            let wish = Wish {
+                enable: may_power && enable & bit != 0,
+                home: home & bit != 0,
+                may_home: homing.is_none_or(|homing| Some(homing.sequence) <= looks),
+                are_all_ready,
+                demand: demand
+                    .map(|joints| joints[drive.axis.settings.joint.min(AXES - 1)].position),
+                reset: resets,
+            };
+            *output = drive.axis.step(&sight, &wish, &mut |event| {
+                latches |= axis::is_common(&event);
+                tell(event);
+            });
+        }
+        if latches {
+            self.is_latched = true;
+            self.drives.iter_mut().for_each(|drive| drive.axis.latch());
+        }
+        &self.outputs
+    }
+
+    /// A fault was taken note of: the drives' own are to be reset.
+    fn look_at_state(&mut self) {
+        let Some(setpoint) = self.servo.last() else {
+            return;
+        };
+        let (before, state) = (self.state, (setpoint.boot_id, setpoint.state));
+        let was_faulted = before == Some((state.0, MachineState::Faulted.code()));
+        self.resets |= was_faulted && state.1 != MachineState::Faulted.code();
+        self.state = Some(state);
+    }
+
+    /// A drive has failed, and nobody brings the others to rest.
+    fn watch_motion(
+        &mut self,
+        now_ns: u64,
+        demand: Option<&JointStates>,
+        tell: &mut dyn FnMut(Event),
+    ) {
+        let moves = demand.is_some_and(|joints| joints.iter().any(|joint| joint.velocity != 0.0));
+        let has_failed = self.drives.iter().any(Drive::has_failed);
+        if !(has_failed && moves && self.servo.is_armed()) {
+            self.failed_ns = None;
+            return;
+        }
+        let since_ns = *self.failed_ns.get_or_insert(now_ns);
+        if now_ns.saturating_sub(since_ns) > LED_NS {
+            self.servo.stop(now_ns);
+            tell(Event::NobodyStops);
+        }
+    }
+
+    fn tell_stops(&mut self, tell: &mut dyn FnMut(Event)) {
+        let counts = *self.servo.counts();
+        if counts.stops > self.stops_told {
+            self.stops_told = counts.stops;
+            match self.servo.stopped() {
+                Some(OwnStop::Silence) => tell(Event::Silence),
+                Some(OwnStop::Jump(jump)) => tell(Event::Jump(jump.joint)),
+                Some(OwnStop::Asked) | None => {}
+            }
+        }
+        if counts.restarts > self.restarts_told {
+            self.restarts_told = counts.restarts;
+            tell(Event::Restart);
+        }
+    }
+
+    /// The sequence number up to which joints may look for their home: the lowest of those that are
+    /// to, and have not found it.
+    fn next_to_home(&self, home: u32) -> Option<u32> {
+        let asked = self.drives.iter().filter(|drive| {
+            home & 1 << drive.axis.settings.joint != 0
+                && (!drive.axis.is_homed() || drive.axis.is_homing())
+        });
+        asked
+            .filter_map(|drive| Some(drive.axis.settings.homing?.sequence))
+            .min()
+    }
+
+    /// What is known of the joints, measured at a time of `CLOCK_MONOTONIC`. `is_new` if the drives
+    /// have answered since the last one.
+    #[allow(clippy::cast_precision_loss, reason = "a few periods")]
+    pub fn feedback(&mut self, sample_ns: u64) -> Feedback {
+        let mut feedback = Feedback {
+            boot_id: self.boot_id,
+            number: self.number,
+            sample_ns,
+            joints: self.joints,
+            ..Feedback::zeroed()
+        };
+        if let Some(setpoint) = self.servo.last() {
+            (feedback.reference, feedback.setpoint_number) = (setpoint.reference, setpoint.number);
+        }
+        let slot = self.cycles % WINDOW;
+        let window_t = (WINDOW as u64 * self.period_ns) as f64 * 1e-9;
+        for drive in &mut self.drives {
+            let joint = drive.axis.settings.joint.min(AXES - 1);
+            let place = drive.axis.settings.place(drive.inputs.actual);
+            let before = core::mem::replace(&mut drive.places[slot], place);
+            feedback.position[joint] = place;
+            feedback.velocity[joint] = (place - before) / window_t;
+            let bit = |is: bool| u32::from(is) << joint;
+            let is_present = drive.is_present();
+            feedback.enabled |= bit(is_present && drive.axis.is_enabled());
+            feedback.homed |= bit(is_present && drive.axis.is_homed());
+            feedback.homing |= bit(is_present && drive.axis.is_homing());
+            feedback.fault |= bit(drive.has_failed());
+            feedback.drive_state[joint] = if is_present {
+                state::of(drive.inputs.status).code()
+            } else {
+                DriveState::Unknown.code()
+            };
+            feedback.fault_code[joint] = if !is_present {
+                AL_CODE | u32::from(drive.device.code)
+            } else if drive.has_failed() {
+                drive.inputs.fault.into()
+            } else {
+                0
+            };
+        }
+        self.number += 1;
+        self.cycles = self.cycles.wrapping_add(1);
+        feedback
+    }
+}

@@ -1,0 +1,135 @@
+//! Distributed clocks: one time for all devices, and SYNC0 at the same moments.
+//!
+//! The first device with a clock is the reference. A broadcast write has every device note when it
+//! came by, on the way out and on the way back. From that follow what each clock is off, and how much
+//! later than the reference a device sees a frame:
+//!
+//! ```text
+//! master ──► reference ──────► device ────────►          delay = (reference's way there and back
+//!        ◄── t₁ − t₀ ◄──────── t₁ − t₀ ◄──────                   − the device's) / 2
+//! ```
+//!
+//! The time of all is that of the host when the broadcast was under way: CLOCK_MONOTONIC, from which
+//! the reference then drifts away. Devices have to hang in a line: a branch is refused.
+
+use crate::device::Device;
+use crate::error::BusError;
+use crate::exchange::{Exchange, station};
+use crate::frame::{Address, Command};
+use crate::registers::{
+    LATCHED_TIME, PORT_TIMES, SYNC_ACTIVATION, SYNC_START, SYNC0_CYCLE, SYSTEM_TIME, TIME_DELAY,
+    TIME_DIFFERENCE, TIME_OFFSET,
+};
+use crate::wire::Wire;
+
+const ACTION: &str = "about its clock";
+/// Differences that count as none, ns.
+const NEAR_NS: u32 = 1_000;
+/// How long the clocks may take, s.
+const PATIENCE_S: u64 = 10;
+/// Between two distributions of the time.
+const POLL_NS: u64 = 1_000_000;
+/// Distributions between two looks at the differences.
+const ROUND: u32 = 50;
+/// From the activation of SYNC0 to the first one, ns.
+const START_NS: u64 = 100_000_000;
+
+/// Writes offsets and delays of all clocks.
+pub(super) fn set<W: Wire>(bus: &mut Exchange<'_, W>, devices: &[Device]) -> Result<(), BusError> {
+    if let Some(branch) = devices.iter().find(|device| device.links > 2) {
+        return Err(BusError::Unfit {
+            device: branch.position,
+            name: branch.name.clone(),
+            what: "it has cables at more than two ports; devices have to hang in a line".to_owned(),
+        });
+    }
+    if !devices.iter().any(|device| device.has_clock) {
+        return Ok(());
+    }
+    // A lost frame would have some clocks latch and others not: the last one counts for all.
+    let mut zero = [0; 4];
+    let asked = bus.ask(Command::Bwr, Address::all(PORT_TIMES), &mut zero, 5)?;
+    let (_, at_ns) = asked.ok_or(BusError::Nobody)?;
+    let mut reference_way = None;
+    for device in devices.iter().filter(|device| device.has_clock) {
+        let nth = device.position;
+        let times: [u8; 8] = bus.read(nth, PORT_TIMES, ACTION)?;
+        let [a, b, c, d, e, f, g, h] = times;
+        let out = u32::from_le_bytes([a, b, c, d]);
+        let back = u32::from_le_bytes([e, f, g, h]);
+        // The last device turns the frame round by itself.
+        let way = if device.links > 1 {
+            back.wrapping_sub(out)
+        } else {
+            0
+        };
+        let reference_way = *reference_way.get_or_insert(way);
+        let delay = reference_way.saturating_sub(way) / 2;
+        let latched = u64::from_le_bytes(bus.read(nth, LATCHED_TIME, ACTION)?);
+        let offset = (at_ns + u64::from(delay)).wrapping_sub(latched);
+        bus.write(nth, TIME_OFFSET, &offset.to_le_bytes(), ACTION)?;
+        bus.write(nth, TIME_DELAY, &delay.to_le_bytes(), ACTION)?;
+    }
+    Ok(())
+}
+
+/// The device whose clock is everybody's.
+pub(super) fn reference(devices: &[Device]) -> Option<usize> {
+    devices.iter().position(|device| device.has_clock)
+}
+
+/// Distributes the time of the reference until all clocks agree. Returns that time.
+pub(super) fn settle<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    devices: &[Device],
+    reference: usize,
+) -> Result<u64, BusError> {
+    let until_ns = bus.wire.now_ns() + PATIENCE_S * 1_000_000_000;
+    loop {
+        let mut time = 0;
+        for _ in 0..ROUND {
+            let mut bytes = [0; 8];
+            let address = Address::station(station(reference), SYSTEM_TIME);
+            bus.one(Command::Frmw, address, &mut bytes, reference, ACTION)?;
+            time = u64::from_le_bytes(bytes);
+            let next_ns = bus.wire.now_ns() + POLL_NS;
+            bus.wire.sleep_until(next_ns);
+        }
+        let mut worst_ns = 0;
+        let followers = devices.iter().filter(|device| device.has_clock);
+        for device in followers.filter(|device| device.position != reference) {
+            let bytes = bus.read(device.position, TIME_DIFFERENCE, ACTION)?;
+            // Sign and magnitude.
+            worst_ns = worst_ns.max(u32::from_le_bytes(bytes) & 0x7fff_ffff);
+        }
+        if worst_ns < NEAR_NS {
+            return Ok(time);
+        }
+        if bus.wire.now_ns() > until_ns {
+            return Err(BusError::Clocks {
+                worst_ns,
+                waited_s: PATIENCE_S,
+            });
+        }
+    }
+}
+
+/// Starts SYNC0 of every drive; returns when the first one is, by the time of the bus.
+pub(super) fn start_sync<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    drives: &[usize],
+    bus_time_ns: u64,
+    period_ns: u64,
+) -> Result<u64, BusError> {
+    // Activating takes a few frames for each drive.
+    let ahead_ns = START_NS + 20_000_000 * drives.len() as u64;
+    let start_ns = (bus_time_ns + ahead_ns).next_multiple_of(period_ns.max(1));
+    let cycle = u32::try_from(period_ns).unwrap_or(u32::MAX);
+    for nth in drives {
+        bus.write(*nth, SYNC_ACTIVATION, &[0], ACTION)?;
+        bus.write(*nth, SYNC_START, &start_ns.to_le_bytes(), ACTION)?;
+        bus.write(*nth, SYNC0_CYCLE, &cycle.to_le_bytes(), ACTION)?;
+        bus.write(*nth, SYNC_ACTIVATION, &[3], ACTION)?;
+    }
+    Ok(start_ns)
+}

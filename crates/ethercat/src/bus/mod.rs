@@ -1,0 +1,21 @@
+//! A bus on its way into operation: one file for each state, each made of the one before.
+//!
+//! ```text
+//! Init ──into_pre_op──► PreOp ──into_safe_op──► SafeOp ──into_op──► Op
+//!  who is there          parameters, mapping     inputs, clocks     cycles
+//! ```
+
+mod clocks;
+mod init;
+mod op;
+mod parameters;
+mod pre_op;
+mod safe_op;
+mod state;
+
+pub use init::Init;
+pub use op::{DeviceState, Op, Reception};
+pub use pre_op::PreOp;
+pub use safe_op::SafeOp;
+
+pub(crate) use op::StateCode;

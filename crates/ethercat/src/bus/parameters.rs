@@ -1,0 +1,134 @@
+//! What a drive is told before the cycles begin, object by object.
+
+use crate::coe::{Object, object, read, write};
+use crate::device::Device;
+use crate::error::BusError;
+use crate::exchange::Exchange;
+use crate::settings::{BusSettings, DriveSettings};
+use crate::wire::Wire;
+
+/// What is mapped: index, subindex and bits of each object.
+const OUTPUTS: [u32; 3] = [0x6040_0010, 0x607a_0020, 0x6060_0008];
+const INPUTS: [u32; 4] = [0x6041_0010, 0x6064_0020, 0x6061_0008, 0x603f_0010];
+/// Bytes of all that.
+pub(super) const OUTPUT_BYTES: usize = 7;
+pub(super) const INPUT_BYTES: usize = 9;
+
+const OUTPUT_MAP: u16 = 0x1600;
+const INPUT_MAP: u16 = 0x1a00;
+
+/// By ramp, then without power.
+const BY_RAMP: u32 = 2;
+
+/// The codes of refusals to write an object that a drive does not have, or has fixed.
+const NOT_THERE: [u32; 4] = [0x0602_0000, 0x0609_0011, 0x0601_0002, 0x0601_0000];
+
+/// Writes all parameters of a drive.
+pub(super) fn write_all<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    settings: &BusSettings,
+    drive: &DriveSettings,
+) -> Result<(), BusError> {
+    map(bus, device, 0x1c12, OUTPUT_MAP, &OUTPUTS)?;
+    map(bus, device, 0x1c13, INPUT_MAP, &INPUTS)?;
+    let mut set = |object, value| write(bus, device, object, value);
+    // SYNC0, for outputs and inputs.
+    set(object(0x1c32, 1, 2), 2)?;
+    set(object(0x1c33, 1, 2), 2)?;
+    // Interpolation between targets: the period of the bus, as a number of milliseconds, or else of
+    // tens of microseconds.
+    let (count, exponent) = interpolation_time(settings.period_ns);
+    set(object(0x60c2, 1, 1), count)?;
+    set(object(0x60c2, 2, 1), exponent)?;
+    set(object(0x6065, 0, 4), drive.unsigned(drive.following_error))?;
+    set(object(0x6066, 0, 2), drive.following_ms.into())?;
+    set(object(0x6085, 0, 4), drive.unsigned(drive.quick_stop_a))?;
+    if let Some(homing) = drive.homing {
+        #[allow(clippy::cast_sign_loss, reason = "the object is a signed byte")]
+        set(object(0x6098, 0, 1), u32::from(homing.method as u8))?;
+        set(object(0x6099, 1, 4), drive.unsigned(homing.fast_v))?;
+        set(object(0x6099, 2, 4), drive.unsigned(homing.slow_v))?;
+        set(object(0x609a, 0, 4), drive.unsigned(homing.acceleration_a))?;
+        set(object(0x607c, 0, 4), 0)?;
+    }
+    // What to do at a quick stop and at a fault. Not all drives let themselves be told.
+    for option in [object(0x605a, 0, 2), object(0x605e, 0, 2)] {
+        where_possible(write(bus, device, option, BY_RAMP))?;
+    }
+    Ok(())
+}
+
+/// The bus period as 0x60C2 has it: a number and a power of ten of a second.
+#[allow(clippy::cast_possible_truncation, reason = "a period of milliseconds")]
+const fn interpolation_time(period_ns: u64) -> (u32, u32) {
+    if period_ns.is_multiple_of(1_000_000) {
+        ((period_ns / 1_000_000) as u32, 0xfd)
+    } else {
+        ((period_ns / 10_000) as u32, 0xfb)
+    }
+}
+
+fn where_possible(written: Result<(), BusError>) -> Result<(), BusError> {
+    match written {
+        Err(BusError::Object { code, .. }) if NOT_THERE.contains(&code) => Ok(()),
+        written => written,
+    }
+}
+
+/// Maps objects into the process data. The count is 0 while the rest changes, and is written back to
+/// what it was if the drive refuses.
+fn map<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    assignment: u16,
+    map: u16,
+    entries: &[u32],
+) -> Result<(), BusError> {
+    let (assigned, mapped) = (object(assignment, 0, 1), object(map, 0, 1));
+    let before = (read(bus, device, assigned)?, read(bus, device, mapped)?);
+    let written = write_map(bus, device, (assignment, map), entries);
+    if written.is_err() {
+        // The drive may refuse that, too; the first refusal is the one to know.
+        let _ = write(bus, device, mapped, before.1);
+        let _ = write(bus, device, assigned, before.0);
+    }
+    written
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "a handful of objects")]
+fn write_map<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    (assignment, map): (u16, u16),
+    entries: &[u32],
+) -> Result<(), BusError> {
+    let mut set = |object: Object, value: u32| write(bus, device, object, value);
+    set(object(assignment, 0, 1), 0)?;
+    set(object(map, 0, 1), 0)?;
+    for (sub, entry) in (1..).zip(entries) {
+        set(object(map, sub, 4), *entry)?;
+    }
+    set(object(map, 0, 1), entries.len() as u32)?;
+    set(object(assignment, 1, 2), map.into())?;
+    set(object(assignment, 0, 1), 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bytes_are_those_of_what_is_mapped() {
+        let bytes =
+            |entries: &[u32]| entries.iter().map(|e| (e & 0xff) as usize).sum::<usize>() / 8;
+        assert_eq!(bytes(&OUTPUTS), OUTPUT_BYTES);
+        assert_eq!(bytes(&INPUTS), INPUT_BYTES);
+    }
+
+    #[test]
+    fn a_period_is_told_in_the_form_that_drives_know() {
+        assert_eq!(interpolation_time(2_000_000), (2, 0xfd));
+        assert_eq!(interpolation_time(500_000), (50, 0xfb));
+    }
+}

@@ -1,0 +1,137 @@
+//! PRE-OP: parameters, and where process data goes.
+
+use super::clocks;
+use super::init::manager;
+use super::parameters::{self, INPUT_BYTES, OUTPUT_BYTES};
+use super::safe_op::SafeOp;
+use super::state::{self, SAFE_OP};
+use crate::coe::{self, Object};
+use crate::device::{Device, SyncManager};
+use crate::error::BusError;
+use crate::exchange::Exchange;
+use crate::registers::{FMMU, OUTPUT_WATCHDOG, SYNC_MANAGER};
+use crate::settings::{DriveSettings, Settings};
+use crate::wire::Wire;
+
+/// A bus whose devices can be asked for parameters.
+#[derive(Debug)]
+pub struct PreOp<'w, W> {
+    bus: Exchange<'w, W>,
+    devices: Vec<Device>,
+}
+
+impl<'w, W: Wire> PreOp<'w, W> {
+    pub(super) const fn new(bus: Exchange<'w, W>, devices: Vec<Device>) -> Self {
+        Self { bus, devices }
+    }
+
+    /// The devices, in the order of the cable.
+    #[must_use]
+    pub fn devices(&self) -> &[Device] {
+        &self.devices
+    }
+
+    /// Reads a parameter of a device.
+    ///
+    /// # Errors
+    ///
+    /// There is no such device, or it refuses or does not answer.
+    pub fn read(&mut self, position: usize, object: Object) -> Result<u32, BusError> {
+        let device = self.devices.get(position).ok_or(BusError::Missing {
+            position,
+            found: self.devices.len(),
+        })?;
+        coe::read(&mut self.bus, device, object)
+    }
+
+    /// The device that is to be a drive, if it is the one that is expected there.
+    fn drive(&self, wanted: &DriveSettings) -> Result<Device, BusError> {
+        let position = wanted.position;
+        let found = self.devices.len();
+        let device = self.devices.get(position);
+        let device = device.ok_or(BusError::Missing { position, found })?;
+        for (what, wanted, found) in [
+            ("vendor", wanted.vendor, device.identity.vendor),
+            ("product", wanted.product, device.identity.product),
+            ("alias", wanted.alias.into(), device.alias.into()),
+        ] {
+            if wanted != 0 && wanted != found {
+                return Err(BusError::Other {
+                    position,
+                    what,
+                    wanted,
+                    found,
+                });
+            }
+        }
+        let lacks = if !device.may_be_drive() {
+            "it has no mailbox with CoE or no process data: it is no drive that this master knows"
+        } else if !device.has_clock {
+            "it has no distributed clock of 64 bits, and setpoints could not be given it in time"
+        } else {
+            return Ok(device.clone());
+        };
+        Err(BusError::Unfit {
+            device: position,
+            name: device.name.clone(),
+            what: lacks.to_owned(),
+        })
+    }
+
+    /// Writes parameters, maps process data, starts SYNC0, and brings the drives to SAFE-OP.
+    ///
+    /// # Errors
+    ///
+    /// A device is not the expected one, refuses something, or the clocks do not agree.
+    pub fn into_safe_op(mut self, settings: &Settings) -> Result<SafeOp<'w, W>, BusError> {
+        let mut drives = Vec::new();
+        for drive in &settings.drives {
+            let device = self.drive(drive)?;
+            parameters::write_all(&mut self.bus, &device, &settings.bus, drive)?;
+            drives.push(device);
+        }
+        let watchdog = u16::try_from(settings.bus.watchdog_ns / 100_000).unwrap_or(u16::MAX);
+        for (nth, device) in drives.iter().enumerate() {
+            let action = "to the place of its process data";
+            let at = device.position;
+            self.bus
+                .write(at, OUTPUT_WATCHDOG, &watchdog.to_le_bytes(), action)?;
+            let (managers, windows) = process(device, nth, drives.len());
+            self.bus.write(at, SYNC_MANAGER + 16, &managers, action)?;
+            self.bus.write(at, FMMU, &windows, action)?;
+        }
+        let reference = clocks::reference(&self.devices).unwrap_or(0);
+        let time_ns = clocks::settle(&mut self.bus, &self.devices, reference)?;
+        let places: Vec<usize> = drives.iter().map(|device| device.position).collect();
+        let period_ns = settings.bus.period_ns;
+        let start_ns = clocks::start_sync(&mut self.bus, &places, time_ns, period_ns)?;
+        for device in &drives {
+            state::request(&mut self.bus, device, SAFE_OP)?;
+        }
+        Ok(SafeOp::new(self.bus, drives, reference, start_ns))
+    }
+}
+
+/// The sync managers of a drive's process data, and the windows onto them in the logical image: the
+/// outputs of all drives, then their inputs.
+#[allow(clippy::cast_possible_truncation, reason = "nine drives")]
+fn process(device: &Device, nth: usize, drives: usize) -> (Vec<u8>, Vec<u8>) {
+    let (out, back) = device.process.unwrap_or_default();
+    let sized = |from: SyncManager, length: usize| SyncManager {
+        length: length as u16,
+        ..from
+    };
+    let (out, back) = (sized(out, OUTPUT_BYTES), sized(back, INPUT_BYTES));
+    let at_out = (nth * OUTPUT_BYTES) as u32;
+    let at_back = (drives * OUTPUT_BYTES + nth * INPUT_BYTES) as u32;
+    let managers = [manager(out), manager(back)].concat();
+    let windows = [window(at_out, out, 2), window(at_back, back, 1)].concat();
+    (managers, windows)
+}
+
+/// An FMMU as it is written; `kind` 1 for reading, 2 for writing.
+fn window(at: u32, manager: SyncManager, kind: u8) -> [u8; 16] {
+    let [a, b, c, d] = at.to_le_bytes();
+    let ([l0, l1], [p0, p1]) = (manager.length.to_le_bytes(), manager.start.to_le_bytes());
+    [a, b, c, d, l0, l1, 0, 7, p0, p1, 0, kind, 1, 0, 0, 0]
+}

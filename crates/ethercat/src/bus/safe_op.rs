@@ -1,0 +1,129 @@
+//! SAFE-OP: inputs come, outputs do not yet count.
+
+use super::op::{DeviceState, Op, Reception};
+use super::state::{self, OP};
+use crate::bus_clock::BusClock;
+use crate::device::Device;
+use crate::error::BusError;
+use crate::exchange::Exchange;
+use crate::image::{Inputs, Outputs};
+use crate::registers::AL_CONTROL;
+use crate::settings::BusSettings;
+use crate::wire::Wire;
+
+/// How long the drives may take to OP.
+const PATIENCE_NS: u64 = 10_000_000_000;
+
+/// A bus that gives inputs.
+#[derive(Debug)]
+pub struct SafeOp<'w, W> {
+    bus: Exchange<'w, W>,
+    drives: Vec<Device>,
+    reference: usize,
+    start_ns: u64,
+}
+
+impl<'w, W: Wire> SafeOp<'w, W> {
+    pub(super) const fn new(
+        bus: Exchange<'w, W>,
+        drives: Vec<Device>,
+        reference: usize,
+        start_ns: u64,
+    ) -> Self {
+        Self {
+            bus,
+            drives,
+            reference,
+            start_ns,
+        }
+    }
+
+    /// Brings the drives to OP while cycles are exchanged whose targets are where the drives stand.
+    ///
+    /// # Errors
+    ///
+    /// A drive does not go there.
+    pub fn into_op(self, settings: &BusSettings) -> Result<Op<'w, W>, BusError> {
+        let now_ns = self.bus.wire.now_ns();
+        let clock = BusClock::new(settings, self.start_ns, now_ns);
+        let op = Op::new(self.bus.wire, &self.drives, self.reference);
+        let mut start = Start {
+            inputs: vec![Inputs::default(); self.drives.len()],
+            outputs: vec![Outputs::default(); self.drives.len()],
+            op,
+            clock,
+        };
+        // The clock is known before a drive counts on being served in time.
+        let until_ns = self.start_ns.max(now_ns) + PATIENCE_NS;
+        while !start.clock.is_settled() {
+            start.cycle()?;
+            if start.op.wire().now_ns() > until_ns {
+                return Err(self.drives.first().map_or(BusError::Nobody, |device| {
+                    refusal(device, start.op.states().first())
+                }));
+            }
+        }
+        start.request(&self.drives)?;
+        let until_ns = start.op.wire().now_ns() + PATIENCE_NS;
+        loop {
+            start.cycle()?;
+            let states = start.op.states();
+            if states
+                .iter()
+                .all(|state| state.state == OP && !state.has_error)
+            {
+                start.op.take_over(start.clock);
+                return Ok(start.op);
+            }
+            let failed = states.iter().position(|state| state.has_error);
+            let late = states.iter().position(|state| state.state != OP);
+            let is_late = start.op.wire().now_ns() > until_ns;
+            if let Some(nth) = failed.or(late.filter(|_| is_late)) {
+                return Err(refusal(&self.drives[nth], start.op.states().get(nth)));
+            }
+        }
+    }
+}
+
+fn refusal(device: &Device, state: Option<&DeviceState>) -> BusError {
+    BusError::State {
+        device: device.position,
+        name: device.name.clone(),
+        wanted: state::name(OP),
+        code: state.map_or(0, |state| state.code),
+    }
+}
+
+/// Cycles that lead nowhere: targets are where the drives stand.
+struct Start<'w, W> {
+    op: Op<'w, W>,
+    clock: BusClock,
+    inputs: Vec<Inputs>,
+    outputs: Vec<Outputs>,
+}
+
+impl<W: Wire> Start<'_, W> {
+    fn cycle(&mut self) -> Result<(), BusError> {
+        let failed = |action| move |source| BusError::Wire { action, source };
+        let beat = self.clock.next(self.op.wire().now_ns());
+        self.op.wire().sleep_until(beat.send_ns);
+        self.op.send(&self.outputs).map_err(failed("sending"))?;
+        let reception = self.op.receive(beat.give_up_ns, &mut self.inputs);
+        if let Reception::Good(times) = reception.map_err(failed("receiving"))? {
+            self.clock.hear(times);
+            for (output, input) in self.outputs.iter_mut().zip(&self.inputs) {
+                *output = Outputs::standing(input);
+            }
+        }
+        Ok(())
+    }
+
+    fn request(&mut self, drives: &[Device]) -> Result<(), BusError> {
+        let mut bus = Exchange::new(self.op.wire());
+        for device in drives {
+            let action = "to a change of its state";
+            bus.write(device.position, AL_CONTROL, &[OP, 0], action)?;
+        }
+        Ok(())
+    }
+}

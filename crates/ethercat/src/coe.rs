@@ -1,0 +1,240 @@
+//! Parameters of a device by its mailbox: SDO of up to four bytes (ETG.1000.6, CoE).
+
+use crate::device::Device;
+use crate::error::BusError;
+use crate::exchange::{Exchange, station};
+use crate::frame::{Address, Command};
+use crate::registers::{MAILBOX_IN_STATUS, MAILBOX_OUT_STATUS};
+use crate::wire::Wire;
+
+/// How long a device may take to answer.
+const PATIENCE_NS: u64 = 1_000_000_000;
+/// Between two looks for the answer.
+const POLL_NS: u64 = 500_000;
+/// How often a parameter is asked for, because a message can be lost on its way back.
+const TRIES: u32 = 3;
+/// Messages of other kinds that are passed over in waiting for an answer.
+const MOST_OTHERS: usize = 16;
+/// Bit of a mailbox' status.
+const FULL: u8 = 8;
+
+/// What an abort code means (ETG.1000.6, table of SDO abort codes).
+#[must_use]
+pub fn abort_text(code: u32) -> String {
+    let words = match code {
+        0x0503_0000 => "toggle bit not changed",
+        0x0504_0000 => "time is out",
+        0x0504_0001 => "unknown command",
+        0x0601_0000 => "it cannot be accessed like that now",
+        0x0601_0001 => "it cannot be read",
+        0x0601_0002 => "it cannot be written",
+        0x0602_0000 => "there is no such object",
+        0x0604_0041 => "it cannot be mapped",
+        0x0604_0042 => "more is mapped than fits",
+        0x0607_0010 | 0x0607_0012 | 0x0607_0013 => "it has another length",
+        0x0609_0011 => "there is no such subindex",
+        0x0609_0030..=0x0609_0032 => "the value is out of range",
+        0x0800_0020..=0x0800_0022 => "not in the present state",
+        _ => "see the drive's manual",
+    };
+    format!("abort code {code:#010x}, {words}")
+}
+
+/// An object, and how many bytes it has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Object {
+    /// Index.
+    pub index: u16,
+    /// Subindex.
+    pub sub: u8,
+    /// 1, 2 or 4.
+    pub size: u8,
+}
+
+/// An object of the dictionary.
+#[must_use]
+pub const fn object(index: u16, sub: u8, size: u8) -> Object {
+    Object { index, sub, size }
+}
+
+enum Reply {
+    Value(u32),
+    Abort(u32),
+    Other,
+}
+
+fn head(object: Object, command: u8, counter: u8) -> [u8; 12] {
+    let [low, high] = object.index.to_le_bytes();
+    let kind = 3 | (counter & 7) << 4;
+    [
+        10, 0, 0, 0, 0, kind, 0, 0x20, command, low, high, object.sub,
+    ]
+}
+
+fn reply(message: &[u8], object: Object) -> Reply {
+    let Some(
+        &[
+            _,
+            _,
+            _,
+            _,
+            _,
+            kind,
+            _,
+            service,
+            command,
+            low,
+            high,
+            sub,
+            a,
+            b,
+            c,
+            d,
+        ],
+    ) = message.first_chunk::<16>()
+    else {
+        return Reply::Other;
+    };
+    let is_asked = u16::from_le_bytes([low, high]) == object.index && sub == object.sub;
+    let value = u32::from_le_bytes([a, b, c, d]);
+    match (kind & 15, service >> 4, command >> 5) {
+        (3, 2 | 3, 4) if is_asked => Reply::Abort(value),
+        // Expedited, with the size in the command; or longer, and then its first bytes are its length.
+        (3, 3, 2) if is_asked && command & 2 != 0 => {
+            let unused = if command & 1 != 0 {
+                command >> 2 & 3
+            } else {
+                4 - object.size.min(4)
+            };
+            Reply::Value(value & (u32::MAX >> (8 * u32::from(unused))))
+        }
+        (3, 3, 3) if is_asked => Reply::Value(0),
+        _ => Reply::Other,
+    }
+}
+
+/// Reads a parameter.
+pub(crate) fn read<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    object: Object,
+) -> Result<u32, BusError> {
+    transfer(bus, device, object, None)
+}
+
+/// Writes a parameter.
+pub(crate) fn write<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    object: Object,
+    value: u32,
+) -> Result<(), BusError> {
+    transfer(bus, device, object, Some(value)).map(|_| ())
+}
+
+fn transfer<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    device: &Device,
+    object: Object,
+    value: Option<u32>,
+) -> Result<u32, BusError> {
+    let nth = device.position;
+    let silent = || BusError::NoAnswer {
+        device: nth,
+        action: "to a parameter",
+        tries: TRIES,
+    };
+    let (out, back) = device.mailbox.ok_or_else(silent)?;
+    for counter in 1..=TRIES {
+        // What is left of a question before.
+        while take(bus, nth, back.start, back.length)?.is_some() {}
+        let command = value.map_or(0x40, |_| 0x23 | (4 - object.size.clamp(1, 4)) << 2);
+        let mut message = vec![0; out.length.into()];
+        message[..12].copy_from_slice(&head(object, command, counter.try_into().unwrap_or(1)));
+        message[12..16].copy_from_slice(&value.unwrap_or(0).to_le_bytes());
+        wait_until_free(bus, nth)?;
+        bus.write(nth, out.start, &message, "to a message")?;
+        let until_ns = bus.wire.now_ns() + PATIENCE_NS;
+        let mut others = 0;
+        while bus.wire.now_ns() < until_ns && others < MOST_OTHERS {
+            let Some(message) = take(bus, nth, back.start, back.length)? else {
+                let next_ns = bus.wire.now_ns() + POLL_NS;
+                bus.wire.sleep_until(next_ns);
+                continue;
+            };
+            match reply(&message, object) {
+                Reply::Value(value) => return Ok(value),
+                Reply::Abort(code) => {
+                    return Err(BusError::Object {
+                        device: nth,
+                        name: device.name.clone(),
+                        index: object.index,
+                        sub: object.sub,
+                        code,
+                    });
+                }
+                // An emergency, or the answer to a question that was given up.
+                Reply::Other => others += 1,
+            }
+        }
+    }
+    Err(silent())
+}
+
+/// Waits until the device has taken the message before.
+fn wait_until_free<W: Wire>(bus: &mut Exchange<'_, W>, nth: usize) -> Result<(), BusError> {
+    let until_ns = bus.wire.now_ns() + PATIENCE_NS;
+    loop {
+        let [status] = bus.read(nth, MAILBOX_OUT_STATUS, "about its mailbox")?;
+        if status & FULL == 0 || bus.wire.now_ns() > until_ns {
+            return Ok(());
+        }
+        let next_ns = bus.wire.now_ns() + POLL_NS;
+        bus.wire.sleep_until(next_ns);
+    }
+}
+
+/// Takes the message that waits, if one does.
+fn take<W: Wire>(
+    bus: &mut Exchange<'_, W>,
+    nth: usize,
+    start: u16,
+    length: u16,
+) -> Result<Option<Vec<u8>>, BusError> {
+    let [status] = bus.read(nth, MAILBOX_IN_STATUS, "about its mailbox")?;
+    if status & FULL == 0 {
+        return Ok(None);
+    }
+    let mut message = vec![0; length.into()];
+    let address = Address::station(station(nth), start);
+    let asked = bus.ask(Command::Fprd, address, &mut message, 1)?;
+    Ok(asked.filter(|(counter, _)| *counter == 1).map(|_| message))
+}
+
+/// The error code of an emergency, if a message is one.
+pub(crate) fn emergency(message: &[u8]) -> Option<u16> {
+    let [_, _, _, _, _, kind, _, service, low, high] = message.first_chunk::<10>()?;
+    (kind & 15 == 3 && service >> 4 == 1).then(|| u16::from_le_bytes([*low, *high]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn answers_are_told_from_emergencies_and_from_answers_to_others() {
+        let wanted = object(0x6065, 0, 4);
+        let mut message = [10, 0, 0, 0, 0, 3, 0, 0x30, 0x43, 0x65, 0x60, 0, 1, 2, 3, 4];
+        assert!(matches!(reply(&message, wanted), Reply::Value(0x0403_0201)));
+        message[8] = 0x4f;
+        assert!(matches!(reply(&message, wanted), Reply::Value(1)));
+        message[9] = 0x66;
+        assert!(matches!(reply(&message, wanted), Reply::Other));
+        let abort = [10, 0, 0, 0, 0, 3, 0, 0x20, 0x80, 0x65, 0x60, 0, 0, 0, 2, 6];
+        assert!(matches!(reply(&abort, wanted), Reply::Abort(0x0602_0000)));
+        let sent = [10, 0, 0, 0, 0, 3, 0, 0x10, 0x80, 0x73, 0x20, 0, 0, 0, 0, 0];
+        assert!(matches!(reply(&sent, wanted), Reply::Other));
+        assert_eq!(emergency(&sent), Some(0x7380));
+        assert_eq!(emergency(&abort), None);
+    }
+}

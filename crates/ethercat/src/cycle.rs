@@ -1,0 +1,252 @@
+//! The thread of the bus: brings it up, and exchanges a frame a cycle until it is told to end.
+//!
+//! ```text
+//!      send                SYNC0
+//!  ─────┼──── shift ─────────┼──────────────┼─────
+//!       │ demand at SYNC0    │ drives take targets over, and measure
+//!       └ frame ───► answer: what was measured at the SYNC0 before
+//! ```
+//!
+//! A frame that does not come back is not sent again: the next one has the demand of its own time.
+//! After too many in a row, or when a drive has left OP and all are off, the bus is brought up from
+//! the beginning: there is one way into operation, and it ends with drives without power.
+
+use crate::bridge::Bridge;
+use crate::bus::{Init, Op, Reception};
+use crate::bus_clock::{Beat, BusClock};
+use crate::counts::Counts;
+use crate::error::BusError;
+use crate::event::Event;
+use crate::image::Inputs;
+use crate::settings::Settings;
+use crate::wire::Wire;
+use core::sync::atomic::{AtomicBool, Ordering};
+use glidepath_link::{Feedback, Setpoint, Subscriber};
+use rtrb::Producer;
+use std::sync::mpsc::Sender;
+
+/// Between two attempts to bring the bus up again.
+const PAUSE_NS: u64 = 500_000_000;
+/// How long nothing may come back until the bus is brought up anew.
+const SILENCE_NS: u64 = 200_000_000;
+/// How long the joints may take to come to rest and to lose their power at the end.
+const FAREWELL_NS: u64 = 5_000_000_000;
+
+/// Where the thread puts what others wait for.
+#[derive(Debug)]
+pub struct Ends {
+    /// What is known of the joints, once a cycle. What does not fit is left out.
+    pub feedback: Producer<Feedback>,
+    /// What happened. What does not fit is left out.
+    pub events: Producer<Event>,
+    /// Lines for the log, while no cycles run.
+    pub log: Sender<String>,
+    /// The demand of every cycle: number of its datagrams and SYNC0 in ns of `CLOCK_MONOTONIC`, for
+    /// measurements; `None` for none.
+    pub demands: Option<Producer<(u8, u64)>>,
+}
+
+impl Ends {
+    fn tell(&mut self, event: Event) {
+        // A log that nobody reads is not waited for.
+        let _ = self.events.push(event);
+    }
+
+    fn say(&self, line: String) {
+        // Nobody is left to read it.
+        let _ = self.log.send(line);
+    }
+}
+
+/// Why cycles end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum End {
+    /// It was asked for, and all drives are off.
+    Asked,
+    /// The bus has to be brought up anew.
+    BusLost,
+}
+
+/// Drives the bus until `stop` is set; then the joints come to rest, and the drives lose their power.
+/// `boot_id` gives a number for each life of the bus that no other has.
+///
+/// # Errors
+///
+/// The bus does not come into operation the first time. Later it is tried again and again.
+pub fn drive_bus<W: Wire, S: Subscriber<Setpoint>>(
+    wire: &mut W,
+    settings: &Settings,
+    source: S,
+    ends: &mut Ends,
+    stop: &AtomicBool,
+    boot_id: &mut dyn FnMut() -> u64,
+) -> Result<Counts, BusError> {
+    let mut bridge = Bridge::new(settings, source);
+    let mut counts = Counts::default();
+    let mut is_first = true;
+    loop {
+        let op = bring_up(&mut *wire, settings);
+        match op {
+            Ok(op) => {
+                let mut run = Run {
+                    op,
+                    bridge: &mut bridge,
+                    counts: &mut counts,
+                    ends: &mut *ends,
+                    settings,
+                    inputs: vec![Inputs::default(); settings.drives.len()],
+                    lost: 0,
+                    targets_ns: 0,
+                };
+                let end = run.cycles(stop, boot_id());
+                let stale = run.op.stale();
+                // Who does not hear it has a watchdog.
+                let _ = run.op.leave();
+                counts.stale += stale;
+                if end == End::Asked {
+                    return Ok(counts);
+                }
+            }
+            Err(error) if is_first => return Err(error),
+            Err(error) => ends.say(format!("the bus does not come up: {error}")),
+        }
+        if stop.load(Ordering::Relaxed) {
+            return Ok(counts);
+        }
+        is_first = false;
+        counts.restarts += 1;
+        let until_ns = wire.now_ns() + PAUSE_NS;
+        wire.sleep_until(until_ns);
+    }
+}
+
+fn bring_up<'w, W: Wire>(wire: &'w mut W, settings: &Settings) -> Result<Op<'w, W>, BusError> {
+    Init::find(wire)?
+        .into_pre_op()?
+        .into_safe_op(settings)?
+        .into_op(&settings.bus)
+}
+
+struct Run<'a, 'w, W, S: Subscriber<Setpoint>> {
+    op: Op<'w, W>,
+    bridge: &'a mut Bridge<S>,
+    counts: &'a mut Counts,
+    ends: &'a mut Ends,
+    settings: &'a Settings,
+    inputs: Vec<Inputs>,
+    /// Frames lost in a row.
+    lost: u32,
+    /// The SYNC0 whose targets have reached the drives last, ns.
+    targets_ns: u64,
+}
+
+impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
+    fn cycles(&mut self, stop: &AtomicBool, boot_id: u64) -> End {
+        let now_ns = self.op.wire().now_ns();
+        let clock = self.op.take_clock();
+        let mut clock = clock.unwrap_or_else(|| BusClock::new(&self.settings.bus, now_ns, now_ns));
+        // Where the drives are, before anything is demanded.
+        let beat = clock.next(now_ns);
+        let standing = vec![crate::image::Outputs::default(); self.inputs.len()];
+        self.op.wire().sleep_until(beat.send_ns);
+        let is_sent = self.op.send(&standing).is_ok();
+        self.hear(&mut clock, &beat, is_sent);
+        self.bridge.begin(boot_id, &self.inputs);
+        self.ends.tell(Event::InOperation);
+        let mut ends_ns = None;
+        loop {
+            if ends_ns.is_none() && stop.load(Ordering::Relaxed) {
+                let now_ns = self.op.wire().now_ns();
+                self.bridge.end(now_ns);
+                ends_ns = Some(now_ns + FAREWELL_NS);
+            }
+            let now_ns = self.cycle(&mut clock);
+            if ends_ns.is_some_and(|ends_ns| self.bridge.is_off() || now_ns > ends_ns) {
+                return End::Asked;
+            }
+            if self.lost == self.settings.bus.lost_frames {
+                self.bridge.lose_bus(now_ns);
+                self.ends.tell(Event::BusLost);
+            }
+            let has_lost_drive = self.bridge.has_lost_drive() && self.bridge.is_off();
+            let silent_ns = u64::from(self.lost) * clock.period_ns();
+            if has_lost_drive || silent_ns > SILENCE_NS {
+                return End::BusLost;
+            }
+        }
+    }
+
+    /// One cycle; returns the time at its end.
+    fn cycle(&mut self, clock: &mut BusClock) -> u64 {
+        let beat = clock.next(self.op.wire().now_ns());
+        self.counts.missed += beat.missed;
+        self.op.wire().sleep_until(beat.send_ns);
+        let now_ns = self.op.wire().now_ns();
+        self.counts
+            .lateness
+            .record(now_ns.saturating_sub(beat.send_ns));
+        let since_ns = beat.sync_ns.saturating_sub(self.targets_ns);
+        let ends = &mut *self.ends;
+        let mut tell = |event| ends.tell(event);
+        let outputs = self.bridge.cycle(now_ns, beat.sync_ns, since_ns, &mut tell);
+        let is_sent = self.op.send(outputs).is_ok();
+        if let Some(demands) = &mut self.ends.demands {
+            let _ = demands.push((self.op.index(), beat.sync_ns));
+        }
+        self.hear(clock, &beat, is_sent);
+        self.counts.cycles += 1;
+        self.counts.quartz = clock.rate();
+        if self.lost == 0 {
+            self.targets_ns = beat.sync_ns;
+            // What was answered was measured at the SYNC0 before.
+            let sample_ns = beat.sync_ns.saturating_sub(clock.period_ns());
+            let feedback = self.bridge.feedback(sample_ns);
+            let _ = self.ends.feedback.push(feedback);
+        }
+        if let Some((nth, code)) = self.op.take_emergency() {
+            let joint = self
+                .settings
+                .drives
+                .get(nth)
+                .map_or(nth, |drive| drive.joint);
+            self.ends.tell(Event::Emergency(joint, code));
+        }
+        self.op.wire().now_ns()
+    }
+
+    /// Waits for the answer. An interface that fails is one that loses frames.
+    fn hear(&mut self, clock: &mut BusClock, beat: &Beat, is_sent: bool) {
+        let received = if is_sent {
+            self.op.receive(beat.give_up_ns, &mut self.inputs)
+        } else {
+            Ok(Reception::Lost)
+        };
+        let reception = received.unwrap_or(Reception::Lost);
+        let ends = &mut *self.ends;
+        let mut tell = |event| ends.tell(event);
+        match reception {
+            Reception::Good(times) => {
+                clock.hear(times);
+                let trip_ns = times.received_ns.saturating_sub(times.sent_ns);
+                self.counts.round_trip.record(trip_ns);
+                self.bridge.hear(&self.inputs, self.op.states(), &mut tell);
+                self.lost = 0;
+            }
+            Reception::Short { counted, .. } => {
+                self.counts.short += 1;
+                self.bridge.hear(&self.inputs, self.op.states(), &mut tell);
+                // The drives that answer can be led to rest; one that does not has failed.
+                let says_why = counted > 0 && self.bridge.has_lost_drive();
+                self.lost = if says_why { 0 } else { self.lost + 1 };
+                if !says_why {
+                    tell(Event::FrameLost);
+                }
+            }
+            Reception::Lost => {
+                self.counts.lost += 1;
+                self.lost += 1;
+                tell(Event::FrameLost);
+            }
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! A device on the bus, as its EEPROM tells.
+
+/// Who made a device, and which it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Identity {
+    /// Number of the vendor, given by the EtherCAT Technology Group.
+    pub vendor: u32,
+    /// The vendor's number of the product.
+    pub product: u32,
+    /// Its revision.
+    pub revision: u32,
+    /// Serial number, 0 if the vendor tells none.
+    pub serial: u32,
+}
+
+/// A window into the memory of a device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct SyncManager {
+    /// Where it begins.
+    pub start: u16,
+    /// Its length, bytes.
+    pub length: u16,
+    /// How it works.
+    pub control: u8,
+}
+
+/// A device.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Device {
+    /// Its place in the line, from the master on, from 0.
+    pub position: usize,
+    /// Who it is.
+    pub identity: Identity,
+    /// The number that was given it by hand, 0 for none.
+    pub alias: u16,
+    /// Its name.
+    pub name: String,
+    /// Mailboxes to and from it; `None` without.
+    pub mailbox: Option<(SyncManager, SyncManager)>,
+    /// Whether its mailbox speaks CoE.
+    pub has_coe: bool,
+    /// Process data to and from it; `None` without.
+    pub process: Option<(SyncManager, SyncManager)>,
+    /// Whether it has a distributed clock of 64 bits.
+    pub has_clock: bool,
+    /// How many of its ports have a link.
+    pub links: u32,
+}
+
+impl Device {
+    /// Whether it can be a drive of this master, as far as its EEPROM tells.
+    #[must_use]
+    pub const fn may_be_drive(&self) -> bool {
+        self.mailbox.is_some() && self.has_coe && self.process.is_some()
+    }
+}

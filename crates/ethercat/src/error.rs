@@ -1,0 +1,111 @@
+//! What can be wrong with a bus, as an operator is told.
+
+use crate::al_status;
+use crate::coe::abort_text;
+use std::io;
+
+/// Why a bus does not come, or does not stay, in operation.
+#[derive(Debug, thiserror::Error)]
+pub enum BusError {
+    /// The port does not work.
+    #[error("the network interface fails while {action}: {source}")]
+    Wire {
+        /// What was done.
+        action: &'static str,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Nothing answers.
+    #[error(
+        "nothing answers on the wire: is the cable in the first drive's IN port, and its logic supply on?"
+    )]
+    Nobody,
+    /// A question was not answered.
+    #[error(
+        "device {device}: no answer {action} ({tries} tries): a cable is loose, or the device was switched off"
+    )]
+    NoAnswer {
+        /// Counted from the master, from 0.
+        device: usize,
+        /// What was asked.
+        action: &'static str,
+        /// How often.
+        tries: u32,
+    },
+    /// There are other devices than the file says.
+    #[error(
+        "drives.toml wants a drive at position {position}, and {found} devices are there: \
+         `glidepath ethercat scan` lists them"
+    )]
+    Missing {
+        /// Where it is wanted.
+        position: usize,
+        /// Devices there are.
+        found: usize,
+    },
+    /// There is another device than the file says.
+    #[error(
+        "position {position}: drives.toml wants {what} {wanted:#x}, the device there has {found:#x}: \
+         `glidepath ethercat scan` lists what is there"
+    )]
+    Other {
+        /// Where.
+        position: usize,
+        /// "vendor", "product" or "alias".
+        what: &'static str,
+        /// By the file.
+        wanted: u32,
+        /// By the device.
+        found: u32,
+    },
+    /// A device without what is needed.
+    #[error("device {device} ({name}): {what}")]
+    Unfit {
+        /// Counted from the master, from 0.
+        device: usize,
+        /// Its name.
+        name: String,
+        /// What it lacks, and what to do.
+        what: String,
+    },
+    /// A device does not change its state.
+    #[error("device {device} ({name}) does not go to {wanted}: {}", al_status::text(*code))]
+    State {
+        /// Counted from the master, from 0.
+        device: usize,
+        /// Its name.
+        name: String,
+        /// The state.
+        wanted: &'static str,
+        /// AL status code.
+        code: u16,
+    },
+    /// A device does not take or give a parameter.
+    #[error("device {device} ({name}): object {index:#06x}:{sub} was refused: {}", abort_text(*code))]
+    Object {
+        /// Counted from the master, from 0.
+        device: usize,
+        /// Its name.
+        name: String,
+        /// Index.
+        index: u16,
+        /// Subindex.
+        sub: u8,
+        /// SDO abort code.
+        code: u32,
+    },
+    /// The clocks do not agree.
+    #[error(
+        "the clocks of the drives are still {worst_ns} ns apart after {waited_s} s: is every drive \
+         between the first and the last one able to do distributed clocks?"
+    )]
+    Clocks {
+        /// The largest difference, ns.
+        worst_ns: u32,
+        /// How long it was waited, s.
+        waited_s: u64,
+    },
+    /// It was asked to end.
+    #[error("ended while the bus came up")]
+    Ended,
+}

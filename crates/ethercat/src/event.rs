@@ -1,0 +1,92 @@
+//! What happens on the bus, for the log.
+
+use crate::trouble::Trouble;
+use crate::{al_status, fault_text};
+use core::fmt;
+
+/// Something that an operator wants to know. The number is that of a joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Event {
+    /// Cycles begin.
+    InOperation,
+    /// A drive has power and follows.
+    Follows(usize),
+    /// A drive has no power any more.
+    Off(usize),
+    /// A drive reports a fault.
+    Fault(usize, u16),
+    /// The fault of a drive is reset.
+    Reset(usize),
+    /// A drive is not in OP, with its AL status code.
+    LeftOp(usize, u16),
+    /// A drive does not answer.
+    Gone(usize),
+    /// A drive has sent an emergency.
+    Emergency(usize, u16),
+    /// A drive looks for its home.
+    Homing(usize),
+    /// It has found it.
+    Home(usize),
+    /// Something is wrong that the drives do not see.
+    Trouble(Trouble),
+    /// A frame was lost, or too few drives took part.
+    FrameLost,
+    /// Too many frames were lost in a row.
+    BusLost,
+    /// Setpoints stay away: the joints stop by themselves.
+    Silence,
+    /// A setpoint jumped: the joints stop by themselves.
+    Jump(usize),
+    /// The joints stop because a drive failed, and the motion goes on.
+    NobodyStops,
+    /// The interpolator was started anew.
+    Restart,
+}
+
+impl fmt::Display for Event {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::InOperation => write!(f, "all drives are in OP"),
+            Self::Follows(joint) => write!(f, "J{joint} has power and follows"),
+            Self::Off(joint) => write!(f, "J{joint} is without power"),
+            Self::Fault(joint, code) => {
+                write!(f, "J{joint}: fault {}", fault_text::text(*code))
+            }
+            Self::Reset(joint) => write!(f, "J{joint}: its fault is reset"),
+            Self::LeftOp(joint, code) => {
+                write!(f, "J{joint} is not in OP: {}", al_status::text(*code))
+            }
+            Self::Gone(joint) => {
+                write!(
+                    f,
+                    "J{joint} does not answer: its supply, or the cable before it"
+                )
+            }
+            Self::Emergency(joint, code) => {
+                write!(f, "J{joint}: emergency message {}", fault_text::text(*code))
+            }
+            Self::Homing(joint) => write!(f, "J{joint} looks for its home"),
+            Self::Home(joint) => write!(f, "J{joint} has found its home"),
+            Self::Trouble(trouble) => write!(f, "{trouble}"),
+            Self::FrameLost => write!(f, "a frame was lost"),
+            Self::BusLost => write!(
+                f,
+                "the bus is lost: no answer of all drives for several cycles; every drive stops by \
+                 itself, and the bus is brought up again"
+            ),
+            Self::Silence => write!(
+                f,
+                "no setpoints: the joints stopped by themselves; `glidepath reset` and `enable` take \
+                 the position over anew"
+            ),
+            Self::Jump(joint) => write!(f, "J{joint}: a setpoint jumped, the joints stop"),
+            Self::NobodyStops => {
+                write!(
+                    f,
+                    "a drive failed and the motion went on: the joints stop by themselves"
+                )
+            }
+            Self::Restart => write!(f, "the interpolator was started anew"),
+        }
+    }
+}

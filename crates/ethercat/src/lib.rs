@@ -1,0 +1,75 @@
+//! Drives on EtherCAT: setpoints to targets, at the bus period, and where the joints are back.
+//!
+//! ```text
+//!                      ┌ setpoints ► ring ┐
+//!   interpolator ══════╡   (a thread)     ▼
+//!   (shared memory)    │      ┌ cycle: demand ► targets ► frame ┐        drives
+//!                      │      │  one thread, real time          ╞══ wire ═══════
+//!                      │      └ states ◄ inputs ◄ answer ───────┘        SYNC0
+//!                      └ feedback, log ◄ rings ┘
+//!                          (a thread)
+//! ```
+//!
+//! The process is a consumer of setpoints like any other. What it knows of the drives goes to the
+//! interpolator as [`glidepath_link::Feedback`], and what the interpolator wants of them comes with
+//! the setpoints, so power, homes and faults are the machine's, not this crate's:
+//! [`run`] has the whole.
+//!
+//! **Why a master of our own.** There are good ones. `ethercrab` 0.7, the one in Rust, was tried: its
+//! task for the wire ends with the first frame that comes later than its patience, a CoE emergency in
+//! answer to a parameter panics, timeouts are timers of an ordinary thread, and what is left of it
+//! when its wire is replaced is the start-up. What a row of CiA 402 drives takes is four kinds of
+//! datagrams in a cycle and about ten before: that is less code than keeping a foreign one from doing
+//! harm, it can be stepped without threads and clock ([`Wire`] has both), and nothing in the cycle
+//! allocates. The price: other people's masters have seen hundreds of devices, and this one has seen
+//! the drives of `glidepath-emulator`, which three other masters have accepted.
+//!
+//! What it does not do: branches and rings of cable, devices without clocks of 64 bits, hot connect,
+//! segmented parameters, redundancy, safety over EtherCAT.
+//!
+//! Invariants:
+//!
+//! * a target is never further from the one before than the joint can go in the time between;
+//! * the drives get power together, and only when an operator asked for it after whatever took it;
+//! * the cycle makes no allocation; whatever fails in it ends in drives that stop by themselves.
+
+mod al_status;
+mod axis;
+mod bridge;
+mod bus;
+mod bus_clock;
+mod coe;
+mod counts;
+mod cycle;
+mod device;
+mod eeprom;
+mod error;
+mod event;
+mod exchange;
+mod fault_text;
+mod frame;
+mod image;
+mod registers;
+mod run;
+mod settings;
+mod state;
+mod trouble;
+mod wire;
+
+pub use al_status::text as al_status_text;
+pub use bridge::Bridge;
+pub use bus::{DeviceState, Init, Op, PreOp, Reception, SafeOp};
+pub use bus_clock::{Beat, BusClock, FrameTimes};
+pub use coe::{Object, abort_text, object};
+pub use counts::Counts;
+pub use cycle::{Ends, drive_bus};
+pub use device::{Device, Identity, SyncManager};
+pub use error::BusError;
+pub use event::Event;
+pub use fault_text::text as fault_text;
+pub use frame::{Address, Answer, Command, Frame, Slot};
+pub use image::{Inputs, Outputs};
+pub use run::{Listeners, RunError, RunSettings, run};
+pub use settings::{BusSettings, DriveSettings, HomingSettings, Settings};
+pub use trouble::Trouble;
+pub use wire::{MAX_FRAME, PacketWire, Wire, WireError};

@@ -1,0 +1,142 @@
+//! What hangs on the bus, and how it is driven.
+
+use glidepath_geometry::AXES;
+use glidepath_link::servo::ServoSettings;
+
+/// The bus.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BusSettings {
+    /// Time between two frames, which is that between two SYNC0, ns: 1, 2 or 4 ms as drives like it.
+    pub period_ns: u64,
+    /// From the sending of a frame to the SYNC0 at which it takes effect, ns; less than the period.
+    pub shift_ns: u64,
+    /// Frames lost in a row after which the bus counts as lost, ≥ 1.
+    pub lost_frames: u32,
+    /// How long a drive goes on without outputs, ns; its own watchdog then takes it out of OP.
+    pub watchdog_ns: u64,
+}
+
+impl Default for BusSettings {
+    /// 2 ms, in the middle, three frames, 10 ms.
+    fn default() -> Self {
+        Self {
+            period_ns: 2_000_000,
+            shift_ns: 1_000_000,
+            lost_frames: 3,
+            watchdog_ns: 10_000_000,
+        }
+    }
+}
+
+/// How a drive finds its home.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HomingSettings {
+    /// Homing method by CiA 402, or the manufacturer's if negative.
+    pub method: i8,
+    /// How fast the switch is looked for, mm/s or °/s.
+    pub fast_v: f64,
+    /// How fast its edge or the index is looked for, mm/s or °/s.
+    pub slow_v: f64,
+    /// mm/s² or °/s².
+    pub acceleration_a: f64,
+    /// Joints of a lower number are home before those of a higher one begin.
+    pub sequence: u32,
+}
+
+/// A drive, and the joint that it moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DriveSettings {
+    /// The joint, from 0.
+    pub joint: usize,
+    /// The place in the line, from 0.
+    pub position: usize,
+    /// What it is to be; nothing is compared with 0.
+    pub vendor: u32,
+    /// The vendor's number of the product.
+    pub product: u32,
+    /// The number given by hand.
+    pub alias: u16,
+    /// Counts a mm or a degree, > 0.
+    pub counts_per_unit: f64,
+    /// It counts the other way.
+    pub is_inverted: bool,
+    /// Where the joint is when the drive counts zero, mm or degrees.
+    pub home_offset: f64,
+    /// How it finds its home; `None` for an absolute encoder, which knows.
+    pub homing: Option<HomingSettings>,
+    /// How far it may be from its target, mm or degrees; watched by the drive.
+    pub following_error: f64,
+    /// How long it may be further away, ms.
+    pub following_ms: u16,
+    /// How far the first demand may be from where the joint stands, mm or degrees.
+    pub enable_window: f64,
+    /// Deceleration of the drive's own stop, mm/s² or °/s².
+    pub quick_stop_a: f64,
+    /// The joint's highest speed, mm/s or °/s. A target a fifth further away than that is not sent.
+    pub max_v: f64,
+}
+
+impl DriveSettings {
+    fn sign(&self) -> f64 {
+        if self.is_inverted { -1.0 } else { 1.0 }
+    }
+
+    /// Where the joint is when the drive counts `counts`, mm or degrees.
+    #[must_use]
+    pub fn place(&self, counts: i32) -> f64 {
+        self.sign() * f64::from(counts) / self.counts_per_unit + self.home_offset
+    }
+
+    /// What the drive counts when the joint is at a place; `None` where its counter ends.
+    #[must_use]
+    #[allow(clippy::cast_possible_truncation, reason = "it is inside the type")]
+    pub fn counts(&self, place: f64) -> Option<i32> {
+        let counts = (self.sign() * (place - self.home_offset) * self.counts_per_unit).round();
+        (f64::from(i32::MIN)..=f64::from(i32::MAX))
+            .contains(&counts)
+            .then_some(counts as i32)
+    }
+
+    /// A positive rate or distance in counts, at most what the object can hold.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "it saturates"
+    )]
+    pub(crate) fn unsigned(&self, rate: f64) -> u32 {
+        (rate * self.counts_per_unit)
+            .round()
+            .clamp(1.0, 2_147_483_647.0) as u32
+    }
+
+    /// The furthest that a target may be from the one before it, counts.
+    #[allow(clippy::cast_precision_loss, reason = "a period")]
+    #[must_use]
+    pub fn guard_counts(&self, since_ns: u64) -> f64 {
+        // A fifth above the top speed, and what rounding to counts makes of two places.
+        1.2 * self.max_v * since_ns as f64 * 1e-9 * self.counts_per_unit + 1.0
+    }
+}
+
+/// All of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// The bus.
+    pub bus: BusSettings,
+    /// The drives, one for each joint, at most nine, no place and no joint twice.
+    pub drives: Vec<DriveSettings>,
+    /// What the joints' own stop may use.
+    pub servo: ServoSettings,
+}
+
+impl Settings {
+    /// The joints that have a drive, one bit each.
+    #[must_use]
+    pub fn joints(&self) -> u32 {
+        let bits = self
+            .drives
+            .iter()
+            .map(|drive| 1_u32 << drive.joint.min(AXES - 1));
+        bits.fold(0, |all, bit| all | bit)
+    }
+}

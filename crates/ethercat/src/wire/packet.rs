@@ -1,0 +1,136 @@
+//! A raw socket on an interface of this host.
+
+use super::{Wire, sys};
+use glidepath_realtime::{Clock as _, Monotonic};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::io::Errno;
+use rustix::net::{RecvFlags, SendFlags, recv, send};
+use std::io;
+use std::os::fd::OwnedFd;
+use std::path::Path;
+
+/// The protocol number of EtherCAT.
+const ETHERCAT: u16 = 0x88a4;
+
+/// An interface cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum WireError {
+    /// There is no interface of that name.
+    #[error("there is no network interface `{name}`; there are: {}", known.join(", "))]
+    NoInterface {
+        /// The name.
+        name: String,
+        /// Those there are.
+        known: Vec<String>,
+    },
+    /// Raw sockets are refused.
+    #[error(
+        "cannot open a raw socket on {name}: {source}; it takes CAP_NET_RAW: `setcap cap_net_raw+ep` \
+         for the binary, or AmbientCapabilities=CAP_NET_RAW for a service"
+    )]
+    Refused {
+        /// The interface.
+        name: String,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The interface does not carry frames.
+    #[error("the interface {name} is not up: `ip link set {name} up`, and plug in the cable")]
+    Down {
+        /// The interface.
+        name: String,
+    },
+}
+
+/// A raw socket on an interface of this host.
+#[derive(Debug)]
+pub struct PacketWire {
+    socket: OwnedFd,
+}
+
+fn interfaces() -> Vec<String> {
+    let entries = std::fs::read_dir("/sys/class/net").into_iter().flatten();
+    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let mut names: Vec<_> = names.filter(|name| name != "lo").collect();
+    names.sort_unstable();
+    names
+}
+
+fn number(name: &str, what: &str) -> Option<u32> {
+    let path = Path::new("/sys/class/net").join(name).join(what);
+    let text = std::fs::read_to_string(path).ok()?;
+    let text = text.trim();
+    text.strip_prefix("0x").map_or_else(
+        || text.parse().ok(),
+        |hex| u32::from_str_radix(hex, 16).ok(),
+    )
+}
+
+impl PacketWire {
+    /// Opens an interface by its name.
+    ///
+    /// # Errors
+    ///
+    /// There is no such interface, it is not up, or the process may not use it.
+    pub fn open(name: &str) -> Result<Self, WireError> {
+        let is_plain = !name.contains('/');
+        let Some(index) = number(name, "ifindex").filter(|_| is_plain) else {
+            return Err(WireError::NoInterface {
+                name: name.to_owned(),
+                known: interfaces(),
+            });
+        };
+        if number(name, "flags").is_some_and(|flags| flags & 1 == 0) {
+            return Err(WireError::Down {
+                name: name.to_owned(),
+            });
+        }
+        let socket = sys::packet_socket(index, ETHERCAT);
+        socket
+            .map(|socket| Self { socket })
+            .map_err(|source| WireError::Refused {
+                name: name.to_owned(),
+                source,
+            })
+    }
+}
+
+impl Wire for PacketWire {
+    fn now_ns(&self) -> u64 {
+        Monotonic.now_ns()
+    }
+
+    fn sleep_until(&mut self, deadline_ns: u64) {
+        Monotonic.sleep_until(deadline_ns);
+    }
+
+    fn send(&mut self, frame: &[u8]) -> io::Result<()> {
+        send(&self.socket, frame, SendFlags::empty())?;
+        Ok(())
+    }
+
+    fn receive(&mut self, into: &mut [u8], until_ns: u64) -> io::Result<Option<usize>> {
+        loop {
+            match recv(&self.socket, &mut *into, RecvFlags::empty()) {
+                Ok((_, length)) => return Ok(Some(length)),
+                Err(Errno::AGAIN | Errno::INTR) => {}
+                Err(error) => return Err(error.into()),
+            }
+            let left_ns = until_ns.saturating_sub(self.now_ns());
+            if left_ns == 0 {
+                return Ok(None);
+            }
+            let patience = Timespec {
+                tv_sec: i64::try_from(left_ns / 1_000_000_000).unwrap_or(i64::MAX),
+                tv_nsec: i64::try_from(left_ns % 1_000_000_000).unwrap_or(0),
+            };
+            match poll(
+                &mut [PollFd::new(&self.socket, PollFlags::IN)],
+                Some(&patience),
+            ) {
+                Ok(_) | Err(Errno::INTR) => {}
+                Err(error) => return Err(error.into()),
+            }
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! From a wire to drives in OP, and what is said where that does not work.
+
+use crate::wire::{MemoryWire, Quiet};
+use glidepath_emulator::{DriveSettings as Emulated, Segment};
+use glidepath_ethercat::{BusError, BusSettings, DriveSettings, Init, Settings, Wire as _, object};
+use glidepath_link::servo::ServoSettings;
+
+const START_NS: u64 = 9_000_000_000_000;
+
+fn settings(drives: usize) -> Settings {
+    Settings {
+        bus: BusSettings::default(),
+        drives: (0..drives).map(crate::machine::drive).collect(),
+        servo: ServoSettings::default(),
+    }
+}
+
+fn wire(drives: &[Emulated]) -> MemoryWire<Quiet> {
+    MemoryWire::new(
+        Segment::new_at(drives, START_NS - 5_000_000_000),
+        Quiet,
+        START_NS,
+    )
+}
+
+fn failure(drives: &[Emulated], settings: &Settings) -> BusError {
+    let mut wire = wire(drives);
+    let safe_op = Init::find(&mut wire)
+        .and_then(Init::into_pre_op)
+        .and_then(|bus| bus.into_safe_op(settings));
+    safe_op
+        .and_then(|bus| bus.into_op(&settings.bus))
+        .unwrap_err()
+}
+
+#[test]
+fn drives_are_found_and_named() {
+    let drives = [0, 1, 2].map(|nth| Emulated {
+        name: format!("DRIVE {nth}"),
+        identity: [0x83, 7 + nth, 2, 99],
+        has_clock: nth != 1,
+        ..Emulated::default()
+    });
+    let mut wire = wire(&drives);
+    let found = Init::find(&mut wire).unwrap();
+    let names: Vec<_> = found
+        .devices()
+        .iter()
+        .map(|device| device.name.as_str())
+        .collect();
+    assert_eq!(names, ["DRIVE 0", "DRIVE 1", "DRIVE 2"]);
+    let second = &found.devices()[1];
+    assert_eq!((second.identity.vendor, second.identity.product), (0x83, 8));
+    assert_eq!(
+        (second.identity.serial, second.has_clock, second.links),
+        (99, false, 2)
+    );
+    assert!(second.may_be_drive());
+    let mut bus = found.into_pre_op().unwrap();
+    assert_eq!(bus.read(2, object(0x1018, 2, 4)).unwrap(), 9);
+    let refused = bus.read(2, object(0x2345, 0, 4)).unwrap_err();
+    assert!(
+        refused
+            .to_string()
+            .contains("0x2345:0 was refused: abort code 0x06020000"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn drives_come_to_op_with_clocks_that_agree() {
+    for (drift, period_ns) in [(0.0, 1_000_000), (100.0, 2_000_000), (-100.0, 4_000_000)] {
+        let drives = [drift, -drift, 20.0].map(|drift_ppm| Emulated {
+            drift_ppm,
+            ..Emulated::default()
+        });
+        let mut wire = wire(&drives);
+        wire.segment.keep_records();
+        let mut settings = settings(3);
+        (settings.bus.period_ns, settings.bus.shift_ns) = (period_ns, period_ns / 2);
+        let bus = Init::find(&mut wire).unwrap().into_pre_op().unwrap();
+        let mut op = bus
+            .into_safe_op(&settings)
+            .unwrap()
+            .into_op(&settings.bus)
+            .unwrap();
+        let mut clock = op.take_clock().unwrap();
+        let mut inputs = [glidepath_ethercat::Inputs::default(); 3];
+        let mut demanded = Vec::new();
+        for _ in 0..4000 {
+            let beat = clock.next(op.wire().now_ns());
+            op.wire().sleep_until(beat.send_ns);
+            op.send(&[glidepath_ethercat::Outputs::default(); 3])
+                .unwrap();
+            demanded.push((op.index(), beat.sync_ns));
+            let reception = op.receive(beat.give_up_ns, &mut inputs).unwrap();
+            let glidepath_ethercat::Reception::Good(times) = reception else {
+                panic!("{reception:?}");
+            };
+            clock.hear(times);
+        }
+        // What was demanded for a time took effect at that time, in every drive.
+        let quartz = clock.rate() * 1e6;
+        assert!((quartz - drift).abs() < 2.0, "{quartz} ppm");
+        let tail = &demanded[2000..];
+        for drive in 0..3 {
+            let records = wire.segment.take_records(drive);
+            let worst = phase_errors(tail, &records).fold(0, u64::max);
+            assert!(worst < 1_000, "drive {drive}: {worst} ns");
+        }
+    }
+}
+
+/// How far each demand's time is from the SYNC0 at which it took effect, ns.
+fn phase_errors<'a>(
+    demanded: &'a [(u8, u64)],
+    records: &'a [glidepath_emulator::SyncRecord],
+) -> impl Iterator<Item = u64> + 'a {
+    demanded.iter().filter_map(|(index, sync_ns)| {
+        let at = records.partition_point(|record| record.at_ns + 500_000 < *sync_ns);
+        let near = records.get(at)?;
+        assert_eq!(near.index, *index);
+        Some(near.at_ns.abs_diff(*sync_ns))
+    })
+}
+
+#[test]
+fn what_is_wrong_is_said_with_its_remedy() {
+    let good = [Emulated::default(), Emulated::default()];
+    let nobody = failure(&[], &settings(2));
+    assert!(matches!(nobody, BusError::Nobody), "{nobody}");
+    let missing = failure(&good, &settings(3));
+    assert!(
+        matches!(
+            missing,
+            BusError::Missing {
+                position: 2,
+                found: 2
+            }
+        ),
+        "{missing}"
+    );
+    let mut other = settings(2);
+    other.drives[1].product = 0x403;
+    let other = failure(&good, &other);
+    let is_told = matches!(
+        other,
+        BusError::Other {
+            position: 1,
+            what: "product",
+            wanted: 0x403,
+            found: 0x402
+        }
+    );
+    assert!(is_told, "{other}");
+    let mut clockless = good.clone();
+    clockless[1].has_clock = false;
+    let unfit = failure(&clockless, &settings(2));
+    assert!(
+        unfit.to_string().contains("no distributed clock"),
+        "{unfit}"
+    );
+    let mut twice = settings(2);
+    // A drive that is not told its sync type refuses SYNC0; one that has another process data size,
+    // SAFE-OP. Neither happens with what this master writes, so the watchdog has to do.
+    twice.bus.watchdog_ns = 100_000;
+    let refused = failure(&good, &twice);
+    assert!(
+        refused.to_string().contains("AL status 0x001b, watchdog"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn drives_count_in_their_own_way() {
+    let drive = DriveSettings {
+        counts_per_unit: 1000.0,
+        is_inverted: true,
+        home_offset: 10.0,
+        ..crate::machine::drive(0)
+    };
+    assert_eq!(drive.counts(12.5), Some(-2500));
+    assert!((drive.place(-2500) - 12.5).abs() < 1e-12);
+    assert_eq!(drive.counts(-3e6), None);
+    assert_eq!(drive.counts(f64::NAN), None);
+}

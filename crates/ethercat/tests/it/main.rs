@@ -1,0 +1,21 @@
+//! The bridge against emulated drives: on a wire in memory, whose time is none but its own, and on a
+//! pair of virtual interfaces.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    clippy::panic,
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "tests"
+)]
+
+mod bring_up;
+mod judge;
+mod life;
+mod machine;
+mod wire;
+
+/// The thread of the bus does not allocate.
+#[global_allocator]
+static ALLOCATOR: glidepath_realtime::CountingAllocator = glidepath_realtime::CountingAllocator;
