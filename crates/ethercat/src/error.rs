@@ -1,7 +1,6 @@
 //! What can be wrong with a bus, as an operator is told.
 
-use crate::al_status;
-use crate::coe::abort_text;
+use crate::{abort_text, al_status};
 use std::io;
 
 /// Why a bus does not come, or does not stay, in operation.
@@ -81,7 +80,7 @@ pub enum BusError {
         code: u16,
     },
     /// A device does not take or give a parameter.
-    #[error("device {device} ({name}): object {index:#06x}:{sub} was refused: {}", abort_text(*code))]
+    #[error("device {device} ({name}): object {index:#06x}:{sub} was refused: {}", abort_text::text(*code))]
     Object {
         /// Counted from the master, from 0.
         device: usize,

@@ -33,6 +33,7 @@
 //! * the drives get power together, and only when an operator asked for it after whatever took it;
 //! * the cycle makes no allocation; whatever fails in it ends in drives that stop by themselves.
 
+mod abort_text;
 mod al_status;
 mod axis;
 mod bridge;
@@ -56,11 +57,12 @@ mod state;
 mod trouble;
 mod wire;
 
+pub use abort_text::text as abort_text;
 pub use al_status::text as al_status_text;
 pub use bridge::Bridge;
 pub use bus::{DeviceState, Init, Op, PreOp, Reception, SafeOp};
 pub use bus_clock::{Beat, BusClock, FrameTimes};
-pub use coe::{Object, abort_text, object};
+pub use coe::{Object, object};
 pub use counts::Counts;
 pub use cycle::{Ends, drive_bus};
 pub use device::{Device, Identity, SyncManager};

@@ -3,7 +3,8 @@
 use super::clocks;
 use super::pre_op::PreOp;
 use super::state::{self, PRE_OP};
-use crate::device::{Device, SyncManager};
+use super::windows::manager;
+use crate::device::Device;
 use crate::eeprom;
 use crate::error::BusError;
 use crate::exchange::{Exchange, station};
@@ -80,21 +81,6 @@ impl<'w, W: Wire> Init<'w, W> {
         }
         Ok(PreOp::new(self.bus, self.devices))
     }
-}
-
-/// A sync manager as it is written.
-pub(super) fn manager(manager: SyncManager) -> [u8; 8] {
-    let ([s0, s1], [l0, l1]) = (manager.start.to_le_bytes(), manager.length.to_le_bytes());
-    [
-        s0,
-        s1,
-        l0,
-        l1,
-        manager.control,
-        0,
-        u8::from(manager.length > 0),
-        0,
-    ]
 }
 
 /// Takes everything back that another master, or a life of this one, has left.

@@ -12,6 +12,7 @@ mod parameters;
 mod pre_op;
 mod safe_op;
 mod state;
+mod windows;
 
 pub use init::Init;
 pub use op::{DeviceState, Op, Reception};

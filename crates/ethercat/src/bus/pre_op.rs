@@ -1,12 +1,12 @@
 //! PRE-OP: parameters, and where process data goes.
 
 use super::clocks;
-use super::init::manager;
-use super::parameters::{self, INPUT_BYTES, OUTPUT_BYTES};
+use super::parameters;
 use super::safe_op::SafeOp;
 use super::state::{self, SAFE_OP};
+use super::windows::process;
 use crate::coe::{self, Object};
-use crate::device::{Device, SyncManager};
+use crate::device::Device;
 use crate::error::BusError;
 use crate::exchange::Exchange;
 use crate::registers::{FMMU, OUTPUT_WATCHDOG, SYNC_MANAGER};
@@ -110,28 +110,4 @@ impl<'w, W: Wire> PreOp<'w, W> {
         }
         Ok(SafeOp::new(self.bus, drives, reference, start_ns))
     }
-}
-
-/// The sync managers of a drive's process data, and the windows onto them in the logical image: the
-/// outputs of all drives, then their inputs.
-#[allow(clippy::cast_possible_truncation, reason = "nine drives")]
-fn process(device: &Device, nth: usize, drives: usize) -> (Vec<u8>, Vec<u8>) {
-    let (out, back) = device.process.unwrap_or_default();
-    let sized = |from: SyncManager, length: usize| SyncManager {
-        length: length as u16,
-        ..from
-    };
-    let (out, back) = (sized(out, OUTPUT_BYTES), sized(back, INPUT_BYTES));
-    let at_out = (nth * OUTPUT_BYTES) as u32;
-    let at_back = (drives * OUTPUT_BYTES + nth * INPUT_BYTES) as u32;
-    let managers = [manager(out), manager(back)].concat();
-    let windows = [window(at_out, out, 2), window(at_back, back, 1)].concat();
-    (managers, windows)
-}
-
-/// An FMMU as it is written; `kind` 1 for reading, 2 for writing.
-fn window(at: u32, manager: SyncManager, kind: u8) -> [u8; 16] {
-    let [a, b, c, d] = at.to_le_bytes();
-    let ([l0, l1], [p0, p1]) = (manager.length.to_le_bytes(), manager.start.to_le_bytes());
-    [a, b, c, d, l0, l1, 0, 7, p0, p1, 0, kind, 1, 0, 0, 0]
 }
