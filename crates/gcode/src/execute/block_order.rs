@@ -15,6 +15,7 @@ use crate::diagnostic::fault::Outcome;
 use crate::execute::block_words::{check_words, path_mode};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
+use crate::execute::state::frame::Frame;
 use crate::execute::state::open_spline::{OpenSpline, goes_on, interrupted};
 use crate::execute::state::sticky_words::CycleSeries;
 use crate::syntax::block::Block;
@@ -132,6 +133,7 @@ impl Interpreter {
                 self.end_compensation(out)?;
                 // As LinuxCNC does: the next program begins in G54.
                 self.offsets.active = 0;
+                self.offsets.frame = Frame::default();
                 AfterBlock::End
             }
             Some(Stop::Program(number)) => {

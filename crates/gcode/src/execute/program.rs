@@ -10,6 +10,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::auxiliary::input_wait::InputWait;
+use crate::execute::dialect::siemens::steps::SiemensState;
 use crate::execute::dialect::tape::Tape;
 use crate::execute::flow::activation::Flow;
 use crate::execute::interpreter::Interpreter;
@@ -40,6 +41,8 @@ pub struct Program<R> {
     pub(crate) flow: Flow,
     /// Lines of a program in a dialect whose flow is not that of O words.
     pub(crate) tape: Tape,
+    /// What a SINUMERIK program has besides.
+    pub(crate) siemens: SiemensState,
     pub(crate) origin: LineOrigin,
     pub(crate) block: Block,
     /// The line read last, if it was tried as a straight move.
@@ -79,6 +82,7 @@ impl<R: BufRead> Program<R> {
             parameters: Parameters::new(),
             flow: Flow::default(),
             tape: Tape::default(),
+            siemens: SiemensState::default(),
             origin: LineOrigin::Stream,
             block,
             straight: StraightLine::default(),

@@ -45,7 +45,8 @@ impl<R: BufRead> Program<R> {
         match self.interpreter.options.dialect {
             Dialect::LinuxCnc => self.read_linuxcnc(goes_on),
             Dialect::Fanuc => self.read_fanuc(),
-            Dialect::Marlin | Dialect::Siemens => self.read_without_flow(),
+            Dialect::Siemens => self.read_siemens(),
+            Dialect::Marlin => self.read_marlin(),
         }
     }
 }

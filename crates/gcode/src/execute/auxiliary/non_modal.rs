@@ -23,6 +23,7 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let position = self.state.position;
+        self.check_frame(non_modal)?;
         match non_modal.code {
             // The dwell comes earlier, the machine coordinates with the motion.
             NonModal::Dwell => {}
@@ -55,6 +56,28 @@ impl Interpreter {
             NonModal::RestoreOffset => self.offsets.shift = self.offsets.saved_shift,
         }
         Ok(())
+    }
+
+    /// Refuses to give places new names within a frame, whose coordinates they would not be.
+    fn check_frame(&self, non_modal: Coded<NonModal>) -> Outcome<()> {
+        let names_places = matches!(
+            non_modal.code,
+            NonModal::SetData
+                | NonModal::LocalOffset
+                | NonModal::SetOffset
+                | NonModal::ClearOffset
+                | NonModal::SuspendOffset
+                | NonModal::RestoreOffset
+        );
+        if !names_places || !self.offsets.frame.is_in_force() {
+            return Ok(());
+        }
+        let message = "an offset that is set within a frame";
+        Err(
+            Fault::new(DiagnosticCode::NotSupported, non_modal.span, message)
+                .because("its words would count in the coordinates of TRANS, ROT, MIRROR or SCALE")
+                .help("write TRANS alone in a line before it, which ends the frame"),
+        )
     }
 
     fn check_machine_coordinates(&self, span: SourceSpan, motion: Option<Motion>) -> Outcome<()> {

@@ -79,6 +79,18 @@ impl Interpreter {
                 .because("the plane of the contour would be no plane of the machine")
                 .help("set the rotation to zero (G10 L2 R0)"));
         }
+        let image = self.offsets.plane(plane);
+        let Some(image) = image.filter(|image| image.plane == plane) else {
+            let message = "cutter radius compensation in a frame that tilts its plane";
+            return Err(Fault::new(DiagnosticCode::CutterRadius, span, message)
+                .because("it is made in the XY and the ZX plane of the machine")
+                .help("turn the coordinates about the axis normal to the plane only"));
+        };
+        let side = match side {
+            Side::Left if image.is_mirrored => Side::Right,
+            Side::Right if image.is_mirrored => Side::Left,
+            side => side,
+        };
         self.state.on_contour = true;
         if radius != 0.0 {
             let tool = self.state.path_end;

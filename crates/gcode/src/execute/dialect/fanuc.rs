@@ -44,7 +44,9 @@ impl<R: BufRead> Program<R> {
         };
         self.set_tape_origin(number, &text);
         let number = self.line_of_program();
-        self.count_idle().inspect_err(|_| self.end())?;
+        if self.tape.is_again() {
+            self.count_idle().inspect_err(|_| self.end())?;
+        }
         if self.interpreter.options.block_delete && text.trim_ascii_start().starts_with(b"/") {
             return Ok(true);
         }

@@ -1,4 +1,6 @@
-//! Functions of a printer's machine: heaters, fans, messages.
+//! Lines of printers, and the functions of their machines: heaters, fans, messages.
+
+use std::io::BufRead;
 
 use glidepath_program::{Event, Item, ItemKind};
 
@@ -6,11 +8,36 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
+use crate::execute::line_origin::LineOrigin;
+use crate::execute::program::Program;
+use crate::execute::scope::ProgramScope;
 use crate::syntax::block::Block;
+use crate::syntax::dialect::marlin::verified;
 
 /// True for an M code whose line goes on with text to show.
 const fn shows_text(number: u32) -> bool {
     matches!(number, 117 | 118)
+}
+
+impl<R: BufRead> Program<R> {
+    /// Reads and executes the next line; false at the end.
+    pub(crate) fn read_marlin(&mut self) -> Outcome<bool> {
+        self.origin = LineOrigin::Stream;
+        if !self.source.advance()? {
+            return self.end_of_input();
+        }
+        if self.is_deleted() {
+            return Ok(true);
+        }
+        let number = self.source.number();
+        let scope = ProgramScope {
+            parameters: &self.parameters,
+            interpreter: &self.interpreter,
+        };
+        let text = verified(self.source.text())?;
+        let parsed = self.block.parse(text, &scope);
+        self.execute_parsed(number, parsed)
+    }
 }
 
 impl Interpreter {

@@ -4,5 +4,5 @@ mod fanuc;
 mod fanuc_call;
 mod linuxcnc;
 mod marlin;
+pub(crate) mod siemens;
 pub(crate) mod tape;
-mod without_flow;

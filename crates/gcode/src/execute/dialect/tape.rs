@@ -44,6 +44,18 @@ pub(crate) struct SubprogramCall {
     pub(crate) own_parameters: bool,
 }
 
+/// A part of the program that is executed again (SINUMERIK's REPEAT).
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Repetition {
+    pub(crate) start: usize,
+    /// The line behind its last one.
+    pub(crate) end: usize,
+    /// Where the program goes on.
+    pub(crate) back: usize,
+    /// How many more times it runs.
+    pub(crate) again: u32,
+}
+
 /// The program, or the file of a subprogram.
 #[derive(Debug, Default)]
 struct TapeText {
@@ -63,6 +75,11 @@ pub(crate) struct Tape {
     /// The line of it that comes next.
     pub(crate) next: usize,
     pub(crate) calls: Vec<SubprogramCall>,
+    pub(crate) repetitions: Vec<Repetition>,
+    /// The first line of the program that was never executed.
+    unseen: usize,
+    /// The line executed last had been executed before, or is of a file.
+    is_again: bool,
     /// Where jumps have led: a search through a long program for every turn of a loop would take
     /// as long as all its lines do.
     jumps: BTreeMap<(TapePlace, u32), usize>,
@@ -78,6 +95,9 @@ impl Default for Tape {
             text: 0,
             next: 0,
             calls: Vec::new(),
+            repetitions: Vec::new(),
+            unseen: 0,
+            is_again: false,
             jumps: BTreeMap::new(),
             programs: BTreeMap::new(),
         }
@@ -126,6 +146,11 @@ impl Tape {
         self.texts.len() - 1
     }
 
+    /// True if the line may have been executed before: a loop is made of such lines.
+    pub(crate) const fn is_again(&self) -> bool {
+        self.is_again
+    }
+
     /// Where a program begins that the text being executed has called before.
     pub(crate) fn known_program(&self, number: u32) -> Option<TapePlace> {
         self.programs.get(&(self.text, number)).copied()
@@ -167,15 +192,21 @@ impl Tape {
             && self.text == 0
             && self.next >= program.lines.len()
             && self.calls.is_empty()
+            && self.repetitions.is_empty()
         {
             program.lines.clear();
             self.jumps.clear();
             self.programs.clear();
             self.bytes = 0;
             self.next = 0;
+            self.unseen = 0;
         }
         let any = self.reach(self.next, source)?;
         self.next += usize::from(any);
+        self.is_again = self.text != 0 || self.next <= self.unseen;
+        if self.text == 0 {
+            self.unseen = self.unseen.max(self.next);
+        }
         Ok(any)
     }
 

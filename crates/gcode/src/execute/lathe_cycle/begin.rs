@@ -71,7 +71,7 @@ impl Interpreter {
                 "write G18 before it",
             );
         }
-        if self.offsets.is_rotated() {
+        if self.offsets.is_turned() {
             return refuse(
                 span,
                 "a lathe cycle in a rotated coordinate system",

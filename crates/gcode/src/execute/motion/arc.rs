@@ -19,6 +19,7 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::arc_ends::{Ends, center_from_radius, check_radii, sweep};
 use crate::execute::motion::settled::settled;
 use crate::execute::motion::speed::Pace;
+use crate::execute::state::frame::PlaneImage;
 use crate::execute::state::offsets::Offsets;
 use crate::syntax::block::Block;
 use crate::syntax::letters::Letters;
@@ -35,7 +36,15 @@ impl Interpreter {
         motion: Motion,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
-        let plane = self.state.modal.plane;
+        let named = self.state.modal.plane;
+        let PlaneImage {
+            plane,
+            scale,
+            is_mirrored,
+        } = self
+            .offsets
+            .plane(named)
+            .ok_or_else(|| tilted(block.motion_span()))?;
         let (first, second) = plane.axes();
         if self.state.leaving_contour {
             return Err(arc_off_contour(block.motion_span()));
@@ -49,19 +58,19 @@ impl Interpreter {
         let target = self.target(block)?;
         let end = settled(start, target, [Some(first), Some(second)]);
         self.check_plane(block, plane, &start, &end)?;
-        check_center_words(block, plane)?;
+        check_center_words(block, named)?;
 
         let ends = Ends {
             start: [start[first.index()], start[second.index()]],
             end: [end[first.index()], end[second.index()]],
         };
-        let counterclockwise = motion == Motion::ArcCounterclockwise;
+        let counterclockwise = (motion == Motion::ArcCounterclockwise) != is_mirrored;
         let center = match block.get(b'R') {
             Some(radius) => {
-                let radius = radius * self.state.modal.units.mm();
+                let radius = radius * self.state.modal.units.mm() * scale;
                 center_from_radius(block, ends, radius, counterclockwise)?
             }
-            None => self.center_from_words(block, plane, ends)?,
+            None => self.center_from_words(block, named, plane, ends)?,
         };
         let turns = turns(block)?;
         let sweep_rad = sweep(ends, center, counterclockwise, turns);
@@ -114,8 +123,15 @@ impl Interpreter {
         Ok(())
     }
 
-    fn center_from_words(&self, block: &Block, plane: Plane, ends: Ends) -> Outcome<[f64; 2]> {
-        let (first, second) = plane.axes();
+    /// The centre in `plane` of the machine, from the words of the plane that the program names.
+    fn center_from_words(
+        &self,
+        block: &Block,
+        named: Plane,
+        plane: Plane,
+        ends: Ends,
+    ) -> Outcome<[f64; 2]> {
+        let (first, second) = named.axes();
         let letters = [center_letter(first), center_letter(second)];
         let scale = self.state.modal.units.mm();
         let words = letters.map(|letter| block.get(letter).map(|value| value * scale));
@@ -148,9 +164,10 @@ impl Interpreter {
         let mut point = AxisVector::zeros();
         point[first.index()] = a;
         point[second.index()] = b;
+        let (first, second) = plane.axes();
         let center = match self.state.modal.arc_distance {
             Distance::Incremental => {
-                let turned = self.offsets.system().rotate(point, 1.0);
+                let turned = self.offsets.turn(point);
                 let position = &self.state.position;
                 [first, second].map(|axis| position[axis.index()] + turned[axis.index()])
             }
@@ -173,6 +190,17 @@ fn turns(block: &Block) -> Outcome<f64> {
         }
         turns => Ok(f64::from(turns.unwrap_or(1))),
     }
+}
+
+#[cold]
+fn tilted(span: SourceSpan) -> Box<Fault> {
+    let message = "an arc in a frame that leaves it in no plane of the machine";
+    Fault::new(DiagnosticCode::ArcPlane, span, message)
+        .because(
+            "arcs are made in the XY, ZX or YZ plane of the machine, and as circles: a frame that \
+             tilts their plane, or scales its axes differently, leaves none",
+        )
+        .help("turn about the axis normal to the plane, scale both of its axes alike, or write short lines")
 }
 
 #[cold]

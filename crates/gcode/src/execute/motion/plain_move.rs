@@ -138,7 +138,7 @@ impl Interpreter {
             && modal.feed_mode == FeedMode::PerMinute
             && !modal.diameter
             && self.options.dialect != Dialect::Marlin
-            && !self.offsets.is_rotated()
+            && !self.offsets.is_turned()
             && self.compensation.is_none()
             && !state.on_contour
             && !state.leaving_contour

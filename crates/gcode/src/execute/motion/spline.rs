@@ -145,7 +145,7 @@ impl Interpreter {
         let scale = self.state.modal.units.mm();
         let mut by = AxisVector::zeros();
         (by[0], by[1]) = (words[0] * scale, words[1] * scale);
-        let turned = self.offsets.system().rotate(by, 1.0);
+        let turned = self.offsets.turn(by);
         [turned[0], turned[1]]
     }
 

@@ -22,11 +22,16 @@ impl Interpreter {
         if self.state.modal.distance == Distance::Absolute {
             return Ok(self.absolute_target(&values));
         }
-        if self.offsets.is_rotated() && (values[0].is_some() || values[1].is_some()) {
+        let axes = self.offsets.turned_with(&values);
+        if !axes.is_empty() {
             let mut by = AxisVector::zeros();
-            (by[0], by[1]) = (values[0].unwrap_or(0.0), values[1].unwrap_or(0.0));
-            let turned = self.offsets.system().rotate(by, 1.0);
-            (values[0], values[1]) = (Some(turned[0]), Some(turned[1]));
+            for axis in 0..3 {
+                by[axis] = values[axis].unwrap_or(0.0);
+            }
+            let turned = self.offsets.turn(by);
+            for &axis in axes {
+                values[axis] = Some(turned[axis]);
+            }
         }
         let mut target = self.state.position;
         for (axis, value) in values.into_iter().enumerate() {
@@ -44,10 +49,13 @@ impl Interpreter {
                 target[axis] = value + offsets.origin(axis);
             }
         }
-        if offsets.is_rotated() && (values[0].is_some() || values[1].is_some()) {
+        let axes = offsets.turned_with(values);
+        if !axes.is_empty() {
             let program = overlay(offsets.to_program(self.state.position), values);
             let turned = offsets.to_machine(program);
-            (target[0], target[1]) = (turned[0], turned[1]);
+            for &axis in axes {
+                target[axis] = turned[axis];
+            }
         }
         target
     }

@@ -2,6 +2,7 @@
 
 pub(crate) mod coolant;
 pub(crate) mod course;
+pub(crate) mod frame;
 pub(crate) mod in_force;
 pub(crate) mod modal;
 pub(crate) mod offsets;

@@ -1,15 +1,17 @@
 //! Coordinate systems: from program to machine coordinates and back.
 //!
 //! ```text
-//! machine = tool offset(G43) + origin(G54 …) + R(θ) · (program + offset(G92, G52))
+//! machine = tool offset(G43) + origin(G54 …) + R(θ) · (frame(program) + offset(G92, G52))
 //! ```
 //!
-//! R turns X and Y about the Z axis by the angle of the coordinate system (G10 L2 R). Everything
+//! R turns X and Y about the Z axis by the angle of the coordinate system (G10 L2 R); the frame is
+//! what SINUMERIK programs make of their coordinates (TRANS, ROT, MIRROR, SCALE). Everything
 //! is in mm and degrees, and the machine coordinates are the truth: a change of offsets moves
 //! nothing, it gives the same place another name.
 
-use glidepath_geometry::{AXES, AxisVector};
+use glidepath_geometry::{AXES, AxisVector, Plane};
 
+use crate::execute::state::frame::{Frame, PlaneImage};
 use crate::setup::work_offsets::{CoordinateSystem, SYSTEMS, WorkOffsets};
 
 /// Every offset a program can set.
@@ -26,6 +28,8 @@ pub(crate) struct Offsets {
     pub(crate) saved_shift: AxisVector,
     /// Machine positions of G28 and G30.
     pub(crate) reference: [AxisVector; 2],
+    /// What the program has made of its coordinates.
+    pub(crate) frame: Frame,
 }
 
 impl Offsets {
@@ -45,6 +49,7 @@ impl Offsets {
             shift,
             saved_shift,
             reference,
+            frame: Frame::default(),
         }
     }
 
@@ -69,18 +74,51 @@ impl Offsets {
         }]
     }
 
+    /// True where the coordinate system is turned.
     pub(crate) fn is_rotated(&self) -> bool {
         self.system().rotation_deg != 0.0
     }
 
+    /// True where the axes of the program are not those of the machine.
+    pub(crate) fn is_turned(&self) -> bool {
+        self.is_rotated() || self.frame.is_turned()
+    }
+
+    /// Of X, Y and Z, the axes of the machine whose place depends on several of the program's when
+    /// these of the program are named.
+    pub(crate) fn turned_with(&self, values: &[Option<f64>; AXES]) -> &'static [usize] {
+        let is_named = |axis: usize| values[axis].is_some();
+        if self.frame.is_turned() && (0..3).any(is_named) {
+            &[0, 1, 2]
+        } else if self.is_rotated() && (0..2).any(is_named) {
+            &[0, 1]
+        } else {
+            &[]
+        }
+    }
+
+    /// A way in the program's coordinates, in the machine's.
+    pub(crate) fn turn(&self, way: AxisVector) -> AxisVector {
+        self.system().rotate(self.frame.turn(way), 1.0)
+    }
+
+    /// Where arcs of a plane of the program are; `None` if in no plane of the machine.
+    pub(crate) fn plane(&self, plane: Plane) -> Option<PlaneImage> {
+        if !self.frame.is_turned() {
+            // What a rotated coordinate system allows is seen elsewhere.
+            return Some(PlaneImage::of(plane));
+        }
+        self.frame.plane(plane, self.system().rotation_deg)
+    }
+
     /// Machine coordinate of the program's zero on an axis, where nothing is turned.
     pub(crate) fn origin(&self, axis: usize) -> f64 {
-        self.shift[axis] + self.system().origin[axis] + self.tool[axis]
+        self.shift[axis] + self.system().origin[axis] + self.tool[axis] + self.frame.shift[axis]
     }
 
     pub(crate) fn to_machine(&self, program: AxisVector) -> AxisVector {
         let system = self.system();
-        system.rotate(program + self.shift, 1.0) + (system.origin + self.tool)
+        system.rotate(self.frame.apply(program) + self.shift, 1.0) + (system.origin + self.tool)
     }
 
     pub(crate) fn to_program(&self, machine: AxisVector) -> AxisVector {
@@ -94,7 +132,8 @@ impl Offsets {
     }
 
     fn to_program_in(&self, system: &CoordinateSystem, machine: AxisVector) -> AxisVector {
-        system.rotate(machine - (system.origin + self.tool), -1.0) - self.shift
+        let place = system.rotate(machine - (system.origin + self.tool), -1.0) - self.shift;
+        self.frame.undo(place)
     }
 
     /// G10 L20: moves the origin of a system so that the machine position has the given program

@@ -28,8 +28,10 @@ pub(super) fn marks(bare: &[u8]) -> bool {
     let at = body(bare);
     let text = bare.get(at..).unwrap_or_default();
     let starts = |word: &[u8]| text.starts_with(word);
-    let statement = starts(b"IF[") || starts(b"WHILE[") || starts(b"GOTO");
     let number = |text: &[u8]| text.first().is_some_and(u8::is_ascii_digit);
+    let target = |text: &[u8]| number(text) || matches!(text.first(), Some(b'#' | b'['));
+    let jump = text.strip_prefix(b"GOTO").is_some_and(target);
+    let statement = starts(b"IF[") || starts(b"WHILE[") || jump;
     let program = bare.first() == Some(&b':') && number(bare.get(1..).unwrap_or_default());
     let call = [&b"G65P"[..], b"M98P", b"G05.1Q", b"G5.1Q", b"G05P10000"];
     statement || program || call.iter().any(|word| starts(word))

@@ -15,10 +15,12 @@ pub(crate) mod siemens;
 /// | program number | `O1` | – | `O1`, `:1` | `%_N_…`, `;$PATH` |
 /// | comments | `( )` `;` | `( )` `;` | `( )` | `;`, `MSG( )` |
 /// | line check | – | `N… *…` verified | – | – |
-/// | parameters | `#1`, `#<name>` | – | `#1` | `R1` |
+/// | parameters | `#1`, `#<name>` | – | `#1` | `R1`, `R[1]`, `DEF REAL`, `INT`, `BOOL` |
 /// | expressions | `X[#1+2]` | – | `X[#1+2]`, `X#1` | `X=R1+2` |
 /// | subprograms in files | `o<name> call` | – | `M98 P`, `G65 P` | – |
-/// | flow | O words | – | `IF` `GOTO` `THEN`, `WHILE` `DO` `END`, `G65`, `M98`, `M99` | refused |
+/// | flow | O words | – | `IF` `GOTO` `THEN`, `WHILE` `DO` `END`, `G65`, `M98`, `M99` | `IF` … `ENDIF`, `WHILE`, `FOR`, `LOOP`, `REPEAT`, `GOTO…` |
+/// | frames | `G10 L2 R`, `G52`, `G92` | the same | the same | `TRANS`, `ROT`, `MIRROR`, `SCALE`, `A…` |
+/// | cycles by name | – | – | – | `CYCLE81` … `83`, `85`, `86`, `POCKET3`, `POCKET4`, `MCALL` |
 /// | dwell | `G4 P` s | `G4 P` ms, `S` s | `G4 P` ms, `X` s | `G4 F` s |
 /// | G0 | rapid | at feed | rapid | rapid |
 /// | extruder | – | E: the axis [`Options::extruder`](crate::Options); `M82`, `M83`, `G92 E` | – | – |

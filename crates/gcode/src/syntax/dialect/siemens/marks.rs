@@ -3,11 +3,26 @@
 use crate::syntax::dialect::line_body::body;
 
 /// What a line of such a program may begin with.
-const BEGINNINGS: [&[u8]; 12] = [
+const BEGINNINGS: [&[u8]; 27] = [
     b"MSG(",
     b"PROC",
     b"DEFREAL",
     b"DEFINT",
+    b"DEFBOOL",
+    b"ENDIF",
+    b"ENDWHILE",
+    b"ENDFOR",
+    b"ENDLOOP",
+    b"ATRANS",
+    b"AROT",
+    b"AMIRROR",
+    b"ASCALE",
+    b"ROTRPL",
+    b"ROTX",
+    b"ROTY",
+    b"ROTZ",
+    b"MIRRORX",
+    b"MIRRORY",
     b"G641",
     b"G642",
     b"MCALL",
@@ -51,7 +66,15 @@ pub(crate) fn marks(bare: &[u8]) -> bool {
     calls_a_cycle
         || BEGINNINGS.iter().any(|word| text.starts_with(word))
         || sets_a_parameter(text)
+        || jumps(text)
         || assigns(text)
+}
+
+/// True for `GOTOF A`, and `GOTO A`: block numbers alone are another control's.
+fn jumps(text: &[u8]) -> bool {
+    text.strip_prefix(b"GOTO")
+        .and_then(<[u8]>::first)
+        .is_some_and(|byte| byte.is_ascii_alphabetic() || *byte == b'_')
 }
 
 /// True for `R5=…`.
@@ -105,6 +128,10 @@ mod tests {
             "N5TRANSX10Y10",
             "G641ADIS=0.1",
             "R12=3",
+            "N10GOTOFEND",
+            "GOTO_A",
+            "N5AROTZ45",
+            "ENDIF",
         ] {
             assert!(marks(line.as_bytes()), "{line}");
         }
@@ -132,6 +159,8 @@ mod tests {
             "G10L2P1X5",
             "CYCLE",
             "N10R5",
+            "GOTO10",
+            "GOTO#1",
         ] {
             assert!(!marks(line.as_bytes()), "{line}");
         }

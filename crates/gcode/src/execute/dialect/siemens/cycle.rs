@@ -1,0 +1,380 @@
+//! Calls of cycles: their arguments, and the lines they become.
+//!
+//! | cycle | arguments, in this order |
+//! |---|---|
+//! | `CYCLE81` | RTP, RFP, SDIS, DP, DPR |
+//! | `CYCLE82` | …, DTB |
+//! | `CYCLE83` | RTP, RFP, SDIS, DP, DPR, FDEP, FDPR, DAM, DTB, DTS, FRF, VARI |
+//! | `CYCLE85` | RTP, RFP, SDIS, DP, DPR, DTB, FFR, RFF |
+//! | `CYCLE86` | RTP, RFP, SDIS, DP, DPR, DTB, SDIR, RPA, RPO, RPAP, POSS |
+//! | `POCKET3` | RTP, RFP, SDIS, DP, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AP2, AD, RAD1, DP1 |
+//! | `POCKET4` | RTP, RFP, SDIS, DP, PRAD, PA, PO, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AD, RAD1, DP1 |
+//!
+//! RTP is the plane to retract to, RFP the surface, SDIS the clearance above it, DP the bottom, all
+//! coordinates but SDIS, and DPR the depth below RFP. The cycles work along the axis normal to the
+//! plane, downwards.
+
+use std::fmt::Write;
+use std::io::BufRead;
+
+use glidepath_geometry::Axis;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::siemens::steps::{CycleCall, Step};
+use crate::execute::interpreter::Interpreter;
+use crate::execute::program::Program;
+use crate::syntax::dialect::siemens::statement::{Statement, name_at, statement};
+use crate::syntax::modes::FeedMode;
+use crate::syntax::word_check::missing;
+
+/// Most lines of one cycle.
+const MAX_LINES: usize = 200_000;
+
+/// Names of cycles, and how many arguments each takes.
+const CYCLES: [(&str, usize); 7] = [
+    ("CYCLE81", 5),
+    ("CYCLE82", 6),
+    ("CYCLE83", 12),
+    ("CYCLE85", 8),
+    ("CYCLE86", 11),
+    ("POCKET3", 23),
+    ("POCKET4", 19),
+];
+
+/// The arguments of a call, and where it stands.
+#[derive(Clone, Copy)]
+pub(super) struct Arguments<'a> {
+    pub(super) call: &'a CycleCall,
+    pub(super) span: SourceSpan,
+}
+
+/// The levels all cycles have, in the units in force.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Levels {
+    /// Where to retract to.
+    pub(super) retract: f64,
+    /// The surface.
+    pub(super) surface: f64,
+    /// Where rapid moves downwards end.
+    pub(super) clear: f64,
+    /// The bottom.
+    pub(super) bottom: f64,
+}
+
+impl Arguments<'_> {
+    /// An argument, counted from zero.
+    pub(super) fn get(&self, index: usize) -> Option<f64> {
+        self.call.arguments.get(index).copied().flatten()
+    }
+
+    /// An argument that is zero where it is left out.
+    pub(super) fn or_zero(&self, index: usize) -> f64 {
+        self.get(index).unwrap_or(0.0)
+    }
+
+    /// An argument that has to be there.
+    pub(super) fn need(&self, index: usize, name: &str, meaning: &str) -> Outcome<f64> {
+        self.get(index)
+            .ok_or_else(|| missing(self.span, self.call.name, name, meaning))
+    }
+
+    /// An argument that has to be above zero.
+    pub(super) fn positive(&self, index: usize, name: &str, meaning: &str) -> Outcome<f64> {
+        let value = self.need(index, name, meaning)?;
+        if value > 0.0 {
+            return Ok(value);
+        }
+        Err(self
+            .refused(format!("{name} is {value}"), meaning)
+            .help("write a value above zero"))
+    }
+
+    /// An argument that may not be below zero.
+    pub(super) fn not_negative(&self, index: usize, name: &str, meaning: &str) -> Outcome<f64> {
+        let value = self.or_zero(index);
+        if value >= 0.0 {
+            return Ok(value);
+        }
+        Err(self
+            .refused(format!("{name} is {value}"), meaning)
+            .help("write zero or more"))
+    }
+
+    /// An argument that chooses among whole numbers.
+    pub(super) fn choice(&self, index: usize, name: &str, known: &[i32]) -> Outcome<i32> {
+        let value = self.or_zero(index);
+        let is_it = |choice: &&i32| (f64::from(**choice) - value).abs() < 1e-9;
+        let found = known.iter().find(is_it);
+        found.copied().ok_or_else(|| {
+            let list: Vec<String> = known.iter().map(i32::to_string).collect();
+            self.refused(
+                format!("{name} {value} is not covered"),
+                "other ways are not made here",
+            )
+            .help(format!("use one of: {}", list.join(", ")))
+        })
+    }
+
+    pub(super) fn refused(&self, message: impl Into<String>, reason: &str) -> Box<Fault> {
+        let message = format!("{}: {}", self.call.name, message.into());
+        Fault::new(DiagnosticCode::CannedCycle, self.span, message).because(reason)
+    }
+
+    /// The levels: RTP, RFP, SDIS, DP, and DPR if the cycle has one.
+    pub(super) fn levels(&self, relative: Option<f64>) -> Outcome<Levels> {
+        let retract = self.need(0, "RTP", "the plane to retract to")?;
+        let surface = self.need(1, "RFP", "the surface")?;
+        let clearance = self.not_negative(2, "SDIS", "the clearance above the surface")?;
+        let bottom = match relative {
+            Some(depth) => surface - depth.abs(),
+            None => self.need(3, "DP", "the bottom, or the depth DPR")?,
+        };
+        if retract <= surface || bottom >= surface {
+            let message =
+                format!("the planes are not in order: {retract} above {surface} above {bottom}");
+            return Err(self
+                .refused(message, "RTP is above RFP, and the bottom below it")
+                .help("check RTP, RFP, DP and DPR"));
+        }
+        Ok(Levels {
+            retract,
+            surface,
+            clear: surface + clearance,
+            bottom,
+        })
+    }
+}
+
+/// The lines of a cycle.
+#[derive(Debug)]
+pub(super) struct Lines {
+    steps: Vec<Step>,
+    /// First and second axis of the plane, and the one normal to it.
+    axes: [char; 3],
+}
+
+impl Lines {
+    pub(super) fn new(axes: [Axis; 3]) -> Self {
+        Self {
+            // No corner of a cycle is rounded off, and its coordinates are absolute.
+            steps: vec![Step::Line("G90 G61 G94 G91.1".to_owned())],
+            axes: axes.map(Axis::letter),
+        }
+    }
+
+    pub(super) fn line(&mut self, text: impl Into<String>) {
+        self.steps.push(Step::Line(text.into()));
+    }
+
+    pub(super) fn feed(&mut self, feed: f64) {
+        if feed > 0.0 {
+            self.line(format!("F[{feed}]"));
+        }
+    }
+
+    /// Seconds at rest.
+    pub(super) fn dwell(&mut self, seconds: f64) {
+        if seconds > 0.0 {
+            self.line(format!("G4 P[{seconds}]"));
+        }
+    }
+
+    /// A straight move of the axes that have a value.
+    pub(super) fn go(&mut self, code: &str, to: [Option<f64>; 3]) {
+        let mut text = code.to_owned();
+        for (axis, value) in self.axes.iter().zip(to) {
+            if let Some(value) = value {
+                let _written = write!(text, " {axis}[{value}]");
+            }
+        }
+        self.line(text);
+    }
+
+    /// A straight move along the axis normal to the plane.
+    pub(super) fn along(&mut self, code: &str, level: f64) {
+        self.go(code, [None, None, Some(level)]);
+    }
+
+    /// A straight move in the plane.
+    pub(super) fn across(&mut self, code: &str, to: [f64; 2]) {
+        self.go(code, [Some(to[0]), Some(to[1]), None]);
+    }
+
+    /// An arc in the plane; `level` is where the normal axis ends, `center` counts from the start.
+    pub(super) fn arc(
+        &mut self,
+        code: &str,
+        to: [f64; 2],
+        level: Option<f64>,
+        center: [f64; 2],
+        turns: u32,
+    ) {
+        let mut text = code.to_owned();
+        for (axis, value) in self.axes.iter().zip([Some(to[0]), Some(to[1]), level]) {
+            if let Some(value) = value {
+                let _written = write!(text, " {axis}[{value}]");
+            }
+        }
+        for (axis, value) in self.axes.iter().zip(center) {
+            let letter = match axis {
+                'Y' => 'J',
+                'Z' => 'K',
+                _ => 'I',
+            };
+            let _written = write!(text, " {letter}[{value}]");
+        }
+        if turns > 1 {
+            let _written = write!(text, " P{turns}");
+        }
+        self.line(text);
+    }
+
+    /// Refuses a cycle of too many lines before they are made.
+    pub(super) fn check_count(count: f64, arguments: Arguments<'_>) -> Outcome<()> {
+        if count <= f64::from(u32::try_from(MAX_LINES).unwrap_or(u32::MAX)) {
+            return Ok(());
+        }
+        Err(arguments
+            .refused(
+                format!("the cycle would have {count:.0} lines"),
+                "the length of a cycle is bounded",
+            )
+            .help("use larger steps"))
+    }
+}
+
+/// Whether the block is of the plane XY, ZX or YZ, and its axes.
+pub(super) fn plane_axes(
+    interpreter: &Interpreter,
+    arguments: Arguments<'_>,
+) -> Outcome<[Axis; 3]> {
+    let plane = interpreter.state.modal.plane;
+    let (first, second) = plane.axes();
+    let axes = [first, second, plane.normal()];
+    if axes.iter().any(|axis| axis.index() >= 3) {
+        return Err(arguments
+            .refused(
+                "the plane is not of X, Y and Z",
+                "cycles work along one of these axes",
+            )
+            .help("write G17, G18 or G19"));
+    }
+    Ok(axes)
+}
+
+/// The coordinate of the program on an axis, in the units in force.
+pub(super) fn coordinate(interpreter: &Interpreter, axis: Axis) -> f64 {
+    let program = interpreter.offsets.to_program(interpreter.state.position);
+    program[axis.index()] / interpreter.state.modal.units.mm()
+}
+
+impl<R: BufRead> Program<R> {
+    /// A call of a cycle in a line of its own.
+    pub(super) fn siemens_cycle(&mut self, text: &[u8], at: usize) -> Outcome<()> {
+        let (call, span) = self.siemens_call(text, at)?;
+        self.siemens_begin(&call, span)
+    }
+
+    /// MCALL: the cycle behind it is made at the end of every move from now on, or none.
+    pub(super) fn siemens_modal_call(&mut self, text: &[u8], at: usize) -> Outcome<()> {
+        let scope = self.scope();
+        let mut input = self.evaluator(&scope, text, at);
+        if input.is_at_end() {
+            self.siemens.modal_call = None;
+            return Ok(());
+        }
+        let start = input.at;
+        let tail = text.get(start..).unwrap_or_default();
+        if statement(tail) != (Statement::Cycle, 0) {
+            let name = name_at(text, start);
+            let span = SourceSpan::new(start, start + name.len().max(1));
+            let shown = String::from_utf8_lossy(name).into_owned();
+            let message = format!("MCALL of {shown} is not supported");
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("CYCLE81, 82, 83, 85, 86, POCKET3 and POCKET4 can be called at every move")
+                .help("use one of these"));
+        }
+        let (call, span) = self.siemens_call(text, start)?;
+        // What is wrong with it is said here, not at the next move.
+        self.cycle_lines(Arguments { call: &call, span })?;
+        self.siemens.modal_call = Some(call);
+        Ok(())
+    }
+
+    /// Makes the cycle of MCALL at the end of a move.
+    pub(super) fn siemens_call_again(&mut self, span: SourceSpan) -> Outcome<()> {
+        match self.siemens.modal_call.clone() {
+            Some(call) => self.siemens_begin(&call, span),
+            None => Ok(()),
+        }
+    }
+
+    /// The name of a cycle and the values of its arguments.
+    fn siemens_call(&self, text: &[u8], at: usize) -> Outcome<(CycleCall, SourceSpan)> {
+        let scope = self.scope();
+        let mut input = self.evaluator(&scope, text, at);
+        let name = input.name_ahead();
+        input.at += name.len();
+        let known = CYCLES
+            .into_iter()
+            .find(|(known, _)| known.as_bytes() == name);
+        let (name, most) = known.unwrap_or(("CYCLE81", 0));
+        let arguments = input.arguments()?;
+        let span = SourceSpan::new(at, input.at);
+        let more = arguments.get(most..).unwrap_or_default();
+        if more.iter().flatten().any(|value| *value != 0.0) {
+            let message = format!("{name} with more than {most} arguments");
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("what the others mean depends on the version of the control")
+                .help("leave them out, or let the CAM system write plain blocks"));
+        }
+        if !input.is_at_end() {
+            let span = SourceSpan::new(input.at, text.len());
+            return Err(
+                Fault::new(DiagnosticCode::UnusedWord, span, "text behind a cycle")
+                    .because("a cycle has a line of its own")
+                    .help("write it into a line of its own"),
+            );
+        }
+        Ok((CycleCall { name, arguments }, span))
+    }
+
+    fn siemens_begin(&mut self, call: &CycleCall, span: SourceSpan) -> Outcome<()> {
+        let lines = self.cycle_lines(Arguments { call, span })?;
+        let modal = Box::new(self.interpreter.state.modal);
+        self.siemens.steps.extend(lines.steps);
+        self.siemens.steps.push_back(Step::Restore(modal));
+        Ok(())
+    }
+
+    fn cycle_lines(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
+        let interpreter = &self.interpreter;
+        let state = &interpreter.state;
+        if state.on_contour || state.leaving_contour {
+            return Err(arguments
+                .refused(
+                    "cutter radius compensation is on",
+                    "the tool stands beside the programmed point, at a place that depends on the next move",
+                )
+                .help("write G40 and a move before it"));
+        }
+        if state.modal.feed_mode != FeedMode::PerMinute {
+            return Err(arguments
+                .refused(
+                    "a feed that is not per minute",
+                    "the moves of a cycle have feeds per minute",
+                )
+                .help("write G94 before it"));
+        }
+        match arguments.call.name {
+            "CYCLE81" | "CYCLE82" => interpreter.drill(arguments),
+            "CYCLE83" => interpreter.deep_drill(arguments),
+            "CYCLE85" => interpreter.ream(arguments),
+            "CYCLE86" => interpreter.bore(arguments),
+            "POCKET3" => interpreter.rectangular_pocket(arguments),
+            _ => interpreter.circular_pocket(arguments),
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! SINUMERIK: structures and jumps, variables, frames, cycles.
+//!
+//! ```text
+//! IF … ELSE … ENDIF · IF … GOTOF A · WHILE … ENDWHILE · FOR R1=1 TO 5 … ENDFOR · LOOP … ENDLOOP
+//! REPEAT … UNTIL · REPEAT A P=3 · REPEAT A B · REPEATB A · GOTO, GOTOF, GOTOB, GOTOC A · A: · N100
+//! DEF REAL, INT, BOOL · TRANS, ROT, MIRROR, SCALE · ATRANS, AROT, AMIRROR, ASCALE
+//! CYCLE81, 82, 83, 85, 86 · POCKET3, POCKET4 · MCALL
+//! ```
+//!
+//! A line of a cycle becomes several ones in RS274/NGC's words, which are executed one after the
+//! other ([`steps`]), so that a long cycle takes no more memory at a time than its words.
+
+mod circular_pocket;
+mod cycle;
+mod drilling;
+mod flow;
+mod frames;
+mod pocket;
+mod read_line;
+mod rectangular_pocket;
+mod repetition;
+pub(crate) mod steps;

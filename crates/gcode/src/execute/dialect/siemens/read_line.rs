@@ -1,0 +1,120 @@
+//! Reads and executes the next line, or the next step of a cycle.
+
+use std::io::BufRead;
+
+use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::siemens::steps::Step;
+use crate::execute::program::Program;
+use crate::execute::scope::ProgramScope;
+use crate::syntax::dialect::line_body::body;
+use crate::syntax::dialect::siemens::expression::{Evaluator, Names};
+use crate::syntax::dialect::siemens::statement::{Statement, label, statement};
+use crate::syntax::dialect::siemens::writer::rewrite;
+
+/// The text with blanks in the place of its label, which keeps the columns of the rest.
+fn without_label(text: &[u8]) -> Vec<u8> {
+    let (found, behind) = label(text);
+    let mut text = text.to_vec();
+    if found.is_some() {
+        text[..behind].fill(b' ');
+    }
+    text
+}
+
+impl<R: BufRead> Program<R> {
+    /// Reads and executes the next line; false at the end.
+    pub(crate) fn read_siemens(&mut self) -> Outcome<bool> {
+        if let Some(step) = self.siemens.steps.pop_front() {
+            return self.siemens_step(step);
+        }
+        self.siemens_repeat();
+        if !self.tape.advance(&mut self.source)? {
+            return self.end_of_input();
+        }
+        let index = self.tape.next - 1;
+        let Some((number, text)) = self.tape.get(index).cloned() else {
+            return self.end_of_input();
+        };
+        self.set_tape_origin(number, &text);
+        if self.tape.is_again() {
+            self.count_idle().inspect_err(|_| self.end())?;
+        }
+        if self.interpreter.options.block_delete && text.trim_ascii_start().starts_with(b"/") {
+            return Ok(true);
+        }
+        let (statement, at) = statement(&text);
+        match statement {
+            Statement::Block => self.siemens_block(number, &text),
+            Statement::Frame(word) => self.siemens_frame(word, &text, at).map(|()| true),
+            Statement::Cycle => self.siemens_cycle(&text, at).map(|()| true),
+            Statement::ModalCall => self.siemens_modal_call(&text, at).map(|()| true),
+            // What follows depends on it, so a diagnostic ends the program.
+            _ => {
+                let done = self.siemens_flow(statement, index, &text, at);
+                done.inspect_err(|_| self.end()).map(|()| true)
+            }
+        }
+    }
+
+    /// What reads a text from a place on.
+    pub(super) fn evaluator<'t>(
+        &'t self,
+        scope: &'t ProgramScope<'t>,
+        text: &'t [u8],
+        at: usize,
+    ) -> Evaluator<'t> {
+        let names = Names {
+            variables: &self.siemens.variables,
+            scope,
+        };
+        Evaluator::new(text, at, names)
+    }
+
+    fn siemens_block(&mut self, number: u32, text: &[u8]) -> Outcome<bool> {
+        let text = without_label(text);
+        let scope = ProgramScope {
+            parameters: &self.parameters,
+            interpreter: &self.interpreter,
+        };
+        let names = Names {
+            variables: &self.siemens.variables,
+            scope: &scope,
+        };
+        let line = rewrite(&text, names)?;
+        let parsed = self.block.parse(&line.text, &scope);
+        let goes_on = self.execute_parsed(number, parsed).map_err(|mut fault| {
+            fault.span = line.origin(fault.span);
+            fault
+        })?;
+        let moves = self.block.has_axes() && self.block.codes.non_modal.is_none();
+        if moves && !self.ended && self.siemens.modal_call.is_some() {
+            let span = SourceSpan::new(body(&text), text.len());
+            self.siemens_call_again(span)?;
+        }
+        Ok(goes_on)
+    }
+
+    /// A step of the cycle in progress; what is wrong with it is wrong with the cycle's line.
+    fn siemens_step(&mut self, step: Step) -> Outcome<bool> {
+        let line = match step {
+            Step::Restore(modal) => {
+                self.interpreter.state.modal = *modal;
+                return Ok(true);
+            }
+            Step::Line(line) => line,
+        };
+        let number = self.line_of_program();
+        self.execute_text(number, line.as_bytes())
+            .map_err(|mut fault| {
+                let here = self.here();
+                fault.span = SourceSpan::new(label(&here.text).1, here.text.trim_ascii_end().len());
+                while let Some(step) = self.siemens.steps.pop_front() {
+                    if let Step::Restore(modal) = step {
+                        self.interpreter.state.modal = *modal;
+                    }
+                }
+                fault
+            })
+    }
+}

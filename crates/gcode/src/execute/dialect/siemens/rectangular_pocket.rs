@@ -1,0 +1,157 @@
+//! POCKET3: a rectangular pocket with round corners, cleared in rings from its middle outwards.
+
+use crate::diagnostic::fault::Outcome;
+use crate::execute::dialect::siemens::cycle::{Arguments, Lines};
+use crate::execute::dialect::siemens::pocket::{Insertion, Places, Pocket};
+use crate::execute::interpreter::Interpreter;
+
+const PLACES: Places = Places {
+    center: 7,
+    depth: 10,
+    premachined: 18..21,
+    helix: 21,
+};
+
+/// The rectangle, turned by STA about its centre.
+#[derive(Debug, Clone, Copy)]
+struct Rectangle<'a> {
+    pocket: &'a Pocket,
+    /// Cosine and sine of STA.
+    turn: [f64; 2],
+}
+
+/// A ring: half its length and width, and the radius of its corners.
+#[derive(Debug, Clone, Copy)]
+struct Ring {
+    half: [f64; 2],
+    corner: f64,
+}
+
+impl Ring {
+    /// The same ring, farther inside.
+    fn inside(self, by: f64) -> Self {
+        Self {
+            half: self.half.map(|half| (half - by).max(0.0)),
+            corner: (self.corner - by).max(0.0),
+        }
+    }
+}
+
+impl Rectangle<'_> {
+    /// A way along length and width, in the plane; against the sense of counting it is mirrored.
+    fn turned(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        let v = if self.pocket.is_clockwise { -v } else { v };
+        let [cos, sin] = self.turn;
+        [u * cos - v * sin, u * sin + v * cos]
+    }
+
+    fn point(&self, place: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.turned(place);
+        [self.pocket.center[0] + x, self.pocket.center[1] + y]
+    }
+
+    fn line_to(&self, lines: &mut Lines, place: [f64; 2]) {
+        lines.across("G1", self.point(place));
+    }
+
+    fn arc_to(&self, lines: &mut Lines, place: [f64; 2], center: [f64; 2]) {
+        let code = self.pocket.arc();
+        lines.arc(code, self.point(place), None, self.turned(center), 1);
+    }
+
+    /// Once around, from the middle of the side at the end of the length, where the tool stands.
+    fn around(&self, lines: &mut Lines, ring: Ring) {
+        let ([a, b], c) = (ring.half, ring.corner);
+        // Corner by corner: where it begins, where it ends, and its centre from its beginning.
+        for (from, to, center) in [
+            ([a, b - c], [a - c, b], [-c, 0.0]),
+            ([c - a, b], [-a, b - c], [0.0, -c]),
+            ([-a, c - b], [c - a, -b], [c, 0.0]),
+            ([a - c, -b], [a, c - b], [0.0, c]),
+        ] {
+            self.line_to(lines, from);
+            if c > 0.0 {
+                self.arc_to(lines, to, center);
+            }
+        }
+        self.line_to(lines, [a, 0.0]);
+    }
+}
+
+impl Interpreter {
+    pub(super) fn rectangular_pocket(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
+        let pocket = self.pocket(arguments, &PLACES)?;
+        let length = arguments.positive(4, "LENG", "the length of the pocket")?;
+        let width = arguments.positive(5, "WID", "the width of the pocket")?;
+        let corner = arguments.need(6, "CRAD", "the radius of the corners")?;
+        let angle = arguments.or_zero(9);
+        let tool = pocket.tool_radius;
+        if corner < tool * (1.0 - 1e-9) || 2.0 * corner > length.min(width) * (1.0 + 1e-9) {
+            let message = format!("corners with a radius of {corner}");
+            return Err(arguments
+                .refused(
+                    message,
+                    "they are at least as wide as the tool, and at most as the pocket",
+                )
+                .help("use a smaller tool, or check CRAD"));
+        }
+        let outermost = Ring {
+            half: [0.5 * length - tool, 0.5 * width - tool],
+            corner: (corner - tool).max(0.0),
+        };
+        let rough = outermost.inside(pocket.edge);
+        let narrow = rough.half[0].min(rough.half[1]);
+        if narrow <= 0.0 {
+            return Err(arguments
+                .refused(
+                    "the tool is too large for the pocket",
+                    "its radius and FAL leave no way inside",
+                )
+                .help("use a smaller tool"));
+        }
+        if let Insertion::Helix(helix, _) = pocket.insertion
+            && helix > narrow
+        {
+            return Err(arguments
+                .refused(
+                    "the helix is wider than the pocket",
+                    "RAD1 counts from the centre to the tool's",
+                )
+                .help(format!("write an RAD1 of {narrow} or less")));
+        }
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let rectangle = Rectangle {
+            pocket: &pocket,
+            turn: [cos, sin],
+        };
+        let last = if pocket.finishes { outermost } else { rough };
+        let reach = last.half[0].min(last.half[1]);
+        let rings = pocket.rings(reach);
+        let clear = |lines: &mut Lines| {
+            // The middle is a line where the pocket is longer than wide, or wider than long.
+            let middle = last.inside(reach);
+            let [a, b] = middle.half;
+            if a > 0.0 || b > 0.0 {
+                rectangle.line_to(lines, [-a, -b]);
+                rectangle.line_to(lines, [a, b]);
+                rectangle.line_to(lines, [0.0, 0.0]);
+            }
+            let mut ring = 0.0;
+            while ring < rings {
+                ring += 1.0;
+                let ring = last.inside(reach * (1.0 - ring / rings));
+                rectangle.line_to(lines, [ring.half[0], 0.0]);
+                rectangle.around(lines, ring);
+            }
+        };
+        let finish = |lines: &mut Lines| {
+            let [a, b] = outermost.half;
+            let quarter = 0.5 * a.min(b);
+            rectangle.line_to(lines, [a - quarter, -quarter]);
+            rectangle.arc_to(lines, [a, 0.0], [0.0, quarter]);
+            rectangle.around(lines, outermost);
+            rectangle.arc_to(lines, [a - quarter, quarter], [-quarter, 0.0]);
+        };
+        pocket.machined(arguments, 10.0 * rings + 4.0, clear, finish)
+    }
+}

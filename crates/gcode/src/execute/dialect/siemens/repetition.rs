@@ -1,0 +1,134 @@
+//! REPEAT and REPEATB: parts of the program that are executed again.
+
+use std::io::BufRead;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::tape::Repetition;
+use crate::execute::flow::activation::MAX_CALLS;
+use crate::execute::program::Program;
+use crate::execute::scope::ProgramScope;
+use crate::syntax::dialect::siemens::expression::Evaluator;
+use crate::syntax::dialect::siemens::statement::is_target;
+use crate::syntax::word_check::missing;
+
+/// Most turns of one repetition.
+const MAX_TURNS: f64 = 9999.0;
+
+/// A label, if one comes next.
+fn label_ahead(input: &mut Evaluator<'_>) -> Option<Vec<u8>> {
+    input.next_visible();
+    let name = input.name_ahead();
+    let is_label = !name.is_empty() && name != b"P";
+    is_label.then(|| {
+        input.at += name.len();
+        name
+    })
+}
+
+impl<R: BufRead> Program<R> {
+    /// Begins a part again that is to be repeated, or goes on behind it.
+    pub(super) fn siemens_repeat(&mut self) {
+        while let Some(part) = self.tape.repetitions.last_mut() {
+            if self.tape.next != part.end {
+                return;
+            }
+            if part.again > 0 {
+                part.again -= 1;
+                self.tape.next = part.start;
+                return;
+            }
+            self.tape.next = part.back;
+            self.tape.repetitions.pop();
+        }
+    }
+
+    /// `REPEAT A`, `REPEAT A B`, `REPEATB A`, each with `P=n`.
+    pub(super) fn siemens_repeat_part(
+        &mut self,
+        index: usize,
+        text: &[u8],
+        at: usize,
+        is_block: bool,
+    ) -> Outcome<()> {
+        let scope = ProgramScope {
+            parameters: &self.parameters,
+            interpreter: &self.interpreter,
+        };
+        let mut input = self.evaluator(&scope, text, at);
+        let span = SourceSpan::new(at.saturating_sub(6), at);
+        let first = label_ahead(&mut input)
+            .ok_or_else(|| missing(span, "REPEAT", "a label", "where the part begins"))?;
+        let last = if is_block {
+            None
+        } else {
+            label_ahead(&mut input)
+        };
+        let mut turns = 1.0;
+        if input.eat_name(b"P") && input.eat(b'=') {
+            turns = input.value()?.round();
+        }
+        let behind = input.at;
+        if !input.is_at_end() || !(0.0..=MAX_TURNS).contains(&turns) {
+            let span = SourceSpan::new(behind, text.len().max(behind + 1));
+            let message = "what is repeated how often is not clear";
+            return Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
+                .because(format!(
+                    "P is a number from 0 to {MAX_TURNS}, and the last word"
+                ))
+                .help("write REPEAT label P=n, REPEAT first last P=n, or REPEATB label P=n"));
+        }
+        let start = self.siemens_target(index, &first, at)?;
+        let end = match &last {
+            _ if is_block => start + 1,
+            Some(last) => self.siemens_target(index, last, at)? + 1,
+            None => {
+                let end = self.tape.search(
+                    start + 1,
+                    &mut self.source,
+                    |line| is_target(line, b"ENDLABEL"),
+                    |_| false,
+                )?;
+                match end {
+                    Some(end) if start > index || end < index => end,
+                    _ if start < index => index,
+                    _ => {
+                        let message = "a part without its end";
+                        return Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
+                            .because("a part that begins behind REPEAT ends at ENDLABEL:")
+                            .help("add ENDLABEL:, or name the last block: REPEAT first last"));
+                    }
+                }
+            }
+        };
+        if end <= start || (start..end).contains(&index) {
+            let message = "a part that ends before it begins, or repeats itself";
+            return Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
+                .because("the first label stands in front of the last, and REPEAT outside of them")
+                .help("check the labels"));
+        }
+        if self.tape.repetitions.len() >= MAX_CALLS {
+            let message = format!("more than {MAX_CALLS} repetitions in each other");
+            return Err(Fault::new(DiagnosticCode::CallDepth, span, message)
+                .because("the depth of repetitions is bounded")
+                .help("check what jumps out of a part that is repeated"));
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "range checked"
+        )]
+        let Some(again) = (turns as u32).checked_sub(1) else {
+            return Ok(());
+        };
+        self.tape.repetitions.push(Repetition {
+            start,
+            end,
+            back: index + 1,
+            again,
+        });
+        self.tape.next = start;
+        Ok(())
+    }
+}

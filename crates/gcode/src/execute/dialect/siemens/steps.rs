@@ -1,0 +1,33 @@
+//! What is still to be executed of a cycle, and what the program has declared.
+
+use std::collections::VecDeque;
+
+use crate::execute::state::modal::Modal;
+use crate::syntax::dialect::siemens::variables::Variables;
+
+/// A step of a cycle.
+#[derive(Debug, Clone)]
+pub(crate) enum Step {
+    /// A line in RS274/NGC's words.
+    Line(String),
+    /// The modes from before the cycle.
+    Restore(Box<Modal>),
+}
+
+/// A cycle with the values of its arguments.
+#[derive(Debug, Clone)]
+pub(crate) struct CycleCall {
+    /// Its name in capitals.
+    pub(crate) name: &'static str,
+    pub(crate) arguments: Vec<Option<f64>>,
+}
+
+/// What a SINUMERIK program has besides the state of the interpreter.
+#[derive(Debug, Default)]
+pub(crate) struct SiemensState {
+    pub(crate) variables: Variables,
+    /// What is left of the cycle in progress.
+    pub(crate) steps: VecDeque<Step>,
+    /// The cycle that is made behind every move (MCALL).
+    pub(crate) modal_call: Option<CycleCall>,
+}

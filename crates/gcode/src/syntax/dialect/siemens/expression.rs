@@ -1,0 +1,517 @@
+//! Expressions as SINUMERIK writes them.
+//!
+//! ```text
+//! value    = term [ ( "==" | "<>" | "<" | "<=" | ">" | ">=" ) term ]
+//! term     = operand { operator operand }
+//! operand  = [ "+" | "-" | NOT ] ( number | "(" value ")" | R5 | R[value] | NAME | $PI | TRUE | FALSE
+//!          | FUNCTION "(" value { "," value } ")" )
+//! ```
+//!
+//! Operators, strongest first: `*` `/` `DIV` `MOD`; `+` `-`; `AND`; `XOR`; `OR`. Comparisons bind
+//! weaker than all of them on this control, other than in most languages, so that `R1>5 AND R2<3`
+//! would not be what it looks like: beside a comparison these want parentheses here. Angles are in
+//! degrees. A comparison gives 1 or 0, and two values are equal if they differ by less than 1e-12 of
+//! the greater.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::syntax::bad_byte::bad_byte;
+use crate::syntax::cursor::MAX_NUMBER;
+use crate::syntax::dialect::siemens::function::{FUNCTIONS, Function};
+use crate::syntax::dialect::siemens::variables::{Kind, Variables, r_parameter};
+use crate::syntax::expression::scope::{Parameter, Scope};
+
+/// Deepest nesting of parentheses and signs.
+const MAX_DEPTH: u32 = 64;
+/// Most arguments of a call.
+const MAX_ARGUMENTS: usize = 40;
+/// Values that differ by less than this part of the greater are equal.
+const EQUAL: f64 = 1e-12;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Operator {
+    Times,
+    Over,
+    Divide,
+    Modulo,
+    Plus,
+    Minus,
+    And,
+    ExclusiveOr,
+    Or,
+}
+
+/// Operators by name, with their strength.
+const OPERATORS: [(&[u8], Operator, u8); 9] = [
+    (b"*", Operator::Times, 5),
+    (b"/", Operator::Over, 5),
+    (b"DIV", Operator::Divide, 5),
+    (b"MOD", Operator::Modulo, 5),
+    (b"+", Operator::Plus, 4),
+    (b"-", Operator::Minus, 4),
+    (b"AND", Operator::And, LOGIC),
+    (b"XOR", Operator::ExclusiveOr, 2),
+    (b"OR", Operator::Or, 1),
+];
+
+/// Operators of this strength and weaker ones are of truth values.
+const LOGIC: u8 = 3;
+
+/// A comparison of two values.
+type Compare = fn(f64, f64) -> bool;
+
+/// Where values come from.
+#[derive(Clone, Copy)]
+pub(crate) struct Names<'a> {
+    pub(crate) variables: &'a Variables,
+    pub(crate) scope: &'a dyn Scope,
+}
+
+/// Reads a line from left to right and computes what is in it.
+pub(crate) struct Evaluator<'a> {
+    pub(crate) text: &'a [u8],
+    pub(crate) at: usize,
+    names: Names<'a>,
+    /// What the line has assigned so far: what it is from when on cannot be seen.
+    pub(crate) assigned: Vec<Parameter>,
+    depth: u32,
+    /// The last operator of truth values in these parentheses.
+    logic: Option<SourceSpan>,
+}
+
+impl<'a> Evaluator<'a> {
+    pub(crate) const fn new(text: &'a [u8], at: usize, names: Names<'a>) -> Self {
+        Self {
+            text,
+            at,
+            names,
+            assigned: Vec::new(),
+            depth: 0,
+            logic: None,
+        }
+    }
+
+    /// The byte that comes `ahead` bytes later, in capitals.
+    pub(crate) fn peek(&self, ahead: usize) -> Option<u8> {
+        let byte = self.text.get(self.at + ahead)?;
+        Some(byte.to_ascii_uppercase())
+    }
+
+    /// Skips blanks, then tells what comes next.
+    pub(crate) fn next_visible(&mut self) -> Option<u8> {
+        while matches!(self.peek(0), Some(b' ' | b'\t')) {
+            self.at += 1;
+        }
+        self.peek(0)
+    }
+
+    /// Letters, digits and what else may be in a name, from here on, in capitals.
+    pub(crate) fn name_ahead(&self) -> Vec<u8> {
+        (0..)
+            .map_while(|ahead| self.peek(ahead))
+            .take_while(|byte| matches!(byte, b'A'..=b'Z' | b'0'..=b'9' | b'_' | b'$'))
+            .collect()
+    }
+
+    /// Skips a name if it comes next.
+    pub(crate) fn eat_name(&mut self, name: &[u8]) -> bool {
+        self.next_visible();
+        let found = self.name_ahead() == name;
+        if found {
+            self.at += name.len();
+        }
+        found
+    }
+
+    /// Skips a byte if it comes next.
+    pub(crate) fn eat(&mut self, byte: u8) -> bool {
+        let found = self.next_visible() == Some(byte);
+        self.at += usize::from(found);
+        found
+    }
+
+    /// Whether the line, but for a comment, ends here.
+    pub(crate) fn is_at_end(&mut self) -> bool {
+        matches!(self.next_visible(), None | Some(b';'))
+    }
+
+    /// A variable that can be assigned, and what it holds.
+    pub(crate) fn assignable(&mut self) -> Outcome<Option<(Kind, Parameter)>> {
+        let start = self.at;
+        let name = self.name_ahead();
+        if let [b'R', digits @ ..] = name.as_slice()
+            && digits.iter().all(u8::is_ascii_digit)
+        {
+            self.at += name.len();
+            let number = match (digits.is_empty(), self.peek(0)) {
+                (true, Some(b'[')) => self.index()?,
+                (true, _) => {
+                    self.at = start;
+                    return Ok(None);
+                }
+                _ => parsed(digits),
+            };
+            let parameter = r_parameter(number, SourceSpan::new(start, self.at))?;
+            return Ok(Some((Kind::Real, parameter)));
+        }
+        let variable = self.names.variables.get(&name);
+        if variable.is_some() {
+            self.at += name.len();
+        }
+        Ok(variable)
+    }
+
+    /// The value of the expression that begins here.
+    pub(crate) fn value(&mut self) -> Outcome<f64> {
+        self.next_visible();
+        let start = self.at;
+        let value = self.comparison()?;
+        self.in_range(value, start)
+    }
+
+    fn in_range(&self, value: f64, start: usize) -> Outcome<f64> {
+        if value.abs() > MAX_NUMBER {
+            let message = format!("the value is {value}, which is too large");
+            let span = SourceSpan::new(start, self.at);
+            return Err(Fault::new(DiagnosticCode::NumberOutOfRange, span, message)
+                .because(format!(
+                    "no word or parameter takes a value beyond ±{MAX_NUMBER}"
+                ))
+                .help("check the values it is computed from"));
+        }
+        Ok(value)
+    }
+
+    /// The number with its sign that stands here without an equals sign.
+    pub(crate) fn literal(&mut self) -> Outcome<f64> {
+        let negative = self.next_visible() == Some(b'-');
+        if matches!(self.peek(0), Some(b'+' | b'-')) {
+            self.at += 1;
+        }
+        if !matches!(self.next_visible(), Some(b'0'..=b'9' | b'.')) {
+            let span = SourceSpan::new(self.at.saturating_sub(1), self.at.max(1));
+            let message = "a number is missing";
+            return Err(Fault::new(DiagnosticCode::MissingNumber, span, message)
+                .because("a letter and its number make a word")
+                .help("write the number, or `=` and an expression"));
+        }
+        let start = self.at;
+        let value = self.number()?;
+        let value = self.in_range(value, start)?;
+        Ok(if negative { -value } else { value })
+    }
+
+    /// What is in the parentheses that begin here; `None` where an argument is left out.
+    pub(crate) fn arguments(&mut self) -> Outcome<Vec<Option<f64>>> {
+        let start = self.at;
+        let mut arguments = Vec::new();
+        if !self.eat(b'(') {
+            return Ok(arguments);
+        }
+        loop {
+            let value = match self.next_visible() {
+                Some(b',' | b')') => None,
+                _ => Some(self.value()?),
+            };
+            arguments.push(value);
+            let ends = self.next_visible() == Some(b')');
+            if ends || arguments.len() >= MAX_ARGUMENTS || self.peek(0) != Some(b',') {
+                if self.eat(b')') {
+                    return Ok(arguments);
+                }
+                return Err(unclosed(
+                    SourceSpan::new(start, self.at.max(start + 1)),
+                    ")",
+                ));
+            }
+            self.at += 1;
+        }
+    }
+
+    fn deeper(&mut self) -> Outcome<()> {
+        self.depth += 1;
+        if self.depth <= MAX_DEPTH {
+            return Ok(());
+        }
+        let span = SourceSpan::new(self.at, self.at + 1);
+        let message = format!("more than {MAX_DEPTH} levels of parentheses");
+        Err(Fault::new(DiagnosticCode::Expression, span, message)
+            .because("the depth of expressions is bounded")
+            .help("compute parts of it into R parameters first"))
+    }
+
+    fn comparison(&mut self) -> Outcome<f64> {
+        self.deeper()?;
+        let outer = self.logic.take();
+        let start = self.at;
+        let mut value = self.level(1)?;
+        let mut compared = false;
+        while let Some((compare, length)) = self.comparator() {
+            let at = self.at;
+            self.at += length;
+            let right = self.level(1)?;
+            if compared || self.logic.is_some() {
+                let span = self.logic.unwrap_or(SourceSpan::new(at, at + length));
+                let message = "a comparison beside another one, or beside AND, OR or XOR";
+                return Err(Fault::new(DiagnosticCode::Expression, span, message)
+                    .because(
+                        "on a SINUMERIK comparisons bind weakest, so that it does not mean what it \
+                         looks like",
+                    )
+                    .help("put each comparison into parentheses: (R1>5) AND (R2<3)"));
+            }
+            compared = true;
+            value = f64::from(u8::from(compare(value, right)));
+        }
+        self.logic = outer;
+        self.depth -= 1;
+        finite(value, SourceSpan::new(start, self.at))
+    }
+
+    /// The comparison that comes next, and how long it is.
+    fn comparator(&mut self) -> Option<(Compare, usize)> {
+        let first = self.next_visible()?;
+        Some(match (first, self.peek(1)) {
+            (b'=', Some(b'=')) => (equal, 2),
+            (b'<', Some(b'>')) => (|a, b| !equal(a, b), 2),
+            (b'<', Some(b'=')) => (|a, b| a < b || equal(a, b), 2),
+            (b'>', Some(b'=')) => (|a, b| a > b || equal(a, b), 2),
+            (b'<', _) => (|a, b| a < b && !equal(a, b), 1),
+            (b'>', _) => (|a, b| a > b && !equal(a, b), 1),
+            _ => return None,
+        })
+    }
+
+    /// Operators of at least the given strength.
+    fn level(&mut self, strength: u8) -> Outcome<f64> {
+        let mut left = self.operand()?;
+        loop {
+            let first = self.next_visible();
+            let start = self.at;
+            let name = match first {
+                Some(byte @ (b'*' | b'/' | b'+' | b'-')) => vec![byte],
+                _ => self.name_ahead(),
+            };
+            let found = OPERATORS.into_iter().find(|(known, ..)| *known == name);
+            let Some((_, operator, own)) = found.filter(|(.., own)| *own >= strength) else {
+                return Ok(left);
+            };
+            self.at += name.len();
+            let span = SourceSpan::new(start, self.at);
+            if own <= LOGIC {
+                self.logic = Some(span);
+            }
+            self.deeper()?;
+            let right = self.level(own + 1)?;
+            self.depth -= 1;
+            left = apply(operator, left, right, SourceSpan::new(start, self.at))?;
+        }
+    }
+
+    fn operand(&mut self) -> Outcome<f64> {
+        let start = self.at;
+        match self.next_visible() {
+            Some(sign @ (b'+' | b'-')) => {
+                self.deeper()?;
+                self.at += 1;
+                let value = self.operand()?;
+                self.depth -= 1;
+                Ok(if sign == b'-' { -value } else { value })
+            }
+            Some(b'(') => {
+                let start = self.at;
+                self.at += 1;
+                let value = self.comparison()?;
+                if self.eat(b')') {
+                    return Ok(value);
+                }
+                Err(unclosed(
+                    SourceSpan::new(start, self.at.max(start + 1)),
+                    ")",
+                ))
+            }
+            Some(b'0'..=b'9' | b'.') => self.number(),
+            Some(b'A'..=b'Z' | b'_' | b'$') => self.named(),
+            Some(b'"') => {
+                let span = SourceSpan::new(self.at, self.text.len());
+                let fault = Fault::new(DiagnosticCode::NotSupported, span, "a name in quotes");
+                Err(fault
+                    .because("tools have numbers here, and there are no other names")
+                    .help("write the number"))
+            }
+            None | Some(b';' | b')' | b',' | b'=' | b'<' | b'>' | b'*' | b'/' | b']') => {
+                let span = SourceSpan::new(start.saturating_sub(1), start.max(1));
+                let fault = Fault::new(DiagnosticCode::Expression, span, "a value is missing");
+                Err(fault
+                    .because("a number, a variable, a function or parentheses are needed there")
+                    .help("write the value"))
+            }
+            Some(_) => Err(bad_byte(self.text, self.at)),
+        }
+    }
+
+    /// Digits, with a point and `EX` and an exponent.
+    fn number(&mut self) -> Outcome<f64> {
+        let start = self.at;
+        while matches!(self.peek(0), Some(b'0'..=b'9' | b'.')) {
+            self.at += 1;
+        }
+        let mut text = String::from_utf8_lossy(&self.text[start..self.at]).into_owned();
+        if self.peek(0) == Some(b'E') && self.peek(1) == Some(b'X') {
+            let signed = usize::from(matches!(self.peek(2), Some(b'+' | b'-')));
+            let digits = (2 + signed..)
+                .take_while(|ahead| self.peek(*ahead).is_some_and(|b| b.is_ascii_digit()))
+                .count();
+            let exponent = &self.text[self.at + 2..self.at + 2 + signed + digits];
+            text = format!("{text}e{}", String::from_utf8_lossy(exponent));
+            self.at += 2 + signed + digits;
+        }
+        let span = SourceSpan::new(start, self.at);
+        match text.parse::<f64>() {
+            Ok(value) => finite(value, span),
+            Err(_) => {
+                let shown = String::from_utf8_lossy(&self.text[start..self.at]).into_owned();
+                let message = format!("`{shown}` is not a number");
+                Err(Fault::new(DiagnosticCode::MalformedNumber, span, message)
+                    .because(
+                        "a number is digits with at most one decimal point, and EX and an exponent",
+                    )
+                    .help("write one number"))
+            }
+        }
+    }
+
+    /// `[value]` behind R.
+    fn index(&mut self) -> Outcome<f64> {
+        let start = self.at;
+        self.at += 1;
+        let value = self.comparison()?;
+        if self.eat(b']') {
+            return Ok(value);
+        }
+        Err(unclosed(
+            SourceSpan::new(start, self.at.max(start + 1)),
+            "]",
+        ))
+    }
+
+    /// A parameter, a variable, a constant or a function.
+    fn named(&mut self) -> Outcome<f64> {
+        let start = self.at;
+        let name = self.name_ahead();
+        if let Some((_, parameter)) = self.assignable()? {
+            return self.read(&parameter, SourceSpan::new(start, self.at));
+        }
+        self.at += name.len();
+        match name.as_slice() {
+            b"TRUE" => return Ok(1.0),
+            b"FALSE" => return Ok(0.0),
+            b"$PI" => return Ok(core::f64::consts::PI),
+            b"NOT" => {
+                self.deeper()?;
+                self.logic = Some(SourceSpan::new(start, self.at));
+                let value = self.operand()?;
+                self.depth -= 1;
+                return Ok(f64::from(u8::from(value == 0.0)));
+            }
+            _ => {}
+        }
+        let span = SourceSpan::new(start, self.at);
+        let function = FUNCTIONS.into_iter().find(|(known, ..)| *known == name);
+        let Some((_, function, count)) = function.filter(|_| self.next_visible() == Some(b'('))
+        else {
+            let shown = String::from_utf8_lossy(&name).into_owned();
+            let message = format!("{shown} is not supported in an expression");
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because(
+                    "expressions have numbers, R parameters, variables of DEF REAL, INT and BOOL, \
+                     operators and functions",
+                )
+                .help("declare it by DEF, or write the value"));
+        };
+        self.call(function, count, start)
+    }
+
+    fn call(&mut self, function: Function, count: usize, start: usize) -> Outcome<f64> {
+        self.deeper()?;
+        let outer = self.logic.take();
+        let arguments = self.arguments()?;
+        self.logic = outer;
+        self.depth -= 1;
+        let span = SourceSpan::new(start, self.at);
+        let given: Vec<f64> = arguments.iter().flatten().copied().collect();
+        if arguments.len() != count || given.len() != count {
+            let message = format!("{} arguments in the place of {count}", given.len());
+            return Err(Fault::new(DiagnosticCode::Expression, span, message)
+                .because("a function has a fixed number of arguments")
+                .help("write them with commas between them"));
+        }
+        finite(function.of(&given), span)
+    }
+
+    fn read(&self, parameter: &Parameter, span: SourceSpan) -> Outcome<f64> {
+        if self.assigned.contains(parameter) {
+            let message = "a variable that the line assigns and reads";
+            return Err(Fault::new(DiagnosticCode::Parameter, span, message)
+                .because("it is not settled which of the two comes first")
+                .help("write two blocks"));
+        }
+        let scope = self.names.scope;
+        let value = match parameter {
+            Parameter::Numbered(number) => scope.numbered(*number),
+            Parameter::Named(name) => scope.named(name),
+        };
+        Ok(value.unwrap_or(0.0))
+    }
+}
+
+fn equal(a: f64, b: f64) -> bool {
+    (a - b).abs() <= EQUAL * a.abs().max(b.abs())
+}
+
+fn apply(operator: Operator, left: f64, right: f64, span: SourceSpan) -> Outcome<f64> {
+    let truth = |t: bool| f64::from(u8::from(t));
+    let (a, b) = (left != 0.0, right != 0.0);
+    let value = match operator {
+        Operator::Times => left * right,
+        Operator::Over | Operator::Divide | Operator::Modulo if right == 0.0 => {
+            return Err(
+                Fault::new(DiagnosticCode::Arithmetic, span, "a division by zero")
+                    .because("the value on the right of the operator is zero")
+                    .help("check the values it is computed from"),
+            );
+        }
+        Operator::Over => left / right,
+        Operator::Divide => (left / right).trunc(),
+        Operator::Modulo => left % right,
+        Operator::Plus => left + right,
+        Operator::Minus => left - right,
+        Operator::And => truth(a && b),
+        Operator::ExclusiveOr => truth(a != b),
+        Operator::Or => truth(a || b),
+    };
+    finite(value, span)
+}
+
+fn finite(value: f64, span: SourceSpan) -> Outcome<f64> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    let message = "the result is not a number";
+    Err(Fault::new(DiagnosticCode::Arithmetic, span, message)
+        .because("the operation has no value for these operands, or one that is too large")
+        .help("check the values it is computed from"))
+}
+
+fn unclosed(span: SourceSpan, with: &str) -> Box<Fault> {
+    let message = "the parenthesis is not closed";
+    Fault::new(DiagnosticCode::Expression, span, message)
+        .because("an expression ends in its own line")
+        .help(format!("add `{with}`, or an operator between two values"))
+}
+
+fn parsed(digits: &[u8]) -> f64 {
+    let text = core::str::from_utf8(digits).unwrap_or_default();
+    text.parse().unwrap_or(f64::MAX)
+}

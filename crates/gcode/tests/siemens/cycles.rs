@@ -1,0 +1,325 @@
+use core::f64::consts::TAU;
+
+use glidepath_geometry::Segment;
+use glidepath_program::{Event, ItemKind, PathMode, Rate};
+
+use super::{ends, finds, items, moves};
+
+/// Z of every end, with `r` behind it where the move is a rapid.
+fn levels(text: &str) -> Vec<String> {
+    let all = moves(text).into_iter();
+    all.map(|(segment, rate, _)| {
+        let z = (segment.end()[2] * 1e6).round() / 1e6 + 0.0;
+        let mark = if rate == Rate::Rapid { "r" } else { "" };
+        format!("{z}{mark}")
+    })
+    .collect()
+}
+
+#[test]
+fn holes_are_drilled() {
+    let head = "G0 X5 Z50 F100\n";
+    let drilled = ["50r", "2r", "-10", "20r"];
+    assert_eq!(levels(&format!("{head}CYCLE81(20,0,2,-10)")), drilled);
+    assert_eq!(levels(&format!("{head}CYCLE81(20,0,2,,10)")), drilled);
+    // The depth counts from the surface where both are given.
+    assert_eq!(levels(&format!("{head}CYCLE81(20,0,2,-99,10)")), drilled);
+    let dwells = |text: &str| {
+        let all = items(text).into_iter();
+        all.filter_map(|item| match item.kind {
+            ItemKind::Dwell(seconds) => Some(seconds),
+            _ => None,
+        })
+        .collect::<Vec<_>>()
+    };
+    assert_eq!(dwells(&format!("{head}CYCLE82(20,0,2,-10,,1.5)")), [1.5]);
+    let text = format!("{head}CYCLE85(20,0,2,-10,,,120,240)");
+    assert_eq!(levels(&text), ["50r", "2r", "-10", "2", "20r"]);
+    let rates: Vec<Rate> = moves(&text).into_iter().map(|(_, rate, _)| rate).collect();
+    assert_eq!(rates[2..4], [Rate::Feed(2.0), Rate::Feed(4.0)]);
+    // Modes and feed are those from before.
+    let text = format!("{head}G91 G64 G1\nCYCLE85(20,0,2,-10,,,120,240)\nX1");
+    let (last, rate, mode) = *moves(&text).last().unwrap();
+    assert_eq!((last.end()[0], rate), (6.0, Rate::Feed(100.0 / 60.0)));
+    assert_eq!(mode, PathMode::Continuous { tolerance_mm: None });
+    assert_eq!(moves(&text)[2].2, PathMode::ExactPath);
+}
+
+#[test]
+fn deep_holes_are_drilled_in_strokes() {
+    let head = "G0 Z20 F100\n";
+    // 10, 8, 6, 4, then as long as DAM is; the last two of these are alike.
+    let text = format!("{head}CYCLE83(20,0,2,-33,,-10,,2,,,1,0)");
+    let expected = [
+        "20r", "2r", "-10", "-9", "-18", "-17", "-24", "-23", "-28", "-27", "-30", "-29", "-31.5",
+        "-30.5", "-33", "20r",
+    ];
+    assert_eq!(levels(&text), expected);
+    let text = format!("{head}CYCLE83(20,0,2,-30,,,15,0,,,0.5,1)");
+    let expected = ["20r", "2r", "-15", "2r", "-14.4r", "-30", "20r"];
+    assert_eq!(levels(&text), expected);
+    let feeds: Vec<f64> = moves(&text)
+        .into_iter()
+        .filter_map(|(_, rate, _)| match rate {
+            Rate::Feed(v) => Some((v * 60.0).round()),
+            Rate::Rapid => None,
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(feeds, [50.0, 100.0]);
+    // Each stroke half of the one before.
+    let text = format!("{head}CYCLE83(20,0,2,-15.5,,-8,,-0.5)");
+    let bottoms: Vec<String> = levels(&text).into_iter().skip(2).step_by(2).collect();
+    assert_eq!(bottoms[..5], ["-8", "-12", "-14", "-15", "-15.5"]);
+    finds(
+        "G0 Z20\nCYCLE83(20,0,2,-18,,-8,,-0.5)",
+        &["2:1 canned-cycle"],
+    );
+}
+
+#[test]
+fn bores_are_left_with_the_spindle_at_an_angle() {
+    let text = "G0 X1 Y2 Z20\nCYCLE86(20,0,2,-10,,0.5,3,-1,0.5,1,45)";
+    let expected = [
+        [1.0, 2.0, 20.0],
+        [1.0, 2.0, 2.0],
+        [1.0, 2.0, -10.0],
+        [0.0, 2.5, -9.0],
+        [0.0, 2.5, 20.0],
+        [1.0, 2.0, 20.0],
+    ];
+    assert_eq!(ends(text), expected);
+    let codes: Vec<u32> = items(text)
+        .into_iter()
+        .filter_map(|item| match item.kind {
+            ItemKind::Event(Event::MCode(code)) => Some(code),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(codes, [3, 19]);
+}
+
+#[test]
+fn a_modal_call_drills_at_every_move() {
+    let text = "G0 Z20\nMCALL CYCLE81(20,0,2,-5)\nX1\nM8\nG4 F1\nR1=5\nX2\nMCALL\nX3";
+    let bottoms = ends(text).into_iter().filter(|[.., z]| *z == -5.0);
+    assert_eq!(bottoms.map(|[x, ..]| x).collect::<Vec<_>>(), [1.0, 2.0]);
+    finds("MCALL HOLES1(1)", &["1:7 not-supported"]);
+    finds(
+        "MCALL CYCLE81(0,0,2,-5)\nX3",
+        &["1:7 canned-cycle", "2:1 no-motion-mode"],
+    );
+    // The cycle is along the axis normal to the plane, and in the frame.
+    let text = "G18\nTRANS Y100\nG0 Y20\nCYCLE81(20,0,2,-5)";
+    let ys: Vec<f64> = ends(text).into_iter().map(|[_, y, _]| y).collect();
+    assert_eq!(ys, [120.0, 102.0, 95.0, 120.0]);
+}
+
+/// Length of the arcs at a level, and how far from the centre the tool comes.
+fn at_level(text: &str, z: f64, center: [f64; 2]) -> (f64, f64) {
+    let (mut length, mut reach) = (0.0, 0.0_f64);
+    for (segment, ..) in moves(text) {
+        if (segment.end()[2] - z).abs() < 1e-9 {
+            if matches!(segment, Segment::Arc(_)) {
+                length += segment.length();
+            }
+            let (low, high) = segment.bounding_box();
+            for axis in 0..2 {
+                reach = reach
+                    .max(high[axis] - center[axis])
+                    .max(center[axis] - low[axis]);
+            }
+        }
+    }
+    (length, reach)
+}
+
+#[test]
+fn circular_pockets_are_cleared_in_rings() {
+    // Diameter 8 in a radius of 20 with 1 left: the middle of the tool goes to 15, in rings of at
+    // most 6.4, which are three, 5 apart.
+    let text = "T8 M6\nG0 Z20 F500\nM3 S1000\nCYCLE832()\nPOCKET4(20,0,2,-10,20,30,40,5,1,1,300,100,0,11)\nX0";
+    let (length, reach) = at_level(text, -4.5, [30.0, 40.0]);
+    assert!((length - TAU * 30.0).abs() < 1e-6 && (reach - 15.0).abs() < 1e-9);
+    let (length, _) = at_level(text, -9.0, [30.0, 40.0]);
+    assert!((length - TAU * 30.0).abs() < 1e-6, "{length}");
+    // Climbing with M3 is counterclockwise inside.
+    for (head, cdir, counter) in [
+        ("M3", 0, true),
+        ("M3", 1, false),
+        ("M4", 0, false),
+        ("", 2, false),
+        ("", 3, true),
+    ] {
+        let text =
+            format!("T8 M6\n{head}\nG0 Z20\nPOCKET4(20,0,2,-10,20,30,40,,,,300,100,{cdir},11)");
+        for (segment, ..) in moves(&text) {
+            if let Segment::Arc(arc) = segment {
+                assert_eq!(arc.sweep_rad > 0.0, counter, "{head} {cdir}");
+            }
+        }
+    }
+}
+
+#[test]
+fn pockets_are_finished_at_the_edge_and_on_the_bottom() {
+    let text = "T8 M6\nG0 Z20\nPOCKET4(20,0,2,-10,20,0,0,5,1,1,300,100,3,12)";
+    let (length, reach) = at_level(text, -5.0, [0.0, 0.0]);
+    // Once around at 16, and two quarters of half of it.
+    assert!((length - TAU * (16.0 + 0.5 * 8.0)).abs() < 1e-6, "{length}");
+    assert!((reach - 16.0).abs() < 1e-9);
+    // The bottom: the edge, and rings at 16/3, 32/3 and 16.
+    let (length, _) = at_level(text, -10.0, [0.0, 0.0]);
+    assert!((length - TAU * (20.0 + 32.0)).abs() < 1e-6, "{length}");
+    // Nothing of it goes down at rapid, even with VARI 2.
+    let text = text.replace(",3,12)", ",3,2)");
+    for (segment, rate, _) in moves(&text) {
+        assert!(rate != Rate::Rapid || segment.end()[2] >= 2.0);
+    }
+}
+
+#[test]
+fn helices_lead_into_pockets() {
+    let text = "T8 M6\nG0 Z20\nPOCKET4(20,0,2,-10,20,0,0,5,,,300,100,2,21,,,,3,2)";
+    let helix = moves(text)
+        .into_iter()
+        .find_map(|(segment, ..)| match segment {
+            Segment::Arc(arc) if arc.end[2] < arc.start[2] => Some(arc),
+            _ => None,
+        });
+    let helix = helix.unwrap();
+    assert_eq!((helix.start[2], helix.end[2]), (0.0, -5.0));
+    assert!(
+        (helix.sweep_rad + 3.0 * TAU).abs() < 1e-9,
+        "2.5 turns of 2 mm, rounded up"
+    );
+}
+
+/// Where the middle of the tool comes, every 0.2 mm.
+fn trace(segments: &[Segment]) -> Vec<[f64; 2]> {
+    let mut all = Vec::new();
+    for segment in segments {
+        let (length, mut way) = (segment.length(), 0.0);
+        while way <= length {
+            let at = segment.jet(way).position;
+            all.push([at[0], at[1]]);
+            way += 0.2;
+        }
+    }
+    all
+}
+
+#[test]
+fn rectangular_pockets_are_cleared_to_their_corners() {
+    for (length, width, angle, cdir) in [
+        (50.0, 30.0, 0.0, 2),
+        (30.0, 50.0, 0.0, 3),
+        (40.0, 40.0, 30.0, 2),
+    ] {
+        let text = format!(
+            "T6 M6\nG0 Z20\nPOCKET3(20,0,2,-4,{length},{width},5,10,20,{angle},,,,300,100,{cdir},11)"
+        );
+        let segments: Vec<Segment> = moves(&text)
+            .into_iter()
+            .map(|(segment, ..)| segment)
+            .filter(|segment| segment.start()[2] == -4.0 && segment.end()[2] == -4.0)
+            .collect();
+        let (sin, cos) = f64::to_radians(angle).sin_cos();
+        let place = |u: f64, v: f64| [10.0 + u * cos - v * sin, 20.0 + u * sin + v * cos];
+        let (a, b) = (0.5 * length, 0.5 * width);
+        let trace = trace(&segments);
+        let is_cut = |[x, y]: [f64; 2]| {
+            let mut near = trace.iter();
+            near.any(|at| (at[0] - x).hypot(at[1] - y) <= 3.02)
+        };
+        // Inside of the pocket everything is cut, corners of 5 mm left apart.
+        let mut inside = 0;
+        for i in -25..=25 {
+            for j in -25..=25 {
+                let (u, v) = (f64::from(i), f64::from(j));
+                let (du, dv) = (
+                    (u.abs() - (a - 5.0)).max(0.0),
+                    (v.abs() - (b - 5.0)).max(0.0),
+                );
+                if u.abs() <= a && v.abs() <= b && du.hypot(dv) <= 5.0 {
+                    inside += 1;
+                    assert!(is_cut(place(u, v)), "{length} {width}: {u} {v}");
+                }
+            }
+        }
+        assert!(inside > 1000);
+        // Nothing outside is.
+        for segment in &segments {
+            for i in 0..=100 {
+                let at = segment
+                    .jet(segment.length() * f64::from(i) / 100.0)
+                    .position;
+                let (x, y) = (at[0] - 10.0, at[1] - 20.0);
+                let (u, v) = ((x * cos + y * sin).abs(), (y * cos - x * sin).abs());
+                let (du, dv) = ((u - (a - 5.0)).max(0.0), (v - (b - 5.0)).max(0.0));
+                let fits = u <= a - 3.0 + 1e-9 && v <= b - 3.0 + 1e-9 && du.hypot(dv) <= 2.0 + 1e-9;
+                assert!(fits, "{length} {width} {u} {v}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rectangular_pockets_are_finished() {
+    let text = "T6 M6\nG0 Z20\nPOCKET3(20,0,2,-4,50,30,5,0,0,0,2,0.5,,300,100,3,12)";
+    let (length, reach) = at_level(text, -2.0, [0.0, 0.0]);
+    // Four corners of 2, and two quarters of 6.
+    assert!((length - TAU * (2.0 + 3.0)).abs() < 1e-6, "{length}");
+    assert!((reach - 22.0).abs() < 1e-9);
+}
+
+#[test]
+fn cycles_that_cannot_be_made_are_refused() {
+    let head = "T6 M6\nG0 Z20\nM3 S100\n";
+    for (cycle, code) in [
+        ("CYCLE81(20,0,2)", "missing-word"),
+        ("CYCLE81(,0,2,-5)", "missing-word"),
+        ("CYCLE81(0,0,2,-5)", "canned-cycle"),
+        ("CYCLE81(20,0,2,5)", "canned-cycle"),
+        ("CYCLE81(20,0,-2,-5)", "canned-cycle"),
+        ("CYCLE81(20,0,2,-5", "expression"),
+        ("CYCLE81(20,0,2,-5,,1)", "not-supported"),
+        ("CYCLE81(20,0,2,-5) G0", "unused-word"),
+        ("CYCLE82(20,0,2,-5,,-1)", "canned-cycle"),
+        ("CYCLE83(20,0,2,-5,,1)", "canned-cycle"),
+        ("CYCLE83(20,0,2,-5,,-1,,-2)", "canned-cycle"),
+        ("CYCLE83(20,0,2,-5,,-1,,-0.001)", "canned-cycle"),
+        ("CYCLE86(20,0,2,-5,,,5)", "canned-cycle"),
+        ("POCKET4(20,0,2,-5,2,0,0)", "canned-cycle"),
+        ("POCKET4(20,0,2,-5,20,0,0,,,,,,7)", "canned-cycle"),
+        ("POCKET4(20,0,2,-5,20,0,0,,,,,,0,31)", "canned-cycle"),
+        ("POCKET4(20,0,2,-5,20,0,0,,,,,,0,21)", "missing-word"),
+        ("POCKET4(20,0,2,-5,20,0,0,,,,,,0,11,5)", "canned-cycle"),
+        ("POCKET4(20,0,2,-5,20,0,0,,,,,,0,11,,3)", "canned-cycle"),
+        (
+            "POCKET4(20,0,2,-5,20,0,0,0.0000001,,,,,0,11)",
+            "canned-cycle",
+        ),
+        ("POCKET3(20,0,2,-5,20,10,2,0,0)", "canned-cycle"),
+        ("POCKET3(20,0,2,-5,20,10,6,0,0)", "canned-cycle"),
+        ("POCKET3(20,0,2,-5,20,6,3,0,0)", "canned-cycle"),
+    ] {
+        let text = format!("{head}{cycle}");
+        let report = glidepath_gcode::check(text.as_bytes(), super::options());
+        let found: Vec<_> = report
+            .diagnostics
+            .iter()
+            .map(|d| (d.line, d.code.as_str()))
+            .collect();
+        assert_eq!(found, [(4, code)], "{cycle}");
+        let diagnostic = &report.diagnostics[0];
+        assert!(
+            !diagnostic.help.is_empty() && !diagnostic.reason.is_empty(),
+            "{diagnostic}"
+        );
+    }
+    finds("G0 Z20\nPOCKET4(20,0,2,-5,20,0,0)", &["2:1 canned-cycle"]);
+    finds("CYCLE84(1)", &["1:1 not-supported"]);
+    // What is wrong with a step is wrong with the cycle's line.
+    finds("G0 Z20\nG91 CYCLE81(20,0,2,-5)", &["2:5 not-supported"]);
+}
