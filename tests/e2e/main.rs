@@ -8,6 +8,7 @@
 mod faults;
 mod jog;
 mod libraries;
+mod live;
 mod load;
 mod operating;
 mod operator;

@@ -6,6 +6,7 @@
 //! * [`Process`]: processes of the real binary, which [`glidepath`] finds and builds;
 //! * [`Services`]: an interpolator and a servo as processes;
 //! * [`Operated`]: the same with drives that answer, and what an operator types;
+//! * [`Browser`]: Chromium, to look at pages;
 //! * [`Machine`]: interpolator, recorder and planner as threads of the test, joined by the
 //!   transport that real processes use.
 #![allow(
@@ -17,6 +18,7 @@
 )]
 
 mod binary;
+mod browser;
 mod instance;
 mod machine;
 mod operated;
@@ -26,6 +28,7 @@ mod setpoint_file;
 mod watchdog;
 
 pub use binary::glidepath;
+pub use browser::Browser;
 pub use instance::Instance;
 pub use machine::{Machine, Recording, Watch, audit, plan, program, program_from, settings};
 pub use operated::Operated;

@@ -36,6 +36,7 @@
 //! ```
 
 pub mod bench;
+mod chords;
 pub mod cli;
 pub mod clock;
 pub mod command;
@@ -50,6 +51,8 @@ mod joints;
 mod kept;
 pub mod output;
 pub mod output_file;
+pub mod page;
+pub mod picture;
 mod plan_steps;
 pub mod play_time;
 pub mod plot;

@@ -19,6 +19,8 @@ pub enum OutputKind {
     Setpoints,
     /// A plot.
     Plot,
+    /// A plot as a page.
+    Page,
     /// A program of fitted curves.
     Program,
     /// A curve file.
@@ -30,6 +32,7 @@ impl OutputKind {
         match self {
             Self::Setpoints => "a CSV file of setpoints",
             Self::Plot => "a plot of this program",
+            Self::Page => "a page of this program",
             Self::Program => "a program with fitted curves",
             Self::Curve => "a curve file of this program",
         }
@@ -40,6 +43,7 @@ impl OutputKind {
         match self {
             Self::Setpoints => head.starts_with("tick,time_s,line,state,feed_mm_s,path_mm"),
             Self::Plot => head.starts_with("<svg ") && head.contains("'DejaVu Sans','Segoe UI'"),
+            Self::Page => head.contains(glidepath_live::file::GENERATOR),
             Self::Program => head.starts_with("(machine coordinates: run it with work offsets"),
             Self::Curve => head.starts_with("name = ") && head.contains("control_points = [  # mm"),
         }

@@ -3,8 +3,8 @@
 use crate::config::MachineConfig;
 use crate::file_error::FileError;
 use crate::output_file::{Guard, OutputFile, OutputKind};
-use crate::plot::Plot;
-use crate::report::{DiagnosisReport, state_name};
+use crate::picture::Picture;
+use crate::report::{MotionReport, state_name};
 use crate::sample::Sample;
 use crate::setpoints::CsvWriter;
 use glidepath_link::MachineState;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Recording {
     csv: Option<CsvWriter<BufWriter<OutputFile>>>,
-    plot: Option<(OutputFile, Plot)>,
+    plot: Option<(OutputFile, Picture)>,
     csv_path: PathBuf,
 }
 
@@ -39,7 +39,8 @@ impl Recording {
         };
         // Both now, so that a path that cannot be written is known before an hour of motion.
         let csv = begin(csv, OutputKind::Setpoints)?;
-        let plot = begin(plot, OutputKind::Plot)?;
+        let kind = plot.map_or(OutputKind::Plot, Picture::kind);
+        let plot = begin(plot, kind)?;
         if let (Some(csv), Some(plot)) = (&csv, &plot)
             && csv.has_place_of(plot)
         {
@@ -50,9 +51,8 @@ impl Recording {
         let csv = csv.map(writer).transpose();
         let csv = csv.map_err(FileError::file("write", &csv_path))?;
         let plot = plot.map(|file| {
-            let plot = Plot::new(&axes, config.limits(), config.period_t())
-                .with_joints(&config.joint_limits, config.joints());
-            (file, plot)
+            let picture = Picture::new(config, file.path());
+            (file, picture)
         });
         Ok(Self {
             csv,
@@ -74,10 +74,10 @@ impl Recording {
         }
     }
 
-    /// Takes what is known of the motion as a whole.
-    pub fn smoothness(&mut self, diagnosis: Option<&DiagnosisReport>) {
-        if let (Some((_, plot)), Some(diagnosis)) = (&mut self.plot, diagnosis) {
-            plot.smoothness(&diagnosis.smoothness);
+    /// Takes what is known of the motion as a whole, and where its program is.
+    pub fn told(&mut self, report: &MotionReport, program: &Path) {
+        if let Some((_, plot)) = &mut self.plot {
+            plot.told(report, program);
         }
     }
 

@@ -1,7 +1,7 @@
 //! One setpoint as reports and plots see it, whether it was planned or received.
 
 use crate::report::state_name;
-use glidepath_audit::diagnosis::{Binding, Deviation};
+use glidepath_audit::diagnosis::{Binding, Deviation, Diagnosis};
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::JointVector;
 use glidepath_link::Setpoint;
@@ -24,6 +24,8 @@ pub struct Sample {
     pub binding: Option<Binding>,
     /// How far it is from the programmed path, where that is known.
     pub deviation: Option<Deviation>,
+    /// The speed that the program wants, mm/s, infinite for a rapid; 0 where that is not known.
+    pub programmed_v: f64,
     /// Rate of path position, mm/s.
     pub feed_v: f64,
     /// Path position since the start of the program, mm.
@@ -54,6 +56,7 @@ impl Sample {
             rapid: frame.flags.contains(FrameFlags::RAPID),
             binding: None,
             deviation: None,
+            programmed_v: 0.0,
             feed_v: frame.path_v,
             path_s: frame.path_s,
             position: frame.position,
@@ -63,13 +66,14 @@ impl Sample {
         }
     }
 
-    /// The same sample, with the limit that binds in the period it ends, and how far it is from the
-    /// programmed path.
+    /// The same sample, with the limit that binds in the period it ends, and what the diagnosis
+    /// knows of its place.
     #[must_use]
-    pub const fn diagnosed(self, binding: Binding, deviation: Deviation) -> Self {
+    pub const fn diagnosed(self, binding: Binding, diagnosis: &Diagnosis) -> Self {
         Self {
             binding: Some(binding),
-            deviation: Some(deviation),
+            deviation: Some(diagnosis.deviation()),
+            programmed_v: diagnosis.feed_v(),
             ..self
         }
     }
@@ -89,6 +93,7 @@ impl Sample {
             rapid: setpoint.has(FrameFlags::RAPID),
             binding: None,
             deviation: None,
+            programmed_v: 0.0,
             feed_v: setpoint.feed_v,
             path_s: setpoint.path_s,
             position: setpoint.position.into(),

@@ -94,6 +94,7 @@ mod tests {
             rapid: false,
             binding: None,
             deviation: None,
+            programmed_v: 0.0,
             feed_v: 25.0,
             path_s: 0.1 + 0.2,
             position: AxisVector::repeat(value),

@@ -26,6 +26,7 @@ fn wander(tick: u32) -> Sample {
         rapid: (tick / 500) % 4 == 3,
         binding: None,
         deviation: None,
+        programmed_v: 0.0,
         feed_v: 60.0 + 50.0 * (2.1 * t).sin(),
         path_s: 0.0,
         position,

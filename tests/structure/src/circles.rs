@@ -125,6 +125,7 @@ houses! {
     kept: "kept",
     kinematics: "kinematics",
     link: "link",
+    live: "live",
     migration: "migration",
     motion: "motion",
     planner: "planner",

@@ -37,6 +37,7 @@ pub struct Diagnosis {
     places: Places,
     smoothness: Smoothness,
     deviation: Deviation,
+    feed_v: f64,
 }
 
 /// How far a frame is from the programmed path, and how far it may be.
@@ -71,6 +72,7 @@ impl Diagnosis {
             places: Places::new(settings.period_t),
             smoothness: Smoothness::new(settings.period_t),
             deviation: Deviation::default(),
+            feed_v: 0.0,
         }
     }
 
@@ -96,6 +98,7 @@ impl Diagnosis {
             distance_mm: deviation_mm,
             tolerance_mm: nearby.tolerance_mm,
         };
+        self.feed_v = nearby.feed_v;
         let is_at_feed = binding == Binding::Feed;
         self.smoothness
             .next(&frame.position, is_at_feed, deviation_mm);
@@ -125,6 +128,13 @@ impl Diagnosis {
     #[must_use]
     pub const fn deviation(&self) -> Deviation {
         self.deviation
+    }
+
+    /// The speed that the program wants at the last frame, overrides included, mm/s; infinite for a
+    /// rapid at 100 %, and where there is no program.
+    #[must_use]
+    pub const fn feed_v(&self) -> f64 {
+        self.feed_v
     }
 
     /// The summary, after the last frame.

@@ -5,6 +5,7 @@ use super::config::ConfigArgs;
 use super::curves::{FitArgs, PreviewArgs};
 use super::host::{BenchArgs, DoctorArgs, JitterArgs};
 use super::jog::JogArgs;
+use super::live::LiveArgs;
 use super::motion::{
     CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
 };
@@ -25,7 +26,9 @@ pub enum Command {
     #[command(after_help = "Example: glidepath run part.ngc --best-effort --plot part.svg")]
     Run(RunArgs),
     /// Compute the same motion without waiting for the clock
-    #[command(after_help = "Example: glidepath plan part.ngc --setpoints part.csv --plot part.svg")]
+    #[command(
+        after_help = "Example: glidepath plan part.ngc --setpoints part.csv --plot part.html"
+    )]
     Plan(PlanArgs),
     /// List everything wrong with programs; no motion
     #[command(after_help = "Example: glidepath check part.ngc relief.ngc --json")]
@@ -55,6 +58,11 @@ pub enum Command {
     /// Show the state of a running interpolator
     #[command(after_help = "Examples: glidepath status --json · glidepath status --watch part.ngc")]
     Status(StatusArgs),
+    /// Show the machine in a browser of this host: path, time left, plots, health
+    #[command(
+        after_help = "Examples: glidepath live part.ngc · glidepath live part.ngc --commands --port 0"
+    )]
+    Live(LiveArgs),
     /// Feed hold: come to rest on the path
     #[command(after_help = "Example: glidepath hold")]
     Hold(OperatorArgs),
@@ -172,6 +180,7 @@ impl Command {
             Self::Servo(args) => &args.basic,
             Self::Feed(args) => &args.basic,
             Self::Status(args) => &args.operator.basic,
+            Self::Live(args) => &args.operator.basic,
             Self::Hold(args)
             | Self::Resume(args)
             | Self::Step(args)
@@ -201,6 +210,7 @@ impl Command {
         match self {
             Self::Run(args) => Some(&args.path),
             Self::Plan(args) => Some(&args.path),
+            Self::Live(args) => Some(&args.path),
             Self::Planner(args) => Some(&args.path),
             _ => None,
         }
@@ -214,6 +224,7 @@ impl Command {
             Self::Plan(args) => Some((Some(&args.file), &args.program)),
             Self::Feed(args) => Some((Some(&args.file), &args.program)),
             Self::Planner(args) => Some((args.file.as_ref(), &args.program)),
+            Self::Live(args) => Some((args.file.as_ref(), &args.program)),
             // Each file of a check may be in a dialect of its own.
             Self::Check(args) => Some((None, &args.program)),
             _ => None,

@@ -6,6 +6,7 @@ mod config;
 mod curves;
 mod host;
 mod jog;
+mod live;
 mod motion;
 mod offsets;
 mod operator;
@@ -18,6 +19,7 @@ pub use config::{ConfigAction, ConfigArgs, ConfigSource, ConvertArgs};
 pub use curves::{FitArgs, FitMethod, PreviewArgs, PreviewMethod};
 pub use host::{BenchArgs, DoctorArgs, JitterArgs};
 pub use jog::{JogArgs, Step};
+pub use live::LiveArgs;
 pub use motion::{
     CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
 };

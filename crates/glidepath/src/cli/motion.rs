@@ -31,9 +31,9 @@ pub struct RunArgs {
     /// Write the setpoints the mock servo received as CSV
     #[arg(long, value_name = "CSV")]
     pub setpoints: Option<PathBuf>,
-    /// Write a plot of the motion (SVG); without it the plot goes to NAME.svg in the present folder,
-    /// if no other file has that name
-    #[arg(long, value_name = "SVG")]
+    /// Write a plot of the motion: NAME.svg, or a page to look closer, NAME.html; without it the plot
+    /// goes to NAME.svg in the present folder, if no other file has that name
+    #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
     /// Which files may be overwritten.
     #[command(flatten)]
@@ -58,8 +58,8 @@ pub struct PlanArgs {
     /// Write every setpoint as CSV
     #[arg(long, value_name = "CSV")]
     pub setpoints: Option<PathBuf>,
-    /// Write a plot of the motion (SVG)
-    #[arg(long, value_name = "SVG")]
+    /// Write a plot of the motion: NAME.svg, or a page to look closer, NAME.html
+    #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
     /// Which files may be overwritten.
     #[command(flatten)]

@@ -12,6 +12,7 @@ use glidepath_gcode::Diagnostic;
 use glidepath_interpolator as interpolator;
 use glidepath_kept::var::VarError;
 use glidepath_link::{LinkError, RecordingError};
+use glidepath_live::ServerError;
 use glidepath_migration::ReadError;
 use glidepath_planner::{self as planner, FeedError, Refusal};
 use thiserror::Error;
@@ -219,6 +220,9 @@ pub(super) enum Failure {
         /// What its end means.
         exit: Exit,
     },
+    /// The page cannot be served.
+    #[error(transparent)]
+    Server(#[from] ServerError),
     /// The timing of this host cannot be measured.
     #[error(transparent)]
     Jitter(#[from] JitterError),
@@ -324,6 +328,7 @@ impl Failure {
             | Self::Feed(_)
             | Self::Link(_)
             | Self::Recording(_)
+            | Self::Server(_)
             | Self::Process(_)
             | Self::Jitter(_)
             | Self::Thread(_) => Exit::Fault,

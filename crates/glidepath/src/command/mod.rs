@@ -11,10 +11,13 @@ mod failure;
 mod failure_report;
 mod feed;
 mod fit;
+mod forecast;
 mod interpolator;
 mod jitter;
 mod jobs;
 mod jog;
+mod kept_offsets;
+mod live;
 mod offsets;
 mod operator;
 mod plan;
@@ -90,6 +93,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Feed(args) => feed::feed(args, &config()?),
         Command::Status(args) if args.watch => watch::watch(args, &config()?),
         Command::Status(args) => operator::status(&args.operator, &config()?),
+        Command::Live(args) => live::live(args, &config()?),
         Command::Hold(args) => operator::command(args, &config()?, "hold", link::Command::Hold),
         Command::Resume(args) => {
             operator::command(args, &config()?, "resume", link::Command::Resume)

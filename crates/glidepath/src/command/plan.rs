@@ -51,7 +51,7 @@ pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Fail
     report.program = args.file.name().display().to_string();
     report.setpoints.clone_from(&args.setpoints);
     report.plot.clone_from(&args.plot);
-    recording.smoothness(report.diagnosis.as_ref());
+    recording.told(&report, args.file.path());
     recording.finish(&title(args.file.name()), &report.caption())?;
     if args.basic.json {
         output::object(&report);
@@ -146,7 +146,7 @@ impl Pass {
                     // Out of reach is told by the watch; machines without one reach everything.
                     let joints = self.mechanism.inverse(&frame.position).unwrap_or_default();
                     let sample = Sample::planned(frame, self.period_t, joints);
-                    recording.push(&sample.diagnosed(binding, self.diagnosis.deviation()))?;
+                    recording.push(&sample.diagnosed(binding, &self.diagnosis))?;
                 }
             }
         }

@@ -94,6 +94,18 @@ impl Ipc {
         }
     }
 
+    /// The processes that receive setpoints, each as often as it does.
+    ///
+    /// # Errors
+    ///
+    /// A failure of the transport.
+    pub fn setpoint_receivers(&self) -> Result<Vec<i32>, LinkError> {
+        let service = self
+            .session
+            .topic::<Setpoint>(SETPOINTS, self.setpoints())?;
+        Ok(topic::receivers(&service))
+    }
+
     const fn status(&self) -> TopicSettings {
         let subscribers = self.capacity.subscribers;
         TopicSettings {

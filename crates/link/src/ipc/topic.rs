@@ -7,7 +7,7 @@ use iceoryx2::port::publisher::{Publisher as RawPublisher, PublisherCreateError}
 use iceoryx2::port::subscriber::{Subscriber as RawSubscriber, SubscriberCreateError};
 use iceoryx2::port::update_connections::UpdateConnections;
 use iceoryx2::port::{BackpressureAction, DegradationAction, SendError};
-use iceoryx2::prelude::BackpressureStrategy;
+use iceoryx2::prelude::{BackpressureStrategy, CallbackProgression, PortFactory as _};
 use std::fs::File;
 use std::rc::Rc;
 
@@ -115,6 +115,19 @@ impl<R: Record> Publisher<R> for Sink<R> {
                 detail: error.into(),
             })
     }
+}
+
+/// The processes that receive a topic.
+pub(super) fn receivers<R: Record>(service: &TopicService<R>) -> Vec<i32> {
+    let mut processes = Vec::new();
+    service.dynamic_config().list_subscribers(|receiver| {
+        // One that came or went just now may have no process.
+        if let Ok(process) = receiver.node_id.pid::<PrivateIpc>() {
+            processes.push(process.value());
+        }
+        CallbackProgression::Continue
+    });
+    processes
 }
 
 /// The receiving end of a topic or of the frames.

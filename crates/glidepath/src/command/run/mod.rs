@@ -84,7 +84,7 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
     report.motion.plot = plot;
     let mut recording = received.recording;
     report.motion.diagnosis = Some(DiagnosisReport::new(&received.summary, config));
-    recording.smoothness(report.motion.diagnosis.as_ref());
+    recording.told(&report.motion, args.file.path());
     recording.finish(&title(args.file.name()), &report.motion.caption())?;
     if args.basic.json {
         output::object(&report);

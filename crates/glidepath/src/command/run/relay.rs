@@ -176,7 +176,7 @@ impl Judge {
             return sample;
         }
         let binding = self.diagnosis.frame(&as_frame(setpoint));
-        sample.diagnosed(binding, self.diagnosis.deviation())
+        sample.diagnosed(binding, &self.diagnosis)
     }
 
     /// Tells the auditor the next item; false at the end. A finding ends it too: the program was

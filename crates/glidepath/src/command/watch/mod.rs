@@ -1,9 +1,9 @@
 //! `glidepath status --watch`: what the machine does, again and again, until Ctrl-C.
 
-mod forecast;
 mod history;
-mod offsets;
 
+use super::forecast::Forecast;
+use super::kept_offsets::KeptOffsets;
 use super::operator::{reach, read_status};
 use super::session;
 use crate::cli::StatusArgs;
@@ -13,10 +13,8 @@ use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::report::{View, status_object, view_object, view_text};
-use forecast::Forecast;
 use glidepath_link::{LinkError, Record as _, Transport as _};
 use history::History;
-use offsets::KeptOffsets;
 use serde_json::Value;
 use std::io::IsTerminal as _;
 use std::time::{Duration, Instant};
@@ -42,7 +40,7 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
     let link = session::link(&instance, config);
     let operator = reach(&link)?;
     let forecast = match &args.program {
-        Some(path) => Some(Forecast::start(path, config)?),
+        Some(path) => Some(Forecast::start(path, config, ())?),
         None => None,
     };
     let transport = session::join(&args.operator.instance, config)?;

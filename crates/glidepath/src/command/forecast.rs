@@ -9,6 +9,7 @@ use crate::plan_steps::PlanSteps;
 use crate::report::Place;
 use glidepath_link::Status;
 use glidepath_planner::{FileSource, ItemSource as _, Step};
+use glidepath_program::{Frame, Item};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -41,6 +42,27 @@ struct Plan {
     has_failed: bool,
 }
 
+/// Who wants to see the plan as it is made.
+pub(super) trait Spectator: Send {
+    /// The next item of the program.
+    fn item(&mut self, item: &Item) {
+        let _ = item;
+    }
+
+    /// The next frame of the plan.
+    fn frame(&mut self, frame: &Frame) {
+        let _ = frame;
+    }
+
+    /// The plan is whole, or ends here for the reason given.
+    fn end(&mut self, trouble: Option<&str>) {
+        let _ = trouble;
+    }
+}
+
+/// Nobody.
+impl Spectator for () {}
+
 /// A program that is planned in the background.
 pub(super) struct Forecast {
     name: String,
@@ -52,8 +74,12 @@ pub(super) struct Forecast {
 }
 
 impl Forecast {
-    /// Begins to plan a program.
-    pub(super) fn start(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
+    /// Begins to plan a program before a spectator.
+    pub(super) fn start(
+        path: &Path,
+        config: &MachineConfig,
+        mut spectator: impl Spectator + 'static,
+    ) -> Result<Self, Failure> {
         let size = std::fs::metadata(path)
             .map_err(FileError::open(path))?
             .len();
@@ -71,7 +97,10 @@ impl Forecast {
         let (plan, over) = (Arc::<Mutex<Plan>>::default(), Arc::<AtomicBool>::default());
         let planner = {
             let (path, plan, over) = (path.to_owned(), Arc::clone(&plan), Arc::clone(&over));
-            std::thread::spawn(move || work(&path, &machine, &plan, &over))
+            std::thread::spawn(move || {
+                let trouble = work(&path, &machine, (&plan, &over), &mut spectator);
+                spectator.end(trouble.as_deref());
+            })
         };
         Ok(Self {
             name: path.display().to_string(),
@@ -81,6 +110,17 @@ impl Forecast {
             over,
             planner: Some(planner),
         })
+    }
+
+    /// Lines of its text; none if it is too long.
+    pub(super) fn lines(&self) -> &[String] {
+        &self.lines
+    }
+
+    /// Frames planned so far.
+    pub(super) fn frames(&self) -> u64 {
+        let plan = self.plan.lock().unwrap_or_else(PoisonError::into_inner);
+        plan.frames
     }
 
     /// Where a machine is in the program; `None` if it executes another one.
@@ -113,11 +153,18 @@ impl Drop for Forecast {
     }
 }
 
-fn work(path: &Path, config: &MachineConfig, plan: &Mutex<Plan>, over: &AtomicBool) {
+/// Plans to the end; tells why it could not.
+fn work(
+    path: &Path,
+    config: &MachineConfig,
+    (plan, over): (&Mutex<Plan>, &AtomicBool),
+    spectator: &mut impl Spectator,
+) -> Option<String> {
     let options = config.program_options(config.home());
-    let Ok(source) = FileSource::open(path, options, &config.settings()) else {
+    let source = match FileSource::open(path, options, &config.settings()) {
+        Ok(source) => source,
         // The planner said what is wrong with it.
-        return;
+        Err(refusal) => return Some(refusal.to_string()),
     };
     {
         let mut plan = plan.lock().unwrap_or_else(PoisonError::into_inner);
@@ -128,25 +175,30 @@ fn work(path: &Path, config: &MachineConfig, plan: &Mutex<Plan>, over: &AtomicBo
         let step = steps.step();
         let mut plan = plan.lock().unwrap_or_else(PoisonError::into_inner);
         match step {
-            Ok(Step::Frame) => plan.take(steps.frame()),
-            Ok(Step::Item | Step::Pending) => {}
+            Ok(Step::Frame) => {
+                plan.take(steps.frame());
+                spectator.frame(steps.frame());
+            }
+            Ok(Step::Item) => spectator.item(steps.item()),
+            Ok(Step::Pending) => {}
             Ok(Step::End) => {
                 plan.is_whole = !plan.has_failed;
-                return;
+                return None;
             }
-            Err(_) => {
+            Err(refusal) => {
                 plan.has_failed = true;
-                return;
+                return Some(refusal.to_string());
             }
         }
         if plan.has_failed {
-            return;
+            return Some("it has too many blocks".to_owned());
         }
     }
+    Some("interrupted".to_owned())
 }
 
 impl Plan {
-    fn take(&mut self, frame: &glidepath_program::Frame) {
+    fn take(&mut self, frame: &Frame) {
         self.frames = frame.sequence + 1;
         self.path_s = frame.path_s;
         if self

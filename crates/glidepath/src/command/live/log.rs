@@ -1,0 +1,122 @@
+//! What happened since the page is served, in plain words.
+
+use crate::report::doing;
+use glidepath_link::{MachineState, Status};
+use serde_json::{Value, json};
+use std::collections::VecDeque;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// Events that are remembered.
+const KEPT: usize = 100;
+
+#[derive(Debug)]
+struct Entry {
+    at_ms: u64,
+    kind: &'static str,
+    text: String,
+}
+
+/// The events, the newest first.
+#[derive(Debug, Default)]
+pub(super) struct Log {
+    entries: VecDeque<Entry>,
+    state: Option<MachineState>,
+    /// Nobody serves the machine.
+    is_gone: bool,
+    counts: [u64; 3],
+    overrides: [f64; 2],
+    error: String,
+    event: String,
+}
+
+impl Log {
+    /// Looks what is new.
+    pub(super) fn take(&mut self, status: &Status) {
+        let is_first = self.state.is_none();
+        self.is_gone = false;
+        let line = match status.line {
+            0 => String::new(),
+            line => format!(", line {line}"),
+        };
+        if let Ok(state) = status.state()
+            && self.state.replace(state) != Some(state)
+        {
+            let kind = match state {
+                MachineState::Faulted => "bad",
+                MachineState::Starving | MachineState::Starved => "warn",
+                _ => "state",
+            };
+            // How one goes on is said where the machine is shown, not where its past is.
+            let words = doing(state).split(": `").next().unwrap_or_default();
+            self.add(kind, format!("{words}{line}"));
+        }
+        self.count(status, is_first);
+        let overrides = [status.feed_override, status.rapid_override];
+        for ((name, now), was) in ["feed", "rapid"]
+            .into_iter()
+            .zip(overrides)
+            .zip(self.overrides)
+        {
+            if !is_first && (now - was).abs() > 1e-9 {
+                self.add("info", format!("{name} override {:.0} %", now * 100.0));
+            }
+        }
+        self.overrides = overrides;
+        let said = [
+            (status.last_error.as_str(), "warn"),
+            (status.last_event.as_str(), "info"),
+        ];
+        for (text, kind) in said {
+            let known = if kind == "warn" {
+                &mut self.error
+            } else {
+                &mut self.event
+            };
+            if text != known {
+                text.clone_into(known);
+                // Changes of the state are told in plain words, and missed ticks are counted.
+                let is_told = text.contains(" -> ") || text.ends_with("ticks missed");
+                if !text.is_empty() && !is_told {
+                    self.add(kind, text.to_owned());
+                }
+            }
+        }
+    }
+
+    fn count(&mut self, status: &Status, is_first: bool) {
+        let now = [
+            status.missed_ticks,
+            status.setpoints_lost,
+            status.commands_refused,
+        ];
+        let words = ["ticks missed", "setpoints lost", "commands refused"];
+        let before = core::mem::replace(&mut self.counts, now);
+        for ((now, before), words) in now.into_iter().zip(before).zip(words) {
+            let more = now.saturating_sub(before);
+            if more > 0 && !is_first {
+                self.add("warn", format!("{more} {words}"));
+            }
+        }
+    }
+
+    /// The interpolator is gone.
+    pub(super) fn ended(&mut self) {
+        if !core::mem::replace(&mut self.is_gone, true) && self.state.take().is_some() {
+            self.add("warn", "the interpolator ended".to_owned());
+        }
+    }
+
+    fn add(&mut self, kind: &'static str, text: String) {
+        let now = SystemTime::now().duration_since(UNIX_EPOCH);
+        let at_ms = now.map_or(0, |now| u64::try_from(now.as_millis()).unwrap_or(u64::MAX));
+        self.entries.push_front(Entry { at_ms, kind, text });
+        self.entries.truncate(KEPT);
+    }
+
+    pub(super) fn object(&self) -> Value {
+        self.entries
+            .iter()
+            .map(|entry| json!({ "at_ms": entry.at_ms, "kind": entry.kind, "text": entry.text }))
+            .collect()
+    }
+}

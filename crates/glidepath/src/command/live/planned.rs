@@ -1,0 +1,123 @@
+//! The plan for the page, made beside the machine.
+
+use super::shown::{Shown, WholePlan};
+use crate::command::forecast::Spectator;
+use crate::config::MachineConfig;
+use crate::page;
+use crate::report::DiagnosisReport;
+use crate::sample::Sample;
+use glidepath_audit::AuditSettings;
+use glidepath_audit::diagnosis::Diagnosis;
+use glidepath_kinematics::JointVector;
+use glidepath_live::Motion;
+use glidepath_planner::{FileSource, ItemSource as _, Supply};
+use glidepath_program::{Frame, Item};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+
+/// Collects the plan for the page.
+pub(super) struct Planned {
+    config: MachineConfig,
+    shown: Arc<Shown>,
+    diagnosis: Diagnosis,
+    motion: Motion,
+    path_mm: f64,
+    /// Largest deviation and tolerance, mm.
+    most: [f64; 2],
+}
+
+impl Planned {
+    pub(super) fn new(config: &MachineConfig, shown: Arc<Shown>) -> Self {
+        Self {
+            diagnosis: Diagnosis::new(&AuditSettings::from(&config.settings())),
+            motion: page::motion(config),
+            config: config.clone(),
+            shown,
+            path_mm: 0.0,
+            most: [0.0; 2],
+        }
+    }
+}
+
+impl Spectator for Planned {
+    fn item(&mut self, item: &Item) {
+        self.diagnosis.program(item);
+    }
+
+    fn frame(&mut self, frame: &Frame) {
+        let binding = self.diagnosis.frame(frame);
+        let sample = Sample::planned(frame, self.config.period_t(), JointVector::zeros());
+        page::push(
+            &mut self.motion,
+            &sample.diagnosed(binding, &self.diagnosis),
+        );
+        let deviation = self.diagnosis.deviation();
+        let now = [deviation.distance_mm, deviation.tolerance_mm];
+        for (most, now) in self.most.iter_mut().zip(now) {
+            *most = most.max(now);
+        }
+        self.path_mm = frame.path_s;
+    }
+
+    fn end(&mut self, trouble: Option<&str>) {
+        if let Some(trouble) = trouble {
+            self.shown.trouble(trouble);
+            return;
+        }
+        let settings = AuditSettings::from(&self.config.settings());
+        let diagnosis = core::mem::replace(&mut self.diagnosis, Diagnosis::new(&settings));
+        let diagnosis = DiagnosisReport::new(&diagnosis.finish(), &self.config);
+        self.shown.plan(WholePlan {
+            columns: self.motion.columns(),
+            path: self.motion.path(),
+            report: page::report_object(&diagnosis, self.path_mm, self.most),
+        });
+    }
+}
+
+/// A thread that reads the program for its path, which is there long before its plan. It ends when
+/// this is dropped.
+pub(super) struct Reading {
+    over: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Drop for Reading {
+    fn drop(&mut self) {
+        self.over.store(true, Ordering::Relaxed);
+        let _ended = self.thread.take().map(JoinHandle::join);
+    }
+}
+
+/// Reads a program for its path.
+pub(super) fn read(path: &Path, config: &MachineConfig, shown: &Arc<Shown>) -> Reading {
+    let over = Arc::<AtomicBool>::default();
+    let (path, config, shown) = (path.to_owned(), config.clone(), Arc::clone(shown));
+    let flag = Arc::clone(&over);
+    let thread = std::thread::spawn(move || {
+        let options = config.program_options(config.home());
+        // What is wrong with it is told by whoever plans it.
+        let Ok(mut source) = FileSource::unchecked(&path, options, &config.settings()) else {
+            return;
+        };
+        let mut motion = page::motion(&config);
+        let mut is_first = true;
+        while !flag.load(Ordering::Relaxed) {
+            match source.next_item() {
+                Supply::Item(item) => {
+                    page::push_item(&mut motion, &item, is_first);
+                    is_first = false;
+                }
+                Supply::Pending => {}
+                Supply::End | Supply::Refused(_) => {
+                    shown.program(motion.programmed_path());
+                    return;
+                }
+            }
+        }
+    });
+    let thread = Some(thread);
+    Reading { over, thread }
+}

@@ -1,0 +1,113 @@
+//! What the page of `live` and `plan --plot` is told of a machine and its motion.
+
+use crate::chords::chords;
+use crate::config::MachineConfig;
+use crate::report::DiagnosisReport;
+use crate::sample::Sample;
+use glidepath_audit::diagnosis::Binding;
+use glidepath_live::{AxisScale, LimitKind, Motion, MotionSample};
+use glidepath_program::Item;
+use serde_json::{Value, json};
+
+/// A motion of a machine with nothing in it.
+#[must_use]
+pub fn motion(config: &MachineConfig) -> Motion {
+    let limits = config.limits();
+    let axes: Vec<AxisScale> = config
+        .axis_names()
+        .into_iter()
+        .map(|axis| {
+            let index = axis.index();
+            AxisScale {
+                index,
+                limits: [limits.velocity, limits.acceleration, limits.jerk]
+                    .map(|limit| limit[index]),
+            }
+        })
+        .collect();
+    Motion::new(&axes, config.period_t())
+}
+
+/// Takes the next sample of a motion.
+pub fn push(motion: &mut Motion, sample: &Sample) {
+    let (limit, limit_axis) = limit_of(sample.binding);
+    let deviation = sample.deviation.unwrap_or_default();
+    motion.push(&MotionSample {
+        position: sample.position.into(),
+        line: sample.line,
+        feed_v: sample.feed_v,
+        programmed_v: sample.programmed_v,
+        deviation_mm: deviation.distance_mm,
+        tolerance_mm: deviation.tolerance_mm,
+        path_mm: sample.path_s,
+        limit,
+        limit_axis,
+        is_rapid: sample.rapid,
+    });
+}
+
+/// Takes the next item of the program; the first one with its start.
+pub fn push_item(motion: &mut Motion, item: &Item, is_first: bool) {
+    chords(item, is_first, |position, rapid| {
+        let at = [position[0], position[1], position[2]];
+        motion.push_programmed(at, item.line, rapid);
+    });
+}
+
+const fn limit_of(binding: Option<Binding>) -> (LimitKind, usize) {
+    match binding {
+        Some(Binding::Rest) => (LimitKind::Rest, 0),
+        Some(Binding::Feed) => (LimitKind::Feed, 0),
+        Some(Binding::Velocity(axis)) => (LimitKind::Velocity, axis.index()),
+        Some(Binding::Acceleration(axis)) => (LimitKind::Acceleration, axis.index()),
+        Some(Binding::Jerk(axis)) => (LimitKind::Jerk, axis.index()),
+        Some(Binding::Tolerance) => (LimitKind::Tolerance, 0),
+        Some(Binding::ChordError) => (LimitKind::ChordError, 0),
+        Some(Binding::None) | None => (LimitKind::None, 0),
+    }
+}
+
+/// What the page knows of the machine.
+#[must_use]
+pub fn machine_object(config: &MachineConfig, instance: &str) -> Value {
+    let limits = config.limits();
+    let axes: Vec<Value> = config
+        .axes
+        .iter()
+        .map(|axis| {
+            let i = axis.axis.index();
+            json!({
+                "name": axis.axis.to_string(),
+                "unit": if axis.axis.is_rotary() { "°" } else { "mm" },
+                "limits": [limits.velocity[i], limits.acceleration[i], limits.jerk[i]],
+                "travel": axis.travel.map(|(low, high)| [low, high]),
+            })
+        })
+        .collect();
+    json!({
+        "instance": instance,
+        "axes": axes,
+        "period_s": config.period_t(),
+        "tolerance_mm": config.path.tolerance_mm,
+        "following_error_mm": config.feedback.following_error,
+        "horizon_s": config.interpolator.horizon_t,
+        "max_missed_ticks": config.interpolator.max_missed_ticks,
+    })
+}
+
+/// What the page knows of a plan.
+#[must_use]
+pub fn report_object(
+    diagnosis: &DiagnosisReport,
+    path_mm: f64,
+    [max_deviation_mm, tolerance_mm]: [f64; 2],
+) -> Value {
+    json!({
+        "path_mm": path_mm,
+        "max_deviation_mm": max_deviation_mm,
+        "tolerance_mm": tolerance_mm,
+        "binding": diagnosis.binding,
+        "slowest": diagnosis.slowest,
+        "smoothness": diagnosis.smoothness,
+    })
+}

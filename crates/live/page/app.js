@@ -1,0 +1,318 @@
+'use strict';
+// The page as a whole: views, digits, commands, what comes from the server, and the loop that draws.
+
+const SPACE = new Path3D();
+let TOKEN = '';
+
+/* ---- the server */
+async function api(path, kind) {
+  try {
+    const answer = await fetch(path, { headers: { 'X-Glidepath-Token': TOKEN } });
+    if (!answer.ok) { if (answer.status === 403) S.refused = true; return null; }
+    return kind === 'json' ? await answer.json() : await answer.arrayBuffer();
+  } catch { return null; }
+}
+async function command(kind, value) {
+  if (!S.commands) return;
+  S.refusal = '';
+  try {
+    const answer = await fetch('/api/command', { method: 'POST', headers: { 'X-Glidepath-Token': TOKEN, 'Content-Type': 'application/json' }, body: JSON.stringify({ kind, value }) });
+    const said = await answer.json();
+    if (!said.accepted) S.refusal = `${kind} refused: ${said.reason}`;
+  } catch { S.refusal = `${kind} was not sent: the page's server does not answer`; }
+  paintState();
+}
+let version = -1, fetching = false;
+async function fetchPlan(newer) {
+  if (fetching) return;
+  fetching = true;
+  const info = await api('/api/plan', 'json');
+  if (info) {
+    setInfo(info);
+    if (info.program_path) { const bytes = await api('/api/program.bin'); if (bytes) PROGRAM = new Track(bytes); }
+    if (info.report) {
+      const [columnBytes, pathBytes] = await Promise.all([api('/api/columns.bin'), api('/api/path.bin')]);
+      if (columnBytes && pathBytes) { PLAN = new Plan(columnBytes); MOTION = new Track(pathBytes); }
+    } else { PLAN = null; MOTION = null; }
+    version = newer === undefined ? info.version : newer;
+    SPACE.stale = true; paintLegend(); paintTune(); redraw();
+  }
+  fetching = false;
+}
+/* Messages: four bytes of length, one of kind, payload. */
+async function listen() {
+  let held = new Uint8Array(0);
+  for (;;) {
+    try {
+      const answer = await fetch('/api/stream', { headers: { 'X-Glidepath-Token': TOKEN } });
+      S.refused = answer.status === 403;
+      if (!answer.ok) throw new Error('refused');
+      const reader = answer.body.getReader();
+      held = new Uint8Array(0);
+      for (;;) {
+        const { done, value } = await reader.read();
+        if (done) break;
+        const bytes = new Uint8Array(held.length + value.length);
+        bytes.set(held); bytes.set(value, held.length);
+        let at = 0;
+        while (bytes.length - at >= 5) {
+          const length = new DataView(bytes.buffer, at).getUint32(0, true);
+          if (bytes.length - at < 4 + length) break;
+          heard(bytes[at + 4], bytes.slice(at + 5, at + 4 + length).buffer);
+          at += 4 + length;
+        }
+        held = bytes.slice(at);
+      }
+    } catch { /* told by the age of what is shown */ }
+    await new Promise(done => setTimeout(done, 500));
+  }
+}
+function heard(kind, payload) {
+  if (kind === 1) {
+    const status = JSON.parse(new TextDecoder().decode(payload));
+    S.status = status; S.heard = performance.now();
+    S.state = status.state; S.commands = status.commands; S.rate = status.effective_override || 1;
+    if (status.place !== null) S.p = status.place;
+    if (status.version !== version) fetchPlan(status.version);
+  } else if (kind === 2 && RINGED && S.status) {
+    const errors = Object.values(S.status.following_error || {}).map(v => Math.abs(v || 0));
+    RINGED.take(payload, S.p, Math.max(0, ...errors) * 1000, (S.status.queue_depth || 0) * DT());
+    S.arrived = performance.now();
+    dirty.path = dirty.strips = dirty.ribbon = dirty.health = true;
+  }
+}
+
+/* ---- layout */
+function setInfo(info) {
+  const same = JSON.stringify(info.machine.axes) === JSON.stringify(INFO.machine.axes);
+  INFO = info;
+  document.title = info.machine.instance ? `${info.machine.instance} · Glidepath` : `${stem(info.program ? info.program.name : '')} · Glidepath`;
+  if (same) return;
+  S.axes = {};
+  info.machine.axes.forEach((axis, k) => { S.axes[axis.name] = k < 3; });
+  if (!S.file) RINGED = new Ring(info.machine.axes.length, info.machine.period_s);
+  layDigits(); paintTools();
+}
+function layDigits() {
+  const axes = AXES();
+  $('#app').dataset.axes = axes.length > 6 ? 'many' : axes.length > 4 ? 'some' : axes.length > 3 ? 'four' : 'few';
+  fill($('#dro'), '<div class="top"><b id="system"></b><span id="dro-of"></span><span id="dro-machine"></span></div>' + axes.map(a => `<div class="ax"><b>${a.name}</b><div class="w n" id="w${a.name}"></div><div class="m"><div class="n" id="m${a.name}"></div><div class="travel" title="between the ends of its travel"><i id="t${a.name}"></i></div></div></div>`).join(''));
+  fill($('#g-axes'), axes.slice(0, 3).map(a => `<div><span class="lab">${a.name}</span><span class="n" id="g${a.name}"></span></div>`).join(''));
+}
+function setView(view) {
+  // Who operates sees all of the path, whatever somebody looked at before.
+  if (view === 'operate' && S.view !== view) { SPACE.view('iso'); S.hover = null; }
+  S.view = view; $('#app').dataset.view = view;
+  $$('#tabs button').forEach(b => b.setAttribute('aria-current', b.dataset.v === view));
+  const box = $(`#${view} [data-path]`);
+  if (box) box.append(SPACE.box, overMode, overView, legend);
+  paintLegend(); paintTools(); paintTune(); paintState(); redraw();
+}
+const made = (name, html) => { const e = document.createElement('div'); e.className = name; e.innerHTML = html; return e; };
+const overMode = made('over chips at-left', '<button data-m="limit">limit</button><button data-m="feed">feed</button><button data-prog>program</button>');
+const overView = made('over chips at-right', '<button data-c="iso">3D</button><button data-c="top">top</button><button data-c="front">front</button>');
+const legend = made('legend', '');
+
+function paintLegend() {
+  $$('[data-m]', overMode).forEach(b => b.setAttribute('aria-pressed', b.dataset.m === SPACE.mode));
+  $('[data-prog]', overMode).setAttribute('aria-pressed', SPACE.showProgram);
+  const item = (name, text) => `<span><i class="k-${name}"></i>${text}</span>`;
+  if (!MOTION) { fill(legend, PROGRAM ? '<span>as programmed; not planned yet</span>' : ''); return; }
+  if (SPACE.mode === 'limit') {
+    const seen = new Set(MOTION.code.map(code => code & 128 ? 255 : code & 7));
+    fill(legend, LIMITS.filter((kind, k) => kind !== 'rest' && seen.has(k)).map(kind => item(kind.replace(' ', '-'), LIMIT_WORDS[kind])).join('') + (seen.has(255) ? item('dashed', 'rapid') : ''));
+  } else {
+    fill(legend, `<span>0 <canvas class="scale" width="90" height="8"></canvas> ${grouped(MOTION.most * 60)} mm/min</span>${item('dashed', 'rapid')}`);
+    const c = $('canvas', legend).getContext('2d');
+    for (let x = 0; x < 90; x++) { c.fillStyle = shade(x / 90); c.fillRect(x, 0, 1, 8); }
+  }
+}
+function paintTools() {
+  const chip = (data, on, text) => `<button ${data} aria-pressed="${on}">${text}</button>`;
+  const spans = S.file ? [] : [[1, '1 s'], [6, '6 s'], [30, '30 s'], [300, '5 min']];
+  fill($('#tools'), `<div class="chips">${AXES().map(a => chip(`data-a="${a.name}"`, !!S.axes[a.name], a.name)).join('')}</div><div class="chips">${['p', 'v', 'a', 'j'].map(k => chip(`data-k="${k}" title="${{ p: 'position', ...KINDS }[k]}"`, S.parts[k], k)).join('')}</div>`
+    + `<span>${S.file ? 'Wheel or pinch: closer. Drag: along. Hover: the place and its line.' : S.follow ? 'Following. Drag or wheel to look closer.' : 'Looking back. The machine goes on.'}</span><div class="chips">`
+    + spans.map(([s, text]) => chip(`data-w="${s}"`, Math.abs(S.span - s) < 0.01, text)).join('') + (S.file ? chip('data-all', false, 'all') : chip('data-f', S.follow, S.follow ? 'live' : 'back to live')) + '</div>');
+}
+$('#tools').addEventListener('click', e => {
+  const b = e.target.closest('button');
+  if (!b) return;
+  const d = b.dataset;
+  if (d.a) S.axes[d.a] = !S.axes[d.a];
+  if (d.k) S.parts[d.k] = !S.parts[d.k];
+  if (d.w) { const [from, to] = windowOf(), mid = (from + to) / 2; S.span = +d.w; if (!S.follow) S.end = mid + S.span / 2; }
+  if ('f' in d) { S.follow = !S.follow; if (!S.follow) S.end = windowOf()[1]; }
+  if ('all' in d) showAll();
+  paintTools(); redraw();
+});
+
+/* ---- what held the motion back, and where */
+function paintTune() {
+  const report = INFO.report;
+  if (!report) { fill($('#bindbox'), ''); fill($('#slowbox'), `<div class="h"><b>No plan yet</b></div><p class="lab-text">${safe(emptyRibbon())}</p>`); return; }
+  const sum = kind => Object.entries(report.binding).filter(([name]) => name.startsWith(kind)).reduce((all, [, part]) => all + part, 0);
+  const parts = LIMITS.filter(kind => kind !== 'rest' && kind !== 'none').concat(['none', 'rest']).map(kind => [kind, sum(kind)]).filter(([kind, part]) => part > 0 || kind === 'feed');
+  fill($('#bindbox'), `<div class="h"><b>What held the motion back</b><span>% of the time</span></div><div class="stack">${parts.map(([kind]) => `<i class="k-${kind.replace(' ', '-')}"></i>`).join('')}</div><div class="keys">${parts.map(([kind, part]) => `<div><i class="k-${kind.replace(' ', '-')}"></i>${LIMIT_WORDS[kind]}<span class="n">${(part * 100).toFixed(1)}</span></div>`).join('')}</div>`);
+  $$('#bindbox .stack i').forEach((element, k) => { element.style.flex = `${parts[k][1]} 0 2px`; });
+  const rows = innerHeight < 820 ? 4 : 6;
+  fill($('#slowbox'), `<div class="h"><b>Where most time is lost</b><span>click to look there</span></div><table class="slow"><tr><th>line</th><th>lost, s</th><th>slowest, mm/s</th><th>of</th><th>limit</th></tr>${report.slowest.slice(0, rows).map((place, n) => `<tr tabindex="0" data-n="${n}"><td class="n">${place.line}</td><td class="n">${num(place.lost_s, 3)}</td><td class="n">${num(place.speed_mm_s, 1)}</td><td class="n">${num(place.feed_mm_s, 0)}</td><td><i class="dot k-${/^(velocity|acceleration|jerk)/.test(place.limit) ? place.limit.split(' ')[0] : place.limit.replace(' ', '-')}"></i>${safe(place.limit)}</td></tr>`).join('')}</table>`);
+}
+const placeOfRow = row => { const place = INFO.report.slowest[row.dataset.n]; return { p: (place.start_s + place.duration_s / 2) / DT(), width: Math.max(0.4, place.duration_s * 6) }; };
+$('#slowbox').addEventListener('click', e => {
+  const row = e.target.closest('tr[data-n]');
+  if (!row || !PLAN) return;
+  const { p, width } = placeOfRow(row), t = timeOf(p);
+  if (t !== null) lookAt(t, width);
+  hover(p); SPACE.lookAt(p);
+  $$('#slowbox tr').forEach(other => other.classList.toggle('on', other === row));
+});
+$('#slowbox').addEventListener('pointerover', e => { const row = e.target.closest('tr[data-n]'); if (row && PLAN) hover(placeOfRow(row).p); });
+$('#slowbox').addEventListener('pointerleave', () => hover(null));
+
+function hover(p) {
+  const at = p === null || !PLAN ? null : Math.max(0, Math.min(PLAN.samples - 1, Math.round(p)));
+  if (at === S.hover) return;
+  S.hover = at;
+  dirty.path = dirty.strips = dirty.ribbon = true;
+}
+
+/* ---- digits */
+function work(position) {
+  const offset = S.status && S.status.offset;
+  if (!offset) return position;
+  const out = position.map((x, k) => x - (offset.origin[AXES()[k].name] || 0)), turn = offset.rotation_deg * Math.PI / 180;
+  if (turn && out.length > 1) [out[0], out[1]] = [out[0] * Math.cos(turn) + out[1] * Math.sin(turn), out[1] * Math.cos(turn) - out[0] * Math.sin(turn)];
+  return out;
+}
+function digits() {
+  const s = S.status;
+  if (S.file) { put($('#left'), span(PLAN ? PLAN.seconds : 0)); return; }
+  if (!s || S.state === 'none') { put($('#left'), '–:––.–'); put($('#ends'), ''); put($('#why'), cause()); return; }
+  const ring = RINGED, fresh = ring && ring.count, axes = AXES(), speed = fresh ? ring.feed[(ring.count - 1) & (RING - 1)] : s.feed_mm_s;
+  const machine = axes.map((a, k) => fresh ? ring.last_position(k) : s.position[a.name]), shown = work(machine), moving = speed > 1e-6 && S.state !== 'stale';
+  $('#app').classList.toggle('moving', moving);
+  put($('#system'), s.offset ? s.offset.system : ''); put($('#dro-of'), s.offset ? 'from part zero, mm' : 'from machine zero, mm'); put($('#dro-machine'), s.offset ? 'machine, mm' : 'travel');
+  axes.forEach((axis, k) => {
+    const text = num(shown[k], 3);
+    fill($(`#w${axis.name}`), `${text.slice(0, -2)}<i>${text.slice(-2)}</i>`);
+    put($(`#m${axis.name}`), s.offset ? num(machine[k], 3) : axis.travel ? `${num(axis.travel[0], 0)} … ${num(axis.travel[1], 0)}` : 'turns');
+    const rail = $(`#t${axis.name}`);
+    rail.parentElement.hidden = !axis.travel;
+    if (axis.travel) rail.style.left = `${Math.max(0, Math.min(100, (machine[k] - axis.travel[0]) / (axis.travel[1] - axis.travel[0]) * 100)).toFixed(2)}%`;
+    if (k < 3) put($(`#g${axis.name}`), num(shown[k], 2));
+  });
+  feedDigits(speed * 60, moving);
+  for (const [key, ratio] of [['feed-override', s.feed_override], ['rapid-override', s.rapid_override]]) {
+    const tile = $(`[data-ov=${key}]`);
+    fill($('[data-v]', tile), `${Math.round(ratio * 100)}<span class="unit">%</span>`);
+    $('.bar i', tile).style.width = `${Math.min(100, ratio * 50)}%`; $('.bar u', tile).style.left = '50%';
+  }
+  put($('#spin'), s.spindle && s.spindle.turns !== 'off' ? grouped(s.spindle.speed) : s.spindle ? '0' : '–'); put($('#spinof'), s.spindle ? s.spindle.turns + (s.spindle.coolant ? `, ${s.spindle.coolant}` : '') : 'not known here');
+  put($('#tool'), !s.tool ? '–' : `T${s.tool}`); put($('#toolof'), !s.tool ? 'none, or not told' : 'in the spindle');
+  const known = s.left_s !== null && s.left_s !== undefined, ends = known && S.state === 'running' ? clock(Date.now() + s.left_s * 1000) : null;
+  put($('#left'), S.state === 'stale' || !known ? '–:––.–' : span(s.left_s)); put($('#g-left'), $('#left').textContent);
+  put($('#ends'), S.state === 'stale' ? 'not known' : ends ? `ends ${ends}` : known ? 'after resume' : ''); put($('#g-end'), ends || '––:––:––');
+  put($('#g-line'), String(s.line)); put($('#g-ov'), `${Math.round(s.feed_override * 100)} %`); put($('#g-feed'), grouped(speed * 60));
+  put($('#why'), cause());
+  blocks(s.line);
+}
+function feedDigits(v, moving) {
+  const bin = PLAN ? PLAN.bin(S.p) : 0, code = PLAN ? PLAN.code[bin] : 0, rapid = !!(code & 128), programmed = PLAN ? PLAN.programmed[bin] * 60 : 0;
+  const full = PLAN ? Math.max(PLAN.mostFeed * 60, 1) : Math.max(v, 6000), part = x => `${Math.min(100, x / full * 100)}%`;
+  put($('#feed'), grouped(v));
+  $('#feedbar').style.width = part(v); $('#feedmark').style.left = part(rapid || programmed > 1e9 ? full : programmed); $('#feedmark').hidden = !PLAN;
+  put($('#feedof'), !PLAN ? '' : rapid ? (moving ? 'rapid' : 'a rapid comes') : !moving ? `programmed ${grouped(programmed)}` : `of ${grouped(programmed)}${['feed', 'none', 'rest'].includes(limitOf(code)) ? '' : `, ${limitText(code)}`}`);
+}
+function blocks(line) {
+  if (!INFO.program || !line) { fill($('#blocks'), '<div></div><div></div><div class="cur"></div><div></div><div></div>'); return; }
+  fill($('#blocks'), [-2, -1, 0, 1, 2].map(k => { const text = LINES.get(line + k); return `<div class="${k ? '' : 'cur'}"><span class="k">${text === undefined ? '' : line + k}</span><span>${text ? safe(text.trim()) : ' '}</span></div>`; }).join(''));
+}
+
+/* ---- commands */
+$('#cmd').addEventListener('pointerdown', e => { const b = e.target.closest('button'); if (b && !b.disabled && b.dataset.c === 'hold') { b.dataset.sent = 1; command('hold'); } });
+$('#cmd').addEventListener('click', e => {
+  const b = e.target.closest('button');
+  if (!b || b.disabled) return;
+  const kind = b.dataset.c;
+  if (kind === 'abort') return sure(true);
+  // Hold was sent when the finger came down; from the keyboard it comes here alone.
+  if (kind === 'hold' && b.dataset.sent) { delete b.dataset.sent; return; }
+  command(kind);
+});
+$$('.ov').forEach(tile => {
+  const [less, more] = $$('button', tile);
+  less.innerHTML = icon('minus'); more.innerHTML = icon('plus');
+  const kind = tile.dataset.ov, most = kind === 'feed-override' ? 2 : 1;
+  const now = () => S.status ? S.status[kind.replace('-', '_')] : 1;
+  for (const b of [less, more]) b.onclick = () => command(kind, Math.round(Math.max(0, Math.min(most, now() + +b.dataset.d)) * 100) / 100);
+  $('.mid', tile).ondblclick = () => command(kind, 1);
+});
+function sure(on) {
+  $('#sure').classList.toggle('on', on);
+  if (!on) return;
+  put($('#sureof'), `The machine comes to rest on the path and drops what is left of the program${S.status && S.status.left_s ? `, ${span(S.status.left_s)}` : ''}. This is not an emergency stop.`);
+  $('#sure .no').focus();
+}
+$('#sure .no').onclick = () => sure(false);
+{
+  const b = $('#sure .do');
+  let timer;
+  const up = () => { clearTimeout(timer); b.classList.remove('down'); };
+  b.onpointerdown = () => { b.classList.add('down'); timer = setTimeout(() => { up(); sure(false); command('abort'); }, 1000); };
+  b.onpointerup = up; b.onpointerleave = up;
+}
+
+/* ---- the loop */
+let lastDigits = 0, lastHealth = 0;
+const FRAMES = { count: 0, since: 0, rate: 0 };
+function frame(t) {
+  FRAMES.count++;
+  if (t - FRAMES.since > 1000) { FRAMES.rate = FRAMES.count * 1000 / (t - FRAMES.since); FRAMES.count = 0; FRAMES.since = t; }
+  if (!S.file && S.heard && performance.now() - S.heard > 1500 && S.state !== 'stale') { S.state = 'stale'; paintState(); redraw(); }
+  if (t - lastDigits > 66) { lastDigits = t; digits(); paintState(); }
+  if (dirty.path && $(`#${S.view} [data-path]`)) { SPACE.draw(S.p); dirty.path = false; }
+  if (dirty.strips && S.view === 'tune') { strips(); dirty.strips = false; }
+  if (dirty.ribbon) { ribbon(); dirty.ribbon = false; }
+  if (dirty.health && S.view === 'health' && t - lastHealth > 200) { lastHealth = t; health(); dirty.health = false; }
+  if (S.view === 'glance') eventLog();
+  requestAnimationFrame(frame);
+}
+function start() {
+  $('#tabs').innerHTML = (S.file ? ['tune'] : ['operate', 'tune', 'health']).map(v => `<button data-v="${v}">${S.file ? 'Plan' : v[0].toUpperCase() + v.slice(1)}</button>`).join('');
+  $$('#tabs button').forEach(b => { b.onclick = () => setView(b.dataset.v); });
+  $('#themer').innerHTML = icon('theme');
+  const recolour = name => { theme(name); SPACE.stale = true; paintLegend(); redraw(); };
+  $('#themer').onclick = () => recolour(T.dark ? 'light' : 'dark');
+  $$('[data-m]', overMode).forEach(b => { b.onclick = () => { SPACE.mode = b.dataset.m; paintLegend(); redraw(); }; });
+  $('[data-prog]', overMode).onclick = () => { SPACE.showProgram = !SPACE.showProgram; paintLegend(); redraw(); };
+  $$('button', overView).forEach(b => { b.onclick = () => SPACE.view(b.dataset.c); });
+  SPACE.onhover = p => { if (S.view === 'tune') hover(p); };
+  SPACE.onclick = p => { if (p !== null && PLAN && S.view === 'tune') { const t = timeOf(p); if (t !== null) lookAt(t); } };
+  stripHands(hover); ribbonHands(hover);
+  fill($('#g-foot'), `${icon('lock')}<span>A phone only looks; it sends no commands.</span>`);
+  let kept = null;
+  try { kept = localStorage.getItem('glidepath-theme'); } catch { /* none */ }
+  recolour(hash.get('theme') || kept || (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
+  if (S.file) startFile(); else startLive();
+  addEventListener('resize', () => { SPACE.stale = true; paintTune(); redraw(); });
+  const begin = () => { redraw(); requestAnimationFrame(frame); };
+  document.fonts.ready.then(begin, begin);
+}
+const bytesOf = text => { const all = atob(text), bytes = new Uint8Array(all.length); for (let i = 0; i < all.length; i++) bytes[i] = all.charCodeAt(i); return bytes; };
+function startFile() {
+  const f = window.GLIDEPATH_FILE, text = b => new TextDecoder().decode(bytesOf(b));
+  $('#app').dataset.file = 1; S.state = 'file';
+  PLAN = new Plan(bytesOf(f.columns).buffer); MOTION = new Track(bytesOf(f.path).buffer); PROGRAM = new Track(bytesOf(f.program).buffer);
+  LINES.all = f.lines ? text(f.lines).split('\n') : null;
+  setInfo(JSON.parse(text(f.plan)));
+  put($('#leftlab'), 'Cycle time'); showAll(); setView('tune');
+}
+function startLive() {
+  TOKEN = hash.get('token') || '';
+  try { if (TOKEN) sessionStorage.setItem('glidepath-token', TOKEN); else TOKEN = sessionStorage.getItem('glidepath-token') || ''; } catch { /* none */ }
+  // The token leaves the address, so that it is in no picture of the screen.
+  if (hash.get('token')) { hash.delete('token'); history.replaceState(null, '', hash.toString() ? `#${hash}` : location.pathname); }
+  setView(hash.get('view') || (innerWidth < 600 ? 'glance' : 'operate'));
+  fetchPlan().then(listen);
+}
+start();

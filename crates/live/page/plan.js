@@ -1,0 +1,100 @@
+'use strict';
+// The plan: columns against time, the path of the motion, and the programmed path.
+
+/* Numbers as the server writes them: little-endian, every column at a multiple of eight bytes. */
+class Reader {
+  constructor(buffer, mark) {
+    this.buffer = buffer; this.at = 4; this.view = new DataView(buffer);
+    const found = String.fromCharCode(...new Uint8Array(buffer, 0, 4));
+    if (found !== mark) throw new Error(`these numbers are ${found}, not ${mark}`);
+  }
+  word() { this.at += 4; return this.view.getUint32(this.at - 4, true); }
+  double() { this.at += 8; return this.view.getFloat64(this.at - 8, true); }
+  column(Type, count) {
+    const column = new Type(this.buffer, this.at, count);
+    this.at += Math.ceil(column.byteLength / 8) * 8;
+    return column;
+  }
+}
+
+/* A motion: `bins` of `per` samples each, with the least and the largest of every quantity. */
+class Plan {
+  constructor(buffer) {
+    const r = new Reader(buffer, 'GPC1');
+    const axes = r.word();
+    this.bins = r.word(); this.per = r.word(); this.dt = r.double(); this.samples = r.double();
+    const n = this.bins;
+    this.axes = Array.from({ length: axes }, () => {
+      const axis = { position: r.column(Float32Array, n), ranges: [] };
+      for (let k = 0; k < 3; k++) axis.ranges.push({ lo: r.column(Int16Array, n), hi: r.column(Int16Array, n) });
+      return axis;
+    });
+    this.feed = { lo: r.column(Float32Array, n), hi: r.column(Float32Array, n) };
+    this.programmed = r.column(Float32Array, n);
+    this.deviation = r.column(Float32Array, n);
+    this.tolerance = r.column(Float32Array, n);
+    this.way = r.column(Float32Array, n);
+    this.line = r.column(Uint32Array, n);
+    this.code = r.column(Uint8Array, n);
+    this.seconds = Math.max(1, this.samples - 1) * this.dt;
+    this.mostFeed = 1;
+    for (let i = 0; i < n; i++) if (this.feed.hi[i] > this.mostFeed) this.mostFeed = this.feed.hi[i];
+  }
+  /* The bin of a place, in samples. */
+  bin(p) { return Math.max(0, Math.min(this.bins - 1, Math.floor(p / this.per))); }
+  position(axis, p) { return this.axes[axis] ? this.axes[axis].position[this.bin(p)] : 0; }
+  /* The first sample of a line, or the next one that has any. */
+  ofLine(line) { for (let i = 0; i < this.bins; i++) if (this.line[i] >= line) return i * this.per; return this.samples - 1; }
+}
+
+/* A path in space, with levels of detail. */
+class Track {
+  constructor(buffer) {
+    const r = new Reader(buffer, 'GPP1');
+    const n = this.count = r.word();
+    this.most = Math.max(1, r.word()); r.word();
+    this.xyz = r.column(Float32Array, 3 * n);
+    this.sequence = r.column(Uint32Array, n);
+    this.feed = r.column(Float32Array, n);
+    this.code = r.column(Uint8Array, n);
+    const level = r.column(Uint8Array, n), order = [[], [], [], []];
+    for (let i = 0; i < n; i++) for (let l = level[i]; l < 4; l++) order[l].push(i);
+    // A level that is hardly smaller than the next one is none.
+    this.levels = order.filter((of, l) => l === 3 || of.length < 0.8 * order[l + 1].length).map(of => Uint32Array.from(of));
+    this.low = [0, 0, 0]; this.high = [0, 0, 0];
+    for (let k = 0; k < 3; k++) {
+      let low = Infinity, high = -Infinity;
+      for (let i = k; i < 3 * n; i += 3) { if (this.xyz[i] < low) low = this.xyz[i]; if (this.xyz[i] > high) high = this.xyz[i]; }
+      this.low[k] = n ? low : 0; this.high[k] = n ? high : 0;
+    }
+  }
+  /* The last point at or before a place, in samples. */
+  before(p) {
+    let a = 0, b = this.count;
+    while (a < b) { const m = (a + b) >> 1; if (this.sequence[m] <= p) a = m + 1; else b = m; }
+    return Math.max(0, a - 1);
+  }
+}
+
+let PLAN = null, MOTION = null, PROGRAM = null;
+
+/* ---- the text of the program */
+const LINES = {
+  all: null, some: new Map(), asked: new Set(),
+  get(line) {
+    if (this.all) return this.all[line - 1];
+    if (this.some.has(line)) return this.some.get(line);
+    if (!S.file && line > 0 && INFO.program) this.ask(line);
+    return undefined;
+  },
+  async ask(line) {
+    const from = Math.max(1, line - line % 64);
+    if (this.asked.has(from)) return;
+    this.asked.add(from);
+    const lines = await api(`/api/lines?from=${from}&count=80`, 'json');
+    if (!lines) { this.asked.delete(from); return; }
+    if (this.some.size > 20000) { this.some.clear(); this.asked.clear(); }
+    lines.forEach((text, k) => this.some.set(from + k, text));
+    dirty.path = true;
+  },
+};

@@ -1,0 +1,32 @@
+//! The page that shows a machine, in a browser or as a file.
+//!
+//! * [`Server`] gives the page out on loopback, and nothing that is not asked for with the token:
+//!   what may be asked is [`guard`]'s to judge, before anybody else sees the request. What there is
+//!   to show and to command is the [`Site`]'s, which its user writes.
+//! * [`Feed`] hands what happens to every page that is open. A page that is too slow loses the
+//!   oldest; nobody waits for it.
+//! * [`Motion`] collects a motion of any length in bounded memory, as the page wants it: columns
+//!   against time, with the least and the largest of every stretch, and the path in space.
+//! * [`file::page`] makes one file of page and motion, which needs neither server nor network.
+//!
+//! The crate knows neither processes nor programs: it is told numbers and texts. The page itself is
+//! in `page/`, in plain HTML, CSS and JavaScript; its typeface, B612, in `fonts/` with its licence,
+//! the SIL Open Font License 1.1.
+
+pub mod file;
+pub mod guard;
+
+mod asset;
+mod feed;
+mod motion;
+mod request;
+mod response;
+mod server;
+mod token;
+
+pub use feed::{Feed, Message};
+pub use motion::{AxisScale, LimitKind, Motion, MotionSample};
+pub use request::Request;
+pub use response::{Answer, ContentType, Status};
+pub use server::{Running, Server, ServerError, Site};
+pub use token::Token;

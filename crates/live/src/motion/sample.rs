@@ -1,0 +1,69 @@
+//! One sample of a motion, and what keeps it from being faster.
+
+/// What one axis can do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisScale {
+    /// Its place in the positions of a sample.
+    pub index: usize,
+    /// Largest velocity, acceleration and jerk, mm or degrees and seconds; all > 0.
+    pub limits: [f64; 3],
+}
+
+/// What keeps the motion from being faster.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(u8)]
+pub enum LimitKind {
+    /// The machine rests.
+    Rest = 0,
+    /// The programmed feed.
+    Feed = 1,
+    /// An axis' velocity.
+    Velocity = 2,
+    /// An axis' acceleration.
+    Acceleration = 3,
+    /// An axis' jerk.
+    Jerk = 4,
+    /// The tolerance of the path.
+    Tolerance = 5,
+    /// The straight line between two setpoints.
+    ChordError = 6,
+    /// No single limit.
+    #[default]
+    None = 7,
+}
+
+/// One sample of a motion; samples are a period from each other.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MotionSample {
+    /// mm or degrees.
+    pub position: [f64; 9],
+    /// Source line, 0 before the first.
+    pub line: u32,
+    /// Speed along the path, mm/s.
+    pub feed_v: f64,
+    /// Programmed speed, mm/s; infinite for rapids, 0 where it is not known.
+    pub programmed_v: f64,
+    /// Distance from the programmed path, mm.
+    pub deviation_mm: f64,
+    /// How far it may be, mm.
+    pub tolerance_mm: f64,
+    /// Path position, mm.
+    pub path_mm: f64,
+    /// What keeps it from being faster.
+    pub limit: LimitKind,
+    /// The index of the axis of that limit, 0 if it has none.
+    pub limit_axis: usize,
+    /// In a rapid.
+    pub is_rapid: bool,
+}
+
+impl MotionSample {
+    /// Kind of the limit, its axis and whether it is a rapid, in one byte.
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "four bits of an index of axes"
+    )]
+    pub(super) const fn code(&self) -> u8 {
+        self.limit as u8 | ((self.limit_axis as u8 & 15) << 3) | ((self.is_rapid as u8) << 7)
+    }
+}

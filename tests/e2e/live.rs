@@ -1,0 +1,195 @@
+//! The page of a machine, in a browser: it loads, it moves, and it holds the machine if it may.
+
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::net::TcpStream;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use glidepath_link::MachineState;
+use glidepath_tests::{Browser, Instance, Process, Services, Watchdog, glidepath};
+use rustix::process::{Pid, Signal, kill_process};
+use serde_json::Value;
+
+use crate::programs::long_program;
+
+const PATIENCE: Duration = Duration::from_secs(240);
+
+/// `glidepath live` at work.
+struct Live {
+    child: Child,
+    url: String,
+    port: u16,
+}
+
+impl Live {
+    fn start(instance: &Instance, arguments: &[&str]) -> Self {
+        let mut child = Command::new(glidepath())
+            .args(["live", "--json", "--port", "0"])
+            .args(["--instance", &instance.config().instance])
+            .args(arguments)
+            .env("XDG_RUNTIME_DIR", instance.directory())
+            .current_dir(instance.directory())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut text = String::new();
+        for line in BufReader::new(child.stdout.take().unwrap()).lines() {
+            let line = line.unwrap();
+            text.push_str(&line);
+            if line == "}" {
+                break;
+            }
+        }
+        let told: Value = serde_json::from_str(&text).unwrap();
+        Self {
+            child,
+            url: told["url"].as_str().unwrap().to_owned(),
+            port: told["port"].as_u64().unwrap().try_into().unwrap(),
+        }
+    }
+
+    /// Commands as a page does; gives the status and the body of the answer.
+    fn command(&self, token: &str, body: &str) -> (u16, String) {
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        let (port, length) = (self.port, body.len());
+        let head = format!(
+            "POST /api/command HTTP/1.1\r\nHost: localhost:{port}\r\nContent-Type: \
+             application/json\r\n{token}Content-Length: {length}\r\n\r\n{body}"
+        );
+        stream.write_all(head.as_bytes()).unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        let (head, body) = answer.split_once("\r\n\r\n").unwrap();
+        let status = head.split(' ').nth(1).unwrap().parse().unwrap();
+        (status, body.to_owned())
+    }
+
+    fn token(&self) -> String {
+        let (_, token) = self.url.split_once("#token=").unwrap();
+        format!("X-Glidepath-Token: {token}\r\n")
+    }
+}
+
+impl Drop for Live {
+    fn drop(&mut self) {
+        // Not waited for yet, so the number is still its own.
+        let pid = Pid::from_raw(self.child.id().try_into().unwrap()).unwrap();
+        let _asked = kill_process(pid, Signal::TERM);
+        let _ended = self.child.wait();
+    }
+}
+
+#[test]
+fn commands_take_the_token_and_leave() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let program = instance.file("program.ngc", &long_program());
+    let services = Services::start(&instance);
+    let planner = Process::join(&instance, &["planner", &program]);
+    let _moving = services.wait_for(MachineState::Running);
+    let hold = "{\"kind\":\"hold\"}";
+
+    let showing = Live::start(&instance, &[]);
+    let (status, said) = showing.command(&showing.token(), hold);
+    assert_eq!(status, 403, "{said}");
+    assert!(said.contains("--commands"), "{said}");
+
+    let live = Live::start(&instance, &["--commands"]);
+    assert_eq!(live.command("", hold).0, 403);
+    assert_eq!(live.command(&showing.token(), hold).0, 403);
+    // What a page must never do, and what is no command.
+    for body in [
+        "{\"kind\":\"enable\"}",
+        "{\"kind\":\"jog\",\"value\":1}",
+        "{\"kind\":\"home\"}",
+        "{\"kind\":\"reset\"}",
+        "{\"kind\":\"set-position\",\"value\":0}",
+        "{\"kind\":\"feed-override\",\"value\":3}",
+        "{\"kind\":\"feed-override\",\"value\":-1}",
+        "{\"kind\":\"feed-override\"}",
+        "{\"kind\":\"hold\",\"joint\":1}",
+        "hold",
+    ] {
+        assert_eq!(live.command(&live.token(), body).0, 400, "{body}");
+    }
+    // All that was refused left the machine alone.
+    std::thread::sleep(Duration::from_millis(300));
+    let _still_moving = services.wait_for(MachineState::Running);
+
+    let (status, said) = live.command(&live.token(), hold);
+    assert_eq!((status, said.contains("true")), (200, true), "{said}");
+    let _held = services.wait_for(MachineState::Held);
+    let slower = "{\"kind\":\"feed-override\",\"value\":0.5}";
+    assert_eq!(live.command(&live.token(), slower).0, 200);
+    let _slower = services.wait(|status| (status.feed_override - 0.5).abs() < 1e-9);
+    assert_eq!(live.command(&live.token(), "{\"kind\":\"resume\"}").0, 200);
+    let _moving = services.wait_for(MachineState::Running);
+    assert_eq!(live.command(&live.token(), "{\"kind\":\"abort\"}").0, 200);
+    let _idle = services.wait_for(MachineState::Idle);
+    // Refused by the machine: with its reason.
+    let (status, said) = live.command(&live.token(), "{\"kind\":\"step\"}");
+    assert_eq!(status, 409, "{said}");
+    assert!(said.contains("nothing is held"), "{said}");
+    drop((showing, live, planner.wait()));
+    drop(services.end());
+}
+
+#[test]
+fn a_browser_shows_the_machine_and_holds_it() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let Some(mut browser) = Browser::start(1440, 900) else {
+        return;
+    };
+    let program = instance.file("program.ngc", &long_program());
+    let services = Services::start(&instance);
+    let planner = Process::join(&instance, &["planner", &program]);
+    let _moving = services.wait_for(MachineState::Running);
+    let live = Live::start(&instance, &[&program, "--commands"]);
+
+    // Without the token the page is there, and shows nothing.
+    browser.open(&format!("http://127.0.0.1:{}/", live.port));
+    browser.wait("typeof S !== 'undefined' && S.refused");
+    assert_eq!(
+        browser.evaluate("S.status === null && RINGED === null"),
+        true
+    );
+
+    browser.open("about:blank");
+    browser.open(&live.url);
+    browser.wait("typeof S !== 'undefined' && RINGED && RINGED.count > 200 && PLAN");
+    // The token is not in the address any more, where a picture of the screen would show it.
+    assert_eq!(browser.evaluate("location.hash.includes('token')"), false);
+    assert_eq!(browser.evaluate("S.state"), "running");
+    // The plot moves: other samples, another picture.
+    browser.evaluate("setView('tune')");
+    browser.wait("AREA.width > 100");
+    let look = "[RINGED.now, S.p, document.querySelector('#strips canvas').toDataURL().length, \
+                document.querySelector('#strips canvas').toDataURL()]";
+    let before = browser.evaluate(look);
+    std::thread::sleep(Duration::from_millis(400));
+    let after = browser.evaluate(look);
+    assert!(after[0].as_f64() > before[0].as_f64(), "time goes on");
+    assert!(
+        after[1].as_f64() > before[1].as_f64(),
+        "so does the program"
+    );
+    assert!(before[2].as_u64() > Some(5000), "something is drawn");
+    assert!(after[3] != before[3], "and drawn anew");
+    // What the page derives is what the limits allow, and no setpoint is missing.
+    let most = browser.evaluate(
+        "Math.max(...RINGED.axes[0].ranges[1].slice(0, RINGED.count).map(Math.abs)) / AXES()[0].limits[1]",
+    );
+    let most = most.as_f64().unwrap();
+    assert!((0.5..1.0 + 1e-6).contains(&most), "{most}");
+    assert_eq!(browser.evaluate("RINGED.lost"), 0);
+    // A finger on hold, and on resume.
+    browser.press("[data-c=hold]");
+    let _held = services.wait_for(MachineState::Held);
+    browser.wait(
+        "S.state === 'held' && document.querySelector('#word').textContent.startsWith('Held')",
+    );
+    browser.press("[data-c=resume]");
+    let _moving = services.wait_for(MachineState::Running);
+    browser.wait("S.state === 'running'");
+    drop((live, planner));
+    drop(services.end());
+}

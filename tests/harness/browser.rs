@@ -1,0 +1,147 @@
+//! A browser without a screen: Chromium, driven over its DevTools protocol by two pipes.
+
+use std::io::{Read as _, Write as _};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// Chromium with one page. Dropping it ends it.
+#[derive(Debug)]
+pub struct Browser {
+    child: Child,
+    to: ChildStdin,
+    from: ChildStdout,
+    /// What came behind the last answer.
+    rest: Vec<u8>,
+    number: u64,
+    session: Option<String>,
+    _profile: TempDir,
+}
+
+impl Browser {
+    /// Starts Chromium with a window of this size; `None`, aloud, where there is none.
+    #[must_use]
+    pub fn start(width: u32, height: u32) -> Option<Self> {
+        let names = ["chromium", "chromium-browser", "google-chrome"];
+        let runs = |name: &&&str| {
+            let told = Command::new(name).arg("--version").output();
+            told.is_ok_and(|output| output.status.success())
+        };
+        let Some(name) = names.iter().find(runs) else {
+            eprintln!("SKIPPED: there is no Chromium here, so no page was opened");
+            return None;
+        };
+        let profile = tempfile::tempdir().unwrap();
+        // Chromium hears at its third file and answers at its fourth.
+        let line = "exec \"$0\" \"$@\" 3<&0 4>&1 0</dev/null 1>/dev/null 2>/dev/null";
+        let mut child = Command::new("sh")
+            .args(["-c", line, name, "--headless", "--no-sandbox"])
+            .args(["--disable-gpu", "--disable-dev-shm-usage", "--no-first-run"])
+            .args(["--disable-background-networking", "--remote-debugging-pipe"])
+            .arg(format!("--user-data-dir={}", profile.path().display()))
+            .arg(format!("--window-size={width},{height}"))
+            .arg("about:blank")
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let (to, from) = (child.stdin.take().unwrap(), child.stdout.take().unwrap());
+        let mut browser = Self {
+            child,
+            to,
+            from,
+            rest: Vec::new(),
+            number: 0,
+            session: None,
+            _profile: profile,
+        };
+        browser.attach();
+        Some(browser)
+    }
+
+    fn attach(&mut self) {
+        let targets = self.call("Target.getTargets", &json!({}));
+        let targets = targets["targetInfos"].as_array().unwrap().clone();
+        let page = targets.iter().find(|target| target["type"] == "page");
+        let attach = json!({ "targetId": page.unwrap()["targetId"], "flatten": true });
+        let session = self.call("Target.attachToTarget", &attach);
+        self.session = session["sessionId"].as_str().map(str::to_owned);
+    }
+
+    /// Asks for something of the DevTools protocol, and waits for the answer.
+    pub fn call(&mut self, method: &str, parameters: &Value) -> Value {
+        self.number += 1;
+        let mut message = json!({ "id": self.number, "method": method, "params": parameters });
+        if let Some(session) = &self.session {
+            message["sessionId"] = session.as_str().into();
+        }
+        self.to.write_all(message.to_string().as_bytes()).unwrap();
+        self.to.write_all(b"\0").unwrap();
+        loop {
+            let answer = self.message();
+            if answer["id"] == self.number {
+                assert!(answer["error"].is_null(), "{method}: {answer}");
+                return answer["result"].clone();
+            }
+        }
+    }
+
+    fn message(&mut self) -> Value {
+        loop {
+            if let Some(end) = self.rest.iter().position(|byte| *byte == 0) {
+                let text: Vec<u8> = self.rest.drain(..=end).collect();
+                return serde_json::from_slice(&text[..end]).unwrap();
+            }
+            let mut more = vec![0; 65_536];
+            let got = self.from.read(&mut more).unwrap();
+            assert!(got > 0, "the browser ended");
+            self.rest.extend_from_slice(&more[..got]);
+        }
+    }
+
+    /// Opens an address.
+    pub fn open(&mut self, url: &str) {
+        let _opened = self.call("Page.navigate", &json!({ "url": url }));
+    }
+
+    /// What an expression gives on the page; null where it throws.
+    pub fn evaluate(&mut self, expression: &str) -> Value {
+        let asked = json!({
+            "expression": expression,
+            "returnByValue": true,
+            "awaitPromise": true,
+        });
+        self.call("Runtime.evaluate", &asked)["result"]["value"].clone()
+    }
+
+    /// Waits until an expression is true on the page.
+    pub fn wait(&mut self, expression: &str) {
+        while self.evaluate(&format!("!!({expression})")) != true {
+            std::thread::sleep(std::time::Duration::from_millis(50));
+        }
+    }
+
+    /// Presses the middle of an element, and lets it go.
+    pub fn press(&mut self, selector: &str) {
+        let place = format!(
+            "(() => {{ const r = document.querySelector('{selector}').getBoundingClientRect(); \
+             return [r.x + r.width / 2, r.y + r.height / 2]; }})()"
+        );
+        let place = self.evaluate(&place);
+        for kind in ["mousePressed", "mouseReleased"] {
+            let event = json!({
+                "type": kind, "x": place[0], "y": place[1], "button": "left", "clickCount": 1,
+            });
+            let _pressed = self.call("Input.dispatchMouseEvent", &event);
+        }
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        // Nobody is left to tell.
+        let _killed = self.child.kill();
+        let _ended = self.child.wait();
+    }
+}
