@@ -12,6 +12,7 @@ mod live;
 mod load;
 mod operating;
 mod operator;
+mod probing;
 mod programs;
 mod resume;
 mod run;

@@ -49,7 +49,7 @@ extern "C" {
 /* The version of the ABI: functions and structures. */
 #define GP_ABI 1u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x139f88e84996cc50)
+#define GP_LAYOUT UINT64_C(0x14e0e8a159f10946)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -124,7 +124,8 @@ enum {
     GP_END_OPEN = 1,
     GP_END_COMPLETED = 2,
     GP_END_ABORTED = 3,
-    GP_END_FAULTED = 4
+    GP_END_FAULTED = 4,
+    GP_END_TRIPPED = 5
 };
 
 /* Why the interpolator stopped by itself. */
@@ -174,6 +175,13 @@ enum {
     GP_MODE_RETURN = 4
 };
 
+/* What a probe has found. */
+enum {
+    GP_CONTACT_NONE = 0,
+    GP_CONTACT_MADE = 1,
+    GP_CONTACT_ALREADY_SO = 2
+};
+
 /* What the lowest byte of event_kind says. */
 enum {
     GP_EVENT_NONE = 0,
@@ -183,7 +191,8 @@ enum {
     GP_EVENT_PROGRAM_STOP = 4,
     GP_EVENT_OPTIONAL_STOP = 5,
     GP_EVENT_DIGITAL_OUTPUT = 6,
-    GP_EVENT_ANALOG_OUTPUT = 7
+    GP_EVENT_ANALOG_OUTPUT = 7,
+    GP_EVENT_PROBE = 8
 };
 
 /* What a drive does, by the states of CiA 402. */
@@ -512,6 +521,13 @@ typedef struct gp_status {
     uint32_t awaited_kind;
     /* Its source line. */
     uint32_t awaited_line;
+    /* Where the axes really were when the probe found what it looked for in this epoch, mm
+       or degrees. */
+    double contact[9];
+    /* A GP_CONTACT_. */
+    uint32_t contact_kind;
+    /* Must be zero. */
+    uint32_t reserved;
     /* Path position, mm. */
     double path_s;
     /* Path position of the first setpoint of the block, mm. */
@@ -563,7 +579,7 @@ typedef struct gp_status {
        that. */
     char message[128];
 } gp_status;
-GP_ASSERT(sizeof(gp_status) == 1384, "gp_status has another size");
+GP_ASSERT(sizeof(gp_status) == 1464, "gp_status has another size");
 GP_FIELD(gp_status, boot_id, 0, 8);
 GP_FIELD(gp_status, updated_ns, 8, 8);
 GP_FIELD(gp_status, period_ns, 16, 8);
@@ -608,30 +624,33 @@ GP_FIELD(gp_status, awaited_since_ns, 624, 8);
 GP_FIELD(gp_status, awaited_value, 632, 8);
 GP_FIELD(gp_status, awaited_kind, 640, 4);
 GP_FIELD(gp_status, awaited_line, 644, 4);
-GP_FIELD(gp_status, path_s, 648, 8);
-GP_FIELD(gp_status, block_path_s, 656, 8);
-GP_FIELD(gp_status, feed_v, 664, 8);
-GP_FIELD(gp_status, feed_override, 672, 8);
-GP_FIELD(gp_status, rapid_override, 680, 8);
-GP_FIELD(gp_status, jog_override, 688, 8);
-GP_FIELD(gp_status, effective_override, 696, 8);
-GP_FIELD(gp_status, ticks, 704, 8);
-GP_FIELD(gp_status, missed_ticks, 712, 8);
-GP_FIELD(gp_status, late_ticks, 720, 8);
-GP_FIELD(gp_status, setpoints_published, 728, 8);
-GP_FIELD(gp_status, setpoints_lost, 736, 8);
-GP_FIELD(gp_status, reserve_stops, 744, 8);
-GP_FIELD(gp_status, starved_ticks, 752, 8);
-GP_FIELD(gp_status, commands_served, 760, 8);
-GP_FIELD(gp_status, commands_refused, 768, 8);
-GP_FIELD(gp_status, frames_refused, 776, 96);
-GP_FIELD(gp_status, lateness, 872, 32);
-GP_FIELD(gp_status, work, 904, 32);
-GP_FIELD(gp_status, latency, 936, 32);
-GP_FIELD(gp_status, response, 968, 32);
-GP_FIELD(gp_status, last_error, 1000, 128);
-GP_FIELD(gp_status, last_event, 1128, 128);
-GP_FIELD(gp_status, message, 1256, 128);
+GP_FIELD(gp_status, contact, 648, 72);
+GP_FIELD(gp_status, contact_kind, 720, 4);
+GP_FIELD(gp_status, reserved, 724, 4);
+GP_FIELD(gp_status, path_s, 728, 8);
+GP_FIELD(gp_status, block_path_s, 736, 8);
+GP_FIELD(gp_status, feed_v, 744, 8);
+GP_FIELD(gp_status, feed_override, 752, 8);
+GP_FIELD(gp_status, rapid_override, 760, 8);
+GP_FIELD(gp_status, jog_override, 768, 8);
+GP_FIELD(gp_status, effective_override, 776, 8);
+GP_FIELD(gp_status, ticks, 784, 8);
+GP_FIELD(gp_status, missed_ticks, 792, 8);
+GP_FIELD(gp_status, late_ticks, 800, 8);
+GP_FIELD(gp_status, setpoints_published, 808, 8);
+GP_FIELD(gp_status, setpoints_lost, 816, 8);
+GP_FIELD(gp_status, reserve_stops, 824, 8);
+GP_FIELD(gp_status, starved_ticks, 832, 8);
+GP_FIELD(gp_status, commands_served, 840, 8);
+GP_FIELD(gp_status, commands_refused, 848, 8);
+GP_FIELD(gp_status, frames_refused, 856, 96);
+GP_FIELD(gp_status, lateness, 952, 32);
+GP_FIELD(gp_status, work, 984, 32);
+GP_FIELD(gp_status, latency, 1016, 32);
+GP_FIELD(gp_status, response, 1048, 32);
+GP_FIELD(gp_status, last_error, 1080, 128);
+GP_FIELD(gp_status, last_event, 1208, 128);
+GP_FIELD(gp_status, message, 1336, 128);
 
 /* What a servo stack knows of the joints it drives, at one moment. The record
    glidepath.Feedback.v1. */

@@ -15,7 +15,7 @@
 //! | G17 G18 G19, G17.1 G18.1 G19.1 | plane of arcs and cycles |
 //! | G20 G21 | inch, millimetre |
 //! | G28 G30, G28.1 G30.1 | reference positions, machine zero until they are set |
-//! | G38.2 … G38.5 | probing, only with simulated connections |
+//! | G38.2 … G38.5 | probing, with simulated or real connections |
 //! | G40 G41 G42 D, G41.1 G42.1 D L | cutter radius compensation, in G17 and G18 |
 //! | G43 H, G43.1, G43.2 H, G49 | tool length offsets, on every axis |
 //! | G61 G61.1 G64 P Q | path mode; Q is checked and not used |

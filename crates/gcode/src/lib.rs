@@ -70,6 +70,7 @@ pub use execute::auxiliary::input_wait::{Input, InputWait, WaitFor};
 pub use execute::program::Program;
 pub use execute::state::in_force::InForce;
 pub use execute::state::modal::{Feed, Modal};
+pub use execute::state::probe_result::Probed;
 pub use setup::m_codes::MCodes;
 pub use setup::machine::{Machine, Travel};
 pub use setup::options::{Connections, LoopLimits, Options};

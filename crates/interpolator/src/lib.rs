@@ -118,6 +118,7 @@ mod message;
 mod output;
 mod pairs;
 mod ports;
+mod probing;
 mod program_time;
 mod quintic;
 mod ramp;
@@ -144,7 +145,7 @@ mod wait;
 static ALLOCATOR: glidepath_realtime::CountingAllocator = glidepath_realtime::CountingAllocator;
 
 pub use config::{Config, Gantry, JogSettings, RealTime, SoftLimits};
-pub use feedback::{FeedbackSettings, JointFeedback};
+pub use feedback::{FeedbackSettings, JointFeedback, ProbeInput};
 pub use gates::{Answer, Gate, Gates, MAX_GATES};
 pub use homing::{HomingError, JointBounds, JointHoming};
 pub use loops::{RunError, lead_ns};

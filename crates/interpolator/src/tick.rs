@@ -51,6 +51,7 @@ impl Interpolator<'_> {
             self.write_joints(&mut report.setpoint);
         } else if self.is_open() {
             self.look_for_block_end();
+            self.look_for_contact();
             self.choose_rate();
             self.advance_program_time(tick);
             self.write_moving(tick, &mut report.setpoint);

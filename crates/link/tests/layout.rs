@@ -35,7 +35,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v3", 656, {
     acceleration: 296, joint_position: 368, joint_velocity: 440, joint_acceleration: 512,
     away: 584,
 });
-layout!(status, Status, "glidepath.Status.v7", 1384, {
+layout!(status, Status, "glidepath.Status.v7", 1464, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_joint: 88, drive_fault: 92,
@@ -44,12 +44,12 @@ layout!(status, Status, "glidepath.Status.v7", 1384, {
     mode: 364, joints: 368, enabled: 372, homed: 376, drive_faults: 380, reference: 384,
     feedback_age_ns: 392, joint_actual: 400, following_error: 472, following_peak: 544,
     awaited_sequence: 616, awaited_since_ns: 624, awaited_value: 632,
-    awaited_kind: 640, awaited_line: 644, path_s: 648, block_path_s: 656, feed_v: 664,
-    feed_override: 672, rapid_override: 680, jog_override: 688, effective_override: 696, ticks: 704,
-    missed_ticks: 712, late_ticks: 720, setpoints_published: 728, setpoints_lost: 736,
-    reserve_stops: 744, starved_ticks: 752, commands_served: 760, commands_refused: 768,
-    frames_refused: 776, lateness: 872, work: 904, latency: 936, response: 968, last_error: 1000,
-    last_event: 1128, message: 1256,
+    awaited_kind: 640, awaited_line: 644, contact: 648, contact_kind: 720, reserved: 724, path_s: 728, block_path_s: 736, feed_v: 744,
+    feed_override: 752, rapid_override: 760, jog_override: 768, effective_override: 776, ticks: 784,
+    missed_ticks: 792, late_ticks: 800, setpoints_published: 808, setpoints_lost: 816,
+    reserve_stops: 824, starved_ticks: 832, commands_served: 840, commands_refused: 848,
+    frames_refused: 856, lateness: 952, work: 984, latency: 1016, response: 1048, last_error: 1080,
+    last_event: 1208, message: 1336,
 });
 layout!(command_request, CommandRequest, "glidepath.CommandRequest.v4", 184, {
     client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, text: 56,

@@ -285,7 +285,9 @@ impl Machine {
                 {
                     "heaters and fans are not controlled"
                 }
-                ("probe" | "bltouch", _) => "probing is simulated at most",
+                ("probe" | "bltouch", _) => {
+                    "a probe is an input of feedback here: see the table [probe]"
+                }
                 _ => "nothing here corresponds to it",
             };
             self.inputs.decide(at, Fate::NoCounterpart, reason);

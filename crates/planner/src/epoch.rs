@@ -125,10 +125,16 @@ impl Epoch {
         !matches!(self.standing, Standing::NotStarted)
     }
 
-    /// Whether every frame was planned, delivered and executed.
+    /// Whether the probe has ended it.
+    pub(crate) const fn is_tripped(&self) -> bool {
+        matches!(self.standing, Standing::Tripped)
+    }
+
+    /// Whether every frame was planned, delivered and executed, or need not be.
     pub(crate) const fn is_over(&self) -> bool {
         let is_out = self.in_hand.is_none() && self.ended.is_some();
-        is_out && (matches!(self.standing, Standing::Completed) || !self.has_begun())
+        self.is_tripped()
+            || is_out && (matches!(self.standing, Standing::Completed) || !self.has_begun())
     }
 
     /// Sequence of the first frame that is too far ahead.
@@ -172,7 +178,7 @@ impl Epoch {
         match self.standing {
             Standing::NotStarted => 0,
             Standing::Open { executed, .. } => executed,
-            Standing::Completed => self.delivered,
+            Standing::Completed | Standing::Tripped => self.delivered,
         }
     }
 }

@@ -201,7 +201,7 @@ impl Feeder {
                 match source.next_item() {
                     Supply::Item(item) => self.outbox.push_back(StreamItem::Item(item)),
                     Supply::Pending => break,
-                    Supply::End => ended = Some(None),
+                    Supply::Probe | Supply::End => ended = Some(None),
                     Supply::Refused(refusal) => ended = Some(Some(refusal)),
                 }
             }

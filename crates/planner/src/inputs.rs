@@ -1,4 +1,4 @@
-//! M66: what the machine's inputs say, asked by a program that is read ahead.
+//! M66 and G38: what the machine's inputs and its probe say, asked by a program that is read ahead.
 //!
 //! ```text
 //!  source of items ── wait ──► desk ◄── answer ── publisher, once the machine rests at the M66
@@ -6,13 +6,14 @@
 //! ```
 //!
 //! The source gives nothing out before it has its answer, so that the machine rests at the M66; only
-//! then the input is looked at, and the time runs.
+//! then the input is looked at, and the time runs. A probing move ends an epoch, and what that came
+//! to is its answer.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use glidepath_gcode::{Input, InputWait, WaitFor};
+use glidepath_gcode::{Input, InputWait, Probed, WaitFor};
 use glidepath_link::{Feedback, LinkError, Record as _, Subscriber};
 
 /// What `#5399` is where an input did not do in time what was waited for.
@@ -32,8 +33,23 @@ enum Desk {
     #[default]
     Closed,
     Idle,
-    Asked(InputWait),
-    Answered(f64),
+    Asked(Question),
+    Answered(Answer),
+}
+
+/// What a program asks.
+#[derive(Debug, Clone, Copy)]
+enum Question {
+    Input(InputWait),
+    /// How the probing move ended that was handed over last.
+    Probe,
+}
+
+/// What a program is told.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Answer {
+    Input(f64),
+    Probe(Probed),
 }
 
 impl InputDesk {
@@ -44,21 +60,30 @@ impl InputDesk {
 
     /// Asks; false if nobody answers.
     pub(crate) fn ask(&self, wait: InputWait) -> bool {
+        self.ask_for(Question::Input(wait))
+    }
+
+    /// Asks how a probing move ended; false if nobody answers.
+    pub(crate) fn ask_for_contact(&self) -> bool {
+        self.ask_for(Question::Probe)
+    }
+
+    fn ask_for(&self, question: Question) -> bool {
         let mut desk = self.desk();
         if matches!(*desk, Desk::Closed) {
             return false;
         }
-        *desk = Desk::Asked(wait);
+        *desk = Desk::Asked(question);
         true
     }
 
     /// The answer, once.
-    pub(crate) fn take_answer(&self) -> Option<f64> {
+    pub(crate) fn take_answer(&self) -> Option<Answer> {
         let mut desk = self.desk();
         match *desk {
-            Desk::Answered(value) => {
+            Desk::Answered(answer) => {
                 *desk = Desk::Idle;
-                Some(value)
+                Some(answer)
             }
             _ => None,
         }
@@ -66,13 +91,13 @@ impl InputDesk {
 
     fn asked(&self) -> Option<InputWait> {
         match *self.desk() {
-            Desk::Asked(wait) => Some(wait),
+            Desk::Asked(Question::Input(wait)) => Some(wait),
             _ => None,
         }
     }
 
-    fn answer(&self, value: f64) {
-        *self.desk() = Desk::Answered(value);
+    fn answer(&self, answer: Answer) {
+        *self.desk() = Desk::Answered(answer);
     }
 
     fn desk(&self) -> MutexGuard<'_, Desk> {
@@ -119,9 +144,14 @@ impl InputWatch {
         };
         self.waited = self.waited.saturating_add(passed);
         if let Some(value) = self.value_of(&wait) {
-            self.desk.answer(value);
+            self.desk.answer(Answer::Input(value));
         }
         Ok(())
+    }
+
+    /// Says how a probing move ended.
+    pub(crate) fn answer_probe(&self, probed: Probed) {
+        self.desk.answer(Answer::Probe(probed));
     }
 
     fn value_of(&mut self, wait: &InputWait) -> Option<f64> {
@@ -164,9 +194,10 @@ impl InputWatch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Attending, ItemSource as _, ProgramSource, Supply};
+    use crate::{Attending, ItemSource as _, PipeSource, ProgramSource, Refusal, Supply};
     use bytemuck::Zeroable as _;
     use glidepath_gcode::{Connections, Options};
+    use glidepath_geometry::AxisVector;
     use glidepath_link::{InProcess, Transport as _};
     use glidepath_program::{Event, Item, ItemKind};
 
@@ -256,7 +287,54 @@ mod tests {
         let supply = source.next_item();
         assert!(matches!(
             supply,
-            Supply::Refused(crate::Refusal::AnswerUnknown { line: 1 })
+            Supply::Refused(Refusal::AnswerUnknown { line: 1 })
         ));
+    }
+
+    #[test]
+    fn behind_a_probing_move_a_pipe_waits_for_what_it_came_to() {
+        let desk = InputDesk::default();
+        let options = Options {
+            connections: Connections::Real,
+            probing_v: Some(10.0),
+            ..Options::default()
+        };
+        let attending = || Attending {
+            inputs: Some(desk.clone()),
+            ..Attending::default()
+        };
+        let text = "G38.2 Z-5 F60\nG0 X#5063\n";
+        let mut ends = Vec::new();
+        let mut read = |pipe: &mut PipeSource| loop {
+            match pipe.next_item() {
+                Supply::Item(item) => {
+                    if let ItemKind::Move { segment, .. } = item.kind {
+                        ends.push((segment.start()[2], segment.end()[0]));
+                    }
+                }
+                Supply::Pending => std::thread::yield_now(),
+                other => return (other, ends.clone()),
+            }
+        };
+        let spawned = PipeSource::spawn(text.as_bytes(), options.clone(), attending());
+        let (closed, _) = read(&mut spawned.unwrap());
+        assert!(matches!(
+            closed,
+            Supply::Refused(Refusal::AnswerUnknown { line: 1 })
+        ));
+
+        desk.open();
+        let mut pipe = PipeSource::spawn(text.as_bytes(), options, attending()).unwrap();
+        assert!(matches!(read(&mut pipe).0, Supply::Probe));
+        std::thread::sleep(Duration::from_millis(20));
+        assert!(matches!(pipe.next_item(), Supply::Pending));
+        desk.answer(Answer::Probe(Probed {
+            contact: Some(AxisVector::z() * -2.0),
+            was_so: false,
+            stands: AxisVector::z() * -2.1,
+        }));
+        let (end, ends) = read(&mut pipe);
+        assert!(matches!(end, Supply::End));
+        assert_eq!(ends.last(), Some(&(-2.1, -2.0)));
     }
 }

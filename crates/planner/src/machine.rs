@@ -2,10 +2,11 @@
 
 use std::time::Duration;
 
+use glidepath_gcode::Probed;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Client, Command, CommandReply, CommandRequest, EndOfEpoch, LinkError, MachineState, Record,
-    Status, Subscriber, Transport,
+    Client, Command, CommandReply, CommandRequest, ContactKind, EndOfEpoch, LinkError,
+    MachineState, Record, Status, Subscriber, Transport,
 };
 use glidepath_program::Override;
 
@@ -39,6 +40,8 @@ pub(crate) enum Standing {
     },
     /// The last frame was executed.
     Completed,
+    /// The probe found what it looked for, and the rest was left out.
+    Tripped,
 }
 
 /// Status and command ports, and what was last heard.
@@ -146,6 +149,7 @@ impl Machine {
         }
         match end {
             EndOfEpoch::Completed => Ok(Standing::Completed),
+            EndOfEpoch::Tripped => Ok(Standing::Tripped),
             EndOfEpoch::Aborted => Err(RunError::Aborted),
             EndOfEpoch::None | EndOfEpoch::Open | EndOfEpoch::Faulted => Ok(Standing::Open {
                 executed: status.frames_executed,
@@ -160,6 +164,22 @@ impl Machine {
         let status = self.status()?;
         let idle = status.state() == Ok(MachineState::Idle);
         idle.then(|| AxisVector::from(status.position))
+    }
+
+    /// What the probe has found in the present or last epoch, for a machine that stands there.
+    pub(crate) fn probed(&self, stands: AxisVector) -> Result<Probed, RunError> {
+        let status = self.status().ok_or(RunError::InterpolatorLost)?;
+        let kind = status.contact().map_err(LinkError::from)?;
+        Ok(Probed {
+            contact: (kind != ContactKind::None).then(|| AxisVector::from(status.contact)),
+            was_so: kind == ContactKind::AlreadySo,
+            stands,
+        })
+    }
+
+    /// Path position, mm.
+    pub(crate) fn path_s(&self) -> f64 {
+        self.status().map_or(0.0, |status| status.path_s)
     }
 
     /// Number of the item being executed, 0 if unknown.

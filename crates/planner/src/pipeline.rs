@@ -75,6 +75,10 @@ pub struct Pipeline<S> {
     item: Item,
     /// The source gives no more items.
     is_exhausted: bool,
+    /// It gives more when it is known how the probing move ended that it gave last.
+    is_at_probe: bool,
+    /// Frames of the epochs before.
+    frames_before: u64,
     /// Why the program ended early, until that is told.
     refusal: Option<Refusal>,
     statistics: Statistics,
@@ -114,6 +118,8 @@ impl<S: ItemSource> Pipeline<S> {
                 kind: ItemKind::Dwell(0.0),
             },
             is_exhausted: false,
+            is_at_probe: false,
+            frames_before: 0,
             refusal: None,
             statistics: Statistics {
                 lines: 0,
@@ -270,6 +276,29 @@ impl<S: ItemSource> Pipeline<S> {
         });
     }
 
+    /// Whether what was planned ends with a probing move, after which the program goes on. One that
+    /// the probe has ended may have been planned in part only.
+    pub(crate) fn comes_to_probe(&mut self, is_tripped: bool) -> bool {
+        while is_tripped && !self.is_at_probe && !self.is_exhausted {
+            match self.source.next_item() {
+                Supply::Item(_) => {}
+                Supply::Pending => std::thread::yield_now(),
+                Supply::Probe => self.is_at_probe = true,
+                Supply::End | Supply::Refused(_) => self.is_exhausted = true,
+            }
+        }
+        self.is_at_probe
+    }
+
+    /// Goes on behind a probing move, from where the machine came to rest: `position` (mm, degrees)
+    /// and `path_s` (mm).
+    pub(crate) fn go_on_from(&mut self, position: AxisVector, path_s: f64) {
+        self.frames_before += self.planning.frames();
+        self.planning = self.planning.behind(self.settings, position, path_s);
+        (self.is_exhausted, self.is_at_probe) = (false, false);
+        self.history = None;
+    }
+
     /// Block of the program that the last frame belongs to ([`Frame::block`]), 0 before the first.
     #[must_use]
     pub const fn block(&self) -> u32 {
@@ -292,7 +321,7 @@ impl<S: ItemSource> Pipeline<S> {
     pub fn statistics(&self) -> Statistics {
         Statistics {
             lines: self.source.lines_read(),
-            frames: self.planning.frames(),
+            frames: self.frames_before + self.planning.frames(),
             ..self.statistics
         }
     }
@@ -311,6 +340,10 @@ impl<S: ItemSource> Pipeline<S> {
             Supply::Item(item) => self.plan(item),
             Supply::Pending => Ok(Step::Pending),
             Supply::End => self.end(),
+            Supply::Probe => {
+                self.is_at_probe = true;
+                self.end()
+            }
             Supply::Refused(refusal) => {
                 self.refusal = Some(refusal);
                 self.end()

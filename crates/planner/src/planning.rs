@@ -48,6 +48,11 @@ impl Planning {
         }
     }
 
+    /// The same program behind what was planned of it, from a machine at rest elsewhere.
+    pub(crate) fn behind(&self, settings: Settings, start: AxisVector, start_s: f64) -> Self {
+        Self::new(settings, start, self.blocks.clone(), start_s)
+    }
+
     /// Makes the next frame, if the motion is settled that far.
     pub(crate) fn make_frame(&mut self) -> Result<bool, PlanError> {
         if self.stage == Stage::Broken {

@@ -8,10 +8,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 use std::time::Duration;
 
-use glidepath_gcode::{InForce, Options, Program, Subroutines, diagnostics};
+use glidepath_gcode::{Diagnostic, InForce, Options, Program, Subroutines, diagnostics};
 use glidepath_program::{Event, ItemKind};
 
 use crate::fingerprint::Fingerprinting;
+use crate::inputs::Answer;
 use crate::unchanged_file::UnchangedFile;
 use crate::{Attending, ChangeLog, InputDesk, ItemSource, Refusal, RemarkLog, SetUp, Supply};
 
@@ -92,14 +93,40 @@ impl<R: BufRead> ProgramSource<R> {
     }
 
     /// Whether the source has to wait for an answer.
-    fn awaits_answer(&mut self) -> bool {
+    ///
+    /// # Errors
+    /// The program ends with the answer.
+    fn awaits_answer(&mut self) -> Result<bool, Refusal> {
         if self.asking
-            && let Some(value) = self.inputs.as_ref().and_then(InputDesk::take_answer)
+            && let Some(answer) = self.inputs.as_ref().and_then(InputDesk::take_answer)
         {
-            self.program.answer_input(value);
             self.asking = false;
+            match answer {
+                Answer::Input(value) => self.program.answer_input(value),
+                Answer::Probe(probed) => {
+                    let ended = self.program.answer_probe(&probed);
+                    ended.map_err(|diagnostic| refused(*diagnostic))?;
+                }
+            }
         }
-        self.asking
+        Ok(self.asking)
+    }
+
+    /// Ends what is given out with the probing move that was given out last, and asks how that
+    /// ends. Whoever only looks at a program goes on as if it went to its end.
+    fn stop_at_probe(&mut self) -> Option<Supply> {
+        let desk = self
+            .inputs
+            .as_ref()
+            .filter(|_| self.program.is_at_probe())?;
+        self.asking = desk.ask_for_contact();
+        Some(if self.asking {
+            Supply::Probe
+        } else {
+            Supply::Refused(Refusal::AnswerUnknown {
+                line: self.program.line_of_last(),
+            })
+        })
     }
 
     fn note_remarks(&mut self) {
@@ -179,8 +206,13 @@ impl ProgramSource<BufReader<UnchangedFile>> {
 
 impl<R: BufRead> ItemSource for ProgramSource<R> {
     fn next_item(&mut self) -> Supply {
-        if self.awaits_answer() {
-            return Supply::Pending;
+        match self.awaits_answer() {
+            Ok(false) => {}
+            Ok(true) => return Supply::Pending,
+            Err(refusal) => return Supply::Refused(refusal),
+        }
+        if let Some(supply) = self.stop_at_probe() {
+            return supply;
         }
         let next = self.program.next();
         self.note_changes();
@@ -196,10 +228,7 @@ impl<R: BufRead> ItemSource for ProgramSource<R> {
                 }
                 Supply::Item(item)
             }
-            Some(Err(diagnostic)) => Supply::Refused(Refusal::Program {
-                diagnostics: vec![diagnostic],
-                unlisted: 0,
-            }),
+            Some(Err(diagnostic)) => Supply::Refused(refused(diagnostic)),
             None => Supply::End,
         }
     }
@@ -214,6 +243,13 @@ impl<R: BufRead> ItemSource for ProgramSource<R> {
 
     fn is_on_contour(&self) -> bool {
         self.program.is_on_contour()
+    }
+}
+
+fn refused(diagnostic: Diagnostic) -> Refusal {
+    Refusal::Program {
+        diagnostics: vec![diagnostic],
+        unlisted: 0,
     }
 }
 
@@ -261,7 +297,7 @@ fn read_all<R: BufRead>(
             std::thread::sleep(ANSWER_POLL);
             continue;
         }
-        let last = !matches!(supply, Supply::Item(_));
+        let last = !matches!(supply, Supply::Item(_) | Supply::Probe);
         lines.store(source.lines_read(), Ordering::Relaxed);
         if sender.send(supply).is_err() || last {
             return;

@@ -196,6 +196,39 @@ impl<'t> Publisher<'t> {
         attend: &mut dyn FnMut(Duration),
         control: &mut Control<'_>,
     ) -> Result<Statistics, RunError> {
+        let published = self.publish_epochs(pipeline, attend, control);
+        self.remarks = None;
+        published
+    }
+
+    /// One epoch, and one more behind each probing move.
+    fn publish_epochs<S: ItemSource + Send>(
+        &mut self,
+        pipeline: &mut Pipeline<S>,
+        attend: &mut dyn FnMut(Duration),
+        control: &mut Control<'_>,
+    ) -> Result<Statistics, RunError> {
+        loop {
+            let is_tripped = self.publish_epoch(pipeline, attend, control)?;
+            if !pipeline.comes_to_probe(is_tripped) {
+                return Ok(pipeline.statistics());
+            }
+            let stands = self.wait_until_ready(control)?;
+            let probed = self.machine.probed(stands)?;
+            pipeline.go_on_from(stands, self.machine.path_s());
+            if let Some(inputs) = &self.inputs {
+                inputs.answer_probe(probed);
+            }
+        }
+    }
+
+    /// Returns whether the probe ended it.
+    fn publish_epoch<S: ItemSource + Send>(
+        &mut self,
+        pipeline: &mut Pipeline<S>,
+        attend: &mut dyn FnMut(Duration),
+        control: &mut Control<'_>,
+    ) -> Result<bool, RunError> {
         let epoch = self.next_epoch()?;
         let wanted = self.machine.wanted_override().unwrap_or(Override::NONE);
         pipeline.follow_override(wanted);
@@ -209,9 +242,7 @@ impl<'t> Publisher<'t> {
             };
             self.publish_planned(plan, epoch, attend, control)
         });
-        self.remarks = None;
-        published.map_err(RunError::NoThread)??;
-        Ok(pipeline.statistics())
+        published.map_err(RunError::NoThread)?
     }
 
     fn publish_planned(
@@ -220,7 +251,7 @@ impl<'t> Publisher<'t> {
         mut epoch: Epoch,
         attend: &mut dyn FnMut(Duration),
         control: &mut Control<'_>,
-    ) -> Result<(), RunError> {
+    ) -> Result<bool, RunError> {
         let mut waited = Duration::ZERO;
         loop {
             if control.is_stopped() {
@@ -235,7 +266,7 @@ impl<'t> Publisher<'t> {
                 self.report(&epoch, &plan, control);
                 return match epoch.ended {
                     Some(Err(refusal)) => Err(refusal.into()),
-                    _ => Ok(()),
+                    _ => Ok(epoch.is_tripped()),
                 };
             }
             if let Some(wanted) = self.machine.wanted_override()
@@ -383,7 +414,7 @@ impl<'t> Publisher<'t> {
             self.machine.observe()?;
             match self.standing(epoch) {
                 Ok(Standing::Open { .. } | Standing::NotStarted) => {}
-                Ok(Standing::Completed) | Err(_) => break,
+                Ok(Standing::Completed | Standing::Tripped) | Err(_) => break,
             }
             self.machine.pause(POLL, control);
             waited += POLL;

@@ -30,11 +30,11 @@ pub enum Refusal {
     },
     /// The program asked an input what to do, and what that said is not known any more.
     #[error(
-        "line {line} asked an input what to do (M66), and what that said when this part of the \
-         program ran is not kept; run the program from a line behind it"
+        "line {line} asked an input or a probe what to do (M66, G38), and what that said when this \
+         part of the program ran is not kept; run the program from a line behind it"
     )]
     AnswerUnknown {
-        /// The line of the M66.
+        /// The line that asked.
         line: u32,
     },
     /// An item cannot be planned.

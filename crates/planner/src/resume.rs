@@ -64,7 +64,9 @@ impl<S: ItemSource> Remainder<S> {
             match source.next_item() {
                 Supply::Item(_) => {}
                 Supply::Refused(refusal) => return Err(refusal.into()),
-                Supply::Pending | Supply::End => return Err(off_path(&point, 0, f64::INFINITY)),
+                Supply::Pending | Supply::Probe | Supply::End => {
+                    return Err(off_path(&point, 0, f64::INFINITY));
+                }
             }
         }
         let mut search = MachineSearch::new(point, tolerance_mm);
@@ -88,7 +90,7 @@ impl<S: ItemSource> Remainder<S> {
                     rest.last = Some(Supply::Refused(refusal));
                     break;
                 }
-                Supply::Pending | Supply::End => {
+                Supply::Pending | Supply::Probe | Supply::End => {
                     rest.last = Some(Supply::End);
                     break;
                 }

@@ -18,6 +18,9 @@ pub enum Supply {
     Item(Item),
     /// Nothing now; ask again later.
     Pending,
+    /// What was handed over last moves until a probe finds something: there is more only when it is
+    /// known how that ended. The machine comes to rest in between.
+    Probe,
     /// The program is complete.
     End,
     /// The program is at fault from here on, or the supply broke off. The items handed over before

@@ -105,7 +105,7 @@ impl<S: ItemSource> LineStart<S> {
             let item = match source.next_item() {
                 Supply::Item(item) => item,
                 Supply::Refused(refusal) => return Err(refusal.into()),
-                Supply::Pending | Supply::End => {
+                Supply::Pending | Supply::Probe | Supply::End => {
                     let StartLine { line, pass } = start;
                     return Err(StartLineError::NoSuchLine { line, pass, next });
                 }

@@ -46,6 +46,11 @@ pub struct Plant {
     setpoint_number: u64,
     /// The joint and position below which the probe is in contact.
     probe: Option<(usize, f64)>,
+    /// How long its contact bounces after each change, ns, and still does.
+    bounce_ns: u64,
+    bounces_ns: u64,
+    /// The tip is deflected, and what the contact says.
+    is_deflected: bool,
     touches: bool,
     touch_count: u64,
     touched: ([f64; 9], u64),
@@ -70,6 +75,9 @@ impl Plant {
             reference: 0,
             setpoint_number: 0,
             probe: None,
+            bounce_ns: 0,
+            bounces_ns: 0,
+            is_deflected: false,
             touches: false,
             touch_count: 0,
             touched: ([0.0; 9], 0),
@@ -88,6 +96,13 @@ impl Plant {
     #[must_use]
     pub const fn with_probe(mut self, joint: usize, position: f64) -> Self {
         self.probe = Some((joint, position));
+        self
+    }
+
+    /// The contact of the probe bounces so long after each change.
+    #[must_use]
+    pub const fn with_bounce(mut self, bounce_ns: u64) -> Self {
+        self.bounce_ns = bounce_ns;
         self
     }
 
@@ -138,7 +153,7 @@ impl Plant {
             }
             self.spindle.step(step_t);
         }
-        self.feel();
+        self.feel(step_ns);
         let sample = self.measured();
         self.under_way.push_back(sample);
         self.number += 1;
@@ -155,11 +170,21 @@ impl Plant {
         }
     }
 
-    fn feel(&mut self) {
+    fn feel(&mut self, step_ns: u64) {
         let Some((joint, at)) = self.probe else {
             return;
         };
-        let touches = self.joints.get(joint).is_some_and(|j| j.position() <= at);
+        let is_deflected = self.joints.get(joint).is_some_and(|j| j.position() <= at);
+        let touches = if is_deflected != self.is_deflected {
+            self.bounces_ns = self.bounce_ns;
+            is_deflected
+        } else if self.bounces_ns > 0 {
+            !self.touches
+        } else {
+            is_deflected
+        };
+        self.bounces_ns = self.bounces_ns.saturating_sub(step_ns);
+        self.is_deflected = is_deflected;
         if touches && !self.touches {
             self.touch_count += 1;
             self.touched = (self.positions(), self.now_ns);

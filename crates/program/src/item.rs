@@ -84,6 +84,12 @@ pub enum Event {
     ProgramStop(u32),
     /// M1: like [`Event::ProgramStop`] if the operator asked for optional stops.
     OptionalStop,
+    /// What follows, up to the end of the epoch, looks for a contact (G38.2 to G38.5), and comes to
+    /// rest where it is made. The machine is at rest when it begins.
+    Probe {
+        /// It looks for the end of a contact instead.
+        release: bool,
+    },
     /// A digital output. Does not stop the motion.
     DigitalOutput {
         /// Its number, below 2²⁴.
@@ -109,7 +115,7 @@ impl Event {
             | Self::SelectTool(_)
             | Self::DigitalOutput { .. }
             | Self::AnalogOutput { .. } => false,
-            Self::MCode(_) | Self::ProgramStop(_) | Self::OptionalStop => true,
+            Self::MCode(_) | Self::ProgramStop(_) | Self::OptionalStop | Self::Probe { .. } => true,
         }
     }
 }

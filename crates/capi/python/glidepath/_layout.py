@@ -7,7 +7,7 @@ import ctypes
 import enum
 
 ABI = 1
-LAYOUT = 0x139f88e84996cc50
+LAYOUT = 0x14e0e8a159f10946
 AXES = 9
 
 
@@ -88,6 +88,7 @@ class End(enum.IntEnum):
     COMPLETED = 2
     ABORTED = 3
     FAULTED = 4
+    TRIPPED = 5
 
 
 class Fault(enum.IntEnum):
@@ -140,6 +141,14 @@ class Mode(enum.IntEnum):
     RETURN = 4
 
 
+class Contact(enum.IntEnum):
+    """What a probe has found."""
+
+    NONE = 0
+    MADE = 1
+    ALREADY_SO = 2
+
+
 class Event(enum.IntEnum):
     """What the lowest byte of event_kind says."""
 
@@ -151,6 +160,7 @@ class Event(enum.IntEnum):
     OPTIONAL_STOP = 5
     DIGITAL_OUTPUT = 6
     ANALOG_OUTPUT = 7
+    PROBE = 8
 
 
 class Drive(enum.IntEnum):
@@ -351,6 +361,9 @@ class StatusRecord(ctypes.Structure):
         ("awaited_value", ctypes.c_double),
         ("awaited_kind", ctypes.c_uint32),
         ("awaited_line", ctypes.c_uint32),
+        ("contact", ctypes.c_double * 9),
+        ("contact_kind", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
         ("path_s", ctypes.c_double),
         ("block_path_s", ctypes.c_double),
         ("feed_v", ctypes.c_double),
@@ -553,7 +566,7 @@ PLACES = {
         "joint_acceleration": 512,
         "away": 584,
     }),
-    StatusRecord: (1384, {
+    StatusRecord: (1464, {
         "boot_id": 0,
         "updated_ns": 8,
         "period_ns": 16,
@@ -598,30 +611,33 @@ PLACES = {
         "awaited_value": 632,
         "awaited_kind": 640,
         "awaited_line": 644,
-        "path_s": 648,
-        "block_path_s": 656,
-        "feed_v": 664,
-        "feed_override": 672,
-        "rapid_override": 680,
-        "jog_override": 688,
-        "effective_override": 696,
-        "ticks": 704,
-        "missed_ticks": 712,
-        "late_ticks": 720,
-        "setpoints_published": 728,
-        "setpoints_lost": 736,
-        "reserve_stops": 744,
-        "starved_ticks": 752,
-        "commands_served": 760,
-        "commands_refused": 768,
-        "frames_refused": 776,
-        "lateness": 872,
-        "work": 904,
-        "latency": 936,
-        "response": 968,
-        "last_error": 1000,
-        "last_event": 1128,
-        "message": 1256,
+        "contact": 648,
+        "contact_kind": 720,
+        "reserved": 724,
+        "path_s": 728,
+        "block_path_s": 736,
+        "feed_v": 744,
+        "feed_override": 752,
+        "rapid_override": 760,
+        "jog_override": 768,
+        "effective_override": 776,
+        "ticks": 784,
+        "missed_ticks": 792,
+        "late_ticks": 800,
+        "setpoints_published": 808,
+        "setpoints_lost": 816,
+        "reserve_stops": 824,
+        "starved_ticks": 832,
+        "commands_served": 840,
+        "commands_refused": 848,
+        "frames_refused": 856,
+        "lateness": 952,
+        "work": 984,
+        "latency": 1016,
+        "response": 1048,
+        "last_error": 1080,
+        "last_event": 1208,
+        "message": 1336,
     }),
     FeedbackRecord: (808, {
         "boot_id": 0,

@@ -3,8 +3,8 @@
 use super::own::{Stopped, TooMuch};
 use crate::failure::Code;
 use glidepath_link::{
-    CommandKind, CommandRefusal, DriveState, EndOfEpoch, EventKind, FaultCause, Grants, LatchKind,
-    MachineState, MotionMode, Power, SetpointMarks, SpindleFlags,
+    CommandKind, CommandRefusal, ContactKind, DriveState, EndOfEpoch, EventKind, FaultCause,
+    Grants, LatchKind, MachineState, MotionMode, Power, SetpointMarks, SpindleFlags,
 };
 use glidepath_program::FrameFlags;
 
@@ -99,6 +99,7 @@ pub(super) fn codes() -> Vec<Codes> {
             Power
         ),
         all!("MODE", "What moves the axes.", MotionMode),
+        all!("CONTACT", "What a probe has found.", ContactKind),
         all!(
             "EVENT",
             "What the lowest byte of event_kind says.",

@@ -129,7 +129,7 @@ structure! {
 
 structure! {
     /// What the interpolator does and how well. Counts are of this life of it.
-    STATUS: "gp_status" = Status, Status::NAME, 1384 {
+    STATUS: "gp_status" = Status, Status::NAME, 1464 {
         /// Identifies one life of the interpolator.
         boot_id: u64,
         /// When this was true, ns of CLOCK_MONOTONIC. A reader takes an old one for a dead
@@ -223,6 +223,13 @@ structure! {
         awaited_kind: u32,
         /// Its source line.
         awaited_line: u32,
+        /// Where the axes really were when the probe found what it looked for in this epoch, mm or
+        /// degrees.
+        contact: Each<f64>,
+        /// A GP_CONTACT_.
+        contact_kind: u32,
+        /// Must be zero.
+        reserved: u32,
         /// Path position, mm.
         path_s: f64,
         /// Path position of the first setpoint of the block, mm.

@@ -124,6 +124,8 @@ pub enum DiagnosticCode {
     Gouge,
     /// Something of the machine that is not connected: inputs, outputs, a probe.
     NotConnected,
+    /// A probe that did not find what it looked for.
+    Probe,
     /// Polar words that cannot be used.
     Polar,
     /// The spindle does not do what the block needs.
@@ -198,6 +200,7 @@ impl DiagnosticCode {
             Self::CutterRadius => "cutter-radius",
             Self::Gouge => "gouge",
             Self::NotConnected => "not-connected",
+            Self::Probe => "probe",
             Self::Polar => "polar",
             Self::Spindle => "spindle",
             Self::Checksum => "checksum",

@@ -212,7 +212,7 @@ impl Interpreter {
             Motion::ArcClockwise | Motion::ArcCounterclockwise => self.arc(block, motion, out)?,
             Motion::Cycle(cycle) => self.cycle(block, cycle, out)?,
             Motion::Lathe(cycle) => self.begin_lathe_cycle(block, cycle, out)?,
-            Motion::Probe(_) => self.probe(block, out)?,
+            Motion::Probe(probe) => self.probe(probe, block, out)?,
             Motion::Spline(spline) => self.spline(block, spline, out)?,
         }
         self.follow_surface(out);

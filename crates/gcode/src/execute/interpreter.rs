@@ -12,7 +12,7 @@ use crate::execute::state::course::Course;
 use crate::execute::state::modal::Modal;
 use crate::execute::state::offsets::Offsets;
 use crate::execute::state::open_spline::OpenSpline;
-use crate::execute::state::probe_result::ProbeResult;
+use crate::execute::state::probe_result::{ProbeResult, Search};
 use crate::execute::state::program_state::State;
 use crate::execute::state::saved_states::SavedStates;
 use crate::execute::state::soft_limits::SoftLimits;
@@ -60,6 +60,8 @@ pub(crate) struct Interpreter {
     pub(crate) line: u32,
     /// What the M66 executed last waits for.
     pub(crate) input_wait: Option<InputWait>,
+    /// The probing move executed last, as long as it is not known how it ended.
+    pub(crate) search: Option<Search>,
 }
 
 impl Interpreter {
@@ -103,6 +105,7 @@ impl Interpreter {
             course: Course::new(),
             line: 0,
             input_wait: None,
+            search: None,
         }
     }
 

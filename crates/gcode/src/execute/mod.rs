@@ -28,6 +28,7 @@ pub(crate) mod lathe_cycle;
 pub(crate) mod line_origin;
 pub(crate) mod motion;
 pub(crate) mod parameters;
+mod probing;
 pub(crate) mod program;
 mod reading;
 mod remark;

@@ -179,6 +179,16 @@ impl<R: BufRead> Program<R> {
         self.count();
     }
 
+    /// Source line of the item given out last, 0 before the first.
+    #[must_use]
+    pub fn line_of_last(&self) -> u32 {
+        let given = self
+            .given
+            .checked_sub(1)
+            .and_then(|last| self.items.get(last));
+        given.map_or(0, |item| item.line)
+    }
+
     /// The block read last.
     pub(crate) const fn block(&self) -> &Block {
         &self.block

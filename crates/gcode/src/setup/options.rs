@@ -36,6 +36,9 @@ pub struct Options {
     pub extruder: Option<Axis>,
     /// What inputs, outputs and the probe are.
     pub connections: Connections,
+    /// The highest feed at which a probe may be used, mm/s or °/s: above it the machine could not
+    /// stop in time. `None`: there is no probe, unless it is simulated.
+    pub probing_v: Option<f64>,
     /// How far the pieces a spline is made of may be away from it, mm, > 0. G64 P overrides it with
     /// a thousandth of P.
     pub spline_tolerance_mm: f64,
@@ -59,8 +62,8 @@ pub enum Connections {
     /// Simulated: outputs are events, inputs read zero and never keep waiting, and the probe makes
     /// contact at the end of its move.
     Simulated,
-    /// The machine's: outputs are events, and M66 waits until [`crate::Program::answer_input`] says
-    /// what an input is. There is no probe.
+    /// The machine's: outputs are events, M66 waits until [`crate::Program::answer_input`] says what
+    /// an input is, and a probing move ends where [`crate::Program::answer_probe`] says.
     Real,
 }
 
@@ -103,6 +106,7 @@ impl Default for Options {
             dialect: Dialect::LinuxCnc,
             extruder: None,
             connections: Connections::None,
+            probing_v: None,
             spline_tolerance_mm: 1e-5,
             m_codes: Arc::default(),
             waits_for_speed: false,

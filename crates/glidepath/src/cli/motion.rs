@@ -152,6 +152,10 @@ pub struct ServoArgs {
         allow_hyphen_values = true
     )]
     pub stands: Vec<f64>,
+    /// Imitate a probe, which touches where a joint is at a position or below: J2=-10. Its contact
+    /// is input 0
+    #[arg(long, value_name = "JOINT=POSITION", value_parser = touches_at)]
+    pub probe: Option<(usize, f64)>,
     /// Which files may be overwritten.
     #[command(flatten)]
     pub overwrite: OverwriteArgs,
@@ -178,4 +182,14 @@ pub struct FeedArgs {
     /// The instance, by which processes find each other.
     #[command(flatten)]
     pub instance: InstanceArgs,
+}
+
+/// A joint, and where the probe of an imitated machine touches.
+fn touches_at(text: &str) -> Result<(usize, f64), &'static str> {
+    let found = text.split_once('=').and_then(|(joint, position)| {
+        let joint = joint.strip_prefix('J')?.parse().ok()?;
+        let position: f64 = position.parse().ok()?;
+        (joint < glidepath_geometry::AXES && position.is_finite()).then_some((joint, position))
+    });
+    found.ok_or("give a joint and a position, such as J2=-10")
 }

@@ -111,6 +111,7 @@ fn feedback(config: &MachineConfig) -> Option<FeedbackSettings> {
     if let Some(stale_t) = given.stale_t {
         settings.stale_after = Duration::from_secs_f64(stale_t);
     }
+    settings.probe = config.probe.map(|probe| probe.input);
     settings.off_after = Duration::from_secs_f64(given.off_t).max(settings.stale_after);
     given.is_expected.then_some(settings)
 }

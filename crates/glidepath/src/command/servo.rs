@@ -97,6 +97,9 @@ fn play(
     let mut servo = Servo::new(transport.setpoint_source()?, settings(config));
     let mut feedback = transport.feedback_sink()?;
     let mut plant = plant(config, &args.stands);
+    if let Some((joint, position)) = args.probe {
+        plant = plant.with_probe(joint, position);
+    }
     let waits_from = Instant::now();
     let mut is_told = args.relay;
     let mut jumps_told = 0;

@@ -176,7 +176,11 @@ impl<'c> Workshop<'c> {
             .then(|| in_force(pipeline.source()))
             .flatten();
         let run = published.map_err(|error| match error {
-            RunError::Refused(error) if !attendant.has_started() => refusal(&error),
+            RunError::Refused(error) => match refusal(&error) {
+                // What was found on the way is not taken back.
+                Stop::Refused(text) if attendant.has_started() => Stop::Failed(text),
+                stop => stop,
+            },
             error => Stop::Failed(error.to_string()),
         });
         let run = run.and_then(|statistics| kept.map(|()| statistics).map_err(Stop::from));
@@ -210,7 +214,7 @@ impl<'c> Workshop<'c> {
                     output::note(&format!("planner: what was in force is not known: {error}"));
                     return;
                 }
-                Supply::Pending | Supply::End => break,
+                Supply::Pending | Supply::Probe | Supply::End => break,
             }
         }
         self.in_force = Some(source.in_force());

@@ -1,5 +1,6 @@
 //! A configuration that has been judged: what the rest of the program works with.
 
+use super::probe::ProbeConfig;
 use super::program::ProgramConfig;
 use glidepath_gcode::{Connections, LoopLimits, MCodes, Machine, Options, Travel};
 use glidepath_geometry::{Axis, AxisVector};
@@ -127,6 +128,8 @@ pub struct MachineConfig {
     pub jog: JogConfig,
     /// What the drives say.
     pub feedback: FeedbackConfig,
+    /// The probe, if there is one.
+    pub probe: Option<ProbeConfig>,
     /// The preview by advance and retreat.
     pub preview: AdvanceRetreat,
     /// Name of the machine's shared memory; `None` if the file gives none.
@@ -292,6 +295,7 @@ impl MachineConfig {
             dialect: self.program.dialect.unwrap_or_default(),
             extruder: self.program.extruder,
             connections: self.program.connections,
+            probing_v: self.probing_v(),
             in_force: self.program.in_force.clone(),
             m_codes: Arc::new(m_codes),
             waits_for_speed: self.waits_for_speed(),
@@ -302,6 +306,14 @@ impl MachineConfig {
             },
             ..Options::default()
         }
+    }
+
+    /// The highest feed at which the probe may be used, mm/s or °/s.
+    fn probing_v(&self) -> Option<f64> {
+        let limit = |axis: &AxisConfig| (axis.max_acceleration, axis.max_jerk);
+        let limits: Vec<_> = self.axes.iter().map(limit).collect();
+        let probe = self.probe.as_ref()?;
+        Some(probe.highest_v(&limits, self.period_t()))
     }
 
     /// The M codes that are to be answered before the motion goes on.

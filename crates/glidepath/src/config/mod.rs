@@ -14,6 +14,7 @@ mod judge;
 pub mod keys;
 mod machine;
 mod parse;
+mod probe;
 mod program;
 mod raw;
 mod tree;
@@ -24,6 +25,7 @@ pub use judge::{MAX_FRAMES_AHEAD, effort, tolerance};
 pub use machine::{
     AxisConfig, FeedbackConfig, HomingBy, InterpolatorConfig, JogConfig, MachineConfig, PathConfig,
 };
+pub use probe::ProbeConfig;
 pub use program::ProgramConfig;
 
 use crate::text_file;

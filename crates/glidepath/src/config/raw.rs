@@ -28,6 +28,8 @@ pub(super) struct RawConfig {
     #[serde(default)]
     pub(super) feedback: RawFeedback,
     #[serde(default)]
+    pub(super) probe: RawProbe,
+    #[serde(default)]
     pub(super) link: RawLink,
     #[serde(default)]
     pub(super) preview: RawPreview,
@@ -140,6 +142,14 @@ pub(super) struct RawFeedback {
     pub(super) min_following_error: Optional<f64>,
     pub(super) stale_s: Optional<f64>,
     pub(super) off_s: Optional<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawProbe {
+    pub(super) input: Optional<i64>,
+    pub(super) contact: Optional<String>,
+    pub(super) overtravel: Optional<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]

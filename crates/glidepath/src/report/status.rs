@@ -145,6 +145,7 @@ fn end_name(status: &Status) -> &'static str {
         Ok(EndOfEpoch::Completed) => "completed",
         Ok(EndOfEpoch::Aborted) => "aborted",
         Ok(EndOfEpoch::Faulted) => "faulted",
+        Ok(EndOfEpoch::Tripped) => "tripped",
         Err(_) => "unknown",
     }
 }

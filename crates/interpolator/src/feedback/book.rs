@@ -4,13 +4,14 @@ use super::claims::{Claims, Joints};
 use super::demands::Demands;
 use super::following::FollowingErrors;
 use super::observation::Observation;
+use super::probe::ProbeWatch;
 use super::settings::FeedbackSettings;
 use crate::config::Config;
 use crate::homing::{Conductor, Pair};
 use crate::message::Report;
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::{JOINTS, JointVector, Kinematics as _, Mechanism};
-use glidepath_link::{FaultCause, Feedback, Power, Status};
+use glidepath_link::{ContactKind, FaultCause, Feedback, Power, Status};
 
 /// Slower than this a joint is at rest, mm/s or °/s: more than a count in a millisecond.
 const REST_V: f64 = 1.0;
@@ -32,6 +33,7 @@ pub(crate) struct DriveBook {
     pub(super) claims: Claims,
     pub(super) demands: Demands,
     pub(super) following: FollowingErrors,
+    pub(super) probe: ProbeWatch,
     /// What is added to the drives' count.
     pub(super) offset: JointVector,
     /// Joints whose drives say that they know where they are, and are not believed.
@@ -74,6 +76,7 @@ impl DriveBook {
             claims: Claims::new(all, ns(settings.off_after), ns(settings.stale_after)),
             demands: Demands::new(),
             following: FollowingErrors::default(),
+            probe: ProbeWatch::new(settings.probe),
             offset: JointVector::zeros(),
             unhomed: 0,
             handover: 0,
@@ -89,7 +92,11 @@ impl DriveBook {
     /// # Errors
     /// Why it is not used, for the log; an empty text if that was said before.
     pub(crate) fn take(&mut self, feedback: &Feedback, now_ns: u64) -> Result<(), String> {
-        self.claims.take(feedback, now_ns)
+        self.claims.take(feedback, now_ns)?;
+        if self.probe.is_searching() {
+            self.probe.look(feedback, &self.claims.joints());
+        }
+        Ok(())
     }
 
     /// Takes note of a setpoint that was published.
@@ -104,6 +111,7 @@ impl DriveBook {
         self.was_on = is_on;
         self.ordered &= report.fault.is_none() && is_on;
         self.demands.push(&report.setpoint);
+        self.probe.note(report);
     }
 
     /// What the real-time thread is to know now.
@@ -151,6 +159,7 @@ impl DriveBook {
             digital_in: joints.digital_in,
             spindle: joints.spindle,
             played: joints.played,
+            contact_in: self.probe.found_in(),
         }
     }
 
@@ -214,5 +223,13 @@ impl DriveBook {
         status.joint_actual = (JointVector::from(joints.position) + self.offset).into();
         status.following_error = self.following.errors();
         status.following_peak = self.following.peaks();
+        let contact = self.probe.found();
+        status.contact_kind = contact
+            .map_or(ContactKind::None, |contact| contact.kind)
+            .code();
+        let joints = contact.map(|contact| contact.joints + self.offset);
+        if let Some(Ok(axes)) = joints.map(|joints| self.mechanism.forward(&joints, &self.near)) {
+            status.contact = axes.into();
+        }
     }
 }

@@ -17,11 +17,12 @@ mod demands;
 mod following;
 mod judging;
 mod observation;
+mod probe;
 mod settings;
 
 pub(crate) use book::DriveBook;
 pub(crate) use observation::Observation;
-pub use settings::{FeedbackSettings, JointFeedback};
+pub use settings::{FeedbackSettings, JointFeedback, ProbeInput};
 
 #[cfg(test)]
 mod tests;

@@ -35,6 +35,8 @@ pub(crate) struct Observation {
     pub(crate) spindle: SpindleFlags,
     /// Number of the last setpoint that every stack has played.
     pub(crate) played: u64,
+    /// The epoch in which the probe has found what it looked for, 0 if it has not.
+    pub(crate) contact_in: u64,
 }
 
 impl Observation {
@@ -57,6 +59,7 @@ impl Observation {
             digital_in: 0,
             spindle: SpindleFlags(0),
             played: 0,
+            contact_in: 0,
         }
     }
 }

@@ -21,6 +21,15 @@ pub struct JointFeedback {
     pub homing: Option<JointHoming>,
 }
 
+/// The input that a probe is connected to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ProbeInput {
+    /// Its number, 0 to 63.
+    pub number: u8,
+    /// What it is while the probe touches.
+    pub high: bool,
+}
+
 /// How the feedback of the drives is judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeedbackSettings {
@@ -28,6 +37,8 @@ pub struct FeedbackSettings {
     pub stale_after: Duration,
     /// Feedback older than this takes the power from the drives.
     pub off_after: Duration,
+    /// Where a probe is connected, if there is one.
+    pub probe: Option<ProbeInput>,
     /// The joints; those the machine does not have mean nothing.
     pub joints: [JointFeedback; JOINTS],
 }
@@ -39,6 +50,7 @@ impl FeedbackSettings {
         Self {
             stale_after: Duration::from_nanos(3 * period_ns),
             off_after: Duration::from_millis(100).max(Duration::from_nanos(6 * period_ns)),
+            probe: None,
             joints: [joint; JOINTS],
         }
     }

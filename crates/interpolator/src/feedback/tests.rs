@@ -5,6 +5,7 @@
     clippy::float_cmp,
     clippy::indexing_slicing,
     clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
     reason = "a test: what is exact is compared exactly"
 )]
 
@@ -18,4 +19,5 @@ mod hostile;
 mod jogging;
 mod life_cycle;
 mod matrix;
+mod probing;
 mod upsets;

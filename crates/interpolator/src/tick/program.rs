@@ -5,11 +5,12 @@ use crate::block_stop::BlockStop;
 use crate::fault::Fault;
 use crate::message::Inputs;
 use crate::output::Written;
+use crate::probing::Probing;
 use crate::program_time::ProgramTime;
 use crate::rate::{Situation, beside_full};
 use crate::rest::SAME_POSITION;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{EndOfEpoch, FaultCause, FrameRefusal, Setpoint, SetpointFrame};
+use glidepath_link::{EndOfEpoch, EventKind, FaultCause, FrameRefusal, Setpoint, SetpointFrame};
 use glidepath_program::FrameFlags;
 
 /// Frames taken from the ring in one tick. More than one, so that the track fills up; few, so that
@@ -129,7 +130,7 @@ impl Interpolator<'_> {
 
     /// The rate that is wanted: the commanded override over the planned one, if nothing stops.
     fn goal(&self) -> f64 {
-        if self.supply.is_short() {
+        if self.supply.is_short() || self.probing == Probing::Tripped {
             return 0.0;
         }
         let planned_override = self.present().planned_override;
@@ -162,6 +163,16 @@ impl Interpolator<'_> {
             self.rate.rest_at(now.time, 0.0);
             self.write_standing(setpoint);
         }
+        if setpoint.event_kind == EventKind::Probe.code() {
+            self.probing = Probing::Looking;
+        }
+    }
+
+    /// Looks whether the contact was made that the motion is looking for.
+    pub(super) fn look_for_contact(&mut self) {
+        if self.probing == Probing::Looking && self.drives.seen().contact_in == self.epoch {
+            self.probing = Probing::Tripped;
+        }
     }
 
     /// What follows when program time stands: the end of the epoch, or a program stop.
@@ -178,6 +189,8 @@ impl Interpolator<'_> {
             } else {
                 EndOfEpoch::Aborted
             });
+        } else if self.probing == Probing::Tripped && self.is_standing() {
+            self.close(EndOfEpoch::Tripped);
         } else if present.has(FrameFlags::LAST) && self.is_standing() {
             self.close(EndOfEpoch::Completed);
         } else {

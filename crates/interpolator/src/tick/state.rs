@@ -10,6 +10,7 @@ use crate::homing::Mover;
 use crate::jog::Jog;
 use crate::message::Happening;
 use crate::output::{Output, Written};
+use crate::probing::Probing;
 use crate::program_time::ProgramTime;
 use crate::rate::Rate;
 use crate::stop_requests::StopRequests;
@@ -31,6 +32,7 @@ pub(crate) struct Interpolator<'a> {
     pub(super) supply: Supply,
     pub(super) block_stop: BlockStop,
     pub(super) wait: Wait,
+    pub(super) probing: Probing,
     pub(super) jog: Jog,
     pub(super) mover: Mover,
     pub(super) drives: Drives,
@@ -59,6 +61,7 @@ impl<'a> Interpolator<'a> {
             supply: Supply::new(config),
             block_stop: BlockStop::none(),
             wait: Wait::default(),
+            probing: Probing::No,
             jog: Jog::new(config),
             mover: Mover::new(config),
             drives: Drives::new(config),
@@ -121,6 +124,7 @@ impl<'a> Interpolator<'a> {
         self.rate.rest_at(self.rate.now().time, 0.0);
         self.jog.forget_path();
         self.wait.end();
+        self.probing = Probing::No;
         self.output.rest();
         self.end_of_epoch = end;
         self.supply.end_epoch();

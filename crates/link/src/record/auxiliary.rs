@@ -130,7 +130,7 @@ impl Auxiliary {
                     *output = value;
                 }
             }
-            Event::ProgramStop(_) | Event::OptionalStop => {}
+            Event::ProgramStop(_) | Event::OptionalStop | Event::Probe { .. } => {}
         }
         *self != before
     }

@@ -27,6 +27,8 @@ coded! {
         DigitalOutput = 6,
         /// Analog output.
         AnalogOutput = 7,
+        /// What follows looks for a contact; the value is 1 if it looks for the end of one.
+        Probe = 8,
     }
 }
 
@@ -43,6 +45,7 @@ pub(crate) fn encode(event: Option<Event>) -> (u32, f64) {
         Some(Event::MCode(code)) => (EventKind::MCode, f64::from(code)),
         Some(Event::ProgramStop(code)) => (EventKind::ProgramStop, f64::from(code)),
         Some(Event::OptionalStop) => (EventKind::OptionalStop, 0.0),
+        Some(Event::Probe { release }) => (EventKind::Probe, f64::from(u8::from(release))),
         Some(Event::DigitalOutput { number, on }) => {
             output = number;
             (EventKind::DigitalOutput, f64::from(u8::from(on)))
@@ -77,11 +80,19 @@ pub(crate) fn decode(
         EventKind::MCode => Some(Event::MCode(fields.whole("event_value", value)?)),
         EventKind::ProgramStop => Some(Event::ProgramStop(fields.whole("event_value", value)?)),
         EventKind::OptionalStop => Some(Event::OptionalStop),
-        EventKind::DigitalOutput => {
-            fields.range("event_value", value, 0.0, 1.0)?;
-            let on = fields.whole("event_value", value)? == 1;
-            Some(Event::DigitalOutput { number, on })
-        }
+        EventKind::DigitalOutput => Some(Event::DigitalOutput {
+            number,
+            on: yes_or_no(&fields, value)?,
+        }),
+        EventKind::Probe => Some(Event::Probe {
+            release: yes_or_no(&fields, value)?,
+        }),
         EventKind::AnalogOutput => Some(Event::AnalogOutput { number, value }),
     })
+}
+
+/// A value that is 1 for yes and 0 for no.
+fn yes_or_no(fields: &Fields, value: f64) -> Result<bool, RecordError> {
+    fields.range("event_value", value, 0.0, 1.0)?;
+    Ok(fields.whole("event_value", value)? == 1)
 }

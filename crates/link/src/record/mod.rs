@@ -46,7 +46,8 @@ pub use segment::{ModeCode, PlaneCode, RequestKind, SegmentRequest, StreamItem};
 pub use segment_reply::{SegmentOutcome, SegmentRefusal, SegmentReply};
 pub use setpoint::{Setpoint, SetpointMarks};
 pub use state::{
-    EndOfEpoch, FRAME_REFUSALS, FaultCause, FrameRefusal, MachineState, MotionMode, Power,
+    ContactKind, EndOfEpoch, FRAME_REFUSALS, FaultCause, FrameRefusal, MachineState, MotionMode,
+    Power,
 };
 pub use status::{Grants, Quantiles, Status};
 pub use text::{LongText, Text};

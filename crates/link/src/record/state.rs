@@ -70,6 +70,18 @@ coded! {
 }
 
 coded! {
+    /// What a probe has found.
+    pub enum ContactKind {
+        /// Nothing yet.
+        None = 0,
+        /// What it looked for, on its way.
+        Made = 1,
+        /// That it was so from the beginning.
+        AlreadySo = 2,
+    }
+}
+
+coded! {
     /// What moves the axes.
     pub enum MotionMode {
         /// Nothing: no epoch is open, and nobody jogs.
@@ -98,6 +110,8 @@ coded! {
         Aborted = 3,
         /// By a fault.
         Faulted = 4,
+        /// By the contact that it looked for; the rest of its way was left out.
+        Tripped = 5,
     }
 }
 

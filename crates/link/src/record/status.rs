@@ -2,8 +2,8 @@
 
 use super::check::{Fields, RecordError};
 use super::{
-    ALL_JOINTS, EndOfEpoch, FRAME_REFUSALS, FaultCause, MachineState, MotionMode, OVERRIDE_MAX,
-    Power, Record, Text, event,
+    ALL_JOINTS, ContactKind, EndOfEpoch, FRAME_REFUSALS, FaultCause, MachineState, MotionMode,
+    OVERRIDE_MAX, Power, Record, Text, event,
 };
 use glidepath_geometry::{AXES, Axis};
 use glidepath_program::Event;
@@ -156,6 +156,13 @@ pub struct Status {
     pub awaited_kind: u32,
     /// Its source line.
     pub awaited_line: u32,
+    /// Where the axes really were when the probe found what it looked for in this epoch, mm or
+    /// degrees.
+    pub contact: [f64; AXES],
+    /// Code of a [`ContactKind`].
+    pub contact_kind: u32,
+    /// Must be zero.
+    pub reserved: u32,
     /// Path position, mm.
     pub path_s: f64,
     /// Path position of the first setpoint of the block, mm.
@@ -278,6 +285,15 @@ impl Status {
         Fields(Self::NAME).code("mode", self.mode)
     }
 
+    /// What the probe has found in this epoch.
+    ///
+    /// # Errors
+    ///
+    /// An unknown code.
+    pub fn contact(&self) -> Result<ContactKind, RecordError> {
+        Fields(Self::NAME).code("contact_kind", self.contact_kind)
+    }
+
     /// The real-time grants.
     #[must_use]
     pub const fn grants(&self) -> Grants {
@@ -320,8 +336,11 @@ impl Record for Status {
         ] {
             fields.flags(field, mask, ALL_JOINTS)?;
         }
+        fields.all_finite("contact", &self.contact)?;
+        fields.flags("reserved", self.reserved, 0)?;
         self.power()?;
         self.mode()?;
+        self.contact()?;
         if self.fault_joint().is_some_and(|joint| joint >= AXES) {
             let (record, field) = (Self::NAME, "fault_joint");
             return Err(RecordError::UnknownCode {

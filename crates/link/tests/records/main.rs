@@ -4,9 +4,9 @@
 use bytemuck::Zeroable;
 use glidepath_geometry::{AXES, AxisVector, Segment};
 use glidepath_link::{
-    Command, CommandKind, CommandRefusal, CommandReply, CommandRequest, DriveState, EndOfEpoch,
-    EventKind, FRAME_REFUSALS, FaultCause, Feedback, FrameRefusal, JogDemand, JogMode, LatchKind,
-    MachineState, MotionMode, OVERRIDE_MAX, Power, Record, RecordError, RequestKind,
+    Command, CommandKind, CommandRefusal, CommandReply, CommandRequest, ContactKind, DriveState,
+    EndOfEpoch, EventKind, FRAME_REFUSALS, FaultCause, Feedback, FrameRefusal, JogDemand, JogMode,
+    LatchKind, MachineState, MotionMode, OVERRIDE_MAX, Power, Record, RecordError, RequestKind,
     SegmentRefusal, SegmentReply, SegmentRequest, Setpoint, SetpointFrame, Status, StreamItem,
     Text, decode,
 };
@@ -225,12 +225,12 @@ fn frames_out_of_range_are_refused() {
         Err(RecordError::UnknownFlags { bits: 64, .. })
     ));
     let bad = SetpointFrame {
-        event_kind: 8,
+        event_kind: 9,
         ..good
     };
     assert!(matches!(
         bad.to_frame(),
-        Err(RecordError::UnknownCode { code: 8, .. })
+        Err(RecordError::UnknownCode { code: 9, .. })
     ));
 }
 
@@ -251,7 +251,8 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_status(), |s| s.fault = 14),
         refused(good_status(), |s| s.fault_axis = 10),
         refused(good_status(), |s| s.fault_axis = u32::MAX),
-        refused(good_status(), |s| s.end_of_epoch = 5),
+        refused(good_status(), |s| s.end_of_epoch = 6),
+        refused(good_status(), |s| s.contact_kind = 3),
         refused(good_status(), |s| s.fault_joint = 10),
         refused(good_status(), |s| s.power = 4),
         refused(good_status(), |s| s.mode = 5),
@@ -341,7 +342,8 @@ fn codes_are_consecutive_and_known() {
         );
     }
     in_sequence(MachineState::ALL.iter().map(|code| code.code()), 1, 15);
-    in_sequence(EndOfEpoch::ALL.iter().map(|code| code.code()), 0, 4);
+    in_sequence(EndOfEpoch::ALL.iter().map(|code| code.code()), 0, 5);
+    in_sequence(ContactKind::ALL.iter().map(|code| code.code()), 0, 2);
     in_sequence(FrameRefusal::ALL.iter().map(|code| code.code()), 1, 12);
     in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 19);
     in_sequence(CommandRefusal::ALL.iter().map(|code| code.code()), 1, 5);
@@ -351,7 +353,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(JogMode::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 3);
     in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);
-    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 7);
+    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 8);
     assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
     assert!(
         FrameRefusal::ALL

@@ -126,7 +126,8 @@ fn hand_all<S: ItemSource>(
                 std::thread::yield_now();
                 continue;
             }
-            Supply::End => break None,
+            // Nobody answers who only plans: sources that ask are not read here.
+            Supply::Probe | Supply::End => break None,
             Supply::Refused(refusal) => break Some(refusal),
         };
         if let Some(joints) = &mut joints {

@@ -31,7 +31,7 @@ impl ResumePoint {
         match status.end_of_epoch().map_err(LinkError::from)? {
             EndOfEpoch::None => Err(ResumeError::NothingToResume)?,
             EndOfEpoch::Completed => Err(ResumeError::Completed)?,
-            EndOfEpoch::Open | EndOfEpoch::Aborted | EndOfEpoch::Faulted => {}
+            EndOfEpoch::Open | EndOfEpoch::Aborted | EndOfEpoch::Faulted | EndOfEpoch::Tripped => {}
         }
         Ok(Self {
             position: AxisVector::from(status.position),

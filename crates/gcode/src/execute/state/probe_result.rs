@@ -1,6 +1,9 @@
-//! What the last probing move found.
+//! What the last probing move is to find, and found.
 
 use glidepath_geometry::AxisVector;
+
+use crate::diagnostic::span::SourceSpan;
+use crate::syntax::modes::Probe;
 
 /// What `#5061` to `#5070` show.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -9,4 +12,22 @@ pub(crate) struct ProbeResult {
     pub(crate) contact: AxisVector,
     /// True if the last probing move made contact.
     pub(crate) made: bool,
+}
+
+/// What a probing move came to, in machine coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Probed {
+    /// Where the axes were when the probe found what it looked for; `None` if it did not.
+    pub contact: Option<AxisVector>,
+    /// It was so before anything moved.
+    pub was_so: bool,
+    /// Where the machine came to rest.
+    pub stands: AxisVector,
+}
+
+/// A probing move whose end is not known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Search {
+    pub(crate) probe: Probe,
+    pub(crate) span: SourceSpan,
 }

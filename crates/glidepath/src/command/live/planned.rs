@@ -110,7 +110,7 @@ pub(super) fn read(path: &Path, config: &MachineConfig, shown: &Arc<Shown>) -> R
                     page::push_item(&mut motion, &item, is_first);
                     is_first = false;
                 }
-                Supply::Pending => {}
+                Supply::Pending | Supply::Probe => {}
                 Supply::End | Supply::Refused(_) => {
                     shown.program(motion.programmed_path());
                     return;

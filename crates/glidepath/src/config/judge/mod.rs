@@ -15,6 +15,7 @@ mod mechanism;
 mod path;
 mod path_words;
 mod preview;
+mod probe;
 mod program;
 mod stops;
 mod values;
@@ -108,6 +109,7 @@ pub(super) fn judge(
         interpolator,
         jog,
         feedback,
+        probe: judge.probe(raw.probe, expects_feedback),
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
         program: judge.program(raw.program, expects_feedback),

@@ -87,6 +87,24 @@ pub struct Key {
     pub meaning: &'static str,
 }
 
+pub(super) const fn number(min: f64, max: f64, unit: &'static str) -> Takes {
+    Takes::Number { min, max, unit }
+}
+
+pub(super) const fn key(
+    name: &'static str,
+    takes: Takes,
+    left_out: LeftOut,
+    meaning: &'static str,
+) -> Key {
+    Key {
+        name,
+        takes,
+        left_out,
+        meaning,
+    }
+}
+
 impl Takes {
     /// The unit, empty if there is none.
     #[must_use]

@@ -1,6 +1,6 @@
 //! The dimensions of mechanisms.
 
-use super::key::{Key, LeftOut, Takes};
+use super::key::{Key, LeftOut, Takes, key};
 
 const LENGTH: Takes = Takes::Number {
     min: 1e-3,
@@ -28,15 +28,6 @@ const DIRECTIONS: Takes = Takes::ThreeNumbers {
     unit: "°",
 };
 const ORIGIN: LeftOut = LeftOut::Value("[0, 0, 0]");
-
-const fn key(name: &'static str, takes: Takes, left_out: LeftOut, meaning: &'static str) -> Key {
-    Key {
-        name,
-        takes,
-        left_out,
-        meaning,
-    }
-}
 
 pub(super) const TABLES: [&[Key]; 6] = [
     LINEAR_DELTA,

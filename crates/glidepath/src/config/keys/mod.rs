@@ -6,6 +6,7 @@
 
 mod key;
 mod mechanisms;
+mod probing;
 mod tables;
 
 pub use key::{Key, LeftOut, Takes};
@@ -21,6 +22,7 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         tables::INTERPOLATOR,
         tables::JOG,
         tables::FEEDBACK,
+        probing::PROBE,
         tables::LINK,
         tables::PROGRAM,
         tables::M_CODES,

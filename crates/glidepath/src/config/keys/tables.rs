@@ -1,19 +1,6 @@
 //! The keys of all tables but those of the mechanisms.
 
-use super::key::{Key, LeftOut, Takes};
-
-const fn number(min: f64, max: f64, unit: &'static str) -> Takes {
-    Takes::Number { min, max, unit }
-}
-
-const fn key(name: &'static str, takes: Takes, left_out: LeftOut, meaning: &'static str) -> Key {
-    Key {
-        name,
-        takes,
-        left_out,
-        meaning,
-    }
-}
+use super::key::{Key, LeftOut, Takes, key, number};
 
 pub(super) const MACHINE: &[Key] = &[key(
     "machine.kinematics",
@@ -464,8 +451,8 @@ pub(super) const PROGRAM: &[Key] = &[
         },
         LeftOut::Value("\"none\""),
         "\"simulated\": M62 to M68, M19 and probing are accepted, and simulated; \"feedback\": M66 \
-         reads the inputs of feedback, outputs are those of the auxiliary record, and there is no \
-         probe",
+         reads the inputs of feedback, outputs are those of the auxiliary record, and the probe is \
+         that of [probe]",
     ),
     key(
         "program.extruder",

@@ -275,6 +275,16 @@ impl Bench {
         self.sent = 0;
     }
 
+    /// Lines up frames of one epoch.
+    pub(super) fn load_frames(&mut self, mut frames: Vec<SetpointFrame>) {
+        self.epoch += 1;
+        for frame in &mut frames {
+            frame.epoch = self.epoch;
+        }
+        self.feed = frames.into();
+        self.sent = 0;
+    }
+
     /// What is awaited, by the status.
     pub(super) fn awaited(&mut self) -> Option<EventId> {
         let status = self.status();

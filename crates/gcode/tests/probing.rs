@@ -1,0 +1,126 @@
+//! Probing with a probe that answers.
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    reason = "a test: what is exact is compared exactly"
+)]
+
+use glidepath_gcode::{Connections, Options, Probed, Program, check};
+use glidepath_geometry::AxisVector;
+use glidepath_program::{Event, Item, ItemKind};
+
+fn options() -> Options {
+    Options {
+        connections: Connections::Real,
+        probing_v: Some(10.0),
+        ..Options::default()
+    }
+}
+
+fn at(x: f64, z: f64) -> AxisVector {
+    AxisVector::x() * x + AxisVector::z() * z
+}
+
+/// Items up to a probing move, or to the end.
+fn until_probe(program: &mut Program<&[u8]>) -> Vec<Item> {
+    let mut items = Vec::new();
+    while !program.is_at_probe() {
+        match program.next() {
+            Some(item) => items.push(item.unwrap()),
+            None => break,
+        }
+    }
+    items
+}
+
+fn ends(items: &[Item]) -> Vec<(f64, f64)> {
+    let end = |item: &Item| match &item.kind {
+        ItemKind::Move { segment, .. } => Some((segment.end()[0], segment.end()[2])),
+        _ => None,
+    };
+    items.iter().filter_map(end).collect()
+}
+
+fn answer(contact: Option<AxisVector>, was_so: bool, stands: AxisVector) -> Probed {
+    Probed {
+        contact,
+        was_so,
+        stands,
+    }
+}
+
+#[test]
+fn a_program_goes_on_from_where_the_machine_came_to_rest() {
+    let text =
+        "G10 L2 P1 X1 Z2\nG0 X4\nG38.2 Z-5 F300\nG91 G1 X1\nG90 G1 X[#5061] Z[#5063+#5070]\nM2\n";
+    let mut program = Program::new(text.as_bytes(), options());
+    let before = until_probe(&mut program);
+    assert_eq!(ends(&before), [(5.0, 0.0), (5.0, -3.0)]);
+    let event = Event::Probe { release: false };
+    assert_eq!(before[1].kind, ItemKind::Event(event));
+    // It touches at −1.5 and comes to rest a little behind that.
+    let found = answer(Some(at(5.0, -1.5)), false, at(5.0, -1.6));
+    program.answer_probe(&found).unwrap();
+    let after = until_probe(&mut program);
+    assert_eq!(ends(&after), [(6.0, -1.6), (5.0, -0.5)]);
+}
+
+#[test]
+fn what_a_code_wants_and_does_not_get_is_an_error() {
+    // Code, contact, already so, whether the program goes on.
+    let cases = [
+        ("G38.2", true, false, true),
+        ("G38.2", false, false, false),
+        ("G38.2", true, true, false),
+        ("G38.3", false, false, true),
+        ("G38.3", true, true, true),
+        ("G38.4", false, false, false),
+        ("G38.5", false, false, true),
+    ];
+    for (code, touches, was_so, goes_on) in cases {
+        let text = format!("{code} Z-5 F300\nG0 X[10+#5070]\n");
+        let mut program = Program::new(text.as_bytes(), options());
+        let items = until_probe(&mut program);
+        let release = matches!(code, "G38.4" | "G38.5");
+        assert_eq!(
+            items[0].kind,
+            ItemKind::Event(Event::Probe { release }),
+            "{code}"
+        );
+        let contact = touches.then(|| at(0.0, -1.0));
+        let answered = program.answer_probe(&answer(contact, was_so, at(0.0, -1.0)));
+        let rest = ends(&until_probe(&mut program));
+        if goes_on {
+            answered.unwrap();
+            let made = if touches { 11.0 } else { 10.0 };
+            assert_eq!(rest, [(made, -1.0)], "{code} {touches} {was_so}");
+        } else {
+            let error = answered.unwrap_err();
+            assert_eq!((error.line, error.column), (1, 1), "{error:?}");
+            assert_eq!(error.code.as_str(), "probe");
+            assert_eq!(rest, [], "{code} {touches} {was_so}");
+        }
+    }
+}
+
+#[test]
+fn a_feed_from_which_the_machine_could_not_stop_is_refused() {
+    let findings = |text: &str, options| {
+        let report = check(text.as_bytes(), options);
+        let found = report.diagnostics.iter();
+        found.map(|f| f.message.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(findings("G38.2 Z-5 F600\n", options()), [""; 0]);
+    assert_eq!(
+        findings("G38.2 Z-5 F601\n", options()),
+        ["F601 is too fast for the probe"]
+    );
+    let without = Options {
+        probing_v: None,
+        ..options()
+    };
+    assert_eq!(
+        findings("G38.2 Z-5 F100\n", without),
+        ["no probe is connected"]
+    );
+}

@@ -1,0 +1,127 @@
+//! Where the axes are when a probe makes contact.
+//!
+//! The real-time thread says in a setpoint that a search begins, and stops when it is told of the
+//! contact. Where that was is kept here, from the records of the drives themselves: what was
+//! latched by hardware if there is such, else the middle between the samples before and after, so
+//! that it is off by half of the way between them at most. What follows the first contact, bounces
+//! above all, changes nothing.
+
+use super::claims::Joints;
+use super::settings::ProbeInput;
+use crate::message::Report;
+use glidepath_kinematics::{JOINTS, JointVector};
+use glidepath_link::{ContactKind, EndOfEpoch, EventKind, Feedback};
+
+/// What a search has found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Contact {
+    pub(crate) kind: ContactKind,
+    /// Where the joints were, as the drives count.
+    pub(crate) joints: JointVector,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Search {
+    epoch: u64,
+    release: bool,
+    /// When it began, ns.
+    since_ns: u64,
+    /// The sample before the contact.
+    before: Option<[f64; JOINTS]>,
+    found: Option<Contact>,
+}
+
+/// Looks at the probe.
+#[derive(Debug)]
+pub(super) struct ProbeWatch {
+    input: Option<ProbeInput>,
+    search: Option<Search>,
+    is_open: bool,
+}
+
+impl ProbeWatch {
+    pub(super) const fn new(input: Option<ProbeInput>) -> Self {
+        Self {
+            input,
+            search: None,
+            is_open: false,
+        }
+    }
+
+    /// Takes note of a setpoint: it may begin a search, or belong to an epoch after it.
+    pub(super) fn note(&mut self, report: &Report) {
+        let setpoint = &report.setpoint;
+        self.is_open = report.end_of_epoch == EndOfEpoch::Open;
+        if setpoint.event_kind == EventKind::Probe.code() && self.is_open {
+            self.search = Some(Search {
+                epoch: setpoint.epoch,
+                release: setpoint.event_value > 0.0,
+                since_ns: setpoint.scheduled_ns,
+                before: None,
+                found: None,
+            });
+        } else if self
+            .search
+            .is_some_and(|search| search.epoch != setpoint.epoch)
+        {
+            self.search = None;
+        }
+    }
+
+    /// Whether there is anything to look for.
+    pub(super) fn is_searching(&self) -> bool {
+        let is_open = |search: Search| search.found.is_none() && self.is_open;
+        self.input.is_some() && self.search.is_some_and(is_open)
+    }
+
+    /// Looks at what a stack sends, after it was taken into the `joints`.
+    pub(super) fn look(&mut self, feedback: &Feedback, joints: &Joints) {
+        let (Some(input), Some(search)) = (self.input, &mut self.search) else {
+            return;
+        };
+        let touches = (joints.digital_in >> (input.number & 63) & 1 == 1) == input.high;
+        if touches == search.release {
+            search.before = Some(joints.position);
+            return;
+        }
+        let middle = |before: [f64; JOINTS]| {
+            let places = before.iter().zip(&joints.position);
+            JointVector::from_iterator(places.map(|(from, to)| from.midpoint(*to)))
+        };
+        let sampled = search
+            .before
+            .map_or_else(|| JointVector::from(joints.position), middle);
+        search.found = Some(Contact {
+            kind: if search.before.is_some() {
+                ContactKind::Made
+            } else {
+                ContactKind::AlreadySo
+            },
+            joints: latched(feedback, input, search)
+                .filter(|_| joints.claimed & !feedback.joints == 0)
+                .unwrap_or(sampled),
+        });
+    }
+
+    /// What the search of this or the last epoch has found.
+    pub(super) fn found(&self) -> Option<Contact> {
+        self.search?.found
+    }
+
+    /// The epoch in which a search has found something, 0 if none has.
+    pub(super) fn found_in(&self) -> u64 {
+        let search = self.search.filter(|search| search.found.is_some());
+        search.map_or(0, |search| search.epoch)
+    }
+}
+
+/// What the hardware of a stack with all joints has latched since the search began.
+fn latched(feedback: &Feedback, input: ProbeInput, search: &Search) -> Option<JointVector> {
+    let is_it = |latch: &&glidepath_link::Latch| {
+        let rising = (latch.rising == 1) == (input.high != search.release);
+        let is_new = latch.count > 0 && latch.latch_ns >= search.since_ns;
+        latch.input == u32::from(input.number) && rising && is_new
+    };
+    let latch = feedback.latch.iter().find(is_it)?;
+    Some(JointVector::from(latch.position))
+}

@@ -1,0 +1,286 @@
+//! A probe that touches a plane somewhere on its way, or does not.
+
+use super::bench::{Bench, PERIOD_NS, config, numbers};
+use crate::config::Config;
+use crate::feedback::{FeedbackSettings, ProbeInput};
+use core::f64::consts::TAU;
+use glidepath_geometry::AxisVector;
+use glidepath_link::{
+    Command, ContactKind, EndOfEpoch, EventKind, MachineState, Setpoint, SetpointFrame,
+};
+use glidepath_plant::JointSettings;
+use glidepath_program::FrameFlags;
+
+const T: f64 = 0.004;
+/// Between two samples of the drives, s.
+const SAMPLE_T: f64 = 0.001;
+const ACCELERATION: f64 = 2_000.0;
+const JERK: f64 = 40_000.0;
+const START: [f64; 3] = [12.5, -3.0, 40.0];
+
+fn bench(
+    lag_t: f64,
+    change: impl FnOnce(glidepath_plant::Plant) -> glidepath_plant::Plant,
+) -> Bench {
+    let joint = |start| JointSettings {
+        start,
+        count: start,
+        lag_t,
+        ..JointSettings::default()
+    };
+    let usual = config(false);
+    let input = ProbeInput {
+        number: 0,
+        high: true,
+    };
+    let mut bench = Bench::new(
+        Config {
+            feedback: usual.feedback.map(|feedback| FeedbackSettings {
+                probe: Some(input),
+                ..feedback
+            }),
+            ..usual
+        },
+        &START.map(joint),
+    );
+    bench.plant = change(bench.plant);
+    bench.enable(MachineState::Idle);
+    bench
+}
+
+/// Whole periods that the speed takes to come up and go down, as a sine does.
+fn ramp_t(v: f64) -> f64 {
+    let t = (2.0 * v / ACCELERATION).max((TAU * v / JERK).sqrt());
+    (t / T).ceil() * T
+}
+
+/// A search along a line at the speed `v`, to a place `way` from where the machine stands.
+fn search(bench: &Bench, way: AxisVector, v: f64, release: bool) -> Vec<SetpointFrame> {
+    let (start, length) = (AxisVector::from(bench.last().position), way.norm());
+    let ramp_t = ramp_t(v);
+    let steady_t = ((length / v - ramp_t) / T).ceil().max(0.0) * T;
+    let v = length / (steady_t + ramp_t);
+    let up = |t: f64| {
+        let u = t / ramp_t;
+        [
+            v * ramp_t * (u * u / 2.0 + ((TAU * u).cos() - 1.0) / (TAU * TAU)),
+            v * (u - (TAU * u).sin() / TAU),
+            v / ramp_t * (1.0 - (TAU * u).cos()),
+        ]
+    };
+    let at = |t: f64| {
+        let end_t = 2.0 * ramp_t + steady_t;
+        if t <= ramp_t {
+            up(t)
+        } else if t <= ramp_t + steady_t {
+            [v * (t - ramp_t / 2.0), v, 0.0]
+        } else {
+            let [s, v, a] = up((end_t - t).max(0.0));
+            [length - s, v, -a]
+        }
+    };
+    let ticks = ((2.0 * ramp_t + steady_t) / T).round() as u64;
+    let mut frames: Vec<SetpointFrame> = (0..2)
+        .map(|_| 0.0)
+        .chain((0..=ticks).map(|k| k as f64 * T))
+        .zip(0..)
+        .map(|(t, sequence)| {
+            let [s, v, a] = at(t);
+            SetpointFrame {
+                sequence,
+                period_ns: PERIOD_NS,
+                line: 1,
+                planned_override: 1.0,
+                path_s: s,
+                path_v: v,
+                position: (start + way * (s / length)).into(),
+                velocity: (way * (v / length)).into(),
+                acceleration: (way * (a / length)).into(),
+                ..<SetpointFrame as bytemuck::Zeroable>::zeroed()
+            }
+        })
+        .collect();
+    frames[0].flags = FrameFlags::FIRST.0;
+    frames[1].event_kind = EventKind::Probe.code();
+    frames[1].event_value = f64::from(u8::from(release));
+    let last = frames.len() - 1;
+    frames[last].flags = FrameFlags::LAST.0;
+    frames
+}
+
+fn play(bench: &mut Bench, frames: Vec<SetpointFrame>) -> EndOfEpoch {
+    let most = frames.len() + 400;
+    bench.load_frames(frames);
+    assert!(bench.run_to(MachineState::Running, 50));
+    assert!(
+        bench.run_to(MachineState::Idle, most),
+        "{:?}",
+        bench.state()
+    );
+    bench.status().end_of_epoch().unwrap()
+}
+
+/// What a machine needs to stop from a speed, as its configuration promises.
+fn most_overtravel(v: f64) -> f64 {
+    let stop = if v <= ACCELERATION * ACCELERATION / JERK {
+        v * (v / JERK).sqrt()
+    } else {
+        0.5 * v * (v / ACCELERATION + ACCELERATION / JERK)
+    };
+    4.0 * T * v + 2.0 * stop
+}
+
+fn assert_on_line(setpoints: &[Setpoint], start: AxisVector, way: AxisVector) {
+    let unit = way.normalize();
+    for setpoint in setpoints {
+        let from_start = AxisVector::from(setpoint.position) - start;
+        let off = from_start - unit * from_start.dot(&unit);
+        assert!(off.amax() < 1e-9, "{off:?}");
+    }
+}
+
+/// One search for a plane; how far it went on behind it, as a part of what it may.
+fn one_case(seed: u64) -> f64 {
+    let mut numbers = numbers(seed);
+    let v = 0.3 * 200.0_f64.powf(numbers.unit());
+    let lag_t = if numbers.unit() < 0.5 {
+        0.0
+    } else {
+        0.004 * numbers.unit()
+    };
+    let depth = (1.0 + 9.0 * numbers.unit()) * (v / 10.0).clamp(0.2, 2.0);
+    let way = AxisVector::from_fn(|axis, _| match axis {
+        0 | 1 => depth * (2.0 * numbers.unit() - 1.0),
+        2 => -depth,
+        _ => 0.0,
+    });
+    let plane = START[2] - depth * 1.15 * numbers.unit();
+    let bounce_ns = (numbers.unit() * 12e6) as u64;
+    let latency_ns = (numbers.unit() * 2e6) as u64;
+    let mut bench = bench(lag_t, |plant| {
+        plant
+            .with_probe(2, plane)
+            .with_bounce(bounce_ns)
+            .with_latency(latency_ns)
+    });
+    let begun = bench.setpoints.len();
+    let start = AxisVector::from(bench.last().position);
+    let frames = search(&bench, way, v, false);
+    let end = play(&mut bench, frames);
+    bench.run(50);
+    let status = bench.status();
+    assert_on_line(&bench.setpoints[begun..], start, way);
+    assert!(
+        bench.worst_ratio() < 1.0 + 1e-6,
+        "seed {seed}: {}",
+        bench.worst_ratio()
+    );
+    assert_eq!(status.fault(), Ok(None), "seed {seed}");
+    let end_z = START[2] - depth;
+    if plane < end_z {
+        assert_eq!(end, EndOfEpoch::Completed, "seed {seed}");
+        assert_eq!(status.contact(), Ok(ContactKind::None), "seed {seed}");
+        assert!((status.position[2] - end_z).abs() < 1e-9, "seed {seed}");
+        return 0.0;
+    }
+    // What is touched at the very end is known when the way is over, and not found.
+    if status.contact() == Ok(ContactKind::None) {
+        let last_way = JERK * (4.0 * T).powi(3) / 6.0;
+        assert!(
+            plane - end_z < lag_t * v + last_way,
+            "seed {seed}: {plane} {end_z}"
+        );
+        return 0.0;
+    }
+    assert_eq!(status.contact(), Ok(ContactKind::Made), "seed {seed}");
+    let along = depth / way.norm() * v;
+    let error = plane - status.contact[2];
+    assert!(
+        (-1e-9..=along * SAMPLE_T + 1e-9).contains(&error),
+        "seed {seed}: {error}"
+    );
+    let beyond = plane - status.position[2];
+    let allowed = most_overtravel(v) + lag_t * v;
+    assert!(
+        beyond <= allowed,
+        "seed {seed}: {beyond} of {allowed} at {v}"
+    );
+    beyond / allowed
+}
+
+/// Cases of a run: `GLIDEPATH_PROBES` for more of them.
+fn cases() -> u64 {
+    std::env::var("GLIDEPATH_PROBES").map_or(60, |text| text.parse().unwrap())
+}
+
+#[test]
+fn a_plane_anywhere_is_found_and_the_machine_stops_behind_it() {
+    let worst = (0..cases()).map(one_case).fold(0.0, f64::max);
+    println!(
+        "{} searches, at most {worst:.3} of the overtravel allowed",
+        cases()
+    );
+    assert!(worst > 0.1, "{worst}: the bound says nothing");
+}
+
+#[test]
+fn a_contact_that_was_there_before_stops_at_once_and_one_that_ends_is_found() {
+    let mut bench = bench(0.0, |plant| plant.with_probe(2, START[2] + 1.0));
+    let way = AxisVector::z() * -5.0;
+    let frames = search(&bench, way, 5.0, false);
+    assert_eq!(play(&mut bench, frames), EndOfEpoch::Tripped);
+    let status = bench.status();
+    assert_eq!(status.contact(), Ok(ContactKind::AlreadySo));
+    assert_eq!(status.contact[2], START[2]);
+    assert!(
+        START[2] - status.position[2] < 0.01,
+        "{}",
+        status.position[2]
+    );
+
+    let frames = search(&bench, -way, 5.0, true);
+    assert_eq!(play(&mut bench, frames), EndOfEpoch::Tripped);
+    let status = bench.status();
+    assert_eq!(status.contact(), Ok(ContactKind::Made));
+    let error = status.contact[2] - (START[2] + 1.0);
+    // In the middle between two samples: nothing latches that edge.
+    assert!(error.abs() <= 5.0 * SAMPLE_T / 2.0 + 1e-9, "{error}");
+
+    // The next motion knows nothing of it.
+    let frames = search(&bench, AxisVector::x() * 3.0, 20.0, false);
+    bench.load_frames(
+        frames
+            .into_iter()
+            .map(|f| SetpointFrame { event_kind: 0, ..f })
+            .collect(),
+    );
+    assert!(bench.run_to(MachineState::Running, 50) && bench.run_to(MachineState::Idle, 900));
+    let status = bench.status();
+    assert_eq!(status.end_of_epoch(), Ok(EndOfEpoch::Completed));
+    assert_eq!(status.contact(), Ok(ContactKind::None));
+}
+
+#[test]
+fn a_search_is_held_goes_on_and_is_aborted_like_any_motion() {
+    let mut bench = bench(0.0, |plant| plant.with_probe(2, START[2] - 4.0));
+    let frames = search(&bench, AxisVector::z() * -5.0, 5.0, false);
+    bench.load_frames(frames);
+    assert!(bench.run_to(MachineState::Running, 50));
+    bench.run(60);
+    bench.command(Command::Hold).unwrap();
+    assert!(bench.run_to(MachineState::Held, 100));
+    bench.run(100);
+    bench.command(Command::Resume).unwrap();
+    assert!(bench.run_to(MachineState::Idle, 900));
+    let status = bench.status();
+    assert_eq!(status.end_of_epoch(), Ok(EndOfEpoch::Tripped));
+    assert!((status.contact[2] - (START[2] - 4.0)).abs() < 5.0 * SAMPLE_T);
+
+    let frames = search(&bench, AxisVector::z() * 8.0, 5.0, true);
+    bench.load_frames(frames);
+    assert!(bench.run_to(MachineState::Running, 50));
+    bench.command(Command::Abort).unwrap();
+    assert!(bench.run_to(MachineState::Idle, 200));
+    assert_eq!(bench.status().end_of_epoch(), Ok(EndOfEpoch::Aborted));
+    assert!(bench.worst_ratio() < 1.0 + 1e-6);
+}
