@@ -25,13 +25,13 @@
 //! | G93 G94 G95 F | inverse time, per minute, per revolution |
 //! | G96 S D, G97 S | cutting speed, revolutions |
 //! | `@` `^` | polar words for X and Y |
-//! | S T M0 M1 M3–M9 M48 M49 M60 M61 Q | events, in order with the motion |
+//! | S T M0 M1 M3–M9 M48 M49 M60 M61 Q, `$0`, `$-1` | events, in order with the motion; the one spindle there is |
 //! | M50 M51 P1, M52 M53 P0 | no effect: so it is; what they would change is refused |
 //! | M70 M71 M72 M73 | save and restore the modal state, by subroutine |
 //! | M19, M62 … M68 | events, only with simulated connections |
 //! | M2 M30, `%` | end of the program; the end of the input is one too |
 //! | N, `/`, `( )`, `;`, `O1234` alone | no effect (`/`: [`Options::block_delete`](crate::Options::block_delete)) |
-//! | `#1`, `#<name>`, `[ ]`, functions | parameters and expressions |
+//! | `#1`, `#<name>`, `[ ]`, functions | parameters and expressions; `#<_x>`, `#<_plane>` … show the state |
 //! | O words | `sub` `call` `return`, `if`, `while`, `do`, `repeat`, `break`, `continue` |
 //! | `o<name> call`, `o100 call` of what the program does not define | the subroutine in `name.ngc`, `100.ngc` ([`Subroutines`](crate::Subroutines)) |
 //!
@@ -68,4 +68,5 @@
 //! | the folder of subroutines in other files | of the configuration | the program's, then those of the search path; names with `/` are refused |
 //! | M72, M73 with another G41 or G42 in force than was saved | begin it anew, with the tool's diameter | refused |
 //! | M72, M73 with G43.1, G43.2 or G64 P saved | G43 of the tool in the spindle; P in the units in force | as they were |
+//! | G98 or G99 where a program says neither | G99: to the R plane | G98, which goes higher |
 //! | lines above 252 characters | refused | up to [`MAX_LINE_BYTES`](crate::MAX_LINE_BYTES) |

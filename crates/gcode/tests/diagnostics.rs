@@ -36,8 +36,7 @@ fn text_that_is_no_block() {
     refuses("G0 X", "1:4 missing-number");
     refuses("G", "1:1 missing-number");
     refuses("G0 N5 X1", "1:4 misplaced-block-number");
-    refuses("N1.5 G0", "1:1 not-an-integer");
-    refuses("N-1 G0", "1:1 not-an-integer");
+    refuses("N-1 G0", "1:1 invalid-value");
     refuses("N10 N", "1:5 missing-number");
 }
 

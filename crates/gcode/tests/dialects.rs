@@ -13,10 +13,11 @@ mod support;
 
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use glidepath_gcode::{Connections, Dialect, Options, Program, Report, check};
+use glidepath_gcode::{Connections, Dialect, MCodes, Options, Program, Report, check};
 use glidepath_geometry::Axis;
-use glidepath_program::{ItemKind, PathMode, Rate};
+use glidepath_program::{Event, ItemKind, PathMode, Rate};
 use support::listed;
 
 fn options(dialect: Dialect) -> Options {
@@ -71,6 +72,15 @@ fn the_extruder_is_an_axis_with_modes_of_its_own() {
     assert_eq!(report.diagnostics[0].code.as_str(), "axis-not-configured");
 }
 
+/// A printer of which nothing is connected.
+fn unconnected_printer() -> Options {
+    Options {
+        connections: Connections::None,
+        extruder: None,
+        ..options(Dialect::Marlin)
+    }
+}
+
 #[test]
 fn printers_have_checksums_functions_and_slow_rapids() {
     assert_eq!(
@@ -78,13 +88,9 @@ fn printers_have_checksums_functions_and_slow_rapids() {
         ["7", "dwell 0.5", "dwell 2"]
     );
     finds(Dialect::Marlin, "N3 G1 X8*100", &["1:9 checksum"]);
-    let unconnected = Options {
-        connections: Connections::None,
-        ..options(Dialect::Marlin)
-    };
     let report = check(
         b"M104 S200\nM117 X1 it goes (on\nM82\nG29".as_slice(),
-        unconnected,
+        unconnected_printer(),
     );
     let found: Vec<_> = report
         .diagnostics
@@ -92,6 +98,38 @@ fn printers_have_checksums_functions_and_slow_rapids() {
         .map(|d| (d.line, d.code.as_str()))
         .collect();
     assert_eq!(found, [(1, "not-connected"), (4, "unknown-g-code")]);
+    // With an extruder they are events, but for those that wait: somebody has to say for what.
+    let printer = Options {
+        extruder: Some(Axis::U),
+        ..unconnected_printer()
+    };
+    let text =
+        b"M104 S200\nM106 S255 ; fan\nM107\nM220 S100\nM109 S200\nM220 S50\nM200 D1.75\nM206 X5";
+    let report = check(text.as_slice(), printer.clone());
+    assert_eq!(
+        listed(&report),
+        [
+            "5:1 not-connected",
+            "6:6 not-supported",
+            "7:6 not-supported",
+            "8:1 not-supported"
+        ]
+    );
+    let mut m_codes = MCodes::default();
+    m_codes.declare(109, 109);
+    let waiting = Options {
+        m_codes: Arc::new(m_codes),
+        ..printer
+    };
+    let text = b"M104 S200\nM109 S200\nM117 Layer 1; of 2\nM84";
+    let mut program = Program::new(text.as_slice(), waiting).with_remarks();
+    let events: Vec<_> = program
+        .by_ref()
+        .map(|item| item.expect("a sound program").kind)
+        .collect();
+    let codes = [104, 109, 117, 84].map(|code| ItemKind::Event(Event::MCode(code)));
+    assert_eq!(events, codes);
+    assert_eq!(program.take_remarks()[0].text, "Layer 1");
     let item = Program::new(b"G0 X1 F60".as_slice(), options(Dialect::Marlin)).next();
     let kind = item.expect("a move").expect("a sound program").kind;
     assert!(matches!(kind, ItemKind::Move { rate: Rate::Feed(v), .. } if (v - 1.0).abs() < 1e-12));

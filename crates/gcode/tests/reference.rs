@@ -219,3 +219,87 @@ fn moves_are_those_of_the_reference() {
     );
     assert!(programs.len() - left_out >= 200, "{left_out} left out");
 }
+
+/// Words judged otherwise than LinuxCNC judges them, each with the reason.
+const OTHER_WORDS: [(&str, &str); 23] = [
+    ("G10 L0", "it would change the tool table in a file"),
+    ("G33 Z0 K1", SPINDLE),
+    ("G33.1 Z0 K1", SPINDLE),
+    ("G76 Z-1 P1 I-1 J0.1 K1", SPINDLE),
+    ("G43.2 Z1", "read here: later versions of LinuxCNC have it"),
+    ("G87 X2 Z-1 R1 I1 J1 K1", "undefined there, by its manual"),
+    ("G88 X2 Z-1 R1 P1", "undefined there, by its manual"),
+    ("M50 P0", OVERRIDES),
+    ("M51 P0", OVERRIDES),
+    ("M52", OVERRIDES),
+    ("M52 P1", OVERRIDES),
+    ("M53", OVERRIDES),
+    ("M53 P1", OVERRIDES),
+    ("M99", "it would begin the program again for ever"),
+    ("#5221=3", OFFSETS),
+    ("#5161=1", OFFSETS),
+    ("#5061=1", OFFSETS),
+    ("o100 if [1 EQ 1]", "not ended"),
+    ("#1=#<_current_pocket>", POCKETS),
+    ("#1=#<_selected_pocket>", POCKETS),
+    ("#1=#<_abs_u>", "read here, as those of the other axes"),
+    (
+        "#1=#<_retract_r_plane>",
+        "programs begin with G98 here, which goes higher",
+    ),
+    (
+        "#1=#<_retract_old_z>",
+        "programs begin with G98 here, which goes higher",
+    ),
+];
+
+const SPINDLE: &str = "motion that follows the spindle";
+const OVERRIDES: &str = "the operator's overrides are his";
+const OFFSETS: &str = "G10, G28.1 and G92 set it";
+const POCKETS: &str = "tools have no pockets here";
+
+/// `tests/data/gcode/linuxcnc-codes.tsv`: words, whether LinuxCNC 2.9 reads them behind
+/// `G21 G90 F100 S100 M3` and `G0 X1 Y1 Z1`, and the value of a parameter.
+#[test]
+fn every_word_that_linuxcnc_reads_is_read_or_listed() {
+    let tools = ToolTable::parse(b"T1 P1 Z0 D2").expect("a tool table");
+    let options = Options {
+        tools: Some(Arc::new(tools)),
+        connections: glidepath_gcode::Connections::Simulated,
+        ..Options::default()
+    };
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../tests/data/gcode/linuxcnc-codes.tsv"
+    );
+    let table = fs::read_to_string(path).expect("the table");
+    let (mut compared, mut others) = (0, Vec::new());
+    for line in table.lines() {
+        let mut fields = line.split('\t');
+        let (words, verdict) = (fields.next().expect("words"), fields.next());
+        // The value of a parameter is shown by where X goes.
+        let shown = fields.next().map(|_| "G0 X#1\n").unwrap_or_default();
+        let text = format!("G21 G90 F100 S100 M3\nG0 X1 Y1 Z1\n{words}\n{shown}M2\n");
+        let report = glidepath_gcode::check(text.as_bytes(), options.clone());
+        let wanted: Option<f64> = line
+            .split('\t')
+            .nth(2)
+            .map(|v| v.parse().expect("a number"));
+        let same = report.is_accepted() == (verdict == Some("read"))
+            && wanted.is_none_or(|value| (report.final_position[0] - value).abs() < 1e-6);
+        let listed = OTHER_WORDS.iter().any(|(other, _)| *other == words);
+        if same == listed {
+            let first = report.diagnostics.first();
+            others.push(format!("{words}: theirs {verdict:?} {wanted:?}; {first:?}"));
+        }
+        for diagnostic in &report.diagnostics {
+            assert!(
+                !diagnostic.reason.is_empty() || !diagnostic.help.is_empty(),
+                "{words}"
+            );
+        }
+        compared += 1;
+    }
+    assert!(others.is_empty(), "{}", others.join("\n"));
+    assert!(compared > 240, "{compared}");
+}

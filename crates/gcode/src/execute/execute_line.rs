@@ -12,6 +12,7 @@ use crate::syntax::block::LineKind;
 impl<R: BufRead> Program<R> {
     /// Executes a text as a block.
     pub(crate) fn execute_text(&mut self, number: u32, text: &[u8]) -> Outcome<bool> {
+        self.interpreter.line = number;
         let scope = ProgramScope {
             parameters: &self.parameters,
             interpreter: &self.interpreter,

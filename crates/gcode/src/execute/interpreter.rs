@@ -21,6 +21,7 @@ use crate::execute::state::sticky_words::CycleSeries;
 use crate::setup::options::Options;
 use crate::setup::tool_table::ToolTable;
 use crate::syntax::letters::Letters;
+use crate::syntax::modes::Side;
 
 /// Moves that were left out because they go nowhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -88,6 +89,7 @@ impl Interpreter {
                 input: 0.0,
                 extruder_relative: false,
                 on_contour: false,
+                contour_side: Side::Left,
                 leaving_contour: false,
                 cubic_tail: None,
             },

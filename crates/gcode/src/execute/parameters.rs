@@ -11,8 +11,9 @@
 //! | `#5221` …, `#5241` … | origins of G54, G55 …; the tenth of each is its rotation |
 //! | `#5399` | input read by M66 last |
 //! | `#5400` … `#5413` | tool in the spindle: number, offsets in force, diameter, –, –, orientation |
+//! | `#5599` | 1, or what was assigned: with 0, `(DEBUG, …)` says nothing |
 //! | `#5420` … `#5428` | program coordinates of the position, in the units in force |
-//! | other numbers to `#5602` | read as zero |
+//! | other numbers to `#5601` | read as zero |
 //! | `#<name>` | local to a subroutine call |
 //! | `#<_name>` | global |
 //!
@@ -28,7 +29,9 @@ use crate::syntax::expression::scope::{LOCALS, Parameter, no_parameter};
 /// Largest number that can be assigned.
 pub(crate) const MAX_ASSIGNED: u32 = 5000;
 /// Largest number that exists.
-pub(crate) const MAX_NUMBERED: u32 = 5602;
+pub(crate) const MAX_NUMBERED: u32 = 5601;
+/// Whether `(DEBUG, …)` says anything.
+pub(crate) const DEBUG: u32 = 5599;
 /// Most named parameters at a time.
 const MAX_NAMES: usize = 10_000;
 
@@ -48,15 +51,21 @@ pub(crate) struct Parameters {
     /// One per call level; the first is that of the program itself.
     levels: Vec<Locals>,
     names: usize,
+    /// `(DEBUG, …)` says nothing.
+    silent: bool,
 }
 
 impl Parameters {
     pub(crate) fn new() -> Self {
         Self {
             global: Vec::new(),
-            named: BTreeMap::new(),
+            // What a subroutine returned: none was called yet.
+            named: ["_value", "_value_returned"]
+                .map(|name| (name.to_owned(), 0.0))
+                .into(),
             levels: vec![Locals::default()],
             names: 0,
+            silent: false,
         }
     }
 
@@ -99,6 +108,7 @@ impl Parameters {
             Parameter::Numbered(number) if *number > MAX_NUMBERED => {
                 Err(no_parameter(span, f64::from(*number)))
             }
+            Parameter::Numbered(DEBUG) => Ok(()),
             Parameter::Numbered(number) if *number > MAX_ASSIGNED => Err(read_only(span)),
             Parameter::Named(name) if READ_ONLY.contains(&name.as_str()) => Err(read_only(span)),
             Parameter::Named(_) if self.names >= MAX_NAMES => {
@@ -120,6 +130,8 @@ impl Parameters {
                     if let Some(locals) = self.levels.last_mut() {
                         locals.numbered[index - 1] = value;
                     }
+                } else if *number == DEBUG {
+                    self.silent = value == 0.0;
                 } else if *number <= MAX_ASSIGNED {
                     if self.global.len() <= index {
                         self.global.resize(index + 1, 0.0);
@@ -143,6 +155,9 @@ impl Parameters {
     }
 
     pub(crate) fn numbered(&self, number: u32) -> f64 {
+        if number == DEBUG {
+            return f64::from(u8::from(!self.silent));
+        }
         let index = usize::try_from(number).unwrap_or(usize::MAX);
         if (1..=LOCALS).contains(&index) {
             return self
@@ -174,7 +189,39 @@ fn read_only(span: SourceSpan) -> Box<Fault> {
 }
 
 /// Names that show the state and cannot be assigned.
-pub(crate) const READ_ONLY: [&str; 17] = [
+pub(crate) const READ_ONLY: [&str; 55] = [
+    "_vmajor",
+    "_vminor",
+    "_line",
+    "_motion_mode",
+    "_plane",
+    "_ccomp",
+    "_metric",
+    "_imperial",
+    "_absolute",
+    "_incremental",
+    "_inverse_time",
+    "_units_per_minute",
+    "_units_per_rev",
+    "_coord_system",
+    "_tool_offset",
+    "_retract_r_plane",
+    "_retract_old_z",
+    "_spindle_rpm_mode",
+    "_spindle_css_mode",
+    "_ijk_absolute_mode",
+    "_lathe_diameter_mode",
+    "_lathe_radius_mode",
+    "_spindle_on",
+    "_spindle_cw",
+    "_mist",
+    "_flood",
+    "_speed_override",
+    "_feed_override",
+    "_adaptive_feed",
+    "_feed_hold",
+    "_feed",
+    "_rpm",
     "_x",
     "_y",
     "_z",
@@ -184,12 +231,18 @@ pub(crate) const READ_ONLY: [&str; 17] = [
     "_u",
     "_v",
     "_w",
-    "_metric",
-    "_imperial",
-    "_absolute",
-    "_incremental",
-    "_feed",
-    "_call_level",
+    "_abs_x",
+    "_abs_y",
+    "_abs_z",
+    "_abs_a",
+    "_abs_b",
+    "_abs_c",
+    "_abs_u",
+    "_abs_v",
+    "_abs_w",
     "_current_tool",
     "_selected_tool",
+    "_task",
+    "_call_level",
+    "_remap_level",
 ];

@@ -2,6 +2,7 @@
 
 use std::io::BufRead;
 
+use crate::execute::parameters::DEBUG;
 use crate::execute::program::Program;
 use crate::summary::remark::{Remark, RemarkKind};
 use crate::syntax::cursor::Cursor;
@@ -36,6 +37,8 @@ impl<R: BufRead> Program<R> {
         };
         let said = if let Some(text) = after(b"MSG,") {
             Some((RemarkKind::Message, text_of(text)))
+        } else if after(b"DEBUG,").is_some() && self.parameters.numbered(DEBUG) == 0.0 {
+            None
         } else if let Some(text) = after(b"DEBUG,").or_else(|| after(b"PRINT,")) {
             Some((RemarkKind::Debug, with_values(text, &self.scope())))
         } else if self.block.codes.stop.is_some() && !comment.is_empty() {

@@ -1,11 +1,16 @@
 //! The parameters that an expression reads: those assigned, and those that show the state.
 
-use glidepath_geometry::{AXES, AxisVector};
+use glidepath_geometry::{AXES, AxisVector, Plane};
 
 use crate::execute::interpreter::Interpreter;
-use crate::execute::parameters::{MAX_ASSIGNED, MAX_NUMBERED, Parameters, READ_ONLY};
+use crate::execute::parameters::{DEBUG, MAX_ASSIGNED, MAX_NUMBERED, Parameters, READ_ONLY};
+use crate::execute::state::spindle::SpindleDirection;
 use crate::syntax::expression::scope::Scope;
-use crate::syntax::modes::{Distance, Units};
+use crate::syntax::letters::AXIS_LETTERS;
+use crate::syntax::modes::{
+    CannedCycle, Distance, FeedMode, LatheCycle, Motion, Pockets, Probe, Retract, Side, Spline,
+    Units,
+};
 
 /// Parameters, and the state of the interpreter that can be read as parameters.
 pub(crate) struct ProgramScope<'a> {
@@ -17,7 +22,7 @@ impl Scope for ProgramScope<'_> {
     fn numbered(&self, number: u32) -> Option<f64> {
         match number {
             0 => None,
-            1..=MAX_ASSIGNED => Some(self.parameters.numbered(number)),
+            1..=MAX_ASSIGNED | DEBUG => Some(self.parameters.numbered(number)),
             _ => (number <= MAX_NUMBERED).then(|| machine(self.interpreter, number)),
         }
     }
@@ -91,20 +96,135 @@ fn machine(interpreter: &Interpreter, number: u32) -> f64 {
 
 /// Value of a name that shows the state.
 fn state(interpreter: &Interpreter, parameters: &Parameters, name: &str) -> Option<f64> {
-    let modal = &interpreter.state.modal;
+    if !READ_ONLY.contains(&name) {
+        return None;
+    }
+    let state = &interpreter.state;
+    let modal = &state.modal;
     let truth = |t: bool| f64::from(u8::from(t));
-    let position = READ_ONLY.iter().position(|known| *known == name)?;
-    Some(match position {
-        0..9 => coordinate(interpreter, position),
-        9 => truth(modal.units == Units::Millimetre),
-        10 => truth(modal.units == Units::Inch),
-        11 => truth(modal.distance == Distance::Absolute),
-        12 => truth(modal.distance == Distance::Incremental),
-        13 => modal
+    let coordinates = name
+        .strip_prefix("_abs_")
+        .or_else(|| name.strip_prefix('_'));
+    let axis = coordinates.and_then(|letter| {
+        let letter = letter.to_ascii_uppercase();
+        let found = AXIS_LETTERS
+            .iter()
+            .position(|axis| [*axis] == letter.as_bytes());
+        found.map(|axis| (axis, name.starts_with("_abs_")))
+    });
+    if let Some((axis, is_machine)) = axis {
+        return Some(if is_machine {
+            in_units(interpreter, state.position, axis)
+        } else {
+            coordinate(interpreter, axis)
+        });
+    }
+    Some(match name {
+        // Of LinuxCNC, whose language is read.
+        "_vmajor" => 2.9,
+        "_line" => f64::from(interpreter.line),
+        "_motion_mode" => f64::from(motion_code(modal.motion)),
+        "_plane" => f64::from(plane_code(modal.plane)),
+        "_ccomp" => match (state.on_contour, state.contour_side) {
+            (false, _) => 400.0,
+            (true, Side::Left) => 410.0,
+            (true, Side::Right) => 420.0,
+        },
+        "_metric" => truth(modal.units == Units::Millimetre),
+        "_imperial" => truth(modal.units == Units::Inch),
+        "_absolute" => truth(modal.distance == Distance::Absolute),
+        "_incremental" => truth(modal.distance == Distance::Incremental),
+        "_inverse_time" => truth(modal.feed_mode == FeedMode::InverseTime),
+        "_units_per_minute" => truth(modal.feed_mode == FeedMode::PerMinute),
+        "_units_per_rev" => truth(modal.feed_mode == FeedMode::PerRevolution),
+        "_coord_system" => {
+            let active = u8::try_from(interpreter.offsets.active).unwrap_or_default();
+            f64::from(match active {
+                0..=5 => 540 + 10 * u16::from(active),
+                _ => 585 + u16::from(active),
+            })
+        }
+        "_tool_offset" => truth(interpreter.offsets.tool.iter().any(|v| *v != 0.0)),
+        "_retract_r_plane" => truth(modal.retract == Retract::RPlane),
+        "_retract_old_z" => truth(modal.retract == Retract::Initial),
+        "_spindle_rpm_mode" => truth(state.spindle.surface.is_none()),
+        "_spindle_css_mode" => truth(state.spindle.surface.is_some()),
+        "_ijk_absolute_mode" => truth(modal.arc_distance == Distance::Absolute),
+        "_lathe_diameter_mode" => truth(modal.diameter),
+        "_lathe_radius_mode" => truth(!modal.diameter),
+        "_spindle_on" => truth(state.spindle.turning.is_some()),
+        "_spindle_cw" => truth(state.spindle.turning == Some(SpindleDirection::Clockwise)),
+        "_mist" => truth(state.coolant.mist),
+        "_flood" => truth(state.coolant.flood),
+        "_speed_override" | "_feed_override" => truth(!state.overrides_off),
+        "_feed_hold" => 1.0,
+        "_feed" => modal
             .feed
             .map_or(0.0, |feed| feed.linear_v * 60.0 / modal.units.mm()),
-        14 => f64::from(u32::try_from(parameters.call_level()).unwrap_or(u32::MAX)),
-        15 => f64::from(interpreter.state.tool),
-        _ => f64::from(interpreter.state.selected_tool),
+        "_rpm" => state.spindle.speed,
+        "_call_level" => f64::from(u32::try_from(parameters.call_level()).unwrap_or(u32::MAX)),
+        "_current_tool" => f64::from(state.tool),
+        "_selected_tool" => f64::from(state.selected_tool),
+        // The minor version, adaptive feed, and what is not there: task, remapped codes.
+        _ => 0.0,
     })
+}
+
+/// Ten times the number of the code that a motion mode has.
+const fn motion_code(motion: Option<Motion>) -> u16 {
+    match motion {
+        None => 800,
+        Some(Motion::Rapid) => 0,
+        Some(Motion::Linear) => 10,
+        Some(Motion::ArcClockwise) => 20,
+        Some(Motion::ArcCounterclockwise) => 30,
+        Some(Motion::Spline(spline)) => match spline {
+            Spline::Cubic => 50,
+            Spline::Quadratic => 51,
+            Spline::Weighted => 52,
+            Spline::EndWeighted => 53,
+            Spline::Knotted => 62,
+        },
+        Some(Motion::Probe(Probe { toward, must })) => match (toward, must) {
+            (true, true) => 382,
+            (true, false) => 383,
+            (false, true) => 384,
+            (false, false) => 385,
+        },
+        Some(Motion::Cycle(cycle)) => match cycle {
+            CannedCycle::ChipBreak => 730,
+            CannedCycle::TapLeft => 740,
+            CannedCycle::Drill => 810,
+            CannedCycle::DrillDwell => 820,
+            CannedCycle::Peck => 830,
+            CannedCycle::TapRight => 840,
+            CannedCycle::Bore => 850,
+            CannedCycle::BoreStop => 860,
+            CannedCycle::BoreDwell => 890,
+        },
+        Some(Motion::Lathe(cycle)) => {
+            let (code, pockets) = match cycle {
+                LatheCycle::Finish => return 700,
+                LatheCycle::Turn(pockets) => (710, pockets),
+                LatheCycle::Face(pockets) => (720, pockets),
+            };
+            code + match pockets {
+                Pockets::Cut => 0,
+                Pockets::LeftOut => 1,
+                Pockets::Only => 2,
+            }
+        }
+    }
+}
+
+/// Ten times the number of a plane's code.
+const fn plane_code(plane: Plane) -> u16 {
+    match plane {
+        Plane::Xy => 170,
+        Plane::Uv => 171,
+        Plane::Zx => 180,
+        Plane::Wu => 181,
+        Plane::Yz => 190,
+        Plane::Vw => 191,
+    }
 }

@@ -7,16 +7,11 @@ use std::sync::Arc;
 
 use glidepath_geometry::Axis;
 
-use crate::diagnostic::code::DiagnosticCode;
-use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
-use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::codes::{Coded, Codes};
-use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::expression::scope::{Parameter, Scope};
-use crate::syntax::expression::value::{open_expression, parameter, value};
+use crate::syntax::expression::scope::Parameter;
 use crate::syntax::letters::{AXIS_LETTERS, AXIS_WORDS, Letters, Slot, WordValues};
 use crate::syntax::modes::Motion;
 use crate::syntax::plain_line::{WordSink, read_plain};
@@ -42,7 +37,7 @@ pub(crate) struct Block {
     spans: [SourceSpan; 26],
     /// Nothing but what [`Block::parse_plain`] reads was put into it since it was cleared: its
     /// codes have a motion at most.
-    is_plain: bool,
+    pub(super) is_plain: bool,
     /// `@` and `^`.
     pub(crate) polar: [Option<PolarWord>; 2],
     /// Parameters to assign after the block, in order.
@@ -52,7 +47,7 @@ pub(crate) struct Block {
     /// What the last comment in parentheses says.
     pub(crate) comment: Vec<u8>,
     /// M codes that the machine's builder declared.
-    declared: Arc<MCodes>,
+    pub(super) declared: Arc<MCodes>,
 }
 
 /// A polar word: distance or angle.
@@ -179,158 +174,6 @@ impl Block {
         self.clear();
         read_plain(text, self)
     }
-
-    /// Fills the block from the text of a line.
-    pub(crate) fn parse(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
-        if self.parse_plain(text) == Some(text.len()) {
-            return Ok(());
-        }
-        self.parse_any(text, scope)
-    }
-
-    /// Fills the block from the text of a line that is not plain, or not known to be.
-    pub(crate) fn parse_any(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
-        self.clear();
-        self.is_plain = false;
-        let mut cursor = Cursor::new(text);
-        match cursor.next_visible() {
-            Some(b'%') => return self.percent(cursor),
-            Some(b'/') => cursor.advance(),
-            _ => {}
-        }
-        let mut start_of_block = true;
-        while let Some(byte) = cursor.next_visible() {
-            match byte {
-                b'(' => {
-                    let start = cursor.at() + 1;
-                    cursor.skip_comment()?;
-                    let said = text.get(start..cursor.at() - 1);
-                    self.comment.clear();
-                    self.comment.extend_from_slice(said.unwrap_or_default());
-                }
-                b';' => break,
-                b'A'..=b'Z' | b'a'..=b'z' => {
-                    let letter = byte.to_ascii_uppercase();
-                    self.word(&mut cursor, letter, start_of_block, scope)?;
-                    start_of_block = false;
-                    if self.codes.function.is_some() {
-                        // The rest of the line belongs to the function.
-                        break;
-                    }
-                }
-                b'@' | b'^' => {
-                    self.polar_word(&mut cursor, usize::from(byte == b'^'), scope)?;
-                    start_of_block = false;
-                }
-                b'#' => {
-                    self.assignment(&mut cursor, scope)?;
-                    start_of_block = false;
-                }
-                _ => return Err(odd_character(text, cursor.at(), byte)),
-            }
-        }
-        Ok(())
-    }
-
-    fn percent(&mut self, mut cursor: Cursor<'_>) -> Outcome<()> {
-        self.kind = LineKind::Percent;
-        cursor.advance();
-        match cursor.next_visible() {
-            None => Ok(()),
-            Some(_) => {
-                let span = SourceSpan::new(cursor.at(), cursor.at() + 1);
-                Err(Fault::new(
-                    DiagnosticCode::StrayPercent,
-                    span,
-                    "text behind a percent sign",
-                )
-                .because("a percent sign by itself marks the start or the end of the program")
-                .help("give the percent sign a line of its own"))
-            }
-        }
-    }
-
-    fn assignment(&mut self, cursor: &mut Cursor<'_>, scope: &dyn Scope) -> Outcome<()> {
-        let start = cursor.at();
-        let parameter = parameter(cursor, scope)?;
-        let span = SourceSpan::new(start, cursor.end_of_word());
-        if cursor.next_visible() != Some(b'=') {
-            return Err(Fault::new(
-                DiagnosticCode::Expression,
-                span,
-                "a parameter that nothing uses",
-            )
-            .because("a parameter stands behind a letter, or before `=`")
-            .help("write the letter of the word in front, or assign a value"));
-        }
-        cursor.advance();
-        let value = match self.dialect {
-            Dialect::Fanuc => open_expression(cursor, scope)?,
-            _ => value(cursor, start, scope)?,
-        };
-        self.any = true;
-        self.assignments.push(Assignment {
-            parameter,
-            value,
-            span,
-        });
-        Ok(())
-    }
-
-    fn polar_word(
-        &mut self,
-        cursor: &mut Cursor<'_>,
-        which: usize,
-        scope: &dyn Scope,
-    ) -> Outcome<()> {
-        let start = cursor.at();
-        cursor.advance();
-        let value = value(cursor, start, scope)?;
-        let span = SourceSpan::new(start, cursor.end_of_word());
-        if self.polar[which].is_some() {
-            return Err(duplicate(if which == 0 { '@' } else { '^' }, span));
-        }
-        self.any = true;
-        self.polar[which] = Some(PolarWord { value, span });
-        Ok(())
-    }
-
-    fn word(
-        &mut self,
-        cursor: &mut Cursor<'_>,
-        letter: u8,
-        first: bool,
-        scope: &dyn Scope,
-    ) -> Outcome<()> {
-        let start = cursor.at();
-        cursor.advance();
-        match letter {
-            b'N' => return block_number(cursor, start, first),
-            b'O' => {
-                return Err(Fault::new(
-                    DiagnosticCode::FlowStructure,
-                    SourceSpan::new(start, start + 1),
-                    "an O word inside a block",
-                )
-                .because("an O word has a line of its own")
-                .help("put it into a line of its own"));
-            }
-            _ => {}
-        }
-        let value = value(cursor, start, scope)?;
-        let span = SourceSpan::new(start, cursor.end_of_word());
-        self.any = true;
-        match letter {
-            b'G' => self.codes.add_g(value, span),
-            b'M' if self.dialect == Dialect::Marlin => {
-                self.codes.add_printer_m(value, span, &self.declared)
-            }
-            b'M' => self.codes.add_m(value, span, &self.declared),
-            _ => self
-                .add_value(Slot::of(letter), value, span)
-                .ok_or_else(|| duplicate(char::from(letter), span)),
-        }
-    }
 }
 
 impl WordSink for Block {
@@ -353,61 +196,5 @@ impl WordSink for Block {
         self.any = true;
         self.spans[slot.index()] = span;
         Some(())
-    }
-}
-
-#[cold]
-fn duplicate(letter: char, span: SourceSpan) -> Box<Fault> {
-    Fault::new(
-        DiagnosticCode::DuplicateWord,
-        span,
-        format!("a second {letter} in the block"),
-    )
-    .because("a block has each word once")
-    .help("remove one of them, or write two blocks")
-}
-
-fn block_number(cursor: &mut Cursor<'_>, start: usize, first: bool) -> Outcome<()> {
-    let value = cursor.number(start)?;
-    let span = SourceSpan::new(start, cursor.end_of_word());
-    if !first {
-        let message = "a block number that is not at the start of the line";
-        return Err(
-            Fault::new(DiagnosticCode::MisplacedBlockNumber, span, message)
-                .because("N numbers the block it starts")
-                .help("put it first, or remove it"),
-        );
-    }
-    if value < 0.0 || value.fract() > 0.0 {
-        return Err(Fault::new(
-            DiagnosticCode::NotAnInteger,
-            span,
-            "the block number is not a whole number",
-        ));
-    }
-    Ok(())
-}
-
-#[cold]
-fn odd_character(text: &[u8], at: usize, byte: u8) -> Box<Fault> {
-    let span = SourceSpan::new(at, at + 1);
-    match byte {
-        b')' => Fault::new(DiagnosticCode::BadCharacter, span, "`)` closes no comment")
-            .because("no comment is open here")
-            .help("remove it"),
-        b'/' => Fault::new(DiagnosticCode::BadCharacter, span, "`/` inside a block")
-            .because("block delete marks a whole line")
-            .help("move it to the start of the line"),
-        b'%' => Fault::new(
-            DiagnosticCode::StrayPercent,
-            span,
-            "a percent sign inside a line",
-        )
-        .because("a percent sign by itself marks the start or the end of the program")
-        .help("give the percent sign a line of its own"),
-        b'$' => Fault::new(DiagnosticCode::NotSupported, span, "`$` (spindle number)")
-            .because("there is one spindle; commands of a controller are no part of a program")
-            .help("remove it"),
-        _ => bad_byte(text, at),
     }
 }

@@ -14,7 +14,7 @@ use crate::syntax::modes::{
     CannedCycle, CutterRadius, Distance, FeedMode, LatheCycle, Motion, NonModal, Pockets, Probe,
     Retract, Side, SpindleMode, Spline, Stop, ToolLength, Units,
 };
-use crate::syntax::refused::{refused_g, refused_m, unknown_g, unknown_m};
+use crate::syntax::refused::{home_offset, refused_g, refused_m, unknown_g, unknown_m};
 
 /// A code and where it stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -175,6 +175,7 @@ impl Codes {
         match code_number(value) {
             Some(number @ (82 | 83)) => set(&mut self.extruder, number == 83, span),
             Some(number) if is_function(number) => set(&mut self.function, number, span),
+            Some(206) => Err(home_offset(span)),
             _ => self.add_m(value, span, declared),
         }
     }

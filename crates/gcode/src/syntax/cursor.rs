@@ -44,6 +44,11 @@ impl<'a> Cursor<'a> {
         self.text.get(self.at).copied()
     }
 
+    /// All that comes next.
+    pub(crate) fn rest(&self) -> &'a [u8] {
+        self.text.get(self.at..).unwrap_or_default()
+    }
+
     /// Goes to a byte offset.
     pub(crate) const fn seek(&mut self, at: usize) {
         self.at = at;

@@ -14,6 +14,7 @@
 
 pub(crate) mod bad_byte;
 pub(crate) mod block;
+mod block_reader;
 pub(crate) mod codes;
 pub(crate) mod cursor;
 pub(crate) mod dialect;

@@ -79,6 +79,7 @@ impl Interpreter {
                 .because("the plane of the contour would be no plane of the machine")
                 .help("set the rotation to zero (G10 L2 R0)"));
         }
+        self.state.contour_side = side;
         let image = self.offsets.plane(plane);
         let Some(image) = image.filter(|image| image.plane == plane) else {
             let message = "cutter radius compensation in a frame that tilts its plane";

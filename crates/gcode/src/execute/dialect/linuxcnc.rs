@@ -111,6 +111,7 @@ impl<R: BufRead> Program<R> {
     /// Executes the line at the present place as a block.
     fn execute_block(&mut self) -> Outcome<bool> {
         let number = self.line_of_program();
+        self.interpreter.line = number;
         let scope = ProgramScope {
             parameters: &self.parameters,
             interpreter: &self.interpreter,

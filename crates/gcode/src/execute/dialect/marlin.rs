@@ -11,12 +11,13 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::line_origin::LineOrigin;
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
+use crate::setup::options::Connections;
 use crate::syntax::block::Block;
-use crate::syntax::dialect::marlin::verified;
+use crate::syntax::dialect::marlin::{shows_text, verified};
 
-/// True for an M code whose line goes on with text to show.
-const fn shows_text(number: u32) -> bool {
-    matches!(number, 117 | 118)
+/// True for an M code behind which a printer goes on only when something is as hot as it should be.
+const fn waits(number: u32) -> bool {
+    matches!(number, 109 | 190 | 191)
 }
 
 impl<R: BufRead> Program<R> {
@@ -62,8 +63,46 @@ impl Interpreter {
             self.push(out, ItemKind::Event(Event::MCode(number)));
             return Ok(());
         }
-        self.require_connection(span, "heater, fan or printer setting")?;
+        check_factors(block, number)?;
+        let simulated = self.options.connections == Connections::Simulated;
+        if waits(number) && !simulated && !self.options.m_codes.contains(number) {
+            let message =
+                format!("M{number} waits for a temperature, and nothing says when it is reached");
+            return Err(Fault::new(DiagnosticCode::NotConnected, span, message)
+                .because("going on with a cold nozzle or bed could break the extruder")
+                .help(format!(
+                    "say what it waits for: a table [m_codes.M{number}] in the configuration"
+                )));
+        }
+        if self.options.extruder.is_none() {
+            self.require_connection(span, "heater, fan or printer setting")?;
+        }
         self.push(out, ItemKind::Event(Event::MCode(number)));
         Ok(())
     }
+}
+
+/// Refuses a code that would make other moves of the program's, if its words say so.
+fn check_factors(block: &Block, number: u32) -> Outcome<()> {
+    let (letter, none, what) = match number {
+        200 => (b'D', 0.0, "E words that are volumes"),
+        220 => (b'S', 100.0, "a factor of all feedrates"),
+        221 => (b'S', 100.0, "a factor of all E words"),
+        _ => return Ok(()),
+    };
+    let Some(value) = block
+        .get(letter)
+        .filter(|value| (value - none).abs() > 1e-9)
+    else {
+        return Ok(());
+    };
+    let name = char::from(letter);
+    let message = format!("M{number} {name}{value} ({what}) is not supported");
+    Err(
+        Fault::new(DiagnosticCode::NotSupported, block.span(letter), message)
+            .because("going on without it would make other moves than the program's")
+            .help(format!(
+                "write {name}{none}, or let the slicer compute it in"
+            )),
+    )
 }

@@ -7,6 +7,7 @@ use crate::execute::state::modal::Modal;
 use crate::execute::state::probe_result::ProbeResult;
 use crate::execute::state::spindle::Spindle;
 use crate::execute::state::sticky_words::CycleSeries;
+use crate::syntax::modes::Side;
 
 /// The part of the state a block may change, offsets apart.
 #[derive(Debug, Clone, Copy)]
@@ -34,6 +35,8 @@ pub(crate) struct State {
     pub(crate) extruder_relative: bool,
     /// G41 or G42 is in force, be it with a radius of zero.
     pub(crate) on_contour: bool,
+    /// Which of the two, the last time.
+    pub(crate) contour_side: Side,
     /// Cutter radius compensation was turned off and no move has been made since.
     pub(crate) leaving_contour: bool,
     /// The way from the end of the last move to the control point that continues it smoothly, mm;

@@ -51,11 +51,24 @@ pub(crate) fn verified(text: &[u8]) -> Outcome<&[u8]> {
         .help("write the program again, or remove the checksum"))
 }
 
-/// M codes of printers; the rest of the line belongs to them.
-const FUNCTIONS: [u32; 37] = [
-    17, 18, 20, 21, 73, 84, 92, 104, 105, 106, 107, 108, 109, 110, 111, 115, 117, 118, 140, 141,
-    149, 150, 155, 190, 191, 201, 203, 204, 205, 206, 220, 221, 280, 300, 400, 500, 900,
+/// M codes of printers; the rest of the line belongs to them. None of them moves an axis or gives
+/// places other names.
+const FUNCTIONS: [u32; 71] = [
+    17, 18, 20, 21, 22, 31, 42, 73, 75, 76, 77, 78, 80, 81, 84, 85, 92, 104, 105, 106, 107, 108,
+    109, 110, 111, 113, 114, 115, 117, 118, 119, 140, 141, 145, 149, 150, 155, 190, 191, 200, 201,
+    203, 204, 205, 220, 221, 250, 280, 300, 301, 302, 304, 305, 350, 355, 400, 412, 413, 486, 500,
+    501, 502, 503, 504, 569, 572, 593, 900, 906, 907, 914,
 ];
+
+/// True for an M code whose line goes on with text to show.
+pub(crate) const fn shows_text(number: u32) -> bool {
+    matches!(number, 117 | 118)
+}
+
+/// True for an M code whose words say whether it changes the motion: M200, M220, M221.
+pub(crate) const fn reads_words(number: u32) -> bool {
+    matches!(number, 200 | 220 | 221)
+}
 
 /// True for an M code that is a function of the machine.
 pub(crate) fn is_function(number: u32) -> bool {

@@ -30,7 +30,7 @@ pub(crate) mod siemens;
 /// | lathe cycles along a profile | `G70` … `G72.2`, in subroutine `Q` | – | refused | refused |
 /// | repetitions of a cycle | `L` | – | `K`, `L` | – |
 /// | look-ahead on, off | – | – | `G05.1 Q`, `G05 P`, `G08 P`: always on | `FFWON`, `SOFT`, `COMPCAD` …: always on |
-/// | machine functions (heaters, fans) | – | refused, or events where simulated | – | – |
+/// | machine functions (heaters, fans) | – | events where there is an extruder or a simulation | – | – |
 ///
 /// Programs of grbl are LinuxCNC's; its `$` commands are no part of a program. Everything else a
 /// dialect has is refused with the word.

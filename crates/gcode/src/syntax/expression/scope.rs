@@ -29,6 +29,6 @@ pub(crate) fn no_parameter(span: SourceSpan, number: f64) -> Box<Fault> {
         span,
         format!("there is no parameter #{number}"),
     )
-    .because("parameters have the whole numbers from 1 to 5602")
+    .because("parameters have the whole numbers from 1 to 5601")
     .help("use a number from 1 to 5000, or a name: #<name>")
 }

@@ -1,0 +1,280 @@
+//! Reads the text of a line into a block, word by word.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::syntax::bad_byte::bad_byte;
+use crate::syntax::block::{Assignment, Block, LineKind, PolarWord};
+use crate::syntax::cursor::Cursor;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::marlin::{reads_words, shows_text};
+use crate::syntax::expression::scope::Scope;
+use crate::syntax::expression::value::{open_expression, parameter, value};
+use crate::syntax::letters::{Letters, Slot};
+use crate::syntax::plain_line::WordSink;
+
+impl Block {
+    /// Fills the block from the text of a line.
+    pub(crate) fn parse(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
+        if self.parse_plain(text) == Some(text.len()) {
+            return Ok(());
+        }
+        self.parse_any(text, scope)
+    }
+
+    /// Fills the block from the text of a line that is not plain, or not known to be.
+    pub(crate) fn parse_any(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
+        self.clear();
+        self.is_plain = false;
+        let mut cursor = Cursor::new(text);
+        match cursor.next_visible() {
+            Some(b'%') => return self.percent(cursor),
+            Some(b'/') => cursor.advance(),
+            _ => {}
+        }
+        let (mut start_of_block, mut spindle) = (true, None);
+        while let Some(byte) = cursor.next_visible() {
+            match byte {
+                b'(' => {
+                    let start = cursor.at() + 1;
+                    cursor.skip_comment()?;
+                    let said = text.get(start..cursor.at() - 1);
+                    self.comment.clear();
+                    self.comment.extend_from_slice(said.unwrap_or_default());
+                }
+                b';' => break,
+                b'A'..=b'Z' | b'a'..=b'z' => {
+                    let letter = byte.to_ascii_uppercase();
+                    self.word(&mut cursor, letter, start_of_block, scope)?;
+                    start_of_block = false;
+                    match self.codes.function.map(|function| function.code) {
+                        Some(number) if reads_words(number) => {}
+                        Some(number) => {
+                            // The rest of the line belongs to the function.
+                            if shows_text(number) {
+                                self.says(cursor);
+                            }
+                            break;
+                        }
+                        None => {}
+                    }
+                }
+                b'@' | b'^' => {
+                    self.polar_word(&mut cursor, usize::from(byte == b'^'), scope)?;
+                    start_of_block = false;
+                }
+                b'#' => {
+                    self.assignment(&mut cursor, scope)?;
+                    start_of_block = false;
+                }
+                b'$' if self.dialect == Dialect::LinuxCnc => {
+                    spindle = Some(self.spindle_number(&mut cursor, scope)?);
+                    start_of_block = false;
+                }
+                _ => return Err(odd_character(text, cursor.at(), byte)),
+            }
+        }
+        match spindle {
+            Some(span) if !self.tells_spindle() => Err(unused_spindle(span)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Keeps the text of a printer's message as one for people.
+    fn says(&mut self, cursor: Cursor<'_>) {
+        let text = cursor.rest();
+        let end = text.iter().position(|byte| *byte == b';');
+        self.comment.clear();
+        self.comment.extend_from_slice(b"MSG,");
+        self.comment
+            .extend_from_slice(text.get(..end.unwrap_or(text.len())).unwrap_or_default());
+    }
+
+    /// True if the block has a word that tells the spindle something.
+    const fn tells_spindle(&self) -> bool {
+        let codes = &self.codes;
+        codes.spindle.is_some()
+            || codes.spindle_mode.is_some()
+            || codes.orient.is_some()
+            || self.has_any(Letters::of(b"S"))
+    }
+
+    /// `$0`, the one spindle there is, or `$-1`, all of them.
+    fn spindle_number(&self, cursor: &mut Cursor<'_>, scope: &dyn Scope) -> Outcome<SourceSpan> {
+        let start = cursor.at();
+        cursor.advance();
+        let number = value(cursor, start, scope)?;
+        let span = SourceSpan::new(start, cursor.end_of_word());
+        if number.abs() <= 0.0 || (number + 1.0).abs() <= 0.0 {
+            return Ok(span);
+        }
+        let message = format!("there is no spindle {number}");
+        Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+            .because("the machine has one spindle, number 0")
+            .help("remove the word, or write $0"))
+    }
+
+    fn percent(&mut self, mut cursor: Cursor<'_>) -> Outcome<()> {
+        self.kind = LineKind::Percent;
+        cursor.advance();
+        match cursor.next_visible() {
+            None => Ok(()),
+            Some(_) => {
+                let span = SourceSpan::new(cursor.at(), cursor.at() + 1);
+                Err(Fault::new(
+                    DiagnosticCode::StrayPercent,
+                    span,
+                    "text behind a percent sign",
+                )
+                .because("a percent sign by itself marks the start or the end of the program")
+                .help("give the percent sign a line of its own"))
+            }
+        }
+    }
+
+    fn assignment(&mut self, cursor: &mut Cursor<'_>, scope: &dyn Scope) -> Outcome<()> {
+        let start = cursor.at();
+        let parameter = parameter(cursor, scope)?;
+        let span = SourceSpan::new(start, cursor.end_of_word());
+        if cursor.next_visible() != Some(b'=') {
+            return Err(Fault::new(
+                DiagnosticCode::Expression,
+                span,
+                "a parameter that nothing uses",
+            )
+            .because("a parameter stands behind a letter, or before `=`")
+            .help("write the letter of the word in front, or assign a value"));
+        }
+        cursor.advance();
+        let value = match self.dialect {
+            Dialect::Fanuc => open_expression(cursor, scope)?,
+            _ => value(cursor, start, scope)?,
+        };
+        self.any = true;
+        self.assignments.push(Assignment {
+            parameter,
+            value,
+            span,
+        });
+        Ok(())
+    }
+
+    fn polar_word(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        which: usize,
+        scope: &dyn Scope,
+    ) -> Outcome<()> {
+        let start = cursor.at();
+        cursor.advance();
+        let value = value(cursor, start, scope)?;
+        let span = SourceSpan::new(start, cursor.end_of_word());
+        if self.polar[which].is_some() {
+            return Err(duplicate(if which == 0 { '@' } else { '^' }, span));
+        }
+        self.any = true;
+        self.polar[which] = Some(PolarWord { value, span });
+        Ok(())
+    }
+
+    fn word(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        letter: u8,
+        first: bool,
+        scope: &dyn Scope,
+    ) -> Outcome<()> {
+        let start = cursor.at();
+        cursor.advance();
+        match letter {
+            b'N' => return block_number(cursor, start, first),
+            b'O' => {
+                return Err(Fault::new(
+                    DiagnosticCode::FlowStructure,
+                    SourceSpan::new(start, start + 1),
+                    "an O word inside a block",
+                )
+                .because("an O word has a line of its own")
+                .help("put it into a line of its own"));
+            }
+            _ => {}
+        }
+        let value = value(cursor, start, scope)?;
+        let span = SourceSpan::new(start, cursor.end_of_word());
+        self.any = true;
+        match letter {
+            b'G' => self.codes.add_g(value, span),
+            b'M' if self.dialect == Dialect::Marlin => {
+                self.codes.add_printer_m(value, span, &self.declared)
+            }
+            b'M' => self.codes.add_m(value, span, &self.declared),
+            _ => self
+                .add_value(Slot::of(letter), value, span)
+                .ok_or_else(|| duplicate(char::from(letter), span)),
+        }
+    }
+}
+
+#[cold]
+fn unused_spindle(span: SourceSpan) -> Box<Fault> {
+    let message = "nothing in the block uses the spindle's number";
+    Fault::new(DiagnosticCode::UnusedWord, span, message)
+        .because("it belongs to S, M3, M4, M5, M19, G96 and G97")
+        .help("remove it, or add the code it belongs to")
+}
+
+#[cold]
+fn duplicate(letter: char, span: SourceSpan) -> Box<Fault> {
+    Fault::new(
+        DiagnosticCode::DuplicateWord,
+        span,
+        format!("a second {letter} in the block"),
+    )
+    .because("a block has each word once")
+    .help("remove one of them, or write two blocks")
+}
+
+fn block_number(cursor: &mut Cursor<'_>, start: usize, first: bool) -> Outcome<()> {
+    let value = cursor.number(start)?;
+    let span = SourceSpan::new(start, cursor.end_of_word());
+    if !first {
+        let message = "a block number that is not at the start of the line";
+        return Err(
+            Fault::new(DiagnosticCode::MisplacedBlockNumber, span, message)
+                .because("N numbers the block it starts")
+                .help("put it first, or remove it"),
+        );
+    }
+    // LinuxCNC takes parts of numbers, too: blocks that were put in between.
+    if value < 0.0 {
+        let message = "the block number is negative";
+        return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
+            .because("N numbers the block it starts")
+            .help("write a number of zero or more, or remove it"));
+    }
+    Ok(())
+}
+
+#[cold]
+fn odd_character(text: &[u8], at: usize, byte: u8) -> Box<Fault> {
+    let span = SourceSpan::new(at, at + 1);
+    match byte {
+        b')' => Fault::new(DiagnosticCode::BadCharacter, span, "`)` closes no comment")
+            .because("no comment is open here")
+            .help("remove it"),
+        b'/' => Fault::new(DiagnosticCode::BadCharacter, span, "`/` inside a block")
+            .because("block delete marks a whole line")
+            .help("move it to the start of the line"),
+        b'%' => Fault::new(
+            DiagnosticCode::StrayPercent,
+            span,
+            "a percent sign inside a line",
+        )
+        .because("a percent sign by itself marks the start or the end of the program")
+        .help("give the percent sign a line of its own"),
+        b'$' => Fault::new(DiagnosticCode::NotSupported, span, "`$` (spindle number)")
+            .because("there is one spindle; commands of a controller are no part of a program")
+            .help("remove it"),
+        _ => bad_byte(text, at),
+    }
+}
