@@ -124,6 +124,11 @@ impl StopRequests {
         self.hold = true;
     }
 
+    /// The epoch is to end.
+    pub(crate) const fn abort(&mut self) {
+        self.abort = true;
+    }
+
     /// Latches a fault. The first one stays: the others follow from it.
     pub(crate) const fn fail(&mut self, fault: Fault) {
         if self.fault.is_none() {
@@ -166,10 +171,10 @@ impl StopRequests {
     }
 
     /// An epoch begins or ends: only a latched fault, the overrides and the single-block mode
-    /// outlive it.
-    pub(crate) const fn forget_epoch(&mut self) {
+    /// outlive it, and a hold if the program goes on.
+    pub(crate) const fn forget_epoch(&mut self, goes_on: bool) {
         self.abort = false;
-        self.hold = false;
+        self.hold = self.hold && goes_on;
         self.program_stop = false;
         self.block_end = false;
         self.stop_at_block_end = false;

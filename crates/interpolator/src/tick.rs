@@ -105,6 +105,7 @@ impl Interpolator<'_> {
             _ if self.moves_by_hand() && self.requests.is_stopping() => MachineState::Stopping,
             _ if self.jog.is_active() => MachineState::Jogging,
             _ if self.mover.is_active() => MachineState::Homing,
+            MachineState::Idle if self.probing.goes_on() => MachineState::Waiting,
             MachineState::Idle => self.drives.state_at_rest(),
             MachineState::Running | MachineState::Waiting | MachineState::Starved
                 if self.wait.awaited().is_some() =>

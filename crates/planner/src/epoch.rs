@@ -65,6 +65,8 @@ pub(crate) struct Epoch {
     /// The life of the interpolator that executes it.
     pub(crate) boot_id: u64,
     pub(crate) number: u64,
+    /// The program goes on in it, behind another.
+    pub(crate) goes_on: bool,
     /// Planned, but not yet in the interpolator's queue.
     pub(crate) in_hand: Option<SetpointFrame>,
     /// The frame delivered last.
@@ -85,6 +87,7 @@ impl Epoch {
         Self {
             boot_id,
             number,
+            goes_on: false,
             in_hand: None,
             last: None,
             ended: None,

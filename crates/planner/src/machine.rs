@@ -128,7 +128,7 @@ impl Machine {
         &self,
         boot_id: u64,
         epoch: u64,
-        started: bool,
+        (started, goes_on): (bool, bool),
     ) -> Result<Standing, RunError> {
         let status = self.status().ok_or(RunError::InterpolatorLost)?;
         if status.boot_id != boot_id {
@@ -141,7 +141,9 @@ impl Machine {
         }
         if status.epoch != epoch {
             // Another epoch in the middle of ours means that somebody ended ours and started again.
-            return if started {
+            // So does an abort of the epoch before, behind which the program was to go on.
+            let is_ended = end == EndOfEpoch::Aborted && goes_on;
+            return if started || is_ended {
                 Err(RunError::Aborted)
             } else {
                 Ok(Standing::NotStarted)

@@ -32,7 +32,8 @@ use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Auxiliary, Command, Delivery, FrameSink, LinkError, Record as _, SetpointFrame, Transport,
+    Auxiliary, Command, Delivery, FrameSink, LinkError, MachineState, Record as _, SetpointFrame,
+    Transport,
 };
 use glidepath_program::Override;
 
@@ -208,12 +209,15 @@ impl<'t> Publisher<'t> {
         attend: &mut dyn FnMut(Duration),
         control: &mut Control<'_>,
     ) -> Result<Statistics, RunError> {
+        let mut goes_on = false;
         loop {
-            let is_tripped = self.publish_epoch(pipeline, attend, control)?;
+            let epoch = self.next_epoch(goes_on)?;
+            let is_tripped = self.publish_epoch(epoch, pipeline, attend, control)?;
+            goes_on = true;
             if !pipeline.comes_to_probe(is_tripped) {
                 return Ok(pipeline.statistics());
             }
-            let stands = self.wait_until_ready(control)?;
+            let stands = self.stand_behind_probe(control)?;
             let probed = self.machine.probed(stands)?;
             pipeline.go_on_from(stands, self.machine.path_s());
             if let Some(inputs) = &self.inputs {
@@ -222,14 +226,35 @@ impl<'t> Publisher<'t> {
         }
     }
 
+    /// Where the machine stands behind a probing move, and waits for the rest of the program.
+    fn stand_behind_probe(&mut self, control: &mut Control<'_>) -> Result<AxisVector, RunError> {
+        loop {
+            if control.is_stopped() {
+                // If the interpolator cannot be told, it waits until somebody else does.
+                let _told = self.machine.command(Command::Abort, control);
+                return Err(RunError::Interrupted);
+            }
+            self.machine.observe()?;
+            let status = self.machine.status().ok_or(RunError::InterpolatorLost)?;
+            match status.state().map_err(LinkError::from)? {
+                MachineState::Waiting => return Ok(AxisVector::from(status.position)),
+                MachineState::Faulted => return Err(RunError::fault(status)),
+                MachineState::Idle | MachineState::Off | MachineState::NotHomed => {
+                    return Err(RunError::Aborted);
+                }
+                _ => self.machine.pause(POLL, control),
+            }
+        }
+    }
+
     /// Returns whether the probe ended it.
     fn publish_epoch<S: ItemSource + Send>(
         &mut self,
+        epoch: Epoch,
         pipeline: &mut Pipeline<S>,
         attend: &mut dyn FnMut(Duration),
         control: &mut Control<'_>,
     ) -> Result<bool, RunError> {
-        let epoch = self.next_epoch()?;
         let wanted = self.machine.wanted_override().unwrap_or(Override::NONE);
         pipeline.follow_override(wanted);
         let program = pipeline.fingerprint();
@@ -300,10 +325,12 @@ impl<'t> Publisher<'t> {
         }
     }
 
-    fn next_epoch(&self) -> Result<Epoch, RunError> {
+    fn next_epoch(&self, goes_on: bool) -> Result<Epoch, RunError> {
         let status = self.machine.status().ok_or(RunError::InterpolatorLost)?;
         let number = status.epoch.saturating_add(1);
-        Ok(Epoch::new(status.boot_id, number, self.pace.horizon_frames))
+        let mut epoch = Epoch::new(status.boot_id, number, self.pace.horizon_frames);
+        epoch.goes_on = goes_on;
+        Ok(epoch)
     }
 
     /// Offers frames until there is nothing to do or it is time to look around.
@@ -358,8 +385,11 @@ impl<'t> Publisher<'t> {
     }
 
     fn standing(&self, epoch: &Epoch) -> Result<Standing, RunError> {
-        self.machine
-            .standing(epoch.boot_id, epoch.number, epoch.is_known())
+        self.machine.standing(
+            epoch.boot_id,
+            epoch.number,
+            (epoch.is_known(), epoch.goes_on),
+        )
     }
 
     fn report(&mut self, epoch: &Epoch, plan: &Plan<'_>, control: &mut Control<'_>) {

@@ -5,7 +5,6 @@ use crate::block_stop::BlockStop;
 use crate::fault::Fault;
 use crate::message::Inputs;
 use crate::output::Written;
-use crate::probing::Probing;
 use crate::program_time::ProgramTime;
 use crate::rate::{Situation, beside_full};
 use crate::rest::SAME_POSITION;
@@ -67,7 +66,11 @@ impl Interpolator<'_> {
         self.block_stop = BlockStop::none();
         self.supply.begin_epoch();
         self.wait.end();
-        self.requests.forget_epoch();
+        let is_held = self.probing.goes_on();
+        self.requests.forget_epoch(is_held);
+        if self.probing.open() {
+            self.requests.abort();
+        }
     }
 
     /// Looks whether there are frames enough, and stops for good if the planner is lost.
@@ -130,7 +133,7 @@ impl Interpolator<'_> {
 
     /// The rate that is wanted: the commanded override over the planned one, if nothing stops.
     fn goal(&self) -> f64 {
-        if self.supply.is_short() || self.probing == Probing::Tripped {
+        if self.supply.is_short() || self.probing.is_tripped() {
             return 0.0;
         }
         let planned_override = self.present().planned_override;
@@ -164,20 +167,21 @@ impl Interpolator<'_> {
             self.write_standing(setpoint);
         }
         if setpoint.event_kind == EventKind::Probe.code() {
-            self.probing = Probing::Looking;
+            self.probing.begin();
         }
     }
 
     /// Looks whether the contact was made that the motion is looking for.
     pub(super) fn look_for_contact(&mut self) {
-        if self.probing == Probing::Looking && self.drives.seen().contact_in == self.epoch {
-            self.probing = Probing::Tripped;
+        if self.probing.is_looking() && self.drives.seen().contact_in == self.epoch {
+            self.probing.find();
         }
     }
 
     /// What follows when program time stands: the end of the epoch, or a program stop.
     pub(super) fn end_epoch_or_wait(&mut self) {
         if !self.is_open() {
+            self.wait_behind_search();
             return;
         }
         let now = self.rate.now().time;
@@ -189,7 +193,7 @@ impl Interpolator<'_> {
             } else {
                 EndOfEpoch::Aborted
             });
-        } else if self.probing == Probing::Tripped && self.is_standing() {
+        } else if self.probing.is_tripped() && self.is_standing() {
             self.close(EndOfEpoch::Tripped);
         } else if present.has(FrameFlags::LAST) && self.is_standing() {
             self.close(EndOfEpoch::Completed);
@@ -201,5 +205,19 @@ impl Interpolator<'_> {
                 self.requests.stand_at_block_end();
             }
         }
+    }
+
+    /// What follows while a program is to go on behind a search.
+    fn wait_behind_search(&mut self) {
+        if self.probing.goes_on() && self.requests.is_stopping() {
+            self.end_of_epoch = if self.requests.fault().is_some() {
+                EndOfEpoch::Faulted
+            } else {
+                EndOfEpoch::Aborted
+            };
+            self.requests.forget_epoch(false);
+            self.probing.abort();
+        }
+        self.probing.wait();
     }
 }

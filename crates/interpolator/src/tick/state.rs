@@ -61,7 +61,7 @@ impl<'a> Interpolator<'a> {
             supply: Supply::new(config),
             block_stop: BlockStop::none(),
             wait: Wait::default(),
-            probing: Probing::No,
+            probing: Probing::default(),
             jog: Jog::new(config),
             mover: Mover::new(config),
             drives: Drives::new(config),
@@ -124,11 +124,11 @@ impl<'a> Interpolator<'a> {
         self.rate.rest_at(self.rate.now().time, 0.0);
         self.jog.forget_path();
         self.wait.end();
-        self.probing = Probing::No;
+        self.probing.close(end);
         self.output.rest();
         self.end_of_epoch = end;
         self.supply.end_epoch();
-        self.requests.forget_epoch();
+        self.requests.forget_epoch(self.probing.goes_on());
     }
 
     /// Writes the setpoint of a machine that stays where it is.

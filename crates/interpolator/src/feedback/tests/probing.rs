@@ -113,7 +113,7 @@ fn play(bench: &mut Bench, frames: Vec<SetpointFrame>) -> EndOfEpoch {
     bench.load_frames(frames);
     assert!(bench.run_to(MachineState::Running, 50));
     assert!(
-        bench.run_to(MachineState::Idle, most),
+        bench.run_to(MachineState::Waiting, most),
         "{:?}",
         bench.state()
     );
@@ -271,7 +271,7 @@ fn a_search_is_held_goes_on_and_is_aborted_like_any_motion() {
     assert!(bench.run_to(MachineState::Held, 100));
     bench.run(100);
     bench.command(Command::Resume).unwrap();
-    assert!(bench.run_to(MachineState::Idle, 900));
+    assert!(bench.run_to(MachineState::Waiting, 900));
     let status = bench.status();
     assert_eq!(status.end_of_epoch(), Ok(EndOfEpoch::Tripped));
     assert!((status.contact[2] - (START[2] - 4.0)).abs() < 5.0 * SAMPLE_T);
@@ -283,4 +283,64 @@ fn a_search_is_held_goes_on_and_is_aborted_like_any_motion() {
     assert!(bench.run_to(MachineState::Idle, 200));
     assert_eq!(bench.status().end_of_epoch(), Ok(EndOfEpoch::Aborted));
     assert!(bench.worst_ratio() < 1.0 + 1e-6);
+}
+
+/// A short way that looks for nothing.
+fn way(bench: &Bench) -> Vec<SetpointFrame> {
+    let frames = search(bench, AxisVector::x() * 3.0, 20.0, false);
+    let plain = |frame| SetpointFrame {
+        event_kind: 0,
+        ..frame
+    };
+    frames.into_iter().map(plain).collect()
+}
+
+/// A machine that waits behind a search.
+fn behind_a_search() -> Bench {
+    let mut bench = bench(0.0, |plant| plant.with_probe(2, START[2] - 1.0));
+    let frames = search(&bench, AxisVector::z() * -2.0, 5.0, false);
+    assert_eq!(play(&mut bench, frames), EndOfEpoch::Tripped);
+    bench
+}
+
+#[test]
+fn a_hold_behind_a_search_is_in_force_when_the_program_goes_on() {
+    let mut bench = behind_a_search();
+    bench.command(Command::Hold).unwrap();
+    let stands = bench.last().position;
+    let frames = way(&bench);
+    bench.load_frames(frames);
+    assert!(bench.run_to(MachineState::Held, 50), "{:?}", bench.state());
+    bench.run(100);
+    assert_eq!(bench.last().position, stands);
+    bench.command(Command::Resume).unwrap();
+    assert!(bench.run_to(MachineState::Idle, 900));
+    assert_eq!(bench.status().end_of_epoch(), Ok(EndOfEpoch::Completed));
+    assert!(bench.worst_ratio() < 1.0 + 1e-6);
+}
+
+#[test]
+fn an_abort_behind_a_search_ends_the_program_and_what_is_under_way() {
+    let mut bench = behind_a_search();
+    let homing = bench.command(Command::Home(1));
+    bench.run(5);
+    assert_eq!(bench.state(), MachineState::Waiting, "{homing:?}");
+    bench.command(Command::Abort).unwrap();
+    assert!(bench.run_to(MachineState::Idle, 5));
+    assert_eq!(bench.status().end_of_epoch(), Ok(EndOfEpoch::Aborted));
+    let stands = bench.last().position;
+    let frames = way(&bench);
+    bench.load_frames(frames);
+    bench.run(60);
+    assert_eq!(
+        (bench.state(), bench.last().position),
+        (MachineState::Idle, stands)
+    );
+    assert_eq!(bench.status().end_of_epoch(), Ok(EndOfEpoch::Aborted));
+    // Whoever begins anew may.
+    bench.run(200);
+    let frames = way(&bench);
+    bench.load_frames(frames);
+    assert!(bench.run_to(MachineState::Running, 50) && bench.run_to(MachineState::Idle, 900));
+    assert_eq!(bench.status().end_of_epoch(), Ok(EndOfEpoch::Completed));
 }
