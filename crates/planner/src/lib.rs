@@ -68,6 +68,7 @@ mod changes;
 mod control;
 mod curve;
 mod epoch;
+mod epochs;
 mod error;
 mod feed;
 mod file;

@@ -7,6 +7,7 @@
 mod key;
 mod mechanisms;
 mod probing;
+mod programs;
 mod tables;
 
 pub use key::{Key, LeftOut, Takes};
@@ -23,11 +24,11 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         tables::JOG,
         tables::FEEDBACK,
         probing::PROBE,
-        tables::LINK,
-        tables::PROGRAM,
-        tables::M_CODES,
-        tables::PREVIEW,
-        tables::STATE,
+        programs::LINK,
+        programs::PROGRAM,
+        programs::M_CODES,
+        programs::PREVIEW,
+        programs::STATE,
     ];
     tables
         .into_iter()

@@ -1,4 +1,4 @@
-//! The keys of all tables but those of the mechanisms.
+//! The keys of the tables about the machine and what moves it.
 
 use super::key::{Key, LeftOut, Takes, key, number};
 
@@ -407,102 +407,5 @@ pub(super) const FEEDBACK: &[Key] = &[
         number(1e-3, 10.0, "s"),
         LeftOut::Value("0.1"),
         "feedback that is older than this takes the power from the drives",
-    ),
-];
-
-pub(super) const LINK: &[Key] = &[key(
-    "link.instance",
-    Takes::Text {
-        rule: "1 to 32 letters a-z, digits, `-` or `_`",
-    },
-    LeftOut::Means("\"default\"; `glidepath run` takes a name of its own"),
-    "names the shared memory of this machine",
-)];
-
-pub(super) const PROGRAM: &[Key] = &[
-    key(
-        "program.dialect",
-        Takes::Choice {
-            of: &["auto", "linuxcnc", "marlin", "fanuc", "siemens"],
-        },
-        LeftOut::Value("\"auto\""),
-        "the language of programs; \"auto\": told by a program's beginning",
-    ),
-    key(
-        "program.tool_table",
-        Takes::Text {
-            rule: "a file, beside the configuration or with its full path",
-        },
-        LeftOut::Means("blocks that need a tool's length or diameter are refused"),
-        "lengths and diameters of the tools, in LinuxCNC's format",
-    ),
-    key(
-        "program.subroutine_path",
-        Takes::Texts {
-            rule: "a folder, beside the configuration or with its full path",
-        },
-        LeftOut::Value("[]"),
-        "folders of subroutines in files of their own, behind the folder of the program",
-    ),
-    key(
-        "program.inputs_outputs",
-        Takes::Choice {
-            of: &["none", "simulated", "feedback"],
-        },
-        LeftOut::Value("\"none\""),
-        "\"simulated\": M62 to M68, M19 and probing are accepted, and simulated; \"feedback\": M66 \
-         reads the inputs of feedback, outputs are those of the auxiliary record, and the probe is \
-         that of [probe]",
-    ),
-    key(
-        "program.extruder",
-        Takes::Choice {
-            of: &["none", "U", "V", "W"],
-        },
-        LeftOut::Value("\"none\""),
-        "the axis that E words of printers move",
-    ),
-];
-
-pub(super) const M_CODES: &[Key] = &[
-    key(
-        "m_codes.M6.done",
-        Takes::Text {
-            rule: "\"acknowledge\", \"spindle-at-speed\", \"spindle-stopped\", \
-                   \"spindle-oriented\", \"input 3 high\", \"input 3 low\" or \"nothing\"",
-        },
-        LeftOut::Means("\"acknowledge\""),
-        "the motion does not pass the code before this; a code or a range that programs do not \
-         have by themselves (M428, M100-M199) is declared by its table",
-    ),
-    key(
-        "m_codes.M6.timeout_s",
-        number(0.1, 86_400.0, "s"),
-        LeftOut::Means("it is waited for ever"),
-        "waiting for longer is a fault",
-    ),
-];
-
-pub(super) const STATE: &[Key] = &[key(
-    "state.directory",
-    Takes::Text {
-        rule: "a folder, beside the configuration or with its full path",
-    },
-    LeftOut::Means("nothing is kept: every program begins in G54 with all offsets zero"),
-    "folder of what is kept over a restart: work offsets, G28, G30, G92, what G10 made of tools",
-)];
-
-pub(super) const PREVIEW: &[Key] = &[
-    key(
-        "preview.growth",
-        number(1.01, 100.0, ""),
-        LeftOut::Value("2"),
-        "`preview --method advance-retreat`: factor of a step that went well",
-    ),
-    key(
-        "preview.max_growth",
-        number(1.0, 1e6, ""),
-        LeftOut::Value("8"),
-        "its longest step, in first steps; longer ones pass over regions",
     ),
 ];

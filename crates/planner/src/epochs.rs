@@ -1,0 +1,92 @@
+//! A program as epochs: one, and one more behind each probing move.
+//!
+//! ```text
+//!   ── items ──► probing move │ ── items ──► probing move │ ── items ──►
+//!      epoch 1          trips ▲    epoch 2          trips ▲    epoch 3
+//!                             └ where it stands, and what was found: the source goes on from there
+//! ```
+
+use std::time::Duration;
+
+use glidepath_geometry::AxisVector;
+use glidepath_link::{Command, LinkError, MachineState};
+
+use crate::machine::POLL;
+use crate::{Control, ItemSource, Pipeline, Publisher, RunError, Statistics};
+
+impl Publisher<'_> {
+    /// Publishes all frames of a pipeline that starts where [`Publisher::wait_until_ready`] said,
+    /// and waits until they are executed. They are planned in a thread of its own.
+    ///
+    /// # Errors
+    /// Why the motion ended before the end of the program. A refusal of the program comes when the
+    /// motion up to the last good item is executed.
+    pub fn publish<S: ItemSource + Send>(
+        &mut self,
+        pipeline: &mut Pipeline<S>,
+        control: &mut Control<'_>,
+    ) -> Result<Statistics, RunError> {
+        self.publish_and_attend(pipeline, &mut |_| {}, control)
+    }
+
+    /// As [`Publisher::publish`], for a source that has others to answer to: `attend` is called
+    /// every few milliseconds, with the time waited since the last call.
+    ///
+    /// # Errors
+    /// As [`Publisher::publish`].
+    pub fn publish_and_attend<S: ItemSource + Send>(
+        &mut self,
+        pipeline: &mut Pipeline<S>,
+        attend: &mut dyn FnMut(Duration),
+        control: &mut Control<'_>,
+    ) -> Result<Statistics, RunError> {
+        let published = self.publish_epochs(pipeline, attend, control);
+        self.remarks = None;
+        published
+    }
+
+    /// One epoch, and one more behind each probing move.
+    fn publish_epochs<S: ItemSource + Send>(
+        &mut self,
+        pipeline: &mut Pipeline<S>,
+        attend: &mut dyn FnMut(Duration),
+        control: &mut Control<'_>,
+    ) -> Result<Statistics, RunError> {
+        let mut goes_on = false;
+        loop {
+            let epoch = self.next_epoch(goes_on)?;
+            let is_tripped = self.publish_epoch(epoch, pipeline, attend, control)?;
+            goes_on = true;
+            if !pipeline.comes_to_probe(is_tripped) {
+                return Ok(pipeline.statistics());
+            }
+            let stands = self.stand_behind_probe(control)?;
+            let probed = self.machine.probed(stands)?;
+            pipeline.go_on_from(stands, self.machine.path_s());
+            if let Some(inputs) = &self.inputs {
+                inputs.answer_probe(probed);
+            }
+        }
+    }
+
+    /// Where the machine stands behind a probing move, and waits for the rest of the program.
+    fn stand_behind_probe(&mut self, control: &mut Control<'_>) -> Result<AxisVector, RunError> {
+        loop {
+            if control.is_stopped() {
+                // If the interpolator cannot be told, it waits until somebody else does.
+                let _told = self.machine.command(Command::Abort, control);
+                return Err(RunError::Interrupted);
+            }
+            self.machine.observe()?;
+            let status = self.machine.status().ok_or(RunError::InterpolatorLost)?;
+            match status.state().map_err(LinkError::from)? {
+                MachineState::Waiting => return Ok(AxisVector::from(status.position)),
+                MachineState::Faulted => return Err(RunError::fault(status)),
+                MachineState::Idle | MachineState::Off | MachineState::NotHomed => {
+                    return Err(RunError::Aborted);
+                }
+                _ => self.machine.pause(POLL, control),
+            }
+        }
+    }
+}
