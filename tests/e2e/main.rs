@@ -6,6 +6,7 @@
 )]
 
 mod faults;
+mod hal;
 mod jog;
 mod libraries;
 mod live;

@@ -49,7 +49,7 @@ pub enum Command {
     /// Have the planner's service execute a line
     #[command(after_help = "Example: glidepath mdi 'G54 G0 X0 Y0'")]
     Mdi(MdiArgs),
-    /// A mock servo: receives setpoints and reports what it saw
+    /// A servo: plays setpoints on a machine that is not there, or on LinuxCNC's HAL
     #[command(after_help = "Example: glidepath servo --setpoints received.csv")]
     Servo(ServoArgs),
     /// Stream a program's segments to a listening planner, as another program would

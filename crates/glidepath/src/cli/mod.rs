@@ -21,7 +21,7 @@ pub use host::{BenchArgs, DoctorArgs, JitterArgs};
 pub use jog::{JogArgs, Step};
 pub use live::LiveArgs;
 pub use motion::{
-    CheckArgs, FeedArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
+    CheckArgs, FeedArgs, HalArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
 };
 pub use offsets::{
     AngularUnits, ExportArgs, ImportArgs, LinearUnits, OffsetsCommand, SetArgs, ShowArgs, UnitArgs,

@@ -156,6 +156,9 @@ pub struct ServoArgs {
     /// is input 0
     #[arg(long, value_name = "JOINT=POSITION", value_parser = touches_at)]
     pub probe: Option<(usize, f64)>,
+    /// LinuxCNC's HAL as consumer.
+    #[command(flatten)]
+    pub hal: HalArgs,
     /// Which files may be overwritten.
     #[command(flatten)]
     pub overwrite: OverwriteArgs,
@@ -165,6 +168,49 @@ pub struct ServoArgs {
     /// End when the process with this number, which started this one, ends
     #[arg(long, hide = true, value_name = "PID")]
     pub end_with: Option<u32>,
+}
+
+/// How LinuxCNC's HAL takes the place of the machine that is not there.
+#[derive(Debug, Args)]
+pub struct HalArgs {
+    /// Play on LinuxCNC's HAL: lines for `streamer`, feedback from `sampler`
+    #[arg(long, conflicts_with_all = ["stands", "probe"])]
+    pub hal: bool,
+    /// The period of the thread of HAL, µs
+    #[arg(
+        long,
+        requires = "hal",
+        value_name = "US",
+        default_value_t = 1000,
+        value_parser = clap::value_parser!(u32).range(50..=100_000)
+    )]
+    pub hal_period_us: u32,
+    /// How many periods HAL is behind the setpoints, and this process may be late by
+    #[arg(
+        long,
+        requires = "hal",
+        value_name = "PERIODS",
+        default_value_t = 8,
+        value_parser = clap::value_parser!(u32).range(2..=256)
+    )]
+    pub hal_prefill: u32,
+    /// How late setpoints may come, µs: HAL plays them so much later; a period of theirs if not given
+    #[arg(
+        long,
+        requires = "hal",
+        value_name = "US",
+        value_parser = clap::value_parser!(u32).range(..=200_000)
+    )]
+    pub hal_wait_us: Option<u32>,
+    /// The number of `streamer` and `sampler`
+    #[arg(
+        long,
+        requires = "hal",
+        value_name = "NUMBER",
+        default_value_t = 0,
+        value_parser = clap::value_parser!(u32).range(0..=7)
+    )]
+    pub hal_channel: u32,
 }
 
 /// Arguments of `feed`.

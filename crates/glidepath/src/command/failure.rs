@@ -9,6 +9,7 @@ use crate::jitter::{CyclictestError, JitterError};
 use crate::kept::error::StateError;
 use crate::program_text::UnknownEvent;
 use glidepath_gcode::Diagnostic;
+use glidepath_hal::HalError;
 use glidepath_interpolator as interpolator;
 use glidepath_kept::var::VarError;
 use glidepath_link::{LinkError, RecordingError};
@@ -204,6 +205,17 @@ pub(super) enum Failure {
     /// The shared memory cannot be used.
     #[error(transparent)]
     Link(#[from] LinkError),
+    /// LinuxCNC's HAL is no servo stack, or no longer.
+    #[error("servo: {0}")]
+    Hal(#[from] HalError),
+    /// The configuration does not fit LinuxCNC's HAL.
+    #[error("servo: {what}; {remedy}")]
+    HalConfiguration {
+        /// What does not.
+        what: String,
+        /// How to mend it.
+        remedy: String,
+    },
     /// What a process sent cannot be read.
     #[error(transparent)]
     Recording(#[from] RecordingError),
@@ -284,6 +296,8 @@ impl Failure {
     pub(super) const fn exit(&self) -> Exit {
         match self {
             Self::Configuration(_)
+            | Self::HalConfiguration { .. }
+            | Self::Hal(HalError::Joints { .. })
             | Self::State(
                 StateError::Damaged(_) | StateError::OtherMachine { .. } | StateError::NoFolder,
             ) => Exit::Configuration,
@@ -327,6 +341,7 @@ impl Failure {
             | Self::Planner(_)
             | Self::Feed(_)
             | Self::Link(_)
+            | Self::Hal(_)
             | Self::Recording(_)
             | Self::Server(_)
             | Self::Process(_)

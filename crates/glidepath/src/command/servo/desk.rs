@@ -1,0 +1,124 @@
+//! A machine that is not there.
+
+use super::notices::Notices;
+use super::settings::settings;
+use crate::cli::ServoArgs;
+use crate::command::failure::Failure;
+use crate::command::session;
+use crate::config::{HomingBy, MachineConfig};
+use crate::interrupt::Interrupt;
+use glidepath_geometry::AXES;
+use glidepath_interpolator::JointHoming;
+use glidepath_kinematics::Kinematics as _;
+use glidepath_link::servo::{Servo, ServoCounts};
+use glidepath_link::{Setpoint, Transport as _};
+use glidepath_plant::{HomeSettings, JointSettings, Plant, SwitchSettings};
+use glidepath_realtime::{Clock as _, Monotonic};
+use std::time::Duration;
+
+/// Between two looks for setpoints: a fraction of a period, and a small one of the queue.
+const POLL: Duration = Duration::from_millis(1);
+
+/// Plays setpoints and hands over every one, until `take` gives false or the process is asked to
+/// end.
+pub(super) fn play(
+    args: &ServoArgs,
+    config: &MachineConfig,
+    interrupt: &Interrupt,
+    mut take: impl FnMut(&Setpoint) -> Result<bool, Failure>,
+) -> Result<ServoCounts, Failure> {
+    let transport = session::join(&args.instance, config)?;
+    let mut servo = Servo::new(transport.setpoint_source()?, settings(config));
+    let mut feedback = transport.feedback_sink()?;
+    let mut plant = plant(config, &args.stands);
+    if let Some((joint, position)) = args.probe {
+        plant = plant.with_probe(joint, position);
+    }
+    let mut notices = Notices::new(args.relay);
+    while !interrupt.is_set() {
+        while let Some(setpoint) = servo.receive(Monotonic.now_ns())? {
+            if !take(&setpoint)? {
+                return Ok(*servo.counts());
+            }
+        }
+        // A real servo stack hands this to its drives, and asks them where they are.
+        let now_ns = Monotonic.now_ns();
+        let demand = servo.demand(now_ns);
+        notices.look(&servo, &args.instance, config);
+        plant.step(now_ns, servo.last(), demand.as_ref());
+        if let Some(measured) = plant.feedback() {
+            feedback.publish(&measured)?;
+        }
+        std::thread::sleep(POLL);
+    }
+    Ok(*servo.counts())
+}
+
+/// How far away the home switch of a joint is that has one, mm or degrees.
+const TO_HOME: f64 = 5.0;
+/// How fast it looks for it, mm/s or °/s.
+const HOMING_V: f64 = 10.0;
+/// How long the cam of its switch is, mm or degrees.
+const CAM: f64 = 50.0;
+/// How long the contact bounces, ns.
+const BOUNCE_NS: u64 = 3_000_000;
+/// How far its index pulses are from each other, mm or degrees.
+const PITCH: f64 = 4.0;
+
+/// The machine that is moved: it stands at the places given, else where programs begin. Drives that
+/// look for their home have not yet found it, and count from anywhere.
+fn plant(config: &MachineConfig, stands: &[f64]) -> Plant {
+    let begins = config.mechanism.inverse(&config.home());
+    let mut begins = begins.map_or([0.0; AXES], <[f64; AXES]>::from);
+    if config.joints() == 0 {
+        let home = config.home();
+        for (begins, axis) in begins.iter_mut().zip(config.axis_of_joints()) {
+            *begins = home[axis.index()];
+        }
+    }
+    let joints: Vec<JointSettings> = (0..config.drives().min(AXES))
+        .map(|joint| {
+            let start = stands.get(joint).copied().unwrap_or(begins[joint]);
+            let at = JointSettings {
+                start,
+                count: start,
+                ..JointSettings::default()
+            };
+            match config.feedback.homing {
+                HomingBy::Nobody => at,
+                HomingBy::Drive => JointSettings {
+                    count: 0.0,
+                    home: Some(HomeSettings {
+                        switch: start - TO_HOME,
+                        velocity: HOMING_V,
+                        position: start - TO_HOME,
+                    }),
+                    ..at
+                },
+                HomingBy::Controller => with_switch(at, config.home_of_joints[joint].as_ref()),
+            }
+        })
+        .collect();
+    Plant::new(Monotonic.now_ns() ^ u64::from(std::process::id()), &joints)
+}
+
+/// A joint with the switch and the index pulses that the controller looks for. Its drive counts from
+/// where it was switched on.
+fn with_switch(joint: JointSettings, homing: Option<&JointHoming>) -> JointSettings {
+    let Some(homing) = homing else { return joint };
+    let edge = joint.start + TO_HOME.copysign(homing.search_v);
+    let end = edge + CAM.copysign(homing.search_v);
+    JointSettings {
+        count: if homing.absolute.is_some() {
+            joint.start - homing.offset
+        } else {
+            0.0
+        },
+        switch: (homing.search_v != 0.0).then_some(SwitchSettings {
+            cam: (edge.min(end), edge.max(end)),
+            bounce_ns: BOUNCE_NS,
+        }),
+        index: homing.index_input.map(|_| (PITCH, joint.start)),
+        ..joint
+    }
+}

@@ -1,0 +1,106 @@
+//! `glidepath servo`: a servo stack. It takes setpoints, plays them on a machine that is not there, or
+//! on LinuxCNC's HAL, and sends its feedback.
+
+mod desk;
+mod hal;
+mod notices;
+mod settings;
+
+use super::session;
+use crate::cli::ServoArgs;
+use crate::command::failure::Failure;
+use crate::config::MachineConfig;
+use crate::exit::Exit;
+use crate::interrupt::{Interrupt, end_with};
+use crate::output;
+use crate::recording::Recording;
+use crate::report::grouped;
+use crate::sample::Sample;
+use glidepath_hal::HalCounts;
+use glidepath_link::servo::ServoCounts;
+use glidepath_link::{Recorder, Setpoint};
+use serde_json::json;
+use std::io::BufWriter;
+
+/// Receives until asked to end.
+///
+/// # Errors
+/// The link or HAL cannot be used, or a file cannot be written.
+pub(super) fn servo(args: &ServoArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let interrupt = Interrupt::install().map_err(Failure::Signals)?;
+    end_with(args.end_with).map_err(Failure::Signals)?;
+    if args.relay {
+        return relay(args, config, &interrupt);
+    }
+    let guard = session::guard(None, &args.basic, config, args.overwrite);
+    let mut recording = Recording::create(config, args.setpoints.as_deref(), None, &guard)?;
+    let period_t = config.period_t();
+    let take = |setpoint: &Setpoint| {
+        recording.push(&Sample::received(setpoint, period_t))?;
+        Ok(true)
+    };
+    let (counts, hal) = if args.hal.hal {
+        let (counts, hal) = hal::play(args, config, &interrupt, take)?;
+        (counts, Some(hal))
+    } else {
+        (desk::play(args, config, &interrupt, take)?, None)
+    };
+    recording.finish("", "")?;
+    report(args, &counts, hal.as_ref());
+    Ok(interrupt.exit())
+}
+
+fn report(args: &ServoArgs, counts: &ServoCounts, hal: Option<&HalCounts>) {
+    if args.basic.json {
+        let mut object = json!({
+            "received": counts.received,
+            "lost_setpoints": counts.lost,
+            "late_setpoints": counts.late,
+            "duplicates": counts.duplicates,
+            "refused": counts.refused,
+            "restarts": counts.restarts,
+            "own_stops": counts.stops,
+            "setpoints": args.setpoints,
+        });
+        if let Some(hal) = hal {
+            object["hal"] = json!({
+                "lines": hal.lines,
+                "rows": hal.rows,
+                "lost_rows": hal.lost_rows,
+                "underruns": hal.underruns,
+                "recentred": hal.recentred,
+            });
+        }
+        output::object(&object);
+        return;
+    }
+    output::result(&format!(
+        "servo: {} setpoints, {} lost, {} late, {} restarts of the interpolator, {} own stops\n",
+        grouped(counts.received),
+        grouped(counts.lost),
+        grouped(counts.late),
+        counts.restarts,
+        counts.stops
+    ));
+    if let Some(hal) = hal {
+        output::result(&format!(
+            "HAL: {} lines, {} rows, {} lost, {} periods without a line\n",
+            grouped(hal.lines),
+            grouped(hal.rows),
+            grouped(hal.lost_rows),
+            grouped(hal.underruns)
+        ));
+    }
+}
+
+/// Passes every setpoint on, as a recording, until the reader goes away.
+fn relay(args: &ServoArgs, config: &MachineConfig, interrupt: &Interrupt) -> Result<Exit, Failure> {
+    let mut recorder = Recorder::new(BufWriter::new(std::io::stdout().lock()))?;
+    desk::play(args, config, interrupt, |setpoint| {
+        Ok(recorder
+            .write(setpoint)
+            .and_then(|()| recorder.flush())
+            .is_ok())
+    })?;
+    Ok(interrupt.exit())
+}

@@ -1,0 +1,56 @@
+//! What a servo says while it runs.
+
+use crate::cli::InstanceArgs;
+use crate::command::session;
+use crate::config::MachineConfig;
+use crate::output;
+use glidepath_link::Setpoint;
+use glidepath_link::Subscriber;
+use glidepath_link::servo::{OwnStop, Servo};
+use std::time::{Duration, Instant};
+
+/// How long it waits for the first setpoint before it says so.
+const NOTICE_AFTER: Duration = Duration::from_secs(1);
+
+/// What was said already.
+#[derive(Debug)]
+pub(super) struct Notices {
+    waits_from: Instant,
+    has_said_that_it_waits: bool,
+    jumps: u64,
+}
+
+impl Notices {
+    /// `is_quiet` is for a servo that nobody watches.
+    pub(super) fn new(is_quiet: bool) -> Self {
+        Self {
+            waits_from: Instant::now(),
+            has_said_that_it_waits: is_quiet,
+            jumps: 0,
+        }
+    }
+
+    /// Says what is new.
+    pub(super) fn look<S: Subscriber<Setpoint>>(
+        &mut self,
+        servo: &Servo<S>,
+        instance: &InstanceArgs,
+        config: &MachineConfig,
+    ) {
+        let waits = !self.has_said_that_it_waits && servo.counts().received == 0;
+        if waits && self.waits_from.elapsed() > NOTICE_AFTER {
+            self.has_said_that_it_waits = true;
+            let instance = session::instance(instance, config);
+            output::note(&format!(
+                "servo: waiting for setpoints of the instance \"{instance}\", which `glidepath \
+                 interpolator` gives"
+            ));
+        }
+        if let Some(OwnStop::Jump(jump)) = servo.stopped()
+            && servo.counts().jumps > self.jumps
+        {
+            self.jumps = servo.counts().jumps;
+            output::note(&format!("servo: stopped, {jump}"));
+        }
+    }
+}
