@@ -1,4 +1,4 @@
-/* libglidepath: setpoints, status, commands, feedback and the servo of Glidepath.
+/* libglidepath: setpoints, status, commands, feedback, jogs, segments and the servo of Glidepath.
  *
  *     gp_link *link;
  *     if (gp_open("default", &link) < 0) { char why[512]; gp_last_error(why, sizeof why); ... }
@@ -47,9 +47,9 @@ extern "C" {
 
 /* layout: begin, written by a test of the library */
 /* The version of the ABI: functions and structures. */
-#define GP_ABI 1u
+#define GP_ABI 2u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x14e0e8a159f10946)
+#define GP_LAYOUT UINT64_C(0xafb5a175115477ba)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -263,6 +263,58 @@ enum {
     GP_JUMP_NONE = 0,
     GP_JUMP_VELOCITY = 1,
     GP_JUMP_ACCELERATION = 2
+};
+
+/* How a jog moves the machine. */
+enum {
+    GP_JOG_MODE_NONE = 0,
+    GP_JOG_MODE_CONTINUOUS = 1,
+    GP_JOG_MODE_INCREMENTAL = 2,
+    GP_JOG_MODE_WHEEL = 3,
+    GP_JOG_MODE_WHEEL_VELOCITY = 4
+};
+
+/* What a piece of a stream is. */
+enum {
+    GP_SEGMENT_OPEN = 1,
+    GP_SEGMENT_LINE = 2,
+    GP_SEGMENT_ARC = 3,
+    GP_SEGMENT_DWELL = 4,
+    GP_SEGMENT_EVENT = 5,
+    GP_SEGMENT_END = 6,
+    GP_SEGMENT_CURVE = 7
+};
+
+/* How the path is followed at corners: G61.1, G61, G64, G64 P. */
+enum {
+    GP_PATH_EXACT_STOP = 1,
+    GP_PATH_EXACT_PATH = 2,
+    GP_PATH_CONTINUOUS = 3,
+    GP_PATH_CONTINUOUS_WITHIN = 4
+};
+
+/* Planes of arcs: G17, G18, G19, G17.1, G18.1, G19.1. */
+enum {
+    GP_PLANE_XY = 1,
+    GP_PLANE_ZX = 2,
+    GP_PLANE_YZ = 3,
+    GP_PLANE_UV = 4,
+    GP_PLANE_WU = 5,
+    GP_PLANE_VW = 6
+};
+
+/* Why a piece of a stream was refused. */
+enum {
+    GP_SEGMENT_REFUSAL_BUSY = 1,
+    GP_SEGMENT_REFUSAL_NOT_OPEN = 2,
+    GP_SEGMENT_REFUSAL_OUT_OF_ORDER = 3,
+    GP_SEGMENT_REFUSAL_NO_CREDIT = 4,
+    GP_SEGMENT_REFUSAL_MALFORMED = 5,
+    GP_SEGMENT_REFUSAL_DISCONTINUOUS = 6,
+    GP_SEGMENT_REFUSAL_SOFT_LIMIT = 7,
+    GP_SEGMENT_REFUSAL_UNPLANNABLE = 8,
+    GP_SEGMENT_REFUSAL_STOPPED = 9,
+    GP_SEGMENT_REFUSAL_SHUTTING_DOWN = 10
 };
 
 /* Quantiles of a time, ns. */
@@ -756,6 +808,138 @@ GP_FIELD(gp_reply, refusal, 16, 4);
 GP_FIELD(gp_reply, state, 20, 4);
 GP_FIELD(gp_reply, message, 24, 128);
 
+/* How the axes, or the joints, are to be moved by hand. The latest counts; the first client
+   owns the axes until they are at rest. The record glidepath.JogDemand.v1. */
+typedef struct gp_jog {
+    /* Who asks. Filled in. */
+    uint64_t client;
+    /* Counts what the client asks for. Filled in. */
+    uint64_t number;
+    /* When it was sent, ns of CLOCK_MONOTONIC. Filled in. */
+    uint64_t sent_ns;
+    /* A GP_JOG_MODE_. */
+    uint32_t mode;
+    /* The axes, or joints, that are meant, one bit each, X or J0 lowest. */
+    uint32_t mask;
+    /* 1 if mask and value are about joints, 0 if about axes. */
+    uint32_t by_joint;
+    /* Must be zero. */
+    uint32_t reserved;
+    /* How fast at most, mm/s or degrees/s, in the modes that give no velocity; 0 for as fast
+       as jogging may be. */
+    double velocity_v;
+    /* What a count of a wheel is, mm or degrees. */
+    double scale;
+    /* Velocities, mm/s or degrees/s (continuous); distances, mm or degrees (incremental); or
+       counts of the wheel since it was switched on. */
+    double value[9];
+} gp_jog;
+GP_ASSERT(sizeof(gp_jog) == 128, "gp_jog has another size");
+GP_FIELD(gp_jog, client, 0, 8);
+GP_FIELD(gp_jog, number, 8, 8);
+GP_FIELD(gp_jog, sent_ns, 16, 8);
+GP_FIELD(gp_jog, mode, 24, 4);
+GP_FIELD(gp_jog, mask, 28, 4);
+GP_FIELD(gp_jog, by_joint, 32, 4);
+GP_FIELD(gp_jog, reserved, 36, 4);
+GP_FIELD(gp_jog, velocity_v, 40, 8);
+GP_FIELD(gp_jog, scale, 48, 8);
+GP_FIELD(gp_jog, value, 56, 72);
+
+/* A piece of a stream. Fields that a kind does not use are zero. The record
+   glidepath.SegmentRequest.v2. */
+typedef struct gp_segment {
+    /* The stream. Filled in. */
+    uint64_t session;
+    /* Counts the pieces of a stream. Filled in. */
+    uint64_t number;
+    /* A GP_SEGMENT_. */
+    uint32_t kind;
+    /* Line of a program, from 1; 0 for GP_SEGMENT_OPEN and GP_SEGMENT_END. */
+    uint32_t line;
+    /* Of a line, arc or curve: 1 if it is a rapid move, else 0. */
+    uint32_t rapid;
+    /* Of a line, arc or curve: a GP_PATH_. */
+    uint32_t mode;
+    /* Of an arc: a GP_PLANE_. */
+    uint32_t plane;
+    /* Of an event: its code, as in gp_setpoint. */
+    uint32_t event_kind;
+    /* The event's number (speed, tool, M code). */
+    double event_value;
+    /* Of a line, arc or curve that is not rapid: feedrate, mm/s (degrees/s for rotary axes
+       alone), > 0. */
+    double feed_v;
+    /* Path tolerance, mm, > 0, with GP_PATH_CONTINUOUS_WITHIN. */
+    double tolerance_mm;
+    /* Of a dwell: time, s, 0 or more. */
+    double dwell_t;
+    /* Of an arc: signed sweep, radians, not 0. */
+    double sweep_rad;
+    /* Of an arc: centre on the first and second axis of the plane, mm. */
+    double center[2];
+    /* Where it starts: the end of the piece before, bit for bit. */
+    double start[9];
+    /* Where it ends. */
+    double end[9];
+    /* Of a curve: first derivative of X, Y, Z by path position, at its start, then at its
+       end. */
+    double tangents[6];
+    /* Of a curve: second derivative likewise, 1/mm. */
+    double bends[6];
+    /* Of a curve: its length, mm, > 0. */
+    double length;
+    /* Of a curve: how far it is from what it stands for, mm, 0 or more. */
+    double error_mm;
+} gp_segment;
+GP_ASSERT(sizeof(gp_segment) == 352, "gp_segment has another size");
+GP_FIELD(gp_segment, session, 0, 8);
+GP_FIELD(gp_segment, number, 8, 8);
+GP_FIELD(gp_segment, kind, 16, 4);
+GP_FIELD(gp_segment, line, 20, 4);
+GP_FIELD(gp_segment, rapid, 24, 4);
+GP_FIELD(gp_segment, mode, 28, 4);
+GP_FIELD(gp_segment, plane, 32, 4);
+GP_FIELD(gp_segment, event_kind, 36, 4);
+GP_FIELD(gp_segment, event_value, 40, 8);
+GP_FIELD(gp_segment, feed_v, 48, 8);
+GP_FIELD(gp_segment, tolerance_mm, 56, 8);
+GP_FIELD(gp_segment, dwell_t, 64, 8);
+GP_FIELD(gp_segment, sweep_rad, 72, 8);
+GP_FIELD(gp_segment, center, 80, 16);
+GP_FIELD(gp_segment, start, 96, 72);
+GP_FIELD(gp_segment, end, 168, 72);
+GP_FIELD(gp_segment, tangents, 240, 48);
+GP_FIELD(gp_segment, bends, 288, 48);
+GP_FIELD(gp_segment, length, 336, 8);
+GP_FIELD(gp_segment, error_mm, 344, 8);
+
+/* The answer to a piece of a stream. The record glidepath.SegmentReply.v1. */
+typedef struct gp_segment_reply {
+    /* The stream. */
+    uint64_t session;
+    /* The number of the piece. */
+    uint64_t number;
+    /* Pieces of the stream accepted so far: the number of the next one expected. */
+    uint64_t accepted;
+    /* How many more would be accepted now. */
+    uint32_t credit;
+    /* A GP_SEGMENT_REFUSAL_, 0 if the piece was accepted. */
+    uint32_t refusal;
+    /* Where the next piece must start. */
+    double position[9];
+    /* More about a refusal, for people. */
+    char message[128];
+} gp_segment_reply;
+GP_ASSERT(sizeof(gp_segment_reply) == 232, "gp_segment_reply has another size");
+GP_FIELD(gp_segment_reply, session, 0, 8);
+GP_FIELD(gp_segment_reply, number, 8, 8);
+GP_FIELD(gp_segment_reply, accepted, 16, 8);
+GP_FIELD(gp_segment_reply, credit, 24, 4);
+GP_FIELD(gp_segment_reply, refusal, 28, 4);
+GP_FIELD(gp_segment_reply, position, 32, 72);
+GP_FIELD(gp_segment_reply, message, 104, 128);
+
 /* What a joint is to do. */
 typedef struct gp_joint {
     /* mm or degrees */
@@ -967,6 +1151,45 @@ int gp_feedback_open(gp_link *link, gp_feedback_sink **sink);
 int gp_feedback_send(gp_feedback_sink *sink, const gp_feedback *feedback, size_t size);
 
 int gp_feedback_close(gp_feedback_sink *sink);
+
+/* ---- moving by hand ---- */
+
+/* A client that moves the machine by hand. */
+typedef struct gp_jog_sink gp_jog_sink;
+
+int gp_jog_open(gp_link *link, gp_jog_sink **sink);
+
+/* Asks for something new: a velocity for as long as it is kept, steps of some length once, or what a
+ * wheel counts; GP_JOG_MODE_NONE lets go. client, number and sent_ns are filled in. Whether it is
+ * obeyed, the state of setpoints and status tells; another client's jog comes first until it has come
+ * to rest. GP_E_RECORD: a field is not finite or out of range, and nothing was sent. */
+int gp_jog_send(gp_jog_sink *sink, const gp_jog *jog, size_t size);
+
+/* Says that the client lives and wants what it wanted: every 50 ms or more often. The interpolator
+ * stops a jog of which it hears nothing for 150 ms (dead_man_ms of its configuration). */
+int gp_jog_keep(gp_jog_sink *sink);
+
+/* Lets go, too. */
+int gp_jog_close(gp_jog_sink *sink);
+
+/* ---- segments ---- */
+
+/* A stream of segments, for a planner that listens (glidepath planner --listen). */
+typedef struct gp_segments gp_segments;
+
+int gp_segments_open(gp_link *link, gp_segments **segments);
+
+/* Sends one piece, in order: GP_SEGMENT_OPEN first, whose answer tells where the machine stands;
+ * GP_SEGMENT_END last, behind which the machine comes to rest. session and number are filled in. reply
+ * may be NULL. 1: accepted; 0: no answer within patience_ms: send the same once more, which waits on
+ * and sends nothing twice; GP_E_REFUSED: refused, see reply, and nothing of it will be done. With
+ * GP_SEGMENT_REFUSAL_NO_CREDIT wait a little and send the same again. GP_E_RECORD: a field is out of
+ * range, and nothing was sent; GP_E_NO_SERVER: no planner listens. */
+int gp_segments_send(gp_segments *segments, const gp_segment *segment, size_t size,
+                     uint32_t patience_ms, gp_segment_reply *reply, size_t reply_size);
+
+/* A stream that was not ended is given up: the machine comes to rest behind what was sent. */
+int gp_segments_close(gp_segments *segments);
 
 /* ---- the servo ---- */
 

@@ -1,4 +1,4 @@
-"""Setpoints, status, commands, feedback and the servo of Glidepath.
+"""Setpoints, status, commands, feedback, jogs, segments and the servo of Glidepath.
 
     import glidepath
 
@@ -12,6 +12,7 @@ Python is no place for a real-time thread: this is for monitors, tests and tools
 """
 
 import ctypes
+import time
 
 from ._layout import *  # noqa: F401,F403 - constants and records are the interface
 from ._layout import (
@@ -19,8 +20,16 @@ from ._layout import (
     Command,
     EventIdRecord,
     FeedbackRecord,
+    JogMode,
+    JogRecord,
     JointRecord,
+    Path,
+    Plane,
     ReplyRecord,
+    Segment,
+    SegmentRecord,
+    SegmentRefusal,
+    SegmentReplyRecord,
     ServoSettingsRecord,
     ServoStateRecord,
     SetpointRecord,
@@ -128,6 +137,14 @@ class Link(_Handle):
         """A way for what the drives say."""
         return Feedback(self)
 
+    def jog(self):
+        """A client that moves the machine by hand."""
+        return Jog(self)
+
+    def segments(self, patience=1.0):
+        """A stream of segments to a planner that listens, opened."""
+        return Segments(self, patience)
+
     def servo(self, settings=None):
         """A servo; its settings by default are those of `servo_settings`."""
         return Servo(self, settings)
@@ -173,6 +190,147 @@ class Feedback(_Handle):
     def send(self, feedback: FeedbackRecord):
         """Sends what the drives say; `boot_id` and `number` are filled in on the way."""
         call("gp_feedback_send", self._handle, ctypes.byref(feedback), ctypes.sizeof(feedback))
+
+
+class Jog(_Handle):
+    """Moves the machine by hand, as long as somebody says so."""
+
+    _close = "gp_jog_close"
+
+    def __init__(self, link):
+        super().__init__()
+        self._opened("gp_jog_open", link._handle)
+
+    def send(self, jog: JogRecord):
+        """Asks for something new; `client`, `number` and `sent_ns` are filled in on the way."""
+        call("gp_jog_send", self._handle, ctypes.byref(jog), ctypes.sizeof(jog))
+
+    def keep(self):
+        """Says that the client lives and wants what it wanted: every 50 ms or more often."""
+        call("gp_jog_keep", self._handle)
+
+    def move(self, velocities, by_joint=False):
+        """At these velocities, mm/s or degrees/s, for as long as it is kept."""
+        self.send(_jog(JogMode.CONTINUOUS, velocities, by_joint))
+
+    def step(self, distances, velocity=0.0, by_joint=False):
+        """By these distances, mm or degrees, once; 0 is as fast as jogging may be."""
+        self.send(_jog(JogMode.INCREMENTAL, distances, by_joint, velocity))
+
+    def let_go(self):
+        """To rest."""
+        self.send(JogRecord())
+
+
+def _jog(mode, values, by_joint, velocity=0.0):
+    """`values` are a number for each axis, or a dictionary by index."""
+    pairs = values.items() if isinstance(values, dict) else enumerate(values)
+    value, mask = Numbers(), 0
+    for index, number in pairs:
+        value[index] = number
+        mask |= (1 << index) if number else 0
+    return JogRecord(
+        mode=mode, mask=mask, by_joint=int(by_joint), velocity_v=velocity, value=value
+    )
+
+
+class Segments(_Handle):
+    """A stream of segments, which the machine follows as they come."""
+
+    _close = "gp_segments_close"
+
+    def __init__(self, link, patience=1.0):
+        super().__init__()
+        self.patience = patience
+        self._opened("gp_segments_open", link._handle)
+        try:
+            reply = self._accepted(SegmentRecord(kind=Segment.OPEN))
+        except BaseException:
+            self.close()
+            raise
+        #: Where the next segment starts.
+        self.position = list(reply.position)
+        self._line = 0
+
+    def send(self, segment: SegmentRecord):
+        """Sends a piece; gives the answer, None if there is none in time. Raises `Refused`.
+
+        `session` and `number` are filled in on the way. Without an answer: the same once more.
+        """
+        reply = SegmentReplyRecord()
+        try:
+            got = call(
+                "gp_segments_send",
+                self._handle,
+                ctypes.byref(segment),
+                ctypes.sizeof(segment),
+                _ms(self.patience),
+                ctypes.byref(reply),
+                ctypes.sizeof(reply),
+            )
+        except Refused as refused:
+            refused.reply = reply
+            raise
+        return reply if got else None
+
+    def _accepted(self, segment):
+        """Sends a piece, and waits for room where there is none."""
+        while True:
+            try:
+                reply = self.send(segment)
+            except Refused as refused:
+                if refused.reply.refusal != SegmentRefusal.NO_CREDIT:
+                    raise
+                time.sleep(0.005)
+                continue
+            if reply is None:
+                raise TimeoutError(f"the planner has not answered in {self.patience} s")
+            return reply
+
+    def _move(self, kind, end, feed, tolerance, line, **fields):
+        self._line = line or self._line + 1
+        mode = Path.CONTINUOUS
+        if tolerance is not None:
+            mode = Path.CONTINUOUS_WITHIN if tolerance > 0.0 else Path.EXACT_STOP
+        target = list(self.position)
+        pairs = end.items() if isinstance(end, dict) else enumerate(end)
+        for index, number in pairs:
+            target[index] = number
+        self._accepted(
+            SegmentRecord(
+                kind=kind,
+                line=self._line,
+                rapid=int(feed is None),
+                mode=mode,
+                feed_v=feed or 0.0,
+                tolerance_mm=tolerance or 0.0,
+                start=Numbers(*self.position),
+                end=Numbers(*target),
+                **fields,
+            )
+        )
+        self.position = target
+
+    def line_to(self, end, feed=None, tolerance=None, line=0):
+        """To `end`: a number for each axis, or a dictionary by index. `feed` is mm/s; without it
+        the move is rapid. `tolerance` is mm at the corners; 0 stops exactly, None is the
+        machine's."""
+        self._move(Segment.LINE, end, feed, tolerance, line)
+
+    def arc_to(self, end, center, sweep, feed, plane=Plane.XY, tolerance=None, line=0):
+        """An arc around `center`, on the two axes of the plane, by `sweep` radians."""
+        center = (ctypes.c_double * 2)(*center)
+        fields = {"plane": plane, "center": center, "sweep_rad": sweep}
+        self._move(Segment.ARC, end, feed, tolerance, line, **fields)
+
+    def dwell(self, seconds, line=0):
+        """At rest for so long."""
+        self._line = line or self._line + 1
+        self._accepted(SegmentRecord(kind=Segment.DWELL, line=self._line, dwell_t=seconds))
+
+    def end(self):
+        """No more will come: the machine comes to rest at the end of what was sent."""
+        self._accepted(SegmentRecord(kind=Segment.END))
 
 
 def servo_settings():

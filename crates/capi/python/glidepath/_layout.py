@@ -6,8 +6,8 @@ Written by a test of the library: do not change it here.
 import ctypes
 import enum
 
-ABI = 1
-LAYOUT = 0x14e0e8a159f10946
+ABI = 2
+LAYOUT = 0xafb5a175115477ba
 AXES = 9
 
 
@@ -241,6 +241,63 @@ class Jump(enum.IntEnum):
     ACCELERATION = 2
 
 
+class JogMode(enum.IntEnum):
+    """How a jog moves the machine."""
+
+    NONE = 0
+    CONTINUOUS = 1
+    INCREMENTAL = 2
+    WHEEL = 3
+    WHEEL_VELOCITY = 4
+
+
+class Segment(enum.IntEnum):
+    """What a piece of a stream is."""
+
+    OPEN = 1
+    LINE = 2
+    ARC = 3
+    DWELL = 4
+    EVENT = 5
+    END = 6
+    CURVE = 7
+
+
+class Path(enum.IntEnum):
+    """How the path is followed at corners: G61.1, G61, G64, G64 P."""
+
+    EXACT_STOP = 1
+    EXACT_PATH = 2
+    CONTINUOUS = 3
+    CONTINUOUS_WITHIN = 4
+
+
+class Plane(enum.IntEnum):
+    """Planes of arcs: G17, G18, G19, G17.1, G18.1, G19.1."""
+
+    XY = 1
+    ZX = 2
+    YZ = 3
+    UV = 4
+    WU = 5
+    VW = 6
+
+
+class SegmentRefusal(enum.IntEnum):
+    """Why a piece of a stream was refused."""
+
+    BUSY = 1
+    NOT_OPEN = 2
+    OUT_OF_ORDER = 3
+    NO_CREDIT = 4
+    MALFORMED = 5
+    DISCONTINUOUS = 6
+    SOFT_LIMIT = 7
+    UNPLANNABLE = 8
+    STOPPED = 9
+    SHUTTING_DOWN = 10
+
+
 class QuantilesRecord(ctypes.Structure):
     """Quantiles of a time, ns."""
 
@@ -431,6 +488,65 @@ class ReplyRecord(ctypes.Structure):
         ("number", ctypes.c_uint64),
         ("refusal", ctypes.c_uint32),
         ("state", ctypes.c_uint32),
+        ("message", ctypes.c_char * 128),
+    ]
+
+
+class JogRecord(ctypes.Structure):
+    """How the axes, or the joints, are to be moved by hand. The latest counts; the first
+    client owns the axes until they are at rest."""
+
+    _fields_ = [
+        ("client", ctypes.c_uint64),
+        ("number", ctypes.c_uint64),
+        ("sent_ns", ctypes.c_uint64),
+        ("mode", ctypes.c_uint32),
+        ("mask", ctypes.c_uint32),
+        ("by_joint", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
+        ("velocity_v", ctypes.c_double),
+        ("scale", ctypes.c_double),
+        ("value", ctypes.c_double * 9),
+    ]
+
+
+class SegmentRecord(ctypes.Structure):
+    """A piece of a stream. Fields that a kind does not use are zero."""
+
+    _fields_ = [
+        ("session", ctypes.c_uint64),
+        ("number", ctypes.c_uint64),
+        ("kind", ctypes.c_uint32),
+        ("line", ctypes.c_uint32),
+        ("rapid", ctypes.c_uint32),
+        ("mode", ctypes.c_uint32),
+        ("plane", ctypes.c_uint32),
+        ("event_kind", ctypes.c_uint32),
+        ("event_value", ctypes.c_double),
+        ("feed_v", ctypes.c_double),
+        ("tolerance_mm", ctypes.c_double),
+        ("dwell_t", ctypes.c_double),
+        ("sweep_rad", ctypes.c_double),
+        ("center", ctypes.c_double * 2),
+        ("start", ctypes.c_double * 9),
+        ("end", ctypes.c_double * 9),
+        ("tangents", ctypes.c_double * 6),
+        ("bends", ctypes.c_double * 6),
+        ("length", ctypes.c_double),
+        ("error_mm", ctypes.c_double),
+    ]
+
+
+class SegmentReplyRecord(ctypes.Structure):
+    """The answer to a piece of a stream."""
+
+    _fields_ = [
+        ("session", ctypes.c_uint64),
+        ("number", ctypes.c_uint64),
+        ("accepted", ctypes.c_uint64),
+        ("credit", ctypes.c_uint32),
+        ("refusal", ctypes.c_uint32),
+        ("position", ctypes.c_double * 9),
         ("message", ctypes.c_char * 128),
     ]
 
@@ -672,6 +788,49 @@ PLACES = {
         "refusal": 16,
         "state": 20,
         "message": 24,
+    }),
+    JogRecord: (128, {
+        "client": 0,
+        "number": 8,
+        "sent_ns": 16,
+        "mode": 24,
+        "mask": 28,
+        "by_joint": 32,
+        "reserved": 36,
+        "velocity_v": 40,
+        "scale": 48,
+        "value": 56,
+    }),
+    SegmentRecord: (352, {
+        "session": 0,
+        "number": 8,
+        "kind": 16,
+        "line": 20,
+        "rapid": 24,
+        "mode": 28,
+        "plane": 32,
+        "event_kind": 36,
+        "event_value": 40,
+        "feed_v": 48,
+        "tolerance_mm": 56,
+        "dwell_t": 64,
+        "sweep_rad": 72,
+        "center": 80,
+        "start": 96,
+        "end": 168,
+        "tangents": 240,
+        "bends": 288,
+        "length": 336,
+        "error_mm": 344,
+    }),
+    SegmentReplyRecord: (232, {
+        "session": 0,
+        "number": 8,
+        "accepted": 16,
+        "credit": 24,
+        "refusal": 28,
+        "position": 32,
+        "message": 104,
     }),
     JointRecord: (24, {
         "position": 0,

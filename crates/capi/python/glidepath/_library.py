@@ -20,9 +20,17 @@ class Refused(Error):
     reply = None
 
 
+def _path():
+    """GLIDEPATH_LIBRARY if that is set, else the one of the wheel, else where the system looks."""
+    named = os.environ.get("GLIDEPATH_LIBRARY")
+    if named:
+        return named
+    beside = os.path.join(os.path.dirname(__file__), "libglidepath.so.0")
+    return beside if os.path.exists(beside) else "libglidepath.so.0"
+
+
 def _load():
-    """From GLIDEPATH_LIBRARY if that is set, else from where the system looks."""
-    path = os.environ.get("GLIDEPATH_LIBRARY", "libglidepath.so.0")
+    path = _path()
     try:
         return ctypes.CDLL(path)
     except OSError as error:
@@ -63,6 +71,16 @@ _FUNCTIONS = {
     "gp_feedback_open": (ctypes.c_int, [_pointer, _handle]),
     "gp_feedback_send": (ctypes.c_int, [_pointer, _pointer, _size]),
     "gp_feedback_close": (ctypes.c_int, [_pointer]),
+    "gp_jog_open": (ctypes.c_int, [_pointer, _handle]),
+    "gp_jog_send": (ctypes.c_int, [_pointer, _pointer, _size]),
+    "gp_jog_keep": (ctypes.c_int, [_pointer]),
+    "gp_jog_close": (ctypes.c_int, [_pointer]),
+    "gp_segments_open": (ctypes.c_int, [_pointer, _handle]),
+    "gp_segments_send": (
+        ctypes.c_int,
+        [_pointer, _pointer, _size, _u32, _pointer, _size],
+    ),
+    "gp_segments_close": (ctypes.c_int, [_pointer]),
     "gp_servo_settings_default": (ctypes.c_int, [_pointer, _size]),
     "gp_servo_open": (ctypes.c_int, [_pointer, _pointer, _size, _handle]),
     "gp_servo_receive": (ctypes.c_int, [_pointer, _u64, _pointer, _size]),

@@ -85,7 +85,7 @@ extern "C" fn gp_read_status(
     })
 }
 
-fn patience(patience_ms: u32) -> Duration {
+pub(super) fn patience(patience_ms: u32) -> Duration {
     Duration::from_millis(patience_ms.into())
 }
 

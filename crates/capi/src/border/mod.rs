@@ -12,8 +12,10 @@
 mod call;
 mod feedback;
 mod handle;
+mod jog;
 mod link;
 mod pointer;
+mod segments;
 mod servo;
 mod setpoints;
 mod text;

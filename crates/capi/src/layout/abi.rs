@@ -1,10 +1,10 @@
 //! The version of the ABI, and all that it is about.
 
 use super::structure::Structure;
-use super::{digest, own, records};
+use super::{demands, digest, own, records};
 
 /// The version of the ABI: functions and structures. It rises with every change of either.
-pub(crate) const ABI: u32 = 1;
+pub(crate) const ABI: u32 = 2;
 
 /// All structures, each after those it is made of.
 pub(super) const STRUCTURES: &[&Structure] = &[
@@ -15,6 +15,9 @@ pub(super) const STRUCTURES: &[&Structure] = &[
     &records::STATUS,
     &records::FEEDBACK,
     &records::REPLY,
+    &demands::JOG,
+    &demands::SEGMENT,
+    &demands::SEGMENT_REPLY,
     &own::JOINT,
     &own::STOP_LIMITS,
     &own::JUMP_LIMITS,

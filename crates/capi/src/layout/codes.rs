@@ -4,7 +4,8 @@ use super::own::{Stopped, TooMuch};
 use crate::failure::Code;
 use glidepath_link::{
     CommandKind, CommandRefusal, ContactKind, DriveState, EndOfEpoch, EventKind, FaultCause,
-    Grants, LatchKind, MachineState, MotionMode, Power, SetpointMarks, SpindleFlags,
+    Grants, JogMode, LatchKind, MachineState, ModeCode, MotionMode, PlaneCode, Power, RequestKind,
+    SegmentRefusal, SetpointMarks, SpindleFlags,
 };
 use glidepath_program::FrameFlags;
 
@@ -83,9 +84,32 @@ macro_rules! own {
     };
 }
 
+/// What moves the machine.
+fn of_demands() -> Vec<Codes> {
+    vec![
+        all!("JOG_MODE", "How a jog moves the machine.", JogMode),
+        all!("SEGMENT", "What a piece of a stream is.", RequestKind),
+        all!(
+            "PATH",
+            "How the path is followed at corners: G61.1, G61, G64, G64 P.",
+            ModeCode
+        ),
+        all!(
+            "PLANE",
+            "Planes of arcs: G17, G18, G19, G17.1, G18.1, G19.1.",
+            PlaneCode
+        ),
+        all!(
+            "SEGMENT_REFUSAL",
+            "Why a piece of a stream was refused.",
+            SegmentRefusal
+        ),
+    ]
+}
+
 /// All that the library knows.
 pub(super) fn codes() -> Vec<Codes> {
-    vec![
+    let mut codes = vec![
         own!("E", "What functions return that fail; gp_last_error has the text.", Code:
             Argument, Abi, Thread, NoServer, Version, Taken, Record, Transport, Panic, Refused),
         all!("STATE", "What the interpolator is doing.", MachineState),
@@ -156,5 +180,7 @@ pub(super) fn codes() -> Vec<Codes> {
         own!("STOPPED", "Why a servo stopped the joints by itself.", Stopped:
             Not, Silence, Asked, Jump),
         own!("JUMP", "What of a jump is too much.", TooMuch: None, Velocity, Acceleration),
-    ]
+    ];
+    codes.extend(of_demands());
+    codes
 }

@@ -7,6 +7,7 @@
 mod abi;
 #[cfg(test)]
 mod codes;
+mod demands;
 mod digest;
 #[cfg(test)]
 mod generate;

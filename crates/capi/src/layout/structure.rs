@@ -70,7 +70,8 @@ in_c! {
 
 impl<T: InC, const N: usize> InC for [T; N] {
     const ELEMENT: &'static str = T::ELEMENT;
-    const COUNT: usize = N;
+    // An array of arrays is one of all their elements, in order.
+    const COUNT: usize = if T::COUNT == 0 { N } else { N * T::COUNT };
 }
 
 impl InC for Text {

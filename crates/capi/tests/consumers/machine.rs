@@ -3,8 +3,9 @@
 use crate::build::Place;
 use bytemuck::Zeroable as _;
 use glidepath_link::{
-    Command, CommandRefusal, CommandReply, CommandRequest, Feedback, Ipc, LinkConfig, MachineState,
-    Record as _, Setpoint, Status, Transport as _, remove_leftovers,
+    Command, CommandRefusal, CommandReply, CommandRequest, Feedback, Ipc, JogDemand, LinkConfig,
+    MachineState, Record as _, RequestKind, SegmentRefusal, SegmentReply, SegmentRequest, Setpoint,
+    Status, Text, Transport as _, remove_leftovers,
 };
 use glidepath_realtime::{Clock as _, Monotonic};
 use std::ops::Range;
@@ -86,6 +87,49 @@ enum Order {
 struct Heard {
     received: u64,
     last: Option<Feedback>,
+    jogs: Vec<JogDemand>,
+    stream: Stream,
+}
+
+/// Where segments begin.
+pub(crate) const STANDS: [f64; 9] = [1.5, -2.0, 0.25, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+/// How far the axes of the machine go.
+pub(crate) const FARTHEST: f64 = 1000.0;
+
+/// A listening planner that plans nothing: it has no room for the third piece of a stream at first.
+#[derive(Debug, Default)]
+struct Stream {
+    accepted: Vec<SegmentRequest>,
+    had_no_room: bool,
+}
+
+impl Stream {
+    fn answer(&mut self, request: &SegmentRequest) -> SegmentReply {
+        if request.kind == RequestKind::Open.code() {
+            *self = Self::default();
+        }
+        let (refusal, message) = if request.number != self.accepted.len() as u64 {
+            (Some(SegmentRefusal::OutOfOrder), "another number")
+        } else if request.number == 2 && !self.had_no_room {
+            self.had_no_room = true;
+            (Some(SegmentRefusal::NoCredit), "no room")
+        } else if request.end.iter().any(|place| place.abs() > FARTHEST) {
+            (Some(SegmentRefusal::SoftLimit), "beyond the soft limit")
+        } else {
+            self.accepted.push(*request);
+            (None, "")
+        };
+        let moved = self.accepted.iter().rev().find(|piece| piece.mode != 0);
+        SegmentReply {
+            session: request.session,
+            number: request.number,
+            accepted: self.accepted.len() as u64,
+            credit: 1,
+            refusal: refusal.map_or(0, SegmentRefusal::code),
+            position: moved.map_or(STANDS, |piece| piece.end),
+            message: Text::new(message),
+        }
+    }
 }
 
 /// An instance of its own, with somebody who plays the interpolator.
@@ -217,6 +261,16 @@ impl Machine {
         thread
     }
 
+    /// The jogs that arrived.
+    pub(crate) fn jogs(&self) -> Vec<JogDemand> {
+        self.heard.lock().unwrap().jogs.clone()
+    }
+
+    /// The pieces of the last stream that were accepted.
+    pub(crate) fn segments(&self) -> Vec<SegmentRequest> {
+        self.heard.lock().unwrap().stream.accepted.clone()
+    }
+
     /// How much feedback was received, and the last of it.
     pub(crate) fn feedback(&self) -> (u64, Feedback) {
         let heard = self.heard.lock().unwrap();
@@ -257,6 +311,8 @@ fn play(config: &LinkConfig, orders: &Receiver<Order>, heard: &Mutex<Heard>, rea
     let mut status = link.status_sink().unwrap();
     let mut commands = link.command_server().unwrap();
     let mut feedback = link.feedback_source().unwrap();
+    let mut jogs = link.jog_source().unwrap();
+    let mut segments = link.segment_server().unwrap();
     ready.send(()).unwrap();
     let mut shown = 0;
     loop {
@@ -268,6 +324,14 @@ fn play(config: &LinkConfig, orders: &Receiver<Order>, heard: &Mutex<Heard>, rea
         shown += 1;
         status.publish(&status_now(shown)).unwrap();
         while commands.serve(&mut answer).unwrap() {}
+        while let Some(jog) = jogs.take().unwrap() {
+            jog.check().unwrap();
+            heard.lock().unwrap().jogs.push(jog);
+        }
+        while segments
+            .serve(&mut |request| heard.lock().unwrap().stream.answer(request))
+            .unwrap()
+        {}
         while let Some(record) = feedback.take().unwrap() {
             record.check().unwrap();
             let mut heard = heard.lock().unwrap();
@@ -290,8 +354,8 @@ fn status_now(shown: u64) -> Status {
         state: MachineState::Held.code(),
         pid: std::process::id(),
         feed_override: 1.5,
-        last_event: glidepath_link::Text::new("held by the operator"),
-        message: glidepath_link::Text::new("turn the part over"),
+        last_event: Text::new("held by the operator"),
+        message: Text::new("turn the part over"),
         ..Status::zeroed()
     }
 }

@@ -14,6 +14,7 @@
 mod build;
 mod live;
 mod machine;
+mod moving;
 mod process;
 
 use build::{Language, Linked, library};
@@ -180,5 +181,5 @@ fn the_library_gives_out_its_functions_and_its_name() {
         );
         count += 1;
     }
-    assert_eq!(count, 27);
+    assert_eq!(count, 34);
 }

@@ -2,8 +2,8 @@
 
 use crate::build::{self, Place};
 use std::io::{BufRead as _, BufReader, Read as _};
-use std::path::PathBuf;
-use std::process::{Child, ChildStdout, Command, Stdio};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdout, Command, ExitStatus, Stdio};
 
 /// Python, if it is installed.
 pub(crate) fn python() -> Option<String> {
@@ -11,6 +11,47 @@ pub(crate) fn python() -> Option<String> {
     found
         .is_ok_and(|output| output.status.success())
         .then(|| "python3".to_owned())
+}
+
+/// Whether Python has pip.
+pub(crate) fn has_pip(python: &str) -> bool {
+    let found = Command::new(python)
+        .args(["-m", "pip", "--version"])
+        .output();
+    found.is_ok_and(|output| output.status.success())
+}
+
+/// Builds the wheel, and installs it into a folder, which it gives.
+pub(crate) fn wheel(place: Place<'_>, python: &str) -> PathBuf {
+    let (wheels, installed) = (
+        place.directory.join("wheels"),
+        place.directory.join("python"),
+    );
+    let pip = |arguments: &[&str]| {
+        let output = Command::new(python)
+            .args(["-m", "pip", "--quiet", "--disable-pip-version-check"])
+            .args(arguments)
+            .env("GLIDEPATH_LIBRARY", build::library(build::Linked::Shared))
+            .env("TMPDIR", place.directory)
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{output:?}");
+    };
+    // Nothing is fetched: the package has no requirements, neither to be built nor to be used.
+    let folder = wheels.to_str().unwrap();
+    let source = build::source("python");
+    pip(&["wheel", "--no-deps", "--no-index", "-w", folder, &source]);
+    let target = installed.to_str().unwrap();
+    pip(&[
+        "install",
+        "--no-index",
+        "--find-links",
+        folder,
+        "--target",
+        target,
+        "glidepath",
+    ]);
+    installed
 }
 
 /// A consumer at work.
@@ -49,15 +90,46 @@ impl Consumer {
         Self::run(place, name, program, &arguments)
     }
 
+    /// The example in Python, with the package that was installed and the library in it.
+    pub(crate) fn from_wheel(
+        place: Place<'_>,
+        python: &str,
+        installed: &Path,
+        script: &str,
+        count: u64,
+    ) -> Self {
+        let file = place.directory.join("wheel.bin");
+        let mut command = Command::new(python);
+        command
+            .args([
+                script,
+                place.instance,
+                &count.to_string(),
+                file.to_str().unwrap(),
+            ])
+            .env("XDG_RUNTIME_DIR", place.directory)
+            .env("PYTHONPATH", installed)
+            .env_remove("GLIDEPATH_LIBRARY")
+            .env_remove("LD_LIBRARY_PATH");
+        Self::spawn("wheel", command, file)
+    }
+
     fn run(place: Place<'_>, name: &str, program: &str, arguments: &[&str]) -> Self {
         let library = build::library_folder(place).join("libglidepath.so.0");
-        let mut child = Command::new(program)
+        let mut command = Command::new(program);
+        command
             .args(arguments)
             .env("XDG_RUNTIME_DIR", place.directory)
             .env("GLIDEPATH_LIBRARY", library)
             .env("PYTHONPATH", build::source("python"))
-            .env("PYTHONDONTWRITEBYTECODE", "1")
+            .env("PYTHONDONTWRITEBYTECODE", "1");
+        Self::spawn(name, command, place.directory.join(format!("{name}.bin")))
+    }
+
+    fn spawn(name: &str, mut command: Command, file: PathBuf) -> Self {
+        let mut child = command
             .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
             .spawn()
             .unwrap();
         let output = BufReader::new(child.stdout.take().unwrap());
@@ -65,7 +137,7 @@ impl Consumer {
             name: name.to_owned(),
             child,
             output,
-            file: place.directory.join(format!("{name}.bin")),
+            file,
         }
     }
 
@@ -80,10 +152,30 @@ impl Consumer {
     pub(crate) fn finish(mut self) -> (String, String, Vec<u8>) {
         let mut told = String::new();
         self.output.read_to_string(&mut told).unwrap();
-        let status = self.child.wait().unwrap();
-        assert!(status.success(), "{}: {status}, {told}", self.name);
+        let (status, complaint) = self.end();
+        assert!(
+            status.success(),
+            "{}: {status}, {told}{complaint}",
+            self.name
+        );
         let written = std::fs::read(&self.file).unwrap_or_default();
         (self.name.clone(), told, written)
+    }
+}
+
+impl Consumer {
+    fn end(&mut self) -> (ExitStatus, String) {
+        let mut complaint = String::new();
+        let stderr = self.child.stderr.take();
+        stderr.unwrap().read_to_string(&mut complaint).unwrap();
+        (self.child.wait().unwrap(), complaint)
+    }
+
+    /// What it complained of: it is not to succeed.
+    pub(crate) fn fails(mut self) -> String {
+        let (status, complaint) = self.end();
+        assert!(!status.success(), "{}: {complaint}", self.name);
+        complaint
     }
 }
 
