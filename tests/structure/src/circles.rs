@@ -121,6 +121,7 @@ houses! {
     gcode: "gcode",
     geometry: "geometry",
     glidepath: "glidepath",
+    hal: "hal",
     interpolator: "interpolator",
     kept: "kept",
     kinematics: "kinematics",
