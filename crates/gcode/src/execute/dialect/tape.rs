@@ -221,6 +221,12 @@ impl Tape {
 
     /// Jumps, and remembers where to.
     pub(crate) fn jump(&mut self, index: usize, number: u32, to: usize) {
+        self.remember_jump(index, number, to);
+        self.next = to;
+    }
+
+    /// Remembers where what a line names is.
+    pub(crate) fn remember_jump(&mut self, index: usize, number: u32, to: usize) {
         if self.jumps.len() >= MAX_JUMPS {
             self.jumps.clear();
         }
@@ -229,7 +235,6 @@ impl Tape {
             line: index,
         };
         self.jumps.insert((from, number), to);
-        self.next = to;
     }
 
     /// The first line from `from` on that is wanted, before the end and before `stop` says so.

@@ -210,15 +210,22 @@ impl<R: BufRead> Program<R> {
         Ok(())
     }
 
-    /// The line of a label or block number, from the next line on, then from the beginning.
+    /// The line of a label or block number, from the next line on, then from the beginning;
+    /// `number` tells the targets of a line apart.
     pub(super) fn siemens_target(
         &mut self,
         index: usize,
         target: &[u8],
+        number: u32,
         at: usize,
     ) -> Outcome<usize> {
-        self.siemens_find(Direction::Any, index, target)?
-            .ok_or_else(|| no_target(target, at))
+        if let Some(line) = self.tape.known_jump(index, number) {
+            return Ok(line);
+        }
+        let found = self.siemens_find(Direction::Any, index, target)?;
+        let line = found.ok_or_else(|| no_target(target, at))?;
+        self.tape.remember_jump(index, number, line);
+        Ok(line)
     }
 
     fn siemens_find(
@@ -271,7 +278,7 @@ impl<R: BufRead> Program<R> {
         }
         match self.siemens_find(way, index, &target)? {
             Some(line) => self.tape.jump(index, 1, line),
-            None if way == Direction::IfAny => {}
+            None if way == Direction::IfAny => self.tape.jump(index, 1, index + 1),
             None => return Err(no_target(&target, start)),
         }
         Ok(())

@@ -23,6 +23,9 @@ use crate::syntax::word_check::missing;
 /// Factors beyond this, or below one over it, are refused.
 const MAX_SCALE: f64 = 1000.0;
 
+/// Shifts beyond this are refused, mm or degrees.
+const MAX_SHIFT: f64 = 1e6;
+
 /// What one word of a frame says.
 struct FrameValue {
     /// Which axis; `None`: RPL.
@@ -87,6 +90,12 @@ impl<R: BufRead> Program<R> {
                     1.0 / MAX_SCALE
                 ))
                 .help("write SCALE alone before it, which ends the frame"));
+        }
+        if frame.shift.iter().any(|way| way.abs() > MAX_SHIFT) {
+            let message = format!("a shift of more than {MAX_SHIFT} mm or degrees");
+            return Err(Fault::new(DiagnosticCode::InvalidValue, name, message)
+                .because("coordinates so far away have no micrometres any more")
+                .help("check what is added to what; TRANS alone ends the frame"));
         }
         offsets.frame = frame;
         Ok(())

@@ -104,6 +104,8 @@ impl<R: BufRead> Program<R> {
             }
             Step::Line(line) => line,
         };
+        // A loop around a cycle is as long as all of its steps.
+        self.kept_lines += 1;
         let number = self.line_of_program();
         self.execute_text(number, line.as_bytes())
             .map_err(|mut fault| {

@@ -79,17 +79,22 @@ impl<R: BufRead> Program<R> {
                 ))
                 .help("write REPEAT label P=n, REPEAT first last P=n, or REPEATB label P=n"));
         }
-        let start = self.siemens_target(index, &first, at)?;
+        let start = self.siemens_target(index, &first, 2, at)?;
         let end = match &last {
             _ if is_block => start + 1,
-            Some(last) => self.siemens_target(index, last, at)? + 1,
+            Some(last) => self.siemens_target(index, last, 3, at)? + 1,
             None => {
-                let end = self.tape.search(
-                    start + 1,
-                    &mut self.source,
-                    |line| is_target(line, b"ENDLABEL"),
-                    |_| false,
-                )?;
+                let end = match self.tape.known_jump(index, 4) {
+                    Some(end) => Some(end).filter(|end| *end != usize::MAX),
+                    None => self.tape.search(
+                        start + 1,
+                        &mut self.source,
+                        |line| is_target(line, b"ENDLABEL"),
+                        |_| false,
+                    )?,
+                };
+                let known = end.unwrap_or(usize::MAX);
+                self.tape.remember_jump(index, 4, known);
                 match end {
                     Some(end) if start > index || end < index => end,
                     _ if start < index => index,

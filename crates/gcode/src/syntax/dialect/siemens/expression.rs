@@ -19,6 +19,9 @@ use crate::diagnostic::span::SourceSpan;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::cursor::MAX_NUMBER;
 use crate::syntax::dialect::siemens::function::{FUNCTIONS, Function};
+use crate::syntax::dialect::siemens::operator::{
+    Compare, LOGIC, OPERATORS, apply, comparison, finite,
+};
 use crate::syntax::dialect::siemens::variables::{Kind, Variables, r_parameter};
 use crate::syntax::expression::scope::{Parameter, Scope};
 
@@ -26,41 +29,6 @@ use crate::syntax::expression::scope::{Parameter, Scope};
 const MAX_DEPTH: u32 = 64;
 /// Most arguments of a call.
 const MAX_ARGUMENTS: usize = 40;
-/// Values that differ by less than this part of the greater are equal.
-const EQUAL: f64 = 1e-12;
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Operator {
-    Times,
-    Over,
-    Divide,
-    Modulo,
-    Plus,
-    Minus,
-    And,
-    ExclusiveOr,
-    Or,
-}
-
-/// Operators by name, with their strength.
-const OPERATORS: [(&[u8], Operator, u8); 9] = [
-    (b"*", Operator::Times, 5),
-    (b"/", Operator::Over, 5),
-    (b"DIV", Operator::Divide, 5),
-    (b"MOD", Operator::Modulo, 5),
-    (b"+", Operator::Plus, 4),
-    (b"-", Operator::Minus, 4),
-    (b"AND", Operator::And, LOGIC),
-    (b"XOR", Operator::ExclusiveOr, 2),
-    (b"OR", Operator::Or, 1),
-];
-
-/// Operators of this strength and weaker ones are of truth values.
-const LOGIC: u8 = 3;
-
-/// A comparison of two values.
-type Compare = fn(f64, f64) -> bool;
-
 /// Where values come from.
 #[derive(Clone, Copy)]
 pub(crate) struct Names<'a> {
@@ -272,15 +240,7 @@ impl<'a> Evaluator<'a> {
     /// The comparison that comes next, and how long it is.
     fn comparator(&mut self) -> Option<(Compare, usize)> {
         let first = self.next_visible()?;
-        Some(match (first, self.peek(1)) {
-            (b'=', Some(b'=')) => (equal, 2),
-            (b'<', Some(b'>')) => (|a, b| !equal(a, b), 2),
-            (b'<', Some(b'=')) => (|a, b| a < b || equal(a, b), 2),
-            (b'>', Some(b'=')) => (|a, b| a > b || equal(a, b), 2),
-            (b'<', _) => (|a, b| a < b && !equal(a, b), 1),
-            (b'>', _) => (|a, b| a > b && !equal(a, b), 1),
-            _ => return None,
-        })
+        comparison(first, self.peek(1))
     }
 
     /// Operators of at least the given strength.
@@ -464,44 +424,6 @@ impl<'a> Evaluator<'a> {
         };
         Ok(value.unwrap_or(0.0))
     }
-}
-
-fn equal(a: f64, b: f64) -> bool {
-    (a - b).abs() <= EQUAL * a.abs().max(b.abs())
-}
-
-fn apply(operator: Operator, left: f64, right: f64, span: SourceSpan) -> Outcome<f64> {
-    let truth = |t: bool| f64::from(u8::from(t));
-    let (a, b) = (left != 0.0, right != 0.0);
-    let value = match operator {
-        Operator::Times => left * right,
-        Operator::Over | Operator::Divide | Operator::Modulo if right == 0.0 => {
-            return Err(
-                Fault::new(DiagnosticCode::Arithmetic, span, "a division by zero")
-                    .because("the value on the right of the operator is zero")
-                    .help("check the values it is computed from"),
-            );
-        }
-        Operator::Over => left / right,
-        Operator::Divide => (left / right).trunc(),
-        Operator::Modulo => left % right,
-        Operator::Plus => left + right,
-        Operator::Minus => left - right,
-        Operator::And => truth(a && b),
-        Operator::ExclusiveOr => truth(a != b),
-        Operator::Or => truth(a || b),
-    };
-    finite(value, span)
-}
-
-fn finite(value: f64, span: SourceSpan) -> Outcome<f64> {
-    if value.is_finite() {
-        return Ok(value);
-    }
-    let message = "the result is not a number";
-    Err(Fault::new(DiagnosticCode::Arithmetic, span, message)
-        .because("the operation has no value for these operands, or one that is too large")
-        .help("check the values it is computed from"))
 }
 
 fn unclosed(span: SourceSpan, with: &str) -> Box<Fault> {

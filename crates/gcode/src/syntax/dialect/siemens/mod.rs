@@ -20,6 +20,8 @@ pub(crate) mod expression;
 pub(crate) mod frame_word;
 mod function;
 mod marks;
+mod operator;
+mod refused_word;
 mod rewritten;
 pub(crate) mod statement;
 #[cfg(test)]
