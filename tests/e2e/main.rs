@@ -9,6 +9,7 @@ mod faults;
 mod hal;
 mod jog;
 mod libraries;
+mod life;
 mod live;
 mod load;
 mod operating;

@@ -11,6 +11,12 @@ const PATIENCE: Duration = Duration::from_secs(240);
 const M_CODES: &str = "\n[m_codes.M3]\ndone = \"spindle-at-speed\"\ntimeout_s = 20\n\
                        [m_codes.M6]\ntimeout_s = 60\n[m_codes.M100-M199]\n[m_codes.M150]\ntimeout_s = 0.5\n";
 
+/// A start at a line takes the tool axis up to the end of its travel.
+pub(crate) const SHORT_WAY_UP: (&str, &str) = (
+    "[axis.Z]\nmin_position = -500.0\nmax_position = 500.0",
+    "[axis.Z]\nmin_position = -500.0\nmax_position = 12.0",
+);
+
 const PART: &str = "G21 G90 G54\nT2 M6 (change to tool 2)\nS600 M3\nM8\n(MSG, cutting)\n\
                     G1 X5 F3000\nM101\nX8 Y3\nX2\nM5 M9\nM2\n";
 
@@ -22,7 +28,7 @@ const PART: &str = "G21 G90 G54\nT2 M6 (change to tool 2)\nS600 M3\nM8\n(MSG, cu
 fn lines_and_files_are_executed_by_one_service() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let lift = ("\nlift = 0.0 ", "\nlift = 3.5 ");
-    let bench = Operated::new(&instance, &[lift], M_CODES);
+    let bench = Operated::new(&instance, &[lift, SHORT_WAY_UP], M_CODES);
     let interpolator = bench.process(&["interpolator", "--best-effort"]);
     let servo = bench.process(&["servo", "--stands", "12.5,3,4"]);
     let _seen = bench.wait(|status| status.feedback_age_ns < 12_000_000);

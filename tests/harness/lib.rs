@@ -7,6 +7,8 @@
 //! * [`Services`]: an interpolator and a servo as processes;
 //! * [`Operated`]: the same with drives that answer, and what an operator types;
 //! * [`Browser`]: Chromium, to look at pages;
+//! * [`ServoStack`]: drives as a thread of the test, which upsets them, and [`Tape`]: every
+//!   setpoint, and what is wrong with them;
 //! * [`Machine`]: interpolator, recorder and planner as threads of the test, joined by the
 //!   transport that real processes use.
 #![allow(
@@ -25,6 +27,8 @@ mod operated;
 mod process;
 mod services;
 mod setpoint_file;
+mod stack;
+mod tape;
 mod watchdog;
 
 pub use binary::glidepath;
@@ -35,4 +39,6 @@ pub use operated::Operated;
 pub use process::{Output, Process};
 pub use services::{Services, planned};
 pub use setpoint_file::SetpointFile;
+pub use stack::ServoStack;
+pub use tape::Tape;
 pub use watchdog::Watchdog;

@@ -136,7 +136,7 @@ impl Listener<'_> {
             }
             let ready = match self.publisher.ready(control) {
                 Ok(Some(position)) => Ok(position),
-                Ok(None) => Err("the machine is not ready for a program".to_owned()),
+                Ok(None) => Err(self.publisher.why_not_ready()),
                 Err(error) if ends_the_listener(&error) => return Err(error),
                 Err(error) => Err(error.to_string()),
             };

@@ -82,6 +82,22 @@ impl Publisher<'_> {
     /// One look at whether the machine is ready, and where it stands.
     ///
     /// # Errors
+    /// Why the machine is not ready, for people.
+    pub(crate) fn why_not_ready(&self) -> String {
+        let state = self.machine.status().and_then(|status| status.state().ok());
+        let why = match state {
+            None => "no interpolator runs",
+            Some(MachineState::Off) => "its drives are off",
+            Some(MachineState::NotHomed) => "it is not homed",
+            Some(MachineState::Homing) => "its joints are on their way home",
+            Some(MachineState::Jogging) => "it is moved by hand",
+            Some(MachineState::Faulted) => "a fault was not taken note of",
+            Some(MachineState::Idle) => "it became ready just now",
+            Some(_) => "it executes something",
+        };
+        format!("the machine is not ready for a program: {why}")
+    }
+
     /// As [`Publisher::wait_until_ready`], without the stop flag.
     pub(crate) fn ready(
         &mut self,

@@ -88,18 +88,18 @@ pub struct Approach {
 }
 
 impl<S: ItemSource> LineStart<S> {
-    /// Reads a program, opened for a machine at a position, up to a line. For sources that are never
-    /// pending.
+    /// Reads a program, opened for the machine where it stands, up to a line. What the program says
+    /// nothing of before that line stays as it is. For sources that are never pending.
     ///
     /// # Errors
     /// [`StartLineError`].
     pub fn find(
         mut source: S,
         start: StartLine,
-        position: AxisVector,
+        approach: &Approach,
     ) -> Result<Self, StartLineError> {
-        let mut expected = Auxiliary::default();
-        let (mut begins_at, mut before, mut passes, mut block) = (position, 0, 0, 1);
+        let mut expected = approach.now;
+        let (mut begins_at, mut before, mut passes, mut block) = (approach.position, 0, 0, 1);
         let mut next = None;
         loop {
             let item = match source.next_item() {
@@ -319,7 +319,7 @@ mod tests {
                 line: item.line,
                 pass,
             };
-            let found = LineStart::find(source(), start, AxisVector::zeros()).unwrap();
+            let found = LineStart::find(source(), start, &approach(AxisVector::zeros())).unwrap();
             if let ItemKind::Move { segment, .. } = item.kind {
                 assert_eq!(found.begins_at(), segment.start(), "line {}", item.line);
             }
@@ -334,7 +334,7 @@ mod tests {
     #[test]
     fn the_way_goes_up_restores_and_comes_down() {
         let start = StartLine { line: 10, pass: 1 };
-        let found = LineStart::find(source(), start, AxisVector::zeros()).unwrap();
+        let found = LineStart::find(source(), start, &approach(AxisVector::zeros())).unwrap();
         assert_eq!(found.expected().spindle(), Ok(SpindleState::Clockwise));
         assert!(found.expected().coolant().contains(Coolant::FLOOD));
         let mut position = AxisVector::repeat(0.0);
@@ -364,14 +364,38 @@ mod tests {
     }
 
     #[test]
+    fn what_the_program_does_not_name_stays_as_it_is() {
+        let mut approach = approach(AxisVector::zeros());
+        for event in [
+            Event::SelectTool(7),
+            Event::MCode(6),
+            Event::SpindleSpeed(900.0),
+            Event::MCode(4),
+            Event::MCode(8),
+        ] {
+            approach.now.take(event);
+        }
+        let text = "G21 G90\nG1 X1 F600\nM9\nX2\nM2\n";
+        let source = ProgramSource::new(text.as_bytes(), Options::default());
+        let start = StartLine { line: 4, pass: 1 };
+        let found = LineStart::find(source, start, &approach).unwrap();
+        let rest = items(&mut found.approached(&approach));
+        let events = rest.iter().filter_map(|item| match item.kind {
+            ItemKind::Event(event) => Some(event),
+            _ => None,
+        });
+        assert_eq!(events.collect::<Vec<_>>(), [Event::MCode(9)]);
+    }
+
+    #[test]
     fn a_line_that_does_nothing_is_refused() {
         let start = StartLine { line: 8, pass: 1 };
-        let refused = LineStart::find(source(), start, AxisVector::zeros()).unwrap_err();
+        let refused = LineStart::find(source(), start, &approach(AxisVector::zeros())).unwrap_err();
         assert!(
             refused.to_string().contains("line 9 is the next"),
             "{refused}"
         );
         let start = StartLine { line: 5, pass: 4 };
-        LineStart::find(source(), start, AxisVector::zeros()).unwrap_err();
+        LineStart::find(source(), start, &approach(AxisVector::zeros())).unwrap_err();
     }
 }

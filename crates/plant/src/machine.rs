@@ -27,6 +27,8 @@ pub enum Upset {
     Contact(usize, Option<bool>),
     /// Somebody moves a joint by hand, by this much.
     Pushed(usize, f64),
+    /// A digital input from 1 to 63 is high or low; 0 is the contact of the probe.
+    Input(u32, bool),
 }
 
 /// A servo stack with its machine.
@@ -51,6 +53,8 @@ pub struct Plant {
     bounces_ns: u64,
     /// The tip is deflected, and what the contact says.
     is_deflected: bool,
+    /// Digital inputs, but for that of the probe.
+    inputs: u64,
     touches: bool,
     touch_count: u64,
     touched: ([f64; 9], u64),
@@ -78,6 +82,7 @@ impl Plant {
             bounce_ns: 0,
             bounces_ns: 0,
             is_deflected: false,
+            inputs: 0,
             touches: false,
             touch_count: 0,
             touched: ([0.0; 9], 0),
@@ -117,6 +122,10 @@ impl Plant {
             Upset::DriveFault(joint, code) => self.joint(joint, |joint| joint.fault_code = code),
             Upset::Stuck(joint, stuck) => self.joint(joint, |joint| joint.is_stuck = stuck),
             Upset::Contact(joint, contact) => self.joint(joint, |joint| joint.contact = contact),
+            Upset::Input(number, is_high) => {
+                let bit = 1 << (number & 63) & !1;
+                self.inputs = (self.inputs & !bit) | if is_high { bit } else { 0 };
+            }
             Upset::Pushed(joint, distance) => self.joint(joint, |joint| joint.push(distance)),
         }
     }
@@ -228,7 +237,7 @@ impl Plant {
             limit_high: mask(&|joint| joint.limits().1),
             home_switch: mask(&Joint::is_at_home_switch),
             position: self.positions(),
-            digital_in: u64::from(self.touches),
+            digital_in: self.inputs | u64::from(self.touches),
             spindle_angle: self.spindle.angle,
             spindle_v: self.spindle.speed,
             spindle_index_count: self.spindle.index_count(),

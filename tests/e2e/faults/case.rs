@@ -153,9 +153,13 @@ pub(super) fn cases(count: usize, seed: u64) -> Vec<Case> {
 
 /// Numbers that look random and depend on the seed only (SplitMix64: Steele, Lea, Flood 2014).
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Chance(u64);
+pub(crate) struct Chance(u64);
 
 impl Chance {
+    pub(crate) const fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
     pub(super) fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -165,7 +169,7 @@ impl Chance {
     }
 
     /// A number below `end` > 0.
-    pub(super) fn below(&mut self, end: usize) -> usize {
+    pub(crate) fn below(&mut self, end: usize) -> usize {
         usize::try_from(self.next() % end as u64).unwrap()
     }
 
@@ -174,7 +178,7 @@ impl Chance {
         low + self.next() % (high - low + 1)
     }
 
-    pub(super) fn millis(&mut self, low: u64, high: u64) -> std::time::Duration {
+    pub(crate) fn millis(&mut self, low: u64, high: u64) -> std::time::Duration {
         std::time::Duration::from_millis(self.between(low, high))
     }
 }

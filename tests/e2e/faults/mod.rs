@@ -28,6 +28,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_tests::{Instance, Watchdog, plan};
 
 use bench::Bench;
+pub(crate) use case::Chance;
 use case::cases;
 use script::{HOME, PROGRAM, Programs};
 use table::Table;

@@ -108,9 +108,9 @@ impl<'c> Workshop<'c> {
                 })
             }
             Some(from) => {
-                let found = LineStart::find(source, from, start)
-                    .map_err(|error| Stop::Refused(error.to_string()))?;
                 let approach = approach(&config, start, bench.publisher, bench.control)?;
+                let found = LineStart::find(source, from, &approach)
+                    .map_err(|error| Stop::Refused(error.to_string()))?;
                 if !confirmed {
                     return Err(Stop::ToConfirm(agreement(from, &found, &approach, &config)));
                 }
