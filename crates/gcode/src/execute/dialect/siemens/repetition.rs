@@ -8,7 +8,6 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::tape::Repetition;
 use crate::execute::flow::activation::MAX_CALLS;
 use crate::execute::program::Program;
-use crate::execute::scope::ProgramScope;
 use crate::syntax::dialect::siemens::expression::Evaluator;
 use crate::syntax::dialect::siemens::statement::is_target;
 use crate::syntax::word_check::missing;
@@ -52,12 +51,49 @@ impl<R: BufRead> Program<R> {
         at: usize,
         is_block: bool,
     ) -> Outcome<()> {
-        let scope = ProgramScope {
-            parameters: &self.parameters,
-            interpreter: &self.interpreter,
-        };
-        let mut input = self.evaluator(&scope, text, at);
         let span = SourceSpan::new(at.saturating_sub(6), at);
+        let (first, last, turns) = self.siemens_part(text, at, span, is_block)?;
+        let start = self.siemens_target(index, &first, 2, at)?;
+        let end = match &last {
+            _ if is_block => start + 1,
+            Some(last) => self.siemens_target(index, last, 3, at)? + 1,
+            None => self.siemens_part_end(index, start, span)?,
+        };
+        if end <= start || (start..end).contains(&index) {
+            let message = "a part that ends before it begins, or repeats itself";
+            return Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
+                .because("the first label stands in front of the last, and REPEAT outside of them")
+                .help("check the labels"));
+        }
+        if self.tape.repetitions.len() >= MAX_CALLS {
+            let message = format!("more than {MAX_CALLS} repetitions in each other");
+            return Err(Fault::new(DiagnosticCode::CallDepth, span, message)
+                .because("the depth of repetitions is bounded")
+                .help("check what jumps out of a part that is repeated"));
+        }
+        let Some(again) = turns.checked_sub(1) else {
+            return Ok(());
+        };
+        self.tape.repetitions.push(Repetition {
+            start,
+            end,
+            back: index + 1,
+            again,
+        });
+        self.tape.next = start;
+        Ok(())
+    }
+
+    /// The first label, the last one, and how often.
+    fn siemens_part(
+        &self,
+        text: &[u8],
+        at: usize,
+        span: SourceSpan,
+        is_block: bool,
+    ) -> Outcome<(Vec<u8>, Option<Vec<u8>>, u32)> {
+        let scope = self.scope();
+        let mut input = self.evaluator(&scope, text, at);
         let first = label_ahead(&mut input)
             .ok_or_else(|| missing(span, "REPEAT", "a label", "where the part begins"))?;
         let last = if is_block {
@@ -79,61 +115,37 @@ impl<R: BufRead> Program<R> {
                 ))
                 .help("write REPEAT label P=n, REPEAT first last P=n, or REPEATB label P=n"));
         }
-        let start = self.siemens_target(index, &first, 2, at)?;
-        let end = match &last {
-            _ if is_block => start + 1,
-            Some(last) => self.siemens_target(index, last, 3, at)? + 1,
-            None => {
-                let end = match self.tape.known_jump(index, 4) {
-                    Some(end) => Some(end).filter(|end| *end != usize::MAX),
-                    None => self.tape.search(
-                        start + 1,
-                        &mut self.source,
-                        |line| is_target(line, b"ENDLABEL"),
-                        |_| false,
-                    )?,
-                };
-                let known = end.unwrap_or(usize::MAX);
-                self.tape.remember_jump(index, 4, known);
-                match end {
-                    Some(end) if start > index || end < index => end,
-                    _ if start < index => index,
-                    _ => {
-                        let message = "a part without its end";
-                        return Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
-                            .because("a part that begins behind REPEAT ends at ENDLABEL:")
-                            .help("add ENDLABEL:, or name the last block: REPEAT first last"));
-                    }
-                }
-            }
-        };
-        if end <= start || (start..end).contains(&index) {
-            let message = "a part that ends before it begins, or repeats itself";
-            return Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
-                .because("the first label stands in front of the last, and REPEAT outside of them")
-                .help("check the labels"));
-        }
-        if self.tape.repetitions.len() >= MAX_CALLS {
-            let message = format!("more than {MAX_CALLS} repetitions in each other");
-            return Err(Fault::new(DiagnosticCode::CallDepth, span, message)
-                .because("the depth of repetitions is bounded")
-                .help("check what jumps out of a part that is repeated"));
-        }
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "range checked"
         )]
-        let Some(again) = (turns as u32).checked_sub(1) else {
-            return Ok(());
+        let turns = turns as u32;
+        Ok((first, last, turns))
+    }
+
+    /// The line behind a part that has one label: ENDLABEL, or REPEAT itself.
+    fn siemens_part_end(&mut self, index: usize, start: usize, span: SourceSpan) -> Outcome<usize> {
+        let end = match self.tape.known_jump(index, 4) {
+            Some(end) => Some(end).filter(|end| *end != usize::MAX),
+            None => self.tape.search(
+                start + 1,
+                &mut self.source,
+                |line| is_target(line, b"ENDLABEL"),
+                |_| false,
+            )?,
         };
-        self.tape.repetitions.push(Repetition {
-            start,
-            end,
-            back: index + 1,
-            again,
-        });
-        self.tape.next = start;
-        Ok(())
+        let known = end.unwrap_or(usize::MAX);
+        self.tape.remember_jump(index, 4, known);
+        match end {
+            Some(end) if start > index || end < index => Ok(end),
+            _ if start < index => Ok(index),
+            _ => {
+                let message = "a part without its end";
+                Err(Fault::new(DiagnosticCode::FlowStructure, span, message)
+                    .because("a part that begins behind REPEAT ends at ENDLABEL:")
+                    .help("add ENDLABEL:, or name the last block: REPEAT first last"))
+            }
+        }
     }
 }
