@@ -106,6 +106,16 @@ fn values_are_those_of_the_other_control_in_our_units() {
     );
     assert_eq!(mill.jog.increments, [1.0, 0.1, 0.01]);
 
+    // To the negative end with zero there, as its flags say; the tool axis first.
+    let hal = machine("grbl", "grblhal.txt");
+    let homes = |machine: &MachineConfig, joint: usize| machine.home_of_joints[joint].unwrap();
+    assert_eq!([homes(&hal, 0).sequence, homes(&hal, 2).sequence], [2, 1]);
+    let printer = machine("klipper", "cartesian.cfg");
+    let home = homes(&printer, 0);
+    assert_eq!((home.search_v, home.latch_v), (-50.0, -25.0));
+    near(home.search_travel, 1.5 * 235.0);
+    assert_eq!(homes(&printer, 2).home.to_bits(), 0.5_f64.to_bits());
+
     let gantry = machine("linuxcnc", "gantry-inch.ini");
     near(gantry.axes[0].travel.unwrap().1, 1219.2);
     near(gantry.axes[0].max_jerk, 400.0 * 25.4);

@@ -1,5 +1,7 @@
 //! From what grbl and grblHAL print on `$$` (settings) and `$#` (offsets).
 
+mod homing;
+
 use crate::conversion::Conversion;
 use crate::draft::{Draft, float};
 use crate::ini::ReadError;
@@ -44,6 +46,7 @@ pub fn from_grbl(text: &str) -> Result<Conversion, ReadError> {
     for (number, letter) in machine.axes.clone() {
         machine.axis(number, letter);
     }
+    machine.homing();
     machine.path();
     machine.offsets();
     machine.others();
@@ -186,6 +189,20 @@ impl Machine {
     ) -> Result<(f64, f64), &'static str> {
         let mask = self.number(23).map_or(0.0, |(_, value)| value);
         let homes_to_minus = bit(mask, u32::try_from(number).unwrap_or(u32::MAX));
+        match (homes_to_minus, self.is_zero_at_home(homing)) {
+            // Homed at its positive end, at zero either way.
+            (false, _) | (true, Some(false)) => Ok((-length, 0.0)),
+            (true, Some(true)) => Ok((0.0, length)),
+            (true, None) => Err(
+                "it homes to its negative end ($23), and whether that is zero depends on how grbl was \
+                 built: add the answer to $I ([OPT:…]) to the input, or give both ends",
+            ),
+        }
+    }
+
+    /// Whether machine coordinates are zero where an axis has come home to; `None` if that is not
+    /// known.
+    fn is_zero_at_home(&self, homing: f64) -> Option<bool> {
         // grblHAL has a flag, grbl an option it was built with.
         let options = self
             .inputs
@@ -194,19 +211,10 @@ impl Machine {
         let is_hal =
             homing > 1.0 || self.find(700).is_some() || self.inputs.find("[", "FIRMWARE").is_some();
         let is_built = options.map(|text| text.split(',').next().unwrap_or_default().contains('Z'));
-        let is_zero_at_home = if is_hal {
+        if is_hal {
             Some(bit(homing, 3))
         } else {
             is_built
-        };
-        match (homes_to_minus, is_zero_at_home) {
-            // Homed at its positive end, at zero either way.
-            (false, _) | (true, Some(false)) => Ok((-length, 0.0)),
-            (true, Some(true)) => Ok((0.0, length)),
-            (true, None) => Err(
-                "it homes to its negative end ($23), and whether that is zero depends on how grbl was \
-                 built: add the answer to $I ([OPT:…]) to the input, or give both ends",
-            ),
         }
     }
 
@@ -287,10 +295,7 @@ impl Machine {
                 ("$", Some(20 | 21)) => {
                     "soft limits are always judged; switches belong to the drive"
                 }
-                ("$", Some(22..=27 | 43..=49)) => {
-                    "joints come home as [home.J0] says, where drives send feedback: give velocities with their \
-                     directions, and bounds"
-                }
+                ("$", Some(22..=27 | 43..=49)) => "homing ($22) is off",
                 ("$", Some(30 | 31 | 33..=36)) => "the spindle takes S words as they are",
                 ("$", Some(32)) => "there is no laser mode",
                 ("$", Some(100..=105)) => "steps per mm belong to the drive",

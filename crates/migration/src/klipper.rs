@@ -1,5 +1,7 @@
 //! From Klipper's printer.cfg.
 
+mod homing;
+
 use crate::conversion::Conversion;
 use crate::draft::{Draft, float, quoted};
 use crate::ini::{Include, ReadError, Style, read};
@@ -30,7 +32,8 @@ pub fn from_klipper(text: &str, include: Include<'_>) -> Result<Conversion, Read
     match kinematics {
         Some("corexy") => machine.joints(3),
         Some("linear-delta") => machine.joints(3),
-        _ => {}
+        Some(_) => machine.homing(),
+        None => {}
     }
     machine.path();
     machine.others();
@@ -254,9 +257,12 @@ impl Machine {
             let is_repeated = self.inputs.find(&section, &key) != Some(at);
             let reason = match (first, key.as_str()) {
                 _ if is_repeated => "it stands there before, or again in what is saved",
-                (_, key) if key.starts_with("homing_") || key == "position_endstop" => {
-                    "joints come home as [home.J0] says, where drives send feedback: give velocities with their \
-                     directions, and bounds"
+                (_, key)
+                    if key.starts_with("homing_")
+                        || key == "second_homing_speed"
+                        || key == "position_endstop" =>
+                {
+                    "the joints of such a machine come home by their drives"
                 }
                 ("printer", "minimum_cruise_ratio" | "max_accel_to_decel") => {
                     "jerk makes short moves gentle here"
