@@ -3,12 +3,23 @@
 use super::bench::{Bench, config};
 use super::homing::SWITCH;
 use crate::config::Config;
+use crate::gates::{Answer, Gate, Gates};
+use core::time::Duration;
 use glidepath_link::{Command, JogDemand, JogMode, MachineState};
 use glidepath_plant::{JointSettings, SwitchSettings};
 
-/// A machine whose first joint is brought home by the controller.
+/// A machine whose first joint is brought home by the controller, and that waits for its tools.
 pub(super) fn settings() -> Config {
-    let mut settings = config(false);
+    let tool_change = Gate {
+        first: 6,
+        last: 6,
+        answer: Answer::Acknowledgement,
+        within: Some(Duration::from_secs(1)),
+    };
+    let mut settings = Config {
+        gates: Gates::new(&[tool_change]).unwrap(),
+        ..config(false)
+    };
     settings.feedback.as_mut().unwrap().joints[0].homing = Some(SWITCH);
     settings
 }

@@ -1,10 +1,10 @@
 //! The matrix of what goes wrong with drives and whatever the machine does meanwhile.
 //!
-//! Every cell is a situation, an upset and a moment. A sample of them is in every run; all of them,
-//! and more by other seeds:
+//! Every cell is a situation, something that goes wrong, and a moment. Each is in every run once; more of
+//! them, at other moments:
 //!
 //! ```text
-//! GLIDEPATH_DRIVE_FAULTS=480 cargo test --release -p glidepath-interpolator --lib matrix -- --nocapture
+//! GLIDEPATH_DRIVE_FAULTS=840 cargo test --release -p glidepath-interpolator --lib matrix -- --nocapture
 //! ```
 //!
 //! What must be true of each: the machine comes to rest inside its limits and stays there until
@@ -14,7 +14,7 @@
 use super::bench::{Bench, numbers};
 use super::client::Machine;
 use crate::testing::Numbers;
-use glidepath_link::{Command, FaultCause, MachineState};
+use glidepath_link::{Command, EventId, FaultCause, MachineState};
 use glidepath_plant::Upset;
 
 /// What the machine does when it goes wrong.
@@ -32,10 +32,12 @@ enum Situation {
     JoggingUnhomed,
     AwayFromThePath,
     Returning,
+    ToATool,
+    Awaiting,
 }
 
 impl Situation {
-    const ALL: [Self; 12] = [
+    const ALL: [Self; 14] = [
         Self::Off,
         Self::Enabling,
         Self::NotHomed,
@@ -48,7 +50,14 @@ impl Situation {
         Self::JoggingUnhomed,
         Self::AwayFromThePath,
         Self::Returning,
+        Self::ToATool,
+        Self::Awaiting,
     ];
+
+    /// Whether a tool change is waited for, or will be.
+    const fn has_gate(self) -> bool {
+        matches!(self, Self::ToATool | Self::Awaiting)
+    }
 
     /// Whether the first joint has not come home.
     const fn is_before_homing(self) -> bool {
@@ -67,10 +76,14 @@ enum Wrong {
     Stuck,
     DeadContact,
     OperatorAborts,
+    LateAnswer,
+    NoAnswer,
+    FailedAnswer,
+    StrayAnswers,
 }
 
 impl Wrong {
-    const ALL: [Self; 8] = [
+    const ALL: [Self; 12] = [
         Self::EmergencyStop,
         Self::PowerLost,
         Self::DriveFault,
@@ -79,6 +92,10 @@ impl Wrong {
         Self::Stuck,
         Self::DeadContact,
         Self::OperatorAborts,
+        Self::LateAnswer,
+        Self::NoAnswer,
+        Self::FailedAnswer,
+        Self::StrayAnswers,
     ];
 
     /// What begins it, and what ends it.
@@ -93,7 +110,11 @@ impl Wrong {
             Self::ShortSilence | Self::LongSilence => (Upset::Dropout(true), Upset::Dropout(false)),
             Self::Stuck => (Upset::Stuck(joint, true), Upset::Stuck(joint, false)),
             Self::DeadContact => (Upset::Contact(0, Some(false)), Upset::Contact(0, None)),
-            Self::OperatorAborts => return None,
+            Self::OperatorAborts
+            | Self::LateAnswer
+            | Self::NoAnswer
+            | Self::FailedAnswer
+            | Self::StrayAnswers => return None,
         })
     }
 
@@ -110,7 +131,37 @@ impl Wrong {
                 | (Self::Stuck, FaultCause::FollowingError)
                 // A joint that does not move finds no switch, and no edge.
                 | (Self::Stuck | Self::DeadContact, FaultCause::Homing)
+                | (Self::NoAnswer, FaultCause::AuxTimeout)
+                | (Self::FailedAnswer, FaultCause::AuxFailed)
         )
+    }
+
+    /// What somebody answers in the end, if anybody does.
+    const fn answer(self) -> Option<bool> {
+        match self {
+            Self::NoAnswer => None,
+            Self::FailedAnswer => Some(false),
+            _ => Some(true),
+        }
+    }
+
+    /// It begins.
+    fn begin(self, bench: &mut Bench, joint: usize) -> Checked {
+        if let Some((begin, _)) = self.upsets(joint) {
+            bench.upset(begin);
+            return Ok(());
+        }
+        match self {
+            Self::OperatorAborts => drop(bench.command(Command::Abort)),
+            Self::FailedAnswer => answer(bench, false)?,
+            Self::StrayAnswers => {
+                let awaited = bench.last_awaited();
+                answer(bench, true)?;
+                stray_answers(bench, awaited)?;
+            }
+            _ => {}
+        }
+        Ok(())
     }
 }
 
@@ -122,7 +173,7 @@ impl Machine {
         seed: u64,
         numbers: &mut Numbers,
     ) -> Option<[f64; 3]> {
-        use MachineState::{Held, NotHomed, Running};
+        use MachineState::{Awaiting, Held, NotHomed, Running};
         let jog = [30.0, -20.0, 10.0];
         let bench = &mut self.bench;
         bench.run(10);
@@ -159,9 +210,20 @@ impl Machine {
             }
             _ => {}
         }
-        self.bench.load(seed, 500);
+        if situation.has_gate() {
+            self.bench.load_codes(seed, 120, &[8, 6, 9]);
+        } else {
+            self.bench.load(seed, 500);
+        }
         assert!(self.bench.run_to(Running, 60));
-        self.bench.run(numbers.whole(20, 200) as usize);
+        if situation == Situation::Awaiting {
+            assert!(self.bench.run_to(Awaiting, 2_000));
+        }
+        let most = if situation.has_gate() { 90 } else { 200 };
+        self.bench.run(numbers.whole(20, most) as usize);
+        if situation.has_gate() {
+            return None;
+        }
         if situation == Situation::Running {
             return None;
         }
@@ -207,11 +269,7 @@ fn play(situation: Situation, wrong: Wrong, seed: u64) -> Checked {
     let pressed = machine.bring(situation, seed, &mut numbers);
     let joint = numbers.whole(0, 2) as usize;
     let begun = machine.bench.setpoints.len();
-    let upsets = wrong.upsets(joint);
-    match upsets {
-        Some((begin, _)) => machine.bench.upset(begin),
-        None => drop(machine.bench.command(Command::Abort)),
-    }
+    wrong.begin(&mut machine.bench, joint)?;
     let lasts = match wrong {
         Wrong::ShortSilence => numbers.whole(1, 12),
         Wrong::LongSilence => numbers.whole(30, 60),
@@ -220,12 +278,54 @@ fn play(situation: Situation, wrong: Wrong, seed: u64) -> Checked {
     // The key stays pressed the whole time.
     machine.run(lasts as usize, pressed);
     never_leads(&machine.bench, wrong, begun)?;
-    if let Some((_, end)) = upsets {
+    if let Some((_, end)) = wrong.upsets(joint) {
         machine.bench.upset(end);
     }
     machine.run(60, pressed);
     comes_to_rest(&mut machine, situation, wrong)?;
     goes_on(&mut machine, situation, seed)
+}
+
+/// Answers what is awaited, if anything is.
+fn answer(bench: &mut Bench, done: bool) -> Checked {
+    match bench.last_awaited() {
+        Some(event) => bench.command(Command::Acknowledge { event, done }),
+        None => Ok(()),
+    }
+}
+
+/// Answers that nobody asked for: of another life, of another epoch, of an event to come, and a
+/// second time.
+fn stray_answers(bench: &mut Bench, answered: Option<EventId>) -> Checked {
+    let last = bench.last();
+    let known = answered.unwrap_or(EventId {
+        boot_id: last.boot_id,
+        epoch: last.epoch,
+        sequence: last.sequence,
+    });
+    let strays = [
+        known,
+        EventId {
+            boot_id: 5,
+            ..known
+        },
+        EventId {
+            epoch: known.epoch + 1,
+            ..known
+        },
+        EventId {
+            sequence: known.sequence + 1,
+            ..known
+        },
+    ];
+    for event in strays {
+        let taken = bench.command(Command::Acknowledge { event, done: true });
+        check(
+            taken.is_err(),
+            &format!("a stray answer is taken: {event:?}"),
+        )?;
+    }
+    Ok(())
 }
 
 /// While no drive has power, setpoints are where the joints are.
@@ -248,7 +348,17 @@ fn comes_to_rest(machine: &mut Machine, situation: Situation, wrong: Wrong) -> C
     let bench = &mut machine.bench;
     let rests = |s: MachineState| matches!(s, Faulted | Held | Idle | NotHomed | Off);
     // What goes on goes on to its end.
-    let is_over = (0..6_000).any(|_| rests(bench.tick().state().unwrap()));
+    let mut is_over = false;
+    for _ in 0..6_000 {
+        let state = bench.tick().state().unwrap();
+        if let Some(done) = wrong.answer().filter(|_| state == MachineState::Awaiting) {
+            answer(bench, done)?;
+        }
+        if rests(state) {
+            is_over = true;
+            break;
+        }
+    }
     check(is_over, "it does not come to rest")?;
     bench.feed.clear();
     if bench.state() == Held {
@@ -271,7 +381,8 @@ fn comes_to_rest(machine: &mut Machine, situation: Situation, wrong: Wrong) -> C
     let must_fault = matches!(
         wrong,
         Wrong::EmergencyStop | Wrong::PowerLost | Wrong::DriveFault
-    ) && !matches!(situation, Situation::Off | Situation::Enabling);
+    ) && !matches!(situation, Situation::Off | Situation::Enabling)
+        || matches!(wrong, Wrong::NoAnswer | Wrong::FailedAnswer) && situation.has_gate();
     check(cause.is_some() || !must_fault, "nobody is told")
 }
 
@@ -311,7 +422,7 @@ fn goes_on(machine: &mut Machine, situation: Situation, seed: u64) -> Checked {
 fn whatever_goes_wrong_in_whatever_situation_the_machine_rests_and_can_go_on() {
     let wanted = std::env::var("GLIDEPATH_DRIVE_FAULTS").ok();
     let all = wanted.is_some();
-    let count: usize = wanted.map_or(96, |text| text.parse().unwrap());
+    let count: usize = wanted.map_or(168, |text| text.parse().unwrap());
     let cells = Situation::ALL.len() * Wrong::ALL.len();
     let mut bad = Vec::new();
     for case in 0..count {
