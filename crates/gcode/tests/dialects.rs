@@ -175,6 +175,10 @@ fn words_that_mean_something_else_on_a_fanuc() {
         path(Dialect::Fanuc, "G91 G99 G82 X1 Z-1 R1 P500 K2").len(),
         9
     );
+    // The radius may be called H, but for a block that has a length.
+    finds(Dialect::Fanuc, "G42 H7 G1 X1", &["1:5 unknown-tool"]);
+    finds(Dialect::Fanuc, "G42 H7 D7 G1 X1", &["1:5 unused-word"]);
+    finds(Dialect::LinuxCnc, "G42 H7 G1 X1 F9", &["1:5 unused-word"]);
     finds(Dialect::Fanuc, "G43.4 H1 Z5", &["1:1 not-supported"]);
     finds(Dialect::Fanuc, "N1 G0 X1 X2", &["1:10 duplicate-word"]);
 }

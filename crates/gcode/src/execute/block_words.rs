@@ -46,7 +46,7 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 10] {
             _ => none,
         },
         match codes.cutter_radius.map(|radius| radius.code) {
-            Some(CutterRadius::FromTable(_)) => Letters::of(b"D"),
+            Some(CutterRadius::FromTable(_)) => radius_word(block),
             Some(CutterRadius::FromWord(_)) => Letters::of(b"DL"),
             _ => none,
         },
@@ -91,6 +91,19 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 10] {
             none
         },
     ]
+}
+
+/// The word that says whose radius G41 and G42 are to take: D. Older controls of FANUC have one list
+/// of offsets, and H for both lengths and radii; beside G43 it is the length's.
+pub(crate) fn radius_word(block: &Block) -> Letters {
+    let takes_h = block.dialect == Dialect::Fanuc
+        && block.get(b'D').is_none()
+        && block.codes.tool_length.is_none();
+    if takes_h {
+        Letters::of(b"H")
+    } else {
+        Letters::of(b"D")
+    }
 }
 
 /// Words of a block whose only code is a motion, or which has none: as [`taken`], for straight

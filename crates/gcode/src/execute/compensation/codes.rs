@@ -6,6 +6,7 @@ use glidepath_program::Item;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::block_words::radius_word;
 use crate::execute::compensation::path::{Compensated, Compensation, MAX_HELD};
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
@@ -29,7 +30,12 @@ impl Interpreter {
                 return Ok(());
             }
             CutterRadius::FromTable(side) => {
-                let tool = self.named_tool(block, b'D', span)?;
+                let letter = if radius_word(block).has(b'H') {
+                    b'H'
+                } else {
+                    b'D'
+                };
+                let tool = self.named_tool(block, letter, span)?;
                 (side, tool.diameter_mm, tool.orientation)
             }
             CutterRadius::FromWord(side) => {
