@@ -5,6 +5,7 @@
     reason = "test code, which clippy does not see as such"
 )]
 
+mod chain;
 mod faults;
 mod hal;
 mod jog;

@@ -68,6 +68,12 @@ impl DeviceClock {
         (self.host_ns as f64 + since).round().max(0.0) as u64
     }
 
+    /// The control loop forgets what it has learnt of another reference.
+    pub(crate) fn forget(&mut self, host_ns: u64) {
+        self.local_ns = self.local_ns(host_ns);
+        (self.host_ns, self.moved_ns, self.trim) = (host_ns, 0.0, 0.0);
+    }
+
     /// The reference clock is ahead of this one by `ahead_ns`; it was so `since_t` seconds before,
     /// too.
     pub(crate) fn follow(&mut self, host_ns: u64, ahead_ns: f64, since_t: f64) {

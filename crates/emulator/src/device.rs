@@ -7,8 +7,9 @@ use crate::drive::{Drive, DriveSettings, Outputs};
 use crate::eeprom::{self, MAILBOX, MAILBOX_OUT};
 use crate::memory::{
     AL_CODE, AL_CONTROL, AL_STATUS, CLOCK, DL_STATUS, EEPROM_CONTROL, LATCHED_TIME, Memory,
-    PORT_TIMES, STATION_ADDRESS, SYNC_ACTIVATION, SYNC_MANAGER, SYNC_START, SYNC0_CYCLE,
-    SYSTEM_TIME, TIME_DELAY, TIME_DIFFERENCE, TIME_OFFSET, WATCHDOG_DIVIDER, WATCHDOG_OUTPUTS,
+    PORT_TIMES, SPEED_START, STATION_ADDRESS, SYNC_ACTIVATION, SYNC_MANAGER, SYNC_START,
+    SYNC0_CYCLE, SYSTEM_TIME, TIME_DELAY, TIME_DIFFERENCE, TIME_OFFSET, WATCHDOG_DIVIDER,
+    WATCHDOG_OUTPUTS,
 };
 use crate::process;
 use crate::states::{self, ERROR, INIT, OP, PRE_OP, SAFE_OP};
@@ -237,6 +238,7 @@ impl Device {
         match address {
             PORT_TIMES => self.latch_times(now_ns),
             SYSTEM_TIME => self.follow(bytes, now_ns),
+            SPEED_START => self.clock.forget(now_ns),
             AL_STATUS..0x0136 => return false,
             _ => self.memory.put(address, bytes),
         }

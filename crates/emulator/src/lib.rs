@@ -21,7 +21,7 @@
 //! ```
 //! use glidepath_emulator::{DriveSettings, Segment};
 //!
-//! let mut segment = Segment::new(&[DriveSettings::default(); 3]);
+//! let mut segment = Segment::new(&vec![DriveSettings::default(); 3]);
 //! // BRD of the type register: every device answers, and counts itself.
 //! let mut frame = vec![0; 60];
 //! frame[12..14].copy_from_slice(&[0x88, 0xa4]);

@@ -21,6 +21,8 @@ pub(crate) const LATCHED_TIME: u16 = 0x0918;
 pub(crate) const TIME_OFFSET: u16 = 0x0920;
 pub(crate) const TIME_DELAY: u16 = 0x0928;
 pub(crate) const TIME_DIFFERENCE: u16 = 0x092C;
+/// Writing it has the control loop of the clock begin anew.
+pub(crate) const SPEED_START: u16 = 0x0930;
 pub(crate) const SYNC_ACTIVATION: u16 = 0x0981;
 pub(crate) const SYNC_START: u16 = 0x0990;
 pub(crate) const SYNC0_CYCLE: u16 = 0x09A0;

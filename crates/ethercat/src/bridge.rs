@@ -174,13 +174,13 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         !self.drives.iter().all(Drive::is_present)
     }
 
-    /// A cycle: takes setpoints in, and says what each drive is to be told, by the SYNC0 at
-    /// `sync_ns`. `since_ns` is the time since targets reached the drives last. Times are of
+    /// A cycle: takes setpoints in, and says what each drive is to be told, for the setpoints of
+    /// `meant_ns`. `since_ns` is the time since targets reached the drives last. Times are of
     /// `CLOCK_MONOTONIC`.
     pub fn cycle(
         &mut self,
         now_ns: u64,
-        sync_ns: u64,
+        meant_ns: u64,
         since_ns: u64,
         tell: &mut dyn FnMut(Event),
     ) -> &[Outputs] {
@@ -188,7 +188,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         while let Ok(Some(_)) = self.servo.receive(now_ns) {
             self.look_at_state();
         }
-        let demand = self.servo.demand(sync_ns);
+        let demand = self.servo.demand(meant_ns);
         self.watch_motion(now_ns, demand.as_ref(), tell);
         self.tell_stops(tell);
         let (enable, home) = self.servo.last().map_or((0, 0), |s| (s.enable, s.home));
@@ -296,8 +296,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             .min()
     }
 
-    /// What is known of the joints, measured at a time of `CLOCK_MONOTONIC`. `is_new` if the drives
-    /// have answered since the last one.
+    /// What is known of the joints, as it was when the setpoints of `sample_ns` were played.
     #[allow(clippy::cast_precision_loss, reason = "a few periods")]
     pub fn feedback(&mut self, sample_ns: u64) -> Feedback {
         let mut feedback = Feedback {

@@ -25,6 +25,8 @@ use glidepath_link::{Feedback, Setpoint, Subscriber};
 use rtrb::Producer;
 use std::sync::mpsc::Sender;
 
+/// Cycles before the bus is left in which every drive hears that it has no power.
+const LAST_CYCLES: u32 = 10;
 /// Between two attempts to bring the bus up again.
 const PAUSE_NS: u64 = 500_000_000;
 /// How long nothing may come back until the bus is brought up anew.
@@ -153,7 +155,7 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
         self.hear(&mut clock, &beat, is_sent);
         self.bridge.begin(boot_id, &self.inputs);
         self.ends.tell(Event::InOperation);
-        let mut ends_ns = None;
+        let (mut ends_ns, mut off) = (None, 0);
         loop {
             if ends_ns.is_none() && stop.load(Ordering::Relaxed) {
                 let now_ns = self.op.wire().now_ns();
@@ -161,14 +163,15 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
                 ends_ns = Some(now_ns + FAREWELL_NS);
             }
             let now_ns = self.cycle(&mut clock);
-            if ends_ns.is_some_and(|ends_ns| self.bridge.is_off() || now_ns > ends_ns) {
+            off = if self.bridge.is_off() { off + 1 } else { 0 };
+            if ends_ns.is_some_and(|ends_ns| off > LAST_CYCLES || now_ns > ends_ns) {
                 return End::Asked;
             }
             if self.lost == self.settings.bus.lost_frames {
                 self.bridge.lose_bus(now_ns);
                 self.ends.tell(Event::BusLost);
             }
-            let has_lost_drive = self.bridge.has_lost_drive() && self.bridge.is_off();
+            let has_lost_drive = self.bridge.has_lost_drive() && off > LAST_CYCLES;
             let silent_ns = u64::from(self.lost) * clock.period_ns();
             if has_lost_drive || silent_ns > SILENCE_NS {
                 return End::BusLost;
@@ -188,7 +191,8 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
         let since_ns = beat.sync_ns.saturating_sub(self.targets_ns);
         let ends = &mut *self.ends;
         let mut tell = |event| ends.tell(event);
-        let outputs = self.bridge.cycle(now_ns, beat.sync_ns, since_ns, &mut tell);
+        let meant_ns = beat.sync_ns.saturating_sub(self.settings.bus.delay_ns);
+        let outputs = self.bridge.cycle(now_ns, meant_ns, since_ns, &mut tell);
         let is_sent = self.op.send(outputs).is_ok();
         if let Some(demands) = &mut self.ends.demands {
             let _ = demands.push((self.op.index(), beat.sync_ns));
@@ -198,8 +202,10 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
         self.counts.quartz = clock.rate();
         if self.lost == 0 {
             self.targets_ns = beat.sync_ns;
-            // What was answered was measured at the SYNC0 before.
-            let sample_ns = beat.sync_ns.saturating_sub(clock.period_ns());
+            // What was answered was measured at the SYNC0 before, and belongs to the setpoints that were
+            // played then.
+            let behind_ns = clock.period_ns() + self.settings.bus.delay_ns;
+            let sample_ns = beat.sync_ns.saturating_sub(behind_ns);
             let feedback = self.bridge.feedback(sample_ns);
             let _ = self.ends.feedback.push(feedback);
         }
@@ -238,14 +244,17 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
                 // The drives that answer can be led to rest; one that does not has failed.
                 let says_why = counted > 0 && self.bridge.has_lost_drive();
                 self.lost = if says_why { 0 } else { self.lost + 1 };
-                if !says_why {
+                if !says_why && self.lost < self.settings.bus.lost_frames {
                     tell(Event::FrameLost);
                 }
             }
             Reception::Lost => {
                 self.counts.lost += 1;
-                self.lost += 1;
-                tell(Event::FrameLost);
+                self.lost = self.lost.saturating_add(1);
+                // The others of a row are one event, that of the bus.
+                if self.lost < self.settings.bus.lost_frames {
+                    tell(Event::FrameLost);
+                }
             }
         }
     }

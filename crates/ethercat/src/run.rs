@@ -54,15 +54,15 @@ pub enum RunError {
 }
 
 /// Who is told what happens.
-pub struct Listeners<'a> {
+pub struct Listeners<'l, 'd> {
     /// Given lines for the log.
-    pub log: &'a mut dyn FnMut(&str),
+    pub log: &'l mut dyn FnMut(&str),
     /// Given the demand of every cycle, if anybody wants it: the number of its datagrams, and the
     /// SYNC0 that it is for, ns of `CLOCK_MONOTONIC`.
-    pub demands: Option<&'a mut dyn FnMut(u8, u64)>,
+    pub demands: Option<&'d mut dyn FnMut(u8, u64)>,
 }
 
-impl core::fmt::Debug for Listeners<'_> {
+impl core::fmt::Debug for Listeners<'_, '_> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Listeners").finish_non_exhaustive()
     }
@@ -80,7 +80,7 @@ pub fn run<W: Wire + Send>(
     run: RunSettings,
     transport: impl Fn() -> Result<Box<dyn Transport>, LinkError> + Clone + Send + 'static,
     stop: &AtomicBool,
-    listeners: Listeners<'_>,
+    listeners: Listeners<'_, '_>,
 ) -> Result<Counts, RunError> {
     let Listeners { log, mut demands } = listeners;
     let mut sink = transport()?.feedback_sink()?;

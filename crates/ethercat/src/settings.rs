@@ -10,6 +10,10 @@ pub struct BusSettings {
     pub period_ns: u64,
     /// From the sending of a frame to the SYNC0 at which it takes effect, ns; less than the period.
     pub shift_ns: u64,
+    /// How much later than they say setpoints are played, ns. They come a period of the interpolator
+    /// before they apply, and are asked for a shift before they take effect, so that this has to be
+    /// more than the shift, by what they may be late. Positions are stamped earlier by it.
+    pub delay_ns: u64,
     /// Frames lost in a row after which the bus counts as lost, ≥ 1.
     pub lost_frames: u32,
     /// How long a drive goes on without outputs, ns; its own watchdog then takes it out of OP.
@@ -17,11 +21,12 @@ pub struct BusSettings {
 }
 
 impl Default for BusSettings {
-    /// 2 ms, in the middle, three frames, 10 ms.
+    /// 2 ms, in the middle, setpoints that may be 2 ms late, three frames, 10 ms.
     fn default() -> Self {
         Self {
             period_ns: 2_000_000,
             shift_ns: 1_000_000,
+            delay_ns: 3_000_000,
             lost_frames: 3,
             watchdog_ns: 10_000_000,
         }

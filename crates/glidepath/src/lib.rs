@@ -43,6 +43,7 @@ pub mod command;
 pub mod config;
 pub mod curve_file;
 pub mod dense_runs;
+pub mod drives;
 pub mod exit;
 pub mod file_error;
 pub mod interrupt;

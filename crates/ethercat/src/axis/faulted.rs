@@ -4,7 +4,7 @@
 use super::step::{DISABLE_VOLTAGE, Next, RESET_FAULT, Step};
 use glidepath_link::DriveState;
 
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct Faulted {
     /// It is to be reset when its reaction is over.
     is_asked: bool,
@@ -15,6 +15,11 @@ pub(super) const fn rest(step: &mut Step<'_>) {
 }
 
 impl Faulted {
+    /// `is_asked` if it is to be reset at once: that was asked for while nobody saw it.
+    pub(super) const fn new(is_asked: bool) -> Self {
+        Self { is_asked }
+    }
+
     pub(super) const fn step(&mut self, step: &mut Step<'_>) -> Next {
         rest(step);
         self.is_asked |= step.wish.reset;

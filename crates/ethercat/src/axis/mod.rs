@@ -134,7 +134,7 @@ impl Axis {
             }
         };
         self.outputs = step.outputs;
-        self.enter(next, sight, joint, tell);
+        self.enter(next, sight, wish.reset, tell);
         if sight.fault != self.told {
             self.told = sight.fault;
             if sight.fault != 0 {
@@ -144,8 +144,8 @@ impl Axis {
         self.outputs
     }
 
-    fn enter(&mut self, next: Next, sight: &Sight, joint: usize, tell: &mut dyn FnMut(Event)) {
-        let now_ns = sight.now_ns;
+    fn enter(&mut self, next: Next, sight: &Sight, resets: bool, tell: &mut dyn FnMut(Event)) {
+        let (now_ns, joint) = (sight.now_ns, self.settings.joint);
         self.phase = match next {
             Next::Stay => return,
             Next::Off => {
@@ -180,7 +180,7 @@ impl Axis {
                 }
                 Phase::Stopping(Stopping::new(now_ns))
             }
-            Next::Fault => Phase::Faulted(Faulted::default()),
+            Next::Fault => Phase::Faulted(Faulted::new(resets)),
         };
     }
 }

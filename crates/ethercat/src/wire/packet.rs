@@ -4,10 +4,10 @@ use super::{Wire, sys};
 use glidepath_realtime::{Clock as _, Monotonic};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::Errno;
-use rustix::net::{RecvFlags, SendFlags, recv, send};
+use rustix::net::netdevice::{index_to_name, name_to_index};
+use rustix::net::{AddressFamily, RecvFlags, SendFlags, SocketType, recv, send, socket};
 use std::io;
 use std::os::fd::OwnedFd;
-use std::path::Path;
 
 /// The protocol number of EtherCAT.
 const ETHERCAT: u16 = 0x88a4;
@@ -48,22 +48,18 @@ pub struct PacketWire {
     socket: OwnedFd,
 }
 
-fn interfaces() -> Vec<String> {
-    let entries = std::fs::read_dir("/sys/class/net").into_iter().flatten();
-    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    let mut names: Vec<_> = names.filter(|name| name != "lo").collect();
-    names.sort_unstable();
-    names
+/// Highest number of an interface that is looked at for its name.
+const MOST_INTERFACES: u32 = 256;
+
+/// A socket to ask about interfaces by. Not by way of `/sys`, which shows those of the network
+/// namespace in which it was mounted.
+fn inquiry() -> io::Result<OwnedFd> {
+    Ok(socket(AddressFamily::INET, SocketType::DGRAM, None)?)
 }
 
-fn number(name: &str, what: &str) -> Option<u32> {
-    let path = Path::new("/sys/class/net").join(name).join(what);
-    let text = std::fs::read_to_string(path).ok()?;
-    let text = text.trim();
-    text.strip_prefix("0x").map_or_else(
-        || text.parse().ok(),
-        |hex| u32::from_str_radix(hex, 16).ok(),
-    )
+fn interfaces(inquiry: &OwnedFd) -> Vec<String> {
+    let names = (1..MOST_INTERFACES).filter_map(|index| index_to_name(inquiry, index).ok());
+    names.filter(|name| name != "lo").collect()
 }
 
 impl PacketWire {
@@ -73,25 +69,25 @@ impl PacketWire {
     ///
     /// There is no such interface, it is not up, or the process may not use it.
     pub fn open(name: &str) -> Result<Self, WireError> {
-        let is_plain = !name.contains('/');
-        let Some(index) = number(name, "ifindex").filter(|_| is_plain) else {
+        let refused = |source| WireError::Refused {
+            name: name.to_owned(),
+            source,
+        };
+        let inquiry = inquiry().map_err(refused)?;
+        let Ok(index) = name_to_index(&inquiry, name) else {
             return Err(WireError::NoInterface {
                 name: name.to_owned(),
-                known: interfaces(),
+                known: interfaces(&inquiry),
             });
         };
-        if number(name, "flags").is_some_and(|flags| flags & 1 == 0) {
-            return Err(WireError::Down {
+        let socket = sys::packet_socket(index, ETHERCAT).map_err(refused)?;
+        // A socket that is bound to an interface that is down says so once.
+        match recv(&socket, &mut [0; 1][..], RecvFlags::empty()) {
+            Err(Errno::NETDOWN) => Err(WireError::Down {
                 name: name.to_owned(),
-            });
+            }),
+            _ => Ok(Self { socket }),
         }
-        let socket = sys::packet_socket(index, ETHERCAT);
-        socket
-            .map(|socket| Self { socket })
-            .map_err(|source| WireError::Refused {
-                name: name.to_owned(),
-                source,
-            })
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::wire::{Fate, MemoryWire, World};
 use core::cell::{Cell, RefCell};
 use core::sync::atomic::{AtomicBool, Ordering};
+use core::time::Duration;
 use glidepath_emulator::{DriveSettings as Emulated, HomeSwitch, Segment, SyncRecord};
 use glidepath_ethercat::{
     BusSettings, Counts, DriveSettings, Ends, Event, HomingSettings, Settings, drive_bus,
@@ -81,6 +82,8 @@ pub(crate) fn servo() -> ServoSettings {
 /// What a case is made of.
 #[derive(Debug, Clone)]
 pub(crate) struct Setup {
+    /// From the grid of the bus to that of the interpolator, ns.
+    pub(crate) phase_ns: u64,
     pub(crate) bus: BusSettings,
     pub(crate) drives: Vec<DriveSettings>,
     pub(crate) emulated: Vec<Emulated>,
@@ -90,9 +93,11 @@ impl Setup {
     /// Three axes with absolute encoders.
     pub(crate) fn absolute(period_ns: u64) -> Self {
         Self {
+            phase_ns: 1_300_000,
             bus: BusSettings {
                 period_ns,
                 shift_ns: period_ns / 2,
+                delay_ns: period_ns / 2 + 2_000_000,
                 ..BusSettings::default()
             },
             drives: (0..3).map(drive).collect(),
@@ -117,7 +122,7 @@ impl Setup {
     }
 }
 
-fn config(homes: bool) -> Config {
+fn config(homes: bool, bus: &BusSettings) -> Config {
     let joint = JointFeedback {
         min_following_error: 0.2,
         following_error: 2.0,
@@ -126,7 +131,13 @@ fn config(homes: bool) -> Config {
         homing: None,
     };
     Config {
-        feedback: Some(FeedbackSettings::new(PERIOD_NS, joint)),
+        feedback: Some(FeedbackSettings {
+            // As the manual has it: frames that are lost are not yet feedback that is.
+            stale_after: Duration::from_nanos(
+                3 * PERIOD_NS + u64::from(bus.lost_frames) * bus.period_ns + bus.delay_ns,
+            ),
+            ..FeedbackSettings::new(PERIOD_NS, joint)
+        }),
         mechanism: Mechanism::Trivial(Trivial {
             axes: AxisList::new(&[Axis::X, Axis::Y, Axis::Z]),
         }),
@@ -253,6 +264,7 @@ struct Reality<'c, 's> {
     events: Rc<RefCell<Vec<Event>>>,
     stop: Rc<AtomicBool>,
     killed: Rc<Cell<bool>>,
+    start_ns: u64,
     feed: VecDeque<SetpointFrame>,
     epoch: u64,
     sent: u64,
@@ -296,7 +308,7 @@ impl World for Reality<'_, '_> {
         let wants = hands.wants;
         self.obey(wants);
         self.interpolate(now_ns);
-        START_NS + self.tick * PERIOD_NS
+        self.start_ns + self.tick * PERIOD_NS
     }
 
     fn fate(&mut self, now_ns: u64) -> Fate {
@@ -385,24 +397,34 @@ pub(crate) struct Outcome {
     pub(crate) records: Vec<Vec<SyncRecord>>,
     /// Allocations of the bus thread while it was counted.
     pub(crate) allocations: u64,
+    /// The drives as they are at the end, and when that was.
+    pub(crate) left: (Segment, u64),
 }
 
 /// Runs a machine until its case ends it.
 pub(crate) fn run(setup: &Setup, case: &mut dyn Case) -> Outcome {
     let mut segment = Segment::new_at(&setup.emulated, START_NS - 3_000_000_000);
     segment.keep_records();
-    run_on(setup, case, segment)
+    run_on(setup, case, segment, START_NS)
 }
 
-/// The same with drives that have a past.
-pub(crate) fn run_on(setup: &Setup, case: &mut dyn Case, segment: Segment) -> Outcome {
+/// The same with drives that have a past, which ends before `start_ns`.
+pub(crate) fn run_on(
+    setup: &Setup,
+    case: &mut dyn Case,
+    segment: Segment,
+    start_ns: u64,
+) -> Outcome {
     let homes = setup.drives.iter().any(|drive| drive.homing.is_some());
-    let (config, links) = (config(homes), [InProcess::default(), InProcess::default()]);
+    let (config, links) = (
+        config(homes, &setup.bus),
+        [InProcess::default(), InProcess::default()],
+    );
     let [first, second] = &links;
     served(&config, 11, Box::new(first.clone()), |a| {
         served(&config, 22, Box::new(second.clone()), |b| {
             let lives = [Some(Life::new(first, a)), Some(Life::new(second, b))];
-            with_bridge(setup, case, segment, lives)
+            with_bridge(setup, case, (segment, start_ns), lives)
         })
     })
     .unwrap()
@@ -412,7 +434,7 @@ pub(crate) fn run_on(setup: &Setup, case: &mut dyn Case, segment: Segment) -> Ou
 fn with_bridge(
     setup: &Setup,
     case: &mut dyn Case,
-    segment: Segment,
+    (segment, start_ns): (Segment, u64),
     lives: [Option<Life<'_>>; 2],
 ) -> Outcome {
     let settings = Settings {
@@ -442,6 +464,7 @@ fn with_bridge(
         events: Rc::clone(&told),
         stop: Rc::clone(&stop),
         killed: Rc::default(),
+        start_ns: start_ns + setup.phase_ns,
         feed: VecDeque::new(),
         epoch: 0,
         sent: 0,
@@ -451,7 +474,7 @@ fn with_bridge(
         feedback: None,
         setpoints: Rc::clone(&setpoints),
     };
-    let mut wire = MemoryWire::new(segment, reality, START_NS);
+    let mut wire = MemoryWire::new(segment, reality, start_ns);
     let mut lives = 0;
     let boot_id = &mut || {
         lives += 1;
@@ -469,14 +492,17 @@ fn with_bridge(
     while let Ok(event) = wire.world.happened.pop() {
         told.borrow_mut().push(event);
     }
+    let end_ns = glidepath_ethercat::Wire::now_ns(&wire);
     let mut segment = wire.segment;
+    let records = (0..setup.drives.len())
+        .map(|nth| segment.take_records(nth))
+        .collect();
     Outcome {
         counts,
         events: told.take(),
         setpoints: setpoints.take(),
-        records: (0..setup.drives.len())
-            .map(|nth| segment.take_records(nth))
-            .collect(),
+        records,
         allocations: wire.counted,
+        left: (segment, end_ns),
     }
 }

@@ -14,6 +14,7 @@ mod bring_up;
 mod judge;
 mod life;
 mod machine;
+mod matrix;
 mod wire;
 
 /// The thread of the bus does not allocate.

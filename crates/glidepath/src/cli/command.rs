@@ -3,6 +3,7 @@
 use super::basic::BasicArgs;
 use super::config::ConfigArgs;
 use super::curves::{FitArgs, PreviewArgs};
+use super::ethercat::{EthercatAction, EthercatArgs};
 use super::host::{BenchArgs, DoctorArgs, JitterArgs};
 use super::jog::JogArgs;
 use super::live::LiveArgs;
@@ -52,6 +53,13 @@ pub enum Command {
     /// A servo: plays setpoints on a machine that is not there, or on LinuxCNC's HAL
     #[command(after_help = "Example: glidepath servo --setpoints received.csv")]
     Servo(ServoArgs),
+    /// Drives on EtherCAT: setpoints to targets, and where the joints are back
+    #[command(
+        after_help = "Examples: glidepath ethercat --drives drives.toml --config mill.toml · \
+                            glidepath ethercat scan enp3s0 > drives.toml · \
+                            glidepath ethercat --emulated --best-effort"
+    )]
+    Ethercat(EthercatArgs),
     /// Stream a program's segments to a listening planner, as another program would
     #[command(after_help = "Example: glidepath feed part.ngc --instance mill-1")]
     Feed(FeedArgs),
@@ -143,7 +151,8 @@ pub enum Command {
                             glidepath config from-linuxcnc machine.ini > machine.toml")]
     Config(ConfigArgs),
     /// Is this host fit for real time? With the fix for each no
-    #[command(after_help = "Example: glidepath doctor --config mill.toml")]
+    #[command(after_help = "Examples: glidepath doctor --config mill.toml · \
+                            glidepath doctor --interface enp3s0")]
     Doctor(DoctorArgs),
     /// Measure how late the real-time loop wakes on this host
     #[command(
@@ -159,6 +168,13 @@ impl Command {
     pub const fn json(&self) -> bool {
         match (self, self.basic()) {
             (Self::Config(args), _) => args.json,
+            (
+                Self::Ethercat(EthercatArgs {
+                    action: Some(EthercatAction::Scan(args)),
+                    ..
+                }),
+                _,
+            ) => args.json,
             (_, Some(basic)) => basic.json,
             (_, None) => false,
         }
@@ -178,6 +194,7 @@ impl Command {
             Self::RunFile(args) => &args.basic,
             Self::Mdi(args) => &args.basic,
             Self::Servo(args) => &args.basic,
+            Self::Ethercat(args) => &args.basic,
             Self::Feed(args) => &args.basic,
             Self::Status(args) => &args.operator.basic,
             Self::Live(args) => &args.operator.basic,

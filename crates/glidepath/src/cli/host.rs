@@ -22,6 +22,9 @@ pub struct BenchArgs {
 /// Arguments of `doctor`.
 #[derive(Debug, Args)]
 pub struct DoctorArgs {
+    /// Look at a network interface that drives hang on, too
+    #[arg(long, value_name = "NAME")]
+    pub interface: Option<String>,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,

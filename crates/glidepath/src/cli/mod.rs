@@ -4,6 +4,7 @@ mod basic;
 mod command;
 mod config;
 mod curves;
+mod ethercat;
 mod host;
 mod jog;
 mod live;
@@ -17,11 +18,13 @@ pub use basic::{BasicArgs, InstanceArgs, OverwriteArgs};
 pub use command::Command;
 pub use config::{ConfigAction, ConfigArgs, ConfigSource, ConvertArgs};
 pub use curves::{FitArgs, FitMethod, PreviewArgs, PreviewMethod};
+pub use ethercat::{EthercatAction, EthercatArgs, ScanArgs};
 pub use host::{BenchArgs, DoctorArgs, JitterArgs};
 pub use jog::{JogArgs, Step};
 pub use live::LiveArgs;
 pub use motion::{
-    CheckArgs, FeedArgs, HalArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, ServoArgs,
+    CheckArgs, FeedArgs, HalArgs, InterpolatorArgs, PlanArgs, PlannerArgs, RunArgs, RunDrives,
+    ServoArgs,
 };
 pub use offsets::{
     AngularUnits, ExportArgs, ImportArgs, LinearUnits, OffsetsCommand, SetArgs, ShowArgs, UnitArgs,

@@ -4,8 +4,17 @@ use super::basic::{BasicArgs, InstanceArgs, OverwriteArgs};
 use super::path::PathArgs;
 use super::program::{ProgramArgs, program_file};
 use crate::program_file::ProgramFile;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
+
+/// What `run` moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum RunDrives {
+    /// A mock servo.
+    Mock,
+    /// Emulated drives on EtherCAT.
+    Emulated,
+}
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -28,6 +37,17 @@ pub struct RunArgs {
     /// Run without real-time privileges too; the report says what was granted
     #[arg(long)]
     pub best_effort: bool,
+    /// What is moved: "mock", a servo that does exactly what it is told, or "emulated", drives on an
+    /// EtherCAT that is not there, with the bridge that real ones are driven by
+    #[arg(long, value_name = "DRIVES", default_value = "mock")]
+    pub drives: RunDrives,
+    /// Period of the bus to emulated drives, µs
+    #[arg(long, value_name = "N", default_value_t = 2000,
+          value_parser = clap::value_parser!(u32).range(250..=20_000))]
+    pub bus_period_us: u32,
+    /// Write what the emulated drives recorded at every SYNC0 as CSV
+    #[arg(long, value_name = "CSV")]
+    pub drives_record: Option<PathBuf>,
     /// Write the setpoints the mock servo received as CSV
     #[arg(long, value_name = "CSV")]
     pub setpoints: Option<PathBuf>,
@@ -92,6 +112,9 @@ pub struct InterpolatorArgs {
     /// Move without real-time privileges too
     #[arg(long)]
     pub best_effort: bool,
+    /// Expect drives to answer, whatever the configuration says
+    #[arg(long, hide = true)]
+    pub expect_drives: bool,
     /// End when the process with this number, which started this one, ends
     #[arg(long, hide = true, value_name = "PID")]
     pub end_with: Option<u32>,
@@ -162,6 +185,9 @@ pub struct ServoArgs {
     /// Which files may be overwritten.
     #[command(flatten)]
     pub overwrite: OverwriteArgs,
+    /// Move nothing and send no feedback: another stack has the drives
+    #[arg(long, hide = true)]
+    pub listens: bool,
     /// Write every record received to standard output, for the process that started this one
     #[arg(long, hide = true, conflicts_with_all = ["setpoints", "json"])]
     pub relay: bool,

@@ -6,7 +6,7 @@ use crate::exit::Exit;
 use crate::output;
 use core::fmt::Write as _;
 use glidepath_realtime::Host;
-use glidepath_realtime::doctor::{Check, Demand, Verdict, examine};
+use glidepath_realtime::doctor::{Check, Demand, Verdict, examine, examine_interface};
 use serde_json::{Value, json};
 
 /// Examines the host for the processor and priority of the configuration. The exit code says
@@ -16,7 +16,15 @@ pub(super) fn doctor(args: &DoctorArgs, config: &MachineConfig) -> Exit {
         cpu: config.interpolator.cpu,
         priority: i32::from(config.interpolator.priority),
     };
-    let checks = examine(&Host::here(), demand);
+    let host = Host::here();
+    let mut checks = examine(&host, demand);
+    let interface = args.interface.as_deref();
+    checks.extend(
+        interface
+            .map(|name| examine_interface(&host, name))
+            .into_iter()
+            .flatten(),
+    );
     if args.basic.json {
         output::object(&object(&checks, demand));
     } else {

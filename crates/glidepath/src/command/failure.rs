@@ -8,6 +8,7 @@ use crate::file_error::FileError;
 use crate::jitter::{CyclictestError, JitterError};
 use crate::kept::error::StateError;
 use crate::program_text::UnknownEvent;
+use glidepath_ethercat as ethercat;
 use glidepath_gcode::Diagnostic;
 use glidepath_hal::HalError;
 use glidepath_interpolator as interpolator;
@@ -202,6 +203,32 @@ pub(super) enum Failure {
     /// Standard input was to be resumed.
     #[error("standard input cannot be read from its beginning again: resume from a file")]
     ResumePipe,
+    /// The bus of the drives does not work.
+    #[error(transparent)]
+    Bus(#[from] ethercat::RunError),
+    /// A network interface cannot be used.
+    #[error(transparent)]
+    Wire(#[from] ethercat::WireError),
+    /// The configuration does not expect drives to answer.
+    #[error(
+        "the machine's configuration says that no drives answer: set source = \"drives\" in its \
+         [feedback]; without it nobody asks for their power"
+    )]
+    NoFeedback,
+    /// Feedback would count as lost although all is well.
+    #[error(
+        "the machine's configuration calls feedback stale after {stale_t} s, and that of this bus is up to \
+         {needed_t} s old while frames may still be lost: set stale_s = {needed_t} in its [feedback]"
+    )]
+    Stale {
+        /// What is configured, s.
+        stale_t: f64,
+        /// What is needed, s.
+        needed_t: f64,
+    },
+    /// Drives cannot be emulated on this host.
+    #[error("cannot emulate drives on this host: {0}")]
+    NotEmulated(String),
     /// The shared memory cannot be used.
     #[error(transparent)]
     Link(#[from] LinkError),
@@ -295,7 +322,9 @@ impl Failure {
     #[must_use]
     pub(super) const fn exit(&self) -> Exit {
         match self {
-            Self::Configuration(_)
+            Self::NoFeedback
+            | Self::Stale { .. }
+            | Self::Configuration(_)
             | Self::HalConfiguration { .. }
             | Self::Hal(HalError::Joints { .. })
             | Self::State(
@@ -309,6 +338,8 @@ impl Failure {
             | Self::File(FileError::Open { .. } | FileError::Guarded { .. })
             | Self::Catalogue(_)
             | Self::UnknownKey { .. }
+            | Self::Wire(_)
+            | Self::NotEmulated(_)
             | Self::Word(..)
             | Self::Var { .. }
             | Self::Foreign { .. }
@@ -323,7 +354,8 @@ impl Failure {
             | Self::Feed(FeedError::Refused(_) | FeedError::RefusedByPlanner { .. }) => {
                 Exit::Rejected
             }
-            Self::Interpolator(interpolator::RunError::NotRealTime(_)) => Exit::NotRealTime,
+            Self::Bus(ethercat::RunError::NotRealTime(_))
+            | Self::Interpolator(interpolator::RunError::NotRealTime(_)) => Exit::NotRealTime,
             Self::Planner(planner::RunError::Interrupted)
             | Self::Feed(FeedError::Interrupted)
             | Self::Interrupted => Exit::Interrupted,
@@ -338,6 +370,7 @@ impl Failure {
             | Self::NotStopped { .. }
             | Self::DoesNotEnd { .. }
             | Self::Interpolator(_)
+            | Self::Bus(_)
             | Self::Planner(_)
             | Self::Feed(_)
             | Self::Link(_)

@@ -38,6 +38,7 @@ pub(super) fn interpolator(
             output::note(&format!("interpolator: {line}"));
         }
     };
+    let config = &with_drives(config, args);
     let settings = settings(config, args.best_effort);
     let over = AtomicBool::new(false);
     let status = std::thread::scope(|scope| {
@@ -59,6 +60,24 @@ pub(super) fn interpolator(
         output::result(&status_text(&instance, &status));
     }
     Ok(interrupt.exit())
+}
+
+/// Feedback older than this stops the motion on a host that promises nothing, s; and takes the power.
+const DESK_STALE_T: f64 = 0.25;
+const DESK_OFF_T: f64 = 0.5;
+
+/// The machine, whose drives answer where that is asked for.
+fn with_drives(config: &MachineConfig, args: &InterpolatorArgs) -> MachineConfig {
+    let mut config = config.clone();
+    if args.expect_drives {
+        let feedback = &mut config.feedback;
+        feedback.is_expected = true;
+        if args.best_effort {
+            feedback.stale_t = Some(feedback.stale_t.unwrap_or(0.0).max(DESK_STALE_T));
+            feedback.off_t = feedback.off_t.max(DESK_OFF_T);
+        }
+    }
+    config
 }
 
 fn service_manager() -> Option<ServiceManager> {

@@ -7,6 +7,7 @@ mod check;
 mod configuration;
 mod differences;
 mod doctor;
+mod ethercat;
 mod failure;
 mod failure_report;
 mod feed;
@@ -89,6 +90,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Planner(args) => planner::planner(args, &config()?),
         Command::RunFile(args) => jobs::run_file(args, &config()?),
         Command::Mdi(args) => jobs::mdi(args, &config()?),
+        Command::Ethercat(args) => ethercat::ethercat(args, &config()?),
         Command::Servo(args) => servo::servo(args, &config()?),
         Command::Feed(args) => feed::feed(args, &config()?),
         Command::Status(args) if args.watch => watch::watch(args, &config()?),

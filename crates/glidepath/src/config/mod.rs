@@ -21,6 +21,7 @@ mod tree;
 
 pub use diagnostic::{ConfigDiagnostic, ConfigError, DiagnosticReport};
 pub use instance::{INSTANCE_RULE, is_instance_name};
+pub(crate) use judge::{Judge, Range};
 pub use judge::{MAX_FRAMES_AHEAD, effort, tolerance};
 pub use machine::{
     AxisConfig, FeedbackConfig, HomingBy, InterpolatorConfig, JogConfig, MachineConfig, PathConfig,
@@ -29,6 +30,7 @@ pub use probe::ProbeConfig;
 pub use program::ProgramConfig;
 
 use crate::text_file;
+use serde::de::DeserializeOwned;
 use std::path::Path;
 
 /// Largest configuration file, bytes: the longest machine is described in a hundredth of it.
@@ -91,10 +93,24 @@ pub fn default_text() -> String {
 /// # Errors
 /// Everything in the text that has to be mended.
 pub fn parse(path: &str, text: &str) -> Result<MachineConfig, ConfigError> {
-    let (raw, found) = parse::parse(text);
+    parse_as(path, text, "config/mill.toml", judge::judge)
+}
+
+/// Judges the text of another file in the way of a configuration: its shape by `T`, its values by
+/// `judge`. `path` is only used in reports, `explained` is where its keys are explained.
+///
+/// # Errors
+/// Everything in the text that has to be mended.
+pub(crate) fn parse_as<T: DeserializeOwned, R>(
+    path: &str,
+    text: &str,
+    explained: &str,
+    judge: impl FnOnce(T, Vec<ConfigDiagnostic>) -> Result<R, Vec<ConfigDiagnostic>>,
+) -> Result<R, ConfigError> {
+    let (raw, found) = parse::parse(text, explained);
     let early = found.len();
     let judged = match raw {
-        Some(raw) => judge::judge(raw, found),
+        Some(raw) => judge(raw, found),
         None => Err(found),
     };
     judged.map_err(|diagnostics| ConfigError::Refused {

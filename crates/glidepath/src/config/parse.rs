@@ -1,19 +1,22 @@
-//! Text to [`RawConfig`]: the syntax, the names of keys, and the types of values.
+//! Text to the shapes of a file: the syntax, the names of keys, and the types of values.
 //!
 //! Reading ends at the first thing that does not fit. That is put aside and the text is read again,
 //! until all of it fits: so everything that is wrong is told at once.
 
 use super::diagnostic::ConfigDiagnostic;
-use super::raw::RawConfig;
 use super::tree::Tree;
 use core::ops::Range;
-use serde::Deserialize as _;
+use serde::de::DeserializeOwned;
 
 /// Most things of this stage that are told at once.
 const MOST: usize = 50;
 
 /// Reads the text: what is there, and what is wrong with it. Nothing is there if it is not TOML.
-pub(super) fn parse(text: &str) -> (Option<RawConfig>, Vec<ConfigDiagnostic>) {
+/// `explained` is where its keys are explained.
+pub(super) fn parse<T: DeserializeOwned>(
+    text: &str,
+    explained: &str,
+) -> (Option<T>, Vec<ConfigDiagnostic>) {
     let mut found = Vec::new();
     let mut tree = match Tree::parse(text) {
         Ok(tree) => tree,
@@ -30,7 +33,7 @@ pub(super) fn parse(text: &str) -> (Option<RawConfig>, Vec<ConfigDiagnostic>) {
         }
     };
     loop {
-        let error = match RawConfig::deserialize(toml::de::Deserializer::from(tree.root.clone())) {
+        let error = match T::deserialize(toml::de::Deserializer::from(tree.root.clone())) {
             Ok(raw) => return (Some(raw), found),
             Err(error) => error,
         };
@@ -45,7 +48,7 @@ pub(super) fn parse(text: &str) -> (Option<RawConfig>, Vec<ConfigDiagnostic>) {
             helps.into_iter().any(|help| help.starts_with(&meant))
         });
         if !is_misspelt {
-            found.push(told(&tree, &message, &at));
+            found.push(told(&tree, &message, &at, explained));
         }
         if found.len() >= MOST || !put_aside(&mut tree, &message, &at) {
             return (None, found);
@@ -104,7 +107,7 @@ fn expected(message: &str) -> Option<(&'static str, &'static str)> {
 
 /// serde's message as what is wrong, and how to mend it. serde gives names between backquotes:
 /// first the one that was found, then those it knows.
-fn told(tree: &Tree<'_>, message: &str, at: &Range<usize>) -> ConfigDiagnostic {
+fn told(tree: &Tree<'_>, message: &str, at: &Range<usize>, explained: &str) -> ConfigDiagnostic {
     let (key, kind) = tree.described(at);
     let names: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     let unknown = message.starts_with("unknown field");
@@ -122,9 +125,7 @@ fn told(tree: &Tree<'_>, message: &str, at: &Range<usize>) -> ConfigDiagnostic {
                 "axis" => {
                     "a machine has at least one axis: add a table such as [axis.X]".to_owned()
                 }
-                key => {
-                    format!("add `{key} = …` to this table; config/mill.toml explains every key")
-                }
+                key => format!("add `{key} = …` to this table; {explained} explains every key"),
             };
             let table = tree.table(at);
             let key = [table.as_str(), missing].join(if table.is_empty() { "" } else { "." });

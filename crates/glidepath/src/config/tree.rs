@@ -131,10 +131,15 @@ fn describe(table: &DeTable<'_>, path: &str, at: &Range<usize>) -> Option<(Strin
         }
         match value.as_ref() {
             DeValue::Table(table) => describe(table, &name, at),
-            DeValue::Array(list) => list
-                .iter()
-                .find(|value| value.span() == *at)
-                .map(|value| (name, kind(value.as_ref()))),
+            DeValue::Array(list) => list.iter().find_map(|value| {
+                if value.span() == *at {
+                    return Some((name.clone(), kind(value.as_ref())));
+                }
+                match value.as_ref() {
+                    DeValue::Table(table) => describe(table, &name, at),
+                    _ => None,
+                }
+            }),
             _ => None,
         }
     })

@@ -41,6 +41,9 @@ pub struct RunReport {
     pub response_us: Value,
     /// What real time was granted.
     pub realtime: Value,
+    /// What the bridge to emulated drives reports.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drives: Option<Value>,
     #[serde(skip)]
     status: Status,
 }
@@ -79,6 +82,7 @@ impl RunReport {
             latency_us: quantiles_object(&status.latency),
             response_us: quantiles_object(&status.response),
             realtime: realtime_object(status.grants()),
+            drives: None,
             status: *status,
         }
     }
@@ -87,13 +91,22 @@ impl RunReport {
     #[must_use]
     pub fn text(&self) -> String {
         format!(
-            "{}{}{}  servo         {} setpoints received, {} lost\n{}",
+            "{}{}{}  servo         {} setpoints received, {} lost\n{}{}",
             self.motion.text(),
             self.played.text(),
             timing_text(&self.status),
             super::quantity::grouped(self.received_setpoints),
             super::quantity::grouped(self.lost_setpoints),
+            self.drives.as_ref().map_or_else(String::new, drives_text),
             self.motion.files()
         )
     }
+}
+
+/// The emulated drives, in a line.
+fn drives_text(report: &Value) -> String {
+    format!(
+        "  drives        emulated on EtherCAT: {} cycles, {} frames lost, {} bad working counters\n",
+        report["cycles"], report["lost_frames"], report["bad_working_counters"]
+    )
 }

@@ -7,6 +7,7 @@
 
 mod check;
 mod kernel;
+mod network;
 mod privileges;
 mod processor;
 #[cfg(test)]
@@ -23,6 +24,22 @@ pub struct Demand {
     pub cpu: Option<usize>,
     /// `SCHED_FIFO` priority, 1 to 99.
     pub priority: i32,
+}
+
+/// Makes every check of a network interface that drives hang on.
+#[must_use]
+pub fn examine_interface(host: &Host, name: &str) -> Vec<Check> {
+    let exists = network::exists(host, name);
+    if exists.verdict == Verdict::Missing {
+        return vec![exists];
+    }
+    vec![
+        exists,
+        network::link(host, name),
+        network::raw_frames(host),
+        network::sole_use(host, name),
+        network::coalescing(name),
+    ]
 }
 
 /// Makes every check. Privileges are those of the calling process.

@@ -283,3 +283,50 @@ fn without_a_processor_that_is_the_finding() {
             .any(|c| c.name == "processor" && c.verdict == Verdict::Warning)
     );
 }
+
+#[test]
+fn an_interface_for_drives_is_one_of_a_card_with_a_cable_and_nobody_else() {
+    let mut files = vec![
+        ("sys/class/net/enp3s0/flags", "0x1003\n"),
+        ("sys/class/net/enp3s0/carrier", "1\n"),
+        ("sys/class/net/enp3s0/speed", "100\n"),
+        ("sys/class/net/enp3s0/device/vendor", "0x8086\n"),
+        ("proc/sys/net/ipv6/conf/enp3s0/disable_ipv6", "1\n"),
+        ("proc/self/status", "CapEff:\t0000000000002000\n"),
+    ];
+    let verdicts = |files: &[(&str, &str)], name: &str| {
+        let (_folder, host) = host(files);
+        let checks = examine_interface(&host, name);
+        checks
+            .into_iter()
+            .map(|check| (check.name, check.verdict))
+            .collect::<Vec<_>>()
+    };
+    let good = [
+        ("interface", Verdict::Ok),
+        ("link", Verdict::Ok),
+        ("raw frames", Verdict::Ok),
+        ("sole use", Verdict::Ok),
+        ("coalescing", Verdict::Warning),
+    ];
+    assert_eq!(verdicts(&files, "enp3s0"), good);
+    assert_eq!(
+        verdicts(&files, "enp4s0"),
+        [("interface", Verdict::Missing)]
+    );
+    files[1].1 = "0\n";
+    files[4].1 = "0\n";
+    files[5].1 = "CapEff:\t0000000000000000\n";
+    let bad = verdicts(&files, "enp3s0");
+    let of = |name: &str| bad.iter().find(|(n, _)| *n == name).unwrap().1;
+    assert_eq!(
+        (of("link"), of("raw frames")),
+        (Verdict::Missing, Verdict::Missing)
+    );
+    assert_eq!(of("sole use"), Verdict::Warning);
+    files[0].1 = "0x9\n";
+    assert_eq!(
+        verdicts(&files, "enp3s0")[0],
+        ("interface", Verdict::Missing)
+    );
+}

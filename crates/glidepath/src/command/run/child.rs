@@ -116,6 +116,16 @@ impl Process {
         self.child.wait()
     }
 
+    /// Asks it to end, and gives what it reports.
+    pub(super) fn finish(mut self) -> Result<Value, Failure> {
+        let status = self.end().map_err(Failure::Process)?;
+        if status.success() {
+            Ok(self.report())
+        } else {
+            Err(self.failure(status))
+        }
+    }
+
     fn poll(&mut self) -> io::Result<Option<ExitStatus>> {
         if self.ended.is_none() {
             self.ended = self.child.try_wait()?;

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   run ── starts ──► interpolator ── setpoints ──► servo --relay ─┐ records
-//!    │                     ▲ frames                                ▼
+//!    │                     ▲ frames    └► ethercat, with --drives   ▼
 //!    └──── starts ──► planner FILE                    this process: audit, CSV, plot
 //! ```
 //!
@@ -14,7 +14,7 @@ mod monitor;
 mod relay;
 
 use super::{check, plan::title, session};
-use crate::cli::RunArgs;
+use crate::cli::{RunArgs, RunDrives};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
@@ -30,6 +30,7 @@ use glidepath_link::{Ipc, LinkConfig, Status, remove_leftovers};
 use glidepath_program::Effort;
 use monitor::Monitor;
 use relay::{Received, Relay};
+use serde_json::Value;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -70,6 +71,7 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
         planning,
         status,
         received,
+        drives,
     } = played?;
 
     let mut report = RunReport::new(
@@ -79,6 +81,7 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
         &status,
         config,
     );
+    report.drives = drives;
     report.motion.program = args.file.name().display().to_string();
     report.motion.setpoints.clone_from(&args.setpoints);
     report.motion.plot = plot;
@@ -132,6 +135,8 @@ struct Played {
     planning: Planning,
     status: Status,
     received: Received,
+    /// What the bridge to emulated drives reports; `None` without.
+    drives: Option<Value>,
 }
 
 /// Removes an instance's shared memory when everything that used it is gone.
@@ -179,15 +184,21 @@ impl Supervisor<'_> {
             .ok_or(Failure::Thread("the servo's output"))?;
         let relay = Relay::start(output, self.args.file.path(), self.config, recording);
         self.wait_for(&mut servo, || Ok(relay.seen.received() > 0))?;
+        let is_emulated = self.args.drives == RunDrives::Emulated;
+        let mut bridge = is_emulated
+            .then(|| self.start("ethercat", &instance))
+            .transpose()?;
 
-        self.wait_for(&mut servo, || {
+        let drives = bridge.as_mut().unwrap_or(&mut servo);
+        self.wait_for(drives, || {
             monitor.observe()?;
             monitor.switch_on()
         })?;
 
         self.progress.doing("running");
         let mut planner = self.start("planner", &instance)?;
-        let others = [&mut interpolator, &mut servo];
+        let others = [&mut interpolator, &mut servo].into_iter();
+        let others = &mut others.chain(&mut bridge).collect::<Vec<_>>();
         let played = self.watch(&mut planner, others, &mut monitor, &relay);
         if let Err(failure) = played {
             rest(&mut monitor);
@@ -197,6 +208,7 @@ impl Supervisor<'_> {
         }
         let planning = planner.planning()?;
         let status = last_status(&mut monitor)?;
+        let drives = bridge.map(|bridge| bridge.finish()).transpose()?;
         servo.end().map_err(Failure::Process)?;
         let received = relay.finish()?;
         interpolator.end().map_err(Failure::Process)?;
@@ -204,27 +216,51 @@ impl Supervisor<'_> {
             planning,
             status,
             received,
+            drives,
         })
     }
 
     fn start(&self, name: &'static str, instance: &str) -> Result<Process, Failure> {
         let mut args: Vec<OsString> = vec!["--instance".into(), instance.into()];
+        let is_emulated = self.args.drives == RunDrives::Emulated;
         match name {
             "planner" => {
                 args.extend([self.args.file.path().into(), "--json".into()]);
                 args.extend(self.program_args());
                 args.extend(self.path_args());
             }
-            "servo" => args.push("--relay".into()),
-            _ => {
+            "servo" => {
+                args.push("--relay".into());
+                args.extend(is_emulated.then(|| "--listens".into()));
+            }
+            name => {
                 args.push("--json".into());
                 args.extend(self.args.best_effort.then(|| "--best-effort".into()));
+                if name == "ethercat" {
+                    args.extend(self.bus_args());
+                } else {
+                    args.extend(is_emulated.then(|| "--expect-drives".into()));
+                }
             }
         }
         if let Some(config) = &self.args.basic.config {
             args.extend(["--config".into(), config.into()]);
         }
         Process::start(name, args).map_err(Failure::Process)
+    }
+
+    /// How the bridge is to emulate its drives.
+    fn bus_args(&self) -> Vec<OsString> {
+        let period_us = self.args.bus_period_us.to_string();
+        let mut args: Vec<OsString> = vec![
+            "--emulated".into(),
+            "--emulated-period-us".into(),
+            period_us.into(),
+        ];
+        if let Some(record) = &self.args.drives_record {
+            args.extend(["--emulated-record".into(), record.into()]);
+        }
+        args
     }
 
     /// How the planner is to follow the path: as it was told here.
@@ -289,7 +325,7 @@ impl Supervisor<'_> {
     fn watch(
         &self,
         planner: &mut Process,
-        mut others: [&mut Process; 2],
+        others: &mut [&mut Process],
         monitor: &mut Monitor<'_>,
         relay: &Relay,
     ) -> Result<(), Failure> {
@@ -301,7 +337,7 @@ impl Supervisor<'_> {
             if relay.is_over() {
                 return Err(Failure::Thread("the thread that receives setpoints"));
             }
-            for other in &mut others {
+            for other in others.iter_mut() {
                 other.must_live()?;
             }
             if planner.is_done()? {

@@ -29,7 +29,8 @@ pub(super) fn play(
 ) -> Result<ServoCounts, Failure> {
     let transport = session::join(&args.instance, config)?;
     let mut servo = Servo::new(transport.setpoint_source()?, settings(config));
-    let mut feedback = transport.feedback_sink()?;
+    // What only passes setpoints on leaves the drives to somebody else.
+    let mut feedback = (!args.listens).then(|| transport.feedback_sink()).transpose()?;
     let mut plant = plant(config, &args.stands);
     if let Some((joint, position)) = args.probe {
         plant = plant.with_probe(joint, position);
@@ -46,7 +47,7 @@ pub(super) fn play(
         let demand = servo.demand(now_ns);
         notices.look(&servo, &args.instance, config);
         plant.step(now_ns, servo.last(), demand.as_ref());
-        if let Some(measured) = plant.feedback() {
+        if let (Some(measured), Some(feedback)) = (plant.feedback(), &mut feedback) {
             feedback.publish(&measured)?;
         }
         std::thread::sleep(POLL);
@@ -65,9 +66,8 @@ const BOUNCE_NS: u64 = 3_000_000;
 /// How far its index pulses are from each other, mm or degrees.
 const PITCH: f64 = 4.0;
 
-/// The machine that is moved: it stands at the places given, else where programs begin. Drives that
-/// look for their home have not yet found it, and count from anywhere.
-fn plant(config: &MachineConfig, stands: &[f64]) -> Plant {
+/// Where the joints are where programs begin.
+pub(in crate::command) fn begins(config: &MachineConfig) -> [f64; AXES] {
     let begins = config.mechanism.inverse(&config.home());
     let mut begins = begins.map_or([0.0; AXES], <[f64; AXES]>::from);
     if config.joints() == 0 {
@@ -76,6 +76,13 @@ fn plant(config: &MachineConfig, stands: &[f64]) -> Plant {
             *begins = home[axis.index()];
         }
     }
+    begins
+}
+
+/// The machine that is moved: it stands at the places given, else where programs begin. Drives that
+/// look for their home have not yet found it, and count from anywhere.
+fn plant(config: &MachineConfig, stands: &[f64]) -> Plant {
+    let begins = begins(config);
     let joints: Vec<JointSettings> = (0..config.drives().min(AXES))
         .map(|joint| {
             let start = stands.get(joint).copied().unwrap_or(begins[joint]);

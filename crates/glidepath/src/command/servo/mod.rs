@@ -6,6 +6,9 @@ mod hal;
 mod notices;
 mod settings;
 
+pub(super) use desk::begins;
+pub(super) use settings::settings;
+
 use super::session;
 use crate::cli::ServoArgs;
 use crate::command::failure::Failure;

@@ -7,7 +7,7 @@ use glidepath_link::servo::{JumpLimits, ServoSettings, StopLimits};
 const PATIENCE_PERIODS: u64 = 3;
 
 /// Limits of the joints, as the configuration has them.
-pub(super) fn settings(config: &MachineConfig) -> ServoSettings {
+pub(in crate::command) fn settings(config: &MachineConfig) -> ServoSettings {
     let mut settings = ServoSettings {
         patience_ns: PATIENCE_PERIODS * config.period_ns(),
         ..ServoSettings::default()

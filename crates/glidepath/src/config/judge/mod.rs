@@ -22,6 +22,7 @@ mod values;
 
 pub use horizon::MAX_FRAMES_AHEAD;
 pub use path_words::{effort, tolerance};
+pub(crate) use values::{Judge, Range};
 
 use super::diagnostic::ConfigDiagnostic;
 use super::machine::{AxisConfig, MachineConfig};
@@ -31,7 +32,6 @@ use glidepath_geometry::Axis;
 use glidepath_kinematics::AxisShare;
 use home::HomeSurroundings;
 use toml::Spanned;
-use values::Judge;
 
 /// Judges every value, beside what was found wrong with the text before.
 ///

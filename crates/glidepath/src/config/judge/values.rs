@@ -5,22 +5,22 @@ use crate::config::raw::Optional;
 use toml::Spanned;
 
 /// What a number may be.
-pub(super) struct Range {
-    pub(super) min: f64,
-    pub(super) max: f64,
-    pub(super) unit: &'static str,
+pub(crate) struct Range {
+    pub(crate) min: f64,
+    pub(crate) max: f64,
+    pub(crate) unit: &'static str,
     /// How to choose a value.
-    pub(super) help: &'static str,
+    pub(crate) help: &'static str,
 }
 
-pub(super) struct Judge {
-    pub(super) diagnostics: Vec<ConfigDiagnostic>,
+pub(crate) struct Judge {
+    pub(crate) diagnostics: Vec<ConfigDiagnostic>,
 }
 
 impl Judge {
     /// A number, which is in its range in any case: the nearest one that is stands for one that is
     /// not, so that whatever is computed from it before the file is refused comes to an end.
-    pub(super) fn number(&mut self, key: &str, value: &Spanned<f64>, range: &Range) -> f64 {
+    pub(crate) fn number(&mut self, key: &str, value: &Spanned<f64>, range: &Range) -> f64 {
         let number = *value.as_ref();
         // Not a number is in no range.
         if !(range.min..=range.max).contains(&number) {
@@ -55,7 +55,7 @@ impl Judge {
         })
     }
 
-    pub(super) fn number_or(
+    pub(crate) fn number_or(
         &mut self,
         key: &str,
         value: &Optional<f64>,
@@ -68,7 +68,7 @@ impl Judge {
     }
 
     /// A whole number of any type that holds the range.
-    pub(super) fn whole<T: TryFrom<i64>>(
+    pub(crate) fn whole<T: TryFrom<i64>>(
         &mut self,
         key: &str,
         value: &Spanned<i64>,

@@ -1,0 +1,26 @@
+//! Emulated drives on a network interface, for masters by other people:
+//! `cargo run -p glidepath-ethercat --example emulator -- veth1 3`. They answer until the process ends.
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "an example")]
+
+use glidepath_emulator::{DriveSettings, Segment};
+use glidepath_ethercat::{MAX_FRAME, PacketWire, Wire};
+
+fn main() {
+    let mut args = std::env::args().skip(1);
+    let (Some(interface), Some(drives)) = (args.next(), args.next()) else {
+        println!("usage: emulator INTERFACE DRIVES");
+        return;
+    };
+    let drives = vec![DriveSettings::default(); drives.parse().unwrap()];
+    let mut wire = PacketWire::open(&interface).unwrap();
+    let mut segment = Segment::new_at(&drives, wire.now_ns());
+    let mut frame = [0; MAX_FRAME];
+    loop {
+        let until_ns = wire.now_ns() + 1_000_000_000;
+        if let Some(length) = wire.receive(&mut frame, until_ns).unwrap() {
+            let frame = &mut frame[..length];
+            segment.pass(frame, wire.now_ns());
+            wire.send(frame).unwrap();
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Arguments of `ethercat`.
+
+use super::basic::{BasicArgs, InstanceArgs};
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+
+/// Arguments of `ethercat`.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct EthercatArgs {
+    /// Something else than driving.
+    #[command(subcommand)]
+    pub action: Option<EthercatAction>,
+    /// What hangs on the bus, and which joint each drive moves
+    #[arg(long, value_name = "TOML", required_unless_present = "emulated")]
+    pub drives: Option<PathBuf>,
+    /// Configuration and form of the report.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+    /// The instance, by which processes find each other.
+    #[command(flatten)]
+    pub instance: InstanceArgs,
+    /// Drive without real-time privileges too
+    #[arg(long)]
+    pub best_effort: bool,
+    /// CPU the thread of the bus is pinned to
+    #[arg(long, value_name = "N")]
+    pub cpu: Option<usize>,
+    /// SCHED_FIFO priority of the thread of the bus, 1 to 99
+    #[arg(long, value_name = "N", default_value_t = 70,
+          value_parser = clap::value_parser!(u8).range(1..=99))]
+    pub priority: u8,
+    /// Drive drives that are not there, over a pair of virtual interfaces in a network namespace of
+    /// their own; without --drives three drives, or as many as the machine has joints
+    #[arg(long)]
+    pub emulated: bool,
+    /// Period of the bus to the emulated drives, µs
+    #[arg(long, value_name = "N", default_value_t = 2000, requires = "emulated",
+          value_parser = clap::value_parser!(u32).range(250..=20_000))]
+    pub emulated_period_us: u32,
+    /// Write what the emulated drives recorded at every SYNC0 as CSV
+    #[arg(long, value_name = "CSV", requires = "emulated")]
+    pub emulated_record: Option<PathBuf>,
+    /// It is in its namespace already
+    #[arg(long, hide = true)]
+    pub in_namespace: bool,
+    /// End when the process with this number, which started this one, ends
+    #[arg(long, hide = true, value_name = "PID")]
+    pub end_with: Option<u32>,
+}
+
+/// What else `ethercat` does.
+#[derive(Debug, Subcommand)]
+pub enum EthercatAction {
+    /// List what hangs on the wire, as a first drives.toml; nothing moves
+    #[command(after_help = "Example: glidepath ethercat scan enp3s0 > drives.toml")]
+    Scan(ScanArgs),
+}
+
+/// Arguments of `ethercat scan`.
+#[derive(Debug, Args)]
+pub struct ScanArgs {
+    /// The network interface
+    pub interface: String,
+    /// Print one JSON object instead of text
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,224 @@
+//! Drives that are not there, and the bridge to them.
+
+use super::bridge;
+use super::namespace::{self, DRIVES, MASTER};
+use crate::cli::EthercatArgs;
+use crate::command::failure::Failure;
+use crate::command::servo;
+use crate::config::{HomingBy, MachineConfig};
+use crate::drives;
+use crate::exit::Exit;
+use crate::file_error::FileError;
+use core::sync::atomic::{AtomicBool, Ordering};
+use glidepath_emulator::{DriveSettings as Emulated, HomeSwitch, Segment};
+use glidepath_ethercat::{
+    BusSettings, DriveSettings, HomingSettings, MAX_FRAME, PacketWire, Settings, Wire as _,
+};
+use glidepath_realtime::{Mode, Request, enter};
+use std::fs::File;
+use std::io::{BufWriter, Write as _};
+use std::path::Path;
+
+/// A 23 bit encoder on a spindle of 5 mm, counts a mm.
+const COUNTS: f64 = 8_388_608.0 / 5.0;
+/// Counts that a drive has on either side of zero, with something to spare.
+const REACH: f64 = 2.0e9;
+/// How far away the home switch of a joint is that has one, mm or degrees.
+const TO_HOME: f64 = 5.0;
+/// The drives do what they are asked to after the bus, and before nobody.
+const PRIORITY: i32 = 60;
+/// How late setpoints may be, ns.
+const LATE_NS: u64 = 2_000_000;
+/// The same on a host that promises nothing.
+const DESK_LATE_NS: u64 = 12_000_000;
+/// Setpoints that may be missing on a host that promises nothing.
+const PATIENCE_PERIODS: u64 = 8;
+/// Between two looks whether it is over.
+const POLL_NS: u64 = 50_000_000;
+
+/// Runs both until interrupted.
+///
+/// # Errors
+/// The interfaces cannot be made, or what the bridge fails by.
+pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let interrupt = bridge::interrupt(args)?;
+    namespace::make_interfaces()?;
+    let (drives, emulated) = machine(args, config)?;
+    let period_ns = u64::from(args.emulated_period_us) * 1000;
+    let mut settings = Settings {
+        bus: BusSettings {
+            period_ns,
+            shift_ns: period_ns / 2,
+            delay_ns: period_ns / 2 + LATE_NS,
+            ..BusSettings::default()
+        },
+        drives,
+        servo: servo::settings(config),
+    };
+    if args.best_effort {
+        // A host of everybody's stands still for some milliseconds now and then.
+        settings.servo.patience_ns = PATIENCE_PERIODS * config.period_ns();
+        settings.bus.delay_ns = period_ns / 2 + DESK_LATE_NS;
+        (settings.bus.lost_frames, settings.bus.watchdog_ns) = (50, 200_000_000);
+    }
+    let (mut master, mut there) = (PacketWire::open(MASTER)?, PacketWire::open(DRIVES)?);
+    let mut segment = Segment::new_at(&emulated, master.now_ns());
+    let record = args.emulated_record.as_deref();
+    if record.is_some() {
+        segment.keep_records();
+    }
+    let is_over = AtomicBool::new(false);
+    let mut demanded = Vec::new();
+    let counts = std::thread::scope(|scope| {
+        let answers = scope.spawn(|| answer(&mut there, &mut segment, &is_over));
+        let mut note = |index: u8, sync_ns: u64| demanded.push((index, sync_ns));
+        let demands = record.map(|_| &mut note as &mut dyn FnMut(u8, u64));
+        let counts = bridge::bridge(args, config, &mut master, &settings, &interrupt, demands);
+        is_over.store(true, Ordering::Relaxed);
+        answers
+            .join()
+            .map_err(|_| Failure::Thread("the emulated drives"))?;
+        counts
+    })?;
+    if let Some(path) = record {
+        write(path, &settings, &mut segment, &demanded).map_err(|source| {
+            Failure::File(FileError::Use {
+                action: "write",
+                path: path.to_owned(),
+                source,
+            })
+        })?;
+    }
+    bridge::report(args, &counts);
+    Ok(interrupt.exit())
+}
+
+/// The drives answer frames until it is over.
+fn answer(wire: &mut PacketWire, segment: &mut Segment, is_over: &AtomicBool) {
+    let request = Request {
+        priority: Some(PRIORITY),
+        ..Request::default()
+    };
+    // Without it they are as slow as anybody.
+    let _entered = enter(&request, Mode::BestEffort);
+    let mut frame = [0; MAX_FRAME];
+    while !is_over.load(Ordering::Relaxed) {
+        let until_ns = wire.now_ns() + POLL_NS;
+        if let Ok(Some(length)) = wire.receive(&mut frame, until_ns) {
+            let frame = &mut frame[..length];
+            segment.pass(frame, wire.now_ns());
+            // A frame that is lost is lost.
+            let _ = wire.send(frame);
+        }
+    }
+}
+
+/// The drives of a machine, as the bridge and as they themselves know them.
+fn machine(
+    args: &EthercatArgs,
+    config: &MachineConfig,
+) -> Result<(Vec<DriveSettings>, Vec<Emulated>), Failure> {
+    let given = args
+        .drives
+        .as_deref()
+        .map(|file| drives::load(file, config))
+        .transpose()?;
+    let velocities = drives::joint_velocities(config);
+    let begins = servo::begins(config);
+    let reach = config.travel();
+    let reach = reach
+        .0
+        .iter()
+        .chain(reach.1.iter())
+        .filter(|place| place.is_finite());
+    let reach = reach.fold(1000.0_f64, |most, place| most.max(place.abs()));
+    let homes = config.feedback.homing == HomingBy::Drive;
+    let drive = |(joint, max_v): (usize, f64)| DriveSettings {
+        joint,
+        position: joint,
+        vendor: 0,
+        product: 0,
+        alias: 0,
+        counts_per_unit: COUNTS.min(REACH / reach),
+        is_inverted: false,
+        home_offset: if homes { begins[joint] - TO_HOME } else { 0.0 },
+        homing: homes.then_some(HomingSettings {
+            method: 17,
+            fast_v: 20.0,
+            slow_v: 2.0,
+            acceleration_a: 500.0,
+            sequence: 0,
+        }),
+        following_error: 2.0,
+        following_ms: 50,
+        enable_window: 0.05,
+        quick_stop_a: 4000.0,
+        max_v,
+    };
+    let drives: Vec<_> = given.map_or_else(
+        || velocities.into_iter().enumerate().map(drive).collect(),
+        |given| given.drives,
+    );
+    let last = drives.iter().map(|drive| drive.position).max().unwrap_or(0);
+    let mut emulated = vec![Emulated::default(); last + 1];
+    for drive in &drives {
+        let begin = drive.counts(begins[drive.joint]).unwrap_or(0);
+        let there = &mut emulated[drive.position];
+        there.identity[0] = if drive.vendor == 0 {
+            there.identity[0]
+        } else {
+            drive.vendor
+        };
+        there.identity[1] = if drive.product == 0 {
+            there.identity[1]
+        } else {
+            drive.product
+        };
+        if drive.homing.is_some() {
+            #[allow(clippy::cast_possible_truncation, reason = "some millimetres")]
+            let switch = (-TO_HOME * drive.counts_per_unit) as i64;
+            there.home = Some(HomeSwitch { at_counts: switch });
+        } else {
+            there.start_counts = begin;
+        }
+    }
+    Ok((drives, emulated))
+}
+
+/// What the drives recorded, and for what time each target was meant.
+fn write(
+    path: &Path,
+    settings: &Settings,
+    segment: &mut Segment,
+    demanded: &[(u8, u64)],
+) -> std::io::Result<()> {
+    let mut file = BufWriter::new(File::create(path)?);
+    writeln!(
+        file,
+        "joint,sync_ns,meant_ns,target,actual,statusword,follows"
+    )?;
+    let period_ns = settings.bus.period_ns;
+    for drive in &settings.drives {
+        for record in segment.take_records(drive.position) {
+            // The demand of that number that is nearest in time.
+            let from = demanded.partition_point(|(_, sync)| sync + 64 * period_ns < record.at_ns);
+            let near = demanded[from..].iter().take(128);
+            let meant = near.filter(|(index, _)| *index == record.index);
+            let meant = meant
+                .map(|(_, sync)| *sync)
+                .min_by_key(|sync| sync.abs_diff(record.at_ns));
+            writeln!(
+                file,
+                "{},{},{},{},{},{:#06x},{}",
+                drive.joint,
+                record.at_ns,
+                meant.unwrap_or(0),
+                drive.place(record.target),
+                drive.place(record.actual),
+                record.status,
+                u8::from(record.follows)
+            )?;
+        }
+    }
+    file.flush()
+}

@@ -1,0 +1,70 @@
+//! What hangs on the wire.
+
+use crate::cli::ScanArgs;
+use crate::command::failure::Failure;
+use crate::drives::{Found, written};
+use crate::exit::Exit;
+use crate::output;
+use glidepath_ethercat::{BusError, Init, PacketWire, PreOp, RunError, Wire, object};
+use serde_json::json;
+
+/// Lists the devices as a first `drives.toml`.
+///
+/// # Errors
+/// The interface cannot be used, or nobody answers.
+pub(super) fn scan(args: &ScanArgs) -> Result<Exit, Failure> {
+    let mut wire = PacketWire::open(&args.interface)?;
+    let found = look(&mut wire).map_err(RunError::from)?;
+    if args.json {
+        let device = |found: &Found| {
+            let (device, id) = (&found.device, found.device.identity);
+            json!({
+                "position": device.position,
+                "name": device.name,
+                "vendor": id.vendor,
+                "product": id.product,
+                "revision": id.revision,
+                "serial": id.serial,
+                "alias": device.alias,
+                "has_clock": device.has_clock,
+                "counts_per_revolution": found.counts_per_revolution,
+                "drive": found.is_drive(),
+            })
+        };
+        let devices: Vec<_> = found.iter().map(device).collect();
+        output::object(&json!({ "interface": args.interface, "devices": devices }));
+    } else {
+        output::result(&written(&args.interface, &found));
+    }
+    Ok(Exit::Done)
+}
+
+fn look<W: Wire>(wire: &mut W) -> Result<Vec<Found>, BusError> {
+    let mut bus = Init::find(wire)?.into_pre_op()?;
+    let devices = bus.devices().to_vec();
+    Ok(devices
+        .into_iter()
+        .map(|device| {
+            let position = device.position;
+            let mut read = |index, sub| bus.read(position, object(index, sub, 4)).ok();
+            // CiA 402 in the low half; what is not asked for by a mailbox is no drive.
+            let is_drive =
+                device.has_coe && read(0x1000, 0).is_some_and(|kind| kind & 0xffff == 402);
+            let modes = is_drive.then(|| read(0x6502, 0).unwrap_or(0));
+            let counts = modes.and_then(|_| counts_per_revolution(&mut bus, position));
+            Found {
+                device,
+                counts_per_revolution: counts,
+                modes: modes.map(|modes| (modes & 1 << 7 != 0, modes & 1 << 5 != 0)),
+            }
+        })
+        .collect())
+}
+
+/// Encoder increments over motor revolutions; `None` where the drive does not tell.
+fn counts_per_revolution<W: Wire>(bus: &mut PreOp<'_, W>, position: usize) -> Option<f64> {
+    let increments = bus.read(position, object(0x608f, 1, 4)).ok()?;
+    let revolutions = bus.read(position, object(0x608f, 2, 4)).ok()?;
+    // One for one is what a drive has that was never told.
+    (revolutions > 0 && increments > 1).then(|| f64::from(increments) / f64::from(revolutions))
+}

@@ -1,0 +1,14 @@
+//! Drives that have been judged.
+
+use glidepath_ethercat::{BusSettings, DriveSettings};
+
+/// What the file says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrivesConfig {
+    /// The network interface.
+    pub interface: String,
+    /// The bus.
+    pub bus: BusSettings,
+    /// The drives, one for each joint of the machine.
+    pub drives: Vec<DriveSettings>,
+}

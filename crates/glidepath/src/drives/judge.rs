@@ -1,0 +1,283 @@
+//! [`RawDrives`] to [`DrivesConfig`]: every value by its range, and the whole against the machine.
+
+use super::config::DrivesConfig;
+use super::raw::{RawBus, RawDrive, RawDrives, RawHoming};
+use crate::config::{ConfigDiagnostic, HomingBy, Judge, MachineConfig, Range};
+use core::ops::Range as Span;
+use glidepath_ethercat::{BusSettings, DriveSettings, HomingSettings};
+use glidepath_geometry::AXES;
+use toml::Spanned;
+
+const COUNTS: Range = Range {
+    min: 1e-3,
+    max: 1e9,
+    unit: "counts",
+    help: "counts of a revolution of the encoder, over the way of the joint in that time",
+};
+const PLACE: Range = Range {
+    min: -1e6,
+    max: 1e6,
+    unit: "mm or °",
+    help: "where the joint is when the drive counts zero",
+};
+const ERROR: Range = Range {
+    min: 1e-6,
+    max: 1e3,
+    unit: "mm or °",
+    help: "more than the drive is behind at full speed, and less than what breaks something",
+};
+const WINDOW: Range = Range {
+    min: 1e-6,
+    max: 1e3,
+    unit: "mm or °",
+    help: "what the joint may sink when its brake opens",
+};
+const SPEED: Range = Range {
+    min: 1e-3,
+    max: 1e5,
+    unit: "mm/s or °/s",
+    help: "slow enough for the switch to stop it in time",
+};
+const RATE: Range = Range {
+    min: 1e-1,
+    max: 1e7,
+    unit: "mm/s² or °/s²",
+    help: "what the joint can do without its own mechanics",
+};
+
+/// The highest speed of each joint, mm/s or °/s.
+pub(crate) fn joint_velocities(machine: &MachineConfig) -> Vec<f64> {
+    if machine.joints() > 0 {
+        let own = machine.joint_limits.0.iter().take(machine.joints());
+        return own.map(|limits| limits.velocity).collect();
+    }
+    let axes = machine.axis_of_joints().into_iter();
+    let of = |name| machine.axes.iter().find(|axis| axis.axis == name);
+    axes.filter_map(|name| Some(of(name)?.max_velocity))
+        .collect()
+}
+
+/// Judges every value.
+///
+/// # Errors
+/// All diagnostics.
+pub(super) fn judge(
+    raw: RawDrives,
+    found: Vec<ConfigDiagnostic>,
+    machine: &MachineConfig,
+) -> Result<DrivesConfig, Vec<ConfigDiagnostic>> {
+    let mut judge = Judge { diagnostics: found };
+    let interface = raw.bus.interface.clone();
+    let bus = bus(&mut judge, &raw.bus);
+    let velocities = joint_velocities(machine);
+    let mut drives: Vec<(DriveSettings, Span<usize>)> = Vec::new();
+    for drive in raw.drive {
+        let span = drive.span();
+        let settings = self::drive(&mut judge, drive.into_inner(), &velocities);
+        if machine.feedback.homing == HomingBy::Drive {
+            // An absolute encoder knows where it is, too.
+        } else if settings.homing.is_some() {
+            judge.diagnostics.push(ConfigDiagnostic {
+                key: "drive.homing".to_owned(),
+                message: "the machine's configuration does not have drives find their home"
+                    .to_owned(),
+                help: Some(
+                    "set homing = \"drive\" in its [feedback], or leave this table out".to_owned(),
+                ),
+                span: Some(span.clone()),
+            });
+        }
+        for (what, is_same) in [
+            (
+                "joint",
+                drives.iter().any(|(d, _)| d.joint == settings.joint),
+            ),
+            (
+                "position",
+                drives.iter().any(|(d, _)| d.position == settings.position),
+            ),
+        ] {
+            if is_same {
+                judge.diagnostics.push(ConfigDiagnostic {
+                    key: format!("drive.{what}"),
+                    message: format!("two drives have the same {what}"),
+                    help: Some("each joint has one drive, at a place of its own".to_owned()),
+                    span: Some(span.clone()),
+                });
+            }
+        }
+        drives.push((settings, span));
+    }
+    let missing =
+        (0..velocities.len()).find(|joint| !drives.iter().any(|(d, _)| d.joint == *joint));
+    if let Some(joint) = missing {
+        judge.diagnostics.push(ConfigDiagnostic {
+            key: "drive".to_owned(),
+            message: format!("J{joint} of the machine has no drive"),
+            help: Some(format!("add a table [[drive]] with joint = {joint}")),
+            span: None,
+        });
+    }
+    if judge.diagnostics.is_empty() {
+        Ok(DrivesConfig {
+            interface,
+            bus,
+            drives: drives.into_iter().map(|(drive, _)| drive).collect(),
+        })
+    } else {
+        Err(judge.diagnostics)
+    }
+}
+
+fn bus(judge: &mut Judge, raw: &RawBus) -> BusSettings {
+    let default = BusSettings::default();
+    let mut whole = |key, value: &Option<Spanned<i64>>, range, help, unit_ns: u64, default| {
+        let value = value
+            .as_ref()
+            .map(|value| judge.whole(key, value, range, help));
+        value
+            .flatten()
+            .map_or(default, |value: u64| value * unit_ns)
+    };
+    let help = "1000, 2000 or 4000 is what most drives like";
+    let period_ns = whole(
+        "bus.period_us",
+        &raw.period_us,
+        (250, 20_000),
+        help,
+        1000,
+        default.period_ns,
+    );
+    let most = i64::try_from(period_ns / 1000).unwrap_or(i64::MAX) * 9 / 10;
+    let help =
+        "half of the period; more for a host that wakes late, less for a drive that computes long";
+    let shift_ns = whole(
+        "bus.shift_us",
+        &raw.shift_us,
+        (50, most),
+        help,
+        1000,
+        period_ns / 2,
+    );
+    let least = i64::try_from(shift_ns / 1000).unwrap_or(0);
+    let help = "more than the shift, by what setpoints may be late: 2000 µs on a quiet host";
+    let delay_ns = whole(
+        "bus.delay_us",
+        &raw.delay_us,
+        (least, 100_000),
+        help,
+        1000,
+        shift_ns + 2_000_000,
+    );
+    let help = "frames in a row after which every drive stops by itself";
+    let lost = whole(
+        "bus.lost_frames",
+        &raw.lost_frames,
+        (1, 100),
+        help,
+        1,
+        default.lost_frames.into(),
+    );
+    let help = "some periods of the bus: then a drive that hears nothing stops by itself";
+    let watchdog_ns = whole(
+        "bus.watchdog_ms",
+        &raw.watchdog_ms,
+        (2, 1000),
+        help,
+        1_000_000,
+        default.watchdog_ns,
+    );
+    BusSettings {
+        period_ns,
+        shift_ns,
+        delay_ns,
+        lost_frames: u32::try_from(lost).unwrap_or(u32::MAX),
+        watchdog_ns: watchdog_ns.max(2 * period_ns),
+    }
+}
+
+fn drive(judge: &mut Judge, raw: RawDrive, velocities: &[f64]) -> DriveSettings {
+    let most = i64::try_from(velocities.len()).unwrap_or(1) - 1;
+    let joint: usize = judge
+        .whole(
+            "drive.joint",
+            &raw.joint,
+            (0, most),
+            "the machine has no more joints",
+        )
+        .unwrap_or(AXES);
+    let position = judge
+        .whole(
+            "drive.position",
+            &raw.position,
+            (0, 63),
+            "counted from the master on, from 0",
+        )
+        .unwrap_or(0);
+    let mut id = |key, value: &Option<Spanned<i64>>, most| {
+        let help = "as `glidepath ethercat scan` shows it; 0 compares nothing";
+        let value = value
+            .as_ref()
+            .map(|value| judge.whole(key, value, (0, most), help));
+        value.flatten().unwrap_or(0_u32)
+    };
+    let vendor = id("drive.vendor", &raw.vendor, u32::MAX.into());
+    let product = id("drive.product", &raw.product, u32::MAX.into());
+    let alias = id("drive.alias", &raw.alias, u16::MAX.into());
+    let counts = match (&raw.counts_per_mm, &raw.counts_per_deg) {
+        (Some(counts), None) => judge.number("drive.counts_per_mm", counts, &COUNTS),
+        (None, Some(counts)) => judge.number("drive.counts_per_deg", counts, &COUNTS),
+        _ => {
+            judge.diagnostics.push(ConfigDiagnostic {
+                key: "drive.counts_per_mm".to_owned(),
+                message: "a drive has counts_per_mm, or counts_per_deg".to_owned(),
+                help: Some("give one of them".to_owned()),
+                span: Some(raw.joint.span()),
+            });
+            1.0
+        }
+    };
+    let following_ms = raw.following_ms.as_ref().and_then(|value| {
+        judge.whole(
+            "drive.following_ms",
+            value,
+            (1, 10_000),
+            "how long it may be further away",
+        )
+    });
+    DriveSettings {
+        joint,
+        position,
+        vendor,
+        product,
+        alias: u16::try_from(alias).unwrap_or(0),
+        counts_per_unit: counts,
+        is_inverted: raw.invert,
+        home_offset: judge.number_or("drive.home_offset", &raw.home_offset, &PLACE, 0.0),
+        homing: raw
+            .homing
+            .map(|homing| self::homing(judge, homing.into_inner())),
+        following_error: judge.number("drive.following_error", &raw.following_error, &ERROR),
+        following_ms: following_ms.unwrap_or(10),
+        enable_window: judge.number_or("drive.enable_window", &raw.enable_window, &WINDOW, 0.05),
+        quick_stop_a: judge.number("drive.quick_stop", &raw.quick_stop, &RATE),
+        max_v: velocities.get(joint).copied().unwrap_or(1.0),
+    }
+}
+
+fn homing(judge: &mut Judge, raw: RawHoming) -> HomingSettings {
+    let help = "by CiA 402, 35 or 37 for where it stands; see the drive's manual";
+    let sequence = raw.sequence.as_ref().and_then(|value| {
+        let help = "joints of a lower number are home before the others begin";
+        judge.whole("drive.homing.sequence", value, (0, 8), help)
+    });
+    HomingSettings {
+        method: judge
+            .whole("drive.homing.method", &raw.method, (-128, 127), help)
+            .unwrap_or(0),
+        fast_v: judge.number("drive.homing.fast", &raw.fast, &SPEED),
+        slow_v: judge.number("drive.homing.slow", &raw.slow, &SPEED),
+        acceleration_a: judge.number("drive.homing.acceleration", &raw.acceleration, &RATE),
+        sequence: sequence.unwrap_or(0),
+    }
+}

@@ -1,0 +1,43 @@
+//! `drives.toml`: what hangs on the bus, and which joint each drive moves.
+//!
+//! Read like a configuration: names first, values second, every diagnostic at once, with its place.
+
+mod config;
+mod judge;
+mod raw;
+#[cfg(test)]
+mod tests;
+mod written;
+
+pub use config::DrivesConfig;
+pub(crate) use judge::joint_velocities;
+pub use written::{Found, written};
+
+use crate::config::{ConfigError, MachineConfig, parse_as};
+use crate::text_file;
+use std::path::Path;
+
+/// Largest file, bytes.
+const MOST_BYTES: u64 = 1 << 20;
+
+/// Reads a file for a machine.
+///
+/// # Errors
+/// It cannot be read, or something in it has to be mended.
+pub fn load(path: &Path, machine: &MachineConfig) -> Result<DrivesConfig, ConfigError> {
+    let name = path.display().to_string();
+    match text_file::read(path, MOST_BYTES) {
+        Ok(text) => parse(&name, &text, machine),
+        Err(source) => Err(ConfigError::Unreadable { path: name, source }),
+    }
+}
+
+/// Judges a text for a machine; `path` is only used in reports.
+///
+/// # Errors
+/// Everything in the text that has to be mended.
+pub fn parse(path: &str, text: &str, machine: &MachineConfig) -> Result<DrivesConfig, ConfigError> {
+    parse_as(path, text, "docs/drives.md", |raw, found| {
+        judge::judge(raw, found, machine)
+    })
+}

@@ -1,0 +1,55 @@
+//! The file as it is written, before any value is judged.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+pub(super) type Optional<T> = Option<Spanned<T>>;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawDrives {
+    pub(super) bus: RawBus,
+    #[serde(default)]
+    pub(super) drive: Vec<Spanned<RawDrive>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawBus {
+    pub(super) interface: String,
+    pub(super) period_us: Optional<i64>,
+    pub(super) shift_us: Optional<i64>,
+    pub(super) delay_us: Optional<i64>,
+    pub(super) lost_frames: Optional<i64>,
+    pub(super) watchdog_ms: Optional<i64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawDrive {
+    pub(super) joint: Spanned<i64>,
+    pub(super) position: Spanned<i64>,
+    pub(super) vendor: Optional<i64>,
+    pub(super) product: Optional<i64>,
+    pub(super) alias: Optional<i64>,
+    pub(super) counts_per_mm: Optional<f64>,
+    pub(super) counts_per_deg: Optional<f64>,
+    #[serde(default)]
+    pub(super) invert: bool,
+    pub(super) home_offset: Optional<f64>,
+    pub(super) following_error: Spanned<f64>,
+    pub(super) following_ms: Optional<i64>,
+    pub(super) enable_window: Optional<f64>,
+    pub(super) quick_stop: Spanned<f64>,
+    pub(super) homing: Optional<RawHoming>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawHoming {
+    pub(super) method: Spanned<i64>,
+    pub(super) fast: Spanned<f64>,
+    pub(super) slow: Spanned<f64>,
+    pub(super) acceleration: Spanned<f64>,
+    pub(super) sequence: Optional<i64>,
+}

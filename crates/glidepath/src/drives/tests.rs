@@ -1,0 +1,119 @@
+//! Files for drives, right and wrong.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+use super::{Found, parse, written};
+use crate::config::{self, MachineConfig};
+use glidepath_ethercat::{Device, Identity, SyncManager};
+
+fn machine(homing: &str) -> MachineConfig {
+    let text = config::EMBEDDED.replace("homing = \"none\"", &format!("homing = \"{homing}\""));
+    config::parse("machine.toml", &text).unwrap()
+}
+
+fn found(position: usize) -> Found {
+    let window = Some((SyncManager::default(), SyncManager::default()));
+    Found {
+        device: Device {
+            position,
+            identity: Identity {
+                vendor: 0xe1e,
+                product: 0x402,
+                revision: 1,
+                serial: 0,
+            },
+            name: format!("DRIVE {position}"),
+            mailbox: window,
+            has_coe: true,
+            process: window,
+            has_clock: true,
+            links: 2,
+            alias: 0,
+        },
+        counts_per_revolution: Some(8_388_608.0),
+        modes: Some((true, true)),
+    }
+}
+
+/// What is wrong with a text: line and message of each.
+fn wrong(text: &str) -> Vec<(usize, String)> {
+    let error = parse("drives.toml", text, &machine("none")).unwrap_err();
+    let diagnostics = error.diagnostics().iter();
+    diagnostics
+        .map(|told| {
+            let line = error.line_and_column(told).map_or(0, |(line, _)| line);
+            (line, told.message.clone())
+        })
+        .collect()
+}
+
+#[test]
+fn a_first_file_is_refused_until_somebody_says_how_far_a_turn_is() {
+    let text = written("enp3s0", &[found(0), found(1), found(2)]);
+    assert!(text.contains("8388608 counts of a revolution"), "{text}");
+    let told = wrong(&text);
+    assert_eq!(told.len(), 3, "{told:?}");
+    assert!(
+        told[0]
+            .1
+            .contains("drive.counts_per_mm = 0 counts is out of range"),
+        "{told:?}"
+    );
+    let line = text
+        .lines()
+        .position(|line| line.starts_with("counts_per_mm"))
+        .unwrap();
+    assert_eq!(told[0].0, line + 1);
+    let mended = text.replace("counts_per_mm = 0.0", "counts_per_mm = 1677721.6");
+    let drives = parse("drives.toml", &mended, &machine("none")).unwrap();
+    assert_eq!(
+        (drives.interface.as_str(), drives.bus.period_ns),
+        ("enp3s0", 2_000_000)
+    );
+    assert_eq!(
+        (drives.drives[2].joint, drives.drives[2].vendor),
+        (2, 0xe1e)
+    );
+    assert!((drives.drives[1].max_v - 200.0).abs() < 1e-9);
+    // What is written for machines without absolute encoders is right, too.
+    let homes = mended.replace("# homing = {", "homing = {");
+    let drives = parse("drives.toml", &homes, &machine("drive")).unwrap();
+    assert_eq!(drives.drives[0].homing.unwrap().method, 17);
+    assert!(
+        wrong(&homes)[0]
+            .1
+            .contains("does not have drives find their home")
+    );
+}
+
+#[test]
+fn everything_that_is_wrong_is_told_with_its_place() {
+    let text = "[bus]\ninterface = \"eth9\"\nperiod_us = 100\n[[drive]]\njoint = 7\nposition = 0\n\
+                counts_per_mm = 1000.0\nfolowing_error = 1.0\nquick_stop = 1e99\n";
+    let told = wrong(text);
+    let has = |line: usize, words: &str| told.iter().any(|(l, m)| *l == line && m.contains(words));
+    assert!(has(8, "unknown key `folowing_error`"), "{told:?}");
+    assert!(has(3, "bus.period_us = 100 is out of range"), "{told:?}");
+    let drive = "[[drive]]\njoint = 0\nposition = 0\ncounts_per_mm = 1000.0\nfollowing_error = 1.0\n\
+                 quick_stop = 2000.0\n";
+    let twice = format!("[bus]\ninterface = \"eth9\"\n{drive}{drive}");
+    let told = wrong(&twice);
+    assert!(
+        told.iter()
+            .any(|(_, m)| m == "two drives have the same joint"),
+        "{told:?}"
+    );
+    assert!(
+        told.iter()
+            .any(|(_, m)| m == "J1 of the machine has no drive"),
+        "{told:?}"
+    );
+}
+
+#[test]
+fn what_is_no_drive_gets_no_table() {
+    let mut other = found(1);
+    other.modes = None;
+    let text = written("eth1", &[found(0), other]);
+    assert_eq!(text.matches("[[drive]]").count(), 1);
+    assert!(text.contains("alias 0: no drive"), "{text}");
+}

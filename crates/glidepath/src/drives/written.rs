@@ -1,0 +1,98 @@
+//! A first `drives.toml`, from what hangs on the wire.
+
+use core::fmt::Write as _;
+use glidepath_ethercat::Device;
+
+/// A device, and what it says of itself.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// Who it is.
+    pub device: Device,
+    /// Counts of a revolution of its motor, if it tells.
+    pub counts_per_revolution: Option<f64>,
+    /// Whether it can follow positions cycle by cycle, and find its home by itself; `None` if it is
+    /// no drive of CiA 402.
+    pub modes: Option<(bool, bool)>,
+}
+
+impl Found {
+    /// Whether it is a drive that this master can lead, as far as it tells.
+    #[must_use]
+    pub fn is_drive(&self) -> bool {
+        let follows = self.modes.is_some_and(|(follows, _)| follows);
+        follows && self.device.may_be_drive() && self.device.has_clock
+    }
+
+    /// What it is, in words.
+    fn verdict(&self) -> &'static str {
+        match self.modes {
+            None => "no drive",
+            Some((false, _)) => "a drive without cyclic position (mode 8): cannot be led",
+            Some(_) if !self.device.has_clock => {
+                "a drive without a clock of 64 bits: cannot be led"
+            }
+            Some((true, false)) => "a drive; it does not find its home by itself",
+            Some((true, true)) => "a drive",
+        }
+    }
+}
+
+/// The file: what was found as comments, and a table for each drive. What nobody but the builder of
+/// the machine knows is left for them to fill in, in a way that is refused as it stands.
+#[must_use]
+pub fn written(interface: &str, found: &[Found]) -> String {
+    let mut text = String::from(
+        "# What hangs on the bus, and which joint each drive moves: see docs/drives.md.\n",
+    );
+    for item in found {
+        let device = &item.device;
+        let id = device.identity;
+        let _ = writeln!(
+            text,
+            "#   {}  {:24} vendor {:#x}, product {:#x}, revision {:#x}, alias {}: {}",
+            device.position,
+            device.name,
+            id.vendor,
+            id.product,
+            id.revision,
+            device.alias,
+            item.verdict()
+        );
+    }
+    let _ = write!(
+        text,
+        "\n[bus]\ninterface = \"{interface}\"\nperiod_us = 2000      # between two frames; 1000, 2000 or 4000\n\
+         shift_us = 1000       # from a frame to the SYNC0 at which it takes effect\n\
+         delay_us = 3000       # how much later than they say setpoints are played; more than the shift\n\
+         lost_frames = 3       # in a row, then every drive stops by itself\n\
+         watchdog_ms = 10      # without frames, then every drive stops by itself\n"
+    );
+    for (joint, item) in found.iter().filter(|item| item.is_drive()).enumerate() {
+        let (device, id) = (&item.device, item.device.identity);
+        let _ = write!(
+            text,
+            "\n[[drive]]                       # {}\njoint = {joint}\nposition = {}\nvendor = {:#x}\nproduct = {:#x}\n",
+            device.name, device.position, id.vendor, id.product
+        );
+        if device.alias != 0 {
+            let _ = writeln!(text, "alias = {}", device.alias);
+        }
+        let counts = item.counts_per_revolution.map_or_else(
+            || "the counts of a revolution".to_owned(),
+            |counts| format!("{counts} counts of a revolution, as it says"),
+        );
+        let _ = write!(
+            text,
+            "counts_per_mm = 0.0             # {counts}, over the mm of a revolution; or counts_per_deg\n\
+             invert = false\n\
+             home_offset = 0.0               # mm, where the joint is when the drive counts zero\n\
+             following_error = 1.0           # mm, watched by the drive\n\
+             following_ms = 10               # how long it may be further away\n\
+             enable_window = 0.05            # mm, between where it stands and where it is to begin\n\
+             quick_stop = 2000.0             # mm/s², the drive's own stop\n\
+             # Without an absolute encoder:\n\
+             # homing = {{ method = 17, fast = 20.0, slow = 2.0, acceleration = 500.0, sequence = 0 }}\n"
+        );
+    }
+    text
+}

@@ -1,0 +1,191 @@
+//! The whole chain over emulated drives: planner, interpolator, bridge, a pair of virtual interfaces,
+//! drives. Judged by what the drives themselves recorded at every SYNC0.
+//!
+//! `GLIDEPATH_CHAIN` is the length of the program in seconds, about; then all periods of the bus are run.
+
+use std::fmt::Write as _;
+use std::time::Duration;
+
+use glidepath_audit::{Audit, AuditSettings, Sample};
+use glidepath_geometry::AxisVector;
+use glidepath_tests::{Instance, Process, Watchdog, settings};
+
+const JOINTS: usize = 3;
+/// Counts a mm of the emulated drives.
+const COUNTS: f64 = 8_388_608.0 / 5.0;
+/// Time constant of their lag, s.
+const LAG_T: f64 = 0.002;
+
+/// A drive at a SYNC0.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    sync_ns: u64,
+    meant_ns: u64,
+    target: f64,
+    actual: f64,
+    follows: bool,
+}
+
+fn rows(text: &str) -> [Vec<Row>; JOINTS] {
+    let mut rows: [Vec<Row>; JOINTS] = Default::default();
+    for line in text.lines().skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        rows[cells[0].parse::<usize>().unwrap()].push(Row {
+            sync_ns: cells[1].parse().unwrap(),
+            meant_ns: cells[2].parse().unwrap(),
+            target: cells[3].parse().unwrap(),
+            actual: cells[4].parse().unwrap(),
+            follows: cells[6] == "1",
+        });
+    }
+    rows
+}
+
+/// A zigzag of about so many seconds.
+fn program(seconds: u32) -> String {
+    let mut text = String::from("G21 G90 G64 P0.02 F9000\n");
+    for leg in 0..seconds * 3 {
+        let (x, y) = (20 * (leg % 2), 3 * (leg % 7));
+        let _ = writeln!(text, "G1 X{x} Y{y} Z{}", leg % 3);
+    }
+    text + "M2\n"
+}
+
+/// How far each time is from the one it was meant for, sorted, µs.
+fn phase_errors_us(rows: &[Row]) -> Vec<f64> {
+    let led = rows.iter().filter(|row| row.follows && row.meant_ns != 0);
+    let mut errors: Vec<f64> = led
+        .map(|row| row.sync_ns.abs_diff(row.meant_ns) as f64 / 1e3)
+        .collect();
+    errors.sort_by(f64::total_cmp);
+    errors
+}
+
+/// The largest ratios to velocity, acceleration and jerk at the period of the bus.
+fn ratios(all: &[Vec<Row>; JOINTS], period_t: f64) -> [f64; 3] {
+    let mut audit = Audit::new(&AuditSettings {
+        limits: settings().limits,
+        period_t,
+        tolerance_mm: 0.02,
+    });
+    let mut position = AxisVector::zeros();
+    let count = all.iter().map(Vec::len).min().unwrap();
+    for nth in 0..count {
+        for joint in 0..JOINTS {
+            let row = all[joint][nth];
+            if row.follows {
+                position[joint] = row.target;
+            }
+        }
+        audit.sample(&Sample {
+            tick: nth as u64,
+            line: 0,
+            position,
+            reported: None,
+        });
+    }
+    let report = audit.finish();
+    [
+        report.max_velocity_ratio.ratio,
+        report.max_acceleration_ratio.ratio,
+        report.max_jerk_ratio.ratio,
+    ]
+}
+
+/// The largest difference of a motor to where the model of its lag has it, mm.
+fn model_error(rows: &[Row], period_t: f64) -> f64 {
+    let stays = (-period_t / LAG_T).exp();
+    let pairs = rows
+        .windows(2)
+        .filter(|pair| pair[0].follows && pair[1].follows);
+    pairs
+        .map(|pair| {
+            let expected = pair[1].target - (pair[1].target - pair[0].actual) * stays;
+            (pair[1].actual - expected).abs()
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Runs the chain; false if this host cannot emulate drives.
+fn chain(seconds: u32, period_us: u32) -> bool {
+    let patience = Duration::from_secs(u64::from(seconds) * 3 + 120);
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(patience * 2));
+    let program = instance.file("program.ngc", &program(seconds));
+    let (csv, period) = (instance.path("drives.csv"), period_us.to_string());
+    let arguments = [
+        "run",
+        &program,
+        "--drives",
+        "emulated",
+        "--best-effort",
+        "--json",
+        "--bus-period-us",
+        &period,
+        "--drives-record",
+        &csv,
+    ];
+    let output = Process::join(&instance, &arguments).wait_for(patience);
+    if output.stdout.contains("cannot emulate drives on this host") {
+        eprintln!("SKIPPED: {}", output.stdout);
+        return false;
+    }
+    let report = output.expect(0).json();
+    let drives = &report["drives"];
+    assert_eq!(drives["bad_working_counters"], 0, "{report:#}");
+    let rows = rows(&std::fs::read_to_string(&csv).unwrap());
+    let period_t = f64::from(period_us) * 1e-6;
+    let errors = phase_errors_us(&rows[0]);
+    let at = |part: f64| errors[((errors.len() - 1) as f64 * part) as usize];
+    let [v, a, j] = ratios(&rows, period_t);
+    // What rounding to counts adds to a third difference.
+    let rounding = 4.0 / COUNTS / period_t.powi(3) / 40_000.0;
+    eprintln!(
+        "bus {period_us} us: {} rows, phase error p50 {:.1} us, p99 {:.1} us, max {:.1} us; v {v:.4}, a \
+         {a:.4}, j {j:.4} of the limits (rounding {rounding:.4}); frames lost {}, cycles missed {}, ticks \
+         missed {}, round trip {}, sent late {}",
+        rows[0].len(),
+        at(0.5),
+        at(0.99),
+        at(1.0),
+        drives["lost_frames"],
+        drives["missed_cycles"],
+        report["missed_ticks"],
+        drives["round_trip_us"],
+        drives["lateness_us"],
+    );
+    for rows in &rows {
+        let error = model_error(rows, period_t);
+        assert!(error < 2.0 / COUNTS, "{error} mm off the model of the lag");
+        let end = rows.last().unwrap();
+        assert!(!end.follows, "without power at the end");
+    }
+    // A host that stood still has neither sent nor computed in time, which is counted and no fault of
+    // what was computed.
+    let stood_still = drives["lost_frames"] != 0
+        || drives["missed_cycles"] != 0
+        || report["missed_ticks"] != 0
+        || report["lateness_us"]["max"].as_f64().unwrap() > 1_500.0
+        || drives["lateness_us"]["max"].as_f64().unwrap() > 200.0;
+    if stood_still {
+        eprintln!("the host stood still in between: the limits are not judged");
+        return true;
+    }
+    let most = 1.0 + 2e-3;
+    assert!(
+        v <= most && a <= most && j <= most + rounding,
+        "{v} {a} {j}"
+    );
+    true
+}
+
+#[test]
+fn the_chain_keeps_the_limits_at_the_period_of_the_bus() {
+    match std::env::var("GLIDEPATH_CHAIN").map(|text| text.parse().unwrap()) {
+        Ok(seconds) => {
+            let _done = [1000, 2000, 4000].map(|period_us| chain(seconds, period_us));
+        }
+        Err(_) => {
+            let _done = chain(3, 2000);
+        }
+    }
+}
