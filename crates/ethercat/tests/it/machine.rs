@@ -98,6 +98,7 @@ impl Setup {
                 period_ns,
                 shift_ns: period_ns / 2,
                 delay_ns: period_ns / 2 + 2_000_000,
+                watchdog_ns: (4 * period_ns).max(10_000_000),
                 ..BusSettings::default()
             },
             drives: (0..3).map(drive).collect(),

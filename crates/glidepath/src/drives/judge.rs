@@ -178,21 +178,24 @@ fn bus(judge: &mut Judge, raw: &RawBus) -> BusSettings {
         1,
         default.lost_frames.into(),
     );
-    let help = "some periods of the bus: then a drive that hears nothing stops by itself";
+    // A drive is not to stop by itself before the bus counts as lost.
+    let least_ns = (lost + 1) * period_ns;
+    let least = i64::try_from(least_ns.div_ceil(1_000_000)).unwrap_or(i64::MAX);
+    let help = "longer than lost_frames periods: then a drive that hears nothing stops by itself";
     let watchdog_ns = whole(
         "bus.watchdog_ms",
         &raw.watchdog_ms,
-        (2, 1000),
+        (least, 1000),
         help,
         1_000_000,
-        default.watchdog_ns,
+        default.watchdog_ns.max(least_ns),
     );
     BusSettings {
         period_ns,
         shift_ns,
         delay_ns,
         lost_frames: u32::try_from(lost).unwrap_or(u32::MAX),
-        watchdog_ns: watchdog_ns.max(2 * period_ns),
+        watchdog_ns,
     }
 }
 
