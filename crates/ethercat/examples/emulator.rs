@@ -1,6 +1,11 @@
 //! Emulated drives on a network interface, for masters by other people:
 //! `cargo run -p glidepath-ethercat --example emulator -- veth1 3`. They answer until the process ends.
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "an example")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::infinite_loop,
+    reason = "an example, which ends with Ctrl-C"
+)]
 
 use glidepath_emulator::{DriveSettings, Segment};
 use glidepath_ethercat::{MAX_FRAME, PacketWire, Wire};

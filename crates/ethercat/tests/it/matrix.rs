@@ -330,11 +330,7 @@ fn assert_guarded(drive: &DriveSettings, records: &[SyncRecord], case: &str) {
     for pair in records.windows(2) {
         let passed_ns = pair[1].at_ns.saturating_sub(pair[0].at_ns);
         // A frame that was lost leaves the target where it was, and its number, too.
-        held_ns = if pair[1].index == pair[0].index {
-            held_ns + passed_ns
-        } else {
-            passed_ns + held_ns
-        };
+        held_ns += passed_ns;
         if pair[0].follows && pair[1].follows {
             let step = f64::from(pair[1].target) - f64::from(pair[0].target);
             let most = drive.guard_counts(held_ns);

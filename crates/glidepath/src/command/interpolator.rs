@@ -65,6 +65,8 @@ pub(super) fn interpolator(
 /// Feedback older than this stops the motion on a host that promises nothing, s; and takes the power.
 const DESK_STALE_T: f64 = 0.25;
 const DESK_OFF_T: f64 = 0.5;
+/// How far drives may be behind that were not served in time there, mm or degrees.
+const DESK_ERROR: f64 = 10.0;
 
 /// The machine, whose drives answer where that is asked for.
 fn with_drives(config: &MachineConfig, args: &InterpolatorArgs) -> MachineConfig {
@@ -75,6 +77,8 @@ fn with_drives(config: &MachineConfig, args: &InterpolatorArgs) -> MachineConfig
         if args.best_effort {
             feedback.stale_t = Some(feedback.stale_t.unwrap_or(0.0).max(DESK_STALE_T));
             feedback.off_t = feedback.off_t.max(DESK_OFF_T);
+            feedback.min_following_error = feedback.min_following_error.max(DESK_ERROR);
+            feedback.following_error = feedback.following_error.max(DESK_ERROR);
         }
     }
     config

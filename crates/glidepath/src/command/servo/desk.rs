@@ -30,7 +30,9 @@ pub(super) fn play(
     let transport = session::join(&args.instance, config)?;
     let mut servo = Servo::new(transport.setpoint_source()?, settings(config));
     // What only passes setpoints on leaves the drives to somebody else.
-    let mut feedback = (!args.listens).then(|| transport.feedback_sink()).transpose()?;
+    let mut feedback = (!args.listens)
+        .then(|| transport.feedback_sink())
+        .transpose()?;
     let mut plant = plant(config, &args.stands);
     if let Some((joint, position)) = args.probe {
         plant = plant.with_probe(joint, position);
