@@ -2,6 +2,13 @@
 //! drives. Judged by what the drives themselves recorded at every SYNC0.
 //!
 //! `GLIDEPATH_CHAIN` is the length of the program in seconds, about; then all periods of the bus are run.
+#![allow(
+    clippy::print_stderr,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "a test that tells what it measured"
+)]
 
 use std::fmt::Write as _;
 use std::time::Duration;
@@ -71,8 +78,8 @@ fn ratios(all: &[Vec<Row>; JOINTS], period_t: f64) -> [f64; 3] {
     let mut position = AxisVector::zeros();
     let count = all.iter().map(Vec::len).min().unwrap();
     for nth in 0..count {
-        for joint in 0..JOINTS {
-            let row = all[joint][nth];
+        for (joint, rows) in all.iter().enumerate() {
+            let row = rows[nth];
             if row.follows {
                 position[joint] = row.target;
             }
