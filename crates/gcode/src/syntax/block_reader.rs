@@ -67,7 +67,7 @@ impl Block {
                     self.assignment(&mut cursor, scope)?;
                     start_of_block = false;
                 }
-                b'$' if self.dialect == Dialect::LinuxCnc => {
+                b'$' if self.dialect == Dialect::LinuxCnc && has_value(cursor) => {
                     spindle = Some(self.spindle_number(&mut cursor, scope)?);
                     start_of_block = false;
                 }
@@ -213,6 +213,15 @@ impl Block {
                 .ok_or_else(|| duplicate(char::from(letter), span)),
         }
     }
+}
+
+/// True if what stands behind the next byte is a value: `$0` is a spindle, `$H` a command.
+fn has_value(mut cursor: Cursor<'_>) -> bool {
+    cursor.advance();
+    matches!(
+        cursor.next_visible(),
+        Some(b'0'..=b'9' | b'.' | b'+' | b'-' | b'#' | b'[')
+    )
 }
 
 #[cold]
