@@ -34,11 +34,14 @@ fn programs(place: Place<'_>) -> Vec<Program> {
     let mut programs = Vec::new();
     for (language, linked) in [
         (Language::C, Linked::Shared),
+        (Language::C, Linked::Static),
+        (Language::Cpp, Linked::Shared),
         (Language::Cpp, Linked::Static),
     ] {
+        let name = format!("{language:?}-{linked:?}");
         match build::example(place, "follow", language, linked) {
-            Some(program) => programs.push((format!("{language:?}"), program, None)),
-            None => println!("skipped: {language:?}: no compiler"),
+            Some(program) => programs.push((name, program, None)),
+            None => println!("skipped: {name}: no compiler"),
         }
     }
     match process::python() {
