@@ -177,7 +177,9 @@ fn chain(seconds: u32, period_us: u32) -> bool {
         eprintln!("the host stood still in between: the limits are not judged");
         return true;
     }
-    let most = 1.0 + 2e-3;
+    // Between setpoints the demand is a quintic, whose third difference at any phase of the bus is up
+    // to 0.53 % above that of the setpoints.
+    let most = 1.0 + 5.3e-3;
     assert!(
         v <= most && a <= most && j <= most + rounding,
         "{v} {a} {j}"
