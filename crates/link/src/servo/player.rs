@@ -75,7 +75,7 @@ enum Mode {
     Waiting,
     Playing {
         from: Knot,
-        /// The time of the newest setpoint that came.
+        /// The time of the newest setpoint that came in time.
         heard_ns: u64,
         /// `from` is no setpoint, but where the joints went for want of one.
         coasting: bool,
@@ -251,15 +251,11 @@ impl Player {
         while let Some(next) = self.queue.front().copied() {
             match &mut self.mode {
                 Mode::Stopping { .. } => self.queue.clear(),
-                Mode::Playing {
-                    heard_ns: heard,
-                    coasting: true,
-                    ..
-                } => {
+                Mode::Playing { coasting: true, .. } => {
                     if next.at_ns >= now_ns.saturating_add(next.period_ns / 2) {
                         return;
                     }
-                    *heard = next.at_ns.max(*heard);
+                    // One that comes too late to be gone to is none: if all do, patience ends.
                     self.queue.pop_front();
                 }
                 Mode::Playing {

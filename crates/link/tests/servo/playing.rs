@@ -101,3 +101,20 @@ fn a_gap_is_bridged_though_setpoints_arrive_less_than_a_period_ahead() {
     );
     assert_eq!(bench.servo.counts().stops, 0);
 }
+
+#[test]
+fn setpoints_that_all_come_too_late_end_in_an_own_stop() {
+    let mut bench = Bench::new();
+    for number in 0..60 {
+        // Three tenths of a period ahead: nothing goes back to them in so short a time.
+        bench.run_to(ns_of(number) + PERIOD_NS / 10 * 7, &[]);
+        bench.publish(&setpoint(number));
+    }
+    let joints = bench.run_to(ns_of(200), &[]);
+    let rest = joints.last().unwrap().1;
+    assert_eq!((rest.velocity, rest.acceleration), (0.0, 0.0));
+    assert_eq!(bench.servo.counts().stops, 1);
+    // Nobody coasts for longer than patience lasts.
+    let gone = (rest.position - truth(PERIOD_NS as f64 * 1e-9).position).abs();
+    assert!(gone < 60.0, "{gone}");
+}
