@@ -113,11 +113,21 @@ fn findings_show_the_file_they_are_in() {
 }
 
 #[test]
-fn a_folder_or_a_pipe_is_no_subroutine() {
+fn a_folder_is_looked_past_and_a_pipe_is_no_subroutine() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     write(&at.join("a.ngc"), "o<side> call\n");
     std::fs::create_dir(at.join("side.ngc")).unwrap();
+    let (place, code, _) = checked(at, &["a.ngc"]).unwrap_err();
+    assert_eq!(
+        (place.as_str(), code.as_str()),
+        ("a.ngc:1:1", "unknown-subroutine")
+    );
+    std::fs::remove_dir(at.join("side.ngc")).unwrap();
+    let made = std::process::Command::new("mkfifo")
+        .arg(at.join("side.ngc"))
+        .status();
+    assert!(made.unwrap().success());
     let (place, code, _) = checked(at, &["a.ngc"]).unwrap_err();
     assert_eq!(
         (place.as_str(), code.as_str()),

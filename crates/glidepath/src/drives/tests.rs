@@ -88,10 +88,10 @@ fn a_first_file_is_refused_until_somebody_says_how_far_a_turn_is() {
 #[test]
 fn everything_that_is_wrong_is_told_with_its_place() {
     let text = "[bus]\ninterface = \"eth9\"\nperiod_us = 100\n[[drive]]\njoint = 7\nposition = 0\n\
-                counts_per_mm = 1000.0\nfolowing_error = 1.0\nquick_stop = 1e99\n";
+                counts_per_mm = 1000.0\nfollowing_error = 1.0\nquick_stop = 1e99\ncolour = 3\n";
     let told = wrong(text);
     let has = |line: usize, words: &str| told.iter().any(|(l, m)| *l == line && m.contains(words));
-    assert!(has(8, "unknown key `folowing_error`"), "{told:?}");
+    assert!(has(10, "unknown key `colour`"), "{told:?}");
     assert!(has(3, "bus.period_us = 100 is out of range"), "{told:?}");
     let drive = "[[drive]]\njoint = 0\nposition = 0\ncounts_per_mm = 1000.0\nfollowing_error = 1.0\n\
                  quick_stop = 2000.0\n";
