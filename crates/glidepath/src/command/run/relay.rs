@@ -162,6 +162,10 @@ impl Judge {
 
     /// Judges a setpoint of the program; gives its sample, with what is known of it.
     fn take(&mut self, setpoint: &Setpoint, sample: Sample, recording: &mut Recording) -> Sample {
+        // Without power they repeat what the drives report, which nobody has asked for.
+        if matches!(setpoint.state(), Ok(MachineState::Off)) {
+            return sample;
+        }
         while self.told_s < setpoint.path_s + AHEAD_MM && self.tell(recording) {}
         self.audit.sample(&audit::Sample {
             // Not the tick of the clock: after a missed tick the next setpoint is the next of the
