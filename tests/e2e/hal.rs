@@ -290,9 +290,9 @@ fn compare(rows: &[Row], setpoints: &[Setpoint]) -> Compared {
 
 fn config(instance: &Instance) -> String {
     let text = example("mill.toml");
-    // A busy host stands still for tens of milliseconds, and its drives with it.
-    let text = replaced(&text, "stale_s = 0.05", "stale_s = 0.22");
-    let text = replaced(&text, "off_s = 0.2", "off_s = 0.5");
+    // A busy host stands still for tenths of a second, and its drives with it.
+    let text = replaced(&text, "stale_s = 0.05", "stale_s = 0.9");
+    let text = replaced(&text, "off_s = 0.2", "off_s = 2.0");
     // Home in a second: feedback is so old that the joints go on for two millimetres.
     let text = replaced(&text, "search_velocity = -20.0", "search_velocity = -10.0");
     let text = replaced(&text, "latch_velocity = -1.0", "latch_velocity = -4.0");
