@@ -124,9 +124,7 @@ fn a_folder_is_looked_past_and_a_pipe_is_no_subroutine() {
         ("a.ngc:1:1", "unknown-subroutine")
     );
     std::fs::remove_dir(at.join("side.ngc")).unwrap();
-    let made = std::process::Command::new("mkfifo")
-        .arg(at.join("side.ngc"))
-        .status();
+    let made = Command::new("mkfifo").arg(at.join("side.ngc")).status();
     assert!(made.unwrap().success());
     let (place, code, _) = checked(at, &["a.ngc"]).unwrap_err();
     assert_eq!(
