@@ -21,7 +21,7 @@ use std::collections::VecDeque;
 
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_link::{SegmentRefusal, SegmentReply, SegmentRequest, StreamItem, Text};
-use glidepath_program::{Item, ItemKind};
+use glidepath_program::{Event, Item, ItemKind};
 
 #[cfg(test)]
 mod tests;
@@ -219,9 +219,17 @@ impl Stream {
                 "no room: send it again later".to_owned(),
             ));
         }
-        if let ItemKind::Move { segment, .. } = &item.kind {
-            self.check(segment)?;
-            self.position = segment.end();
+        match &item.kind {
+            ItemKind::Move { segment, .. } => {
+                self.check(segment)?;
+                self.position = segment.end();
+            }
+            // Where it ends is answered to programs, and to nobody else.
+            ItemKind::Event(Event::Probe { .. }) => {
+                let why = "a stream is not told what a probe finds: run the program from a file";
+                return Err((SegmentRefusal::Malformed, why.to_owned()));
+            }
+            ItemKind::Event(_) | ItemKind::Dwell(_) => {}
         }
         self.queue.push_back(item);
         Ok(())

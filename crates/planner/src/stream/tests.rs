@@ -170,3 +170,17 @@ fn only_an_open_request_opens() {
     let refused = Stream::open(&request(SESSION, 0, line(0.0, 1.0)), point(0.0), None);
     assert_eq!(refused.unwrap_err().0, SegmentRefusal::NotOpen);
 }
+
+#[test]
+fn a_stream_cannot_probe() {
+    let mut stream = opened(None);
+    let probe = StreamItem::Item(Item {
+        block: 0,
+        line: 1,
+        kind: ItemKind::Event(Event::Probe { release: false }),
+    });
+    assert_refused(&mut stream, probe, SegmentRefusal::Malformed);
+    let item = line(0.0, 5.0);
+    let goes_on = stream.answer(&request(SESSION, stream.accepted(), item));
+    assert_eq!(goes_on.outcome(), Ok(Ok(())));
+}
