@@ -57,7 +57,7 @@ impl Publisher<'_> {
             let epoch = self.next_epoch(goes_on)?;
             let is_tripped = self.publish_epoch(epoch, pipeline, attend, control)?;
             goes_on = true;
-            if !pipeline.comes_to_probe(is_tripped) {
+            if !pipeline.comes_to_probe(is_tripped)? {
                 return Ok(pipeline.statistics());
             }
             let stands = self.stand_behind_probe(control)?;

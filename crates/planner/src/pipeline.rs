@@ -278,16 +278,20 @@ impl<S: ItemSource> Pipeline<S> {
 
     /// Whether what was planned ends with a probing move, after which the program goes on. One that
     /// the probe has ended may have been planned in part only.
-    pub(crate) fn comes_to_probe(&mut self, is_tripped: bool) -> bool {
+    ///
+    /// # Errors
+    /// Nobody may answer what the probe found.
+    pub(crate) fn comes_to_probe(&mut self, is_tripped: bool) -> Result<bool, Refusal> {
         while is_tripped && !self.is_at_probe && !self.is_exhausted {
             match self.source.next_item() {
                 Supply::Item(_) => {}
                 Supply::Pending => std::thread::yield_now(),
                 Supply::Probe => self.is_at_probe = true,
-                Supply::End | Supply::Refused(_) => self.is_exhausted = true,
+                Supply::End => self.is_exhausted = true,
+                Supply::Refused(refusal) => return Err(refusal),
             }
         }
-        self.is_at_probe
+        Ok(self.is_at_probe)
     }
 
     /// Goes on behind a probing move, from where the machine came to rest: `position` (mm, degrees)
