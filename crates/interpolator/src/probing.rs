@@ -19,11 +19,11 @@ enum Search {
     /// The epoch is over, and the program goes on in another.
     Over,
     /// It was aborted there; what was under way is to have come in after so many ticks.
-    Aborted(u16),
+    Aborted(u64),
 }
 
-/// Ticks for which frames may be under way: a quarter of a second at 4 ms.
-const UNDER_WAY_TICKS: u16 = 64;
+/// How long frames may be under way: several times what a planner takes to hear of an abort.
+const UNDER_WAY_NS: u64 = 250_000_000;
 
 /// A search for a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -65,8 +65,8 @@ impl Probing {
     }
 
     /// The program does not go on.
-    pub(crate) const fn abort(&mut self) {
-        self.0 = Search::Aborted(UNDER_WAY_TICKS);
+    pub(crate) const fn abort(&mut self, period_ns: u64) {
+        self.0 = Search::Aborted(UNDER_WAY_NS / period_ns);
     }
 
     /// A tick has passed without an epoch.

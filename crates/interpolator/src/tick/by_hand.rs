@@ -32,8 +32,7 @@ impl Interpolator<'_> {
             {
                 continue;
             }
-            let is_program = self.is_open() || self.probing.goes_on();
-            let released = self.requests.carry_out(order, is_program);
+            let released = self.requests.carry_out(order, self.has_program());
             if released.program_stop {
                 self.track.pass_stop();
             }
@@ -100,8 +99,8 @@ impl Interpolator<'_> {
 
     /// Whether joints may be moved each for itself: nothing else moves, or is about to.
     fn may_move_joints(&self) -> bool {
-        let is_program = self.is_open() || self.probing.goes_on();
-        let is_free = !is_program && !self.jog.owns_axes() && self.requests.fault().is_none();
+        let is_free =
+            !self.has_program() && !self.jog.owns_axes() && self.requests.fault().is_none();
         is_free && self.drives.are_on() && self.output.published().is_at_rest()
     }
 
@@ -163,7 +162,7 @@ impl Interpolator<'_> {
     fn end_motion(&mut self) {
         self.jog.end();
         self.mover.end();
-        if self.is_open() || self.probing.goes_on() {
+        if self.has_program() {
             self.close(EndOfEpoch::Faulted);
         }
         self.output.rest();

@@ -216,7 +216,7 @@ impl Interpolator<'_> {
                 EndOfEpoch::Aborted
             };
             self.requests.forget_epoch(false);
-            self.probing.abort();
+            self.probing.abort(self.drives.period_ns());
         }
         self.probing.wait();
     }

@@ -79,6 +79,11 @@ impl<'a> Interpolator<'a> {
         !self.track.is_empty()
     }
 
+    /// True while a program is executed, also between two of its epochs.
+    pub(super) fn has_program(&self) -> bool {
+        self.is_open() || self.probing.goes_on()
+    }
+
     /// True where the plan itself is at rest.
     pub(super) fn plan_rests(&self) -> bool {
         self.track.rests_at(self.rate.now().time)
