@@ -100,9 +100,7 @@ fn a_servo_in_c_follows_and_stops_by_itself() {
             velocity: last.joint_velocity[0],
             acceleration: last.joint_acceleration[0],
         };
-        let after = u32::try_from(149 - number).unwrap();
-        let coasted = last.coast(0.3 + 0.004 * f64::from(after));
-        Stop::new(coasted, ServoSettings::default().stop[0])
+        Stop::new(last.coast(0.3), ServoSettings::default().stop[0])
             .at(1e3)
             .position
     };
