@@ -69,9 +69,14 @@ impl StatusBook {
     /// A frame passed to the real-time thread. The first one of a program tells which program that
     /// is, and where it starts; that of a planner that goes on with one tells of a block of the same.
     pub(crate) fn passed(&mut self, frame: &SetpointFrame) {
-        let is_other = frame.block == 0 || frame.program != self.status.program;
-        if frame.sequence == 0 && is_other {
+        if frame.sequence > 0 {
+            return;
+        }
+        // One that waits goes on: what it said is still to be read.
+        if self.status.state != MachineState::Waiting.code() {
             self.message("");
+        }
+        if frame.block == 0 || frame.program != self.status.program {
             self.status.program = frame.program;
             self.status.program_start = frame.position;
         }
