@@ -341,7 +341,7 @@ fn hal_plays_what_is_recorded_and_opens_its_enable_chain_when_lines_stay_away() 
         eprintln!("SKIPPED: HAL; halrun is not installed (Debian's package linuxcnc-uspace)");
         return;
     }
-    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let (instance, _watchdog) = (Instance::alone(), Watchdog::new(PATIENCE));
     let machine = Machine {
         instance: &instance,
         config: config(&instance),

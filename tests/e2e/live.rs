@@ -135,7 +135,7 @@ fn commands_take_the_token_and_leave() {
 
 #[test]
 fn a_browser_shows_the_machine_and_holds_it() {
-    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let (instance, _watchdog) = (Instance::alone(), Watchdog::new(PATIENCE));
     let Some(mut browser) = Browser::start(1440, 900) else {
         return;
     };

@@ -72,7 +72,7 @@ fn a_run_beside_load_on_every_core_is_the_plan_and_does_not_starve() {
 #[allow(clippy::print_stderr, reason = "the figures of a long check")]
 fn play_beside_load(seconds: u32, program: u32) {
     let patience = Duration::from_secs(240 + 4 * u64::from(seconds));
-    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(patience));
+    let (instance, _watchdog) = (Instance::alone(), Watchdog::new(patience));
     let program = instance.file("program.ngc", &pocket(seconds, program));
     let csv = instance.path("run.csv");
     let run = recorded(&program, &csv);

@@ -1,5 +1,5 @@
-//! End-to-end tests. One binary, and one test at a time (see `Instance`): they run at the speed of
-//! the clock.
+//! End-to-end tests. One binary, and no more tests at a time than there are cores (see `Instance`): they
+//! run at the speed of the clock.
 #![allow(
     clippy::unwrap_used,
     reason = "test code, which clippy does not see as such"

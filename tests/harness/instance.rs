@@ -8,44 +8,51 @@ use std::time::{Duration, Instant};
 use glidepath_link::{Ipc, LinkConfig, Status, Transport, remove_leftovers};
 use tempfile::TempDir;
 
-use crate::glidepath;
+use crate::{glidepath, seats};
 
 /// How long a status is waited for: far longer than it ever takes.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// An instance of its own. While it lives no other test has one, in this process or another: the
-/// tests run processes at the speed of the clock, and would take each other's processor.
+/// An instance of its own. While it lives there is at most one other for each further core, in this
+/// process or another: the tests run processes at the speed of the clock, and would take each
+/// other's processor.
 #[derive(Debug)]
 pub struct Instance {
     config: LinkConfig,
     root: TempDir,
-    _alone: File,
+    _seats: Vec<File>,
 }
 
 impl Instance {
     /// Waits for its turn.
     #[must_use]
     pub fn new() -> Self {
+        Self::seated(|count| vec![seats::one(count)])
+    }
+
+    /// One beside which there is no other: for what measures, and for what loads every core.
+    #[must_use]
+    pub fn alone() -> Self {
+        let instance = Self::seated(|_| seats::all());
+        let _binary = glidepath();
+        instance
+    }
+
+    fn seated(seats: impl FnOnce(u32) -> Vec<File>) -> Self {
         static COUNT: AtomicU32 = AtomicU32::new(0);
-        let path = std::env::temp_dir().join("glidepath-e2e.lock");
-        let alone = File::options()
-            .create(true)
-            .append(true)
-            .open(path)
-            .unwrap();
-        alone.lock().unwrap();
+        let count = COUNT.fetch_add(1, Ordering::Relaxed);
+        let seats = seats(count);
         let root = tempfile::Builder::new()
             .prefix("glidepath-e2e")
             .tempdir_in("/dev/shm")
             .unwrap();
-        let count = COUNT.fetch_add(1, Ordering::Relaxed);
         let mut config = LinkConfig::new(&format!("e2e-{}-{count}", std::process::id()));
         // Where processes look that have this directory as their runtime directory.
         config.root = root.path().join("glidepath");
         Self {
             config,
             root,
-            _alone: alone,
+            _seats: seats,
         }
     }
 

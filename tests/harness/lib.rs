@@ -1,6 +1,6 @@
 //! Harness of the end-to-end tests.
 //!
-//! * [`Instance`]: shared memory of its own for each test, one test at a time, and the proof that
+//! * [`Instance`]: shared memory of its own for each test, as many at a time as there are cores, and the proof that
 //!   nothing of it is left behind;
 //! * [`Watchdog`]: ends a test that hangs;
 //! * [`Process`]: processes of the real binary, which [`glidepath`] finds and builds;
@@ -25,6 +25,7 @@ mod instance;
 mod machine;
 mod operated;
 mod process;
+mod seats;
 mod services;
 mod setpoint_file;
 mod stack;

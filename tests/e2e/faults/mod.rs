@@ -48,7 +48,7 @@ const TRIES: usize = 3;
 fn whatever_goes_wrong_the_machine_rests_on_the_path_and_recovers() {
     let count = from_environment("GLIDEPATH_FAULTS").unwrap_or(SAMPLE as u64);
     let seed = from_environment("GLIDEPATH_FAULTS_SEED").unwrap_or(1);
-    let instance = Instance::for_processes();
+    let instance = Instance::alone();
     let _watchdog = Watchdog::new(Duration::from_secs(120 + 30 * count));
     let (frames, items) = plan(PROGRAM, AxisVector::zeros());
     let programs = Programs {
