@@ -6,7 +6,7 @@
 //! else.
 #![allow(clippy::print_stdout, reason = "a measurement")]
 
-#[path = "../tests/preview/curves.rs"]
+#[path = "../tests/it/preview/curves.rs"]
 mod curves;
 
 use glidepath_geometry::NurbsPath;

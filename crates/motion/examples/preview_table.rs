@@ -5,9 +5,9 @@
 //! crates/motion/src/preview/table.md`
 #![allow(clippy::print_stdout, reason = "a command that prints")]
 
-#[path = "../tests/preview/curves.rs"]
+#[path = "../tests/it/preview/curves.rs"]
 mod curves;
-#[path = "../tests/preview/table.rs"]
+#[path = "../tests/it/preview/table.rs"]
 mod table;
 
 fn main() {

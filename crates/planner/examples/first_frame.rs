@@ -7,7 +7,7 @@
 //! ```
 #![allow(clippy::print_stdout, reason = "a table")]
 
-#[path = "../tests/support/mill.rs"]
+#[path = "../tests/it/support/mill.rs"]
 mod mill;
 
 use std::cell::RefCell;

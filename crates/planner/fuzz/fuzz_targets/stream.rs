@@ -14,7 +14,7 @@ use support::interpolator::Interpolator;
 use support::items::{PERIOD_NS, settings, staircase};
 
 #[allow(unused, reason = "what the tests share")]
-#[path = "../../tests/support/mod.rs"]
+#[path = "../../tests/it/support/mod.rs"]
 mod support;
 
 /// Pauses of the planner until it is told to end.

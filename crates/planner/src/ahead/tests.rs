@@ -6,7 +6,7 @@
     reason = "a test that fails may panic, and a skipped one says so"
 )]
 
-#[path = "../../tests/support/mill.rs"]
+#[path = "../../tests/it/support/mill.rs"]
 mod mill;
 
 use std::path::{Path, PathBuf};

@@ -1,0 +1,9 @@
+//! Curves by formulas, in equal chords.
+
+mod expressions;
+mod files;
+mod implicit;
+mod nodes;
+mod parametric;
+mod support;
+mod table;

@@ -1,0 +1,28 @@
+//! Programs as text: what they mean, and what is wrong with them. One binary: it links once.
+
+#![allow(
+    clippy::expect_used,
+    clippy::float_cmp,
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "tests, which clippy does not see as such"
+)]
+
+mod corpus;
+mod damaged;
+mod diagnostics;
+mod dialects;
+mod flow;
+mod lathe_cycles;
+mod lathe_reference;
+mod m_codes;
+mod machining;
+mod motion;
+mod plain_lines;
+mod probing;
+mod reference;
+mod saved_state;
+mod siemens;
+mod splines;
+mod subroutine_files;
+mod support;

@@ -1,0 +1,219 @@
+//! What a machine keeps over a restart, with the real binary: set by hand, begun with, changed by
+//! what was run and by nothing else.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a test that fails may panic"
+)]
+
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+struct Machine {
+    folder: tempfile::TempDir,
+}
+
+impl Machine {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let mill = include_str!("../../../../config/mill.toml");
+        let mill = mill.replace("# directory = \"state\"", "directory = \"state\"");
+        std::fs::write(folder.path().join("mill.toml"), mill).unwrap();
+        Self { folder }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn file(&self, name: &str, text: &str) -> String {
+        std::fs::write(self.path(name), text).unwrap();
+        self.path(name).to_str().unwrap().to_owned()
+    }
+
+    fn glidepath(&self, args: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_glidepath"))
+            .args(args)
+            .arg("--config")
+            .arg(self.path("mill.toml"))
+            .current_dir(self.folder.path())
+            .output()
+            .unwrap()
+    }
+
+    /// The object that a command prints; its exit code has to be 0.
+    fn object(&self, args: &[&str]) -> Value {
+        let output = self.glidepath(&[args, &["--json"]].concat());
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{told}");
+        serde_json::from_slice(&output.stdout).expect("one object")
+    }
+
+    fn refused(&self, args: &[&str], exit: i32) -> String {
+        let output = self.glidepath(args);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(exit), "{told}");
+        told
+    }
+}
+
+fn axes(object: &Value, name: &str) -> Vec<f64> {
+    let axes = object["offsets"][name]["axes"].as_array().unwrap();
+    axes.iter().map(|value| value.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn programs_begin_with_what_was_set_and_leave_what_was_run() {
+    let machine = Machine::new();
+    let nothing = machine.object(&["offsets", "show"]);
+    assert_eq!(nothing["generation"], 0);
+    machine.object(&["offsets", "set", "G54", "X100", "Y-50.25"]);
+    let set = machine.object(&["offsets", "set", "G30", "Z-1.5"]);
+    assert_eq!(set["generation"], 2);
+    assert_eq!(axes(&set, "G54")[..2], [100.0, -50.25]);
+
+    let text = "G21 G90\nG0 X1 Y0\nG10 L2 P2 X5 R1.5\nG92 X0\nG28.1\nG1 X4 F6000\nM2\n";
+    let part = machine.file("part.ngc", text);
+    let checked = machine.object(&["check", &part]);
+    assert_eq!(checked["programs"][0]["box"]["X"], json!([0.0, 105.0]));
+    assert_eq!(checked["programs"][0]["box"]["Y"], json!([-50.25, 0.0]));
+    machine.object(&["plan", &part]);
+    assert_eq!(machine.object(&["offsets", "show"]), set, "nothing was run");
+
+    let ran = machine.object(&["run", &part, "--best-effort"]);
+    assert!(ran["cycle_time_s"].as_f64().unwrap() > 0.1);
+    let left = machine.object(&["offsets", "show"]);
+    assert_eq!(axes(&left, "G54"), axes(&set, "G54"));
+    assert_eq!(axes(&left, "G55")[0].to_bits(), 5.0_f64.to_bits());
+    assert_eq!(left["offsets"]["G55"]["rotation_deg"], 1.5);
+    assert_eq!(axes(&left, "G28")[..2], [101.0, -50.25]);
+    assert_eq!(axes(&left, "G30")[2].to_bits(), (-1.5_f64).to_bits());
+    assert_eq!(axes(&left, "G92")[0].to_bits(), 1.0_f64.to_bits());
+    assert_eq!(left["rest"]["clean"], true);
+    assert_eq!(left["rest"]["position"][0], 105.0);
+    assert_eq!(left["program_under_way"], false);
+
+    // G92 is kept, and not in force: X1 is where it was at first.
+    let again = machine.file("again.ngc", "G21 G90\nG0 X1\nM2\n");
+    let output = machine.glidepath(&["check", &again, "--json"]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        told.contains("the offset of G92 is kept and not in force (X1)"),
+        "{told}"
+    );
+    let checked: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(checked["programs"][0]["box"]["X"], json!([0.0, 101.0]));
+    let restored = machine.file("restored.ngc", "G21 G90\nG92.3\nG0 X1\nM2\n");
+    let checked = machine.object(&["check", &restored]);
+    assert_eq!(checked["programs"][0]["box"]["X"], json!([0.0, 102.0]));
+}
+
+#[test]
+fn tools_that_g10_changed_are_kept_until_the_table_is_edited() {
+    let machine = Machine::new();
+    let table = machine.file("tools.tbl", "T1 P1 Z10 D6\nT2 P2 Z20 D8\n");
+    let text = "G21 G90\nG10 L1 P2 Z33.5 R5\nG43 H2\nG0 Z1\nM2\n";
+    let part = machine.file("part.ngc", text);
+    machine.object(&["run", &part, "--best-effort", "--tool-table", &table]);
+    let left = machine.object(&["offsets", "show"]);
+    assert_eq!(left["tools_changed"][0]["number"], 2);
+    assert_eq!(left["tools_changed"][0]["diameter_mm"], 10.0);
+    let use_it = machine.file("use.ngc", "G21 G90\nG43 H2\nG0 Z1\nM2\n");
+    let z_of = |part: &str| {
+        let checked = machine.object(&["check", part, "--tool-table", &table]);
+        checked["programs"][0]["box"]["Z"][1].as_f64().unwrap()
+    };
+    assert_eq!(z_of(&use_it).to_bits(), 34.5_f64.to_bits());
+    machine.file("tools.tbl", "T1 P1 Z10 D6\nT2 P2 Z21 D8\n");
+    assert_eq!(z_of(&use_it).to_bits(), 22.0_f64.to_bits());
+}
+
+#[test]
+fn damage_and_another_machine_need_the_operator() {
+    let machine = Machine::new();
+    machine.object(&["offsets", "set", "G54", "X1"]);
+    machine.object(&["offsets", "set", "G54", "X2"]);
+    let part = machine.file("part.ngc", "G0 X1\nM2\n");
+    let newest = machine.path("state/kept.0");
+    let text = std::fs::read_to_string(&newest).unwrap();
+    std::fs::write(&newest, text.replace("2.0", "3.0")).unwrap();
+    let told = machine.refused(&["check", &part], 3);
+    assert!(
+        told.contains("kept.0 is damaged: its checksum is another"),
+        "{told}"
+    );
+    assert!(told.contains("`glidepath offsets recover`"), "{told}");
+    let recovered = machine.object(&["offsets", "recover"]);
+    assert_eq!(axes(&recovered, "G54")[0].to_bits(), 1.0_f64.to_bits());
+    machine.object(&["check", &part]);
+
+    let mill = std::fs::read_to_string(machine.path("mill.toml")).unwrap();
+    machine.file("mill.toml", &mill.replace("[axis.Y]", "[axis.U]"));
+    let told = machine.refused(&["check", &part], 3);
+    assert!(
+        told.contains("belongs to a machine with other axes"),
+        "{told}"
+    );
+    machine.object(&["offsets", "adopt"]);
+    machine.object(&["check", &part]);
+}
+
+#[test]
+fn linuxcnc_s_parameters_come_and_go_in_their_units() {
+    let machine = Machine::new();
+    let parameters = "5161\t1\n5210\t1\n5211\t0.5\n5220\t2\n5221\t-4\n5241\t2\n5250\t30\n";
+    let file = machine.file("linuxcnc.var", parameters);
+    let args = ["offsets", "import", &file, "--linear-units", "inch"];
+    let output = machine.glidepath(&args);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        told.contains("the offset of G92 was in force; it is kept and is not"),
+        "{told}"
+    );
+    let kept = machine.object(&["offsets", "show"]);
+    assert_eq!(kept["active"], "G55");
+    assert!((axes(&kept, "G54")[0] + 101.6).abs() < 1e-12);
+    let export = machine.glidepath(&["offsets", "export", "--linear-units", "inch"]);
+    let text = String::from_utf8(export.stdout).unwrap();
+    assert!(
+        text.contains("\n5221\t-4\n") && text.contains("\n5250\t30\n"),
+        "{text}"
+    );
+    // The units have to be said.
+    machine.refused(&["offsets", "import", &file], 2);
+    // Neither of two numbers for one axis can be the one that is meant.
+    let told = machine.refused(&["offsets", "set", "G54", "X1", "Y2", "x10"], 2);
+    assert!(told.contains("given before"), "{told}");
+    let bad = machine.file("bad.var", "5221\t1\n5161\t1\n");
+    let told = machine.refused(&["offsets", "import", &bad, "--linear-units", "mm"], 2);
+    assert!(
+        told.contains("line 2: parameter 5161 stands behind 5221"),
+        "{told}"
+    );
+    assert_eq!(machine.object(&["offsets", "show"]), kept);
+    let part = machine.file("part.ngc", "G0 X1\nM2\n");
+    let told = machine.glidepath(&["check", &part]).stderr;
+    let told = String::from_utf8_lossy(&told).into_owned();
+    assert!(
+        told.contains("programs begin in G55, which is kept"),
+        "{told}"
+    );
+}
+
+#[test]
+fn nothing_is_kept_without_a_folder() {
+    let mill = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../config/mill.toml");
+    let output = Command::new(env!("CARGO_BIN_EXE_glidepath"))
+        .args(["offsets", "show", "--config"])
+        .arg(mill)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(3));
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        told.contains("names no folder to keep anything in"),
+        "{told}"
+    );
+}

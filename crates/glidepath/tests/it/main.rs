@@ -1,0 +1,22 @@
+//! The command, as it is typed.
+
+mod arms;
+mod command_line;
+mod config_command;
+mod configuration;
+mod fit;
+mod hostile_curves;
+mod hostile_numbers;
+mod joints;
+mod kept_state;
+mod keys;
+mod migration;
+mod nurbs;
+mod outputs;
+mod pipes;
+mod plot;
+mod preview;
+mod subroutines;
+#[path = "../support/mod.rs"]
+mod support;
+mod unchecked_loops;

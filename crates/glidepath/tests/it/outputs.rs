@@ -1,0 +1,301 @@
+//! What commands write never takes the place of what somebody else put there, is whole or not
+//! there, and is told of when it cannot be written.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a test that fails may panic"
+)]
+
+use std::fs::{self, File};
+use std::os::unix::fs::FileTypeExt as _;
+use std::os::unix::process::ExitStatusExt as _;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+const SQUARE: &str = "G21 G90\nG0 X1\nG1 X11 F3000\nY10\nX1\nY0\nM2\n";
+
+/// The command, to its end, or for a minute at most: a pipe may be waited for.
+fn glidepath(folder: &Path, args: &[&str]) -> Output {
+    let mut command = Command::new("timeout");
+    command.args(["--signal=KILL", "60", env!("CARGO_BIN_EXE_glidepath")]);
+    command.current_dir(folder).args(args).output().unwrap()
+}
+
+fn said(output: &Output) -> (i32, String) {
+    let text = String::from_utf8(output.stderr.clone()).unwrap();
+    (output.status.code().unwrap(), text)
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let name = |entry: std::io::Result<fs::DirEntry>| entry.unwrap().file_name();
+    let mut names: Vec<_> = entries
+        .map(|entry| name(entry).into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn what_is_read_is_never_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("part.ngc"), SQUARE).unwrap();
+    std::os::unix::fs::symlink("part.ngc", here.join("link.csv")).unwrap();
+    fs::hard_link(here.join("part.ngc"), here.join("hard.svg")).unwrap();
+    let config = include_str!("../../../../config/mill.toml");
+    fs::write(here.join("mill.toml"), config).unwrap();
+    for output in [
+        ["--setpoints", "part.ngc"],
+        ["--setpoints", "link.csv"],
+        ["--plot", "hard.svg"],
+        ["--plot", "./mill.toml"],
+    ] {
+        for force in [&[][..], &["--force"]] {
+            let args = ["plan", "part.ngc", "-c", "mill.toml"];
+            let args = [&args[..], &output, force].concat();
+            let (code, text) = said(&glidepath(here, &args));
+            assert_eq!(code, 2, "{args:?}: {text}");
+            assert!(text.contains("the command reads it"), "{args:?}: {text}");
+        }
+    }
+    let args = ["fit", "part.ngc", "--tolerance", "0.1", "--output"];
+    let args = [&args[..], &["part.ngc", "--force"]].concat();
+    assert_eq!(said(&glidepath(here, &args)).0, 2);
+    assert_eq!(fs::read_to_string(here.join("part.ngc")).unwrap(), SQUARE);
+    assert_eq!(fs::read_to_string(here.join("mill.toml")).unwrap(), config);
+    assert_eq!(
+        names(here),
+        ["hard.svg", "link.csv", "mill.toml", "part.ngc"]
+    );
+}
+
+#[test]
+fn a_file_of_another_kind_is_overwritten_only_when_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("part.ngc"), SQUARE).unwrap();
+    fs::write(here.join("notes"), "the work of a week\n").unwrap();
+    for kind in ["--setpoints", "--plot"] {
+        let (code, text) = said(&glidepath(here, &["plan", "part.ngc", kind, "notes"]));
+        assert_eq!(code, 2, "{text}");
+        assert!(text.contains("--force"), "{text}");
+        let kept = fs::read_to_string(here.join("notes")).unwrap();
+        assert_eq!(kept, "the work of a week\n");
+    }
+    let both = ["plan", "part.ngc", "--setpoints", "new", "--plot", "./new"];
+    assert_eq!(said(&glidepath(here, &both)).0, 2);
+    assert_eq!(names(here), ["notes", "part.ngc"]);
+    let forced = ["plan", "part.ngc", "--setpoints", "notes", "--force"];
+    assert_eq!(said(&glidepath(here, &forced)).0, 0);
+    // Its own kind is overwritten, through a link too, and the file keeps its rights.
+    std::os::unix::fs::symlink("notes", here.join("link")).unwrap();
+    let again = ["plan", "part.ngc", "--setpoints", "link"];
+    assert_eq!(said(&glidepath(here, &again)).0, 0);
+    assert!(here.join("link").is_symlink());
+    let csv = fs::read_to_string(here.join("notes")).unwrap();
+    assert!(csv.starts_with("tick,time_s,") && csv.ends_with('\n'));
+    assert_eq!(names(here), ["link", "notes", "part.ngc"]);
+}
+
+/// A path that leads through a folder of devices is a path like another.
+#[test]
+fn what_only_looks_like_a_device_is_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path().canonicalize().unwrap();
+    let here = here.as_path();
+    fs::write(here.join("part.ngc"), SQUARE).unwrap();
+    fs::write(here.join("notes"), "the work of a week\n").unwrap();
+    std::os::unix::fs::symlink("/proc/self", here.join("me")).unwrap();
+    std::os::unix::fs::symlink(here, here.join("around")).unwrap();
+    let below = here.strip_prefix("/").unwrap().to_str().unwrap();
+    for way in [
+        format!("/dev/../{below}"),
+        format!("/dev/shm/../../{below}"),
+        "/proc/self/cwd".to_owned(),
+        "me/cwd".to_owned(),
+        "around".to_owned(),
+    ] {
+        for (name, why, force) in [
+            ("notes", "--force", &[][..]),
+            ("part.ngc", "the command reads it", &["--force"]),
+        ] {
+            let path = format!("{way}/{name}");
+            let args = [&["plan", "part.ngc", "--setpoints", &path], force].concat();
+            let (code, text) = said(&glidepath(here, &args));
+            assert_eq!(code, 2, "{path}: {text}");
+            assert!(text.contains(why), "{path}: {text}");
+        }
+        let new = format!("{way}/new");
+        let both = ["plan", "part.ngc", "--setpoints", &new, "--plot", "new"];
+        let (code, text) = said(&glidepath(here, &both));
+        assert_eq!(code, 2, "{new}: {text}");
+    }
+    // Nor is what is read appended to where it is standard output.
+    let status = Command::new(env!("CARGO_BIN_EXE_glidepath"))
+        .current_dir(here)
+        .args(["plan", "part.ngc", "--setpoints", "/dev/stdout"])
+        .stdout(
+            File::options()
+                .append(true)
+                .open(here.join("part.ngc"))
+                .unwrap(),
+        )
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(2));
+    assert_eq!(fs::read_to_string(here.join("part.ngc")).unwrap(), SQUARE);
+    let notes = fs::read_to_string(here.join("notes")).unwrap();
+    assert_eq!(notes, "the work of a week\n");
+    assert_eq!(names(here), ["around", "me", "notes", "part.ngc"]);
+}
+
+#[test]
+fn an_interrupted_command_leaves_what_was_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let mut long = String::from("G21 G90 F600\n");
+    for i in 0..200_000 {
+        long += &format!("G1 X{}.{} Y{}\n", i % 97, i % 10, i % 89);
+    }
+    fs::write(here.join("long.ngc"), long + "M2\n").unwrap();
+    let old = "tick,time_s,line,state,feed_mm_s,path_mm,pos_X\nold\n";
+    fs::write(here.join("out.csv"), old).unwrap();
+    let args = [
+        "plan",
+        "long.ngc",
+        "--setpoints",
+        "out.csv",
+        "--plot",
+        "out.svg",
+    ];
+    let mut child = Command::new(env!("CARGO_BIN_EXE_glidepath"))
+        .current_dir(here)
+        .args(args)
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    // Both files have been begun; nothing that was there has been touched.
+    let started = Instant::now();
+    let is_kept = || fs::read_to_string(here.join("out.csv")).unwrap() == old;
+    while names(here).len() < 4 && is_kept() {
+        assert!(child.try_wait().unwrap().is_none() && started.elapsed().as_secs() < 60);
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(Duration::from_millis(100));
+    let pid = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &pid])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let status = child.wait().unwrap();
+    assert_eq!((status.code(), status.signal()), (Some(130), None));
+    assert_eq!(fs::read_to_string(here.join("out.csv")).unwrap(), old);
+    assert_eq!(names(here), ["long.ngc", "out.csv"]);
+}
+
+#[test]
+fn devices_and_pipes_are_written_as_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("part.ngc"), SQUARE).unwrap();
+    let args = ["plan", "part.ngc", "--setpoints", "/dev/stdout"];
+    let piped = glidepath(here, &args);
+    assert!(piped.status.success(), "{}", said(&piped).1);
+    assert!(piped.stdout.starts_with(b"tick,time_s,"));
+    // Into a file, both the setpoints and the report.
+    let status = Command::new(env!("CARGO_BIN_EXE_glidepath"))
+        .current_dir(here)
+        .args(args)
+        .stdout(File::create(here.join("all.txt")).unwrap())
+        .status()
+        .unwrap();
+    assert!(status.success());
+    let all = fs::read_to_string(here.join("all.txt")).unwrap();
+    assert!(
+        all.contains("tick,time_s,") && all.contains("cycle time"),
+        "{all}"
+    );
+    let fifo = here.join("fifo");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&fifo)
+            .status()
+            .unwrap()
+            .success()
+    );
+    let pipe = fifo.clone();
+    let reader = std::thread::spawn(move || fs::read(pipe).unwrap());
+    let (code, text) = said(&glidepath(
+        here,
+        &["plan", "part.ngc", "--setpoints", "fifo"],
+    ));
+    assert_eq!(code, 0, "{text}");
+    // It is still there, or the reader would wait for ever.
+    assert!(fifo.metadata().unwrap().file_type().is_fifo());
+    assert!(reader.join().unwrap().starts_with(b"tick,time_s,"));
+}
+
+#[test]
+fn what_cannot_be_written_is_told_with_its_path() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("part.ngc"), SQUARE).unwrap();
+    let full = |args: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_glidepath"))
+            .current_dir(here)
+            .args(args)
+            .stdout(File::options().write(true).open("/dev/full").unwrap())
+            .output()
+            .unwrap()
+    };
+    for args in [&["check", "part.ngc"][..], &["plan", "part.ngc", "--json"]] {
+        let (code, text) = said(&full(args));
+        assert_eq!(code, 5, "{args:?}: {text}");
+        assert!(text.contains("standard output: No space left"), "{text}");
+    }
+    let (code, text) = said(&glidepath(
+        here,
+        &["plan", "part.ngc", "--plot", "/dev/full"],
+    ));
+    assert_eq!(code, 5, "{text}");
+    assert!(text.contains("/dev/full: No space left"), "{text}");
+    // In the thread that receives from the mock servo, too.
+    let args = [
+        "run",
+        "part.ngc",
+        "--best-effort",
+        "--setpoints",
+        "/dev/full",
+    ];
+    let (code, text) = said(&glidepath(here, &args));
+    assert_eq!(code, 5, "{text}");
+    assert!(text.contains("/dev/full: No space left"), "{text}");
+    let (code, text) = said(&glidepath(
+        here,
+        &["plan", "part.ngc", "--plot", "no/p.svg"],
+    ));
+    assert_eq!(code, 2, "{text}");
+    assert!(text.contains("no/p.svg: No such file"), "{text}");
+}
+
+#[test]
+fn the_plot_nobody_asked_for_is_in_the_present_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("part.ngc"), SQUARE).unwrap();
+    let (code, text) = said(&glidepath(here, &["run", "part.ngc", "--best-effort"]));
+    assert_eq!(code, 0, "{text}");
+    assert_eq!(names(here), ["part.ngc", "part.svg"]);
+    fs::write(here.join("part.svg"), "<svg>a drawing</svg>").unwrap();
+    let (code, text) = said(&glidepath(here, &["run", "part.ngc", "--best-effort"]));
+    assert_eq!(code, 0, "{text}");
+    assert!(text.contains("no plot: part.svg is not written"), "{text}");
+    let kept = fs::read_to_string(here.join("part.svg")).unwrap();
+    assert_eq!(kept, "<svg>a drawing</svg>");
+}

@@ -1,0 +1,7 @@
+//! Mechanisms, held against vectors, and there and back.
+
+mod caps;
+mod five_axis;
+mod mechanisms;
+mod support;
+mod vectors;

@@ -1,0 +1,116 @@
+//! Frames depend on the items alone, not on how pushing and taking interleave.
+
+#![allow(clippy::expect_used, reason = "a test that fails may panic")]
+
+use crate::support::{FREE, at, cases, efforts};
+use glidepath_geometry::{AxisVector, Segment};
+use glidepath_motion::Planner;
+use glidepath_program::{Event, Frame, Item, ItemKind, PathMode, Rate, Settings};
+use proptest::prelude::*;
+
+fn moves(points: &[AxisVector], feed_v: f64, mode: PathMode) -> Vec<ItemKind> {
+    points
+        .windows(2)
+        .map(|pair| ItemKind::Move {
+            segment: Segment::line(pair[0], pair[1]),
+            rate: Rate::Feed(feed_v),
+            mode,
+        })
+        .collect()
+}
+
+fn numbered(kinds: Vec<ItemKind>) -> Vec<Item> {
+    (1..)
+        .zip(kinds)
+        .map(|(line, kind)| Item {
+            block: 0,
+            line,
+            kind,
+        })
+        .collect()
+}
+
+/// All frames, taken after every `every`-th item and at the end.
+fn plan(items: &[Item], settings: Settings, every: usize) -> Vec<Frame> {
+    let mut planner = Planner::new(settings, AxisVector::zeros());
+    let mut frames = Vec::new();
+    for (i, item) in items.iter().enumerate() {
+        planner.push(item).expect("valid item");
+        if i % every == 0 {
+            frames.extend(std::iter::from_fn(|| {
+                planner.pop_frame().expect("a motion")
+            }));
+        }
+    }
+    planner.finish();
+    frames.extend(std::iter::from_fn(|| {
+        planner.pop_frame().expect("a motion")
+    }));
+    frames
+}
+
+/// Who sends a few moves through a pipe expects them to begin.
+#[test]
+fn a_few_moves_begin_without_waiting_for_more() {
+    let corners = [
+        at(0.0, 0.0),
+        at(12.0, 0.0),
+        at(12.0, 12.0),
+        at(0.0, 12.0),
+        at(0.0, 0.0),
+        at(12.0, 0.0),
+    ];
+    for settings in efforts() {
+        let mut planner = Planner::new(settings, AxisVector::zeros());
+        for item in numbered(moves(&corners, 40.0, FREE)) {
+            planner.push(&item).expect("valid item");
+        }
+        let mut frames = std::iter::from_fn(|| planner.pop_frame().expect("a motion"));
+        let begins = frames.any(|frame| frame.position != AxisVector::zeros());
+        assert!(begins, "{:?}", settings.effort);
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(20))]
+
+    #[test]
+    fn frames_do_not_depend_on_how_pushing_and_taking_interleave(
+        steps in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64, -1.5..1.0_f64, 0..12_u8), 2..40),
+        takes in prop::collection::vec(0..60_usize, 1..40),
+    ) {
+        let mut kinds = Vec::new();
+        let mut from = at(0.0, 0.0);
+        for (x, y, log_length, kind) in steps {
+            let to = from + at(x, y) * 10_f64.powf(log_length);
+            let mode = match kind {
+                0 => PathMode::ExactStop,
+                1 | 2 => PathMode::ExactPath,
+                _ => FREE,
+            };
+            match kind {
+                3 => kinds.push(ItemKind::Dwell(0.01)),
+                4 => kinds.push(ItemKind::Event(Event::SpindleSpeed(x))),
+                5 => kinds.push(ItemKind::Event(Event::MCode(8))),
+                _ => {}
+            }
+            kinds.extend(moves(&[from, to], 60.0, mode));
+            from = to;
+        }
+        let items = numbered(kinds);
+        for settings in efforts() {
+            let all_at_once = plan(&items, settings, usize::MAX);
+            let mut planner = Planner::new(settings, AxisVector::zeros());
+            let mut frames = Vec::new();
+            for (item, &takes) in items.iter().zip(takes.iter().cycle()) {
+                planner.push(item).expect("a valid item");
+                for _ in 0..takes {
+                    frames.extend(planner.pop_frame().expect("a motion"));
+                }
+            }
+            planner.finish();
+            frames.extend(std::iter::from_fn(|| planner.pop_frame().expect("a motion")));
+            prop_assert_eq!(&all_at_once, &frames);
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! Plans, held against limits, brute force, and what is known of them otherwise.
+
+mod along_nurbs;
+mod butterfly;
+mod dense;
+mod diagnosis;
+mod helices;
+mod interleaving;
+mod limits;
+mod overrides;
+mod plan;
+mod preview;
+mod refusals;
+mod scurve;
+#[path = "../support/mod.rs"]
+mod support;
+mod tolerance_split;

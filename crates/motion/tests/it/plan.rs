@@ -1,0 +1,396 @@
+//! What a plan promises besides the limits: order, stops, events, and nothing but the program in
+//! it.
+
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that fails may panic"
+)]
+
+use crate::support::{FREE, at, cases, efforts, mill, optimal};
+use glidepath_geometry::{AxisVector, Segment};
+use glidepath_motion::Planner;
+use glidepath_program::{
+    Event, Frame, FrameFlags, Item, ItemKind, Limits, PathMode, Rate, Settings, Smoothing,
+};
+use proptest::prelude::*;
+
+fn moves(points: &[AxisVector], feed_v: f64, mode: PathMode) -> Vec<ItemKind> {
+    points
+        .windows(2)
+        .map(|pair| ItemKind::Move {
+            segment: Segment::line(pair[0], pair[1]),
+            rate: Rate::Feed(feed_v),
+            mode,
+        })
+        .collect()
+}
+
+fn numbered(kinds: Vec<ItemKind>) -> Vec<Item> {
+    (1..)
+        .zip(kinds)
+        .map(|(line, kind)| Item {
+            block: 0,
+            line,
+            kind,
+        })
+        .collect()
+}
+
+/// All frames, taken after every `every`-th item and at the end.
+fn plan(items: &[Item], settings: Settings, every: usize) -> Vec<Frame> {
+    let mut planner = Planner::new(settings, AxisVector::zeros());
+    let mut frames = Vec::new();
+    for (i, item) in items.iter().enumerate() {
+        planner.push(item).expect("valid item");
+        if i % every == 0 {
+            frames.extend(std::iter::from_fn(|| {
+                planner.pop_frame().expect("a motion")
+            }));
+        }
+    }
+    planner.finish();
+    frames.extend(std::iter::from_fn(|| {
+        planner.pop_frame().expect("a motion")
+    }));
+    frames
+}
+
+fn time_t(frames: &[Frame]) -> f64 {
+    let moving = |frame: &&Frame| frame.path_v > 0.0;
+    frames.iter().filter(moving).count() as f64
+}
+
+/// A closed curve of many short chords, with a few sharp corners.
+fn rosette(count: u32) -> Vec<AxisVector> {
+    let start = at(14.0, 0.0);
+    (0..=count)
+        .map(|i| {
+            let phi = f64::from(i) / f64::from(count) * core::f64::consts::TAU;
+            let radius = 10.0 + 4.0 * (5.0 * phi).cos().abs();
+            at(radius * phi.cos(), radius * phi.sin()) - start
+        })
+        .collect()
+}
+
+#[test]
+fn frames_are_numbered_and_start_and_end_at_rest() {
+    for settings in efforts() {
+        let frames = plan(&numbered(moves(&rosette(300), 80.0, FREE)), settings, 1);
+        for (sequence, frame) in (0..).zip(&frames) {
+            assert_eq!(frame.sequence, sequence, "gap");
+        }
+        let (first, last) = (frames[0], frames[frames.len() - 1]);
+        assert_eq!(first.flags, FrameFlags::FIRST, "first flag");
+        assert_eq!(last.flags, FrameFlags::LAST, "last flag");
+        assert_eq!(
+            (first.path_v, last.path_v),
+            (0.0, 0.0),
+            "at rest at both ends"
+        );
+        assert!(
+            last.position.amax() < 1e-12,
+            "closed curve ends at {}",
+            last.position
+        );
+        let backwards = frames
+            .windows(2)
+            .filter(|pair| pair[1].path_s < pair[0].path_s)
+            .count();
+        assert_eq!(backwards, 0, "path position never falls");
+    }
+}
+
+#[test]
+fn frames_do_not_depend_on_when_they_are_taken() {
+    for settings in efforts() {
+        let items = numbered(moves(&rosette(2000), 80.0, FREE));
+        let one_by_one = plan(&items, settings, 1);
+        for every in [7, 100, 100_000] {
+            assert_eq!(
+                one_by_one,
+                plan(&items, settings, every),
+                "taken every {every} items"
+            );
+        }
+    }
+}
+
+#[test]
+fn frames_come_before_the_program_ends_and_memory_stays_bounded() {
+    let (first_after, frames) = first_frames(mill(), 60_000);
+    assert!(
+        first_after < 10_000,
+        "first moving frame only after {first_after} segments"
+    );
+    assert!(frames > 1000, "{frames} frames before the end");
+    let (first_after, frames) = first_frames(optimal(), 3000);
+    assert!(
+        first_after < 1500,
+        "first moving frame only after {first_after} segments"
+    );
+    assert!(frames > 200, "{frames} frames before the end");
+}
+
+/// The segment after which the first moving frame comes, and how many come before the program ends.
+fn first_frames(settings: Settings, count: u32) -> (u32, u32) {
+    let mut planner = Planner::new(settings, AxisVector::zeros());
+    let mut first_after = None;
+    let mut frames = 0_u32;
+    let mut position = at(0.0, 0.0);
+    for i in 0..count {
+        let next = position + at(0.05, if i % 2 == 0 { 0.01 } else { -0.01 });
+        let segment = Segment::line(position, next);
+        let kind = ItemKind::Move {
+            segment,
+            rate: Rate::Feed(50.0),
+            mode: FREE,
+        };
+        planner
+            .push(&Item {
+                block: 0,
+                line: i + 1,
+                kind,
+            })
+            .expect("valid item");
+        position = next;
+        while planner.pop_frame().expect("a motion").is_some() {
+            frames += 1;
+            first_after = first_after.or(Some(i)).filter(|_| frames > 1);
+        }
+    }
+    (first_after.expect("frames before the end"), frames)
+}
+
+#[test]
+fn an_exact_stop_has_a_frame_exactly_at_its_corner() {
+    for settings in efforts() {
+        let corner = at(3.0, 0.1);
+        let points = [at(0.0, 0.0), corner, at(5.0, 2.0)];
+        let frames = plan(
+            &numbered(moves(&points, 60.0, PathMode::ExactStop)),
+            settings,
+            1,
+        );
+        let stop = frames
+            .iter()
+            .find(|frame| frame.flags.contains(FrameFlags::EXACT_STOP));
+        let stop = stop.expect("a stop");
+        assert_eq!(
+            (stop.position, stop.velocity),
+            (corner, AxisVector::zeros()),
+            "rests at the corner"
+        );
+    }
+}
+
+#[test]
+fn exact_path_passes_through_every_corner_and_does_not_stop_on_a_straight() {
+    for settings in efforts() {
+        let points = [at(0.0, 0.0), at(5.0, 0.0), at(10.0, 0.0), at(10.0, 7.0)];
+        let frames = plan(
+            &numbered(moves(&points, 60.0, PathMode::ExactPath)),
+            settings,
+            1,
+        );
+        let nearest = |point: AxisVector| {
+            frames
+                .iter()
+                .map(|f| (f.position - point).norm())
+                .fold(f64::INFINITY, f64::min)
+        };
+        assert!(nearest(at(10.0, 0.0)) < 1e-3, "{}", nearest(at(10.0, 0.0)));
+        let on_line = frames
+            .iter()
+            .all(|f| f.position[1].abs() < 1e-9 || f.position[0] > 10.0 - 1e-9);
+        assert!(on_line, "leaves the path");
+        let halfway = frames
+            .iter()
+            .find(|f| f.position[0] >= 5.0)
+            .expect("passes the middle");
+        assert!(
+            halfway.path_v > 50.0,
+            "slows to {} on a straight",
+            halfway.path_v
+        );
+    }
+}
+
+#[test]
+fn events_happen_in_order_and_m_codes_at_rest() {
+    efforts().into_iter().for_each(check_events);
+}
+
+fn check_events(settings: Settings) {
+    let leg = |from: AxisVector, to: AxisVector| moves(&[from, to], 60.0, FREE).remove(0);
+    let (a, b, c, d) = (at(0.0, 0.0), at(10.0, 0.0), at(20.0, 0.0), at(30.0, 0.0));
+    let items = numbered(vec![
+        ItemKind::Event(Event::SpindleSpeed(1000.0)),
+        ItemKind::Event(Event::MCode(3)),
+        leg(a, b),
+        ItemKind::Event(Event::SpindleSpeed(2000.0)),
+        leg(b, c),
+        ItemKind::Dwell(0.1),
+        ItemKind::Event(Event::ProgramStop(0)),
+        leg(c, d),
+        ItemKind::Event(Event::MCode(5)),
+    ]);
+    let frames = plan(&items, settings, 1);
+    let seen: Vec<_> = frames
+        .iter()
+        .filter_map(|f| f.event.map(|event| (event, f)))
+        .collect();
+    let events: Vec<_> = seen.iter().map(|(event, _)| *event).collect();
+    let expected = [
+        Event::SpindleSpeed(1000.0),
+        Event::MCode(3),
+        Event::SpindleSpeed(2000.0),
+        Event::ProgramStop(0),
+        Event::MCode(5),
+    ];
+    assert_eq!(events, expected, "order of events");
+    for (event, frame) in seen {
+        match event {
+            Event::SpindleSpeed(speed) if speed > 1500.0 => {
+                assert!(frame.path_v > 30.0, "S alone does not stop");
+                assert!(
+                    (frame.position[0] - 10.0).abs() < 60.0 * 0.004,
+                    "S at its place"
+                );
+            }
+            _ => assert!(frame.path_v <= 0.0, "{event:?} at rest"),
+        }
+    }
+    let stop = frames
+        .iter()
+        .filter(|f| f.flags.contains(FrameFlags::PROGRAM_STOP))
+        .count();
+    assert_eq!(stop, 1, "one frame asks for the operator");
+    for (line, end) in [(5, 20.0_f64), (8, 30.0)] {
+        let arrives = frames.iter().find(|f| f.line == line && f.path_v <= 0.0);
+        let arrives = arrives.map(|f| (f.position[0].to_bits(), f.event));
+        assert_eq!(arrives, Some((end.to_bits(), None)), "it ends at rest");
+    }
+    let dwell = frames
+        .iter()
+        .filter(|f| f.flags.contains(FrameFlags::DWELL))
+        .count();
+    assert!(
+        (25..=27).contains(&dwell),
+        "0.1 s are 25 periods, got {dwell}"
+    );
+}
+
+#[test]
+fn events_of_a_move_shorter_than_a_period_all_happen_before_the_end() {
+    for settings in efforts() {
+        let leg = |from: AxisVector, to: AxisVector| moves(&[from, to], 60.0, FREE).remove(0);
+        let items = numbered(vec![
+            leg(at(0.0, 0.0), at(10.0, 0.0)),
+            ItemKind::Event(Event::SpindleSpeed(1000.0)),
+            ItemKind::Event(Event::SelectTool(3)),
+            ItemKind::Event(Event::SpindleSpeed(2000.0)),
+            leg(at(10.0, 0.0), at(10.00001, 0.0)),
+        ]);
+        let frames = plan(&items, settings, 1);
+        let events: Vec<_> = frames.iter().filter_map(|frame| frame.event).collect();
+        let expected = [
+            Event::SpindleSpeed(1000.0),
+            Event::SelectTool(3),
+            Event::SpindleSpeed(2000.0),
+        ];
+        assert_eq!(events, expected, "order of events");
+        let ends = frames
+            .iter()
+            .filter(|f| f.flags.contains(FrameFlags::LAST))
+            .count();
+        assert_eq!(ends, 1, "one last frame");
+        assert_eq!(
+            frames[frames.len() - 1].flags,
+            FrameFlags::LAST,
+            "at the end"
+        );
+    }
+}
+
+#[test]
+fn moves_below_the_resolution_are_neither_lost_nor_a_hindrance() {
+    for settings in efforts() {
+        let points: Vec<_> = (0..=5000).map(|i| at(f64::from(i) * 1e-7, 0.0)).collect();
+        let frames = plan(&numbered(moves(&points, 60.0, FREE)), settings, 1);
+        let last = frames[frames.len() - 1].position;
+        assert_eq!(last, points[5000], "ends where the program ends");
+        assert!(
+            frames.len() < 2000,
+            "{} frames for half a micrometre",
+            frames.len()
+        );
+    }
+}
+
+/// A unit 1024 times smaller: a power of two, so that only a constant with a unit could change
+/// anything. In micrometres lengths are rounded otherwise, and the optimum is found on another way.
+#[test]
+fn a_machine_in_another_unit_moves_alike() {
+    const FACTOR: f64 = 1024.0;
+    let in_unit = |settings: Settings| Settings {
+        limits: Limits {
+            velocity: settings.limits.velocity * FACTOR,
+            acceleration: settings.limits.acceleration * FACTOR,
+            jerk: settings.limits.jerk * FACTOR,
+            ..settings.limits
+        },
+        tolerance_mm: settings.tolerance_mm * FACTOR,
+        ..settings
+    };
+    let points = rosette(400);
+    let large: Vec<_> = points.iter().map(|p| p * FACTOR).collect();
+    for settings in efforts() {
+        let frames = plan(&numbered(moves(&points, 80.0, FREE)), settings, 1);
+        let large = numbered(moves(&large, 80.0 * FACTOR, FREE));
+        let scaled = plan(&large, in_unit(settings), 1);
+        assert_eq!(
+            frames.len(),
+            scaled.len(),
+            "same number of periods, {:?}",
+            settings.effort
+        );
+        for (a, b) in frames.iter().zip(&scaled) {
+            assert!(
+                (a.position * FACTOR - b.position).amax() < 1e-9,
+                "{:?}, frame {}",
+                settings.effort,
+                a.sequence
+            );
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(300))]
+
+    #[test]
+    fn no_plan_is_slower_than_stopping_at_every_corner(
+        steps in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64, -1.5..1.3_f64), 2..40),
+        jerk_log in 4.3..6.0_f64,
+    ) {
+        let mut points = vec![at(0.0, 0.0)];
+        for (x, y, log_length) in steps {
+            let last = points[points.len() - 1];
+            points.push(last + at(x, y) * 10_f64.powf(log_length));
+        }
+        let settings = Settings {
+            limits: Limits::uniform(200.0, 2000.0, 10_f64.powf(jerk_log)),
+            period_t: 0.001,
+            ..mill()
+        };
+        let items = numbered(moves(&points, 100.0, FREE));
+        let stopping = Settings { smoothing: Smoothing::ExactStop, ..settings };
+        let (smooth_t, stop_t) =
+            (time_t(&plan(&items, settings, 1)), time_t(&plan(&items, stopping, 1)));
+        // Stretches of so few blocks are planned both ways, where they take less than about a
+        // second. Longer ones may end in a bend that is slower than a stop. A rest falls between
+        // two ticks.
+        prop_assert!(smooth_t <= 1.02 * stop_t + 1.0, "{smooth_t} ticks against {stop_t}");
+    }
+}

@@ -1,0 +1,197 @@
+//! Effort "fast" along curves: families of small programs with the least time along their exact
+//! curve, circles of any size, and paths of arcs that meet at corners. Nothing takes longer than
+//! the same program with a stop at the end of every block.
+
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that fails may panic"
+)]
+
+use core::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use crate::support::family::{audited, family};
+use glidepath_program::{Effort, Limits, Settings, Smoothing};
+
+const PERIODS_T: [f64; 2] = [0.004, 0.001];
+const MILL: (f64, f64, f64) = (200.0, 2000.0, 40_000.0);
+const STIFF: (f64, f64, f64) = (200.0, 2000.0, 1e6);
+const SEED: (f64, f64, f64) = (100.0, 10_000.0, 1e6);
+
+/// Program, the least time in s that the mill takes along its exact curve (at rest wherever its
+/// curvature jumps; computed offline by two independent solvers, to a thousandth), and how many
+/// times as long the plan may take.
+const FAMILIES: [(&str, f64, f64); 18] = [
+    ("circ_r0.05_c0.005", 0.22467, 1.04),
+    ("circ_r0.1_c0.01", 0.28307, 1.05),
+    ("circ_r0.1_g2", 0.28307, 1.05),
+    ("circ_r0.2_c0.01", 0.35664, 1.04),
+    ("circ_r0.5_g2", 0.48404, 1.04),
+    ("circ_r2_c0.05", 0.76837, 1.03),
+    ("clothoid_r0.5_l10", 0.36082, 1.05),
+    ("fsquare_5", 1.9207, 1.03),
+    ("helix_r3", 0.62179, 1.04),
+    ("letters_ab3", 2.13784, 0.82),
+    ("noisy_r5", 0.43446, 1.05),
+    ("relief_0.8", 0.3214, 1.06),
+    ("sawarc_r2", 1.45517, 1.07),
+    ("sine_0.5_4", 0.73753, 1.04),
+    ("spiral_0.2_3", 1.09236, 1.03),
+    ("star_4", 0.71182, 1.01),
+    ("teeth_z20", 1.28666, 1.08),
+    ("zigzag_s0.3", 2.206, 1.03),
+];
+
+fn settings((velocity, acceleration, jerk): (f64, f64, f64), period_t: f64) -> Settings {
+    Settings {
+        limits: Limits::uniform(velocity, acceleration, jerk),
+        tolerance_mm: 0.02,
+        smoothing: Smoothing::Auto,
+        period_t,
+        effort: Effort::Fast,
+    }
+}
+
+/// How long a program takes; it keeps every limit and its tolerance.
+fn cycle_time(name: &str, text: &str, settings: Settings) -> f64 {
+    audited(name, text, settings, |_| {}).cycle_time_s
+}
+
+/// The same program at rest after every block.
+fn stopping(text: &str, tolerance: &str) -> String {
+    let stopping = text.replace(tolerance, "G61.1");
+    assert_ne!(stopping, text, "no {tolerance} in the program");
+    stopping
+}
+
+/// A program takes no longer than at rest after every block, but for the period in which it ends.
+fn beats_stopping(name: &str, text: &str, tolerance: &str, settings: Settings) {
+    let passing_t = cycle_time(name, text, settings);
+    let stopping_t = cycle_time(name, &stopping(text, tolerance), settings);
+    assert!(
+        passing_t <= stopping_t + settings.period_t,
+        "{name}, {settings:?}: {passing_t} s, with stops {stopping_t} s"
+    );
+}
+
+#[test]
+fn families_come_near_the_least_time_along_their_curve() {
+    for (name, exact_t, most_r) in FAMILIES {
+        for period_t in PERIODS_T {
+            let cycle_t = cycle_time(name, &family(name), settings(MILL, period_t));
+            assert!(
+                cycle_t <= most_r * exact_t,
+                "{name}, {period_t} s: {cycle_t} s, {} times the least",
+                cycle_t / exact_t
+            );
+        }
+    }
+}
+
+#[test]
+fn families_are_never_slower_than_with_stops() {
+    for (name, ..) in FAMILIES {
+        for (limits, period_t) in [(MILL, 0.004), (STIFF, 0.004), (SEED, 0.001)] {
+            beats_stopping(name, &family(name), "G64 P0.02", settings(limits, period_t));
+        }
+    }
+}
+
+const HEADER: &str = "G21 G90 G94 G17 G64 P0.02 F6000\n";
+const FEED_V: f64 = 100.0;
+
+fn full_circles(radius_mm: f64, turns: u32) -> String {
+    let mut text = HEADER.to_owned();
+    for _ in 0..turns {
+        writeln!(text, "G2 X0 Y0 I{} J0", -radius_mm).expect("a string");
+    }
+    text
+}
+
+fn circles_of_chords(radius_mm: f64, turns: u32, chord_mm: f64) -> String {
+    let mut text = HEADER.to_owned();
+    let chords = (TAU * radius_mm / chord_mm).round();
+    let mut k = 1.0;
+    while k <= chords * f64::from(turns) {
+        let (sin, cos) = (TAU * k / chords).sin_cos();
+        let (x, y) = (radius_mm * (cos - 1.0), radius_mm * sin);
+        writeln!(text, "G1 X{x:.5} Y{y:.5}").expect("a string");
+        k += 1.0;
+    }
+    text
+}
+
+/// The time at the highest constant speed, and that for run-up and stop.
+fn steady_time(
+    radius_mm: f64,
+    turns: u32,
+    (velocity_v, accel_a, jerk_j): (f64, f64, f64),
+) -> (f64, f64) {
+    let by_curve_v = (accel_a * radius_mm).sqrt();
+    let by_jerk_v = (jerk_j * radius_mm * radius_mm).cbrt();
+    let v = FEED_V.min(velocity_v).min(by_curve_v).min(by_jerk_v);
+    let ramp_t = if v > accel_a * accel_a / jerk_j {
+        v / accel_a + accel_a / jerk_j
+    } else {
+        2.0 * (v / jerk_j).sqrt()
+    };
+    (TAU * radius_mm * f64::from(turns) / v, ramp_t)
+}
+
+#[test]
+fn circles_are_driven_near_the_steady_speed() {
+    for limits in [MILL, STIFF] {
+        for radius_mm in [0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0] {
+            let turns = if radius_mm < 5.0 { 3 } else { 1 };
+            let (steady_t, ramp_t) = steady_time(radius_mm, turns, limits);
+            let mut programs = vec![("arcs", full_circles(radius_mm, turns))];
+            for chord_mm in [0.01, 0.05, 0.2] {
+                // Finer chords of larger circles are too many a second to be refined.
+                if chord_mm <= 0.5 * radius_mm && chord_mm >= 0.005 * radius_mm {
+                    programs.push(("chords", circles_of_chords(radius_mm, turns, chord_mm)));
+                }
+            }
+            for (kind, text) in programs {
+                for period_t in PERIODS_T {
+                    let name = format!("{kind} of radius {radius_mm}");
+                    let cycle_t = cycle_time(&name, &text, settings(limits, period_t));
+                    assert!(
+                        cycle_t <= 1.25 * steady_t + ramp_t + 2.0 * period_t,
+                        "{name}, {limits:?}, {period_t} s: {cycle_t} s, steady {steady_t} s, \
+                         run-up and stop {ramp_t} s"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Arcs of two millimetres that meet in sharp corners, up and down.
+fn sawtooth(teeth: u32, tolerance: &str) -> String {
+    let mut text = format!("G21 G90 G94 G17 {tolerance} F6000\n");
+    for k in 1..=teeth {
+        let x = std::f64::consts::SQRT_2 * f64::from(k);
+        if k % 2 == 1 {
+            writeln!(text, "G2 X{x:.6} Y1.414214 I1.931852 J-0.517638").expect("a string");
+        } else {
+            writeln!(text, "G3 X{x:.6} Y0 I1.931852 J0.517638").expect("a string");
+        }
+    }
+    text
+}
+
+#[test]
+fn corners_between_arcs_are_never_slower_than_stops() {
+    for tolerance in ["G64 P0.005", "G64 P0.01", "G64 P0.02", "G64 P0.05"] {
+        for (limits, period_t) in [(MILL, 0.004), (MILL, 0.001), (STIFF, 0.004)] {
+            let settings = settings(limits, period_t);
+            for teeth in [12, 100] {
+                let text = sawtooth(teeth, tolerance);
+                beats_stopping(&format!("{teeth} teeth"), &text, tolerance, settings);
+            }
+            let text = family("teeth_z20").replace("G64 P0.02", tolerance);
+            beats_stopping("tooth flanks", &text, tolerance, settings);
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! The planner as a library. One binary: it links once.
+
+mod called_files;
+mod curves;
+mod curves_on_machines;
+mod families;
+mod joints;
+mod listen;
+mod nurbs;
+mod parallel;
+mod pipeline;
+mod programs;
+mod publish;
+mod resume;
+mod smooth;
+mod support;

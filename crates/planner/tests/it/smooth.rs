@@ -1,0 +1,184 @@
+//! Effort "optimal": as fast as the tube allows, and of the motions as fast the smooth one near the
+//! program. Figures are those of finite differences of positions, as a drive is given them.
+
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that fails may panic"
+)]
+
+use core::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use crate::support::family::{audited, family};
+use glidepath_audit::Report;
+use glidepath_geometry::AxisVector;
+use glidepath_program::{Effort, Limits, Settings, Smoothing};
+
+const PERIOD_T: f64 = 0.004;
+const JERK_J: f64 = 40_000.0;
+/// Periods after a corner in which the motion settles: 50 ms.
+const SETTLING: usize = 13;
+
+/// Program, and the least time in s of all motions within 0.02 mm of it on the mill (computed
+/// offline by two independent solvers).
+const FAMILIES: [(&str, f64); 18] = [
+    ("circ_r0.05_c0.005", 0.18171),
+    ("circ_r0.1_c0.01", 0.25222),
+    ("circ_r0.1_g2", 0.25222),
+    ("circ_r0.2_c0.01", 0.33065),
+    ("circ_r0.5_g2", 0.4588),
+    ("circ_r2_c0.05", 0.74023),
+    ("clothoid_r0.5_l10", 0.34473),
+    ("fsquare_5", 0.91898),
+    ("helix_r3", 0.60421),
+    ("letters_ab3", 1.17321),
+    ("noisy_r5", 0.43086),
+    ("relief_0.8", 0.31077),
+    ("sawarc_r2", 1.0548),
+    ("sine_0.5_4", 0.72049),
+    ("spiral_0.2_3", 1.04364),
+    ("star_4", 0.54245),
+    ("teeth_z20", 0.84137),
+    ("zigzag_s0.3", 1.32851),
+];
+/// Times of it that a plan may take, or two periods more than it.
+const MOST: f64 = 1.06;
+
+/// Periods more after which an axis stands still to the bit.
+const STANDING: usize = 27;
+
+/// A frame: line and position.
+type Place = (u32, AxisVector);
+
+fn planned(text: &str) -> (Vec<Place>, Report) {
+    let settings = Settings {
+        limits: Limits::uniform(200.0, 2000.0, JERK_J),
+        tolerance_mm: 0.02,
+        smoothing: Smoothing::Auto,
+        period_t: PERIOD_T,
+        effort: Effort::Optimal,
+    };
+    let mut places = Vec::new();
+    let report = audited("smooth", text, settings, |frame| {
+        places.push((frame.line, frame.position));
+    });
+    (places, report)
+}
+
+/// Jerk about frame `k`, mm/s³.
+fn jerk_at(places: &[Place], k: usize) -> AxisVector {
+    let [a, b, c, d] = [k - 2, k - 1, k, k + 1].map(|k| places[k].1);
+    (d - c * 3.0 + b * 3.0 - a) / PERIOD_T.powi(3)
+}
+
+fn rms(values: impl Iterator<Item = f64>) -> f64 {
+    let (count, sum) = values.fold((0.0, 0.0), |(count, sum), value| {
+        (count + 1.0, sum + value * value)
+    });
+    assert!(count > 0.0, "nothing to look at");
+    f64::sqrt(sum / count)
+}
+
+/// The frames of a line without those in which the motion settles.
+fn settled(places: &[Place], line: u32) -> std::ops::Range<usize> {
+    let first = places.iter().position(|place| place.0 == line);
+    let last = places.iter().rposition(|place| place.0 == line);
+    let range = first.expect("the line") + SETTLING..last.expect("the line") - SETTLING;
+    assert!(range.len() > 8, "line {line} is long enough");
+    range
+}
+
+/// A plate, 100 by 50, with corners of radius 8, at 60 mm/s.
+const OUTLINE: &str = "G21 G90 G17 G64
+G0 X50 Y0 Z5
+G1 Z-1 F300
+G1 X92 F3600
+G3 X100 Y8 I0 J8
+G1 Y42
+G3 X92 Y50 I-8 J0
+G1 X8
+G3 X0 Y42 I0 J-8
+G1 Y8
+G3 X8 Y0 I8 J0
+G1 X50
+G0 Z5
+M2
+";
+
+#[test]
+fn a_planar_cut_is_planar_straight_and_round() {
+    let (places, report) = planned(OUTLINE);
+    let cut = settled(&places, 4).start + STANDING..settled(&places, 12).end - STANDING;
+    for (line, position) in &places[cut] {
+        assert_eq!(position[2].to_bits(), (-1.0_f64).to_bits(), "line {line}");
+    }
+    for (line, axis, at) in [(6, 0, 100.0), (8, 1, 50.0), (10, 0, 0.0)] {
+        let range = settled(&places, line);
+        for k in range.clone() {
+            assert!((places[k].1[axis] - at).abs() <= 0.2e-3, "line {line}");
+        }
+        for axis in 0..2 {
+            let jerk_j = rms(range.clone().map(|k| jerk_at(&places, k)[axis]));
+            assert!(jerk_j <= 0.01 * JERK_J, "line {line}: {jerk_j}");
+        }
+    }
+    for (line, x, y) in [
+        (5, 92.0, 8.0),
+        (7, 92.0, 42.0),
+        (9, 8.0, 42.0),
+        (11, 8.0, 8.0),
+    ] {
+        round_about(&places, settled(&places, line), (x, y, 8.0), 1.1);
+    }
+    assert_eq!(report.tremor_count, 0, "{:#?}", report.tremors);
+}
+
+/// The motion keeps its radius, and has hardly more jerk than it takes to go round at 60 mm/s.
+fn round_about(
+    places: &[Place],
+    range: std::ops::Range<usize>,
+    (x, y, radius_mm): (f64, f64, f64),
+    most: f64,
+) {
+    #[expect(clippy::cast_precision_loss, reason = "thousands")]
+    let count = range.len() as f64;
+    let off_mm: f64 = range
+        .clone()
+        .map(|k| (places[k].1[0] - x).hypot(places[k].1[1] - y) - radius_mm)
+        .sum();
+    assert!((off_mm / count).abs() <= 1e-3, "{} mm off", off_mm / count);
+    let jerk_j = rms(range.map(|k| jerk_at(places, k).norm()));
+    let of_arc_j = 60.0_f64.powi(3) / (radius_mm * radius_mm);
+    assert!(jerk_j <= most * of_arc_j, "{jerk_j}, the arc {of_arc_j}");
+}
+
+#[test]
+fn circles_are_round_however_they_are_written() {
+    let as_arcs = "G21 G90 G17 G64\nG0 X20\nG3 X20 Y0 I-20 F3600\nG3 X20 Y0 I-20\nM2\n";
+    let mut as_chords = String::from("G21 G90 G17 G64\nG0 X20\n");
+    let chords = 1256;
+    for k in 1..=2 * chords {
+        let (sin, cos) = (TAU * f64::from(k) / f64::from(chords)).sin_cos();
+        writeln!(as_chords, "G1 X{:.4} Y{:.4} F3600", 20.0 * cos, 20.0 * sin).expect("a string");
+    }
+    as_chords.push_str("M2\n");
+    for (text, most) in [(as_arcs, 1.1), (&as_chords, 1.5)] {
+        let (places, _) = planned(text);
+        let first = places.iter().position(|place| place.0 >= 3).expect("line");
+        // After the run-up, up to a while before the stop.
+        let range = first + 60..places.len() - 60;
+        round_about(&places, range, (0.0, 0.0, 20.0), most);
+    }
+}
+
+#[test]
+fn families_come_near_the_least_time_in_the_tube_and_do_not_tremble() {
+    for (name, tube_t) in FAMILIES {
+        let (_, report) = planned(&family(name));
+        let most_t = (MOST * tube_t).max(tube_t + 2.0 * PERIOD_T);
+        let cycle_t = report.cycle_time_s;
+        assert!(cycle_t <= most_t, "{name}: {cycle_t} s of {tube_t} s");
+        assert_eq!(report.tremor_count, 0, "{name}: {:#?}", report.tremors);
+    }
+}
