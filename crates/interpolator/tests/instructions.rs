@@ -99,7 +99,7 @@ const CASES: [Case; 9] = [
         is_jogged: true,
         has_joints: true,
         // Every tick plays the stop through, with what the build of the mechanism forbids.
-        ..case("jog, hexapod", Operator::Once(None), 430_000, 760_000)
+        ..case("jog, hexapod", Operator::Once(None), 98_000, 165_000)
     },
 ];
 const HALF: Operator = Operator::Once(Some(Command::FeedOverride(0.5)));

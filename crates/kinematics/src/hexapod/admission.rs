@@ -4,45 +4,78 @@ use super::struts::{Hexapod, STRUTS};
 use crate::machine::MAX_CONDITION;
 use crate::{Conditioning, KinematicsError};
 use glidepath_geometry::AxisVector;
-use nalgebra::Vector3;
+use nalgebra::{Matrix6, Vector3};
 
 /// Smallest singular value of the scaled Jacobian at which the platform is moved.
 const MIN_SINGULAR_VALUE: f64 = 0.05;
+/// By how much a bound is to be kept for nobody to compute it exactly.
+const PLAINLY: f64 = 1e-9;
 
 /// Whether a hexapod may go to a position of the axes.
+///
+/// A jog asks this for every place of every stop that it plays through, so what is plainly allowed
+/// costs little: singular values are computed, and angles, only where they may be beyond.
 ///
 /// # Errors
 /// What forbids it.
 pub(super) fn admit(hexapod: &Hexapod, axes: &AxisVector) -> Result<(), KinematicsError> {
-    let Conditioning {
-        condition,
-        smallest,
-    } = hexapod.strut_conditioning(axes);
-    // Written so that what is not a number is refused.
-    if !(condition < MAX_CONDITION && smallest > MIN_SINGULAR_VALUE) {
-        return Err(KinematicsError::Singular { condition });
-    }
     let pose = hexapod.pose(axes);
     let struts = hexapod.struts(&pose);
-    let platform_normal = pose.rotation * Vector3::z();
-    for (joint, strut) in struts.iter().enumerate() {
-        for (normal, most) in [
-            (Vector3::z(), hexapod.guards.max_base_angle_deg),
-            (platform_normal, hexapod.guards.max_platform_angle_deg),
-        ] {
-            let angle_deg = strut.angle(&normal).to_degrees();
-            if angle_deg > most {
-                return Err(KinematicsError::Tilted { joint, angle_deg });
-            }
+    let jacobian = hexapod.scaled_jacobian(&pose, &struts);
+    if !is_plainly_regular(&jacobian) {
+        let Conditioning {
+            condition,
+            smallest,
+        } = Conditioning::of(jacobian.singular_values().as_slice());
+        // Written so that what is not a number is refused.
+        if !(condition < MAX_CONDITION && smallest > MIN_SINGULAR_VALUE) {
+            return Err(KinematicsError::Singular { condition });
         }
     }
+    admit_angles(&struts, &Vector3::z(), hexapod.guards.max_base_angle_deg)?;
+    let platform_normal = pose.rotation * Vector3::z();
+    let most_deg = hexapod.guards.max_platform_angle_deg;
+    admit_angles(&struts, &platform_normal, most_deg)?;
     admit_distances(hexapod, &struts)
+}
+
+/// Whether the smallest singular value σ of a matrix J is above what is asked, and so far that their
+/// ratio is, too: JᵀJ − σ² has no eigenvalue below zero then, which its Cholesky factors show, and the
+/// largest one is at most the Frobenius norm. False where that is not plain.
+fn is_plainly_regular(jacobian: &Matrix6<f64>) -> bool {
+    let least = MIN_SINGULAR_VALUE * (1.0 + PLAINLY);
+    if !(jacobian.norm() < MAX_CONDITION * least) {
+        return false;
+    }
+    let shifted = jacobian.tr_mul(jacobian) - Matrix6::identity() * (least * least);
+    shifted.cholesky().is_some()
+}
+
+fn admit_angles(
+    struts: &[Vector3<f64>; STRUTS],
+    normal: &Vector3<f64>,
+    most_deg: f64,
+) -> Result<(), KinematicsError> {
+    let least_cos = most_deg.to_radians().cos() + PLAINLY;
+    for (joint, strut) in struts.iter().enumerate() {
+        if strut.dot(normal) > least_cos * strut.norm() {
+            continue;
+        }
+        let angle_deg = strut.angle(normal).to_degrees();
+        if angle_deg > most_deg {
+            return Err(KinematicsError::Tilted { joint, angle_deg });
+        }
+    }
+    Ok(())
 }
 
 fn admit_distances(
     hexapod: &Hexapod,
     struts: &[Vector3<f64>; STRUTS],
 ) -> Result<(), KinematicsError> {
+    if hexapod.guards.min_strut_distance_mm <= 0.0 {
+        return Ok(());
+    }
     for second in 1..STRUTS {
         for first in 0..second {
             let distance_mm = distance_mm(
@@ -82,6 +115,36 @@ fn distance_mm((a, u): (Vector3<f64>, Vector3<f64>), (b, v): (Vector3<f64>, Vect
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_plainly_regular_is_by_its_singular_values() {
+        let number = |i: u32| (f64::from(i) * 12.9898).sin() * 43_758.545_3;
+        let number = |i: u32| number(i) - number(i).floor() - 0.5;
+        let (mut plain, mut not) = (0, 0);
+        for case in 0..2_000_u32 {
+            let mut jacobian = Matrix6::from_fn(|row, column| {
+                2.0 * number(case * 36 + u32::try_from(6 * row + column).unwrap_or(0))
+            });
+            // Some of them are nearly singular, by two rows that are nearly the same.
+            let near = [1.0, 0.1, 0.05, 0.01][case as usize % 4];
+            let row = jacobian.row(0) + jacobian.row(1) * near;
+            jacobian.set_row(1, &row);
+            let exact = Conditioning::of(jacobian.singular_values().as_slice());
+            let is_regular = exact.condition < MAX_CONDITION && exact.smallest > MIN_SINGULAR_VALUE;
+            if is_plainly_regular(&jacobian) {
+                assert!(is_regular, "{case}: {exact:?}");
+                plain += 1;
+            } else {
+                assert!(
+                    !is_regular || exact.smallest < MIN_SINGULAR_VALUE * (1.0 + 1e-6),
+                    "{case}: {exact:?} took the long way"
+                );
+                not += 1;
+            }
+        }
+        assert!(plain > 500 && not > 500, "{plain} {not}");
+        assert!(!is_plainly_regular(&(Matrix6::identity() * f64::NAN)));
+    }
 
     #[test]
     fn distance_of_pieces_against_brute_force() {

@@ -82,7 +82,10 @@ impl Hexapod {
     }
 
     pub(crate) fn rows(&self, pose: &Pose) -> Matrix6<f64> {
-        let struts = self.struts(pose);
+        self.rows_of(pose, &self.struts(pose))
+    }
+
+    fn rows_of(&self, pose: &Pose, struts: &[Vector3<f64>; STRUTS]) -> Matrix6<f64> {
         let mut rows = Matrix6::zeros();
         for (i, strut) in struts.iter().enumerate() {
             let n = strut / strut.norm();
@@ -99,11 +102,22 @@ impl Hexapod {
         self.platform.iter().map(Vector3::norm).sum::<f64>() / 6.0
     }
 
-    /// How well the struts hold the platform, rotations taken at the platform joints.
-    pub(super) fn strut_conditioning(&self, axes: &AxisVector) -> Conditioning {
-        let mut jacobian = self.strut_jacobian(axes);
+    /// The derivative of the strut lengths, rotations taken at the platform joints.
+    pub(super) fn scaled_jacobian(
+        &self,
+        pose: &Pose,
+        struts: &[Vector3<f64>; STRUTS],
+    ) -> Matrix6<f64> {
+        let mut jacobian = self.rows_of(pose, struts);
         let mut rotations = jacobian.fixed_columns_mut::<3>(3);
         rotations /= self.platform_radius_mm();
+        jacobian
+    }
+
+    /// How well the struts hold the platform.
+    pub(super) fn strut_conditioning(&self, axes: &AxisVector) -> Conditioning {
+        let pose = self.pose(axes);
+        let jacobian = self.scaled_jacobian(&pose, &self.struts(&pose));
         Conditioning::of(jacobian.singular_values().as_slice())
     }
 }
