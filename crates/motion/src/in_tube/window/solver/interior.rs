@@ -8,14 +8,15 @@
 //! ```
 //!
 //! Elimination of s, l and e leaves the normal equations for the control points, in which a side
-//! weighs w = 1 / (s/l + e/(p − l)). A hard side is an elastic one of infinite price with e = 0, so
-//! that all sides go through the same loops without a branch.
+//! weighs w = 1 / (s/l + e/(p − l)). A hard side is an elastic one of infinite price with e = 0.
 //!
 //! Each iteration factors once and solves twice: a predictor aims at μ = 0, and how far it gets
 //! sets the μ that the corrector aims at.
 
 use super::band::{Band, Block};
-use super::problem::{DIFFERENCES, HARD, Problem, SPAN, combine, dot};
+use super::ends::{first_difference, fold, take_away, tie_end};
+use super::hard_sides::HardSides;
+use super::problem::{DIFFERENCES, Problem, SPAN, combine, dot};
 use super::sides::{Sides, TwoSides};
 
 /// Share of the way to the boundary that a step may go.
@@ -164,7 +165,7 @@ impl<const D: usize> Interior<D> {
 
     /// How much the elastic rows of the last solution are violated at most.
     pub(in crate::in_tube::window) fn violation(&self) -> f64 {
-        let violations = self.sides.rows.iter().filter_map(TwoSides::violation);
+        let violations = self.sides.rows.iter().map(TwoSides::violation);
         violations.fold(0.0, f64::max)
     }
 
@@ -183,25 +184,32 @@ impl<const D: usize> Interior<D> {
                 axis_rows += D * self.stencils[order].len();
             }
         }
+        self.sides.hard.clear();
+        self.sides.hard.resize(axis_rows, HardSides::default());
         let rows = &mut self.sides.rows;
         rows.clear();
-        rows.resize(axis_rows, TwoSides::of(HARD));
         rows.extend(problem.rows.iter().map(|row| TwoSides::of(row.price)));
         #[expect(clippy::cast_precision_loss, reason = "thousands")]
         let pairs = (2 * axis_rows + 4 * problem.rows.len()) as f64;
         pairs
     }
 
-    /// Values of all rows in their order, of the control points or of a step of them, and their
-    /// bounds, handed to `take`.
-    fn rows_of(&self, problem: &Problem<D>, x: &[[f64; D]], mut take: impl FnMut(f64, [f64; 2])) {
+    /// Values of all rows in their order, of the control points or of a step of them: those of the
+    /// axes, and the elastic ones with their bounds.
+    fn rows_of(
+        &self,
+        problem: &Problem<D>,
+        x: &[[f64; D]],
+        mut take_axis: impl FnMut(f64),
+        mut take: impl FnMut(f64, [f64; 2]),
+    ) {
         for order in 0..3 {
             let start = first_difference(order);
             let bounds = &problem.bounds[order];
             for k in 0..self.stencils[order].len() {
                 let y = combine(x, start + k, &DIFFERENCES[order]);
                 for (value, bound) in y.iter().zip(bounds) {
-                    take(value / bound, [-1.0, 1.0]);
+                    take_axis(value / bound);
                 }
             }
         }
@@ -215,8 +223,13 @@ impl<const D: usize> Interior<D> {
 
     fn evaluate(&mut self, problem: &Problem<D>, x: &[[f64; D]]) {
         let mut sides = core::mem::take(&mut self.sides);
-        let mut rows = sides.rows.iter_mut();
-        self.rows_of(problem, x, |value, [low, high]| {
+        let (mut hard, mut rows) = (sides.hard.iter_mut(), sides.rows.iter_mut());
+        let set_axis = |value| {
+            if let Some(row) = hard.next() {
+                row.set(value);
+            }
+        };
+        self.rows_of(problem, x, set_axis, |value, [low, high]| {
             if let Some(row) = rows.next() {
                 row.g = [value - high, low - value];
             }
@@ -227,7 +240,7 @@ impl<const D: usize> Interior<D> {
     /// The matrix of the normal equations.
     fn assemble(&mut self, problem: &Problem<D>, damping: f64) {
         self.band.clear(problem.intervals + 3);
-        let mut weights = self.sides.rows.iter().map(TwoSides::weight);
+        let mut weights = self.sides.hard.iter().map(HardSides::weight);
         let mut next_weight = || weights.next().unwrap_or(0.0);
         for order in 0..3 {
             let start = first_difference(order);
@@ -251,6 +264,8 @@ impl<const D: usize> Interior<D> {
                 }
             }
         }
+        let mut weights = self.sides.rows.iter().map(TwoSides::weight);
+        let mut next_weight = || weights.next().unwrap_or(0.0);
         for site in &problem.sites {
             let mut block: Block<D> = [[0.0; D]; D];
             for row in &problem.rows[site.rows.clone()] {
@@ -302,7 +317,7 @@ impl<const D: usize> Interior<D> {
                 step[k][a] += aim[a];
             }
         }
-        let mut forces = self.sides.rows.iter().map(TwoSides::force);
+        let mut forces = self.sides.hard.iter().map(HardSides::force);
         let mut next_force = || forces.next().unwrap_or(0.0);
         for order in 0..3 {
             let start = first_difference(order);
@@ -320,6 +335,8 @@ impl<const D: usize> Interior<D> {
                 take_away(step, start + k, stencil, &pull);
             }
         }
+        let mut forces = self.sides.rows.iter().map(TwoSides::force);
+        let mut next_force = || forces.next().unwrap_or(0.0);
         for site in &problem.sites {
             let mut pull = [0.0; D];
             for row in &problem.rows[site.rows.clone()] {
@@ -359,57 +376,23 @@ impl<const D: usize> Interior<D> {
         for k in last..last + 3 {
             self.step[k] = end;
         }
+        self.follow_step(problem);
+    }
+
+    /// The step of the sides that goes with that of the control points.
+    fn follow_step(&mut self, problem: &Problem<D>) {
         let mut sides = core::mem::take(&mut self.sides);
-        let mut rows = sides.rows.iter_mut();
-        self.rows_of(problem, &self.step, |change, _| {
+        let (mut hard, mut rows) = (sides.hard.iter_mut(), sides.rows.iter_mut());
+        let follow_axis = |change| {
+            if let Some(row) = hard.next() {
+                row.follow(change);
+            }
+        };
+        self.rows_of(problem, &self.step, follow_axis, |change, _| {
             if let Some(row) = rows.next() {
                 row.follow(change);
             }
         });
         self.sides = sides;
-    }
-}
-
-/// The first control point of the first difference that is not given by the start alone.
-const fn first_difference(order: usize) -> usize {
-    2 - order
-}
-
-/// Takes a pull on a weighted sum of consecutive points from their steps.
-#[inline]
-fn take_away<const D: usize, const N: usize>(
-    step: &mut [[f64; D]],
-    first: usize,
-    weights: &[f64; N],
-    pull: &[f64; D],
-) {
-    for (point, weight) in step[first..].iter_mut().zip(weights) {
-        for a in 0..D {
-            point[a] -= weight * pull[a];
-        }
-    }
-}
-
-/// The last control points are one unknown: its coefficients add up.
-fn fold<const D: usize, const N: usize>(
-    first: usize,
-    mut weights: [f64; N],
-    problem: &Problem<D>,
-) -> [f64; N] {
-    let last = problem.intervals;
-    if first <= last && first + N > last + 1 {
-        for i in last - first + 1..N {
-            weights[last - first] += weights[i];
-            weights[i] = 0.0;
-        }
-    }
-    weights
-}
-
-fn tie_end<const D: usize>(problem: &Problem<D>, x: &mut [[f64; D]]) {
-    if !problem.is_end_fixed {
-        let last = problem.intervals;
-        x[last + 1] = x[last];
-        x[last + 2] = x[last];
     }
 }

@@ -3,6 +3,8 @@
 //! once it has been used at full size.
 
 mod band;
+mod ends;
+mod hard_sides;
 mod interior;
 mod problem;
 mod sides;

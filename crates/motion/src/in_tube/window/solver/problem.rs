@@ -15,8 +15,6 @@
 //! Elastic rows make sure there is always a solution: the rest of the last window keeps the hard
 //! ones.
 
-/// Marks a row that must hold.
-pub(in crate::in_tube::window) const HARD: f64 = 1e300;
 /// Price of violating an elastic row by one. Progress gains at most about one by it, so a row that
 /// can be kept is kept.
 pub(in crate::in_tube::window) const PRICE: f64 = 30.0;

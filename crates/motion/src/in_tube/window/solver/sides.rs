@@ -3,17 +3,9 @@
 //! What they are is told in [`super::interior`]. Both sides of a row lie together and take the same
 //! way through every loop, so that one instruction does for both.
 
-use super::problem::HARD;
+use super::hard_sides::{HardSides, Pair, START_MU, START_SLACK, larger};
 
-/// μ to start from.
-const START_MU: f64 = 0.05;
-/// Least slack to start from.
-const START_SLACK: f64 = 0.05;
-
-/// A value of the upper side of a row, and of the lower one.
-pub(super) type Pair = [f64; 2];
-
-/// Both sides of a row.
+/// Both sides of an elastic row.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct TwoSides {
     /// Values of the sides.
@@ -54,12 +46,96 @@ impl TwoSides {
         self.force[0] - self.force[1]
     }
 
-    /// How much an elastic row is violated, below zero if it is not; `None` for a hard one.
-    pub(super) const fn violation(&self) -> Option<f64> {
-        if self.price[0] < HARD {
-            Some(self.g[0].max(self.g[1]))
-        } else {
-            None
+    /// How much it is violated, below zero if it is not.
+    pub(super) const fn violation(&self) -> f64 {
+        self.g[0].max(self.g[1])
+    }
+
+    fn start(&mut self) {
+        for k in 0..2 {
+            let g = self.g[k];
+            self.slack[k] = (-g).max(START_SLACK);
+            self.excess[k] = (g + self.slack[k]).max(START_MU / (0.9 * self.price[k]));
+            self.multiplier[k] = (START_MU / self.slack[k]).min(0.5 * self.price[k]);
+        }
+    }
+
+    /// Complementarity and residual of each side.
+    #[inline]
+    fn state(&self) -> (Pair, Pair) {
+        let (mut product, mut rest) = ([0.0; 2], [0.0; 2]);
+        for k in 0..2 {
+            let l = self.multiplier[k];
+            product[k] = self.slack[k] * l + self.excess[k] * (self.price[k] - l);
+            rest[k] = (self.g[k] + self.slack[k] - self.excess[k]).abs();
+        }
+        (product, rest)
+    }
+
+    /// Weight, and aims and force of the predictor.
+    #[inline]
+    fn aim_at_zero(&mut self) {
+        for k in 0..2 {
+            let (l, nu) = (self.multiplier[k], self.price[k] - self.multiplier[k]);
+            let weight = 1.0 / (self.slack[k] / l + self.excess[k] / nu);
+            self.aim_slack[k] = 0.0;
+            self.aim_excess[k] = 0.0;
+            self.weight[k] = weight;
+            self.force[k] = l + weight * self.g[k];
+        }
+    }
+
+    /// One over the largest step that keeps each side positive.
+    #[inline]
+    fn shrink(&self) -> Pair {
+        let mut shrink = [0.0; 2];
+        for k in 0..2 {
+            let nu = self.price[k] - self.multiplier[k];
+            let of_excess = -self.d_excess[k] / self.excess[k];
+            let of_excess = if self.excess[k] > 0.0 { of_excess } else { 0.0 };
+            let of_slack = -self.d_slack[k] / self.slack[k];
+            let of_multiplier = larger(
+                -self.d_multiplier[k] / self.multiplier[k],
+                self.d_multiplier[k] / nu,
+            );
+            shrink[k] = larger(larger(of_slack, of_multiplier), of_excess);
+        }
+        shrink
+    }
+
+    /// Complementarity of each side after a step.
+    #[inline]
+    fn state_after(&self, step: f64) -> Pair {
+        let mut product = [0.0; 2];
+        for k in 0..2 {
+            let l = self.multiplier[k] + step * self.d_multiplier[k];
+            product[k] = (self.slack[k] + step * self.d_slack[k]) * l
+                + (self.excess[k] + step * self.d_excess[k]) * (self.price[k] - l);
+        }
+        product
+    }
+
+    /// Aims and force of the corrector.
+    #[inline]
+    fn aim_at(&mut self, target: f64, bound: f64) {
+        for k in 0..2 {
+            let (l, nu) = (self.multiplier[k], self.price[k] - self.multiplier[k]);
+            let d_l = self.d_multiplier[k];
+            let aim_slack = target - (self.d_slack[k] * d_l).clamp(-bound, bound);
+            let aim_excess = target + (self.d_excess[k] * d_l).clamp(-bound, bound);
+            let rest = self.g[k] + aim_slack / l - aim_excess / nu;
+            self.aim_slack[k] = aim_slack;
+            self.aim_excess[k] = aim_excess;
+            self.force[k] = l + self.weight[k] * rest;
+        }
+    }
+
+    #[inline]
+    fn advance(&mut self, step: f64) {
+        for k in 0..2 {
+            self.slack[k] += step * self.d_slack[k];
+            self.multiplier[k] += step * self.d_multiplier[k];
+            self.excess[k] += step * self.d_excess[k];
         }
     }
 
@@ -82,76 +158,51 @@ impl TwoSides {
     }
 }
 
-/// The sides of all rows.
+/// The sides of all rows: first those that must hold, then the elastic ones.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sides {
+    pub(super) hard: Vec<HardSides>,
     pub(super) rows: Vec<TwoSides>,
 }
 
 impl Sides {
     pub(super) fn start(&mut self) {
-        for row in &mut self.rows {
-            for k in 0..2 {
-                let g = row.g[k];
-                row.slack[k] = (-g).max(START_SLACK);
-                row.multiplier[k] = START_MU / row.slack[k];
-                if row.price[k] < HARD {
-                    row.excess[k] = (g + row.slack[k]).max(START_MU / (0.9 * row.price[k]));
-                    row.multiplier[k] = row.multiplier[k].min(0.5 * row.price[k]);
-                }
-            }
-        }
+        self.hard.iter_mut().for_each(HardSides::start);
+        self.rows.iter_mut().for_each(TwoSides::start);
     }
 
     /// Mean complementarity and largest residual.
     pub(super) fn state(&self, pairs: f64) -> (f64, f64) {
         let (mut sum, mut residual) = (0.0, [0.0; 2]);
-        for row in &self.rows {
-            let (mut product, mut rest) = ([0.0; 2], [0.0; 2]);
-            for k in 0..2 {
-                let l = row.multiplier[k];
-                product[k] = row.slack[k] * l + row.excess[k] * (row.price[k] - l);
-                rest[k] = (row.g[k] + row.slack[k] - row.excess[k]).abs();
-            }
+        let hard = self.hard.iter().map(HardSides::state);
+        let rows = self.rows.iter().map(TwoSides::state);
+        let mut add = |(product, rest): (Pair, Pair)| {
             for k in 0..2 {
                 sum += product[k];
                 residual[k] = larger(residual[k], rest[k]);
             }
-        }
+        };
+        hard.for_each(&mut add);
+        rows.for_each(&mut add);
         (sum / pairs, larger(residual[0], residual[1]))
     }
 
     /// Weights, and aims and forces of the predictor.
     pub(super) fn aim_at_zero(&mut self) {
-        for row in &mut self.rows {
-            for k in 0..2 {
-                let (l, nu) = (row.multiplier[k], row.price[k] - row.multiplier[k]);
-                let weight = 1.0 / (row.slack[k] / l + row.excess[k] / nu);
-                row.aim_slack[k] = 0.0;
-                row.aim_excess[k] = 0.0;
-                row.weight[k] = weight;
-                row.force[k] = l + weight * row.g[k];
-            }
-        }
+        self.hard.iter_mut().for_each(HardSides::aim_at_zero);
+        self.rows.iter_mut().for_each(TwoSides::aim_at_zero);
     }
 
     /// The largest step that keeps all positive.
     pub(super) fn room(&self) -> f64 {
         let mut shrink = [0.0; 2];
-        for row in &self.rows {
+        let mut add = |most: Pair| {
             for k in 0..2 {
-                let nu = row.price[k] - row.multiplier[k];
-                let of_excess = -row.d_excess[k] / row.excess[k];
-                let of_excess = if row.excess[k] > 0.0 { of_excess } else { 0.0 };
-                let of_slack = -row.d_slack[k] / row.slack[k];
-                let of_multiplier = larger(
-                    -row.d_multiplier[k] / row.multiplier[k],
-                    row.d_multiplier[k] / nu,
-                );
-                let most = larger(larger(of_slack, of_multiplier), of_excess);
-                shrink[k] = larger(shrink[k], most);
+                shrink[k] = larger(shrink[k], most[k]);
             }
-        }
+        };
+        self.hard.iter().map(HardSides::shrink).for_each(&mut add);
+        self.rows.iter().map(TwoSides::shrink).for_each(&mut add);
         1.0 / larger(shrink[0], shrink[1])
     }
 
@@ -159,13 +210,13 @@ impl Sides {
     pub(super) fn aim_at(&mut self, mu: f64, pairs: f64) {
         let step = self.room().min(1.0);
         let mut sum = 0.0;
+        for row in &self.hard {
+            let product = row.state_after(step);
+            sum += product[0];
+            sum += product[1];
+        }
         for row in &self.rows {
-            let mut product = [0.0; 2];
-            for k in 0..2 {
-                let l = row.multiplier[k] + step * row.d_multiplier[k];
-                product[k] = (row.slack[k] + step * row.d_slack[k]) * l
-                    + (row.excess[k] + step * row.d_excess[k]) * (row.price[k] - l);
-            }
+            let product = row.state_after(step);
             sum += product[0];
             sum += product[1];
         }
@@ -177,34 +228,20 @@ impl Sides {
                 1.0
             };
         let bound = 5.0 * mu;
+        for row in &mut self.hard {
+            row.aim_at(target, bound);
+        }
         for row in &mut self.rows {
-            for k in 0..2 {
-                let (l, nu) = (row.multiplier[k], row.price[k] - row.multiplier[k]);
-                let d_l = row.d_multiplier[k];
-                let aim_slack = target - (row.d_slack[k] * d_l).clamp(-bound, bound);
-                let aim_excess = target + (row.d_excess[k] * d_l).clamp(-bound, bound);
-                let aim_excess = if row.price[k] < HARD { aim_excess } else { 0.0 };
-                let rest = row.g[k] + aim_slack / l - aim_excess / nu;
-                row.aim_slack[k] = aim_slack;
-                row.aim_excess[k] = aim_excess;
-                row.force[k] = l + row.weight[k] * rest;
-            }
+            row.aim_at(target, bound);
         }
     }
 
     pub(super) fn advance(&mut self, step: f64) {
+        for row in &mut self.hard {
+            row.advance(step);
+        }
         for row in &mut self.rows {
-            for k in 0..2 {
-                row.slack[k] += step * row.d_slack[k];
-                row.multiplier[k] += step * row.d_multiplier[k];
-                row.excess[k] += step * row.d_excess[k];
-            }
+            row.advance(step);
         }
     }
-}
-
-/// The larger of two values; the first one if the second is not a number.
-#[inline]
-const fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
 }

@@ -1,0 +1,47 @@
+//! Weighted sums of control points. The first three are given, and the last three are one unknown.
+
+use super::problem::Problem;
+
+/// The first control point of the first difference that is not given by the start alone.
+pub(super) const fn first_difference(order: usize) -> usize {
+    2 - order
+}
+
+/// Takes a pull on a weighted sum of consecutive points from their steps.
+#[inline]
+pub(super) fn take_away<const D: usize, const N: usize>(
+    step: &mut [[f64; D]],
+    first: usize,
+    weights: &[f64; N],
+    pull: &[f64; D],
+) {
+    for (point, weight) in step[first..].iter_mut().zip(weights) {
+        for a in 0..D {
+            point[a] -= weight * pull[a];
+        }
+    }
+}
+
+/// The last control points are one unknown: its coefficients add up.
+pub(super) fn fold<const D: usize, const N: usize>(
+    first: usize,
+    mut weights: [f64; N],
+    problem: &Problem<D>,
+) -> [f64; N] {
+    let last = problem.intervals;
+    if first <= last && first + N > last + 1 {
+        for i in last - first + 1..N {
+            weights[last - first] += weights[i];
+            weights[i] = 0.0;
+        }
+    }
+    weights
+}
+
+pub(super) fn tie_end<const D: usize>(problem: &Problem<D>, x: &mut [[f64; D]]) {
+    if !problem.is_end_fixed {
+        let last = problem.intervals;
+        x[last + 1] = x[last];
+        x[last + 2] = x[last];
+    }
+}
