@@ -11,7 +11,9 @@
 //! ```
 //!
 //! The margin is what the motion takes to settle after the corner. Next to the start of a window the
-//! motion that is given has to have settled.
+//! motion that is given has to have settled: what the last window has pinned stays where it is, so
+//! that an axis which has come to its coordinate is not let go by the next window that begins soon
+//! after the corner.
 
 use super::samples::Samples;
 use super::scaled_path::ScaledPath;
@@ -55,10 +57,9 @@ impl<const D: usize> Pins<D> {
                 let Some(level) = level_at(last) else {
                     continue;
                 };
-                let is_settled = middle >= reach
-                    || points[..3]
-                        .iter()
-                        .all(|point| point[a].total_cmp(&level).is_eq());
+                let is_there = |point: &[f64; D]| point[a].total_cmp(&level).is_eq();
+                let is_settled =
+                    middle >= reach || is_there(&points[c]) || points[..3].iter().all(is_there);
                 if since[last] <= middle.saturating_sub(reach)
                     && is_settled
                     && (points[c][a] - level).abs() <= NEAR_R
