@@ -2,6 +2,7 @@
 
 use super::contest::{Entry, Planned};
 use super::gathering::{Gathering, Task};
+use super::long_stretch::LongStretch;
 use super::way::{Manner, Way};
 use crate::PlanError;
 use crate::grid::FrameGrid;
@@ -9,7 +10,7 @@ use crate::in_tube::SearchWeights;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, Item, Override, Settings};
 
-/// How a stretch is driven that is planned as it comes.
+/// How a short stretch is driven whose motion takes too long to be kept.
 const ALONE: Manner = Manner::InTube(SearchWeights::USUAL);
 
 /// Plans stretch by stretch, as [`crate::Planner`] uses it.
@@ -34,8 +35,10 @@ enum Drive {
     None,
     /// A short stretch, planned to its end.
     Planned(Box<Planned>),
-    /// A stretch that is planned as it comes, or whose override was changed.
+    /// The same, planned as it comes: it takes too long to be kept, or its override was changed.
     Live(Way),
+    /// A long stretch.
+    Long(Box<LongStretch>),
 }
 
 impl StretchEngine {
@@ -69,10 +72,14 @@ impl StretchEngine {
         if let Drive::Planned(planned) = &self.drive {
             self.drive = Drive::Live(planned.resumed()?);
         }
-        if let Drive::Live(way) = &mut self.drive {
-            way.set_override(wanted);
+        match &mut self.drive {
+            Drive::None | Drive::Planned(_) => Ok(()),
+            Drive::Live(way) => {
+                way.set_override(wanted);
+                Ok(())
+            }
+            Drive::Long(stretch) => stretch.set_override(wanted),
         }
-        Ok(())
     }
 
     /// The next frame; see [`crate::Planner::pop_frame`].
@@ -85,6 +92,7 @@ impl StretchEngine {
                 Drive::None => (None, None),
                 Drive::Planned(planned) => (planned.pop_frame(), planned.length_s()),
                 Drive::Live(way) => (way.pop_frame()?, way.length_s()),
+                Drive::Long(stretch) => (stretch.pop_frame()?, stretch.length_s()),
             };
             if let Some(mut frame) = moved {
                 frame.path_s += self.path_s;
@@ -92,7 +100,7 @@ impl StretchEngine {
             }
             if let Some(length_s) = length_s {
                 self.arrive(length_s);
-            } else if matches!(&self.drive, Drive::Live(way) if way.is_finished()) {
+            } else if self.is_stuck() {
                 let line = self.grid.line().number;
                 return Err(PlanError::NoMotion { line });
             } else if !self.supply()? {
@@ -106,6 +114,15 @@ impl StretchEngine {
         self.path_s += length_s;
         self.grid.leave(self.end, self.path_s);
         self.drive = Drive::None;
+    }
+
+    /// True if a stretch whose end is known gives no motion: there is nothing to wait for.
+    fn is_stuck(&self) -> bool {
+        match &self.drive {
+            Drive::None | Drive::Planned(_) => false,
+            Drive::Live(way) => way.is_finished(),
+            Drive::Long(stretch) => stretch.is_finished(),
+        }
     }
 
     /// Does what comes next; false if the program is not known further.
@@ -129,17 +146,17 @@ impl StretchEngine {
             }
             Task::Part(item) => {
                 if matches!(self.drive, Drive::None) {
-                    let way = Way::new(ALONE, self.settings, self.position, self.wanted);
-                    self.drive = Drive::Live(way);
+                    let stretch = LongStretch::new(self.settings, self.position, self.wanted);
+                    self.drive = Drive::Long(Box::new(stretch));
                 }
-                if let Drive::Live(way) = &mut self.drive {
-                    way.push(&item)?;
+                if let Drive::Long(stretch) = &mut self.drive {
+                    stretch.push(&item)?;
                 }
             }
             Task::End(end) => {
                 self.end = end;
-                if let Drive::Live(way) = &mut self.drive {
-                    way.finish();
+                if let Drive::Long(stretch) = &mut self.drive {
+                    stretch.finish();
                 }
             }
             Task::Rest(rest) => {
