@@ -27,6 +27,7 @@ mod demand;
 mod holder;
 mod line;
 mod travel;
+mod way_back;
 mod wheel;
 
 pub(crate) use demand::{Demand, DemandReader};
@@ -42,6 +43,7 @@ use glidepath_link::JogMode;
 use glidepath_program::Limits;
 use holder::{Heard, Holder};
 use travel::Travel;
+use way_back::WayBack;
 use wheel::Wheel;
 
 /// By how much the speed that the joints can do has to rise before the axes go faster: so that they
@@ -94,8 +96,7 @@ pub(crate) struct Jog {
     joints: u32,
     /// Where the program was held, if the axes may be away from there.
     path: Option<AxisVector>,
-    /// The places that are left on the way back: the last one first.
-    way_back: [Option<AxisVector>; 2],
+    way_back: WayBack,
 }
 
 impl Jog {
@@ -124,7 +125,7 @@ impl Jog {
             of_joint: config.axis_of_joint(),
             joints: config.joints(),
             path: None,
-            way_back: [None; 2],
+            way_back: WayBack::NONE,
         }
     }
 
@@ -140,7 +141,7 @@ impl Jog {
 
     /// True on the way back to the path.
     pub(crate) const fn is_returning(&self) -> bool {
-        !matches!(self.way_back, [None, None])
+        !self.way_back.is_done()
     }
 
     /// How far the axes are from where the program is held.
@@ -242,7 +243,7 @@ impl Jog {
     fn let_go(&mut self) {
         self.demand = None;
         self.goal = Goal::Stop;
-        self.way_back = [None; 2];
+        self.way_back = WayBack::NONE;
     }
 
     /// Ends a jog or a return from elsewhere. Who jogs has to let go before beginning another.
@@ -257,14 +258,9 @@ impl Jog {
             return false;
         };
         self.begin(around);
-        let mut beside = path;
-        let tool = self.settings.tool_axis.index();
-        if let (Some(slot), Some(now)) = (beside.get_mut(tool), around.position.get(tool)) {
-            *slot = *now;
-        }
         self.blocked = false;
-        self.way_back = [Some(path), Some(beside)];
-        self.goal = Goal::Place(beside);
+        self.way_back = WayBack::to(&path, &around.position, self.settings.tool_axis);
+        self.head_back();
         true
     }
 
@@ -272,7 +268,7 @@ impl Jog {
     pub(crate) fn end(&mut self) {
         self.cancel();
         self.demand = None;
-        self.way_back = [None; 2];
+        self.way_back = WayBack::NONE;
         self.path = None;
         self.course = Course::at_rest(self.course.motion().position);
     }
@@ -382,12 +378,13 @@ impl Jog {
             return; // At the end of the way; the key is still down.
         }
         if self.is_returning() && !self.blocked {
-            self.next_on_way_back(position);
+            self.way_back.reach(position);
+            self.head_back();
             if self.is_returning() {
                 return;
             }
         }
-        self.way_back = [None; 2];
+        self.way_back = WayBack::NONE;
         self.demand = None;
         self.goal = Goal::Stop;
         self.holder.release();
@@ -396,18 +393,10 @@ impl Jog {
         }
     }
 
-    /// Goes on to the next place of the way back.
-    fn next_on_way_back(&mut self, position: &AxisVector) {
-        let [last, next] = &mut self.way_back;
-        if next.is_some_and(|place| place == *position) {
-            *next = None;
-        }
-        if *last == Some(*position) && next.is_none() {
-            *last = None;
-        }
-        match (*next, *last) {
-            (Some(place), _) | (None, Some(place)) => self.goal = Goal::Place(place),
-            (None, None) => {}
+    /// Heads for the next place of the way back, if there is one left.
+    fn head_back(&mut self) {
+        if let Some(place) = self.way_back.next() {
+            self.goal = Goal::Place(place);
         }
     }
 }
