@@ -35,7 +35,7 @@
 //! | O words | `sub` `call` `return`, `if`, `while`, `do`, `repeat`, `break`, `continue` |
 //! | `o<name> call`, `o100 call` of what the program does not define | the subroutine in `name.ngc`, `100.ngc` ([`Subroutines`](crate::Subroutines)) |
 //!
-//! Not supported, and refused by name: threading (G33, G76), G87, G88, and to take overrides from
+//! Not supported, and refused by name: rigid tapping (G33.1), G87, G88, and to take overrides from
 //! the operator (M50, M51), adaptive feed (M52) and feed stop (M53).
 //!
 //! # Order of execution
@@ -53,7 +53,9 @@
 //!
 //! | what | LinuxCNC | here |
 //! |---|---|---|
-//! | G33, G33.1, G76 | follow the spindle's encoder | refused: none is read, and passes that begin at any angle of the spindle would cut the thread away |
+//! | G33, G76 | begin where the axes have come to the spindle's speed | begin at an angle that does not depend on the speed; without an encoder ([`Options::threading`](crate::Options::threading)) refused |
+//! | F beside G33 | the next feedrate | refused: the spindle gives the speed |
+//! | G33.1 | taps rigidly | refused |
 //! | a byte order mark; NUL bytes | refused; the block behind them is lost | no effect; refused |
 //! | a coordinate of 1e24 | accepted | refused: above [`MAX_NUMBER`](crate::MAX_NUMBER) |
 //! | moves of a picometre | executed | merged with the next |

@@ -77,6 +77,7 @@ pub use setup::options::{Connections, LoopLimits, Options};
 pub use setup::subroutine_file::{
     MAX_SUBROUTINE_BYTES, NoSubroutineFile, SubroutineFile, Subroutines,
 };
+pub use setup::threading::Threading;
 pub use setup::tool_table::{MAX_TOOLS, Tool, ToolTable};
 pub use setup::work_offsets::{CoordinateSystem, SYSTEMS, WorkOffsets};
 pub use summary::remark::{Remark, RemarkKind};

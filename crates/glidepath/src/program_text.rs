@@ -192,7 +192,9 @@ impl ProgramText {
             Event::SpindleSpeed(speed) => writeln!(self.text, "S{speed}"),
             Event::SelectTool(tool) => writeln!(self.text, "T{tool}"),
             // Their further words are not part of the event.
-            Event::MCode(19 | 61 | 66) | Event::Probe { .. } => return Err(UnknownEvent { line }),
+            Event::MCode(19 | 61 | 66) | Event::Probe { .. } | Event::Synchronise { .. } => {
+                return Err(UnknownEvent { line });
+            }
             Event::MCode(number) | Event::ProgramStop(number) => writeln!(self.text, "M{number}"),
             Event::OptionalStop => writeln!(self.text, "M1"),
             Event::DigitalOutput { number, on } => {

@@ -13,13 +13,14 @@ use crate::rest::{SAME_POSITION, is_at_rest};
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_kinematics::{JointFault, JointViolation, JointWatch, Quantity};
 use glidepath_link::{FaultCause, FrameRefusal, MachineState, Record, RecordError, SetpointFrame};
-use glidepath_program::{FrameFlags, Limits};
+use glidepath_program::{Event, FrameFlags, Limits};
 
 /// Share of a limit that may be exceeded: what an audit allows.
 const ALLOWANCE: f64 = 1e-6;
 /// By how much the number of an epoch may be above that of the last. Planners count by one; a frame
 /// that took the highest number of all would leave none for the planners after it.
 const EPOCH_STEP_MAX: u64 = 1 << 16;
+const SYNC: FrameFlags = FrameFlags::SYNC;
 /// Rounding of positions and their differences, mm.
 const ROUNDING: f64 = 1e-12;
 
@@ -70,6 +71,8 @@ pub(crate) struct Admission {
     last: Option<Last>,
     /// The epoch had a frame that did not pass.
     broken: bool,
+    /// What follows the spindle may come: it was announced.
+    is_pass: bool,
 }
 
 impl Admission {
@@ -84,6 +87,7 @@ impl Admission {
             epoch: 0,
             last: None,
             broken: false,
+            is_pass: false,
         }
     }
 
@@ -124,6 +128,8 @@ impl Admission {
         let next = self.follows(frame, &last);
         match next.and_then(|next| self.joints_follow(frame).map(|()| next)) {
             Ok(next) => {
+                self.is_pass = announces_pass(frame)
+                    || (self.is_pass && (frame.has(SYNC) || !last.frame.has(SYNC)));
                 self.last = Some(next);
                 Verdict::Pass
             }
@@ -192,6 +198,7 @@ impl Admission {
         }
         self.epoch = frame.epoch;
         self.broken = false;
+        self.is_pass = announces_pass(frame);
         let zero = AxisVector::zeros();
         self.last = Some(Last {
             frame: *frame,
@@ -209,6 +216,10 @@ impl Admission {
         }
         if frame.period_ns != self.period_ns {
             return Err(fault(FrameRefusal::Period));
+        }
+        // By the clock it would be another thread.
+        if frame.has(SYNC) && !self.is_pass {
+            return Err(fault(FrameRefusal::Malformed));
         }
         let must_rest = [FrameFlags::LAST, FrameFlags::PROGRAM_STOP];
         let is_gate = self.gates.of_frame(frame).is_some();
@@ -324,6 +335,11 @@ impl Admission {
             }
         })
     }
+}
+
+/// Whether the motion behind a frame is to follow the spindle.
+fn announces_pass(frame: &SetpointFrame) -> bool {
+    matches!(frame.event(), Ok(Some(Event::Synchronise { .. })))
 }
 
 /// Axis, value found, value allowed.

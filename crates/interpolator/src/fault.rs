@@ -51,6 +51,9 @@ impl fmt::Display for Fault {
             FaultCause::EnableLost => write!(f, "a drive lost its power")?,
             FaultCause::AuxTimeout => write!(f, "an event was not acknowledged in time")?,
             FaultCause::AuxFailed => write!(f, "what an event asked for has failed")?,
+            FaultCause::SpindleSpeed => write!(f, "the spindle left its speed in a thread")?,
+            FaultCause::SpindleAngle => write!(f, "the spindle's angle was lost in a thread")?,
+            FaultCause::ThreadLost => write!(f, "the axes could not follow the spindle")?,
             FaultCause::LimitSwitch => write!(f, "a joint stands at its limit switch")?,
             FaultCause::Homing => write!(f, "a joint did not find its home")?,
         }

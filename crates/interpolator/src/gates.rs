@@ -29,20 +29,26 @@ pub enum Answer {
     },
     /// The planner, by going on: it asked an input what the program is to do (M66).
     Planner,
+    /// The interpolator itself: the spindle is at its speed, and at the angle at which a pass of a
+    /// thread begins.
+    SpindleAngle,
 }
 
 impl Answer {
     /// Whether it takes the feedback of drives.
     #[must_use]
     pub const fn needs_feedback(self) -> bool {
-        !matches!(self, Self::Nobody | Self::Acknowledgement | Self::Planner)
+        !matches!(
+            self,
+            Self::Nobody | Self::Acknowledgement | Self::Planner | Self::SpindleAngle
+        )
     }
 
     /// Whether inputs and the spindle say that it is done.
     pub(crate) const fn is_given(self, digital_in: u64, spindle: SpindleFlags) -> bool {
         match self {
             Self::Nobody => true,
-            Self::Acknowledgement | Self::Planner => false,
+            Self::Acknowledgement | Self::Planner | Self::SpindleAngle => false,
             Self::SpindleAtSpeed => spindle.contains(SpindleFlags::AT_SPEED),
             Self::SpindleStopped => spindle.contains(SpindleFlags::STOPPED),
             Self::SpindleOriented => spindle.contains(SpindleFlags::ORIENTED),
@@ -50,6 +56,16 @@ impl Answer {
         }
     }
 }
+
+/// How long a pass of a thread waits for its spindle.
+const SPINDLE_PATIENCE: Duration = Duration::from_secs(60);
+/// What a pass of a thread begins with.
+const PASS: Gate = Gate {
+    first: 0,
+    last: 0,
+    answer: Answer::SpindleAngle,
+    within: Some(SPINDLE_PATIENCE),
+};
 
 /// The motion does not pass some M codes before they are answered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -101,11 +117,12 @@ impl Gates {
 
     /// The rule for the event of a frame.
     pub(crate) fn of_frame(&self, frame: &SetpointFrame) -> Option<Gate> {
-        if frame.event_kind != EventKind::MCode.code() {
+        if frame.event_kind == EventKind::None.code() {
             return None;
         }
         match frame.event() {
             Ok(Some(Event::MCode(code))) => self.of(code),
+            Ok(Some(Event::Synchronise { .. })) => Some(PASS),
             _ => None,
         }
     }

@@ -26,6 +26,7 @@
 //!   resume and override is there, and the diagram of its states), a `supply` (are there frames
 //!   enough?), `stop_requests` (what stops the motion), a `block_stop` (the end of a block to
 //!   rest at) and a `wait` (for the answer to an event);
+//! * `spindle` is what a pass of a thread follows instead of the clock;
 //! * `jog` moves the axes by hand, and away from a path that is held and back to it, with a `tracker`
 //!   for what follows no program;
 //! * `setpoint` writes what is published, and `joints` turns its axes into those of the mechanism;
@@ -127,6 +128,7 @@ mod rest;
 mod run;
 mod served;
 mod setpoint;
+mod spindle;
 mod status;
 mod stepped;
 mod stop_requests;

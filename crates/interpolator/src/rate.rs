@@ -55,9 +55,11 @@
 //! | [`candidate`], [`ramp_trial`] | a ramp is shaped, and tried together with a stop after it |
 //! | [`state`] | the states of the rate: **the diagram is there** |
 //! | [`ramp_choice`], [`stop_choice`] | what a tick decides: which ramp, which stop |
+//! | [`following`] | or a rate that is given from outside |
 
 mod arrival_search;
 mod candidate;
+mod following;
 mod greedy_descent;
 mod kept_stop;
 mod play;

@@ -18,6 +18,7 @@
 //! a tick, and a budget for the choice of a ramp.
 
 mod by_hand;
+mod following;
 mod program;
 mod state;
 mod waiting;
@@ -50,10 +51,12 @@ impl Interpolator<'_> {
             self.follow_jog(due, &mut report.setpoint);
             self.write_joints(&mut report.setpoint);
         } else if self.is_open() {
-            self.look_for_block_end();
-            self.look_for_contact();
-            self.choose_rate();
-            self.advance_program_time(tick);
+            if !(self.pass.is_in_use() && self.follow_spindle(due)) {
+                self.look_for_block_end();
+                self.look_for_contact();
+                self.choose_rate();
+                self.advance_program_time(tick);
+            }
             self.write_moving(tick, &mut report.setpoint);
             self.write_joints(&mut report.setpoint);
         } else if self.drives.following() != 0 && self.drives.seen().is_known {

@@ -97,6 +97,16 @@ impl Track {
         self.len == 0
     }
 
+    /// Between two frames, s.
+    pub(crate) const fn period_t(&self) -> f64 {
+        self.period_t
+    }
+
+    /// The next frame at rest, of the two behind a time.
+    pub(crate) fn rest_behind(&self, time: ProgramTime) -> Option<u64> {
+        (time.sequence + 1..=time.sequence + 2).find(|&s| self.frame(s).is_some_and(is_at_rest))
+    }
+
     /// Appends a frame. Only called with room, and with the sequence after the newest.
     pub(crate) fn push(&mut self, frame: &SetpointFrame) {
         if self.is_empty() {
@@ -243,6 +253,12 @@ impl Track {
         };
         self.gate = (passed + 1..self.end()).find(waits);
         self.bar_from(passed);
+    }
+
+    /// The motion does not pass the gate that it stands at, after all.
+    pub(crate) fn take_gate_back(&mut self, sequence: u64) {
+        self.gate = Some(sequence);
+        self.bar_from(sequence);
     }
 
     /// The longest of the stop times of up to `count` frames from one on.

@@ -33,6 +33,8 @@ pub(crate) struct FrameGrid {
 pub(crate) struct Passing {
     pub line: ProgramLine,
     pub rapid: bool,
+    /// It follows the spindle.
+    pub synchronised: bool,
     /// The override it was planned with.
     pub planned_override: f64,
 }
@@ -42,6 +44,7 @@ impl Passing {
     pub(crate) const NONE: Self = Self {
         line: ProgramLine::NONE,
         rapid: false,
+        synchronised: false,
         planned_override: 1.0,
     };
 }
@@ -206,6 +209,8 @@ impl FrameGrid {
     pub(crate) fn motion_frame(&mut self, moving: &Moving) -> Frame {
         let flags = if self.passing.rapid {
             FrameFlags::RAPID
+        } else if self.passing.synchronised {
+            FrameFlags::SYNC
         } else {
             FrameFlags::default()
         };

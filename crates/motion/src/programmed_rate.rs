@@ -15,6 +15,8 @@ impl ProgrammedRate {
     /// The rate under an override, mm/s.
     pub(crate) fn under(&self, wanted: Override) -> f64 {
         let programmed_v = match self.rate.feed_v() {
+            // Its pitch does not depend on the operator.
+            Some(feed_v) if self.rate.is_synchronised() => feed_v,
             Some(feed_v) => feed_v * wanted.feed_r,
             None => self.axes_v * wanted.rapid_r,
         };

@@ -125,7 +125,7 @@ impl<S: ItemSource> Remainder<S> {
             Some(ItemKind::Event(_)) => {
                 self.ahead.pop_front();
                 self.first_block += 1;
-                return Ok(());
+                return self.refuse_thread();
             }
             Some(ItemKind::Move { .. }) | None => {}
         }
@@ -148,7 +148,19 @@ impl<S: ItemSource> Remainder<S> {
             self.ahead.pop_front();
             self.first_block += 1;
         }
-        Ok(())
+        self.refuse_thread()
+    }
+
+    /// Nothing goes on in the middle of a pass: the angle at which it began is not known any more.
+    fn refuse_thread(&self) -> Result<(), RunError> {
+        match self.ahead.front() {
+            Some(Item {
+                kind: ItemKind::Move { rate, .. },
+                line,
+                ..
+            }) if rate.is_synchronised() => Err(ResumeError::InThread { line: *line }.into()),
+            _ => Ok(()),
+        }
     }
 
     /// Where the items come from.

@@ -32,3 +32,4 @@ mod spindle;
 
 pub use joint::{HomeSettings, JointSettings, SwitchSettings};
 pub use machine::{INDEX_INPUT, Plant, Upset};
+pub use spindle::SpindleSettings;

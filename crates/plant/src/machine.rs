@@ -1,7 +1,7 @@
 //! The joints, the spindle and the probe together, and what goes wrong with them.
 
 use crate::joint::{Joint, JointSettings};
-use crate::spindle::Spindle;
+use crate::spindle::{Spindle, SpindleSettings};
 use bytemuck::Zeroable as _;
 use glidepath_link::servo::{JointState, JointStates};
 use glidepath_link::{DriveState, Feedback, LatchKind, Setpoint};
@@ -29,6 +29,14 @@ pub enum Upset {
     Pushed(usize, f64),
     /// A digital input from 1 to 63 is high or low; 0 is the contact of the probe.
     Input(u32, bool),
+    /// The spindle turns at this part of the speed it was told: a load, a potentiometer.
+    SpindlePart(f64),
+    /// The spindle is stopped by force, or may turn again.
+    SpindleStuck(bool),
+    /// The index pulses of the spindle stay away, or come again.
+    IndexLost(bool),
+    /// The encoder of the spindle does not count any more, or does again.
+    EncoderLost(bool),
 }
 
 /// A servo stack with its machine.
@@ -111,6 +119,19 @@ impl Plant {
         self
     }
 
+    /// A spindle other than the usual one.
+    #[must_use]
+    pub fn with_spindle(mut self, settings: SpindleSettings) -> Self {
+        self.spindle = Spindle::new(settings);
+        self
+    }
+
+    /// Angle and speed of the spindle as they are, revolutions and rev/s.
+    #[must_use]
+    pub const fn spindle(&self) -> (f64, f64) {
+        (self.spindle.angle, self.spindle.speed)
+    }
+
     /// Something goes wrong, or right again.
     pub fn upset(&mut self, upset: Upset) {
         match upset {
@@ -127,6 +148,10 @@ impl Plant {
                 self.inputs = (self.inputs & !bit) | if is_high { bit } else { 0 };
             }
             Upset::Pushed(joint, distance) => self.joint(joint, |joint| joint.push(distance)),
+            Upset::SpindlePart(part) => self.spindle.part = part,
+            Upset::SpindleStuck(stuck) => self.spindle.is_stuck = stuck,
+            Upset::IndexLost(lost) => self.spindle.is_index_lost = lost,
+            Upset::EncoderLost(lost) => self.spindle.is_encoder_lost = lost,
         }
     }
 
@@ -238,9 +263,9 @@ impl Plant {
             home_switch: mask(&Joint::is_at_home_switch),
             position: self.positions(),
             digital_in: self.inputs | u64::from(self.touches),
-            spindle_angle: self.spindle.angle,
+            spindle_angle: self.spindle.counted(),
             spindle_v: self.spindle.speed,
-            spindle_index_count: self.spindle.index_count(),
+            spindle_index_count: self.spindle.index_count,
             spindle_flags: self.spindle.flags().0,
             ..Feedback::zeroed()
         };

@@ -1,15 +1,45 @@
-//! A spindle that takes its time.
+//! A spindle that takes its time, with an encoder.
+//!
+//! Its speed follows what it is told with a lag of first order, and changes no faster than its motor
+//! can. The encoder rounds down to its counts, and has one index pulse a revolution.
 
 use glidepath_link::SpindleFlags;
 use glidepath_program::Event;
 
-/// How fast its speed changes, rev/s².
-const RATE: f64 = 40.0;
-/// How near to its speed it is at speed, rev/s.
+/// How near to its speed it is at speed, rev/s, or in parts of that.
 const NEAR: f64 = 0.05;
+const NEAR_PART: f64 = 0.005;
 
-#[derive(Debug, Clone, Copy, Default)]
+/// How much faster than its motor could a spindle stops that is stuck.
+const STUCK: f64 = 10.0;
+
+/// A spindle. By default it is stiff, and its encoder exact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpindleSettings {
+    /// How fast its speed changes at most, rev/s².
+    pub acceleration: f64,
+    /// Lag of its speed, s; 0 for none.
+    pub lag_t: f64,
+    /// Counts of its encoder in a revolution; 0 if it is exact.
+    pub counts: u32,
+    /// Its angle when it is switched on, in revolutions behind the index.
+    pub angle: f64,
+}
+
+impl Default for SpindleSettings {
+    fn default() -> Self {
+        Self {
+            acceleration: 40.0,
+            lag_t: 0.0,
+            counts: 0,
+            angle: 0.0,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Spindle {
+    settings: SpindleSettings,
     /// rev/s, without direction.
     asked: f64,
     /// 1 for M3, −1 for M4, 0 for M5.
@@ -17,9 +47,38 @@ pub(crate) struct Spindle {
     pub(crate) speed: f64,
     /// Revolutions.
     pub(crate) angle: f64,
+    pub(crate) index_count: u64,
+    pub(crate) part: f64,
+    pub(crate) is_stuck: bool,
+    pub(crate) is_index_lost: bool,
+    pub(crate) is_encoder_lost: bool,
+    /// What the encoder counted last.
+    counted: f64,
+}
+
+impl Default for Spindle {
+    fn default() -> Self {
+        Self::new(SpindleSettings::default())
+    }
 }
 
 impl Spindle {
+    pub(crate) const fn new(settings: SpindleSettings) -> Self {
+        Self {
+            settings,
+            asked: 0.0,
+            direction: 0.0,
+            speed: 0.0,
+            angle: settings.angle,
+            index_count: 0,
+            part: 1.0,
+            is_stuck: false,
+            is_index_lost: false,
+            is_encoder_lost: false,
+            counted: settings.angle,
+        }
+    }
+
     pub(crate) fn take(&mut self, event: Event) {
         match event {
             Event::SpindleSpeed(per_min) => self.asked = per_min / 60.0,
@@ -31,30 +90,52 @@ impl Spindle {
     }
 
     pub(crate) fn step(&mut self, step_t: f64) {
-        let away = self.asked * self.direction - self.speed;
-        self.speed += away.clamp(-RATE * step_t, RATE * step_t);
-        self.angle += self.speed * step_t;
+        let SpindleSettings {
+            acceleration,
+            lag_t,
+            counts,
+            ..
+        } = self.settings;
+        let wanted = self.asked * self.direction * self.part;
+        let away = if self.is_stuck {
+            -self.speed
+        } else if lag_t > 0.0 {
+            (wanted - self.speed) * (1.0 - (-step_t / lag_t).exp())
+        } else {
+            wanted - self.speed
+        };
+        let by_force = if self.is_stuck { STUCK } else { 1.0 };
+        let (before, most) = ((self.speed, self.angle), by_force * acceleration * step_t);
+        self.speed += away.clamp(-most, most);
+        self.angle += f64::midpoint(before.0, self.speed) * step_t;
+        if !self.is_index_lost && self.angle.floor() != before.1.floor() {
+            self.index_count += 1;
+        }
+        if !self.is_encoder_lost {
+            let counts = f64::from(counts);
+            self.counted = if counts > 0.0 {
+                (self.angle * counts).floor() / counts
+            } else {
+                self.angle
+            };
+        }
     }
 
-    /// Index pulses so far, counted at whole revolutions.
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "far below the bound"
-    )]
-    pub(crate) fn index_count(&self) -> u64 {
-        self.angle.abs() as u64
+    /// What the encoder says.
+    pub(crate) const fn counted(&self) -> f64 {
+        self.counted
     }
 
     pub(crate) fn flags(&self) -> SpindleFlags {
         let asked = self.asked * self.direction;
-        let is_near = (self.speed - asked).abs() < NEAR;
-        let at_speed = if is_near { SpindleFlags::AT_SPEED.0 } else { 0 };
-        let stopped = if self.speed.abs() < NEAR {
-            SpindleFlags::STOPPED.0
-        } else {
-            0
-        };
-        SpindleFlags(at_speed | stopped)
+        let wanted = asked * self.part;
+        let is_near = (self.speed - wanted).abs() < NEAR.max(NEAR_PART * wanted.abs());
+        let flag = |is: bool, flag: SpindleFlags| if is { flag.0 } else { 0 };
+        SpindleFlags(
+            flag(is_near, SpindleFlags::AT_SPEED)
+                | flag(self.speed.abs() < NEAR, SpindleFlags::STOPPED)
+                | SpindleFlags::ANGLE.0
+                | SpindleFlags::INDEX.0,
+        )
     }
 }

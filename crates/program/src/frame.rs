@@ -20,6 +20,8 @@ impl FrameFlags {
     pub const DWELL: Self = Self(1 << 4);
     /// The machine rests here until the operator resumes (M0, M1, M60).
     pub const PROGRAM_STOP: Self = Self(1 << 5);
+    /// A move that follows the spindle: program time goes on with its angle.
+    pub const SYNC: Self = Self(1 << 6);
 
     /// These flags and others.
     #[must_use]

@@ -19,6 +19,10 @@ pub enum Rate {
         /// The speed that is not exceeded.
         most_v: f64,
     },
+    /// This rate of path position, mm/s, > 0, neither more nor less: the move follows the spindle
+    /// ([`Event::Synchronise`]), and is planned for the highest speed that the spindle may have. No
+    /// override changes it.
+    Synchronised(f64),
 }
 
 impl Rate {
@@ -33,7 +37,9 @@ impl Rate {
     pub const fn feed_v(self) -> Option<f64> {
         match self {
             Self::Rapid | Self::RapidUpTo(_) => None,
-            Self::Feed(feed_v) | Self::FeedUpTo { feed_v, .. } => Some(feed_v),
+            Self::Feed(feed_v) | Self::FeedUpTo { feed_v, .. } | Self::Synchronised(feed_v) => {
+                Some(feed_v)
+            }
         }
     }
 
@@ -41,17 +47,25 @@ impl Rate {
     #[must_use]
     pub const fn most_v(self) -> f64 {
         match self {
-            Self::Rapid | Self::Feed(_) => f64::INFINITY,
+            Self::Rapid | Self::Feed(_) | Self::Synchronised(_) => f64::INFINITY,
             Self::RapidUpTo(most_v) | Self::FeedUpTo { most_v, .. } => most_v,
         }
     }
 
-    /// The same rate, never above a speed.
+    /// True for a move that follows the spindle.
+    #[must_use]
+    pub const fn is_synchronised(self) -> bool {
+        matches!(self, Self::Synchronised(_))
+    }
+
+    /// The same rate, never above a speed. One that follows the spindle stays: slower, it would be
+    /// another thread.
     #[must_use]
     pub const fn up_to(self, most_v: f64) -> Self {
-        match self.feed_v() {
-            None => Self::RapidUpTo(most_v),
-            Some(feed_v) => Self::FeedUpTo { feed_v, most_v },
+        match self {
+            Self::Rapid | Self::RapidUpTo(_) => Self::RapidUpTo(most_v),
+            Self::Feed(feed_v) | Self::FeedUpTo { feed_v, .. } => Self::FeedUpTo { feed_v, most_v },
+            Self::Synchronised(_) => self,
         }
     }
 }
@@ -71,6 +85,10 @@ pub enum PathMode {
     },
 }
 
+/// Steps of the phase of a thread in a revolution: fine enough to be exact to a nanometre, and few
+/// enough for the number that an event has.
+pub const PHASE_STEPS: u32 = 1 << 24;
+
 /// Something that happens in order with the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
@@ -89,6 +107,15 @@ pub enum Event {
     Probe {
         /// It looks for the end of a contact instead.
         release: bool,
+    },
+    /// The moves that follow, up to the next rest, follow the spindle: a pass of a thread (G33). The
+    /// machine is at rest when it begins, and waits for the spindle to be at speed and at its angle.
+    Synchronise {
+        /// How far the path goes with each revolution, mm, > 0.
+        pitch_mm: f64,
+        /// The angle at which the pass would begin if it were at its speed at once, in
+        /// [`PHASE_STEPS`] of a revolution behind the index.
+        phase: u32,
     },
     /// A digital output. Does not stop the motion.
     DigitalOutput {
@@ -115,7 +142,11 @@ impl Event {
             | Self::SelectTool(_)
             | Self::DigitalOutput { .. }
             | Self::AnalogOutput { .. } => false,
-            Self::MCode(_) | Self::ProgramStop(_) | Self::OptionalStop | Self::Probe { .. } => true,
+            Self::MCode(_)
+            | Self::ProgramStop(_)
+            | Self::OptionalStop
+            | Self::Probe { .. }
+            | Self::Synchronise { .. } => true,
         }
     }
 }

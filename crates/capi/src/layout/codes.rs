@@ -145,6 +145,7 @@ pub(super) fn codes() -> Vec<Codes> {
                 ("EXACT_STOP", FrameFlags::EXACT_STOP.0),
                 ("DWELL", FrameFlags::DWELL.0),
                 ("PROGRAM_STOP", FrameFlags::PROGRAM_STOP.0),
+                ("SYNC", FrameFlags::SYNC.0),
             ],
         ),
         bits(
@@ -175,6 +176,8 @@ pub(super) fn codes() -> Vec<Codes> {
                 ("STOPPED", SpindleFlags::STOPPED.0),
                 ("ORIENTED", SpindleFlags::ORIENTED.0),
                 ("FAULT", SpindleFlags::FAULT.0),
+                ("ANGLE", SpindleFlags::ANGLE.0),
+                ("INDEX", SpindleFlags::INDEX.0),
             ],
         ),
         own!("STOPPED", "Why a servo stopped the joints by itself.", Stopped:

@@ -107,7 +107,7 @@ impl Interpreter {
         check_words(block, motion)?;
         self.check_axes(block)?;
         self.check_compensated(block)?;
-        self.feed(block)?;
+        self.feed(block, motion)?;
         if !block.is_plain() || block.has_any(Letters::of(b"ST")) {
             self.auxiliary(block, out)?;
             self.modes(block, out)?;
@@ -214,6 +214,8 @@ impl Interpreter {
             Motion::Lathe(cycle) => self.begin_lathe_cycle(block, cycle, out)?,
             Motion::Probe(probe) => self.probe(probe, block, out)?,
             Motion::Spline(spline) => self.spline(block, spline, out)?,
+            Motion::Thread => self.thread(block, out)?,
+            Motion::ThreadCycle => self.thread_cycle(block, out)?,
         }
         self.follow_surface(out);
         Ok(())

@@ -23,6 +23,8 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 10] {
         match motion {
             Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Letters::of(b"IJKRP"),
             Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQK"),
+            Some(Motion::Thread) => Letters::of(b"KQ"),
+            Some(Motion::ThreadCycle) => Letters::of(b"PIJKRQHEL"),
             Some(Motion::Lathe(LatheCycle::Finish)) => Letters::of(b"QDEP"),
             Some(Motion::Lathe(_)) => Letters::of(b"QDIR"),
             Some(Motion::Spline(spline)) => match spline {

@@ -92,6 +92,7 @@ impl Interpreter {
                 contour_side: Side::Left,
                 leaving_contour: false,
                 cubic_tail: None,
+                thread_end: None,
             },
             open_spline: None,
             offsets,

@@ -34,3 +34,4 @@ mod reading;
 mod remark;
 pub(crate) mod scope;
 pub(crate) mod state;
+mod thread_cycle;

@@ -178,6 +178,8 @@ const fn motion_code(motion: Option<Motion>) -> u16 {
         Some(Motion::Linear) => 10,
         Some(Motion::ArcClockwise) => 20,
         Some(Motion::ArcCounterclockwise) => 30,
+        Some(Motion::Thread) => 330,
+        Some(Motion::ThreadCycle) => 760,
         Some(Motion::Spline(spline)) => match spline {
             Spline::Cubic => 50,
             Spline::Quadratic => 51,

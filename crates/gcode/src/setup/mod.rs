@@ -4,5 +4,6 @@ pub(crate) mod m_codes;
 pub(crate) mod machine;
 pub(crate) mod options;
 pub(crate) mod subroutine_file;
+pub(crate) mod threading;
 pub(crate) mod tool_table;
 pub(crate) mod work_offsets;

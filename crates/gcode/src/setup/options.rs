@@ -8,6 +8,7 @@ use crate::execute::state::in_force::InForce;
 use crate::setup::m_codes::MCodes;
 use crate::setup::machine::Machine;
 use crate::setup::subroutine_file::Subroutines;
+use crate::setup::threading::Threading;
 use crate::setup::tool_table::ToolTable;
 use crate::setup::work_offsets::WorkOffsets;
 use crate::syntax::dialect::Dialect;
@@ -39,6 +40,8 @@ pub struct Options {
     /// The highest feed at which a probe may be used, mm/s or °/s: above it the machine could not
     /// stop in time. `None`: there is no probe, unless it is simulated.
     pub probing_v: Option<f64>,
+    /// What threads need (G33); `None`: nobody knows the angle of the spindle, and they are errors.
+    pub threading: Option<Threading>,
     /// How far the pieces a spline is made of may be away from it, mm, > 0. G64 P overrides it with
     /// a thousandth of P.
     pub spline_tolerance_mm: f64,
@@ -107,6 +110,7 @@ impl Default for Options {
             extruder: None,
             connections: Connections::None,
             probing_v: None,
+            threading: None,
             spline_tolerance_mm: 1e-5,
             m_codes: Arc::default(),
             waits_for_speed: false,

@@ -85,6 +85,8 @@ impl Codes {
             191 => set(&mut self.plane, Plane::Vw, span),
             200 => set(&mut self.units, Units::Inch, span),
             210 => set(&mut self.units, Units::Millimetre, span),
+            330 => self.set_motion(Some(Motion::Thread), span),
+            760 => self.set_motion(Some(Motion::ThreadCycle), span),
             382..=385 => self.set_motion(Some(Motion::Probe(probe(tenths))), span),
             400 | 410 | 411 | 420 | 421 => {
                 set(&mut self.cutter_radius, cutter_radius(tenths), span)

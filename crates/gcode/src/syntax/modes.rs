@@ -19,6 +19,10 @@ pub enum Motion {
     Probe(Probe),
     /// G5, G5.1, G5.2, G5.3, G6.2.
     Spline(Spline),
+    /// G33.
+    Thread,
+    /// G76.
+    ThreadCycle,
 }
 
 impl Motion {

@@ -30,10 +30,10 @@ pub(crate) fn unknown_m(value: f64, span: SourceSpan) -> Box<Fault> {
 #[cold]
 pub(crate) fn refused_g(tenths: u32, value: f64, span: SourceSpan) -> Box<Fault> {
     let (what, help) = match tenths {
-        330 | 331 | 760 => (
+        331 => (
             "motion synchronised with the spindle",
-            "it follows an encoder of the spindle, and none is read here; cut the thread with a tap \
-             (G84) or with a mill on a helix (G2, G3)",
+            "cut the thread with passes of G33 or G76, with a tap in a holder that gives way (G84), or with a \
+             mill on a helix (G2, G3)",
         ),
         870 => (
             "back boring",

@@ -2,7 +2,7 @@
 
 use super::probe::ProbeConfig;
 use super::program::ProgramConfig;
-use glidepath_gcode::{Connections, LoopLimits, MCodes, Machine, Options, Travel};
+use glidepath_gcode::{Connections, LoopLimits, MCodes, Machine, Options, Threading, Travel};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_interpolator::{Answer, Gate, Gates, JointHoming};
 use glidepath_kinematics::{
@@ -130,6 +130,8 @@ pub struct MachineConfig {
     pub feedback: FeedbackConfig,
     /// The probe, if there is one.
     pub probe: Option<ProbeConfig>,
+    /// The angle of the spindle is known, and threads can follow it.
+    pub has_spindle_encoder: bool,
     /// The preview by advance and retreat.
     pub preview: AdvanceRetreat,
     /// Name of the machine's shared memory; `None` if the file gives none.
@@ -296,6 +298,10 @@ impl MachineConfig {
             extruder: self.program.extruder,
             connections: self.program.connections,
             probing_v: self.probing_v(),
+            threading: self.has_spindle_encoder.then(|| Threading {
+                limits: self.limits(),
+                period_t: self.period_t(),
+            }),
             in_force: self.program.in_force.clone(),
             m_codes: Arc::new(m_codes),
             waits_for_speed: self.waits_for_speed(),

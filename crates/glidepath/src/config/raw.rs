@@ -30,6 +30,8 @@ pub(super) struct RawConfig {
     #[serde(default)]
     pub(super) probe: RawProbe,
     #[serde(default)]
+    pub(super) spindle: RawSpindle,
+    #[serde(default)]
     pub(super) link: RawLink,
     #[serde(default)]
     pub(super) preview: RawPreview,
@@ -150,6 +152,12 @@ pub(super) struct RawProbe {
     pub(super) input: Optional<i64>,
     pub(super) contact: Optional<String>,
     pub(super) overtravel: Optional<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawSpindle {
+    pub(super) encoder: Optional<bool>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -76,6 +76,7 @@ fn awaited(status: &Status) -> Option<Value> {
 fn awaited_name(status: &Status) -> String {
     match status.awaited_event() {
         Ok(Some(Event::MCode(code))) => format!("M{code}"),
+        Ok(Some(Event::Synchronise { .. })) => "the spindle's angle".to_owned(),
         _ => "an event".to_owned(),
     }
 }
@@ -84,11 +85,16 @@ fn awaited_name(status: &Status) -> String {
 pub(super) fn awaited_text(status: &Status) -> Option<String> {
     (status.awaited_since_ns != 0).then(|| {
         let waited_ns = status.updated_ns.saturating_sub(status.awaited_since_ns);
+        let (line, waited_s) = (status.awaited_line, microseconds(waited_ns) / 1e6);
+        if matches!(status.awaited_event(), Ok(Some(Event::Synchronise { .. }))) {
+            return format!(
+                "the spindle, for the thread of line {line}: its speed and its angle, for \
+                 {waited_s:.1} s"
+            );
+        }
         format!(
-            "the answer to {} of line {}, for {:.1} s (glidepath acknowledge)",
+            "the answer to {} of line {line}, for {waited_s:.1} s (glidepath acknowledge)",
             awaited_name(status),
-            status.awaited_line,
-            microseconds(waited_ns) / 1e6
         )
     })
 }

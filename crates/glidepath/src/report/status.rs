@@ -113,6 +113,17 @@ pub fn fault_text(status: &Status) -> Option<String> {
         FaultCause::EnableLost => "a drive lost its power".to_owned(),
         FaultCause::AuxTimeout => "an event was not acknowledged in time".to_owned(),
         FaultCause::AuxFailed => "what an event asked for has failed".to_owned(),
+        FaultCause::SpindleSpeed => {
+            "in a thread the spindle left 50 to 109 % of its speed: the thread is not finished"
+                .to_owned()
+        }
+        FaultCause::SpindleAngle => {
+            "in a thread the spindle's angle was not told, or made no sense: look at its encoder"
+                .to_owned()
+        }
+        FaultCause::ThreadLost => {
+            "in a thread the axes could not follow the spindle, or frames ran out".to_owned()
+        }
         FaultCause::LimitSwitch => "a joint stands at its limit switch".to_owned(),
         FaultCause::Homing => "a joint did not find its home".to_owned(),
     };

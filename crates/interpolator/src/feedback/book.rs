@@ -6,6 +6,7 @@ use super::following::FollowingErrors;
 use super::observation::Observation;
 use super::probe::ProbeWatch;
 use super::settings::FeedbackSettings;
+use super::spindle::SpindleWatch;
 use crate::config::Config;
 use crate::homing::{Conductor, Pair};
 use crate::message::Report;
@@ -34,6 +35,7 @@ pub(crate) struct DriveBook {
     pub(super) demands: Demands,
     pub(super) following: FollowingErrors,
     pub(super) probe: ProbeWatch,
+    pub(super) spindle: SpindleWatch,
     /// What is added to the drives' count.
     pub(super) offset: JointVector,
     /// Joints whose drives say that they know where they are, and are not believed.
@@ -77,6 +79,7 @@ impl DriveBook {
             demands: Demands::new(),
             following: FollowingErrors::default(),
             probe: ProbeWatch::new(settings.probe),
+            spindle: SpindleWatch::default(),
             offset: JointVector::zeros(),
             unhomed: 0,
             handover: 0,
@@ -93,6 +96,7 @@ impl DriveBook {
     /// Why it is not used, for the log; an empty text if that was said before.
     pub(crate) fn take(&mut self, feedback: &Feedback, now_ns: u64) -> Result<(), String> {
         self.claims.take(feedback, now_ns)?;
+        self.spindle.take(feedback);
         if self.probe.is_searching() {
             self.probe.look(feedback, &self.claims.joints());
         }
@@ -158,6 +162,7 @@ impl DriveBook {
             handover: self.handover,
             digital_in: joints.digital_in,
             spindle: joints.spindle,
+            turn: self.spindle.turn(),
             played: joints.played,
             contact_in: self.probe.found_in(),
         }

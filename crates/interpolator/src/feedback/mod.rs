@@ -19,9 +19,10 @@ mod judging;
 mod observation;
 mod probe;
 mod settings;
+mod spindle;
 
 pub(crate) use book::DriveBook;
-pub(crate) use observation::Observation;
+pub(crate) use observation::{Observation, Turn};
 pub use settings::{FeedbackSettings, JointFeedback, ProbeInput};
 
 #[cfg(test)]

@@ -4,6 +4,49 @@ use glidepath_geometry::AxisVector;
 use glidepath_kinematics::JointVector;
 use glidepath_link::SpindleFlags;
 
+/// Angle and speed of the spindle at one moment, from its samples up to then.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Turn {
+    /// When the last sample was measured, ns of `CLOCK_MONOTONIC`; 0 if nobody measures it.
+    pub(crate) sample_ns: u64,
+    /// Revolutions, never wrapped, whole at the index.
+    pub(crate) angle: f64,
+    /// rev/s.
+    pub(crate) speed: f64,
+    /// rev/s².
+    pub(crate) acceleration: f64,
+    /// There were samples enough to believe that.
+    pub(crate) is_settled: bool,
+    /// Index pulses so far; `None` if nobody counts them.
+    pub(crate) index_count: Option<u64>,
+}
+
+impl Turn {
+    /// Nobody measures it.
+    pub(crate) const NONE: Self = Self {
+        sample_ns: 0,
+        angle: 0.0,
+        speed: 0.0,
+        acceleration: 0.0,
+        is_settled: false,
+        index_count: None,
+    };
+
+    /// Angle and speed at a moment near now.
+    #[allow(clippy::cast_precision_loss, reason = "moments near each other")]
+    pub(crate) fn at(&self, at_ns: u64) -> (f64, f64) {
+        let t = if at_ns >= self.sample_ns {
+            (at_ns - self.sample_ns) as f64
+        } else {
+            -((self.sample_ns - at_ns) as f64)
+        } * 1e-9;
+        (
+            self.angle + t * (self.speed + 0.5 * t * self.acceleration),
+            self.speed + t * self.acceleration,
+        )
+    }
+}
+
 /// The drives at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Observation {
@@ -33,6 +76,8 @@ pub(crate) struct Observation {
     /// Digital inputs and spindle, of all stacks together.
     pub(crate) digital_in: u64,
     pub(crate) spindle: SpindleFlags,
+    /// The angle of the spindle, of the stack that measures it.
+    pub(crate) turn: Turn,
     /// Number of the last setpoint that every stack has played.
     pub(crate) played: u64,
     /// The epoch in which the probe has found what it looked for, 0 if it has not.
@@ -58,6 +103,7 @@ impl Observation {
             handover: 0,
             digital_in: 0,
             spindle: SpindleFlags(0),
+            turn: Turn::NONE,
             played: 0,
             contact_in: 0,
         }

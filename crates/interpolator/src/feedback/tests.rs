@@ -20,4 +20,5 @@ mod jogging;
 mod life_cycle;
 mod matrix;
 mod probing;
+mod threading;
 mod upsets;

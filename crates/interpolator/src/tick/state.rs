@@ -13,6 +13,7 @@ use crate::output::{Output, Written};
 use crate::probing::Probing;
 use crate::program_time::ProgramTime;
 use crate::rate::Rate;
+use crate::spindle::Pass;
 use crate::stop_requests::StopRequests;
 use crate::supply::Supply;
 use crate::track::Track;
@@ -33,6 +34,8 @@ pub(crate) struct Interpolator<'a> {
     pub(super) block_stop: BlockStop,
     pub(super) wait: Wait,
     pub(super) probing: Probing,
+    /// What program time follows instead of the clock, if it does.
+    pub(super) pass: Pass,
     pub(super) jog: Jog,
     pub(super) mover: Mover,
     pub(super) drives: Drives,
@@ -62,6 +65,7 @@ impl<'a> Interpolator<'a> {
             block_stop: BlockStop::none(),
             wait: Wait::default(),
             probing: Probing::default(),
+            pass: Pass::default(),
             jog: Jog::new(config),
             mover: Mover::new(config),
             drives: Drives::new(config),
@@ -130,6 +134,7 @@ impl<'a> Interpolator<'a> {
         self.jog.forget_path();
         self.wait.end();
         self.probing.close(end);
+        self.pass.end();
         self.output.rest();
         self.end_of_epoch = end;
         self.supply.end_epoch();

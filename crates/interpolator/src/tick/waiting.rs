@@ -40,6 +40,9 @@ impl Interpolator<'_> {
                 told_by: number,
                 by_feedback: gate.answer != Answer::Acknowledgement,
             };
+            if gate.answer == Answer::SpindleAngle && self.wait.awaited().is_none() {
+                self.pass.wait();
+            }
             self.wait.begin(gate, awaited);
         }
     }

@@ -130,7 +130,10 @@ impl Auxiliary {
                     *output = value;
                 }
             }
-            Event::ProgramStop(_) | Event::OptionalStop | Event::Probe { .. } => {}
+            Event::ProgramStop(_)
+            | Event::OptionalStop
+            | Event::Probe { .. }
+            | Event::Synchronise { .. } => {}
         }
         *self != before
     }

@@ -1,7 +1,7 @@
 //! Events on the wire: a code and one number.
 //!
-//! The lowest byte of the code is the kind; what is above it is the number of an output, and zero
-//! for every other kind.
+//! The lowest byte of the code is the kind; what is above it is the number of an output or the phase
+//! of a thread, and zero for every other kind.
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
@@ -29,11 +29,16 @@ coded! {
         AnalogOutput = 7,
         /// What follows looks for a contact; the value is 1 if it looks for the end of one.
         Probe = 8,
+        /// What follows goes with the spindle; the value is the way of a revolution, mm, and above
+        /// the lowest byte of the code stands the angle it begins at, in 2⁻²⁴ of a revolution.
+        Synchronise = 9,
     }
 }
 
-/// Bits of the kind; the number of an output is above them.
+/// Bits of the kind; the number of an output, or a phase, is above them.
 const KIND_BITS: u32 = 8;
+/// The longest way of a revolution, mm: beyond any machine.
+const PITCH_MOST_MM: f64 = 1e6;
 
 /// Code and value of an event.
 pub(crate) fn encode(event: Option<Event>) -> (u32, f64) {
@@ -46,6 +51,10 @@ pub(crate) fn encode(event: Option<Event>) -> (u32, f64) {
         Some(Event::ProgramStop(code)) => (EventKind::ProgramStop, f64::from(code)),
         Some(Event::OptionalStop) => (EventKind::OptionalStop, 0.0),
         Some(Event::Probe { release }) => (EventKind::Probe, f64::from(u8::from(release))),
+        Some(Event::Synchronise { pitch_mm, phase }) => {
+            output = phase;
+            (EventKind::Synchronise, pitch_mm)
+        }
         Some(Event::DigitalOutput { number, on }) => {
             output = number;
             (EventKind::DigitalOutput, f64::from(u8::from(on)))
@@ -67,12 +76,14 @@ pub(crate) fn decode(
     let fields = Fields(record);
     fields.finite("event_value", value)?;
     let number = kind >> KIND_BITS;
-    let is_output = |kind: u32| {
-        kind == EventKind::DigitalOutput.code() || kind == EventKind::AnalogOutput.code()
+    let has_number = |kind: u32| {
+        kind == EventKind::DigitalOutput.code()
+            || kind == EventKind::AnalogOutput.code()
+            || kind == EventKind::Synchronise.code()
     };
     let lowest = kind & ((1 << KIND_BITS) - 1);
     // A number beside a kind that has none makes a code that does not exist.
-    let kind = if is_output(lowest) { lowest } else { kind };
+    let kind = if has_number(lowest) { lowest } else { kind };
     Ok(match fields.code::<EventKind>("event_kind", kind)? {
         EventKind::None => None,
         EventKind::SpindleSpeed => Some(Event::SpindleSpeed(value)),
@@ -88,6 +99,13 @@ pub(crate) fn decode(
             release: yes_or_no(&fields, value)?,
         }),
         EventKind::AnalogOutput => Some(Event::AnalogOutput { number, value }),
+        EventKind::Synchronise => {
+            fields.range("event_value", value, f64::MIN_POSITIVE, PITCH_MOST_MM)?;
+            Some(Event::Synchronise {
+                pitch_mm: value,
+                phase: number,
+            })
+        }
     })
 }
 

@@ -60,8 +60,12 @@ impl SpindleFlags {
     pub const ORIENTED: Self = Self(1 << 2);
     /// Its drive reports a fault.
     pub const FAULT: Self = Self(1 << 3);
+    /// [`Feedback::spindle_angle`] is measured. Without it nothing follows the spindle.
+    pub const ANGLE: Self = Self(1 << 4);
+    /// [`Feedback::spindle_index_count`] is counted, and the angle is whole at the index.
+    pub const INDEX: Self = Self(1 << 5);
 
-    const KNOWN: u32 = (1 << 4) - 1;
+    const KNOWN: u32 = (1 << 6) - 1;
 
     /// True if all of `other` are set.
     #[must_use]
@@ -140,11 +144,12 @@ pub struct Feedback {
     pub digital_in: u64,
     /// Analog inputs, in whatever unit they have.
     pub analog_in: [f64; 8],
-    /// Angle of the spindle since some start, in revolutions, never wrapped.
+    /// Angle of the spindle at `sample_ns` since some start, in revolutions, never wrapped, falling
+    /// if it turns backwards. Where there is an index it is whole at every pulse.
     pub spindle_angle: f64,
     /// Speed of the spindle, rev/s, negative if it turns backwards.
     pub spindle_v: f64,
-    /// Index pulses of the spindle so far.
+    /// Index pulses of the spindle so far, in either direction.
     pub spindle_index_count: u64,
     /// Bits of [`SpindleFlags`].
     pub spindle_flags: u32,

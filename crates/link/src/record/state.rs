@@ -187,6 +187,12 @@ pub enum FaultCause {
     Homing,
     /// What an event asked for has failed.
     AuxFailed,
+    /// In a thread the spindle turned slower or faster than the axes can follow, or stood.
+    SpindleSpeed,
+    /// In a thread the angle of the spindle was not told any more, or made no sense.
+    SpindleAngle,
+    /// In a thread the axes could not follow the spindle, or frames ran out.
+    ThreadLost,
 }
 
 impl FaultCause {
@@ -210,6 +216,9 @@ impl FaultCause {
             Self::LimitSwitch => 11,
             Self::Homing => 12,
             Self::AuxFailed => 13,
+            Self::SpindleSpeed => 14,
+            Self::SpindleAngle => 15,
+            Self::ThreadLost => 16,
             Self::Frame(refusal) => Self::FRAME + refusal.code(),
         }
     }
@@ -231,6 +240,9 @@ impl FaultCause {
             11 => Some(Self::LimitSwitch),
             12 => Some(Self::Homing),
             13 => Some(Self::AuxFailed),
+            14 => Some(Self::SpindleSpeed),
+            15 => Some(Self::SpindleAngle),
+            16 => Some(Self::ThreadLost),
             Self::FRAME.. => match FrameRefusal::from_code(code - Self::FRAME) {
                 Some(refusal) => Some(Self::Frame(refusal)),
                 None => None,

@@ -118,11 +118,15 @@ impl Ledger {
             None => entry.line,
         };
         let rapid = entry.rate.rate.is_rapid();
+        let synchronised = entry.rate.rate.is_synchronised();
         Passing {
             line,
             rapid,
+            synchronised,
             planned_override: if rapid {
                 self.told.rapid_r
+            } else if synchronised {
+                1.0
             } else {
                 self.told.feed_r
             },

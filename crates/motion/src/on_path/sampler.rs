@@ -249,6 +249,7 @@ impl Sampler {
         self.grid.pass(Passing {
             line: piece.line_at(piece_s),
             rapid: piece.rapid,
+            synchronised: piece.synchronised,
             planned_override: piece.planned_override(),
         });
         *frame = self.grid.motion_frame(&Moving {
@@ -282,6 +283,7 @@ impl Sampler {
                 Passing {
                     line: piece.line,
                     rapid: piece.rapid,
+                    synchronised: piece.synchronised,
                     planned_override: piece.planned_override(),
                 },
                 &piece.events,
@@ -363,6 +365,7 @@ mod tests {
             },
             lines: Vec::new(),
             rapid: false,
+            synchronised: false,
             events: Vec::new(),
         };
         let mut settled = VecDeque::from([Settled::Motion {

@@ -8,10 +8,16 @@ use crate::PlanError;
 use crate::grid::FrameGrid;
 use crate::in_tube::SearchWeights;
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Frame, Item, Override, Settings};
+use glidepath_program::{Frame, Item, ItemKind, Override, Settings};
 
 /// How a short stretch is driven whose motion takes too long to be kept.
 const ALONE: Manner = Manner::InTube(SearchWeights::USUAL);
+
+/// Whether an item is of a pass of a thread. It is to be at its rate exactly between run-in and
+/// run-out, which S-curves are.
+fn follows_spindle(item: &Item) -> bool {
+    matches!(item.kind, ItemKind::Move { rate, .. } if rate.is_synchronised())
+}
 
 /// Plans stretch by stretch, as [`crate::Planner`] uses it.
 #[derive(Debug, Clone)]
@@ -35,7 +41,8 @@ enum Drive {
     None,
     /// A short stretch, planned to its end.
     Planned(Box<Planned>),
-    /// The same, planned as it comes: it takes too long to be kept, or its override was changed.
+    /// The same, planned as it comes: it takes too long to be kept, its override was changed, or it
+    /// follows the spindle.
     Live(Way),
     /// A long stretch.
     Long(Box<LongStretch>),
@@ -139,24 +146,39 @@ impl StretchEngine {
                     wanted: self.wanted,
                     items: items.into(),
                 };
-                self.drive = match Planned::new(entry.clone())? {
-                    Some(planned) => Drive::Planned(Box::new(planned)),
-                    None => Drive::Live(entry.way(ALONE)?),
+                let is_pass = entry.items.iter().any(follows_spindle);
+                self.drive = if is_pass {
+                    Drive::Live(entry.way(Manner::OnPath)?)
+                } else if let Some(planned) = Planned::new(entry.clone())? {
+                    Drive::Planned(Box::new(planned))
+                } else {
+                    Drive::Live(entry.way(ALONE)?)
                 };
             }
             Task::Part(item) => {
                 if matches!(self.drive, Drive::None) {
-                    let stretch = LongStretch::new(self.settings, self.position, self.wanted);
-                    self.drive = Drive::Long(Box::new(stretch));
+                    self.drive = if follows_spindle(&item) {
+                        let way =
+                            Way::new(Manner::OnPath, self.settings, self.position, self.wanted);
+                        Drive::Live(way)
+                    } else {
+                        let stretch = LongStretch::new(self.settings, self.position, self.wanted);
+                        Drive::Long(Box::new(stretch))
+                    };
                 }
-                if let Drive::Long(stretch) = &mut self.drive {
-                    stretch.push(&item)?;
+                match &mut self.drive {
+                    Drive::Long(stretch) => stretch.push(&item)?,
+                    // A pass of a thread.
+                    Drive::Live(way) => way.push(&item)?,
+                    Drive::None | Drive::Planned(_) => {}
                 }
             }
             Task::End(end) => {
                 self.end = end;
-                if let Drive::Long(stretch) = &mut self.drive {
-                    stretch.finish();
+                match &mut self.drive {
+                    Drive::Long(stretch) => stretch.finish(),
+                    Drive::Live(way) => way.finish(),
+                    Drive::None | Drive::Planned(_) => {}
                 }
             }
             Task::Rest(rest) => {

@@ -17,6 +17,15 @@ pub enum ResumeError {
          be resumed"
     )]
     OtherProgram,
+    /// The program was left in a pass of a thread.
+    #[error(
+        "the program was left in the thread of line {line}: retract the tool, and run it from that \
+         line or an earlier one (--from-line)"
+    )]
+    InThread {
+        /// The line.
+        line: u32,
+    },
     /// The machine does not stand where the program says.
     #[error(
         "the machine does not stand on this program's path at block {block} (line {line}): the \

@@ -6,11 +6,12 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::state::modal::Feed;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
-use crate::syntax::modes::FeedMode;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::modes::{FeedMode, Motion};
 
 impl Interpreter {
     /// Feed mode and F.
-    pub(crate) fn feed(&mut self, block: &Block) -> Outcome<()> {
+    pub(crate) fn feed(&mut self, block: &Block, motion: Option<Motion>) -> Outcome<()> {
         let modal = &mut self.state.modal;
         if let Some(Coded { code, .. }) = block.codes.feed_mode {
             if modal.feed_mode != code {
@@ -19,7 +20,9 @@ impl Interpreter {
             }
             modal.feed_mode = code;
         }
-        let Some(feed) = block.get(b'F') else {
+        // On a FANUC the F of a thread is its pitch.
+        let is_pitch = block.dialect == Dialect::Fanuc && matches!(motion, Some(Motion::Thread));
+        let Some(feed) = block.get(b'F').filter(|_| !is_pitch) else {
             return Ok(());
         };
         if feed <= 0.0 {

@@ -145,14 +145,17 @@ impl Interpreter {
         });
         let motion = codes.motion.filter(|motion| match motion.code {
             Some(Motion::Lathe(cycle)) => cycle != LatheCycle::Finish,
-            code => matches!(code, Some(Motion::Cycle(_) | Motion::Probe(_))),
+            code => matches!(
+                code,
+                Some(Motion::Cycle(_) | Motion::Probe(_) | Motion::Thread | Motion::ThreadCycle)
+            ),
         });
         let plane = codes
             .plane
             .filter(|plane| plane.code != self.state.modal.plane);
         let refused = [
             non_modal.map(|c| (c.span, "changing coordinates or going to references")),
-            motion.map(|c| (c.span, "a cycle or a probing move")),
+            motion.map(|c| (c.span, "a cycle, a thread or a probing move")),
             plane.map(|c| (c.span, "another plane")),
             codes.system.map(|c| (c.span, "another coordinate system")),
             codes.tool_length.map(|c| (c.span, "another tool length")),

@@ -60,10 +60,18 @@ impl Interpreter {
                 }),
                 false,
             ) => {
-                let needs = matches!(motion, Motion::Cycle(_) | Motion::Probe(_));
+                let needs = matches!(
+                    motion,
+                    Motion::Cycle(_) | Motion::Probe(_) | Motion::Thread | Motion::ThreadCycle
+                );
                 if needs && !has_axes {
                     let meaning = "where to go";
-                    return Err(missing(span, "a cycle or probing move", "an axis", meaning));
+                    return Err(missing(
+                        span,
+                        "a cycle, a thread or a probing move",
+                        "an axis",
+                        meaning,
+                    ));
                 }
                 Ok((has_axes || motion.may_lack_axes()).then_some(motion))
             }

@@ -15,3 +15,4 @@ pub(crate) mod speed;
 mod spline;
 mod straight;
 mod target;
+pub(crate) mod thread;

@@ -42,4 +42,6 @@ pub(crate) struct State {
     /// The way from the end of the last move to the control point that continues it smoothly, mm;
     /// `None` if that move was no G5.
     pub(crate) cubic_tail: Option<[f64; 2]>,
+    /// Where the last pass of a thread ended.
+    pub(crate) thread_end: Option<AxisVector>,
 }

@@ -17,6 +17,7 @@ mod path_words;
 mod preview;
 mod probe;
 mod program;
+mod spindle;
 mod stops;
 mod values;
 
@@ -29,7 +30,7 @@ use super::machine::{AxisConfig, MachineConfig};
 use super::raw::RawConfig;
 use axis_share::axis_share;
 use glidepath_geometry::Axis;
-use glidepath_kinematics::AxisShare;
+use glidepath_kinematics::{AxisShare, Mechanism};
 use home::HomeSurroundings;
 use toml::Spanned;
 
@@ -98,6 +99,7 @@ pub(super) fn judge(
         },
     );
     let expects_feedback = feedback.is_expected;
+    let is_axes = matches!(mechanism, Mechanism::Trivial(_));
     let config = MachineConfig {
         mechanism,
         home_of_joints,
@@ -110,6 +112,7 @@ pub(super) fn judge(
         jog,
         feedback,
         probe: judge.probe(raw.probe, expects_feedback),
+        has_spindle_encoder: judge.spindle(&raw.spindle, is_axes),
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
         program: judge.program(raw.program, expects_feedback),

@@ -8,6 +8,7 @@ mod key;
 mod mechanisms;
 mod probing;
 mod programs;
+mod spindle;
 mod tables;
 
 pub use key::{Key, LeftOut, Takes};
@@ -24,6 +25,7 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         tables::JOG,
         tables::FEEDBACK,
         probing::PROBE,
+        spindle::SPINDLE,
         programs::LINK,
         programs::PROGRAM,
         programs::M_CODES,

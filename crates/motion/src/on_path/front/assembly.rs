@@ -167,6 +167,7 @@ impl Assembly {
             length_s,
             limit: rule.limit(self.wanted, &self.settings.limits),
             rapid: rule.is_rapid(),
+            synchronised: rule.is_synchronised(),
             rule,
             planned: self.wanted,
             line,

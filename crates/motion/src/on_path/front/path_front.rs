@@ -89,6 +89,10 @@ impl PathFront {
             rate,
             axes_v: axes_speed(&segment, &limits),
         };
+        if rate.is_synchronised() {
+            // A pass is not interrupted, however much faster that were.
+            assembly.blocks.lose();
+        }
         if assembly.blocks.keeps() {
             let rule = assembly.rule(&segment, programmed(), mode);
             let shape = Shape::Segment(segment);

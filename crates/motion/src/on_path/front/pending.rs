@@ -49,6 +49,7 @@ impl Pending {
                 0.5 * self.length_s
             },
             rate_v: self.rate_v,
+            synchronised: self.rate.rate.is_synchronised(),
             error_mm: self.error_mm,
         }
     }

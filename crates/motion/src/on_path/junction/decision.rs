@@ -34,6 +34,8 @@ pub(crate) struct JunctionSide<'a> {
     pub rate_v: f64,
     /// How far the segment is from the program already, mm.
     pub error_mm: f64,
+    /// It follows the spindle.
+    pub synchronised: bool,
 }
 
 /// How the path passes from one segment to the next.
@@ -127,7 +129,8 @@ pub(crate) fn join(from: JunctionSide<'_>, to: JunctionSide<'_>, settings: &Sett
         settings,
     };
     match corner.best() {
-        Some(found) if !corner.stop_is_faster(&found) => Junction::Blend {
+        // What follows the spindle does not wait for it at a corner.
+        Some(found) if from.synchronised || !corner.stop_is_faster(&found) => Junction::Blend {
             transition: found.transition,
             trim_s: found.d_s,
             curve: found.curve,

@@ -20,6 +20,8 @@ pub(crate) struct Piece {
     /// The lines of further blocks on it, and where in the shape they start.
     pub lines: Vec<(f64, ProgramLine)>,
     pub rapid: bool,
+    /// It follows the spindle.
+    pub synchronised: bool,
     /// Events that happen when the piece is entered, without stopping.
     pub events: Vec<Event>,
 }
@@ -43,6 +45,8 @@ impl Piece {
     pub(crate) const fn planned_override(&self) -> f64 {
         if self.rapid {
             self.planned.rapid_r
+        } else if self.synchronised {
+            1.0
         } else {
             self.planned.feed_r
         }

@@ -203,6 +203,15 @@ impl SpeedRule {
             Self::Curve { rates, .. } => rates.iter().all(is_rapid),
         }
     }
+
+    /// True if the piece follows the spindle.
+    pub(crate) fn is_synchronised(&self) -> bool {
+        let is_synchronised = |rate: &ProgrammedRate| rate.rate.is_synchronised();
+        match self {
+            Self::Straight { rate, .. } | Self::Arc { rate, .. } => is_synchronised(rate),
+            Self::Curve { rates, .. } => rates.iter().any(is_synchronised),
+        }
+    }
 }
 
 impl CurveRule {

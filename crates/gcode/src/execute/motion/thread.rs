@@ -1,0 +1,224 @@
+//! Threads: G33, and the passes of cycles.
+//!
+//! A pass goes from rest to rest. Before it stands the event that tells how far the path goes with
+//! each revolution of the spindle, and at which angle the pass begins. Its moves are planned for a
+//! spindle that turns a little faster than programmed; whoever executes them follows the spindle.
+
+use glidepath_geometry::{AxisVector, Segment};
+use glidepath_program::{Event, Item, ItemKind, PHASE_STEPS, PathMode, Rate};
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::settled::{MIN_MOVE, settled};
+use crate::setup::threading::{SPEED_RESERVE, Threading};
+use crate::syntax::block::Block;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::word_check::missing;
+
+/// A straight part of a pass: where it ends, in machine coordinates, and how far it goes with each
+/// revolution, mm.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Groove {
+    pub(crate) end: AxisVector,
+    pub(crate) pitch_mm: f64,
+    /// By how much the corner at its end may be rounded, mm, > 0 where another one follows.
+    pub(crate) corner_mm: f64,
+}
+
+impl Interpreter {
+    /// G33: a pass to the point of the block.
+    pub(crate) fn thread(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        let span = block.motion_span();
+        let is_fanuc = block.dialect == Dialect::Fanuc;
+        let (letter, other) = if is_fanuc { (b'F', b'K') } else { (b'K', b'F') };
+        let name = char::from(letter);
+        let Some(pitch) = block.get(letter) else {
+            let meaning = "the way of a revolution along the thread";
+            return Err(missing(span, "G33", &name.to_string(), meaning));
+        };
+        if block.get(other).is_some() {
+            let message = format!("G33 with {}", char::from(other));
+            return Err(
+                Fault::new(DiagnosticCode::InvalidValue, block.span(other), message)
+                    .because("the spindle alone gives the speed of a thread")
+                    .help(format!(
+                        "the way of a revolution is {name}; remove the other word"
+                    )),
+            );
+        }
+        if pitch <= 0.0 {
+            let message = format!("the pitch {name}{pitch} is not above zero");
+            return Err(
+                Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
+                    .help("write the way of a revolution; the axis words give its direction"),
+            );
+        }
+        let target = self.target(block)?;
+        if self.state.thread_end == Some(self.state.path_end) {
+            let message = "a thread that goes on from another one";
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("a pass ends at rest, and what follows would begin at any angle")
+                .help("write the thread in one block, or retract between two"));
+        }
+        let phase = self.phase(block)?;
+        let pitch_mm = pitch * self.state.modal.units.mm();
+        let groove = Groove {
+            end: settled(self.state.path_end, target, [None, None]),
+            pitch_mm,
+            corner_mm: 0.0,
+        };
+        self.pass(block, &[groove], phase, out)?;
+        self.state.position = target;
+        Ok(())
+    }
+
+    /// The angle at which a pass begins, of the Q word: degrees, on a FANUC thousandths of them.
+    fn phase(&self, block: &Block) -> Outcome<u32> {
+        let Some(angle) = block.get(b'Q') else {
+            return Ok(0);
+        };
+        let degrees = match block.dialect {
+            Dialect::Fanuc => angle / 1000.0,
+            _ => angle,
+        };
+        if !(0.0..=360.0).contains(&degrees) {
+            let message = format!("a thread cannot begin at {degrees} degrees");
+            return Err(
+                Fault::new(DiagnosticCode::InvalidValue, block.span(b'Q'), message)
+                    .help("write an angle of the spindle from 0 to 360 degrees"),
+            );
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "range checked"
+        )]
+        let steps = (degrees / 360.0 * f64::from(PHASE_STEPS)).round() as u32;
+        Ok(steps % PHASE_STEPS)
+    }
+
+    /// A pass along grooves, one after the other, from where the tool is.
+    pub(crate) fn pass(
+        &mut self,
+        block: &Block,
+        grooves: &[Groove],
+        phase: u32,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let span = block.motion_span();
+        let threading = self.check_spindle(span)?;
+        let first = out.len();
+        for (index, groove) in grooves.iter().enumerate() {
+            let segment = Segment::line(self.state.path_end, groove.end);
+            if segment.length() <= MIN_MOVE {
+                let message = "a thread without a length";
+                return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
+                    .help("write an end that is not where the tool is"));
+            }
+            let ends = [index == 0, index + 1 == grooves.len()];
+            let speed_v = self.check_groove(span, &threading, &segment, groove.pitch_mm, ends)?;
+            self.check_limits(block, &groove.end, &groove.end, "the end")?;
+            if out.len() == first {
+                let pitch_mm = groove.pitch_mm;
+                self.push(out, ItemKind::Event(Event::Synchronise { pitch_mm, phase }));
+            }
+            self.state.path_end = groove.end;
+            let mode = if ends[1] {
+                PathMode::ExactStop
+            } else {
+                PathMode::Continuous {
+                    tolerance_mm: Some(groove.corner_mm),
+                }
+            };
+            let rate = Rate::Synchronised(speed_v);
+            self.push(
+                out,
+                ItemKind::Move {
+                    segment,
+                    rate,
+                    mode,
+                },
+            );
+        }
+        self.state.position = self.state.path_end;
+        self.state.thread_end = Some(self.state.path_end);
+        self.state.leaving_contour = false;
+        Ok(())
+    }
+
+    /// Refuses a thread where the spindle is not known, or does not turn steadily.
+    fn check_spindle(&self, span: SourceSpan) -> Outcome<Threading> {
+        let Some(threading) = self.options.threading else {
+            let message = "the angle of the spindle is not known";
+            return Err(Fault::new(DiagnosticCode::NotConnected, span, message)
+                .because("a thread follows it, and the machine's configuration names no encoder")
+                .help(
+                    "write `encoder = true` into the table [spindle] if the drives' feedback tells \
+                     the angle, or where nothing is driven",
+                ));
+        };
+        let spindle = &self.state.spindle;
+        let message = if spindle.turning.is_none() {
+            "a thread with the spindle at rest"
+        } else if spindle.speed <= 0.0 {
+            "a thread with a spindle without a speed"
+        } else if spindle.follows_tool() {
+            "a thread with a spindle whose speed follows the tool (G96)"
+        } else if self.compensation.is_some() {
+            "a thread with cutter radius compensation"
+        } else {
+            return Ok(threading);
+        };
+        Err(Fault::new(DiagnosticCode::Spindle, span, message)
+            .because("the passes of a thread are cut at one steady speed, along its own line")
+            .help("write G97, G40, an S word and M3 or M4 before it"))
+    }
+
+    /// Refuses what the axes cannot do. Returns the speed that it is planned with, mm/s.
+    fn check_groove(
+        &self,
+        span: SourceSpan,
+        threading: &Threading,
+        segment: &Segment,
+        pitch_mm: f64,
+        [is_first, is_last]: [bool; 2],
+    ) -> Outcome<f64> {
+        let speed = self.state.spindle.speed;
+        let speed_v = pitch_mm * SPEED_RESERVE * speed / 60.0;
+        let direction = segment.jet(0.0).d1;
+        let most_v = threading.most_v(&direction);
+        if speed_v > most_v {
+            let most = (speed * most_v / speed_v).floor();
+            let message = format!(
+                "a pitch of {pitch_mm:.3} mm at S{speed} takes {:.0} mm/min",
+                speed_v * 60.0
+            );
+            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
+                .because(format!(
+                    "the axes go {:.0} mm/min there at most, with a reserve of 10 % for the spindle",
+                    most_v * 60.0
+                ))
+                .help(format!("write S{most} or less")));
+        }
+        let run_in_mm = threading.run_in_mm(&direction, speed_v);
+        let ends = f64::from(u8::from(is_first)) + f64::from(u8::from(is_last));
+        let least_mm = ends * run_in_mm + threading.steady_mm(speed_v);
+        let length_mm = segment.length();
+        if length_mm < least_mm {
+            let message = format!("a thread of {length_mm:.3} mm is too short at S{speed}");
+            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
+                .because(format!(
+                    "the axes need {run_in_mm:.3} mm to come to its speed, and as much to stop"
+                ))
+                .help(format!(
+                    "begin further away, at least {least_mm:.3} mm in all, or turn more slowly"
+                )));
+        }
+        Ok(speed_v)
+    }
+}
+
+#[cfg(test)]
+mod tests;

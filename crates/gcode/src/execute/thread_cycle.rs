@@ -1,0 +1,238 @@
+//! G76: a thread in passes, each deeper than the one before (LinuxCNC's form).
+//!
+//! ```text
+//!   x0 ─── drive line ────────────────────────●  where the cycle begins, and ends
+//!         │ |I|: offset of the peak
+//!   ──────┴───────── peak of the thread ──────
+//!          ╲ J, then J·n^(1/R) after n passes
+//!           ╲______ full depth |I| + K _______    P: way of a revolution along Z
+//!   Z end ◄──────────────────────────────────
+//! ```
+//!
+//! Each pass begins further along by what it is deeper times tan Q, so that it cuts with one flank
+//! (the compound slide of a lathe at the angle Q). E is the length along Z of the ways in (L1), out
+//! (L2) or both (L3), which rise from full depth to the peak.
+
+use glidepath_geometry::{AxisVector, Plane};
+use glidepath_program::Item;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::speed::Pace;
+use crate::execute::motion::thread::Groove;
+use crate::syntax::block::Block;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::word_check::{missing, whole};
+
+/// Most passes of a thread: more is a mistake in a word.
+const MAX_PASSES: u32 = 1000;
+/// Most spring passes.
+const MAX_SPRINGS: u32 = 100;
+/// The steepest angle of the slide, degrees.
+const MAX_SLIDE: f64 = 80.0;
+
+/// What the words of a block say, in mm.
+#[derive(Debug, Clone, Copy)]
+struct ThreadCycle {
+    /// Where it begins, in program coordinates.
+    start: AxisVector,
+    end_z: f64,
+    pitch_mm: f64,
+    /// 1 if the thread is inside and cut towards higher X, −1 if it is outside.
+    inwards: f64,
+    peak_mm: f64,
+    first_mm: f64,
+    height_mm: f64,
+    degression: f64,
+    /// Tangent of the slide's angle, with the sign of the direction of Z.
+    slide: f64,
+    springs: u32,
+    /// Length of the ways in and out along Z, with the sign of its direction.
+    taper_z: f64,
+    has_entry: bool,
+    has_exit: bool,
+}
+
+impl Interpreter {
+    /// G76.
+    pub(crate) fn thread_cycle(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        let cycle = self.read_thread_cycle(block)?;
+        for depth_mm in cycle.depths(block.motion_span())? {
+            self.thread_pass(block, &cycle, depth_mm, out)?;
+        }
+        self.rapid_to(block, cycle.start, out)?;
+        // No axis word behind the cycle can be meant for it.
+        self.state.modal.motion = None;
+        Ok(())
+    }
+
+    fn read_thread_cycle(&self, block: &Block) -> Outcome<ThreadCycle> {
+        let span = block.motion_span();
+        if block.dialect != Dialect::LinuxCnc {
+            let message = "G76 in this dialect is not supported";
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("its words mean something else than LinuxCNC's, or another cycle")
+                .help("write the passes out with G33"));
+        }
+        if self.state.modal.plane != Plane::Zx {
+            let message = "G76 outside the plane ZX";
+            return Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+                .because("its passes go along Z, and are deeper in X")
+                .help("write G18"));
+        }
+        let other = (0_u8..26)
+            .map(|slot| b'A' + slot)
+            .find(|letter| b"XYABCUVW".contains(letter) && block.get(*letter).is_some());
+        if let Some(letter) = other {
+            let message = format!("G76 with {}", char::from(letter));
+            return Err(
+                Fault::new(DiagnosticCode::UnusedWord, block.span(letter), message)
+                    .because("the thread begins at the X where the tool is, and ends at Z")
+                    .help("remove the word; go to the drive line before the cycle"),
+            );
+        }
+        let number = |letter: u8, meaning: &str| {
+            block
+                .get(letter)
+                .ok_or_else(|| missing(span, "G76", &char::from(letter).to_string(), meaning))
+        };
+        let scale = self.state.modal.units.mm();
+        // G7: what is measured across is a diameter.
+        let across = if self.state.modal.diameter {
+            0.5 * scale
+        } else {
+            scale
+        };
+        let pitch_mm = number(b'P', "the way of a revolution")? * scale;
+        let peak = number(
+            b'I',
+            "how far the peak is from where the tool is; below 0: outside",
+        )?;
+        let first_mm = number(b'J', "the depth of the first pass")? * across;
+        let height_mm = number(b'K', "the full depth of the thread")? * across;
+        number(b'Z', "where the thread ends")?;
+        let start = self.offsets.to_program(self.state.position);
+        let end_z = self.offsets.to_program(self.target(block)?)[2];
+        let degression = block.get(b'R').unwrap_or(1.0);
+        let degrees = block.get(b'Q').unwrap_or(0.0);
+        let ways = whole(block, b'L', 3)?.unwrap_or(0);
+        let taper_mm = block.get(b'E').unwrap_or(0.0) * scale;
+        let refuse = |letter: u8, is_wrong: bool, rule: &str| {
+            let message = format!("{} of G76 is out of range", char::from(letter));
+            let fault = || {
+                Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
+                    .help(format!("write {rule}"))
+            };
+            if is_wrong { Err(fault()) } else { Ok(()) }
+        };
+        let length_mm = (end_z - start[2]).abs();
+        refuse(b'P', pitch_mm <= 0.0, "a pitch above zero")?;
+        refuse(b'I', peak == 0.0, "an offset above or below zero")?;
+        refuse(b'J', first_mm <= 0.0, "a depth above zero")?;
+        refuse(b'K', height_mm <= first_mm, "a depth greater than J")?;
+        refuse(b'R', degression < 1.0, "1 or more")?;
+        refuse(
+            b'Q',
+            !(0.0..=MAX_SLIDE).contains(&degrees),
+            "0 to 80 degrees",
+        )?;
+        refuse(b'E', taper_mm < 0.0, "a length of zero or more")?;
+        refuse(
+            b'E',
+            2.0 * taper_mm > length_mm,
+            "half of the length of the thread at most",
+        )?;
+        let direction = 1.0_f64.copysign(start[2] - end_z);
+        Ok(ThreadCycle {
+            start,
+            end_z,
+            pitch_mm,
+            inwards: 1.0_f64.copysign(peak),
+            peak_mm: peak.abs() * across,
+            first_mm,
+            height_mm,
+            degression,
+            slide: direction * degrees.to_radians().tan(),
+            springs: whole(block, b'H', MAX_SPRINGS)?.unwrap_or(0),
+            taper_z: direction * taper_mm,
+            has_entry: taper_mm > 0.0 && ways & 1 != 0,
+            has_exit: taper_mm > 0.0 && ways & 2 != 0,
+        })
+    }
+
+    /// A pass at a depth below the drive line, and the way back to its beginning.
+    fn thread_pass(
+        &mut self,
+        block: &Block,
+        cycle: &ThreadCycle,
+        depth_mm: f64,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let at = |x: f64, z: f64| {
+            let mut point = cycle.start;
+            (point[0], point[2]) = (x, z);
+            point
+        };
+        let [start_x, start_z] = [cycle.start[0], cycle.start[2]];
+        let shift_z = (depth_mm - cycle.peak_mm) * cycle.slide;
+        let deep_x = start_x + cycle.inwards * depth_mm;
+        let high_x = start_x + cycle.inwards * (depth_mm - cycle.height_mm);
+        let begin_z = start_z - shift_z;
+        let end_z = cycle.end_z + cycle.height_mm * cycle.slide - shift_z;
+        let along = cycle.taper_z.hypot(cycle.height_mm) / cycle.taper_z.abs();
+        self.rapid_to(block, at(high_x, begin_z), out)?;
+        let mut grooves = Vec::with_capacity(3);
+        let mut groove = |point, pitch_mm| grooves.push((point, pitch_mm));
+        if cycle.has_entry {
+            groove(at(deep_x, begin_z - cycle.taper_z), cycle.pitch_mm * along);
+        } else {
+            self.rapid_to(block, at(deep_x, begin_z), out)?;
+        }
+        if cycle.has_exit {
+            groove(at(deep_x, end_z + cycle.taper_z), cycle.pitch_mm);
+            groove(at(high_x, end_z), cycle.pitch_mm * along);
+        } else {
+            groove(at(deep_x, end_z), cycle.pitch_mm);
+        }
+        let corner_mm = 0.25 * cycle.taper_z.abs().min(cycle.height_mm);
+        let grooves: Vec<Groove> = grooves
+            .into_iter()
+            .map(|(point, pitch_mm)| Groove {
+                end: self.offsets.to_machine(point),
+                pitch_mm,
+                corner_mm,
+            })
+            .collect();
+        self.pass(block, &grooves, 0, out)?;
+        self.rapid_to(block, at(start_x, end_z), out)?;
+        self.rapid_to(block, at(start_x, begin_z), out)
+    }
+
+    fn rapid_to(&mut self, block: &Block, program: AxisVector, out: &mut Vec<Item>) -> Outcome<()> {
+        let target = self.offsets.to_machine(program);
+        self.straight(block, target, Pace::Rapid, out)
+    }
+}
+
+impl ThreadCycle {
+    /// The depths of the passes below the drive line, one after the other.
+    fn depths(&self, span: SourceSpan) -> Outcome<Vec<f64>> {
+        let full_mm = self.peak_mm + self.height_mm;
+        let mut depths = Vec::new();
+        for pass in 1..=MAX_PASSES {
+            let depth_mm =
+                self.peak_mm + self.first_mm * f64::from(pass).powf(1.0 / self.degression);
+            if depth_mm >= full_mm {
+                depths.extend((0..=self.springs).map(|_| full_mm));
+                return Ok(depths);
+            }
+            depths.push(depth_mm);
+        }
+        let message = format!("a thread of more than {MAX_PASSES} passes");
+        Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+            .because("the first pass (J) is small beside the depth (K), or R is high")
+            .help("write a greater J or a smaller R"))
+    }
+}

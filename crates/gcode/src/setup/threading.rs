@@ -1,0 +1,48 @@
+//! What threads need of a machine.
+
+use glidepath_geometry::{AxisVector, limit_along};
+use glidepath_program::Limits;
+
+/// A pass of a thread is planned for a spindle that turns faster than programmed by this factor, so
+/// that the axes can follow one that does.
+pub(crate) const SPEED_RESERVE: f64 = 1.1;
+/// Periods at a steady speed that a pass has at least.
+const STEADY_PERIODS: f64 = 4.0;
+
+/// A machine whose axes can follow the angle of its spindle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Threading {
+    /// What its axes can do.
+    pub limits: Limits,
+    /// Interpolation period, s, > 0.
+    pub period_t: f64,
+}
+
+impl Threading {
+    /// The highest speed along a direction of length 1, mm/s.
+    pub(crate) fn most_v(&self, direction: &AxisVector) -> f64 {
+        limit_along(direction, &self.limits.velocity)
+    }
+
+    /// How far the axes go along a direction of length 1 until they have a speed, mm: with the
+    /// acceleration a and the jerk j there,
+    ///
+    /// ```text
+    ///   v √(v / j)   if v ≤ a² / j,   else   v / 2 (v / a + a / j)
+    /// ```
+    pub(crate) fn run_in_mm(&self, direction: &AxisVector, v: f64) -> f64 {
+        let path = &self.limits.path;
+        let a = limit_along(direction, &self.limits.acceleration).min(path.tangential_a);
+        let j = limit_along(direction, &self.limits.jerk).min(path.jerk_j);
+        if v <= a * a / j {
+            v * (v / j).sqrt()
+        } else {
+            0.5 * v * (v / a + a / j)
+        }
+    }
+
+    /// What a pass needs between its run-in and its run-out, mm.
+    pub(crate) fn steady_mm(&self, v: f64) -> f64 {
+        STEADY_PERIODS * self.period_t * v
+    }
+}
