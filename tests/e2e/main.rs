@@ -22,3 +22,4 @@ mod run;
 mod service;
 mod services;
 mod subscribers;
+mod threading;

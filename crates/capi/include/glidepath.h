@@ -144,6 +144,9 @@ enum {
     GP_FAULT_LIMIT_SWITCH = 11,
     GP_FAULT_HOMING = 12,
     GP_FAULT_AUX_FAILED = 13,
+    GP_FAULT_SPINDLE_SPEED = 14,
+    GP_FAULT_SPINDLE_ANGLE = 15,
+    GP_FAULT_THREAD_LOST = 16,
     GP_FAULT_FRAME_NOT_FINITE = 0x101,
     GP_FAULT_FRAME_MALFORMED = 0x102,
     GP_FAULT_FRAME_PERIOD = 0x103,
@@ -192,7 +195,8 @@ enum {
     GP_EVENT_OPTIONAL_STOP = 5,
     GP_EVENT_DIGITAL_OUTPUT = 6,
     GP_EVENT_ANALOG_OUTPUT = 7,
-    GP_EVENT_PROBE = 8
+    GP_EVENT_PROBE = 8,
+    GP_EVENT_SYNCHRONISE = 9
 };
 
 /* What a drive does, by the states of CiA 402. */
@@ -223,7 +227,8 @@ enum {
     GP_FLAG_RAPID = 0x4,
     GP_FLAG_EXACT_STOP = 0x8,
     GP_FLAG_DWELL = 0x10,
-    GP_FLAG_PROGRAM_STOP = 0x20
+    GP_FLAG_PROGRAM_STOP = 0x20,
+    GP_FLAG_SYNC = 0x40
 };
 
 /* Properties of a setpoint. */
@@ -247,7 +252,9 @@ enum {
     GP_SPINDLE_AT_SPEED = 0x1,
     GP_SPINDLE_STOPPED = 0x2,
     GP_SPINDLE_ORIENTED = 0x4,
-    GP_SPINDLE_FAULT = 0x8
+    GP_SPINDLE_FAULT = 0x8,
+    GP_SPINDLE_ANGLE = 0x10,
+    GP_SPINDLE_INDEX = 0x20
 };
 
 /* Why a servo stopped the joints by itself. */

@@ -108,7 +108,7 @@ impl Spindle {
         let (before, most) = ((self.speed, self.angle), by_force * acceleration * step_t);
         self.speed += away.clamp(-most, most);
         self.angle += f64::midpoint(before.0, self.speed) * step_t;
-        if !self.is_index_lost && self.angle.floor() != before.1.floor() {
+        if !self.is_index_lost && (self.angle.floor() - before.1.floor()).abs() > 0.5 {
             self.index_count += 1;
         }
         if !self.is_encoder_lost {

@@ -108,6 +108,9 @@ class Fault(enum.IntEnum):
     LIMIT_SWITCH = 11
     HOMING = 12
     AUX_FAILED = 13
+    SPINDLE_SPEED = 14
+    SPINDLE_ANGLE = 15
+    THREAD_LOST = 16
     FRAME_NOT_FINITE = 257
     FRAME_MALFORMED = 258
     FRAME_PERIOD = 259
@@ -161,6 +164,7 @@ class Event(enum.IntEnum):
     DIGITAL_OUTPUT = 6
     ANALOG_OUTPUT = 7
     PROBE = 8
+    SYNCHRONISE = 9
 
 
 class Drive(enum.IntEnum):
@@ -195,6 +199,7 @@ class Flag(enum.IntFlag):
     EXACT_STOP = 8
     DWELL = 16
     PROGRAM_STOP = 32
+    SYNC = 64
 
 
 class Mark(enum.IntFlag):
@@ -222,6 +227,8 @@ class Spindle(enum.IntFlag):
     STOPPED = 2
     ORIENTED = 4
     FAULT = 8
+    ANGLE = 16
+    INDEX = 32
 
 
 class Stopped(enum.IntEnum):

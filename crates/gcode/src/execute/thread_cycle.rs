@@ -1,7 +1,7 @@
-//! G76: a thread in passes, each deeper than the one before (LinuxCNC's form).
+//! G76: a thread in passes along Z, each deeper in X than the one before (LinuxCNC's form).
 //!
 //! ```text
-//!   x0 ─── drive line ────────────────────────●  where the cycle begins, and ends
+//!   x0 ●── drive line ────────────────────────●  where the cycle begins; it ends at the other end
 //!         │ |I|: offset of the peak
 //!   ──────┴───────── peak of the thread ──────
 //!          ╲ J, then J·n^(1/R) after n passes
@@ -13,7 +13,7 @@
 //! (the compound slide of a lathe at the angle Q). E is the length along Z of the ways in (L1), out
 //! (L2) or both (L3), which rise from full depth to the peak.
 
-use glidepath_geometry::{AxisVector, Plane};
+use glidepath_geometry::AxisVector;
 use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
@@ -62,13 +62,16 @@ impl Interpreter {
         for depth_mm in cycle.depths(block.motion_span())? {
             self.thread_pass(block, &cycle, depth_mm, out)?;
         }
-        self.rapid_to(block, cycle.start, out)?;
+        let mut end = cycle.start;
+        end[2] = cycle.end_z;
+        self.rapid_to(block, end, out)?;
         // No axis word behind the cycle can be meant for it.
         self.state.modal.motion = None;
         Ok(())
     }
 
-    fn read_thread_cycle(&self, block: &Block) -> Outcome<ThreadCycle> {
+    /// Refuses a cycle that cannot be made here.
+    fn check_thread_cycle(&self, block: &Block) -> Outcome<()> {
         let span = block.motion_span();
         if block.dialect != Dialect::LinuxCnc {
             let message = "G76 in this dialect is not supported";
@@ -76,27 +79,26 @@ impl Interpreter {
                 .because("its words mean something else than LinuxCNC's, or another cycle")
                 .help("write the passes out with G33"));
         }
-        if self.state.modal.plane != Plane::Zx {
-            let message = "G76 outside the plane ZX";
-            return Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
-                .because("its passes go along Z, and are deeper in X")
-                .help("write G18"));
-        }
-        let other = (0_u8..26)
-            .map(|slot| b'A' + slot)
-            .find(|letter| b"XYABCUVW".contains(letter) && block.get(*letter).is_some());
-        if let Some(letter) = other {
-            let message = format!("G76 with {}", char::from(letter));
-            return Err(
-                Fault::new(DiagnosticCode::UnusedWord, block.span(letter), message)
-                    .because("the thread begins at the X where the tool is, and ends at Z")
-                    .help("remove the word; go to the drive line before the cycle"),
-            );
-        }
+        let is_written = |letter: &u8| block.get(*letter).is_some();
+        let Some(letter) = b"XYABCUVW".iter().copied().find(is_written) else {
+            return Ok(());
+        };
+        let message = format!("G76 with {}", char::from(letter));
+        Err(
+            Fault::new(DiagnosticCode::UnusedWord, block.span(letter), message)
+                .because("the thread begins at the X where the tool is, and ends at Z")
+                .help("remove the word; go to the drive line before the cycle"),
+        )
+    }
+
+    fn read_thread_cycle(&self, block: &Block) -> Outcome<ThreadCycle> {
+        self.check_thread_cycle(block)?;
+        let span = block.motion_span();
         let number = |letter: u8, meaning: &str| {
+            let name = char::from(letter).to_string();
             block
                 .get(letter)
-                .ok_or_else(|| missing(span, "G76", &char::from(letter).to_string(), meaning))
+                .ok_or_else(|| missing(span, "G76", &name, meaning))
         };
         let scale = self.state.modal.units.mm();
         // G7: what is measured across is a diameter.
@@ -115,37 +117,11 @@ impl Interpreter {
         number(b'Z', "where the thread ends")?;
         let start = self.offsets.to_program(self.state.position);
         let end_z = self.offsets.to_program(self.target(block)?)[2];
-        let degression = block.get(b'R').unwrap_or(1.0);
         let degrees = block.get(b'Q').unwrap_or(0.0);
         let ways = whole(block, b'L', 3)?.unwrap_or(0);
         let taper_mm = block.get(b'E').unwrap_or(0.0) * scale;
-        let refuse = |letter: u8, is_wrong: bool, rule: &str| {
-            let message = format!("{} of G76 is out of range", char::from(letter));
-            let fault = || {
-                Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
-                    .help(format!("write {rule}"))
-            };
-            if is_wrong { Err(fault()) } else { Ok(()) }
-        };
-        let length_mm = (end_z - start[2]).abs();
-        refuse(b'P', pitch_mm <= 0.0, "a pitch above zero")?;
-        refuse(b'I', peak == 0.0, "an offset above or below zero")?;
-        refuse(b'J', first_mm <= 0.0, "a depth above zero")?;
-        refuse(b'K', height_mm <= first_mm, "a depth greater than J")?;
-        refuse(b'R', degression < 1.0, "1 or more")?;
-        refuse(
-            b'Q',
-            !(0.0..=MAX_SLIDE).contains(&degrees),
-            "0 to 80 degrees",
-        )?;
-        refuse(b'E', taper_mm < 0.0, "a length of zero or more")?;
-        refuse(
-            b'E',
-            2.0 * taper_mm > length_mm,
-            "half of the length of the thread at most",
-        )?;
         let direction = 1.0_f64.copysign(start[2] - end_z);
-        Ok(ThreadCycle {
+        let cycle = ThreadCycle {
             start,
             end_z,
             pitch_mm,
@@ -153,16 +129,45 @@ impl Interpreter {
             peak_mm: peak.abs() * across,
             first_mm,
             height_mm,
-            degression,
+            degression: block.get(b'R').unwrap_or(1.0),
             slide: direction * degrees.to_radians().tan(),
             springs: whole(block, b'H', MAX_SPRINGS)?.unwrap_or(0),
             taper_z: direction * taper_mm,
             has_entry: taper_mm > 0.0 && ways & 1 != 0,
             has_exit: taper_mm > 0.0 && ways & 2 != 0,
-        })
+        };
+        let half_mm = 0.5 * (end_z - start[2]).abs();
+        let wrong = [
+            (b'P', pitch_mm <= 0.0, "a pitch above zero"),
+            (b'I', cycle.peak_mm <= 0.0, "an offset above or below zero"),
+            (b'J', first_mm <= 0.0, "a depth above zero"),
+            (b'K', height_mm <= first_mm, "a depth greater than J"),
+            (b'R', cycle.degression < 1.0, "1 or more"),
+            (
+                b'Q',
+                !(0.0..=MAX_SLIDE).contains(&degrees),
+                "0 to 80 degrees",
+            ),
+            (
+                b'E',
+                !(0.0..=half_mm).contains(&taper_mm),
+                "0 to half of the length of the thread",
+            ),
+        ];
+        match wrong.into_iter().find(|(_, is_wrong, _)| *is_wrong) {
+            Some((letter, _, rule)) => {
+                let message = format!("{} of G76 is out of range", char::from(letter));
+                Err(
+                    Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
+                        .help(format!("write {rule}")),
+                )
+            }
+            None => Ok(cycle),
+        }
     }
 
-    /// A pass at a depth below the drive line, and the way back to its beginning.
+    /// A pass at a depth below the drive line, and out of the groove: the last one to the drive line,
+    /// those before as far out of theirs.
     fn thread_pass(
         &mut self,
         block: &Block,
@@ -178,14 +183,16 @@ impl Interpreter {
         let [start_x, start_z] = [cycle.start[0], cycle.start[2]];
         let shift_z = (depth_mm - cycle.peak_mm) * cycle.slide;
         let deep_x = start_x + cycle.inwards * depth_mm;
+        let out_x = start_x + cycle.inwards * (depth_mm - cycle.peak_mm - cycle.height_mm);
         let high_x = start_x + cycle.inwards * (depth_mm - cycle.height_mm);
         let begin_z = start_z - shift_z;
         let end_z = cycle.end_z + cycle.height_mm * cycle.slide - shift_z;
         let along = cycle.taper_z.hypot(cycle.height_mm) / cycle.taper_z.abs();
-        self.rapid_to(block, at(high_x, begin_z), out)?;
+        self.rapid_to(block, at(out_x, begin_z), out)?;
         let mut grooves = Vec::with_capacity(3);
         let mut groove = |point, pitch_mm| grooves.push((point, pitch_mm));
         if cycle.has_entry {
+            self.rapid_to(block, at(high_x, begin_z), out)?;
             groove(at(deep_x, begin_z - cycle.taper_z), cycle.pitch_mm * along);
         } else {
             self.rapid_to(block, at(deep_x, begin_z), out)?;
@@ -206,8 +213,7 @@ impl Interpreter {
             })
             .collect();
         self.pass(block, &grooves, 0, out)?;
-        self.rapid_to(block, at(start_x, end_z), out)?;
-        self.rapid_to(block, at(start_x, begin_z), out)
+        self.rapid_to(block, at(out_x, end_z), out)
     }
 
     fn rapid_to(&mut self, block: &Block, program: AxisVector, out: &mut Vec<Item>) -> Outcome<()> {

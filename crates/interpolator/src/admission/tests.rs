@@ -84,6 +84,11 @@ fn each_defect_has_its_reason() {
         (50, FrameRefusal::NotFinite)
     );
     assert_eq!(of(50, |f| f.flags = 1 << 31), (50, FrameRefusal::Malformed));
+    // What is to follow the spindle, and was not announced.
+    assert_eq!(
+        of(50, |f| f.flags = FrameFlags::SYNC.0),
+        (50, FrameRefusal::Malformed)
+    );
     assert_eq!(
         of(50, |f| f.period_ns = 1_000_000),
         (50, FrameRefusal::Period)

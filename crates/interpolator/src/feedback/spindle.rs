@@ -112,6 +112,11 @@ impl AngleFilter {
 }
 
 #[cfg(test)]
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test: times are small and not negative"
+)]
 mod tests {
     use super::*;
     use bytemuck::Zeroable as _;

@@ -22,8 +22,8 @@ const SIMULATED: f64 = 1.0 / 1.1;
 /// What is seen of the spindle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum SpindleSeen {
-    /// It is simulated: it turns as it is told to.
-    Simulated,
+    /// It is simulated: it turns as it is told to, and has done so for a time, ns.
+    Simulated { turned_ns: u64 },
     /// Its angle, and whether it is at speed.
     Real { turn: Turn, at_speed: bool },
 }
@@ -33,11 +33,9 @@ impl SpindleSeen {
     fn at(&self, lead: &Lead, at_ns: u64) -> (f64, f64) {
         match self {
             Self::Real { turn, .. } => turn.at(at_ns),
-            Self::Simulated => {
+            Self::Simulated { turned_ns } => {
                 let speed = SIMULATED * lead.rate_v;
-                #[allow(clippy::cast_precision_loss, reason = "to a nanometre of a thread")]
-                let angle = at_ns as f64 * 1e-9 * speed;
-                (angle, speed)
+                (seconds(*turned_ns) * speed, speed)
             }
         }
     }
@@ -82,6 +80,9 @@ pub(crate) struct Follow {
 #[derive(Debug, Default)]
 pub(crate) struct Pass {
     state: State,
+    /// How long a spindle that is simulated has turned in passes: by ticks, not by the clock, so
+    /// that a tick that is missed on a desk does no harm.
+    turned_ns: u64,
 }
 
 impl Pass {
@@ -97,6 +98,13 @@ impl Pass {
     /// The motion stands at the beginning of a pass.
     pub(crate) fn wait(&mut self) {
         self.state = State::Waiting(None);
+    }
+
+    /// A tick passes in which the spindle is looked at. Returns how long it has turned if it is
+    /// simulated, ns.
+    pub(crate) const fn turn(&mut self, period_ns: u64) -> u64 {
+        self.turned_ns += period_ns;
+        self.turned_ns
     }
 
     /// There is no pass any more.
@@ -152,7 +160,7 @@ impl Pass {
         };
         let index = match seen {
             SpindleSeen::Real { turn, .. } => turn.index_count.map(|count| (count, turn.angle)),
-            SpindleSeen::Simulated => None,
+            SpindleSeen::Simulated { .. } => None,
         };
         let begun = Following {
             lead,

@@ -45,9 +45,10 @@ impl Interpolator<'_> {
     }
 
     /// What is seen of the spindle. What was said before it heard of the event is not about that.
-    fn spindle_seen(&self) -> SpindleSeen {
+    fn spindle_seen(&mut self) -> SpindleSeen {
         if self.drives.are_simulated() {
-            return SpindleSeen::Simulated;
+            let turned_ns = self.pass.turn(self.drives.period_ns());
+            return SpindleSeen::Simulated { turned_ns };
         }
         let seen = self.drives.seen();
         let awaited = self.wait.awaited();

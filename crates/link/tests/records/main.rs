@@ -217,12 +217,12 @@ fn frames_out_of_range_are_refused() {
         );
     }
     let bad = SetpointFrame {
-        flags: 1 << 6,
+        flags: 1 << 7,
         ..good
     };
     assert!(matches!(
         bad.to_frame(),
-        Err(RecordError::UnknownFlags { bits: 64, .. })
+        Err(RecordError::UnknownFlags { bits: 128, .. })
     ));
     let bad = SetpointFrame {
         event_kind: 9,
@@ -248,7 +248,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_setpoint(), |s| s.state = 0),
         refused(good_setpoint(), |s| s.state = 16),
         refused(good_status(), |s| s.state = 0),
-        refused(good_status(), |s| s.fault = 14),
+        refused(good_status(), |s| s.fault = 17),
         refused(good_status(), |s| s.fault_axis = 10),
         refused(good_status(), |s| s.fault_axis = u32::MAX),
         refused(good_status(), |s| s.end_of_epoch = 6),
@@ -271,14 +271,14 @@ fn unknown_codes_and_bits_are_refused() {
     }
     for error in [
         refused(good_setpoint(), |s| s.marks = 4),
-        refused(good_setpoint(), |s| s.flags = 64),
+        refused(good_setpoint(), |s| s.flags = 128),
         refused(good_status(), |s| s.grants = 64),
         refused(good_status(), |s| s.homed = 1 << 9),
         refused(good_setpoint(), |s| s.enable = 1 << 9),
         refused(good_setpoint(), |s| s.home = 1 << 9),
         refused(Feedback::zeroed(), |f| f.joints = 1 << 9),
         refused(Feedback::zeroed(), |f| f.home_switch = 1 << 31),
-        refused(Feedback::zeroed(), |f| f.spindle_flags = 16),
+        refused(Feedback::zeroed(), |f| f.spindle_flags = 64),
         refused(JogDemand::zeroed(), |j| j.mask = 1 << 9),
         refused(CommandRequest::new(1, 1, Command::Home(1)), |c| {
             c.joints = 1 << 9;
@@ -353,7 +353,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(JogMode::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 3);
     in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);
-    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 8);
+    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 9);
     assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
     assert!(
         FrameRefusal::ALL
@@ -364,7 +364,7 @@ fn codes_are_consecutive_and_known() {
     let faults: Vec<u32> = (0..0x200)
         .filter(|code| FaultCause::from_code(*code).is_some())
         .collect();
-    assert_eq!(faults, (1..=13).chain(0x101..=0x10c).collect::<Vec<_>>());
+    assert_eq!(faults, (1..=16).chain(0x101..=0x10c).collect::<Vec<_>>());
     for code in faults {
         assert_eq!(FaultCause::from_code(code).unwrap().code(), code);
     }

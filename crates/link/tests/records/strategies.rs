@@ -2,7 +2,7 @@
 
 use glidepath_geometry::{Arc, AxisVector, Plane, Quintic, Segment};
 use glidepath_link::{ALL_JOINTS, Command, EventId, OVERRIDE_MAX, StreamItem};
-use glidepath_program::{Event, Frame, FrameFlags, Item, ItemKind, PathMode, Rate};
+use glidepath_program::{Event, Frame, FrameFlags, Item, ItemKind, PHASE_STEPS, PathMode, Rate};
 use proptest::prelude::*;
 
 pub(crate) fn finite() -> impl Strategy<Value = f64> {
@@ -26,12 +26,14 @@ pub(crate) fn event() -> impl Strategy<Value = Event> {
         any::<u32>().prop_map(Event::MCode),
         any::<u32>().prop_map(Event::ProgramStop),
         Just(Event::OptionalStop),
+        (1e-3..1e3, 0..PHASE_STEPS)
+            .prop_map(|(pitch_mm, phase)| Event::Synchronise { pitch_mm, phase }),
     ]
 }
 
 prop_compose! {
     pub(crate) fn frame()(
-        (sequence, line, flags) in (any::<u64>(), any::<u32>(), 0..64_u32),
+        (sequence, line, flags) in (any::<u64>(), any::<u32>(), 0..128_u32),
         event in proptest::option::of(event()),
         planned_override in 0.001..=OVERRIDE_MAX,
         (path_v, path_s) in (finite(), finite()),

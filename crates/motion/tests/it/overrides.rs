@@ -10,7 +10,9 @@ use crate::support::{FREE, at, cases, efforts, mill, optimal};
 use glidepath_audit::{Audit, AuditSettings, Sample, ViolationKind};
 use glidepath_geometry::{Arc, AxisVector, Plane, Segment};
 use glidepath_motion::{PlanError, Planner};
-use glidepath_program::{Frame, Item, ItemKind, Override, Rate, Settings};
+use glidepath_program::{
+    Event, Frame, FrameFlags, Item, ItemKind, Override, PathMode, Rate, Settings,
+};
 use proptest::prelude::*;
 
 fn item(line: u32, segment: Segment, rate: Rate) -> Item {
@@ -278,4 +280,95 @@ fn keeps_limits_and_path(
         .count();
     prop_assert_eq!(gaps, 0);
     Ok(())
+}
+
+/// A pass of a thread, and the way back: with ways in and out, it is three moves.
+fn thread(moves: &[(f64, f64)]) -> Vec<Item> {
+    let event = Event::Synchronise {
+        pitch_mm: 1.5,
+        phase: 0,
+    };
+    let mut items = vec![Item {
+        block: 0,
+        line: 1,
+        kind: ItemKind::Event(event),
+    }];
+    let mut from = at(0.0, 0.0);
+    for (x, y) in moves {
+        let kind = ItemKind::Move {
+            segment: Segment::line(from, at(*x, *y)),
+            rate: Rate::Synchronised(24.75),
+            mode: PathMode::Continuous {
+                tolerance_mm: Some(0.2),
+            },
+        };
+        items.push(Item {
+            block: 0,
+            line: 1,
+            kind,
+        });
+        from = at(*x, *y);
+    }
+    items.push(Item {
+        block: 0,
+        line: 1,
+        kind: ItemKind::Dwell(0.0),
+    });
+    items.push(item(2, Segment::line(from, at(0.0, 5.0)), Rate::Rapid));
+    items
+}
+
+#[test]
+fn what_follows_the_spindle_keeps_its_rate_under_any_override() {
+    for settings in efforts() {
+        for length_mm in [8.0, 90.0] {
+            let items = thread(&[(length_mm, 0.0)]);
+            let plain = plan(&items, settings, &[]);
+            let is_pass = |frame: &&Frame| frame.flags.contains(FrameFlags::SYNC);
+            let pass: Vec<Frame> = plain.iter().filter(is_pass).copied().collect();
+            let steady = pass
+                .iter()
+                .filter(|frame| (frame.path_v - 24.75).abs() < 1e-9);
+            assert!(steady.count() > 60);
+            assert!(
+                pass.iter()
+                    .all(|frame| frame.line == 1 && frame.path_v > 0.0)
+            );
+            for (when, feed_r) in [(0, 0.3), (20, 0.5), (40, 1.5)] {
+                let changed = plan(&items, settings, &[(when, feed(feed_r))]);
+                let same = changed.iter().filter(is_pass).zip(&pass);
+                assert_eq!(changed.iter().filter(is_pass).count(), pass.len());
+                for (frame, plain) in same {
+                    let away = (frame.position - plain.position).amax();
+                    assert!(away < 1e-9, "{when}: {away}");
+                    assert!((frame.planned_override - 1.0).abs() < 1e-12);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pass_with_ways_in_and_out_does_not_rest_under_way() {
+    for settings in efforts() {
+        let items = thread(&[(2.0, 0.9), (18.0, 0.9), (20.0, 0.0)]);
+        let frames = plan(&items, settings, &[]);
+        let speeds: Vec<f64> = frames
+            .iter()
+            .filter(|frame| frame.flags.contains(FrameFlags::SYNC))
+            .map(|frame| frame.path_v)
+            .collect();
+        let last = frames
+            .iter()
+            .rposition(|f| f.flags.contains(FrameFlags::SYNC));
+        let first = frames
+            .iter()
+            .position(|f| f.flags.contains(FrameFlags::SYNC));
+        // Nothing else is between the first and the last of them.
+        let (Some(first), Some(last)) = (first, last) else {
+            panic!("no pass");
+        };
+        assert_eq!(last - first + 1, speeds.len());
+        assert!(speeds.iter().all(|v| *v > 0.0));
+    }
 }

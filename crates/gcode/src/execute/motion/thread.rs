@@ -23,7 +23,7 @@ use crate::syntax::word_check::missing;
 pub(crate) struct Groove {
     pub(crate) end: AxisVector,
     pub(crate) pitch_mm: f64,
-    /// By how much the corner at its end may be rounded, mm, > 0 where another one follows.
+    /// By how much corners of the pass may be rounded, mm, > 0 where it has some.
     pub(crate) corner_mm: f64,
 }
 
@@ -125,10 +125,11 @@ impl Interpreter {
                 self.push(out, ItemKind::Event(Event::Synchronise { pitch_mm, phase }));
             }
             self.state.path_end = groove.end;
-            let mode = if ends[1] {
+            let mode = if grooves.len() == 1 {
                 PathMode::ExactStop
             } else {
                 PathMode::Continuous {
+                    // The same for all of them: else the motion would rest between them.
                     tolerance_mm: Some(groove.corner_mm),
                 }
             };
@@ -141,6 +142,9 @@ impl Interpreter {
                     mode,
                 },
             );
+        }
+        if grooves.len() > 1 {
+            self.push(out, ItemKind::Dwell(0.0));
         }
         self.state.position = self.state.path_end;
         self.state.thread_end = Some(self.state.path_end);

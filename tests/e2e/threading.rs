@@ -1,0 +1,60 @@
+//! Threads: the machine that is shipped for them, with a spindle that is simulated.
+
+use std::time::Duration;
+
+use glidepath_tests::{Instance, Process, Watchdog};
+
+const PATIENCE: Duration = Duration::from_secs(240);
+
+/// Three passes of an outside thread with a way out, and a pass by itself.
+const THREAD: &str = "G18 G21 G90 G97 S600 M3\nG0 X12 Z4\nG76 P1.5 Z-10 I-2 J0.4 K0.8 E1 L2\n\
+                      G0 Z4\nX8\nG33 Z-6 K1.5\nG0 X12\nM5\nM2\n";
+
+#[test]
+fn a_thread_is_cut_by_the_machine_that_is_shipped_and_refused_by_one_without_an_encoder() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let program = instance.file("thread.ngc", THREAD);
+    let lathe = concat!(env!("CARGO_MANIFEST_DIR"), "/../config/lathe.toml");
+    let csv = instance.path("run.csv");
+    let run = [
+        "run",
+        &program,
+        "--config",
+        lathe,
+        "--best-effort",
+        "--setpoints",
+        &csv,
+        "--json",
+    ];
+    let report = Process::start(&instance, &run).wait().expect(0).json();
+    for ratio in [
+        "max_velocity_ratio",
+        "max_acceleration_ratio",
+        "max_jerk_ratio",
+    ] {
+        assert!(report[ratio].as_f64().unwrap() <= 1.0 + 1e-6, "{report:#}");
+    }
+    // At the bottom of a groove, Z goes by the spindle: 1.5 mm at 10 revolutions a second.
+    let text = std::fs::read_to_string(&csv).unwrap();
+    let positions: Vec<[f64; 2]> = text.lines().skip(1).map(x_and_z).collect();
+    let steady = positions.windows(2).filter(|pair| {
+        let [way_x, way_z] = [0, 1].map(|axis| pair[1][axis] - pair[0][axis]);
+        way_x.abs() < 1e-9 && (way_z + 1.5 * 10.0 * 0.004).abs() < 1e-9
+    });
+    assert!(steady.count() > 400);
+
+    let check = ["check", &program];
+    let refused = Process::start(&instance, &check).wait().expect(1);
+    let said = format!("{}{}", refused.stdout, refused.stderr);
+    assert!(
+        said.contains("[spindle]") && said.contains("encoder = true"),
+        "{said}"
+    );
+}
+
+/// The positions of both axes in a row of setpoints: behind six columns, with velocity and
+/// acceleration behind each.
+fn x_and_z(row: &str) -> [f64; 2] {
+    let column = |index| row.split(',').nth(index).unwrap().parse().unwrap();
+    [column(6), column(9)]
+}
