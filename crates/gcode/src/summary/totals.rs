@@ -47,7 +47,8 @@ impl Totals {
         match &item.kind {
             ItemKind::Move { segment, rate, .. } => self.add_move(segment, *rate),
             ItemKind::Dwell(seconds) => {
-                self.dwells += 1;
+                // One without a time is a rest between two moves, and no dwell.
+                self.dwells += u64::from(*seconds > 0.0);
                 self.dwell_s += seconds;
             }
             ItemKind::Event(_) => self.events += 1,
