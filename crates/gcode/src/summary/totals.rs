@@ -48,7 +48,7 @@ impl Totals {
             ItemKind::Move { segment, rate, .. } => self.add_move(segment, *rate),
             ItemKind::Dwell(seconds) => {
                 // One without a time is a rest between two moves, and no dwell.
-                self.dwells += u64::from(*seconds > 0.0);
+                self.dwells += u32::from(*seconds > 0.0);
                 self.dwell_s += seconds;
             }
             ItemKind::Event(_) => self.events += 1,
