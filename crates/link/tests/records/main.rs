@@ -225,12 +225,12 @@ fn frames_out_of_range_are_refused() {
         Err(RecordError::UnknownFlags { bits: 128, .. })
     ));
     let bad = SetpointFrame {
-        event_kind: 9,
+        event_kind: 10,
         ..good
     };
     assert!(matches!(
         bad.to_frame(),
-        Err(RecordError::UnknownCode { code: 9, .. })
+        Err(RecordError::UnknownCode { code: 10, .. })
     ));
 }
 
