@@ -9,8 +9,6 @@
 //!
 //! Each group of axes has a tolerance of its own, and what is near in all of them is.
 
-use core::ops::Range;
-
 use glidepath_geometry::{AxisVector, LINEAR_XYZ, ROTARY_ABC, UVW};
 
 use super::parameter_range::ParameterRange;
@@ -47,18 +45,33 @@ impl Beside {
             groups: [AxisGroup::default(); GROUPS],
             count: 0,
         };
-        let axes = [LINEAR_XYZ, UVW].map(|axes| (axes, piece.tolerance_mm));
-        let rotary = ROTARY_ABC.map(|axis| (axis..axis + 1, piece.tolerance_deg));
-        for (axes, tolerance) in axes.into_iter().chain(rotary) {
-            if axes.clone().all(|i| along[i] == 0.0 && offset[i] == 0.0) {
-                continue;
-            }
-            if let Some(next) = beside.groups.get_mut(beside.count) {
-                *next = AxisGroup::new(tolerance, axes, &along, &offset);
-                beside.count += 1;
-            }
+        let (linear, rotary) = (piece.tolerance_mm, piece.tolerance_deg);
+        beside.add::<3>(linear, LINEAR_XYZ.start, &along, &offset);
+        beside.add::<3>(linear, UVW.start, &along, &offset);
+        for axis in ROTARY_ABC {
+            beside.add::<1>(rotary, axis, &along, &offset);
         }
         beside
+    }
+
+    /// Adds a group of `N` axes, if it has an extent.
+    #[inline]
+    fn add<const N: usize>(
+        &mut self,
+        tolerance: f64,
+        first: usize,
+        along: &AxisVector,
+        offset: &AxisVector,
+    ) {
+        let of = |vector: &AxisVector| -> [f64; N] { core::array::from_fn(|i| vector[first + i]) };
+        let (along, offset) = (of(along), of(offset));
+        if (0..N).all(|i| along[i] == 0.0 && offset[i] == 0.0) {
+            return;
+        }
+        if let Some(next) = self.groups.get_mut(self.count) {
+            *next = AxisGroup::new(tolerance, &along, &offset);
+            self.count += 1;
+        }
     }
 
     /// The part of the chord within `share_r` tolerances of the point.
@@ -90,9 +103,10 @@ impl Beside {
 }
 
 impl AxisGroup {
-    fn new(tolerance: f64, axes: Range<usize>, along: &AxisVector, offset: &AxisVector) -> Self {
+    #[inline]
+    fn new<const N: usize>(tolerance: f64, along: &[f64; N], offset: &[f64; N]) -> Self {
         let (mut along_2, mut dot, mut offset_2) = (0.0, 0.0, 0.0);
-        for i in axes.clone() {
+        for i in 0..N {
             along_2 += along[i] * along[i];
             dot += along[i] * offset[i];
             // Not a number if the chord is none: then nothing is near.
@@ -101,7 +115,7 @@ impl AxisGroup {
         }
         let foot = if along_2 > 0.0 { dot / along_2 } else { 0.0 };
         let mut across_2 = 0.0;
-        for i in axes {
+        for i in 0..N {
             let across = offset[i] - along[i] * foot;
             across_2 += across * across;
         }

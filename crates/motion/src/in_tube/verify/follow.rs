@@ -232,6 +232,7 @@ fn walk(
     next.first = reachable.first;
     let known = reachable.first + reachable.ranges.len();
     let mut bottom = ParameterRange::EMPTY;
+    let chord = Chord::new(way);
     let mut index = reachable.first;
     while index < known || (index < end && !bottom.is_empty()) {
         let Some(piece) = reference_path.get(index) else {
@@ -246,7 +247,7 @@ fn walk(
             (corner_tolerance(reference_path, index), shift),
             left,
             bottom,
-            way,
+            &chord,
         );
         next.ranges.push(right);
         bottom = top;
@@ -317,20 +318,56 @@ fn corner_tolerance(reference_path: &ReferencePath, index: usize) -> f64 {
     }
 }
 
+/// A chord of the motion.
+struct Chord<'a> {
+    ends: [&'a AxisVector; 2],
+    /// In XYZ, and a little more than that.
+    length_mm: f64,
+}
+
+/// What rounding may make of a length.
+const ROUNDING_R: f64 = 1.0 + 1e-9;
+
+impl<'a> Chord<'a> {
+    fn new(ends: [&'a AxisVector; 2]) -> Self {
+        Self {
+            ends,
+            length_mm: distance_2(ends[0], ends[1]).sqrt() * ROUNDING_R,
+        }
+    }
+
+    /// True if nothing of it can be within a tolerance of a point, for what XYZ tell: most vertices
+    /// need no other look.
+    fn is_far_from(&self, point: &AxisVector, tolerance_mm: f64) -> bool {
+        let reach_mm = self.length_mm + tolerance_mm;
+        distance_2(self.ends[0], point) > reach_mm * reach_mm * ROUNDING_R
+    }
+}
+
+/// Square of the distance in XYZ.
+fn distance_2(from: &AxisVector, to: &AxisVector) -> f64 {
+    let square = |i: usize| (to[i] - from[i]) * (to[i] - from[i]);
+    square(0) + square(1) + square(2)
+}
+
 /// What is reached on the right edge and on top of a cell.
 fn cell(
     piece: &TubePiece,
     (corner_r, shift): (f64, Option<&Shift>),
     left: ParameterRange,
     bottom: ParameterRange,
-    [from, to]: [&AxisVector; 2],
+    chord: &Chord<'_>,
 ) -> (ParameterRange, ParameterRange) {
     if left.is_empty() && bottom.is_empty() {
         return (ParameterRange::EMPTY, ParameterRange::EMPTY);
     }
+    let [from, to] = chord.ends;
     let mut right = Beside::new(piece, [&piece.start, &piece.end], to).within(1.0);
     if bottom.is_empty() {
         right = right.not_before(left.from);
+    }
+    if chord.is_far_from(&piece.end, piece.tolerance_mm) {
+        return (right, ParameterRange::EMPTY);
     }
     let beside = Beside::new(piece, [from, to], &piece.end);
     let mut top = beside.within(corner_r);
