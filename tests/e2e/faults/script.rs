@@ -65,7 +65,7 @@ impl Player {
             Fault::PausePipe => {
                 let mut planner = bench.planner(&["-"]);
                 // So many that what is planned of them goes beyond the first corner.
-                let lines = case.chance.below(3) + 7;
+                let lines = case.chance.below(3) + 8;
                 let cut = PROGRAM
                     .match_indices('\n')
                     .nth(lines)
