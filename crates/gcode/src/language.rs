@@ -48,7 +48,7 @@
 //! # Where it differs from LinuxCNC
 //!
 //! LinuxCNC's own interpreter has judged a collection of programs; verdict, line of the first
-//! error, counts, lengths, times, corners and end points agree in 99.05 % of 1267 figures. The
+//! error, counts, lengths, times, corners and end points agree in 99.07 % of 1288 figures. The
 //! others, each on purpose:
 //!
 //! | what | LinuxCNC | here |

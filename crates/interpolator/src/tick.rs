@@ -40,6 +40,7 @@ impl Interpolator<'_> {
         self.carry_out_orders(inputs);
         if !self.drives.are_simulated() {
             self.attend_to_drives(inputs);
+            self.look_for_contact();
         }
         self.hear_demands(due.scheduled_ns, inputs);
         self.take_frames(inputs);
@@ -53,7 +54,6 @@ impl Interpolator<'_> {
         } else if self.is_open() {
             if !(self.pass.is_in_use() && self.follow_spindle(due)) {
                 self.look_for_block_end();
-                self.look_for_contact();
                 self.choose_rate();
                 self.advance_program_time(tick);
             }

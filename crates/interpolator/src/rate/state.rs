@@ -193,6 +193,11 @@ impl Rate {
     }
 
     /// Advances program time by one tick.
+    #[inline(always)]
+    #[allow(
+        clippy::inline_always,
+        reason = "every tick does it: a call costs forty instructions"
+    )]
     pub(crate) fn advance(&mut self) -> Progress {
         if self.ramp.is_none() {
             self.count_down();

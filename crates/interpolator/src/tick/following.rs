@@ -24,6 +24,7 @@ const PARTS: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 impl Interpolator<'_> {
     /// Lets program time follow the spindle. Returns whether it does; if not, it waits for it, or
     /// the pass was lost.
+    #[cold]
     #[inline(never)]
     pub(super) fn follow_spindle(&mut self, due: &Wake) -> bool {
         let applies_ns = due.scheduled_ns + self.drives.period_ns();

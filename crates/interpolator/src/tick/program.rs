@@ -141,6 +141,11 @@ impl Interpolator<'_> {
     }
 
     /// Advances program time, not past a frame that holds the motion.
+    #[inline(always)]
+    #[allow(
+        clippy::inline_always,
+        reason = "every tick does it: a call costs forty instructions"
+    )]
     pub(super) fn advance_program_time(&mut self, tick: u64) {
         let before = self.rate.has_taken_reserve();
         let time = self.rate.advance().time;
@@ -173,7 +178,8 @@ impl Interpolator<'_> {
 
     /// Looks whether the contact was made that the motion is looking for.
     pub(super) fn look_for_contact(&mut self) {
-        if self.probing.is_looking() && self.drives.seen().contact_in == self.epoch {
+        let is_found = || self.drives.seen().contact_in == self.epoch && !self.jog.owns_axes();
+        if self.probing.is_looking() && is_found() {
             self.probing.find();
         }
     }
