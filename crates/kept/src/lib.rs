@@ -1,5 +1,6 @@
 //! What a machine keeps over a restart: coordinate systems, reference positions, the offset of G92,
-//! what programs made of the tool table, and where the machine rested last.
+//! what programs made of the tool table, where the machine rested last, and what it answered the
+//! program under way.
 //!
 //! ```text
 //!   Kept ─text──▶ checksum, version, generation ─Store─▶ kept.new ─fsync─▶ rename ─fsync folder─▶ done
@@ -14,6 +15,7 @@
 //!
 //! * [`Kept`] is what is kept; nothing of it moves anything.
 //! * [`Store`] reads and writes it; [`Directory`] is where.
+//! * [`Answers`] are what a program was told by inputs and by the probe.
 //! * [`var`] converts LinuxCNC's parameter files.
 //!
 //! ```
@@ -31,6 +33,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod answers;
 mod directory;
 mod error;
 mod kept;
@@ -39,6 +42,7 @@ mod store;
 mod text;
 pub mod var;
 
+pub use answers::{Answer, Answers, Said};
 pub use directory::{Directory, DirectoryLock};
 pub use error::KeptError;
 pub use kept::{AXES, Kept, Offsets, Rest, SYSTEMS, System, Tool, UnderWay};

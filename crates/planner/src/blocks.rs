@@ -47,6 +47,11 @@ impl Blocks {
         }
     }
 
+    /// An item has its number, and no motion.
+    pub(crate) const fn pass(&mut self) {
+        self.next = self.next.saturating_add(1);
+    }
+
     /// Says in a frame at rest, which is of no block itself, which one it is in.
     pub(crate) fn complete(&mut self, frame: &mut Frame) {
         if frame.block > 0 {

@@ -63,8 +63,11 @@ impl Publisher<'_> {
             let stands = self.stand_behind_probe(control)?;
             let probed = self.machine.probed(stands)?;
             pipeline.go_on_from(stands, self.machine.path_s());
-            if let Some(inputs) = &self.inputs {
-                inputs.answer_probe(probed);
+            let inputs = self.inputs.as_ref();
+            let told = inputs.map_or(Ok(()), |inputs| inputs.answer_probe(probed));
+            if let Err(error) = told {
+                let _told = self.machine.command(Command::Abort, control);
+                return Err(error);
             }
         }
     }

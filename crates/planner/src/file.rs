@@ -8,7 +8,10 @@ use glidepath_gcode::{Diagnostics, InForce, Options, Report, check, diagnostics}
 use glidepath_program::Settings;
 
 use crate::unchanged_file::UnchangedFile;
-use crate::{Attending, CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Supply};
+use crate::{
+    Answer, Attending, CurveSource, ItemSource, NurbsSource, ProgramSource, Refusal, Settled,
+    Supply,
+};
 
 /// Bytes read from a file at a time.
 const BUFFER: usize = 64 * 1024;
@@ -198,6 +201,13 @@ impl ItemSource for FileSource {
         match self {
             Self::Program(source) => source.is_on_contour(),
             Self::Curve(_) | Self::Nurbs(_) => false,
+        }
+    }
+
+    fn settle(&mut self, known: Option<Answer>) -> Result<Settled, Refusal> {
+        match self {
+            Self::Program(source) => source.settle(known),
+            Self::Curve(_) | Self::Nurbs(_) => Ok(Settled::Nothing),
         }
     }
 

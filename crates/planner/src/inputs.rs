@@ -1,109 +1,22 @@
-//! M66 and G38: what the machine's inputs and its probe say, asked by a program that is read ahead.
-//!
-//! ```text
-//!  source of items ── wait ──► desk ◄── answer ── publisher, once the machine rests at the M66
-//!                 ◄── answer ──┘
-//! ```
+//! The answerer of a desk: looks at the inputs of feedback for the M66 that asks.
 //!
 //! The source gives nothing out before it has its answer, so that the machine rests at the M66; only
 //! then the input is looked at, and the time runs. A probing move ends an epoch, and what that came
 //! to is its answer.
 
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use glidepath_gcode::{Input, InputWait, Probed, WaitFor};
-use glidepath_link::{Feedback, LinkError, Record as _, Subscriber};
+use glidepath_link::{Feedback, Record as _, Subscriber};
+
+use crate::desk::{Answer, InputDesk};
+use crate::{Refusal, RunError};
 
 /// What `#5399` is where an input did not do in time what was waited for.
 const TOO_LATE: f64 = -1.0;
 /// Feedback of a stack that is so much older than the newest is not used.
 const STALE_NS: u64 = 1_000_000_000;
-
-/// Where a source of items asks, and a publisher answers. Clones are the same desk.
-#[derive(Debug, Clone, Default)]
-pub struct InputDesk {
-    asked: Arc<Mutex<Desk>>,
-}
-
-#[derive(Debug, Clone, Copy, Default)]
-enum Desk {
-    /// Nobody answers: what inputs said when this part of the program ran is not known any more.
-    #[default]
-    Closed,
-    Idle,
-    Asked(Question),
-    Answered(Answer),
-}
-
-/// What a program asks.
-#[derive(Debug, Clone, Copy)]
-enum Question {
-    Input(InputWait),
-    /// How the probing move ended that was handed over last.
-    Probe,
-}
-
-/// What a program is told.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Answer {
-    Input(f64),
-    Probe(Probed),
-}
-
-impl InputDesk {
-    /// From now on there are answers.
-    pub fn open(&self) {
-        *self.desk() = Desk::Idle;
-    }
-
-    /// Asks; false if nobody answers.
-    pub(crate) fn ask(&self, wait: InputWait) -> bool {
-        self.ask_for(Question::Input(wait))
-    }
-
-    /// Asks how a probing move ended; false if nobody answers.
-    pub(crate) fn ask_for_contact(&self) -> bool {
-        self.ask_for(Question::Probe)
-    }
-
-    fn ask_for(&self, question: Question) -> bool {
-        let mut desk = self.desk();
-        if matches!(*desk, Desk::Closed) {
-            return false;
-        }
-        *desk = Desk::Asked(question);
-        true
-    }
-
-    /// The answer, once.
-    pub(crate) fn take_answer(&self) -> Option<Answer> {
-        let mut desk = self.desk();
-        match *desk {
-            Desk::Answered(answer) => {
-                *desk = Desk::Idle;
-                Some(answer)
-            }
-            _ => None,
-        }
-    }
-
-    fn asked(&self) -> Option<InputWait> {
-        match *self.desk() {
-            Desk::Asked(Question::Input(wait)) => Some(wait),
-            _ => None,
-        }
-    }
-
-    fn answer(&self, answer: Answer) {
-        *self.desk() = Desk::Answered(answer);
-    }
-
-    fn desk(&self) -> MutexGuard<'_, Desk> {
-        self.asked.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
 
 /// Looks at inputs for a desk.
 pub(crate) struct InputWatch {
@@ -129,7 +42,10 @@ impl InputWatch {
     }
 
     /// Looks at the inputs, and answers if the machine `rests` at the M66 that asks.
-    pub(crate) fn look(&mut self, rests: bool, passed: Duration) -> Result<(), LinkError> {
+    ///
+    /// # Errors
+    /// Feedback cannot be received, or the answer cannot be kept.
+    pub(crate) fn look(&mut self, rests: bool, passed: Duration) -> Result<(), RunError> {
         while let Some(feedback) = self.source.take()? {
             if feedback.check().is_ok() {
                 self.stacks.insert(feedback.boot_id, feedback);
@@ -144,14 +60,22 @@ impl InputWatch {
         };
         self.waited = self.waited.saturating_add(passed);
         if let Some(value) = self.value_of(&wait) {
-            self.desk.answer(Answer::Input(value));
+            self.answer(Answer::Input(value))?;
         }
         Ok(())
     }
 
     /// Says how a probing move ended.
-    pub(crate) fn answer_probe(&self, probed: Probed) {
-        self.desk.answer(Answer::Probe(probed));
+    ///
+    /// # Errors
+    /// That cannot be kept.
+    pub(crate) fn answer_probe(&self, probed: Probed) -> Result<(), RunError> {
+        self.answer(Answer::Probe(probed))
+    }
+
+    fn answer(&self, answer: Answer) -> Result<(), RunError> {
+        let answered = self.desk.answer(answer);
+        answered.map_err(|error| Refusal::NotKept(error).into())
     }
 
     fn value_of(&mut self, wait: &InputWait) -> Option<f64> {
@@ -194,7 +118,7 @@ impl InputWatch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Attending, ItemSource as _, PipeSource, ProgramSource, Refusal, Supply};
+    use crate::{Attending, ItemSource as _, PipeSource, ProgramSource, Supply};
     use bytemuck::Zeroable as _;
     use glidepath_gcode::{Connections, Options};
     use glidepath_geometry::AxisVector;
@@ -230,7 +154,6 @@ mod tests {
         let link = InProcess::default();
         let mut sink = link.feedback_sink().unwrap();
         let desk = InputDesk::default();
-        desk.open();
         let mut watch = InputWatch::new(desk.clone(), link.feedback_source().unwrap());
         let mut source = source(text, &desk);
         assert!(asks(source.next_item()));
@@ -282,16 +205,6 @@ mod tests {
     }
 
     #[test]
-    fn nobody_answers_for_a_part_that_ran_before() {
-        let mut source = source("M66 P2\nG0 X1\n", &InputDesk::default());
-        let supply = source.next_item();
-        assert!(matches!(
-            supply,
-            Supply::Refused(Refusal::AnswerUnknown { line: 1 })
-        ));
-    }
-
-    #[test]
     fn behind_a_probing_move_a_pipe_waits_for_what_it_came_to() {
         let desk = InputDesk::default();
         let options = Options {
@@ -299,7 +212,7 @@ mod tests {
             probing_v: Some(10.0),
             ..Options::default()
         };
-        let attending = || Attending {
+        let attending = Attending {
             inputs: Some(desk.clone()),
             ..Attending::default()
         };
@@ -316,15 +229,7 @@ mod tests {
                 other => return (other, ends.clone()),
             }
         };
-        let spawned = PipeSource::spawn(text.as_bytes(), options.clone(), attending());
-        let (closed, _) = read(&mut spawned.unwrap());
-        assert!(matches!(
-            closed,
-            Supply::Refused(Refusal::AnswerUnknown { line: 1 })
-        ));
-
-        desk.open();
-        let mut pipe = PipeSource::spawn(text.as_bytes(), options, attending()).unwrap();
+        let mut pipe = PipeSource::spawn(text.as_bytes(), options, attending).unwrap();
         assert!(matches!(read(&mut pipe).0, Supply::Probe));
         std::thread::sleep(Duration::from_millis(20));
         assert!(matches!(pipe.next_item(), Supply::Pending));
@@ -332,7 +237,8 @@ mod tests {
             contact: Some(AxisVector::z() * -2.0),
             was_so: false,
             stands: AxisVector::z() * -2.1,
-        }));
+        }))
+        .unwrap();
         let (end, ends) = read(&mut pipe);
         assert!(matches!(end, Supply::End));
         assert_eq!(ends.last(), Some(&(-2.1, -2.0)));

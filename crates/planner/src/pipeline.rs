@@ -282,9 +282,14 @@ impl<S: ItemSource> Pipeline<S> {
     /// # Errors
     /// Nobody may answer what the probe found.
     pub(crate) fn comes_to_probe(&mut self, is_tripped: bool) -> Result<bool, Refusal> {
+        // What is left out is counted, so that blocks are those of a program that is read again.
+        let known = self.history.as_ref();
+        while known.is_some_and(|known| known.item_after(self.planning.items()).is_some()) {
+            self.planning.pass();
+        }
         while is_tripped && !self.is_at_probe && !self.is_exhausted {
             match self.source.next_item() {
-                Supply::Item(_) => {}
+                Supply::Item(_) => self.planning.pass(),
                 Supply::Pending => std::thread::yield_now(),
                 Supply::Probe => self.is_at_probe = true,
                 Supply::End => self.is_exhausted = true,

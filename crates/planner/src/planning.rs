@@ -84,6 +84,12 @@ impl Planning {
         Ok(item)
     }
 
+    /// An item is left out: the probe has ended the motion before it.
+    pub(crate) const fn pass(&mut self) {
+        self.blocks.pass();
+        self.items += 1;
+    }
+
     /// There are no more items.
     pub(crate) fn finish(&mut self) {
         self.planner.finish();

@@ -8,13 +8,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 use std::time::Duration;
 
-use glidepath_gcode::{Diagnostic, InForce, Options, Program, Subroutines, diagnostics};
+use glidepath_gcode::{Diagnostic, InForce, InputWait, Options, Program, Subroutines, diagnostics};
 use glidepath_program::{Event, ItemKind};
 
+use crate::desk::{Answer, Answered, InputDesk, Question};
 use crate::fingerprint::Fingerprinting;
-use crate::inputs::Answer;
 use crate::unchanged_file::UnchangedFile;
-use crate::{Attending, ChangeLog, InputDesk, ItemSource, Refusal, RemarkLog, SetUp, Supply};
+use crate::{Attending, ChangeLog, ItemSource, Refusal, RemarkLog, SetUp, Settled, Supply};
 
 /// Bytes read from a file or pipe at a time.
 const BUFFER: usize = 64 * 1024;
@@ -35,8 +35,11 @@ pub struct ProgramSource<R> {
     /// Where changes of how the machine is set up are noted, and how many of them were.
     log: Option<(ChangeLog, u64)>,
     remarks: Option<RemarkLog>,
-    /// Where inputs are asked, and the line of the M66 whose answer is awaited.
+    /// Where inputs are asked.
     inputs: Option<InputDesk>,
+    /// What the M66 given out last asks, with its line.
+    wait: Option<(u32, InputWait)>,
+    /// The desk was asked, and has not answered.
     asking: bool,
 }
 
@@ -51,6 +54,7 @@ impl<R: BufRead> ProgramSource<R> {
             log: None,
             remarks: None,
             inputs: None,
+            wait: None,
             asking: false,
         }
     }
@@ -83,50 +87,66 @@ impl<R: BufRead> ProgramSource<R> {
         self.program.in_force()
     }
 
-    /// Asks for what the M66 given out last waits for. False if nobody answers.
-    fn ask(&mut self) -> bool {
-        let (Some(desk), Some(wait)) = (&self.inputs, self.program.take_input_wait()) else {
-            return true;
+    /// What is asked behind the item given out last. Whoever only looks at a program asks nothing,
+    /// and goes on as if probing moves went to their ends.
+    fn question(&self) -> Option<(u32, Question)> {
+        let wait = self.wait.map(|(line, wait)| (line, Question::Input(wait)));
+        let probe = || {
+            let is_at_probe = self.program.is_at_probe();
+            is_at_probe.then(|| (self.program.line_of_last(), Question::Probe))
         };
-        self.asking = desk.ask(wait);
-        self.asking
+        self.inputs.as_ref().and_then(|_| wait.or_else(probe))
     }
 
-    /// Whether the source has to wait for an answer.
-    ///
-    /// # Errors
-    /// The program ends with the answer.
-    fn awaits_answer(&mut self) -> Result<bool, Refusal> {
-        if self.asking
-            && let Some(answer) = self.inputs.as_ref().and_then(InputDesk::take_answer)
-        {
-            self.asking = false;
-            match answer {
-                Answer::Input(value) => self.program.answer_input(value),
-                Answer::Probe(probed) => {
-                    let ended = self.program.answer_probe(&probed);
-                    ended.map_err(|diagnostic| refused(*diagnostic))?;
-                }
+    /// What is asked, as it was answered when the program came here before.
+    fn recall(&mut self) -> Result<Settled, Refusal> {
+        let (Some(desk), Some((line, question))) = (&self.inputs, self.question()) else {
+            return Ok(Settled::Nothing);
+        };
+        let Some(Answered { line: of, answer }) = desk.recall() else {
+            return Ok(Settled::Open);
+        };
+        let fits = matches!(answer, Answer::Probe(_)) == (question == Question::Probe);
+        if of != line || !fits {
+            return Err(Refusal::AnswerUnknown { line });
+        }
+        self.tell(answer)?;
+        Ok(Settled::Answered(answer))
+    }
+
+    /// Asks what is to be asked, and takes what was answered. `None` if all is known.
+    fn ask(&mut self) -> Result<Option<Supply>, Refusal> {
+        if self.asking {
+            let Some(answer) = self.inputs.as_ref().and_then(InputDesk::take_answer) else {
+                return Ok(Some(Supply::Pending));
+            };
+            self.tell(answer)?;
+            return Ok(None);
+        }
+        if self.recall()? != Settled::Open {
+            return Ok(None);
+        }
+        let (Some(desk), Some((line, question))) = (&self.inputs, self.question()) else {
+            return Ok(None);
+        };
+        desk.ask(line, question);
+        self.asking = true;
+        Ok(Some(match question {
+            Question::Input(_) => Supply::Pending,
+            Question::Probe => Supply::Probe,
+        }))
+    }
+
+    fn tell(&mut self, answer: Answer) -> Result<(), Refusal> {
+        (self.asking, self.wait) = (false, None);
+        match answer {
+            Answer::Input(value) => self.program.answer_input(value),
+            Answer::Probe(probed) => {
+                let ended = self.program.answer_probe(&probed);
+                ended.map_err(|diagnostic| refused(*diagnostic))?;
             }
         }
-        Ok(self.asking)
-    }
-
-    /// Ends what is given out with the probing move that was given out last, and asks how that
-    /// ends. Whoever only looks at a program goes on as if it went to its end.
-    fn stop_at_probe(&mut self) -> Option<Supply> {
-        let desk = self
-            .inputs
-            .as_ref()
-            .filter(|_| self.program.is_at_probe())?;
-        self.asking = desk.ask_for_contact();
-        Some(if self.asking {
-            Supply::Probe
-        } else {
-            Supply::Refused(Refusal::AnswerUnknown {
-                line: self.program.line_of_last(),
-            })
-        })
+        Ok(())
     }
 
     fn note_remarks(&mut self) {
@@ -206,13 +226,10 @@ impl ProgramSource<BufReader<UnchangedFile>> {
 
 impl<R: BufRead> ItemSource for ProgramSource<R> {
     fn next_item(&mut self) -> Supply {
-        match self.awaits_answer() {
-            Ok(false) => {}
-            Ok(true) => return Supply::Pending,
+        match self.ask() {
+            Ok(None) => {}
+            Ok(Some(supply)) => return supply,
             Err(refusal) => return Supply::Refused(refusal),
-        }
-        if let Some(supply) = self.stop_at_probe() {
-            return supply;
         }
         let next = self.program.next();
         self.note_changes();
@@ -223,14 +240,28 @@ impl<R: BufRead> ItemSource for ProgramSource<R> {
                 if matches!(item.kind, ItemKind::Event(Event::MCode(6 | 61))) {
                     self.note_tool();
                 }
-                if item.kind == ItemKind::Event(Event::MCode(66)) && !self.ask() {
-                    return Supply::Refused(Refusal::AnswerUnknown { line: item.line });
+                if item.kind == ItemKind::Event(Event::MCode(66)) {
+                    self.wait = self.program.take_input_wait().map(|wait| (item.line, wait));
                 }
                 Supply::Item(item)
             }
             Some(Err(diagnostic)) => Supply::Refused(refused(diagnostic)),
             None => Supply::End,
         }
+    }
+
+    fn settle(&mut self, known: Option<Answer>) -> Result<Settled, Refusal> {
+        let settled = self.recall()?;
+        let (Settled::Open, Some(answer)) = (settled, known) else {
+            return Ok(settled);
+        };
+        if let (Some(desk), Some((line, question))) = (&self.inputs, self.question()) {
+            desk.ask(line, question);
+            desk.answer(answer).map_err(Refusal::NotKept)?;
+            desk.take_answer();
+        }
+        self.tell(answer)?;
+        Ok(Settled::Answered(answer))
     }
 
     fn lines_read(&self) -> u64 {

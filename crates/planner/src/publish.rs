@@ -155,7 +155,7 @@ impl<'t> Publisher<'t> {
     }
 
     /// Answers what the program asks of inputs, once the machine rests where it asks.
-    fn answer_inputs(&mut self, epoch: &Epoch, waited: Duration) -> Result<(), LinkError> {
+    fn answer_inputs(&mut self, epoch: &Epoch, waited: Duration) -> Result<(), RunError> {
         let Some(inputs) = &mut self.inputs else {
             return Ok(());
         };
@@ -208,7 +208,10 @@ impl<'t> Publisher<'t> {
             }
             self.machine.observe()?;
             attend(waited);
-            self.answer_inputs(&epoch, waited)?;
+            if let Err(error) = self.answer_inputs(&epoch, waited) {
+                self.abort(&epoch, control)?;
+                return Err(error);
+            }
             epoch.follow(self.standing(&epoch)?);
             if epoch.is_over() {
                 self.report(&epoch, &plan, control);

@@ -28,15 +28,22 @@ pub enum Refusal {
         /// Where the check was given up.
         line: u32,
     },
-    /// The program asked an input what to do, and what that said is not known any more.
+    /// The program asked an input or the probe what to do, and what that said is not known any more.
     #[error(
-        "line {line} asked an input or a probe what to do (M66, G38), and what that said when this \
-         part of the program ran is not kept; run the program from a line behind it"
+        "line {line} asked an input or the probe what to do (M66, G38), and what that said when this \
+         part of the program ran is not known; run the program from a line behind it, and let the \
+         machine keep answers: directory in [state] of its configuration"
     )]
     AnswerUnknown {
         /// The line that asked.
         line: u32,
     },
+    /// What an input or the probe said cannot be kept.
+    #[error(
+        "what an input or the probe said cannot be kept: {0}; the program was not told, and does not \
+         go on"
+    )]
+    NotKept(#[source] io::Error),
     /// An item cannot be planned.
     #[error(transparent)]
     Plan(#[from] PlanError),

@@ -19,6 +19,9 @@
 //! A path may pass a point more than once (a full circle begins where it ends). Of the points near
 //! enough, the one is taken that is as far from the beginning of the block as the machine has
 //! travelled on it, or next to that.
+//!
+//! What the program asked of inputs and of the probe up to there is answered as it was answered then
+//! ([`ItemSource::settle`]); a probing move that was left on its way goes on looking.
 
 mod error;
 mod point;
@@ -30,11 +33,12 @@ pub use point::ResumePoint;
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
+use glidepath_gcode::Probed;
 use glidepath_geometry::{Arc, AxisVector, Segment};
 use glidepath_motion::PlanError;
-use glidepath_program::{Item, ItemKind, PathMode};
+use glidepath_program::{Event, Item, ItemKind, PathMode};
 
-use crate::{ItemSource, RunError, Supply};
+use crate::{Answer, ItemSource, Refusal, RunError, Settled, Supply};
 use point::ROUNDING_MM;
 use search::{MachineSearch, distance};
 
@@ -60,13 +64,16 @@ impl<S: ItemSource> Remainder<S> {
         if source.fingerprint() != point.program || point.program == 0 {
             return Err(ResumeError::OtherProgram.into());
         }
+        let mut before: Option<Item> = None;
         for _ in 1..point.block {
             match source.next_item() {
-                Supply::Item(_) => {}
+                Supply::Item(item) => before = Some(item),
                 Supply::Refused(refusal) => return Err(refusal.into()),
-                Supply::Pending | Supply::Probe | Supply::End => {
-                    return Err(off_path(&point, 0, f64::INFINITY));
+                Supply::Pending | Supply::Probe => {
+                    let line = before.map_or(0, |item| item.line);
+                    return Err(Refusal::AnswerUnknown { line }.into());
                 }
+                Supply::End => return Err(off_path(&point, 0, f64::INFINITY)),
             }
         }
         let mut search = MachineSearch::new(point, tolerance_mm);
@@ -80,39 +87,47 @@ impl<S: ItemSource> Remainder<S> {
         if point.block == 0 {
             return Ok(rest);
         }
+        if let Some(event) = before.filter(is_probe) {
+            rest.go_on_looking(event, tolerance_mm)?;
+            return Ok(rest);
+        }
         while search.goes_on() {
             match rest.source.next_item() {
                 Supply::Item(item) => {
                     search.look_at(&item);
                     rest.ahead.push_back(item);
                 }
-                Supply::Refused(refusal) => {
-                    rest.last = Some(Supply::Refused(refusal));
-                    break;
-                }
-                Supply::Pending | Supply::Probe | Supply::End => {
-                    rest.last = Some(Supply::End);
+                // What is asked behind an item is asked again.
+                Supply::Pending => break,
+                last @ (Supply::Probe | Supply::End | Supply::Refused(_)) => {
+                    rest.last = Some(last);
                     break;
                 }
             }
+        }
+        if let Some(event) = rest.ahead.front().copied().filter(is_probe) {
+            rest.ahead.clear();
+            rest.first_block += 1;
+            rest.go_on_looking(event, tolerance_mm)?;
+            return Ok(rest);
         }
         rest.cut(search)?;
         Ok(rest)
     }
 
     /// The rest of a program from these items on, with which it is to begin.
-    pub(crate) const fn beginning_with(
+    pub(crate) fn beginning_with(
         source: S,
         point: ResumePoint,
         first_block: u32,
-        ahead: VecDeque<Item>,
+        (ahead, last): (VecDeque<Item>, Option<Supply>),
     ) -> Self {
         Self {
             source,
             point,
             first_block,
             ahead,
-            last: None,
+            last,
         }
     }
 
@@ -122,6 +137,12 @@ impl<S: ItemSource> Remainder<S> {
         match self.ahead.front().map(|item| item.kind) {
             // A dwell begins again; an event has happened.
             Some(ItemKind::Dwell(_)) => return Ok(()),
+            // So does a wait for an input that was not answered.
+            Some(ItemKind::Event(Event::MCode(66)))
+                if self.source.settle(None)? == Settled::Open =>
+            {
+                return Ok(());
+            }
             Some(ItemKind::Event(_)) => {
                 self.ahead.pop_front();
                 self.first_block += 1;
@@ -163,6 +184,58 @@ impl<S: ItemSource> Remainder<S> {
         }
     }
 
+    /// Goes on behind the event that begins a search, with what is left of its move, or behind it.
+    fn go_on_looking(&mut self, event: Item, tolerance_mm: f64) -> Result<(), RunError> {
+        let way = match self.source.next_item() {
+            Supply::Item(item) => item,
+            Supply::Refused(refusal) => return Err(refusal.into()),
+            Supply::Pending | Supply::Probe | Supply::End => {
+                return Err(off_path(&self.point, event.line, f64::INFINITY));
+            }
+        };
+        let mut search = MachineSearch::new(self.point, tolerance_mm);
+        search.look_at(&way);
+        let (ItemKind::Move { segment, rate, .. }, Some(found)) = (way.kind, search.best) else {
+            return Err(off_path(&self.point, way.line, search.nearest_mm));
+        };
+        let to = |segment| Item {
+            kind: ItemKind::Move {
+                segment,
+                rate,
+                mode: PathMode::ExactStop,
+            },
+            ..way
+        };
+        let stands = self.point.position;
+        let is_at_end = distance(&(segment.end() - stands)) <= ROUNDING_MM;
+        // It was found, or everything was looked through, before the program was told.
+        let nothing = is_at_end.then_some(Probed {
+            contact: None,
+            was_so: false,
+            stands,
+        });
+        let known = self.point.found.or(nothing).map(Answer::Probe);
+        match self.source.settle(known)? {
+            Settled::Answered(Answer::Probe(Probed { stands: then, .. })) => {
+                let away_mm = distance(&(then - stands));
+                if away_mm > tolerance_mm + ROUNDING_MM {
+                    return Err(off_path(&self.point, way.line, away_mm));
+                }
+                if away_mm > 0.0 {
+                    self.ahead = VecDeque::from([to(Segment::line(stands, then))]);
+                } else {
+                    self.first_block += 1;
+                }
+            }
+            _ => {
+                let rest = rest_of(&segment, &stands, found.part);
+                self.ahead = VecDeque::from([event, to(rest)]);
+                self.first_block = self.first_block.saturating_sub(1).max(1);
+            }
+        }
+        Ok(())
+    }
+
     /// Where the items come from.
     #[must_use]
     pub const fn source(&self) -> &S {
@@ -180,6 +253,11 @@ impl<S: ItemSource> Remainder<S> {
     }
 }
 
+/// Whether an item begins a search by the probe.
+const fn is_probe(item: &Item) -> bool {
+    matches!(item.kind, ItemKind::Event(Event::Probe { .. }))
+}
+
 const fn off_path(point: &ResumePoint, line: u32, distance_mm: f64) -> RunError {
     RunError::Resume(ResumeError::OffPath {
         block: point.block,
@@ -194,6 +272,10 @@ impl<S: ItemSource> ItemSource for Remainder<S> {
             return Supply::Item(item);
         }
         self.last.take().unwrap_or_else(|| self.source.next_item())
+    }
+
+    fn settle(&mut self, known: Option<Answer>) -> Result<Settled, Refusal> {
+        self.source.settle(known)
     }
 
     fn unplannable(&mut self, error: &PlanError) {
@@ -233,3 +315,6 @@ fn rest_of(segment: &Segment, position: &AxisVector, part: f64) -> Segment {
         Segment::Curve(curve) => Segment::Curve(curve.after(part * curve.length, *position)),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,7 +8,7 @@
 use glidepath_motion::PlanError;
 use glidepath_program::Item;
 
-use crate::Refusal;
+use crate::{Answer, Refusal};
 
 /// What a source answers when it is asked for the next item.
 #[allow(clippy::large_enum_variant, reason = "nearly every supply is an item")]
@@ -28,6 +28,17 @@ pub enum Supply {
     Refused(Refusal),
 }
 
+/// How it stands with what an item asks of inputs or the probe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Settled {
+    /// It asks nothing.
+    Nothing,
+    /// It was answered.
+    Answered(Answer),
+    /// It is asked when the next item is wanted.
+    Open,
+}
+
 /// A supply of items. After [`Supply::End`] or [`Supply::Refused`] it is not asked again.
 pub trait ItemSource {
     /// The next item, if there is one.
@@ -36,6 +47,16 @@ pub trait ItemSource {
     /// The item handed over last cannot be planned; no more are asked for.
     fn unplannable(&mut self, error: &PlanError) {
         let _ = error;
+    }
+
+    /// Has what the item handed over last asks answered, before the next one is wanted: as it was
+    /// answered when the program came here before, or, if that is not known, by `known`.
+    ///
+    /// # Errors
+    /// Something else was answered before, the answer ends the program, or it cannot be kept.
+    fn settle(&mut self, known: Option<Answer>) -> Result<Settled, Refusal> {
+        let _ = known;
+        Ok(Settled::Nothing)
     }
 
     /// Lines of program text read so far; for a source without text, items received.

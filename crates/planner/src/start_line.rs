@@ -15,7 +15,7 @@ use glidepath_link::{Auxiliary, Coolant, SpindleState};
 use glidepath_program::{Event, Item, ItemKind, PathMode, Rate};
 use thiserror::Error;
 
-use crate::{ItemSource, Refusal, Remainder, ResumePoint, Supply};
+use crate::{Answer, ItemSource, Refusal, Remainder, ResumePoint, Settled, Supply};
 
 /// What is no way, mm or degrees.
 const NO_WAY: f64 = 1e-6;
@@ -68,10 +68,13 @@ pub enum StartLineError {
 pub struct LineStart<S> {
     source: S,
     ahead: VecDeque<Item>,
+    /// What comes behind those, if it is no item.
+    last: Option<Supply>,
     /// Number of the first item.
     block: u32,
     expected: Auxiliary,
     begins_at: AxisVector,
+    told: u32,
 }
 
 /// How the machine goes to where a program is to begin.
@@ -100,12 +103,16 @@ impl<S: ItemSource> LineStart<S> {
     ) -> Result<Self, StartLineError> {
         let mut expected = approach.now;
         let (mut begins_at, mut before, mut passes, mut block) = (approach.position, 0, 0, 1);
+        let mut told = 0;
         let mut next = None;
         loop {
             let item = match source.next_item() {
                 Supply::Item(item) => item,
                 Supply::Refused(refusal) => return Err(refusal.into()),
-                Supply::Pending | Supply::Probe | Supply::End => {
+                Supply::Pending | Supply::Probe => {
+                    return Err(Refusal::AnswerUnknown { line: before }.into());
+                }
+                Supply::End => {
                     let StartLine { line, pass } = start;
                     return Err(StartLineError::NoSuchLine { line, pass, next });
                 }
@@ -122,9 +129,11 @@ impl<S: ItemSource> LineStart<S> {
                 return Ok(Self {
                     source,
                     ahead: VecDeque::from([item]),
+                    last: None,
                     block,
                     expected,
                     begins_at,
+                    told,
                 });
             }
             match item.kind {
@@ -133,6 +142,12 @@ impl<S: ItemSource> LineStart<S> {
                     expected.take(event);
                 }
                 ItemKind::Dwell(_) => {}
+            }
+            if let Settled::Answered(answer) = source.settle(None)? {
+                told += 1;
+                if let Answer::Probe(probed) = answer {
+                    begins_at = probed.stands;
+                }
             }
             block += 1;
         }
@@ -151,6 +166,11 @@ impl<S: ItemSource> LineStart<S> {
     /// Where the machine is to stand there.
     pub const fn begins_at(&self) -> AxisVector {
         self.begins_at
+    }
+
+    /// How often inputs and the probe were asked before; it is answered as it was then.
+    pub const fn told(&self) -> u32 {
+        self.told
     }
 
     /// The program from there on, with the way to its beginning in front.
@@ -185,8 +205,9 @@ impl<S: ItemSource> LineStart<S> {
             block: first_block,
             path_s: 0.0,
             block_path_s: 0.0,
+            found: None,
         };
-        Remainder::beginning_with(self.source, point, first_block, self.ahead)
+        Remainder::beginning_with(self.source, point, first_block, (self.ahead, self.last))
     }
 
     /// The feed of the first feed move ahead.
@@ -199,8 +220,13 @@ impl<S: ItemSource> LineStart<S> {
             return feed_v;
         }
         while self.ahead.len() < LOOK_AHEAD {
-            let Supply::Item(item) = self.source.next_item() else {
-                break;
+            let item = match self.source.next_item() {
+                Supply::Item(item) => item,
+                Supply::Pending => break,
+                last => {
+                    self.last = Some(last);
+                    break;
+                }
             };
             self.ahead.push_back(item);
             if let Some(feed_v) = feed_of(&item) {

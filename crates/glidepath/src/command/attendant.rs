@@ -3,6 +3,7 @@
 
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
+use crate::kept::answers::Journal;
 use crate::kept::keeper::Keeper;
 use crate::output;
 use crate::report::{grouped, state_name};
@@ -88,17 +89,45 @@ impl Attendant {
     }
 
     /// The program begins with a block: what it says before is not said.
-    pub(super) fn begin_with(&self, block: u32) {
+    ///
+    /// # Errors
+    /// As [`Attendant::begin_here`].
+    pub(super) fn begin_with(&self, block: u32) -> Result<(), Failure> {
         self.remarks.begin_with(block);
+        self.begin_here()
     }
 
-    /// From now on what the program asks of inputs is answered.
-    pub(super) fn open_inputs(&self) {
-        self.inputs.open();
+    /// The program is read up to where it is to begin: what it asks behind is asked anew.
+    ///
+    /// # Errors
+    /// That cannot be written.
+    pub(super) fn begin_here(&self) -> Result<(), Failure> {
+        self.inputs.begin_here().map_err(Failure::Answers)
     }
 
-    /// Has the program that is resumed begin with what it began with.
-    pub(super) fn resume(&self, program: u64, config: &mut MachineConfig) {
+    /// Has what the program asks answered as it was when it came there before.
+    ///
+    /// # Errors
+    /// That cannot be read.
+    pub(super) fn recall(&self, program: u64) -> Result<(), Failure> {
+        self.keep_answers(program, true)
+    }
+
+    fn keep_answers(&self, program: u64, goes_on: bool) -> Result<(), Failure> {
+        if let Some(keeper) = &*self.keeper.borrow()
+            && program != 0
+        {
+            let journal = keeper.journal(program, goes_on)?;
+            self.inputs.keep_in(Box::new(journal), goes_on);
+        }
+        Ok(())
+    }
+
+    /// Has the program that is resumed begin with what it began with, and told what it was told.
+    ///
+    /// # Errors
+    /// What it was told cannot be read.
+    pub(super) fn resume(&self, program: u64, config: &mut MachineConfig) -> Result<(), Failure> {
         if let Some(keeper) = &mut *self.keeper.borrow_mut()
             && !keeper.resume(program, config)
         {
@@ -106,6 +135,7 @@ impl Attendant {
                 "planner: the offsets this program began with are not kept; it is read with those of now",
             );
         }
+        self.recall(program)
     }
 
     /// The program is about to move the machine.
@@ -117,7 +147,10 @@ impl Attendant {
         if let Some(keeper) = keeper {
             self.keeper.replace(Some(keeper.begin(program, start)?));
         }
-        Ok(())
+        if self.inputs.keeps() {
+            return Ok(());
+        }
+        self.keep_answers(program, false)
     }
 
     /// Takes notice of how the run goes, and says nothing of it.
@@ -164,6 +197,20 @@ impl Attendant {
             output::note(&format!("planner: {failure}"));
         }
         failed
+    }
+}
+
+/// For a program that is only read again: what it asks is answered as it was.
+pub(super) fn recalling(config: &MachineConfig, program: u64) -> Attending {
+    let desk = InputDesk::default();
+    let folder = config.state_directory.as_deref().filter(|_| program != 0);
+    // What cannot be read is not known: the reading ends there.
+    if let Some(Ok(journal)) = folder.map(|folder| Journal::go_on(folder, program)) {
+        desk.keep_in(Box::new(journal), true);
+    }
+    Attending {
+        inputs: Some(desk),
+        ..Attending::default()
     }
 }
 

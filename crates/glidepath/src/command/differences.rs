@@ -67,6 +67,13 @@ pub(super) fn agreement<S: glidepath_planner::ItemSource>(
     if analog(now) != analog(then) {
         text.push_str("\nanalog outputs differ");
     }
+    if found.told() > 0 {
+        let told = found.told();
+        let _ = write!(
+            text,
+            "\nwhat inputs and the probe said before that line, {told} answers: as in the run before"
+        );
+    }
     let _ = write!(
         text,
         "\nthe way: {} up, what differs, the other axes at rapid, {} down at the feed",

@@ -203,6 +203,9 @@ pub(super) enum Failure {
     /// Standard input was to be resumed.
     #[error("standard input cannot be read from its beginning again: resume from a file")]
     ResumePipe,
+    /// What inputs and the probe answer cannot be kept.
+    #[error("what inputs and the probe answer cannot be kept: {0}; nothing has moved")]
+    Answers(std::io::Error),
     /// The bus of the drives does not work.
     #[error(transparent)]
     Bus(#[from] ethercat::RunError),
@@ -379,6 +382,7 @@ impl Failure {
             | Self::Server(_)
             | Self::Process(_)
             | Self::Jitter(_)
+            | Self::Answers(_)
             | Self::Thread(_) => Exit::Fault,
             Self::ProcessEnded { exit, .. } | Self::Job { exit, .. } => *exit,
         }

@@ -132,7 +132,6 @@ impl Job<'_> {
     ) -> Result<Statistics, Failure> {
         let name = self.name();
         let mut publisher = self.publisher()?;
-        self.attendant.open_inputs();
         let start = publisher.wait_until_ready(control)?;
         let source = open(start).map_err(|refusal| Failure::refused(&name, refusal, false))?;
         self.attendant.begin(source.fingerprint(), &start)?;
@@ -155,13 +154,13 @@ impl Job<'_> {
         let point = publisher.wait_until_left(control)?;
         // What it began with, not what it has made of that meanwhile.
         let mut config = self.config.clone();
-        self.attendant.resume(point.program, &mut config);
+        self.attendant.resume(point.program, &mut config)?;
         let source = self
             .open(point.program_start, &config)
             .map_err(|refusal| Failure::refused(&self.name(), refusal, false))?;
         let settings = config.settings();
         let remainder = Remainder::find(source, point, settings.tolerance_mm)?;
-        self.attendant.open_inputs();
+        self.attendant.begin_here()?;
         // Only now is a fault reset: one that resumes nothing leaves it to whoever looks at it.
         let start = publisher.wait_until_ready(control)?;
         self.attendant.begin(point.program, &start)?;

@@ -1,6 +1,6 @@
 //! What the planner's service executes for operators: lines and files, with modal state kept between.
 
-use super::attendant::Attendant;
+use super::attendant::{Attendant, recalling};
 use super::differences::{agreement, approach};
 use super::failure::Failure;
 use super::reading::for_program;
@@ -80,7 +80,9 @@ impl<'c> Workshop<'c> {
         let (run, in_force) = Self::publish(pipeline, (&config, &attendant), start, bench, |p| {
             Some(p.in_force())
         });
-        self.settle(&run, in_force, bench, &attendant, || Ok(Some(source())));
+        self.settle(&run, in_force, bench, &attendant, || {
+            Ok(Some(source().attended(recalling(&config, 0))))
+        });
         let statistics = run?;
         Ok(format!("executed: {} segments", statistics.segments))
     }
@@ -109,12 +111,13 @@ impl<'c> Workshop<'c> {
             }
             Some(from) => {
                 let approach = approach(&config, start, bench.publisher, bench.control)?;
+                attendant.recall(source.fingerprint())?;
                 let found = LineStart::find(source, from, &approach)
                     .map_err(|error| Stop::Refused(error.to_string()))?;
                 if !confirmed {
                     return Err(Stop::ToConfirm(agreement(from, &found, &approach, &config)));
                 }
-                attendant.begin_with(found.block());
+                attendant.begin_with(found.block())?;
                 let rest = found.approached(&approach);
                 let pipeline = Pipeline::resuming(rest, config.settings());
                 Self::publish(pipeline, (&config, &attendant), start, bench, |rest| {
@@ -123,7 +126,9 @@ impl<'c> Workshop<'c> {
             }
         };
         self.settle(&run, in_force, bench, &attendant, || {
-            Ok(match open()? {
+            let source = open()?;
+            let recalling = recalling(&config, source.fingerprint());
+            Ok(match source.attended(recalling) {
                 FileSource::Program(source) => Some(*source),
                 FileSource::Curve(_) | FileSource::Nurbs(_) => None,
             })
@@ -154,7 +159,6 @@ impl<'c> Workshop<'c> {
         if let Err(failure) = begun {
             return (Err(failure.into()), None);
         }
-        attendant.open_inputs();
         let published = {
             let control = &mut *bench.control;
             let mut notify = |notice: &Notice<'_>| {

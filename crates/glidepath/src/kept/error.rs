@@ -15,6 +15,12 @@ pub(crate) enum StateError {
          generation that is whole, and shows it"
     )]
     Damaged(KeptError),
+    /// What inputs and the probe answered is not known any more.
+    #[error(
+        "{0}. The program cannot be taken up again behind what it asked of inputs or the probe; run it \
+         from its beginning, which writes that file anew"
+    )]
+    Answers(KeptError),
     /// It is that of another machine.
     #[error(
         "what is kept in {folder} belongs to a machine with other axes or other kinematics. \

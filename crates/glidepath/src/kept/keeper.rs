@@ -8,6 +8,7 @@
 //! by a disk while the machine moves.
 
 use crate::config::MachineConfig;
+use crate::kept::answers::Journal;
 use crate::kept::convert::{begun_with, left_with, merge, merge_tools, with_tools};
 use crate::kept::error::StateError;
 use crate::kept::machine::fingerprint;
@@ -16,6 +17,7 @@ use glidepath_gcode::ToolTable;
 use glidepath_geometry::AxisVector;
 use glidepath_kept::{Directory, DirectoryLock, Kept, Offsets, Rest, Store, UnderWay};
 use glidepath_planner::{ChangeLog, SetUp};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 use std::thread::JoinHandle;
@@ -28,6 +30,7 @@ pub(crate) struct Keeper {
     before: (Offsets, Arc<ToolTable>),
     log: ChangeLog,
     is_resumed: bool,
+    folder: PathBuf,
     store: Writing,
     _lock: DirectoryLock,
 }
@@ -78,6 +81,7 @@ impl Keeper {
             kept,
             log: ChangeLog::default(),
             is_resumed: false,
+            folder,
             store: Writing::Here(store),
             _lock: lock,
         };
@@ -87,6 +91,19 @@ impl Keeper {
     /// Where the source of the program notes its changes.
     pub(crate) fn log(&self) -> ChangeLog {
         self.log.clone()
+    }
+
+    /// What the program is told by inputs and the probe: what it was told so far, or from its beginning
+    /// on.
+    ///
+    /// # Errors
+    /// It cannot be read or written.
+    pub(crate) fn journal(&self, program: u64, goes_on: bool) -> Result<Journal, StateError> {
+        if goes_on {
+            Journal::go_on(&self.folder, program)
+        } else {
+            Journal::begin(&self.folder, program)
+        }
     }
 
     /// Puts what the program began with that is to be resumed into the configuration; false if that

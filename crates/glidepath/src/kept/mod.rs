@@ -3,6 +3,7 @@
 //! Whoever reads a program begins with it ([`read`]); only the planner, which has the program
 //! executed, writes it ([`keeper`]).
 
+pub(crate) mod answers;
 pub(crate) mod convert;
 pub(crate) mod error;
 pub(crate) mod keeper;

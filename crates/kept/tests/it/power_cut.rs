@@ -9,7 +9,7 @@
 
 use crate::disk::{Disk, Fault};
 use crate::generations::kept_of;
-use glidepath_kept::{KeptError, Store};
+use glidepath_kept::{Answer, Answers, KeptError, Said, Storage as _, Store};
 
 /// Random numbers (xorshift64*, Marsaglia, Vigna).
 struct Random(u64);
@@ -152,5 +152,129 @@ fn a_write_that_failed_can_be_tried_again() {
         assert!(failed.is_ok() || before == 2 || before == 3);
         let generation = store.write(&kept_of(before + 1)).expect("it is written");
         assert_eq!(read(&disk).expect("whole"), generation);
+    }
+}
+
+/// The answer of a number, which tells it.
+fn answer(number: u32) -> Answer {
+    let at = [
+        f64::from(number),
+        -0.1,
+        1e-9,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        7.0 / 3.0,
+    ];
+    let said = match number % 4 {
+        0 => Said::Input(f64::from(number) / 3.0),
+        kind => Said::Probe {
+            contact: (kind > 1).then_some(at),
+            was_so: kind == 3,
+            stands: at,
+        },
+    };
+    Answer { line: number, said }
+}
+
+/// Answers are kept until the power goes at a step. Those that were are there afterwards, and at
+/// most the one that was being kept; the program goes on behind them.
+fn answers_cut_at_random(fault: Fault) -> Result<u32, String> {
+    const PROGRAM: u64 = 0xfeed;
+    let mut random = Random(0x51ed_270b_1f0b_9d2d);
+    let mut disk = Disk::new(fault);
+    let mut known = 0;
+    for cut in 0..1000 {
+        disk.fail_at(random.below(30));
+        let opened = Answers::go_on(&mut disk, PROGRAM).map_err(|error| format!("{error}"))?;
+        let (mut answers, found) = opened;
+        let expected: Vec<Answer> = (1..=known).map(answer).collect();
+        if found != expected {
+            return Err(format!("cut {cut}: {} of {known} answers", found.len()));
+        }
+        let (mut kept, mut may_be) = (known, None);
+        // Now and then a part of the run is gone back over.
+        if random.below(20) == 0 {
+            match answers.keep_first(known as usize / 2) {
+                Ok(()) => kept = known / 2,
+                Err(_) => may_be = Some(known / 2),
+            }
+        }
+        while answers.keep(&answer(kept + 1)).is_ok() {
+            kept += 1;
+        }
+        disk.lose_power(&mut || random.next());
+        let (_, found) = Answers::go_on(&mut disk, PROGRAM).map_err(|error| format!("{error}"))?;
+        let found = u32::try_from(found.len()).map_err(|error| error.to_string())?;
+        if found != kept && found != kept + 1 && Some(found) != may_be {
+            return Err(format!(
+                "cut {cut}: {found} answers are read, {kept} were kept"
+            ));
+        }
+        known = found;
+    }
+    Ok(known)
+}
+
+#[test]
+fn a_thousand_random_cuts_leave_every_answer_that_was_told() {
+    let known = answers_cut_at_random(Fault::None).expect("none is lost");
+    assert!(known > 50, "{known}");
+    let lost = answers_cut_at_random(Fault::DataIsNotAwaited).expect_err("an answer is lost");
+    assert!(lost.contains("answers"), "{lost}");
+}
+
+#[test]
+fn answers_are_those_of_one_run() {
+    let mut disk = Disk::new(Fault::None);
+    let mut first = Answers::begin(&mut disk, 1).expect("an empty disk");
+    for number in 1..=5 {
+        first.keep(&answer(number)).expect("it is kept");
+    }
+    let of = |disk: &mut Disk, program| {
+        let (_, found) = Answers::go_on(disk, program).expect("nothing is damaged");
+        found.len()
+    };
+    assert_eq!((of(&mut disk, 1), of(&mut disk, 2)), (5, 0));
+    // Another program asks nothing: what the first was told stays.
+    Answers::begin(&mut disk, 2).expect("it is whole");
+    assert_eq!(of(&mut disk, 1), 5);
+    // The first begins anew.
+    Answers::begin(&mut disk, 1).expect("it is whole");
+    assert_eq!(of(&mut disk, 1), 0);
+    let mut second = Answers::begin(&mut disk, 2).expect("it is whole");
+    second.keep(&answer(9)).expect("it is kept");
+    assert_eq!((of(&mut disk, 1), of(&mut disk, 2)), (0, 1));
+}
+
+#[test]
+fn what_is_damaged_in_the_middle_is_told() {
+    let mut disk = Disk::new(Fault::None);
+    let mut answers = Answers::begin(&mut disk, 1).expect("an empty disk");
+    for number in 1..=3 {
+        answers.keep(&answer(number)).expect("it is kept");
+    }
+    let whole = disk.read("answers").expect("a disk").expect("a file");
+    let damaged = |index: usize| {
+        let mut disk = Disk::new(Fault::None);
+        let mut bytes = whole.clone();
+        bytes[index] ^= 1;
+        disk.create("answers").expect("a disk");
+        disk.append("answers", &bytes).expect("a disk");
+        Answers::go_on(disk, 1).map(|(_, found)| found.len())
+    };
+    let ends: Vec<usize> = (0..whole.len()).filter(|at| whole[*at] == b'\n').collect();
+    for index in 0..whole.len() {
+        match damaged(index) {
+            Ok(found) if index <= ends[0] => assert_eq!(found, 0, "byte {index} of the head"),
+            Ok(found) => {
+                assert!(index >= ends[2], "byte {index}: {found} are read");
+                assert_eq!(found, if index == ends[2] { 1 } else { 2 });
+            }
+            Err(KeptError::Damaged { .. }) => assert!(index <= ends[2], "byte {index}"),
+            Err(error) => panic!("{error}"),
+        }
     }
 }

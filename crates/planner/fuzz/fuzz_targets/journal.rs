@@ -50,6 +50,7 @@ fuzz_target!(|left: Left<'_>| {
         block: block.into(),
         path_s,
         block_path_s,
+        found: None,
     };
     let source = Text(ProgramSource::new(text, Options::default()));
     let Ok(mut rest) = Remainder::find(source, point, TOLERANCE_MM) else {
@@ -63,7 +64,7 @@ fuzz_target!(|left: Left<'_>| {
                     assert!(ends.iter().flatten().all(|x| x.is_finite()));
                 }
             }
-            Supply::Pending | Supply::End | Supply::Refused(_) => return,
+            Supply::Pending | Supply::Probe | Supply::End | Supply::Refused(_) => return,
         }
     }
 });

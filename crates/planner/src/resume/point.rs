@@ -1,7 +1,8 @@
 //! Where a program was left.
 
+use glidepath_gcode::Probed;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{EndOfEpoch, LinkError, Status};
+use glidepath_link::{ContactKind, EndOfEpoch, LinkError, Status};
 
 use super::error::ResumeError;
 use crate::RunError;
@@ -24,6 +25,8 @@ pub struct ResumePoint {
     pub path_s: f64,
     /// The same at the beginning of the block.
     pub block_path_s: f64,
+    /// What the probe has found in the motion that was left, for a machine that stands there.
+    pub found: Option<Probed>,
 }
 
 impl ResumePoint {
@@ -33,13 +36,21 @@ impl ResumePoint {
             EndOfEpoch::Completed => Err(ResumeError::Completed)?,
             EndOfEpoch::Open | EndOfEpoch::Aborted | EndOfEpoch::Faulted | EndOfEpoch::Tripped => {}
         }
+        let position = AxisVector::from(status.position);
+        let kind = status.contact().map_err(LinkError::from)?;
+        let found = (kind != ContactKind::None).then(|| Probed {
+            contact: Some(AxisVector::from(status.contact)),
+            was_so: kind == ContactKind::AlreadySo,
+            stands: position,
+        });
         Ok(Self {
-            position: AxisVector::from(status.position),
+            position,
             program_start: AxisVector::from(status.program_start),
             program: status.program,
             block: status.block,
             path_s: status.path_s,
             block_path_s: status.block_path_s,
+            found,
         })
     }
 }

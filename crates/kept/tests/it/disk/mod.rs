@@ -78,7 +78,14 @@ impl Disk {
         self.names.clone_from(&self.lasting_names);
         for file in &mut self.files {
             if file.present != file.lasting {
-                let length = usize::try_from(random() >> 8).unwrap_or(0) % (file.present.len() + 1);
+                // What was waited for stays where more was written behind it.
+                let stays = if file.present.starts_with(&file.lasting) {
+                    file.lasting.len()
+                } else {
+                    0
+                };
+                let more = file.present.len() - stays + 1;
+                let length = stays + usize::try_from(random() >> 8).unwrap_or(0) % more;
                 let mut torn = file.present.clone();
                 match (random() >> 20) % 3 {
                     0 => torn.truncate(length),

@@ -1,0 +1,353 @@
+//! A program that asks inputs and the probe is left anywhere, and goes on as it would have.
+
+use std::io;
+use std::sync::{Arc, Mutex};
+
+use glidepath_gcode::{Connections, Options, Probed};
+use glidepath_geometry::AxisVector;
+use glidepath_program::{Effort, Event, Limits, Settings, Smoothing};
+
+use super::{Remainder, ResumePoint};
+use crate::{
+    Answer, AnswerJournal, Answered, Approach, Attending, InputDesk, ItemSource, LineStart,
+    Pipeline, ProgramSource, Refusal, RunError, Settled, StartLine, StartLineError, Step, Supply,
+};
+
+/// Where the part begins, and where the machine comes to rest behind a contact, mm.
+const PART_Z: f64 = -7.25;
+const STANDS_Z: f64 = -7.3;
+
+const PROGRAM: &str = "\
+G21 G90 G94 F600
+G0 X5 Y2
+M66 P0 L0
+G1 X[6+#5399]
+G38.2 Z-20 F300
+G91 G0 Z1
+G38.2 Z-3 F30
+G90
+G10 L2 P1 Z#5063
+G0 Z3
+M66 E1
+G1 Y[#5399]
+G38.3 Z2.5 F60
+G1 X[#5070+9] Z[#5063+1]
+M2
+";
+
+/// A journal in memory.
+#[derive(Debug, Clone, Default)]
+struct Journal {
+    kept: Arc<Mutex<Vec<Answered>>>,
+    recalled: usize,
+}
+
+impl Journal {
+    fn of(answers: &[Answered]) -> Self {
+        Self {
+            kept: Arc::new(Mutex::new(answers.to_vec())),
+            recalled: 0,
+        }
+    }
+
+    fn answers(&self) -> Vec<Answered> {
+        self.kept.lock().unwrap().clone()
+    }
+}
+
+impl AnswerJournal for Journal {
+    fn recall(&mut self) -> Option<Answered> {
+        let next = self.kept.lock().unwrap().get(self.recalled).copied();
+        self.recalled += usize::from(next.is_some());
+        next
+    }
+
+    fn end_recall(&mut self) -> io::Result<()> {
+        self.kept.lock().unwrap().truncate(self.recalled);
+        Ok(())
+    }
+
+    fn keep(&mut self, answered: &Answered) -> io::Result<()> {
+        self.kept.lock().unwrap().push(*answered);
+        Ok(())
+    }
+}
+
+/// A text as if it were a file.
+#[derive(Debug)]
+struct Text(ProgramSource<&'static [u8]>);
+
+impl Text {
+    fn new(start: AxisVector, desk: &InputDesk) -> Self {
+        let options = Options {
+            start,
+            connections: Connections::Real,
+            probing_v: Some(10.0),
+            ..Options::default()
+        };
+        let source = ProgramSource::new(PROGRAM.as_bytes(), options);
+        Self(source.attended(Attending {
+            inputs: Some(desk.clone()),
+            ..Attending::default()
+        }))
+    }
+}
+
+impl ItemSource for Text {
+    fn next_item(&mut self) -> Supply {
+        self.0.next_item()
+    }
+
+    fn settle(&mut self, known: Option<Answer>) -> Result<Settled, Refusal> {
+        self.0.settle(known)
+    }
+
+    fn lines_read(&self) -> u64 {
+        self.0.lines_read()
+    }
+
+    fn fingerprint(&self) -> u64 {
+        7
+    }
+}
+
+/// Where the machine was, and what was known then.
+#[derive(Debug, Clone)]
+struct Stand {
+    point: ResumePoint,
+    answers: Vec<Answered>,
+}
+
+/// A machine with a part under its probe.
+struct Machine {
+    desk: InputDesk,
+    journal: Journal,
+    stands: Vec<Stand>,
+    block_path_s: f64,
+}
+
+impl Machine {
+    fn new(desk: InputDesk, journal: Journal) -> Self {
+        Self {
+            desk,
+            journal,
+            stands: Vec::new(),
+            block_path_s: 0.0,
+        }
+    }
+
+    fn stand(&mut self, position: AxisVector, (block, path_s): (u32, f64), found: Option<Probed>) {
+        let before = self.stands.last().map(|stand| stand.point.block);
+        if before != Some(block) {
+            self.block_path_s = path_s;
+        }
+        self.stands.push(Stand {
+            point: ResumePoint {
+                position,
+                program_start: AxisVector::zeros(),
+                program: 7,
+                block,
+                path_s,
+                block_path_s: self.block_path_s,
+                found,
+            },
+            answers: self.journal.answers(),
+        });
+    }
+
+    /// Executes a program to its end.
+    fn execute<S: ItemSource>(&mut self, pipeline: &mut Pipeline<S>) {
+        loop {
+            let tripped = self.epoch(pipeline);
+            if !pipeline.comes_to_probe(tripped.is_some()).unwrap() {
+                return;
+            }
+            let last = self.stands.last().unwrap().point;
+            let probed = tripped.unwrap_or(Probed {
+                contact: None,
+                was_so: false,
+                stands: last.position,
+            });
+            let at = (last.block, last.path_s);
+            self.stand(probed.stands, at, probed.contact.and(Some(probed)));
+            pipeline.go_on_from(probed.stands, last.path_s);
+            self.desk.answer(Answer::Probe(probed)).unwrap();
+            self.stand(probed.stands, at, probed.contact.and(Some(probed)));
+        }
+    }
+
+    /// One epoch, and what the probe has found in it.
+    fn epoch<S: ItemSource>(&mut self, pipeline: &mut Pipeline<S>) -> Option<Probed> {
+        let mut looks = false;
+        loop {
+            match pipeline.step().unwrap() {
+                Step::Item => {}
+                Step::End => return None,
+                Step::Pending => self.desk.answer(Answer::Input(2.5)).unwrap(),
+                Step::Frame => {
+                    let frame = *pipeline.frame();
+                    looks |= matches!(frame.event, Some(Event::Probe { .. }));
+                    let touches = frame.position[2] <= PART_Z;
+                    let found = looks && touches;
+                    assert!(found || !touches || !looks, "it moves into the part");
+                    assert!(
+                        frame.position[2] > STANDS_Z - 1e-9,
+                        "it moves into the part"
+                    );
+                    if found {
+                        let (mut contact, mut stands) = (frame.position, frame.position);
+                        (contact[2], stands[2]) = (PART_Z, STANDS_Z);
+                        return Some(Probed {
+                            contact: Some(contact),
+                            was_so: false,
+                            stands,
+                        });
+                    }
+                    self.stand(frame.position, (frame.block, frame.path_s), None);
+                }
+            }
+        }
+    }
+}
+
+fn settings() -> Settings {
+    Settings {
+        limits: Limits::uniform(200.0, 2000.0, 40_000.0),
+        tolerance_mm: 0.02,
+        smoothing: Smoothing::Auto,
+        period_t: 0.004,
+        effort: Effort::Fast,
+    }
+}
+
+/// The program from its beginning to its end.
+fn whole() -> Machine {
+    let (desk, journal) = (InputDesk::default(), Journal::default());
+    desk.keep_in(Box::new(journal.clone()), false);
+    let start = AxisVector::zeros();
+    let mut pipeline = Pipeline::new(Text::new(start, &desk), settings(), start);
+    let mut machine = Machine::new(desk, journal);
+    machine.execute(&mut pipeline);
+    machine
+}
+
+#[test]
+fn a_program_that_asks_goes_on_from_wherever_it_was_left() {
+    let all = whole();
+    let answers = all.journal.answers();
+    assert_eq!(answers.len(), 5, "{answers:#?}");
+    let end = all.stands.last().unwrap();
+    // 9 for no contact of the last search, and its end in the coordinates that G10 has made.
+    assert!(
+        (end.point.position
+            - AxisVector::from_column_slice(&[
+                9.0,
+                2.5,
+                3.5 + PART_Z,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0,
+                0.0
+            ]))
+        .amax()
+            < 1e-9
+    );
+    let mut goes_on = 0;
+    // The last one is the end.
+    let rests = &all.stands[..all.stands.len() - 1];
+    for (number, stand) in rests.iter().enumerate() {
+        // Every one around where blocks meet, and some of the others.
+        let near = |other: usize| all.stands.get(other).map(|other| other.point.block);
+        let is_passing = near(number.saturating_sub(2)) == near(number + 2);
+        if is_passing && stand.point.found.is_none() && number % 11 != 0 {
+            continue;
+        }
+        let left = (number, &stand.point, stand.answers.len());
+        let desk = InputDesk::default();
+        let journal = Journal::of(&stand.answers);
+        desk.keep_in(Box::new(journal.clone()), true);
+        let source = Text::new(AxisVector::zeros(), &desk);
+        let rest = Remainder::find(source, stand.point, settings().tolerance_mm)
+            .unwrap_or_else(|error| panic!("{left:?}: {error}"));
+        desk.begin_here().unwrap();
+        let mut machine = Machine::new(desk, journal.clone());
+        let mut pipeline = Pipeline::resuming(rest, settings());
+        machine.execute(&mut pipeline);
+        let last = machine.stands.last().unwrap();
+        assert_eq!(last.point.position, end.point.position, "{left:?}");
+        assert_eq!(last.point.block, end.point.block, "{left:?}");
+        assert_eq!(machine.stands[0].point.position, stand.point.position);
+        // What was asked before is not asked again, and what was not, is.
+        assert_eq!(journal.answers(), answers, "{left:?}");
+        goes_on += 1;
+    }
+    assert!(goes_on > 100, "{goes_on}");
+}
+
+#[test]
+fn what_was_answered_and_is_not_known_any_more_is_refused() {
+    let all = whole();
+    let end = all.stands.last().unwrap();
+    for known in 0..4 {
+        let desk = InputDesk::default();
+        desk.keep_in(Box::new(Journal::of(&end.answers[..known])), true);
+        let source = Text::new(AxisVector::zeros(), &desk);
+        let refused = Remainder::find(source, end.point, 0.02).unwrap_err();
+        let line = [3, 5, 7, 11][known];
+        assert!(
+            matches!(refused, RunError::Refused(Refusal::AnswerUnknown { line: of }) if of == line),
+            "{refused}"
+        );
+    }
+    // Answers of another run, in which other lines asked.
+    let mut others = end.answers.clone();
+    others[1].line = 6;
+    let desk = InputDesk::default();
+    desk.keep_in(Box::new(Journal::of(&others)), true);
+    let refused = Remainder::find(Text::new(AxisVector::zeros(), &desk), end.point, 0.02);
+    assert!(matches!(
+        refused.unwrap_err(),
+        RunError::Refused(Refusal::AnswerUnknown { line: 5 })
+    ));
+}
+
+#[test]
+fn from_a_line_on_it_is_told_what_it_was_told_before_and_asks_anew_behind() {
+    let answers = whole().journal.answers();
+    let mut stands = AxisVector::zeros();
+    (stands[0], stands[1], stands[2]) = (30.0, 20.0, 10.0);
+    let approach = Approach {
+        position: stands,
+        now: glidepath_link::Auxiliary::default(),
+        tool_axis: glidepath_geometry::Axis::Z,
+        top: None,
+    };
+    // Line, answers in front of it, and where it begins.
+    for (line, told, z) in [(3, 0, 0.0), (5, 1, 10.0), (6, 2, STANDS_Z), (12, 4, -4.25)] {
+        let (desk, journal) = (InputDesk::default(), Journal::of(&answers));
+        desk.keep_in(Box::new(journal.clone()), true);
+        let start = StartLine { line, pass: 1 };
+        let found = LineStart::find(Text::new(stands, &desk), start, &approach).unwrap();
+        if line > 3 {
+            assert!((found.begins_at()[2] - z).abs() < 1e-9, "line {line}");
+        }
+        desk.begin_here().unwrap();
+        assert_eq!(journal.answers().len(), told, "line {line}");
+        let mut machine = Machine::new(desk, journal.clone());
+        let mut pipeline = Pipeline::resuming(found.approached(&approach), settings());
+        machine.execute(&mut pipeline);
+        let again = journal.answers();
+        assert_eq!(again.len(), answers.len(), "line {line}");
+        assert!(again.iter().zip(&answers).all(|(a, b)| a.line == b.line));
+    }
+    let (desk, journal) = (InputDesk::default(), Journal::of(&answers[..2]));
+    desk.keep_in(Box::new(journal), true);
+    let start = StartLine { line: 10, pass: 1 };
+    let refused = LineStart::find(Text::new(stands, &desk), start, &approach).unwrap_err();
+    assert!(matches!(
+        refused,
+        StartLineError::Refused(Refusal::AnswerUnknown { line: 7 })
+    ));
+}
