@@ -115,7 +115,9 @@ impl Interpreter {
         if let Some(non_modal) = block.codes.non_modal {
             self.act_non_modal(block, non_modal, motion, out)?;
         }
-        if let Some(Coded { code, .. }) = block.codes.motion {
+        if let Some(Coded { code, .. }) = block.codes.motion
+            && !block.codes.is_once
+        {
             self.state.modal.motion = code;
             if !matches!(code, Some(Motion::Cycle(_))) {
                 self.state.cycles = CycleSeries::default();

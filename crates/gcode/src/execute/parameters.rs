@@ -4,7 +4,9 @@
 //! |---|---|
 //! | `#1` … `#30` | local to a subroutine call; its arguments at first |
 //! | `#31` … `#5000` | global, zero at first |
+//! | `#5021` … `#5029` | machine coordinates of the position, in the units in force |
 //! | `#5061` … `#5070` | program coordinates of the last probing move's end; 1: contact was made |
+//! | `#5081` … `#5089` | in FANUC's language: the tool's offsets in force |
 //! | `#5161` …, `#5181` … | positions of G28 and G30, machine coordinates |
 //! | `#5210`, `#5211` … | is G92 in force, and its offsets |
 //! | `#5220` | active coordinate system, 1 for G54 |

@@ -5,6 +5,7 @@ use glidepath_geometry::{AXES, AxisVector, Plane};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::parameters::{DEBUG, MAX_ASSIGNED, MAX_NUMBERED, Parameters, READ_ONLY};
 use crate::execute::state::spindle::SpindleDirection;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::expression::scope::Scope;
 use crate::syntax::letters::AXIS_LETTERS;
 use crate::syntax::modes::{
@@ -56,12 +57,16 @@ fn machine(interpreter: &Interpreter, number: u32) -> f64 {
     let offsets = &interpreter.offsets;
     let index_from = |first: usize| number - first;
     match number {
+        5021..=5029 => in_units(interpreter, interpreter.state.position, index_from(5021)),
         5061..=5069 => in_units(
             interpreter,
             interpreter.state.probe.contact,
             index_from(5061),
         ),
         5070 => f64::from(u8::from(interpreter.state.probe.made)),
+        5081..=5089 if interpreter.options.dialect == Dialect::Fanuc => {
+            in_units(interpreter, offsets.tool, index_from(5081))
+        }
         5161..=5169 => offsets.reference[0][index_from(5161)],
         5181..=5189 => offsets.reference[1][index_from(5181)],
         5210 => f64::from(u8::from(offsets.shift.iter().any(|v| *v != 0.0))),

@@ -203,6 +203,7 @@ impl Block {
         let span = SourceSpan::new(start, cursor.end_of_word());
         self.any = true;
         match letter {
+            b'G' if self.dialect == Dialect::Fanuc => self.codes.add_fanuc_g(value, span),
             b'G' => self.codes.add_g(value, span),
             b'M' if self.dialect == Dialect::Marlin => {
                 self.codes.add_printer_m(value, span, &self.declared)

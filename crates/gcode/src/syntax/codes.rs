@@ -61,6 +61,8 @@ pub(crate) struct Codes {
     pub(crate) user: Option<Coded<u32>>,
     /// An M code of printers that takes the words of its block.
     pub(crate) function: Option<Coded<u32>>,
+    /// The motion is that of this block alone: what was the mode stays it (G31).
+    pub(crate) is_once: bool,
 }
 
 impl Codes {
@@ -125,6 +127,19 @@ impl Codes {
             990 => set(&mut self.retract, Retract::RPlane, span),
             _ => Err(refused_g(tenths, value, span)),
         }
+    }
+
+    /// Adds a G word of a FANUC program: G31 is a move that a contact ends, and no error without.
+    pub(crate) fn add_fanuc_g(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
+        if code_number(value) != Some(31) {
+            return self.add_g(value, span);
+        }
+        self.is_once = true;
+        let skip = Probe {
+            toward: true,
+            must: false,
+        };
+        self.set_motion(Some(Motion::Probe(skip)), span)
     }
 
     /// True if the block has any code.

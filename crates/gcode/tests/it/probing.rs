@@ -5,7 +5,7 @@
     reason = "a test: what is exact is compared exactly"
 )]
 
-use glidepath_gcode::{Connections, Options, Probed, Program, check};
+use glidepath_gcode::{Connections, Dialect, Options, Probed, Program, check};
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Event, Item, ItemKind};
 
@@ -63,6 +63,46 @@ fn a_program_goes_on_from_where_the_machine_came_to_rest() {
     program.answer_probe(&found).unwrap();
     let after = until_probe(&mut program);
     assert_eq!(ends(&after), [(6.0, -1.6), (5.0, -0.5)]);
+}
+
+#[test]
+fn a_fanuc_goes_on_behind_g31_with_or_without_a_contact() {
+    let text =
+        "G54 G90 G01 X10. F300.\nG31 Z-5.\nX[#5063*10.]\nG91 G31 X3. F60.\nG90 X[#5061+1.]\nM30\n";
+    let fanuc = Options {
+        dialect: Dialect::Fanuc,
+        ..options()
+    };
+    let mut program = Program::new(text.as_bytes(), fanuc);
+    assert_eq!(
+        ends(&until_probe(&mut program)),
+        [(10.0, 0.0), (10.0, -5.0)]
+    );
+    let found = answer(Some(at(10.0, -1.5)), false, at(10.0, -1.75));
+    program.answer_probe(&found).unwrap();
+    // G01 is the mode still.
+    let before = until_probe(&mut program);
+    assert_eq!(ends(&before), [(-15.0, -1.75), (-12.0, -1.75)]);
+    assert_eq!(
+        before[1].kind,
+        ItemKind::Event(Event::Probe { release: false })
+    );
+    program
+        .answer_probe(&answer(None, false, at(-12.0, -1.75)))
+        .unwrap();
+    assert_eq!(ends(&until_probe(&mut program)), [(-11.0, -1.75)]);
+    let report = check("G31 Z-5 F300\nM2\n".as_bytes(), options());
+    assert!(report.diagnostics[0].message.contains("G31"));
+}
+
+#[test]
+fn parameters_show_the_position_of_the_machine() {
+    let text = "G10 L2 P1 X1 Z2\nG0 X4\nG1 X[#5021+#5420] Z#5023 F100\nG20\nX[#5021]\nM2\n";
+    let mut program = Program::new(text.as_bytes(), options());
+    // X5 of the machine is X4 of the program; 9 is 10, and Z0 of the machine is 2 above its zero.
+    let found = ends(&until_probe(&mut program));
+    assert_eq!(found[..2], [(5.0, 0.0), (10.0, 2.0)]);
+    assert!((found[2].0 - 11.0).abs() < 1e-9, "{found:?}");
 }
 
 #[test]
