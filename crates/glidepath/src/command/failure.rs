@@ -1,6 +1,7 @@
 //! Why a command did not do what was asked.
 
 use crate::bench::CatalogueError;
+use crate::command::other_users::OtherUsers;
 use crate::config::ConfigError;
 use crate::curve_file::{CurveDiagnostic, CurveFileError};
 use crate::exit::Exit;
@@ -125,11 +126,13 @@ pub(super) enum Failure {
     /// Nobody answers for an instance.
     #[error(
         "no interpolator runs in the instance \"{instance}\"; start `glidepath interpolator`, or name \
-         another with --instance"
+         another with --instance{others}"
     )]
     NoInterpolator {
         /// The instance.
         instance: String,
+        /// Who has one.
+        others: OtherUsers,
     },
     /// The interpolator lives, and does not answer.
     #[error(

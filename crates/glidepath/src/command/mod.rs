@@ -21,6 +21,7 @@ mod kept_offsets;
 mod live;
 mod offsets;
 mod operator;
+mod other_users;
 mod plan;
 mod planner;
 mod preview;

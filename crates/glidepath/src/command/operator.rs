@@ -3,6 +3,7 @@
 //! `abort --signal`, which reaches the process itself.
 
 use super::jog::lift;
+use super::other_users::OtherUsers;
 use super::session;
 use crate::cli::{AbortArgs, JointsArgs, OperatorArgs, OverrideArgs};
 use crate::command::failure::Failure;
@@ -141,6 +142,7 @@ fn of_link(error: LinkError, link: &LinkConfig) -> Failure {
     match error {
         LinkError::NoServer { .. } => Failure::NoInterpolator {
             instance: link.instance.clone(),
+            others: OtherUsers::look(),
         },
         error => error.into(),
     }
@@ -167,6 +169,7 @@ pub(super) fn abort(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Fa
     let found = InterpolatorProcess::find(&session::link(&instance, config))?;
     let process = found.ok_or_else(|| Failure::NoInterpolator {
         instance: instance.clone(),
+        others: OtherUsers::look(),
     })?;
     let pid = process.id();
     process.terminate()?;

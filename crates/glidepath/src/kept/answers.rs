@@ -1,8 +1,8 @@
 //! What inputs and the probe answered the program under way, among what the machine keeps.
 
 use crate::kept::error::StateError;
-use glidepath_geometry::AxisVector;
 use glidepath_gcode::Probed;
+use glidepath_geometry::AxisVector;
 use glidepath_kept::{AXES, Answer as Kept, Answers, Directory, Said};
 use glidepath_planner::{Answer, AnswerJournal, Answered};
 use std::io;

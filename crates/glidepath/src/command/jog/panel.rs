@@ -2,6 +2,7 @@
 
 use super::demands::Demands;
 use crate::command::failure::Failure;
+use crate::command::other_users::OtherUsers;
 use crate::config::MachineConfig;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
@@ -106,6 +107,8 @@ impl Panel {
 fn gone(instance: &str) -> Failure {
     Failure::NoInterpolator {
         instance: instance.to_owned(),
+        // It was there.
+        others: OtherUsers::default(),
     }
 }
 
