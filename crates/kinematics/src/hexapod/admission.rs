@@ -44,11 +44,8 @@ pub(super) fn admit(hexapod: &Hexapod, axes: &AxisVector) -> Result<(), Kinemati
 /// largest one is at most the Frobenius norm. False where that is not plain.
 fn is_plainly_regular(jacobian: &Matrix6<f64>) -> bool {
     let least = MIN_SINGULAR_VALUE * (1.0 + PLAINLY);
-    if !(jacobian.norm() < MAX_CONDITION * least) {
-        return false;
-    }
     let shifted = jacobian.tr_mul(jacobian) - Matrix6::identity() * (least * least);
-    shifted.cholesky().is_some()
+    jacobian.norm() < MAX_CONDITION * least && shifted.cholesky().is_some()
 }
 
 fn admit_angles(
