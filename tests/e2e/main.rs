@@ -17,6 +17,7 @@ mod operating;
 mod operator;
 mod probing;
 mod programs;
+mod recordings;
 mod resume;
 mod run;
 mod service;

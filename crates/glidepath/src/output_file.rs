@@ -21,6 +21,8 @@ pub enum OutputKind {
     Plot,
     /// A plot as a page.
     Page,
+    /// A recording.
+    Recording,
     /// A program of fitted curves.
     Program,
     /// A curve file.
@@ -33,6 +35,7 @@ impl OutputKind {
             Self::Setpoints => "a CSV file of setpoints",
             Self::Plot => "a plot of this program",
             Self::Page => "a page of this program",
+            Self::Recording => "a recording",
             Self::Program => "a program with fitted curves",
             Self::Curve => "a curve file of this program",
         }
@@ -44,6 +47,7 @@ impl OutputKind {
             Self::Setpoints => head.starts_with("tick,time_s,line,state,feed_mm_s,path_mm"),
             Self::Plot => head.starts_with("<svg ") && head.contains("'DejaVu Sans','Segoe UI'"),
             Self::Page => head.contains(glidepath_live::file::GENERATOR),
+            Self::Recording => head.get(..12).unwrap_or(head).contains("MCAP0\r\n"),
             Self::Program => head.starts_with("(machine coordinates: run it with work offsets"),
             Self::Curve => head.starts_with("name = ") && head.contains("control_points = [  # mm"),
         }

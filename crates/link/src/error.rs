@@ -1,6 +1,6 @@
 //! What can go wrong with a port.
 
-use crate::{RecordError, RecordingError};
+use crate::RecordError;
 use std::io;
 use std::path::Path;
 
@@ -89,9 +89,6 @@ pub enum LinkError {
     /// What arrived is not to be used.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// A recording that stands in for a port, or listens at one, failed.
-    #[error(transparent)]
-    Recording(#[from] RecordingError),
     /// Anything else the transport reports.
     #[error("{service}: {action} failed: {detail}")]
     Transport {

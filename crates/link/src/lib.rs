@@ -19,8 +19,7 @@
 //!   its frames), [`Client`] and [`Server`];
 //! * the records: [`SetpointFrame`], [`Setpoint`], [`Status`], [`CommandRequest`],
 //!   [`SegmentRequest`] and their replies;
-//! * [`servo`] is what a drive does with setpoints; [`Recorder`] and [`Replay`] keep records in a
-//!   file.
+//! * [`servo`] is what a drive does with setpoints.
 //!
 //! Invariants:
 //!
@@ -55,7 +54,6 @@ mod in_process;
 mod ipc;
 mod port;
 mod record;
-mod recording;
 mod service;
 
 pub use error::{BoxedError, LinkError};
@@ -74,5 +72,4 @@ pub use record::{
     Setpoint, SetpointFrame, SetpointMarks, SpindleFlags, SpindleState, Status, StreamItem, Text,
     decode,
 };
-pub use recording::{Recorder, Recording, RecordingError, Replay};
 pub use service::Capacity;

@@ -133,6 +133,7 @@ houses! {
     plant: "plant",
     program: "program",
     realtime: "realtime",
+    recording: "recording",
 }
 
 #[test]

@@ -17,6 +17,7 @@ use super::operator::{
 };
 use super::path::PathArgs;
 use super::program::ProgramArgs;
+use super::record::{AuditArgs, RecordArgs, ReplayArgs};
 use crate::program_file::ProgramFile;
 use clap::Subcommand;
 
@@ -71,6 +72,19 @@ pub enum Command {
         after_help = "Examples: glidepath live part.ngc · glidepath live part.ngc --commands --port 0"
     )]
     Live(LiveArgs),
+    /// Record every setpoint and status in a file that others can open (MCAP), or be a black box
+    #[command(
+        after_help = "Examples: glidepath record run.mcap --program part.ngc · \
+                            glidepath record box.mcap --ring 10min"
+    )]
+    Record(RecordArgs),
+    /// Play a recording into a servo stack, in place of an interpolator
+    #[command(after_help = "Example: glidepath replay run.mcap --instance bench-1")]
+    Replay(ReplayArgs),
+    /// Judge a recording or a CSV file of setpoints: limits, order, gaps, and the path by its program
+    #[command(after_help = "Examples: glidepath audit run.mcap · \
+                            glidepath audit received.csv --program part.ngc --config mill.toml")]
+    Audit(AuditArgs),
     /// Feed hold: come to rest on the path
     #[command(after_help = "Example: glidepath hold")]
     Hold(OperatorArgs),
@@ -198,6 +212,9 @@ impl Command {
             Self::Feed(args) => &args.basic,
             Self::Status(args) => &args.operator.basic,
             Self::Live(args) => &args.operator.basic,
+            Self::Record(args) => &args.operator.basic,
+            Self::Replay(args) => &args.operator.basic,
+            Self::Audit(args) => &args.basic,
             Self::Hold(args)
             | Self::Resume(args)
             | Self::Step(args)
@@ -228,6 +245,8 @@ impl Command {
             Self::Run(args) => Some(&args.path),
             Self::Plan(args) => Some(&args.path),
             Self::Live(args) => Some(&args.path),
+            Self::Record(args) => Some(&args.path),
+            Self::Audit(args) => Some(&args.path),
             Self::Planner(args) => Some(&args.path),
             _ => None,
         }

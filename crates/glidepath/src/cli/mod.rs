@@ -13,6 +13,7 @@ mod offsets;
 mod operator;
 mod path;
 mod program;
+mod record;
 
 pub use basic::{BasicArgs, InstanceArgs, OverwriteArgs};
 pub use command::Command;
@@ -36,6 +37,7 @@ pub use operator::{
 };
 pub use path::PathArgs;
 pub use program::ProgramArgs;
+pub use record::{AuditArgs, RecordArgs, ReplayArgs};
 
 use clap::Parser;
 

@@ -14,10 +14,12 @@ use glidepath_gcode::Diagnostic;
 use glidepath_hal::HalError;
 use glidepath_interpolator as interpolator;
 use glidepath_kept::var::VarError;
-use glidepath_link::{LinkError, RecordingError};
+use glidepath_link::LinkError;
 use glidepath_live::ServerError;
 use glidepath_migration::ReadError;
 use glidepath_planner::{self as planner, FeedError, Refusal};
+use glidepath_recording::ReadError as RecordingError;
+use std::path::Path;
 use thiserror::Error;
 
 /// A command's failure, with its exit code.
@@ -249,9 +251,14 @@ pub(super) enum Failure {
         /// How to mend it.
         remedy: String,
     },
-    /// What a process sent cannot be read.
-    #[error(transparent)]
-    Recording(#[from] RecordingError),
+    /// A recording cannot be read.
+    #[error("{file}: {error}")]
+    Recording {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        error: RecordingError,
+    },
     /// A process cannot be started or ended.
     #[error("cannot start or end a process: {0}")]
     Process(std::io::Error),
@@ -295,6 +302,13 @@ impl From<UnknownEvent> for Failure {
 }
 
 impl Failure {
+    /// A failure to read a recording.
+    #[must_use]
+    pub(super) fn recording(file: &Path, error: RecordingError) -> Self {
+        let file = file.display().to_string();
+        Self::Recording { file, error }
+    }
+
     /// A refusal of a program, as the failure to run it.
     #[must_use]
     pub(super) fn refused(program: &str, refusal: Refusal, moved: bool) -> Self {
@@ -381,7 +395,7 @@ impl Failure {
             | Self::Feed(_)
             | Self::Link(_)
             | Self::Hal(_)
-            | Self::Recording(_)
+            | Self::Recording { .. }
             | Self::Server(_)
             | Self::Process(_)
             | Self::Jitter(_)

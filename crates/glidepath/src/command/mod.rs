@@ -2,6 +2,7 @@
 
 mod acknowledge;
 mod attendant;
+mod audit;
 mod bench;
 mod check;
 mod configuration;
@@ -27,6 +28,8 @@ mod planner;
 mod preview;
 mod program_diagnostics;
 mod reading;
+mod record;
+mod replay;
 mod run;
 mod servo;
 mod session;
@@ -97,6 +100,9 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Status(args) if args.watch => watch::watch(args, &config()?),
         Command::Status(args) => operator::status(&args.operator, &config()?),
         Command::Live(args) => live::live(args, &config()?),
+        Command::Record(args) => record::record(args, &config()?),
+        Command::Replay(args) => replay::replay(args, &config()?),
+        Command::Audit(args) => audit::audit(args, &config()?),
         Command::Hold(args) => operator::command(args, &config()?, "hold", link::Command::Hold),
         Command::Resume(args) => {
             operator::command(args, &config()?, "resume", link::Command::Resume)

@@ -11,6 +11,7 @@
 
 mod child;
 mod monitor;
+mod pipe;
 mod relay;
 
 use super::{check, plan::title, session};

@@ -1,5 +1,6 @@
 //! What the mock servo receives, on its way through this process: counted, audited, recorded.
 
+use super::pipe::Pipe;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::play_time::{PlayTime, PlayedTime};
@@ -10,7 +11,7 @@ use glidepath_audit::diagnosis::{Diagnosis, Summary};
 use glidepath_audit::{Audit, AuditSettings};
 use glidepath_geometry::AxisVector;
 use glidepath_link::servo::{Servo, ServoCounts, ServoSettings};
-use glidepath_link::{MachineState, Replay, Setpoint};
+use glidepath_link::{MachineState, Setpoint};
 use glidepath_planner::{FileSource, ItemSource, Supply};
 use glidepath_program::{Frame, FrameFlags, ItemKind};
 use std::io::{BufReader, Read};
@@ -94,9 +95,9 @@ fn receive(
     seen: &Seen,
 ) -> Result<Received, Failure> {
     let period_t = config.period_t();
-    let replay = Replay::<Setpoint, _>::new(BufReader::new(from))?;
+    let pipe = Pipe(BufReader::new(from));
     // Only its counts are wanted: the servo process has played these setpoints in its own time.
-    let mut servo = Servo::new(Box::new(replay), ServoSettings::default());
+    let mut servo = Servo::new(Box::new(pipe), ServoSettings::default());
     let mut play_time = PlayTime::new(period_t);
     // The program begins where the machine stands, which is known when the first setpoint comes that
     // belongs to it: drives may have been switched on, and have gone home, before.

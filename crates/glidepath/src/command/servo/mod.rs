@@ -21,9 +21,9 @@ use crate::report::grouped;
 use crate::sample::Sample;
 use glidepath_hal::HalCounts;
 use glidepath_link::servo::ServoCounts;
-use glidepath_link::{Recorder, Setpoint};
+use glidepath_link::Setpoint;
 use serde_json::json;
-use std::io::BufWriter;
+use std::io::{BufWriter, Write as _};
 
 /// Receives until asked to end.
 ///
@@ -96,14 +96,12 @@ fn report(args: &ServoArgs, counts: &ServoCounts, hal: Option<&HalCounts>) {
     }
 }
 
-/// Passes every setpoint on, as a recording, until the reader goes away.
+/// Passes every setpoint on, as it is in memory, until the reader goes away.
 fn relay(args: &ServoArgs, config: &MachineConfig, interrupt: &Interrupt) -> Result<Exit, Failure> {
-    let mut recorder = Recorder::new(BufWriter::new(std::io::stdout().lock()))?;
+    let mut out = BufWriter::new(std::io::stdout().lock());
     desk::play(args, config, interrupt, |setpoint| {
-        Ok(recorder
-            .write(setpoint)
-            .and_then(|()| recorder.flush())
-            .is_ok())
+        let written = out.write_all(bytemuck::bytes_of(setpoint));
+        Ok(written.and_then(|()| out.flush()).is_ok())
     })?;
     Ok(interrupt.exit())
 }

@@ -1,0 +1,88 @@
+//! Arguments of `record`, `replay` and `audit`.
+
+use super::basic::{BasicArgs, OverwriteArgs};
+use super::operator::OperatorArgs;
+use super::path::PathArgs;
+use clap::Args;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Arguments of `record`.
+#[derive(Debug, Args)]
+pub struct RecordArgs {
+    /// The recording (MCAP); while it grows it is called FILE.part
+    pub file: PathBuf,
+    /// The program that runs, to be part of the recording: `audit` then judges by it
+    #[arg(long, value_name = "PROGRAM")]
+    pub program: Option<PathBuf>,
+    /// Be a black box: keep the last minutes in memory, and write them when a fault stops the
+    /// machine, to FILE with the time in its name; such as 10min or 90s
+    #[arg(long, value_name = "TIME", value_parser = duration, conflicts_with = "seconds")]
+    pub ring: Option<Duration>,
+    /// End after so many seconds; without it, when asked to
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub seconds: Option<f64>,
+    /// How the path is followed: what the planner was told.
+    #[command(flatten)]
+    pub path: PathArgs,
+    /// The interpolator that is meant.
+    #[command(flatten)]
+    pub operator: OperatorArgs,
+    /// Which files may be overwritten.
+    #[command(flatten)]
+    pub overwrite: OverwriteArgs,
+}
+
+/// Arguments of `replay`.
+#[derive(Debug, Args)]
+pub struct ReplayArgs {
+    /// The recording (MCAP)
+    pub file: PathBuf,
+    /// The instance whose servo stack plays it.
+    #[command(flatten)]
+    pub operator: OperatorArgs,
+}
+
+/// Arguments of `audit`.
+#[derive(Debug, Args)]
+pub struct AuditArgs {
+    /// The recording (MCAP), or setpoints (CSV) of `plan`, `run` or `servo`
+    pub file: PathBuf,
+    /// The program that it has to follow; a recording may have one of its own
+    #[arg(long, value_name = "PROGRAM")]
+    pub program: Option<PathBuf>,
+    /// How the path was to be followed.
+    #[command(flatten)]
+    pub path: PathArgs,
+    /// Configuration and form of the report; a recording has a configuration of its own.
+    #[command(flatten)]
+    pub basic: BasicArgs,
+}
+
+fn seconds(text: &str) -> Result<f64, &'static str> {
+    let number: f64 = text.parse().map_err(|_| "give a number")?;
+    if number.is_finite() && number > 0.0 && number <= 1e7 {
+        Ok(number)
+    } else {
+        Err("give seconds above 0")
+    }
+}
+
+fn duration(text: &str) -> Result<Duration, &'static str> {
+    let end = text
+        .find(|c: char| !(c.is_ascii_digit() || c == '.'))
+        .unwrap_or(text.len());
+    let (number, unit) = text.split_at(end);
+    let factor = match unit.trim() {
+        "s" | "" => 1.0,
+        "min" => 60.0,
+        "h" => 3600.0,
+        _ => return Err("give a time, such as 10min, 90s or 1h"),
+    };
+    let number = seconds(number)? * factor;
+    if number <= 14_400.0 {
+        Ok(Duration::from_secs_f64(number))
+    } else {
+        Err("give 4 h at most: they are kept in memory")
+    }
+}

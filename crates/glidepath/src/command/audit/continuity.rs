@@ -1,0 +1,199 @@
+//! Whether setpoints follow each other: their numbers, their times, the limits of every axis by finite
+//! differences, and whether an axis stands still that says it moves.
+
+use super::finding::{Finding, Findings};
+use crate::config::MachineConfig;
+use glidepath_geometry::{AXES, Axis};
+use glidepath_link::{Record as _, Setpoint};
+
+/// A limit counts as kept up to this factor, as in the audit of a plan.
+const SLACK: f64 = 1.0 + 1e-6;
+/// Rounding of a difference of third order, in units in the last place of the positions.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// An axis that says it goes further than this in a period does not repeat its position, mm or
+/// degrees.
+const GOES_MM: f64 = 1e-5;
+/// Periods are told in whole nanoseconds; the clock is not asked.
+const TIME_NS: u64 = 1000;
+
+/// The judge of one setpoint after the other.
+pub(super) struct Continuity {
+    axes: Vec<AxisState>,
+    period_ns: u64,
+    period_t: f64,
+    last: Option<Setpoint>,
+    pub(super) findings: Findings,
+    pub(super) setpoints: u64,
+    /// The largest velocity, acceleration and jerk over its limit.
+    pub(super) most: [f64; 3],
+}
+
+struct AxisState {
+    axis: Axis,
+    limits: [f64; 3],
+    /// Last differences of first and second order.
+    differences: [f64; 2],
+    magnitude: f64,
+    /// Samples in a row.
+    run: u32,
+}
+
+impl Continuity {
+    pub(super) fn new(config: &MachineConfig) -> Self {
+        let limits = config.limits();
+        let axes = config.axis_names().into_iter().map(|axis| {
+            let i = axis.index();
+            AxisState {
+                axis,
+                limits: [limits.velocity[i], limits.acceleration[i], limits.jerk[i]],
+                differences: [0.0; 2],
+                magnitude: 0.0,
+                run: 0,
+            }
+        });
+        Self {
+            axes: axes.collect(),
+            period_ns: config.period_ns(),
+            period_t: config.period_t(),
+            last: None,
+            findings: Findings::default(),
+            setpoints: 0,
+            most: [0.0; 3],
+        }
+    }
+
+    pub(super) fn take(&mut self, setpoint: &Setpoint) {
+        self.setpoints += 1;
+        if let Err(error) = setpoint.check() {
+            self.find(setpoint, "broken", error.to_string());
+        }
+        let last = self.last.replace(*setpoint);
+        // Another life of the interpolator, or a position that was taken over from the drives.
+        let continues = |last: &Setpoint| {
+            (last.boot_id, last.reference) == (setpoint.boot_id, setpoint.reference)
+        };
+        let Some(last) = last.filter(continues) else {
+            self.begin();
+            return;
+        };
+        if setpoint.number <= last.number {
+            let text = format!("setpoint {} comes after {}", setpoint.number, last.number);
+            self.find(setpoint, "order", text);
+            self.begin();
+            return;
+        }
+        let missing = setpoint.number - last.number - 1;
+        if missing > 0 {
+            let text = format!(
+                "{missing} setpoints are missing before number {}",
+                setpoint.number
+            );
+            self.find(setpoint, "gap", text);
+            self.begin();
+        }
+        self.judge_time(&last, setpoint, missing);
+        self.judge_motion(&last, setpoint, missing == 0);
+    }
+
+    fn begin(&mut self) {
+        for axis in &mut self.axes {
+            axis.run = 0;
+        }
+    }
+
+    fn find(&mut self, setpoint: &Setpoint, kind: &'static str, text: String) {
+        let (tick, line) = (setpoint.tick, setpoint.line);
+        self.findings.push(Finding {
+            kind,
+            tick,
+            line,
+            text,
+        });
+    }
+
+    fn judge_time(&mut self, last: &Setpoint, setpoint: &Setpoint, missing: u64) {
+        if setpoint.tick <= last.tick {
+            let text = format!("tick {} comes after {}", setpoint.tick, last.tick);
+            self.find(setpoint, "order", text);
+            return;
+        }
+        let ticks = setpoint.tick - last.tick;
+        let told = setpoint.missed_ticks.saturating_sub(last.missed_ticks);
+        if ticks != 1 + missing + told {
+            let text =
+                format!("{ticks} ticks since the setpoint before, and {told} told as missed");
+            self.find(setpoint, "gap", text);
+        }
+        let passed_ns = setpoint.scheduled_ns.wrapping_sub(last.scheduled_ns);
+        if passed_ns.abs_diff(ticks.saturating_mul(self.period_ns)) > TIME_NS {
+            let text = format!("{passed_ns} ns pass in {ticks} periods");
+            self.find(setpoint, "timing", text);
+        }
+        let ahead_ns = setpoint.apply_ns.wrapping_sub(setpoint.scheduled_ns);
+        if ahead_ns.abs_diff(self.period_ns) > TIME_NS {
+            let text = format!("it applies {ahead_ns} ns after its tick");
+            self.find(setpoint, "timing", text);
+        }
+    }
+
+    fn judge_motion(&mut self, last: &Setpoint, setpoint: &Setpoint, follows: bool) {
+        let t = self.period_t;
+        let mut found = Vec::new();
+        for state in &mut self.axes {
+            let of = |values: &[f64; AXES]| values.get(state.axis.index()).copied().unwrap_or(0.0);
+            let (before, now) = (of(&last.position), of(&setpoint.position));
+            state.magnitude = state.magnitude.max(now.abs());
+            if !follows {
+                continue;
+            }
+            let first = now - before;
+            let second = first - state.differences[0];
+            let third = second - state.differences[1];
+            state.differences = [first, second];
+            state.run += 1;
+            let (axis, rounding) = (state.axis, ROUNDING * state.magnitude);
+            let mut power = 1.0;
+            let orders = [
+                (first, "velocity"),
+                (second, "acceleration"),
+                (third, "jerk"),
+            ];
+            for (order, (difference, name)) in (0_u32..).zip(orders) {
+                power *= t;
+                // Behind a gap a difference needs as many samples as its order, and one more.
+                if state.run <= order {
+                    continue;
+                }
+                let limit = state
+                    .limits
+                    .get(order as usize)
+                    .copied()
+                    .unwrap_or(f64::INFINITY);
+                let ratio = (difference.abs() - rounding) / (limit * power);
+                if let Some(most) = self.most.get_mut(order as usize) {
+                    *most = most.max(ratio);
+                }
+                if ratio > SLACK {
+                    let value = difference / power;
+                    found.push((
+                        "limit",
+                        format!("{axis} has a {name} of {value:.3}, {ratio:.4} of its limit"),
+                    ));
+                }
+            }
+            // With a constant jerk this is how far it goes, exactly.
+            let goes = (of(&last.velocity) + of(&setpoint.velocity)) * t / 2.0
+                - (of(&setpoint.acceleration) - of(&last.acceleration)) * t * t / 12.0;
+            if first == 0.0 && goes.abs() > GOES_MM {
+                let v = of(&setpoint.velocity);
+                found.push((
+                    "frozen",
+                    format!("{axis} stays at {now:.6} and says that it moves at {v:.3}"),
+                ));
+            }
+        }
+        for (kind, text) in found {
+            self.find(setpoint, kind, text);
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! Whether a motion follows its program, and whether it is the one that is planned for it today.
+
+use super::finding::{Finding, Findings};
+use crate::command::failure::Failure;
+use crate::config::MachineConfig;
+use crate::plan_steps::PlanSteps;
+use glidepath_audit::{Audit, AuditSettings, Sample, ViolationKind};
+use glidepath_geometry::AxisVector;
+use glidepath_link::{MachineState, Setpoint};
+use glidepath_planner::{FileSource, ItemSource as _, Step, Supply};
+use glidepath_program::ItemKind;
+use std::path::Path;
+
+/// How far the auditor is told the program ahead of the motion, mm of path.
+const AHEAD_MM: f64 = 100.0;
+/// A setpoint at a frame is the frame: rounding of what was added up, mm or degrees.
+const SAME_MM: f64 = 1e-9;
+
+/// The judge of a motion by its program.
+pub(super) struct Follows {
+    audit: Audit,
+    program: FileSource,
+    told_s: f64,
+    /// The positions of the plan, by sequence; none where they need not be those.
+    plan: Option<Vec<AxisVector>>,
+    has_moved: bool,
+    is_over: bool,
+    findings: Findings,
+}
+
+impl Follows {
+    /// The judge of a motion that begins at a place, at overrides up to a factor.
+    pub(super) fn new(
+        path: &Path,
+        config: &MachineConfig,
+        stands: AxisVector,
+        overrides: (f64, f64),
+    ) -> Result<Self, Failure> {
+        let (least, most) = overrides;
+        let source = || {
+            let options = config.program_options(stands);
+            FileSource::unchecked(path, options, &config.settings())
+        };
+        let settings = AuditSettings::from(&config.settings());
+        // Another override plans other frames.
+        #[allow(clippy::float_cmp, reason = "an override of 100 % is exactly 1")]
+        let is_plain = least == 1.0 && most == 1.0;
+        let plan = if is_plain {
+            let mut steps = PlanSteps::on_all_cores(source, config, stands)?;
+            let mut positions = Vec::new();
+            loop {
+                match steps.step()? {
+                    Step::Frame => positions.push(steps.frame().position),
+                    Step::Item | Step::Pending => {}
+                    Step::End => break,
+                }
+            }
+            Some(positions)
+        } else {
+            None
+        };
+        Ok(Self {
+            audit: Audit::new(&settings).with_override(most.max(1.0)),
+            program: source()?,
+            told_s: 0.0,
+            plan,
+            has_moved: false,
+            is_over: false,
+            findings: Findings::default(),
+        })
+    }
+
+    pub(super) const fn has_plan(&self) -> bool {
+        self.plan.is_some()
+    }
+
+    /// The next setpoint of the program's epoch.
+    pub(super) fn take(&mut self, setpoint: &Setpoint) {
+        if self.is_over {
+            return;
+        }
+        let is_idle = setpoint.state() == Ok(MachineState::Idle);
+        self.has_moved |= !is_idle;
+        while self.told_s < setpoint.path_s + AHEAD_MM && self.tell() {}
+        self.audit.sample(&Sample {
+            tick: setpoint.number,
+            line: setpoint.line,
+            position: setpoint.position.into(),
+            reported: None,
+        });
+        // What is done behind the program, by hand, is none of its business.
+        self.is_over = is_idle && self.has_moved;
+        let at = usize::try_from(setpoint.sequence).ok();
+        let planned = self
+            .plan
+            .as_ref()
+            .filter(|_| setpoint.fraction == 0.0 && !is_idle)
+            .and_then(|plan| plan.get(at?));
+        if let Some(planned) = planned {
+            let off = AxisVector::from(setpoint.position) - planned;
+            let off_mm = off.amax();
+            if off_mm > SAME_MM {
+                self.findings.push(Finding {
+                    kind: "deviation",
+                    tick: setpoint.tick,
+                    line: setpoint.line,
+                    text: format!("{off_mm:.6} mm off the plan of the program"),
+                });
+            }
+        }
+    }
+
+    fn tell(&mut self) -> bool {
+        let Supply::Item(item) = self.program.next_item() else {
+            return false;
+        };
+        if let ItemKind::Move { segment, .. } = &item.kind {
+            self.told_s += segment.length();
+        }
+        self.audit.program(&item);
+        true
+    }
+
+    /// The verdict; `is_whole` if the motion went on to the end of the program. Gives the largest
+    /// deviation, mm, too.
+    pub(super) fn finish(mut self, is_whole: bool) -> (Findings, f64) {
+        while self.tell() {}
+        let report = self.audit.finish();
+        let mut findings = self.findings;
+        let mut others = 0;
+        for violation in &report.violations {
+            let kind = match violation.kind {
+                // Told by whoever looks at the axes.
+                ViolationKind::Velocity { .. }
+                | ViolationKind::Acceleration { .. }
+                | ViolationKind::Jerk { .. }
+                | ViolationKind::Inconsistent { .. }
+                | ViolationKind::NotFinite
+                | ViolationKind::Gap { .. } => {
+                    others += 1;
+                    continue;
+                }
+                ViolationKind::Incomplete if !is_whole => {
+                    others += 1;
+                    continue;
+                }
+                ViolationKind::Feed { .. }
+                | ViolationKind::AlongPath { .. }
+                | ViolationKind::AcrossPath { .. }
+                | ViolationKind::PathJerk { .. } => "limit",
+                ViolationKind::Incomplete | ViolationKind::Dwell { .. } => "program",
+                _ => "deviation",
+            };
+            let text = violation.to_string();
+            let (_, text) = text.split_once(": ").unwrap_or(("", &text));
+            findings.push(Finding {
+                kind,
+                tick: violation.tick,
+                line: violation.line,
+                text: text.to_owned(),
+            });
+        }
+        let listed = report.violations.len() as u64;
+        // Those that are not listed are told as if they were of the program.
+        findings.count +=
+            report.violation_count.saturating_sub(listed) * u64::from(others < listed);
+        (findings, report.max_deviation_mm)
+    }
+}

@@ -1,0 +1,295 @@
+//! `glidepath audit`: judges what was recorded, by the limits of the machine, and by the program.
+
+mod continuity;
+mod finding;
+mod follows;
+mod trace;
+
+use crate::cli::AuditArgs;
+use crate::command::failure::Failure;
+use crate::config::{self, MachineConfig};
+use crate::exit::Exit;
+use crate::file_error::FileError;
+use crate::output;
+use crate::report::grouped;
+use continuity::Continuity;
+use finding::Findings;
+use follows::Follows;
+use glidepath_geometry::AxisVector;
+use glidepath_link::{EndOfEpoch, MachineState, Setpoint};
+use glidepath_recording::Entry;
+use serde_json::json;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+use trace::Trace;
+
+/// Findings in the text; the object has more.
+const SHOWN: usize = 20;
+
+/// Judges a recording or a CSV file.
+///
+/// # Errors
+/// It cannot be read, or its program cannot be planned.
+pub(super) fn audit(args: &AuditArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    let program = Program::of(args, config)?;
+    let verdict = judge(&args.file, &program.config, program.path.as_deref())?;
+    verdict.tell(args);
+    Ok(verdict.exit())
+}
+
+/// What a file is judged by.
+struct Program {
+    config: MachineConfig,
+    path: Option<PathBuf>,
+    /// The program of the recording, in a file, for as long as it is needed.
+    _kept: Option<NamedTempFile>,
+}
+
+impl Program {
+    fn of(args: &AuditArgs, config: &MachineConfig) -> Result<Self, Failure> {
+        let trace = Trace::open(&args.file, config)?;
+        let mut program = Self {
+            config: config.clone(),
+            path: args.program.clone(),
+            _kept: None,
+        };
+        let Some(origin) = trace.origin() else {
+            return Ok(program);
+        };
+        if args.basic.config.is_none() {
+            let name = format!("configuration of {}", args.file.display());
+            program.config = config::parse(&name, &origin.configuration)?;
+            let fact = |name: &str| origin.fact(name).unwrap_or_default();
+            let path = &mut program.config.path;
+            // What the command line of the recorder said counts for more than its file.
+            path.effort = config::effort(fact("effort")).unwrap_or(path.effort);
+            path.tolerance_mm = fact("tolerance_mm").parse().unwrap_or(path.tolerance_mm);
+            path.effort = args.path.effort.unwrap_or(path.effort);
+            path.tolerance_mm = args.path.tolerance.unwrap_or(path.tolerance_mm);
+        }
+        if let (None, Some(text)) = (&args.program, &origin.program) {
+            let write = || {
+                let mut file = NamedTempFile::new()?;
+                file.write_all(text)?;
+                Ok(file)
+            };
+            let file = write().map_err(FileError::file("keep the program of", &args.file))?;
+            program.path = Some(file.path().to_owned());
+            program._kept = Some(file);
+        }
+        Ok(program)
+    }
+}
+
+/// What came of it.
+#[derive(Debug, Default)]
+struct Verdict {
+    setpoints: u64,
+    seconds: f64,
+    is_cut: bool,
+    most: [f64; 3],
+    max_deviation_mm: Option<f64>,
+    was_replanned: bool,
+    findings: Findings,
+    notes: Vec<String>,
+}
+
+/// What the first look at a file tells.
+#[derive(Default)]
+struct Outline {
+    /// Epochs with motion in them.
+    epochs: Vec<u64>,
+    /// Whether the first of them is there from its beginning, and where it begins.
+    begin: Option<AxisVector>,
+    overrides: Option<(f64, f64)>,
+    is_away: bool,
+    /// The machine came to the end of what it did.
+    is_idle: bool,
+    end: Option<EndOfEpoch>,
+    has_statuses: bool,
+}
+
+impl Outline {
+    fn take(&mut self, setpoint: &Setpoint, last: Option<&Setpoint>) {
+        let state = setpoint.state();
+        self.is_idle = state == Ok(MachineState::Idle);
+        if setpoint.epoch == 0 {
+            return;
+        }
+        let is_new = self.epochs.last() != Some(&setpoint.epoch);
+        if is_new {
+            if self.epochs.is_empty() {
+                let stood = last.map(|last| AxisVector::from(last.position));
+                let begins = setpoint.sequence == 0 || stood.is_some();
+                let place = stood.unwrap_or_else(|| setpoint.position.into());
+                self.begin = begins.then_some(place);
+            }
+            self.epochs.push(setpoint.epoch);
+        }
+        self.is_away |= setpoint.away.iter().any(|away| *away != 0.0);
+        if state == Ok(MachineState::Running) {
+            let now = setpoint.effective_override;
+            let (least, most) = self.overrides.unwrap_or((now, now));
+            self.overrides = Some((least.min(now), most.max(now)));
+        }
+    }
+}
+
+/// Judges a file by a machine and, if there is one, by a program.
+fn judge(file: &Path, config: &MachineConfig, program: Option<&Path>) -> Result<Verdict, Failure> {
+    let mut trace = Trace::open(file, config)?;
+    let mut continuity = Continuity::new(config);
+    let mut outline = Outline::default();
+    let (mut first, mut last) = (None, None::<Setpoint>);
+    while let Some(entry) = trace.next_entry()? {
+        match entry {
+            Entry::Setpoint(setpoint) => {
+                continuity.take(&setpoint);
+                outline.take(&setpoint, last.as_ref());
+                first.get_or_insert(setpoint.tick);
+                last = Some(setpoint);
+            }
+            Entry::Status(status) => {
+                outline.has_statuses = true;
+                outline.end = status.end_of_epoch().ok();
+            }
+        }
+    }
+    let ticks = last.map_or(0, |last| last.tick.saturating_sub(first.unwrap_or(0)));
+    #[allow(clippy::cast_precision_loss, reason = "for people")]
+    let seconds = ticks as f64 * config.period_t();
+    let mut verdict = Verdict {
+        setpoints: continuity.setpoints,
+        seconds,
+        is_cut: trace.is_cut(),
+        most: continuity.most,
+        findings: continuity.findings,
+        ..Verdict::default()
+    };
+    if verdict.is_cut {
+        verdict.note("the recording was cut short: judged as far as it goes");
+    }
+    match (program, unjudged(&outline)) {
+        (None, _) => verdict.note("no program was given: its path is not judged (--program)"),
+        (Some(_), Some(why)) => verdict.note(why),
+        (Some(program), None) => follow(file, config, program, &outline, &mut verdict)?,
+    }
+    Ok(verdict)
+}
+
+/// Why the path is not judged by the program.
+const fn unjudged(outline: &Outline) -> Option<&'static str> {
+    match (outline.epochs.as_slice(), &outline.begin) {
+        ([], _) => Some("nothing moved: there is no path to judge"),
+        ([_], None) => Some("it begins in the middle of the program: its path is not judged"),
+        ([_], Some(_)) if outline.is_away => {
+            Some("axes were jogged away from the path: it is not judged")
+        }
+        ([_], Some(_)) => None,
+        _ => Some("there are several motions in it: their paths are not judged"),
+    }
+}
+
+fn follow(
+    file: &Path,
+    config: &MachineConfig,
+    program: &Path,
+    outline: &Outline,
+    verdict: &mut Verdict,
+) -> Result<(), Failure> {
+    let stands = outline.begin.unwrap_or_else(|| config.home());
+    let overrides = outline.overrides.unwrap_or((1.0, 1.0));
+    let mut follows = Follows::new(program, config, stands, overrides)?;
+    verdict.was_replanned = follows.has_plan();
+    let mut trace = Trace::open(file, config)?;
+    while let Some(entry) = trace.next_entry()? {
+        if let Entry::Setpoint(setpoint) = entry
+            && setpoint.epoch != 0
+        {
+            follows.take(&setpoint);
+        }
+    }
+    let was_stopped = matches!(outline.end, Some(EndOfEpoch::Aborted | EndOfEpoch::Faulted));
+    let is_whole = !verdict.is_cut && !was_stopped && (outline.is_idle || !outline.has_statuses);
+    if !is_whole {
+        verdict.note("the motion ends before the program does");
+    }
+    let (findings, max_deviation_mm) = follows.finish(is_whole);
+    verdict.findings.join(findings);
+    verdict.max_deviation_mm = Some(max_deviation_mm);
+    Ok(())
+}
+
+impl Verdict {
+    fn note(&mut self, text: &str) {
+        self.notes.push(text.to_owned());
+    }
+
+    const fn exit(&self) -> Exit {
+        if self.findings.count == 0 {
+            Exit::Done
+        } else {
+            Exit::Fault
+        }
+    }
+
+    fn tell(&self, args: &AuditArgs) {
+        let [velocity, acceleration, jerk] = self.most;
+        if args.basic.json {
+            let listed = self.findings.listed.iter();
+            output::object(&json!({
+                "file": args.file,
+                "setpoints": self.setpoints,
+                "seconds": self.seconds,
+                "is_cut": self.is_cut,
+                "max_velocity_ratio": velocity,
+                "max_acceleration_ratio": acceleration,
+                "max_jerk_ratio": jerk,
+                "max_deviation_mm": self.max_deviation_mm,
+                "was_replanned": self.was_replanned,
+                "notes": self.notes,
+                "finding_count": self.findings.count,
+                "findings": listed.map(finding::Finding::object).collect::<Vec<_>>(),
+            }));
+            return;
+        }
+        let mut text = format!(
+            "{}: {} setpoints, {:.1} s\n  limits used   velocity {:.2} %, acceleration {:.2} %, \
+             jerk {:.2} %\n",
+            args.file.display(),
+            grouped(self.setpoints),
+            self.seconds,
+            velocity * 100.0,
+            acceleration * 100.0,
+            jerk * 100.0
+        );
+        if let Some(deviation_mm) = self.max_deviation_mm {
+            let plan = if self.was_replanned {
+                "; held against its plan"
+            } else {
+                ""
+            };
+            text.push_str(&format!("  deviation     {deviation_mm:.4} mm{plan}\n"));
+        }
+        for note in &self.notes {
+            text.push_str(&format!("  note          {note}\n"));
+        }
+        let count = self.findings.count;
+        if count == 0 {
+            text.push_str("  verdict       nothing found\n");
+        } else {
+            text.push_str(&format!(
+                "  verdict       {} findings, the first:\n",
+                grouped(count)
+            ));
+        }
+        for finding in self.findings.listed.iter().take(SHOWN) {
+            text.push_str(&finding.line());
+        }
+        output::result(&text);
+    }
+}
+
+#[cfg(test)]
+mod tests;

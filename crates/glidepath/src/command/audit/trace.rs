@@ -1,0 +1,148 @@
+//! Setpoints of a recording or of a CSV file, one after the other.
+
+use crate::command::failure::Failure;
+use crate::config::MachineConfig;
+use crate::file_error::FileError;
+use bytemuck::Zeroable as _;
+use glidepath_geometry::Axis;
+use glidepath_link::{MachineState, Setpoint};
+use glidepath_recording::{Entry, MAGIC, Origin, Reader};
+use std::fs::File;
+use std::io::{self, BufRead as _, BufReader, Read as _};
+use std::path::{Path, PathBuf};
+
+/// A file with setpoints in it.
+pub(super) enum Trace {
+    /// A recording.
+    Recording(Box<Reader<BufReader<File>>>, PathBuf),
+    /// Comma-separated values.
+    Csv(Box<Csv>),
+}
+
+/// Rows of setpoints as `plan`, `run` and `servo` write them.
+pub(super) struct Csv {
+    rows: io::Lines<BufReader<File>>,
+    path: PathBuf,
+    /// The axis and the quantity of each column behind the first six.
+    columns: Vec<Option<(Axis, usize)>>,
+    period_ns: u64,
+    row: u64,
+}
+
+impl Trace {
+    pub(super) fn open(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
+        let mut head = Vec::new();
+        let file = File::open(path).map_err(FileError::open(path))?;
+        let read = (&file).take(8).read_to_end(&mut head);
+        read.map_err(FileError::open(path))?;
+        let file = File::open(path).map_err(FileError::open(path))?;
+        if head == MAGIC {
+            let reader = Reader::new(BufReader::with_capacity(1 << 18, file))
+                .map_err(|error| Failure::recording(path, error))?;
+            return Ok(Self::Recording(Box::new(reader), path.to_owned()));
+        }
+        let mut rows = BufReader::new(file).lines();
+        let header = rows.next().transpose().map_err(FileError::open(path))?;
+        let header = header.unwrap_or_default();
+        let mut names = header.split(',');
+        let first = ["tick", "time_s", "line", "state", "feed_mm_s", "path_mm"];
+        if !first.iter().all(|name| names.next() == Some(name)) {
+            let reason = "it is neither a recording nor a CSV file of setpoints".to_owned();
+            return Err(FileError::guarded(path, reason).into());
+        }
+        let column = |name: &str| {
+            let (quantity, axis) = name.split_once('_')?;
+            let quantity = ["pos", "vel", "acc"]
+                .iter()
+                .position(|of| *of == quantity)?;
+            let axis = Axis::ALL
+                .into_iter()
+                .find(|known| known.to_string() == axis)?;
+            Some((axis, quantity))
+        };
+        Ok(Self::Csv(Box::new(Csv {
+            rows,
+            path: path.to_owned(),
+            columns: names.map(column).collect(),
+            period_ns: config.period_ns(),
+            row: 1,
+        })))
+    }
+
+    /// What it is of, if it says so.
+    pub(super) const fn origin(&self) -> Option<&Origin> {
+        match self {
+            Self::Recording(reader, _) => Some(reader.origin()),
+            Self::Csv(_) => None,
+        }
+    }
+
+    /// Whether it was found to be cut short, once all of it is read.
+    pub(super) const fn is_cut(&self) -> bool {
+        match self {
+            Self::Recording(reader, _) => reader.is_cut(),
+            Self::Csv(_) => false,
+        }
+    }
+
+    /// What comes next.
+    pub(super) fn next_entry(&mut self) -> Result<Option<Entry>, Failure> {
+        match self {
+            Self::Recording(reader, path) => reader
+                .next_entry()
+                .map_err(|error| Failure::recording(path, error)),
+            Self::Csv(csv) => csv.next_setpoint(),
+        }
+    }
+}
+
+impl Csv {
+    fn next_setpoint(&mut self) -> Result<Option<Entry>, Failure> {
+        let Some(row) = self.rows.next() else {
+            return Ok(None);
+        };
+        let row = row.map_err(FileError::open(&self.path))?;
+        self.row += 1;
+        let setpoint = self.setpoint(&row).ok_or_else(|| {
+            let reason = format!("row {} is no setpoint: {row}", self.row);
+            FileError::guarded(&self.path, reason)
+        })?;
+        Ok(Some(Entry::Setpoint(setpoint)))
+    }
+
+    fn setpoint(&self, row: &str) -> Option<Setpoint> {
+        let mut values = row.split(',');
+        let mut setpoint = Setpoint::zeroed();
+        setpoint.tick = values.next()?.parse().ok()?;
+        values.next()?.parse::<f64>().ok()?;
+        setpoint.line = values.next()?.parse().ok()?;
+        let state = match values.next()? {
+            "idle" => MachineState::Idle,
+            _ => MachineState::Running,
+        };
+        setpoint.state = state.code();
+        setpoint.feed_v = values.next()?.parse().ok()?;
+        setpoint.path_s = values.next()?.parse().ok()?;
+        // Rows have no numbers and no times of their own: the tick stands for both.
+        setpoint.number = setpoint.tick;
+        setpoint.sequence = setpoint.tick;
+        setpoint.scheduled_ns = setpoint.tick.wrapping_mul(self.period_ns);
+        setpoint.apply_ns = setpoint.scheduled_ns.wrapping_add(self.period_ns);
+        setpoint.epoch = 1;
+        setpoint.effective_override = 1.0;
+        for column in &self.columns {
+            let value = values.next()?;
+            let Some((axis, quantity)) = column else {
+                continue;
+            };
+            let value: f64 = value.parse().ok()?;
+            let of = match quantity {
+                0 => &mut setpoint.position,
+                1 => &mut setpoint.velocity,
+                _ => &mut setpoint.acceleration,
+            };
+            *of.get_mut(axis.index())? = value;
+        }
+        values.next().is_none().then_some(setpoint)
+    }
+}

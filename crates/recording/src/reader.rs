@@ -1,0 +1,213 @@
+//! Reads recordings, whole or cut short.
+
+use crate::origin::{CONFIGURATION, FACTS, Origin, PROGRAM};
+use crate::protobuf::Malformed;
+use crate::table::Message;
+use glidepath_link::{Setpoint, Status};
+use mcap::records::Record;
+use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
+use mcap::{McapError, parse_record};
+use std::collections::HashMap;
+use std::io::{self, Read};
+
+/// Longest part of a file that is believed: a program of some ten million lines.
+const MOST_BYTES: usize = 1 << 30;
+
+/// Why a recording cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// It is none, or broken.
+    #[error("it is no recording, or broken: {0}")]
+    Format(McapError),
+    /// A message is not what its topic says.
+    #[error("a message on {topic}: {cause}")]
+    Message {
+        /// The topic.
+        topic: &'static str,
+        /// What is wrong.
+        cause: Malformed,
+    },
+    /// It was not written by Glidepath.
+    #[error("it was not recorded by Glidepath")]
+    Foreign,
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] io::Error),
+}
+
+/// What is in a recording, in the order in which it came.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "nearly every entry is a setpoint, and they are read one by one"
+)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Entry {
+    /// A setpoint.
+    Setpoint(Setpoint),
+    /// A status.
+    Status(Status),
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Topic {
+    Setpoint,
+    Status,
+}
+
+/// A recording as it is read.
+pub struct Reader<R> {
+    from: R,
+    reader: LinearReader,
+    origin: Origin,
+    topics: HashMap<u16, Topic>,
+    first: Option<Entry>,
+    is_cut: bool,
+    is_over: bool,
+}
+
+impl<R> core::fmt::Debug for Reader<R> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Reader")
+            .field("is_cut", &self.is_cut)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<R: Read> Reader<R> {
+    /// Opens a recording, as far as its first entry.
+    ///
+    /// # Errors
+    ///
+    /// It is none, or cannot be read.
+    pub fn new(from: R) -> Result<Self, ReadError> {
+        let options = LinearReaderOptions::default()
+            .with_skip_end_magic(true)
+            .with_validate_chunk_crcs(true)
+            .with_record_length_limit(MOST_BYTES);
+        let mut reader = Self {
+            from,
+            reader: LinearReader::new_with_options(options),
+            origin: Origin::default(),
+            topics: HashMap::new(),
+            first: None,
+            is_cut: false,
+            is_over: false,
+        };
+        reader.first = reader.advance()?;
+        if reader.origin.facts.is_empty() {
+            return Err(ReadError::Foreign);
+        }
+        Ok(reader)
+    }
+
+    /// What it is of.
+    #[must_use]
+    pub const fn origin(&self) -> &Origin {
+        &self.origin
+    }
+
+    /// Whether it was found to be cut short, once all of it is read.
+    #[must_use]
+    pub const fn is_cut(&self) -> bool {
+        self.is_cut
+    }
+
+    /// The next entry; `None` at the end, or where the recording was cut.
+    ///
+    /// # Errors
+    ///
+    /// It is broken.
+    pub fn next_entry(&mut self) -> Result<Option<Entry>, ReadError> {
+        match self.first.take() {
+            Some(entry) => Ok(Some(entry)),
+            None => self.advance(),
+        }
+    }
+
+    fn advance(&mut self) -> Result<Option<Entry>, ReadError> {
+        while !self.is_over {
+            let Some(event) = self.reader.next_event() else {
+                self.is_over = true;
+                break;
+            };
+            match event {
+                Ok(LinearReadEvent::ReadRequest(count)) => {
+                    let got = self.from.read(self.reader.insert(count))?;
+                    self.reader.notify_read(got);
+                }
+                Ok(LinearReadEvent::Record { data, opcode }) => {
+                    let record = parse_record(opcode, data).map_err(ReadError::Format)?;
+                    let taken = take(record, &mut self.origin, &mut self.topics)?;
+                    match taken {
+                        Taken::Entry(entry) => return Ok(Some(entry)),
+                        Taken::End => self.is_over = true,
+                        Taken::Nothing => {}
+                    }
+                }
+                // The recorder was killed, or the disk was full: what is there is good.
+                Err(McapError::UnexpectedEof | McapError::UnexpectedEoc) => {
+                    self.is_cut = true;
+                    self.is_over = true;
+                }
+                Err(error) => return Err(ReadError::Format(error)),
+            }
+        }
+        Ok(None)
+    }
+}
+
+#[allow(clippy::large_enum_variant, reason = "it lives for a moment")]
+enum Taken {
+    Entry(Entry),
+    End,
+    Nothing,
+}
+
+fn take(
+    record: Record<'_>,
+    origin: &mut Origin,
+    topics: &mut HashMap<u16, Topic>,
+) -> Result<Taken, ReadError> {
+    match record {
+        Record::Metadata(metadata) if metadata.name == FACTS => origin.facts = metadata.metadata,
+        Record::Attachment { header, data, .. } => match header.name.as_str() {
+            CONFIGURATION => {
+                origin.configuration = String::from_utf8_lossy(&data).into_owned();
+            }
+            PROGRAM => origin.program = Some(data.into_owned()),
+            _ => {}
+        },
+        Record::Channel(channel) => {
+            let topic = match channel.topic.as_str() {
+                "/setpoint" => Some(Topic::Setpoint),
+                "/status" => Some(Topic::Status),
+                _ => None,
+            };
+            if let Some(topic) = topic {
+                topics.insert(channel.id, topic);
+            }
+        }
+        Record::Message { header, data } => {
+            let entry = match topics.get(&header.channel_id) {
+                Some(Topic::Setpoint) => Entry::Setpoint(message("/setpoint", &data)?),
+                Some(Topic::Status) => Entry::Status(message("/status", &data)?),
+                None => return Ok(Taken::Nothing),
+            };
+            return Ok(Taken::Entry(entry));
+        }
+        Record::DataEnd(_) | Record::Footer(_) => return Ok(Taken::End),
+        _ => {}
+    }
+    Ok(Taken::Nothing)
+}
+
+fn message<M: Message + bytemuck::Zeroable>(
+    topic: &'static str,
+    data: &[u8],
+) -> Result<M, ReadError> {
+    let mut message = M::zeroed();
+    message
+        .read(data)
+        .map_err(|cause| ReadError::Message { topic, cause })?;
+    Ok(message)
+}

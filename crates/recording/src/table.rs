@@ -1,0 +1,242 @@
+//! Records as messages: one table for each says which field has which number and type. Writing,
+//! reading and the description in the file are all made from it.
+
+use crate::protobuf::{Fields, Malformed, Wire, put_bytes, put_fixed64, put_varint};
+use glidepath_link::{Quantiles, Text};
+
+/// Types of a `FieldDescriptorProto`.
+const DOUBLE: u64 = 1;
+const FIXED64: u64 = 6;
+const STRING: u64 = 9;
+const UINT32: u64 = 13;
+/// Its labels.
+const OPTIONAL: u64 = 1;
+const REPEATED: u64 = 3;
+
+/// A field of a record.
+pub(crate) trait Value {
+    /// Type and label in the description.
+    const TYPE: (u64, u64);
+    fn put(&self, number: u32, out: &mut Vec<u8>);
+    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed>;
+}
+
+impl Value for u64 {
+    const TYPE: (u64, u64) = (FIXED64, OPTIONAL);
+
+    fn put(&self, number: u32, out: &mut Vec<u8>) {
+        put_fixed64(number, self.to_le_bytes(), out);
+    }
+
+    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
+        let Wire::Fixed64(bytes) = wire else {
+            return Err(Malformed);
+        };
+        *self = Self::from_le_bytes(bytes);
+        Ok(())
+    }
+}
+
+impl Value for f64 {
+    const TYPE: (u64, u64) = (DOUBLE, OPTIONAL);
+
+    fn put(&self, number: u32, out: &mut Vec<u8>) {
+        put_fixed64(number, self.to_le_bytes(), out);
+    }
+
+    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
+        let Wire::Fixed64(bytes) = wire else {
+            return Err(Malformed);
+        };
+        *self = Self::from_le_bytes(bytes);
+        Ok(())
+    }
+}
+
+impl Value for u32 {
+    const TYPE: (u64, u64) = (UINT32, OPTIONAL);
+
+    fn put(&self, number: u32, out: &mut Vec<u8>) {
+        put_varint(number, (*self).into(), out);
+    }
+
+    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
+        let Wire::Varint(value) = wire else {
+            return Err(Malformed);
+        };
+        *self = value.try_into().map_err(|_| Malformed)?;
+        Ok(())
+    }
+}
+
+impl Value for Text {
+    const TYPE: (u64, u64) = (STRING, OPTIONAL);
+
+    fn put(&self, number: u32, out: &mut Vec<u8>) {
+        put_bytes(number, self.as_str().as_bytes(), out);
+    }
+
+    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
+        let Wire::Bytes(bytes) = wire else {
+            return Err(Malformed);
+        };
+        *self = Self::new(str::from_utf8(bytes).map_err(|_| Malformed)?);
+        Ok(())
+    }
+}
+
+/// Numbers in a row, packed.
+fn put_packed(number: u32, values: impl Iterator<Item = [u8; 8]>, out: &mut Vec<u8>) {
+    let bytes: Vec<u8> = values.flatten().collect();
+    put_bytes(number, &bytes, out);
+}
+
+fn get_packed<'a>(
+    wire: Wire<'a>,
+    count: usize,
+) -> Result<impl Iterator<Item = [u8; 8]> + 'a, Malformed> {
+    let Wire::Bytes(bytes) = wire else {
+        return Err(Malformed);
+    };
+    let (chunks, rest) = bytes.as_chunks::<8>();
+    if chunks.len() != count || !rest.is_empty() {
+        return Err(Malformed);
+    }
+    Ok(chunks.iter().copied())
+}
+
+impl<const N: usize> Value for [f64; N] {
+    const TYPE: (u64, u64) = (DOUBLE, REPEATED);
+
+    fn put(&self, number: u32, out: &mut Vec<u8>) {
+        put_packed(number, self.iter().map(|value| value.to_le_bytes()), out);
+    }
+
+    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
+        for (value, bytes) in self.iter_mut().zip(get_packed(wire, N)?) {
+            *value = f64::from_le_bytes(bytes);
+        }
+        Ok(())
+    }
+}
+
+impl<const N: usize> Value for [u64; N] {
+    const TYPE: (u64, u64) = (FIXED64, REPEATED);
+
+    fn put(&self, number: u32, out: &mut Vec<u8>) {
+        put_packed(number, self.iter().map(|value| value.to_le_bytes()), out);
+    }
+
+    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
+        for (value, bytes) in self.iter_mut().zip(get_packed(wire, N)?) {
+            *value = u64::from_le_bytes(bytes);
+        }
+        Ok(())
+    }
+}
+
+/// Half, 99 %, 99.9 %, the longest.
+impl Value for Quantiles {
+    const TYPE: (u64, u64) = <[u64; 4]>::TYPE;
+
+    fn put(&self, number: u32, out: &mut Vec<u8>) {
+        [self.p50_ns, self.p99_ns, self.p999_ns, self.max_ns].put(number, out);
+    }
+
+    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
+        let mut values = [0; 4];
+        values.get(wire)?;
+        [self.p50_ns, self.p99_ns, self.p999_ns, self.max_ns] = values;
+        Ok(())
+    }
+}
+
+/// A field in the description.
+pub(crate) struct FieldOf {
+    pub(crate) name: &'static str,
+    pub(crate) number: u32,
+    pub(crate) kind: (u64, u64),
+}
+
+/// A record that is a message.
+pub(crate) trait Message: Sized {
+    /// Its full name.
+    const NAME: &'static str;
+    fn fields() -> Vec<FieldOf>;
+    fn put(&self, out: &mut Vec<u8>);
+    fn get(&mut self, number: u32, wire: Wire<'_>) -> Result<(), Malformed>;
+
+    /// Reads a message. Fields that it does not have stay as they are; those that nobody knows are
+    /// skipped.
+    fn read(&mut self, bytes: &[u8]) -> Result<(), Malformed> {
+        let mut fields = Fields(bytes);
+        while let Some((number, wire)) = fields.next()? {
+            self.get(number, wire)?;
+        }
+        Ok(())
+    }
+
+    /// A `FileDescriptorSet` with this message in it.
+    fn description() -> Vec<u8> {
+        let (package, name) = Self::NAME.rsplit_once('.').unwrap_or(("", Self::NAME));
+        let mut message = Vec::new();
+        put_bytes(1, name.as_bytes(), &mut message);
+        for field in Self::fields() {
+            let mut described = Vec::new();
+            put_bytes(1, field.name.as_bytes(), &mut described);
+            put_varint(3, field.number.into(), &mut described);
+            put_varint(4, field.kind.1, &mut described);
+            put_varint(5, field.kind.0, &mut described);
+            put_bytes(2, &described, &mut message);
+        }
+        let mut file = Vec::new();
+        put_bytes(1, format!("{}.proto", Self::NAME).as_bytes(), &mut file);
+        put_bytes(2, package.as_bytes(), &mut file);
+        put_bytes(4, &message, &mut file);
+        // In this syntax numbers in a row are packed.
+        put_bytes(12, b"proto3", &mut file);
+        let mut set = Vec::new();
+        put_bytes(1, &file, &mut set);
+        set
+    }
+}
+
+fn kind_of<V: Value>(_: &V) -> (u64, u64) {
+    V::TYPE
+}
+
+/// Describes a field of a record by an example of it.
+pub(crate) fn described<V: Value>(name: &'static str, number: u32, value: &V) -> FieldOf {
+    let kind = kind_of(value);
+    FieldOf { name, number, kind }
+}
+
+/// A record as a message: the numbers of its fields, which are never given twice.
+macro_rules! message {
+    ($record:ty, $name:literal, { $($number:literal $field:ident,)* }) => {
+        impl $crate::table::Message for $record {
+            const NAME: &'static str = $name;
+
+            fn fields() -> Vec<$crate::table::FieldOf> {
+                let example: Self = bytemuck::Zeroable::zeroed();
+                vec![$($crate::table::described(stringify!($field), $number, &example.$field),)*]
+            }
+
+            fn put(&self, out: &mut Vec<u8>) {
+                $($crate::table::Value::put(&self.$field, $number, out);)*
+            }
+
+            fn get(
+                &mut self,
+                number: u32,
+                wire: $crate::protobuf::Wire<'_>,
+            ) -> Result<(), $crate::protobuf::Malformed> {
+                match number {
+                    $($number => $crate::table::Value::get(&mut self.$field, wire),)*
+                    _ => Ok(()),
+                }
+            }
+        }
+    };
+}
+pub(crate) use message;

@@ -1,0 +1,191 @@
+//! Recordings as their readers find them: whole, cut anywhere, and in another language.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stderr,
+    missing_docs,
+    reason = "a test that fails may panic, and says what it skips"
+)]
+
+use bytemuck::Zeroable as _;
+use glidepath_link::{Setpoint, Status, Text};
+use glidepath_recording::{Entry, MAGIC, Origin, Reader, Recorder};
+use std::fmt::Write as _;
+use std::io::{Cursor, Write as _};
+use std::process::{Command, Stdio};
+
+fn origin() -> Origin {
+    let mut origin = Origin {
+        configuration: "[axis.X]\n".to_owned(),
+        program: Some(b"G1 X1 F100\nM2\n".to_vec()),
+        ..Origin::default()
+    };
+    origin.tell("instance", "test");
+    origin.tell_clocks(1_700_000_000_000_000_000, 5_000);
+    origin
+}
+
+/// A setpoint that has a number in every field.
+fn setpoint(number: u64) -> Setpoint {
+    let mut setpoint = Setpoint::zeroed();
+    setpoint.number = number;
+    setpoint.tick = number + 3;
+    setpoint.scheduled_ns = 4_000_000 * number;
+    setpoint.apply_ns = setpoint.scheduled_ns + 4_000_000;
+    setpoint.line = u32::try_from(number).unwrap() * 7;
+    #[allow(clippy::cast_precision_loss, reason = "small numbers")]
+    let t = number as f64;
+    for (axis, position) in (1..).zip(&mut setpoint.position) {
+        // Numbers with all their bits in use.
+        *position = (t * 0.1 + f64::from(axis)).sin() * 123.456;
+    }
+    setpoint.position[8] = -0.0;
+    setpoint
+}
+
+fn recorded(count: u64) -> Vec<u8> {
+    let mut recorder = Recorder::new(Cursor::new(Vec::new()), &origin()).unwrap();
+    for number in 0..count {
+        recorder.setpoint(&setpoint(number)).unwrap();
+        if number % 50 == 0 {
+            let mut status = Status::zeroed();
+            status.updated_ns = number;
+            status.last_event = Text::new("größer");
+            recorder.status(&status).unwrap();
+        }
+        if number % 250 == 249 {
+            recorder.flush().unwrap();
+        }
+    }
+    recorder.finish().unwrap().into_inner()
+}
+
+/// Its setpoints, checked, and whether it was cut.
+fn read(bytes: &[u8]) -> (u64, bool) {
+    let mut reader = Reader::new(bytes).unwrap();
+    assert_eq!(reader.origin(), &origin());
+    let mut count = 0;
+    while let Some(entry) = reader.next_entry().unwrap() {
+        match entry {
+            Entry::Setpoint(read) => {
+                let expected = setpoint(count);
+                assert_eq!(bytemuck::bytes_of(&read), bytemuck::bytes_of(&expected));
+                count += 1;
+            }
+            Entry::Status(status) => assert_eq!(status.last_event.as_str(), "größer"),
+        }
+    }
+    (count, reader.is_cut())
+}
+
+#[test]
+fn a_recording_is_read_to_the_bit() {
+    let bytes = recorded(2000);
+    assert_eq!(bytes[..8], MAGIC);
+    assert_eq!(read(&bytes), (2000, false));
+}
+
+#[test]
+fn a_recording_that_was_cut_anywhere_is_good_up_to_its_last_flush() {
+    let mut ends = Vec::new();
+    let mut recorder = Recorder::new(Cursor::new(Vec::new()), &origin()).unwrap();
+    for number in 0..1000 {
+        recorder.setpoint(&setpoint(number)).unwrap();
+        if number % 100 == 99 {
+            recorder.flush().unwrap();
+            // What is in the file is known only at its end: by its length at every flush.
+            ends.push(number + 1);
+        }
+    }
+    let bytes = recorder.finish().unwrap().into_inner();
+    let begun = bytes.len() / 20;
+    let mut most = 0;
+    for end in (begun..bytes.len()).step_by(97) {
+        let (count, is_cut) = read(&bytes[..end]);
+        assert!(count >= most, "more bytes, and fewer setpoints");
+        // Whole chunks, and what can be read of the one that was cut.
+        let whole = ends.iter().filter(|end| **end <= count).count();
+        assert!(is_cut || count == 1000, "{end}: {count}");
+        assert!(whole * 100 <= 1000);
+        most = count;
+    }
+    assert_eq!(most, 1000);
+}
+
+#[test]
+fn what_is_no_recording_is_refused() {
+    for bytes in [&b""[..], b"tick,time_s\n", &MAGIC] {
+        assert!(Reader::new(bytes).is_err());
+    }
+    let mut bytes = recorded(500);
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 0x10;
+    let mut reader = Reader::new(bytes.as_slice()).unwrap();
+    let broken = loop {
+        match reader.next_entry() {
+            Ok(Some(_)) => {}
+            Ok(None) => break false,
+            Err(_) => break true,
+        }
+    };
+    assert!(broken, "a flipped bit is found");
+}
+
+/// Reads with Python's reader, and prints every position as hexadecimal digits.
+const PYTHON: &str = "\
+import sys
+from mcap.reader import make_reader
+from mcap_protobuf.decoder import DecoderFactory
+reader = make_reader(open(sys.argv[1], 'rb'), decoder_factories=[DecoderFactory()])
+for schema, channel, message, proto in reader.iter_decoded_messages(topics=['/setpoint']):
+    print(message.sequence, message.log_time, proto.line, *(x.hex() for x in proto.position))
+assert [a.name for a in reader.iter_attachments()] == ['configuration.toml', 'program.ngc']
+assert dict((m.name, m.metadata['instance']) for m in reader.iter_metadata()) == {'glidepath': 'test'}
+";
+
+#[test]
+fn python_reads_the_same_bits() {
+    let mut file = tempfile::NamedTempFile::new().unwrap();
+    file.write_all(&recorded(300)).unwrap();
+    let there = Command::new("python3")
+        .args(["-c", "import mcap, mcap_protobuf"])
+        .stderr(Stdio::null())
+        .status();
+    if !there.is_ok_and(|status| status.success()) {
+        eprintln!("SKIPPED: Python's mcap and mcap-protobuf-support are not here");
+        return;
+    }
+    let output = Command::new("python3")
+        .args(["-c", PYTHON])
+        .arg(file.path())
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(text.lines().count(), 300);
+    for (number, line) in (0..).zip(text.lines()) {
+        let setpoint = setpoint(number);
+        let log_time = 1_700_000_000_000_000_000 - 5_000 + setpoint.scheduled_ns;
+        let mut expected = format!("{number} {log_time} {}", setpoint.line);
+        for position in setpoint.position {
+            let _ = write!(expected, " {}", hex(position));
+        }
+        assert_eq!(line, expected);
+    }
+}
+
+/// A number as Python's `float.hex` writes it.
+fn hex(value: f64) -> String {
+    let bits = value.to_bits();
+    let sign = if bits >> 63 == 1 { "-" } else { "" };
+    let (exponent, mantissa) = (bits >> 52 & 0x7ff, bits & ((1 << 52) - 1));
+    match (exponent, mantissa) {
+        (0, 0) => format!("{sign}0x0.0p+0"),
+        (exponent, mantissa) => {
+            let exponent = i64::try_from(exponent).unwrap() - 1023;
+            format!("{sign}0x1.{mantissa:013x}p{exponent:+}")
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Recordings of real processes: whole ones, of recorders that were killed, and of a black box.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use glidepath_link::{MachineState, Setpoint};
+use glidepath_recording::{Entry, Reader};
+use glidepath_tests::{Instance, Process, Services, Watchdog};
+use rustix::process::Signal;
+
+use crate::programs::{PROGRAM, long_program};
+
+const PATIENCE: Duration = Duration::from_secs(240);
+/// What a recorder that was killed may lose: what came since its last flush, and what it had not yet
+/// taken.
+const LOST: Duration = Duration::from_millis(1500);
+
+/// The setpoints of a recording, and whether it was cut short.
+fn read(path: &Path) -> (Vec<Setpoint>, bool) {
+    let mut reader = Reader::new(BufReader::new(File::open(path).unwrap())).unwrap();
+    let mut setpoints = Vec::new();
+    while let Some(entry) = reader.next_entry().unwrap() {
+        if let Entry::Setpoint(setpoint) = entry {
+            setpoints.push(setpoint);
+        }
+    }
+    (setpoints, reader.is_cut())
+}
+
+fn is_gapless(setpoints: &[Setpoint]) -> bool {
+    let mut pairs = setpoints.windows(2);
+    pairs.all(|pair| pair[1].number == pair[0].number + 1)
+}
+
+#[test]
+fn a_recording_with_a_hold_in_it_is_judged_and_played_again() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let program = instance.file("program.ngc", PROGRAM);
+    let file = instance.path("run.mcap");
+    let services = Services::start(&instance);
+    let record = Process::join(&instance, &["record", &file, "--program", &program, "--json"]);
+    // Until it listens.
+    while !Path::new(&format!("{file}.part")).exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let planner = Process::join(&instance, &["planner", &program]);
+    let _moving = services.wait(|status| status.frames_executed > 100);
+    let _held = Process::join(&instance, &["hold"]).wait().expect(0);
+    let _still = services.wait_for(MachineState::Held);
+    let _on = Process::join(&instance, &["resume"]).wait().expect(0);
+    let _planner = planner.wait().expect(0);
+    let _idle = services.wait_for(MachineState::Idle);
+    let report = record.end().expect(0).json();
+    assert_eq!(report["lost_setpoints"], 0, "{report}");
+    drop(services.end());
+    let (setpoints, is_cut) = read(Path::new(&file));
+    assert!(!is_cut && is_gapless(&setpoints));
+
+    let verdict = Process::start(&instance, &["audit", &file, "--json"]).wait();
+    let verdict = verdict.expect(0).json();
+    assert_eq!(verdict["finding_count"], 0, "{verdict:#}");
+    assert_eq!(verdict["notes"], serde_json::json!([]), "{verdict:#}");
+    assert!(verdict["max_deviation_mm"].as_f64() > Some(0.0), "{verdict:#}");
+
+    // Played into a servo stack, which finds nothing to complain about.
+    let csv = instance.path("again.csv");
+    let servo = Process::join(&instance, &["servo", "--setpoints", &csv, "--json"]);
+    let replay = Process::join(&instance, &["replay", &file, "--json"]).wait_for(PATIENCE);
+    let played = replay.expect(0).json();
+    assert_eq!(played["setpoints"], setpoints.len(), "{played}");
+    let report = servo.end().expect(0).json();
+    assert_eq!(report["received"], setpoints.len(), "{report}");
+    assert_eq!((&report["lost_setpoints"], &report["refused"]), (&0.into(), &0.into()), "{report}");
+}
+
+/// Some in CI; all of them: `GLIDEPATH_KILLS=50`.
+#[test]
+fn a_recorder_may_be_killed_at_any_time() {
+    let kills = std::env::var("GLIDEPATH_KILLS").ok();
+    let kills: u64 = kills.and_then(|text| text.parse().ok()).unwrap_or(2);
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE * 4));
+    let program = instance.file("program.ngc", &long_program());
+    let services = Services::start(&instance);
+    let planner = Process::join(&instance, &["planner", &program]);
+    let _moving = services.wait_for(MachineState::Running);
+    for kill in 0..kills {
+        let file = instance.path(&format!("run-{kill}.mcap"));
+        let part = PathBuf::from(format!("{file}.part"));
+        let record = Process::join(&instance, &["record", &file]);
+        while !part.exists() {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let begun = Instant::now();
+        // Anywhere between two flushes.
+        std::thread::sleep(Duration::from_millis(1600 + kill * 7919 % 1500));
+        let recorded = begun.elapsed();
+        record.signal(Signal::KILL);
+        drop(record.wait());
+        let (setpoints, _) = read(&part);
+        assert!(is_gapless(&setpoints), "kill {kill}");
+        #[allow(clippy::cast_precision_loss, reason = "a few hundred")]
+        let there = Duration::from_secs_f64(setpoints.len() as f64 * 0.004);
+        assert!(there + LOST > recorded, "kill {kill}: {there:?} of {recorded:?}");
+        assert!(!Path::new(&file).exists(), "it is not whole, and not called so");
+    }
+    drop(planner);
+    drop(services.end());
+}
+
+#[test]
+fn a_black_box_has_the_time_before_a_fault() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let program = instance.file("program.ngc", &long_program());
+    let services = Services::start(&instance);
+    let file = instance.path("box.mcap");
+    let record = Process::join(&instance, &["record", &file, "--ring", "3s", "--json"]);
+    let planner = Process::join(&instance, &["planner", &program]);
+    let _moving = services.wait(|status| status.frames_executed > 1200);
+    planner.signal(Signal::KILL);
+    let _faulted = services.wait_for(MachineState::Faulted);
+    std::thread::sleep(Duration::from_secs(3));
+    let saved = record.end().expect(0).json();
+    let saved = saved["recordings"].as_array().unwrap().clone();
+    assert_eq!(saved.len(), 1, "{saved:?}");
+    let (setpoints, is_cut) = read(Path::new(saved[0].as_str().unwrap()));
+    assert!(!is_cut && is_gapless(&setpoints));
+    let is = |state: MachineState| setpoints.iter().filter(move |s| s.state == state.code());
+    // Three seconds, two of them behind the fault.
+    assert!((600..=800).contains(&setpoints.len()), "{}", setpoints.len());
+    assert!(is(MachineState::Running).count() > 20);
+    assert!(is(MachineState::Faulted).count() > 400);
+    drop((planner, services.end()));
+}
