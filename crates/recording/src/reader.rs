@@ -127,6 +127,8 @@ impl<R: Read> Reader<R> {
     fn advance(&mut self) -> Result<Option<Entry>, ReadError> {
         while !self.is_over {
             let Some(event) = self.reader.next_event() else {
+                // A whole one says where its messages end.
+                self.is_cut = true;
                 self.is_over = true;
                 break;
             };

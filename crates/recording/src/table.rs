@@ -156,6 +156,9 @@ pub(crate) struct FieldOf {
     pub(crate) name: &'static str,
     pub(crate) number: u32,
     pub(crate) kind: (u64, u64),
+    /// Bytes in the record.
+    #[cfg(test)]
+    pub(crate) size: usize,
 }
 
 /// A record that is a message.
@@ -208,7 +211,13 @@ fn kind_of<V: Value>(_: &V) -> (u64, u64) {
 /// Describes a field of a record by an example of it.
 pub(crate) fn described<V: Value>(name: &'static str, number: u32, value: &V) -> FieldOf {
     let kind = kind_of(value);
-    FieldOf { name, number, kind }
+    FieldOf {
+        name,
+        number,
+        kind,
+        #[cfg(test)]
+        size: size_of::<V>(),
+    }
 }
 
 /// A record as a message: the numbers of its fields, which are never given twice.
