@@ -70,6 +70,11 @@ impl Follows {
         })
     }
 
+    /// Identifies the program.
+    pub(super) fn fingerprint(&self) -> u64 {
+        self.program.fingerprint()
+    }
+
     pub(super) const fn has_plan(&self) -> bool {
         self.plan.is_some()
     }

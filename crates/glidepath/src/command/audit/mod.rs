@@ -24,6 +24,8 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 use trace::Trace;
 
+/// Two places that are the same but for rounding, mm or degrees.
+const SAME_MM: f64 = 1e-9;
 /// Findings in the text; the object has more.
 const SHOWN: usize = 20;
 
@@ -108,13 +110,16 @@ struct Outline {
     is_idle: bool,
     end: Option<EndOfEpoch>,
     has_statuses: bool,
+    /// Fingerprint of the program that was executed, and where the machine stood when it began.
+    program: Option<(u64, AxisVector)>,
 }
 
 impl Outline {
     fn take(&mut self, setpoint: &Setpoint, last: Option<&Setpoint>) {
         let state = setpoint.state();
         self.is_idle = state == Ok(MachineState::Idle);
-        if setpoint.epoch == 0 {
+        // Behind a motion the machine rests in its epoch.
+        if setpoint.epoch == 0 || self.is_idle {
             return;
         }
         let is_new = self.epochs.last() != Some(&setpoint.epoch);
@@ -153,6 +158,9 @@ fn judge(file: &Path, config: &MachineConfig, program: Option<&Path>) -> Result<
             Entry::Status(status) => {
                 outline.has_statuses = true;
                 outline.end = status.end_of_epoch().ok();
+                if status.epoch != 0 {
+                    outline.program = Some((status.program, status.program_start.into()));
+                }
             }
         }
     }
@@ -201,11 +209,21 @@ fn follow(
     let stands = outline.begin.unwrap_or_else(|| config.home());
     let overrides = outline.overrides.unwrap_or((1.0, 1.0));
     let mut follows = Follows::new(program, config, stands, overrides)?;
+    if let Some((executed, started)) = outline.program {
+        if executed != follows.fingerprint() {
+            verdict.note("another program was executed: its path is not judged");
+            return Ok(());
+        }
+        if (started - stands).amax() > SAME_MM {
+            verdict.note("the motion goes on with a program: its path is not judged");
+            return Ok(());
+        }
+    }
     verdict.was_replanned = follows.has_plan();
     let mut trace = Trace::open(file, config)?;
     while let Some(entry) = trace.next_entry()? {
         if let Entry::Setpoint(setpoint) = entry
-            && setpoint.epoch != 0
+            && outline.epochs.first() == Some(&setpoint.epoch)
         {
             follows.take(&setpoint);
         }
