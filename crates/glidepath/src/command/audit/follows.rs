@@ -61,7 +61,8 @@ impl Follows {
         };
         Ok(Self {
             audit: Audit::new(&settings).with_override(most.max(1.0)),
-            program: source()?,
+            // After a pass over all of it, which identifies it.
+            program: FileSource::open(path, config.program_options(stands), &config.settings())?,
             told_s: 0.0,
             plan,
             has_moved: false,
@@ -131,7 +132,20 @@ impl Follows {
     pub(super) fn finish(mut self, is_whole: bool) -> (Findings, f64) {
         while self.tell() {}
         let report = self.audit.finish();
-        let mut findings = self.findings;
+        let mut findings = Findings::default();
+        // First, since only the first violations are listed, and others may come before it.
+        if report.max_deviation_mm > report.tolerance_mm * (1.0 + 1e-6) {
+            findings.push(Finding {
+                kind: "deviation",
+                tick: report.max_deviation_tick,
+                line: report.max_deviation_line,
+                text: format!(
+                    "at most {:.6} mm off the programmed path, where {:.6} are allowed",
+                    report.max_deviation_mm, report.tolerance_mm
+                ),
+            });
+        }
+        findings.join(self.findings);
         let mut others = 0;
         for violation in &report.violations {
             let kind = match violation.kind {
