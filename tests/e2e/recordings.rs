@@ -85,11 +85,11 @@ fn a_recording_with_a_hold_in_it_is_judged_and_played_again() {
     );
 }
 
-/// Some in CI; all of them: `GLIDEPATH_KILLS=50`.
+/// One in CI; all of them: `GLIDEPATH_KILLS=50`.
 #[test]
 fn a_recorder_may_be_killed_at_any_time() {
     let kills = std::env::var("GLIDEPATH_KILLS").ok();
-    let kills: u64 = kills.and_then(|text| text.parse().ok()).unwrap_or(2);
+    let kills: u64 = kills.and_then(|text| text.parse().ok()).unwrap_or(1);
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE * 4));
     let program = instance.file("program.ngc", &long_program());
     let services = Services::start(&instance);
@@ -133,19 +133,28 @@ fn a_black_box_has_the_time_before_a_fault() {
     let file = instance.path("box.mcap");
     let record = Process::join(&instance, &["record", &file, "--ring", "6s", "--json"]);
     let planner = Process::join(&instance, &["planner", &program]);
-    let _moving = services.wait(|status| status.frames_executed > 1500);
+    let _moving = services.wait(|status| status.frames_executed > 500);
     planner.signal(Signal::KILL);
     let _faulted = services.wait_for(MachineState::Faulted);
-    std::thread::sleep(Duration::from_secs(3));
+    let is_there = || {
+        let files = std::fs::read_dir(instance.directory()).unwrap();
+        let mut names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+        names.any(|name| name.starts_with("box-") && name.ends_with(".mcap"))
+    };
+    let faulted = Instant::now();
+    while !is_there() {
+        assert!(faulted.elapsed() < PATIENCE / 4, "nothing is saved");
+        std::thread::sleep(Duration::from_millis(20));
+    }
     let saved = record.end().expect(0).json();
     let saved = saved["recordings"].as_array().unwrap().clone();
     assert_eq!(saved.len(), 1, "{saved:?}");
     let (setpoints, is_cut) = read(Path::new(saved[0].as_str().unwrap()));
     assert!(!is_cut && is_gapless(&setpoints));
     let is = |state: MachineState| setpoints.iter().filter(move |s| s.state == state.code());
-    // Six seconds, two of them behind the fault.
+    // Six seconds at most, two of them behind the fault.
     assert!(
-        (1200..=1600).contains(&setpoints.len()),
+        (1000..=1600).contains(&setpoints.len()),
         "{}",
         setpoints.len()
     );
