@@ -4,7 +4,7 @@
 use super::finding::{Finding, Findings};
 use crate::config::MachineConfig;
 use glidepath_geometry::{AXES, Axis};
-use glidepath_link::{Record as _, Setpoint};
+use glidepath_link::{MachineState, Record as _, Setpoint};
 
 /// A limit counts as kept up to this factor, as in the audit of a plan.
 const SLACK: f64 = 1.0 + 1e-6;
@@ -36,6 +36,12 @@ struct AxisState {
     magnitude: f64,
     /// Samples in a row.
     run: u32,
+}
+
+/// Without power, and while drives look for their home by themselves, setpoints repeat what the
+/// drives report: nobody has asked for that motion.
+fn is_led(setpoint: &Setpoint) -> bool {
+    setpoint.home != 0 || setpoint.state() == Ok(MachineState::Off)
 }
 
 impl Continuity {
@@ -92,7 +98,11 @@ impl Continuity {
             self.begin();
         }
         self.judge_time(&last, setpoint, missing);
-        self.judge_motion(&last, setpoint, missing == 0);
+        if is_led(&last) || is_led(setpoint) {
+            self.begin();
+        } else {
+            self.judge_motion(&last, setpoint, missing == 0);
+        }
     }
 
     fn begin(&mut self) {
@@ -195,5 +205,40 @@ impl Continuity {
         for (kind, text) in found {
             self.find(setpoint, kind, text);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config;
+    use bytemuck::Zeroable as _;
+
+    #[test]
+    fn what_drives_report_is_no_motion_and_what_follows_it_is() {
+        let config = config::parse("built-in machine", config::EMBEDDED).unwrap();
+        let found = |change: &dyn Fn(&mut Setpoint)| {
+            let mut continuity = Continuity::new(&config);
+            for tick in 1..40_u32 {
+                let mut setpoint = Setpoint::zeroed();
+                setpoint.boot_id = 1;
+                (setpoint.number, setpoint.tick) = (tick.into(), tick.into());
+                setpoint.scheduled_ns = setpoint.tick * config.period_ns();
+                setpoint.apply_ns = setpoint.scheduled_ns + config.period_ns();
+                setpoint.state = MachineState::Idle.code();
+                setpoint.position[0] = if tick < 20 { 0.0 } else { 3.0 };
+                if tick < 30 {
+                    change(&mut setpoint);
+                }
+                continuity.take(&setpoint);
+            }
+            continuity.findings.count
+        };
+        assert_eq!(
+            found(&|setpoint| setpoint.state = MachineState::Off.code()),
+            0
+        );
+        assert_eq!(found(&|setpoint| setpoint.home = 1), 0);
+        assert!(found(&|_| {}) > 0, "a step of 3 mm in a period");
     }
 }

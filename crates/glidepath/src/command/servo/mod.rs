@@ -20,8 +20,8 @@ use crate::recording::Recording;
 use crate::report::grouped;
 use crate::sample::Sample;
 use glidepath_hal::HalCounts;
-use glidepath_link::servo::ServoCounts;
 use glidepath_link::Setpoint;
+use glidepath_link::servo::ServoCounts;
 use serde_json::json;
 use std::io::{BufWriter, Write as _};
 
