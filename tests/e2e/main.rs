@@ -23,4 +23,5 @@ mod run;
 mod service;
 mod services;
 mod subscribers;
+mod telemetry;
 mod threading;

@@ -134,6 +134,7 @@ houses! {
     program: "program",
     realtime: "realtime",
     recording: "recording",
+    telemetry: "telemetry",
 }
 
 #[test]

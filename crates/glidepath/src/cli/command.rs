@@ -18,6 +18,7 @@ use super::operator::{
 use super::path::PathArgs;
 use super::program::ProgramArgs;
 use super::record::{AuditArgs, RecordArgs, ReplayArgs};
+use super::telemetry::TelemetryArgs;
 use crate::program_file::ProgramFile;
 use clap::Subcommand;
 
@@ -85,6 +86,11 @@ pub enum Command {
     #[command(after_help = "Examples: glidepath audit run.mcap · \
                             glidepath audit received.csv --program part.ngc --config mill.toml")]
     Audit(AuditArgs),
+    /// Tell an MQTT broker what the machine does
+    #[command(
+        after_help = "Example: glidepath telemetry --broker broker.shop:1883 --instance mill-1"
+    )]
+    Telemetry(TelemetryArgs),
     /// Feed hold: come to rest on the path
     #[command(after_help = "Example: glidepath hold")]
     Hold(OperatorArgs),
@@ -214,6 +220,7 @@ impl Command {
             Self::Live(args) => &args.operator.basic,
             Self::Record(args) => &args.operator.basic,
             Self::Replay(args) => &args.operator.basic,
+            Self::Telemetry(args) => &args.basic,
             Self::Audit(args) => &args.basic,
             Self::Hold(args)
             | Self::Resume(args)

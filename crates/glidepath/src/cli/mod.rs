@@ -14,6 +14,7 @@ mod operator;
 mod path;
 mod program;
 mod record;
+mod telemetry;
 
 pub use basic::{BasicArgs, InstanceArgs, OverwriteArgs};
 pub use command::Command;
@@ -38,6 +39,7 @@ pub use operator::{
 pub use path::PathArgs;
 pub use program::ProgramArgs;
 pub use record::{AuditArgs, RecordArgs, ReplayArgs};
+pub use telemetry::TelemetryArgs;
 
 use clap::Parser;
 

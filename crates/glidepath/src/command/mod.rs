@@ -34,6 +34,7 @@ mod run;
 mod servo;
 mod session;
 mod subroutines;
+mod telemetry;
 mod watch;
 mod workshop;
 
@@ -102,6 +103,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Live(args) => live::live(args, &config()?),
         Command::Record(args) => record::record(args, &config()?),
         Command::Replay(args) => replay::replay(args, &config()?),
+        Command::Telemetry(args) => telemetry::telemetry(args, &config()?),
         Command::Audit(args) => audit::audit(args, &config()?),
         Command::Hold(args) => operator::command(args, &config()?, "hold", link::Command::Hold),
         Command::Resume(args) => {
