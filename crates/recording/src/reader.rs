@@ -7,7 +7,7 @@ use glidepath_link::{Setpoint, Status};
 use mcap::records::Record;
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use mcap::{McapError, parse_record};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::io::{self, Read};
 
 /// Longest part of a file that is believed: a program of some ten million lines.
@@ -59,7 +59,7 @@ pub struct Reader<R> {
     from: R,
     reader: LinearReader,
     origin: Origin,
-    topics: HashMap<u16, Topic>,
+    topics: BTreeMap<u16, Topic>,
     first: Option<Entry>,
     is_cut: bool,
     is_over: bool,
@@ -88,7 +88,7 @@ impl<R: Read> Reader<R> {
             from,
             reader: LinearReader::new_with_options(options),
             origin: Origin::default(),
-            topics: HashMap::new(),
+            topics: BTreeMap::new(),
             first: None,
             is_cut: false,
             is_over: false,
@@ -168,7 +168,7 @@ enum Taken {
 fn take(
     record: Record<'_>,
     origin: &mut Origin,
-    topics: &mut HashMap<u16, Topic>,
+    topics: &mut BTreeMap<u16, Topic>,
 ) -> Result<Taken, ReadError> {
     match record {
         Record::Metadata(metadata) if metadata.name == FACTS => origin.facts = metadata.metadata,

@@ -22,7 +22,7 @@ pub(crate) trait Value {
 }
 
 impl Value for u64 {
-    const TYPE: (u64, u64) = (FIXED64, OPTIONAL);
+    const TYPE: (Self, Self) = (FIXED64, OPTIONAL);
 
     fn put(&self, number: u32, out: &mut Vec<u8>) {
         put_fixed64(number, self.to_le_bytes(), out);
