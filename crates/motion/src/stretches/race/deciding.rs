@@ -11,8 +11,9 @@ pub(super) const STEP_T: f64 = 0.2;
 /// Motion that is looked at before something is driven of it, s: who sends moves through a pipe
 /// waits for the motion as long.
 const MOST_T: f64 = 0.75;
-/// Periods that must be gained by leaving the tube, and by going back to it.
-const WORTH: [i64; 2] = [2, 1];
+/// Periods that must be gained in one section by leaving the tube, and by going back to it: mostly the
+/// tube is ahead again a corner later, and what it gains in a section is far less than a period.
+const WORTH: [i64; 2] = [8, 0];
 /// Time between the places at which a joint is tried to begin, s.
 const TRIED_T: f64 = 0.024;
 
