@@ -2,22 +2,15 @@
 
 use super::contest::{Entry, Planned};
 use super::gathering::{Gathering, Task};
-use super::long_stretch::LongStretch;
 use super::way::{Manner, Way};
 use crate::PlanError;
 use crate::grid::FrameGrid;
 use crate::in_tube::SearchWeights;
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Frame, Item, ItemKind, Override, Settings};
+use glidepath_program::{Frame, Item, Override, Settings};
 
-/// How a short stretch is driven whose motion takes too long to be kept.
+/// How a stretch is driven that is planned as it comes.
 const ALONE: Manner = Manner::InTube(SearchWeights::USUAL);
-
-/// Whether an item is of a pass of a thread. It is to be at its rate exactly between run-in and
-/// run-out, which S-curves are.
-fn follows_spindle(item: &Item) -> bool {
-    matches!(item.kind, ItemKind::Move { rate, .. } if rate.is_synchronised())
-}
 
 /// Plans stretch by stretch, as [`crate::Planner`] uses it.
 #[derive(Debug, Clone)]
@@ -41,11 +34,8 @@ enum Drive {
     None,
     /// A short stretch, planned to its end.
     Planned(Box<Planned>),
-    /// The same, planned as it comes: it takes too long to be kept, its override was changed, or it
-    /// follows the spindle.
+    /// A stretch that is planned as it comes, or whose override was changed.
     Live(Way),
-    /// A long stretch.
-    Long(Box<LongStretch>),
 }
 
 impl StretchEngine {
@@ -79,14 +69,10 @@ impl StretchEngine {
         if let Drive::Planned(planned) = &self.drive {
             self.drive = Drive::Live(planned.resumed()?);
         }
-        match &mut self.drive {
-            Drive::None | Drive::Planned(_) => Ok(()),
-            Drive::Live(way) => {
-                way.set_override(wanted);
-                Ok(())
-            }
-            Drive::Long(stretch) => stretch.set_override(wanted),
+        if let Drive::Live(way) = &mut self.drive {
+            way.set_override(wanted);
         }
+        Ok(())
     }
 
     /// The next frame; see [`crate::Planner::pop_frame`].
@@ -99,7 +85,6 @@ impl StretchEngine {
                 Drive::None => (None, None),
                 Drive::Planned(planned) => (planned.pop_frame(), planned.length_s()),
                 Drive::Live(way) => (way.pop_frame()?, way.length_s()),
-                Drive::Long(stretch) => (stretch.pop_frame()?, stretch.length_s()),
             };
             if let Some(mut frame) = moved {
                 frame.path_s += self.path_s;
@@ -107,7 +92,7 @@ impl StretchEngine {
             }
             if let Some(length_s) = length_s {
                 self.arrive(length_s);
-            } else if self.is_stuck() {
+            } else if matches!(&self.drive, Drive::Live(way) if way.is_finished()) {
                 let line = self.grid.line().number;
                 return Err(PlanError::NoMotion { line });
             } else if !self.supply()? {
@@ -121,15 +106,6 @@ impl StretchEngine {
         self.path_s += length_s;
         self.grid.leave(self.end, self.path_s);
         self.drive = Drive::None;
-    }
-
-    /// True if a stretch whose end is known gives no motion: there is nothing to wait for.
-    fn is_stuck(&self) -> bool {
-        match &self.drive {
-            Drive::None | Drive::Planned(_) => false,
-            Drive::Live(way) => way.is_finished(),
-            Drive::Long(stretch) => stretch.is_finished(),
-        }
     }
 
     /// Does what comes next; false if the program is not known further.
@@ -146,39 +122,24 @@ impl StretchEngine {
                     wanted: self.wanted,
                     items: items.into(),
                 };
-                let is_pass = entry.items.iter().any(follows_spindle);
-                self.drive = if is_pass {
-                    Drive::Live(entry.way(Manner::OnPath)?)
-                } else if let Some(planned) = Planned::new(entry.clone())? {
-                    Drive::Planned(Box::new(planned))
-                } else {
-                    Drive::Live(entry.way(ALONE)?)
+                self.drive = match Planned::new(entry.clone())? {
+                    Some(planned) => Drive::Planned(Box::new(planned)),
+                    None => Drive::Live(entry.way(ALONE)?),
                 };
             }
             Task::Part(item) => {
                 if matches!(self.drive, Drive::None) {
-                    self.drive = if follows_spindle(&item) {
-                        let way =
-                            Way::new(Manner::OnPath, self.settings, self.position, self.wanted);
-                        Drive::Live(way)
-                    } else {
-                        let stretch = LongStretch::new(self.settings, self.position, self.wanted);
-                        Drive::Long(Box::new(stretch))
-                    };
+                    let way = Way::new(ALONE, self.settings, self.position, self.wanted);
+                    self.drive = Drive::Live(way);
                 }
-                match &mut self.drive {
-                    Drive::Long(stretch) => stretch.push(&item)?,
-                    // A pass of a thread.
-                    Drive::Live(way) => way.push(&item)?,
-                    Drive::None | Drive::Planned(_) => {}
+                if let Drive::Live(way) = &mut self.drive {
+                    way.push(&item)?;
                 }
             }
             Task::End(end) => {
                 self.end = end;
-                match &mut self.drive {
-                    Drive::Long(stretch) => stretch.finish(),
-                    Drive::Live(way) => way.finish(),
-                    Drive::None | Drive::Planned(_) => {}
+                if let Drive::Live(way) = &mut self.drive {
+                    way.finish();
                 }
             }
             Task::Rest(rest) => {
