@@ -251,12 +251,24 @@ impl Player {
         while let Some(next) = self.queue.front().copied() {
             match &mut self.mode {
                 Mode::Stopping { .. } => self.queue.clear(),
-                Mode::Playing { coasting: true, .. } => {
-                    if next.at_ns >= now_ns.saturating_add(next.period_ns / 2) {
+                Mode::Playing {
+                    heard_ns: heard,
+                    coasting: true,
+                    ..
+                } => {
+                    let half_ns = next.period_ns / 2;
+                    if next.at_ns >= now_ns.saturating_add(half_ns) {
                         return;
                     }
-                    // One that comes too late to be gone to is none: if all do, patience ends.
                     self.queue.pop_front();
+                    let leads_to_ns = next.at_ns.saturating_add(next.period_ns);
+                    if self.queue.is_empty() && leads_to_ns >= now_ns.saturating_add(half_ns) {
+                        // Too near to be gone to; where it leads in a period is not. Older ones
+                        // count for nothing: if all are, patience ends.
+                        *heard = next.at_ns.max(*heard);
+                        self.queue.push_front(next.coast(leads_to_ns));
+                        return;
+                    }
                 }
                 Mode::Playing {
                     from,

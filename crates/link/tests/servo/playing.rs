@@ -103,11 +103,30 @@ fn a_gap_is_bridged_though_setpoints_arrive_less_than_a_period_ahead() {
 }
 
 #[test]
+fn setpoints_that_always_come_shortly_before_their_time_are_followed() {
+    for tenths in [6, 8, 11, 13] {
+        let mut bench = Bench::new();
+        for number in (0..10).chain(11..60) {
+            bench.run_to(ns_of(number) + PERIOD_NS / 10 * tenths, &[]);
+            bench.publish(&setpoint(number));
+        }
+        let joints = bench.run_to(ns_of(61), &[]);
+        let (last_ns, last) = *joints.last().unwrap();
+        let expected = truth((last_ns - START_NS) as f64 * 1e-9);
+        assert!(
+            (last.position - expected.position).abs() < 0.02,
+            "{tenths}: {last:?} for {expected:?}"
+        );
+        assert_eq!(bench.servo.counts().stops, 0, "{tenths}");
+    }
+}
+
+#[test]
 fn setpoints_that_all_come_too_late_end_in_an_own_stop() {
     let mut bench = Bench::new();
     for number in 0..60 {
-        // Three tenths of a period ahead: nothing goes back to them in so short a time.
-        bench.run_to(ns_of(number) + PERIOD_NS / 10 * 7, &[]);
+        // Eight tenths of a period after their time: where they lead is the past as well.
+        bench.run_to(ns_of(number) + PERIOD_NS / 10 * 18, &[]);
         bench.publish(&setpoint(number));
     }
     let joints = bench.run_to(ns_of(200), &[]);
