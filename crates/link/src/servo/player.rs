@@ -26,6 +26,8 @@ pub type JointStates = [JointState; AXES];
 #[derive(Debug, Clone, Copy)]
 struct Knot {
     at_ns: u64,
+    /// The time of the setpoint that it is, or that has led here.
+    heard_ns: u64,
     period_ns: u64,
     joints: JointStates,
     /// The joints whose drives look for their home by themselves, one bit each.
@@ -51,6 +53,7 @@ impl Knot {
         let at_ns = setpoint.apply_ns;
         Self {
             at_ns,
+            heard_ns: at_ns,
             period_ns: at_ns.saturating_sub(setpoint.scheduled_ns),
             joints,
             home: setpoint.home,
@@ -265,7 +268,7 @@ impl Player {
                     if self.queue.is_empty() && leads_to_ns >= now_ns.saturating_add(half_ns) {
                         // Too near to be gone to; where it leads in a period is not. Older ones
                         // count for nothing: if all are, patience ends.
-                        *heard = next.at_ns.max(*heard);
+                        *heard = next.heard_ns.max(*heard);
                         self.queue.push_front(next.coast(leads_to_ns));
                         return;
                     }
@@ -278,7 +281,7 @@ impl Player {
                     if next.at_ns > now_ns {
                         return;
                     }
-                    (*from, *heard) = (next, next.at_ns);
+                    (*from, *heard) = (next, next.heard_ns.max(*heard));
                     self.queue.pop_front();
                 }
                 Mode::Waiting => {
