@@ -340,9 +340,7 @@ fn what_follows_the_spindle_keeps_its_rate_under_any_override() {
                 assert_eq!(changed.iter().filter(is_pass).count(), pass.len());
                 for (frame, plain) in same {
                     let away = (frame.position - plain.position).amax();
-                    // A window that is planned anew ends elsewhere by what its solver leaves: a thread
-                    // is no other one for a nanometre.
-                    assert!(away < 1e-6, "{when}: {away}");
+                    assert!(away < 1e-9, "{when}: {away}");
                     assert!((frame.planned_override - 1.0).abs() < 1e-12);
                 }
             }

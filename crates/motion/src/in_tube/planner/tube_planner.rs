@@ -47,10 +47,13 @@ impl TubePlanner {
     }
 
     /// Other speeds for the path from here on, by tag; the motion is planned again from the state
-    /// handed out last.
+    /// handed out last. Where no speed is another one it stays: a thread cut under another override
+    /// is the same to the bit.
     pub(crate) fn set_rates(&mut self, rate_of: impl FnMut(u64) -> f64) {
         let before_v = self.state.reference_path.top_v();
-        self.state.reference_path.set_rates(rate_of);
+        if !self.state.reference_path.set_rates(rate_of) {
+            return;
+        }
         self.state.history.overspeed_v = self.state.history.overspeed_v.max(before_v * FEED_SLACK);
         self.state.baseline = None;
         match (&mut self.state.active, &self.state.grid) {
