@@ -1,7 +1,7 @@
 //! Harness of the end-to-end tests.
 //!
-//! * [`Instance`]: shared memory of its own for each test, as many at a time as there are cores, and the proof that
-//!   nothing of it is left behind;
+//! * [`Instance`]: shared memory of its own for each test, as many at a time as there are cores, and
+//!   the proof that nothing of it is left behind;
 //! * [`Watchdog`]: ends a test that hangs;
 //! * [`Process`]: processes of the real binary, which [`glidepath`] finds and builds;
 //! * [`Services`]: an interpolator and a servo as processes;

@@ -39,7 +39,6 @@ impl<W: Write + Seek> Recorder<W> {
     fn begin(writer: W, origin: &Origin) -> McapResult<Self> {
         let mut writer = WriteOptions::new()
             .profile("glidepath")
-            .library(concat!("glidepath ", env!("CARGO_PKG_VERSION")))
             .compression(Some(Compression::Lz4))
             .create(writer)?;
         writer.write_metadata(&Metadata {

@@ -26,7 +26,7 @@ pub type JointStates = [JointState; AXES];
 #[derive(Debug, Clone, Copy)]
 struct Knot {
     at_ns: u64,
-    /// The time of the setpoint that it is, or that has led here.
+    /// The time of the newest setpoint that came in time: this one, or one that has led here.
     heard_ns: u64,
     period_ns: u64,
     joints: JointStates,
@@ -78,8 +78,6 @@ enum Mode {
     Waiting,
     Playing {
         from: Knot,
-        /// The time of the newest setpoint that came in time.
-        heard_ns: u64,
         /// `from` is no setpoint, but where the joints went for want of one.
         coasting: bool,
     },
@@ -167,10 +165,8 @@ impl Player {
     /// Begins anew at a setpoint at rest, at once.
     pub(super) fn stand_at(&mut self, setpoint: &Setpoint) {
         self.queue.clear();
-        let from = Knot::of(setpoint);
         self.mode = Mode::Playing {
-            from,
-            heard_ns: from.at_ns,
+            from: Knot::of(setpoint),
             coasting: false,
         };
     }
@@ -241,11 +237,7 @@ impl Player {
             Mode::Stopping {
                 since_ns, stops, ..
             } => Some(stops.map(|stop| stop.at(seconds(now_ns, since_ns)))),
-            Mode::Playing {
-                from,
-                heard_ns,
-                coasting,
-            } => Some(self.play(from, heard_ns, coasting, now_ns)),
+            Mode::Playing { from, coasting } => Some(self.play(from, coasting, now_ns)),
         }
     }
 
@@ -255,9 +247,8 @@ impl Player {
             match &mut self.mode {
                 Mode::Stopping { .. } => self.queue.clear(),
                 Mode::Playing {
-                    heard_ns: heard,
+                    from,
                     coasting: true,
-                    ..
                 } => {
                     let half_ns = next.period_ns / 2;
                     if next.at_ns >= now_ns.saturating_add(half_ns) {
@@ -268,20 +259,20 @@ impl Player {
                     if self.queue.is_empty() && leads_to_ns >= now_ns.saturating_add(half_ns) {
                         // Too near to be gone to; where it leads in a period is not. Older ones
                         // count for nothing: if all are, patience ends.
-                        *heard = next.heard_ns.max(*heard);
+                        from.heard_ns = from.heard_ns.max(next.heard_ns);
                         self.queue.push_front(next.coast(leads_to_ns));
                         return;
                     }
                 }
                 Mode::Playing {
                     from,
-                    heard_ns: heard,
                     coasting: false,
                 } => {
                     if next.at_ns > now_ns {
                         return;
                     }
-                    (*from, *heard) = (next, next.heard_ns.max(*heard));
+                    let heard_ns = next.heard_ns.max(from.heard_ns);
+                    *from = Knot { heard_ns, ..next };
                     self.queue.pop_front();
                 }
                 Mode::Waiting => {
@@ -290,10 +281,8 @@ impl Player {
                     }
                     // One from long ago says nothing about now.
                     if now_ns - next.at_ns <= self.patience_ns {
-                        let (from, heard_ns) = (next, next.at_ns);
                         self.mode = Mode::Playing {
-                            from,
-                            heard_ns,
+                            from: next,
                             coasting: false,
                         };
                     }
@@ -303,7 +292,7 @@ impl Player {
         }
     }
 
-    fn play(&mut self, from: Knot, heard_ns: u64, coasting: bool, now_ns: u64) -> JointStates {
+    fn play(&mut self, from: Knot, coasting: bool, now_ns: u64) -> JointStates {
         if let Some(to) = self.queue.front() {
             // The way between setpoints was judged when the second came.
             if coasting && let Some(jump) = self.judge(&from, to, false) {
@@ -311,7 +300,6 @@ impl Player {
             }
             self.mode = Mode::Playing {
                 from,
-                heard_ns,
                 coasting: false,
             };
             let (span_t, time_t) = (seconds(to.at_ns, from.at_ns), seconds(now_ns, from.at_ns));
@@ -325,12 +313,11 @@ impl Player {
             return from.joints;
         }
         // The stop begins when patience ends, whenever this is called.
-        let patience_ends_ns = heard_ns.saturating_add(self.patience_ns).max(from.at_ns);
+        let patience_ends_ns = from.heard_ns.saturating_add(self.patience_ns).max(from.at_ns);
         let coasted = from.coast(now_ns.min(patience_ends_ns));
         if now_ns <= patience_ends_ns {
             self.mode = Mode::Playing {
                 from: coasted,
-                heard_ns,
                 coasting: true,
             };
             return coasted.joints;
