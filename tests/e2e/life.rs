@@ -34,6 +34,13 @@ const PART: &str = "G21 G90 G54\nT2 M6 (change to tool 2)\nS600 M3\nM8\nG1 X1 Y1
 /// About a second and a half, with a way in three axes and corners.
 const WAY: &str = "G21 G90 G54\nG1 X12 Y4 Z-2 F2400\nX2 Y8\nX9 Y1 Z1\nX0 Y0 Z0\nM2\n";
 
+/// Whether joints stand there, but for the last places that are lost where the offset of their count
+/// is added and taken away again, mm.
+fn is_there(joints: &[f64; 9], place: &[f64; 9]) -> bool {
+    let mut pairs = joints.iter().zip(place);
+    pairs.all(|(joint, place)| (joint - place).abs() < 1e-12)
+}
+
 /// Joints that stand at places of the machine, and whose drives count from `count` there.
 fn joints(stands: [f64; 3], count: f64) -> [JointSettings; 3] {
     stands.map(|start| JointSettings {
@@ -84,9 +91,9 @@ impl<'a> Life<'a> {
         let _done = self.operated.operate(arguments);
     }
 
-    /// Where the joints are, as bits.
-    fn stands(&self) -> [u64; 9] {
-        self.stack.measured().position.map(f64::to_bits)
+    /// Where the joints are.
+    fn stands(&self) -> [f64; 9] {
+        self.stack.measured().position
     }
 
     /// Nothing moves, neither what is commanded nor the machine.
@@ -95,12 +102,12 @@ impl<'a> Life<'a> {
         std::thread::sleep(Duration::from_millis(30));
         let (begun, stands) = (self.tape.length(), self.stands());
         std::thread::sleep(Duration::from_millis(millis));
-        assert_eq!(self.stands(), stands);
+        assert!(is_there(&self.stands(), &stands));
         let told = self.tape.since(begun.saturating_sub(1));
-        let is_there = told
+        let stays = told
             .iter()
-            .all(|s| s.joint_position.map(f64::to_bits) == stands);
-        assert!(is_there, "{stands:?}, told {:?}", told.last());
+            .all(|s| is_there(&s.joint_position, &stands));
+        assert!(stays, "{stands:?}, told {:?}", told.last());
     }
 
     /// Gives power, which moves nothing.
@@ -111,7 +118,7 @@ impl<'a> Life<'a> {
         let status = self.operated.wait_for(then);
         assert_eq!(status.power(), Ok(Power::On));
         self.still(40);
-        assert_eq!(self.stands(), stands);
+        assert!(is_there(&self.stands(), &stands));
     }
 
     fn come_home(&self) {
@@ -187,7 +194,7 @@ impl<'a> Life<'a> {
         // What was asked for ends, as it may; its process does in any case.
         let _ended = moving.wait();
         self.still(60);
-        assert_eq!(self.stands(), stands);
+        assert!(is_there(&self.stands(), &stands));
         if machine.wait(|_| true).state == MachineState::Faulted.code() {
             self.take_note(FaultCause::EnableLost);
         }
@@ -195,7 +202,7 @@ impl<'a> Life<'a> {
         self.operate(&["enable"]);
         let on = machine.wait(|s| s.power() == Ok(Power::On));
         self.still(40);
-        assert_eq!(self.stands(), stands);
+        assert!(is_there(&self.stands(), &stands));
         if on.homed != 0b111 {
             self.come_home();
         }
@@ -320,7 +327,7 @@ fn a_life_from_cold_to_the_loss_of_every_process() {
     let stands = life.stands();
     life.interpolator = life.operated.process(&["interpolator", "--best-effort"]);
     life.switch_on(MachineState::NotHomed);
-    assert_eq!(life.stands(), stands);
+    assert!(is_there(&life.stands(), &stands));
     life.come_home();
     life.operate(&["mdi", "G21 G90 G54 G0 X0 Y0 Z0"]);
     life.operated.assert_at([4.0, 2.5, 0.0]);
