@@ -123,9 +123,7 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
         Command::Acknowledge(args) => acknowledge::acknowledge(args, &config()?),
         Command::Abort(args) => operator::abort(args, &config()?),
         Command::Reset(args) => operator::command(args, &config()?, "reset", link::Command::Reset),
-        Command::Enable(args) => {
-            operator::command(args, &config()?, "enable", link::Command::Enable)
-        }
+        Command::Enable(args) => operator::enable(args, &config()?),
         Command::Disable(args) => {
             operator::command(args, &config()?, "disable", link::Command::Disable)
         }

@@ -13,7 +13,7 @@ use crate::output;
 use crate::report::{state_name, status_object, status_text};
 use glidepath_link::{
     Command, CommandRefusal, CommandReply, CommandRequest, EndOfEpoch, InterpolatorProcess,
-    LinkConfig, LinkError, Operator, Status,
+    LinkConfig, LinkError, Operator, Power, Status,
 };
 use serde_json::json;
 use std::time::{Duration, Instant};
@@ -34,7 +34,38 @@ pub(super) fn command(
     name: &'static str,
     command: Command,
 ) -> Result<Exit, Failure> {
-    commands(args, config, name, &[command])
+    commands(args, config, name, &[command], |_, _| Ok(()))
+}
+
+/// Switches the drives on, and waits until they have power.
+///
+/// # Errors
+/// The errors of [`command`], or the drives do not get power.
+pub(super) fn enable(args: &OperatorArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    commands(args, config, "enable", &[Command::Enable], wait_for_power)
+}
+
+/// Waits until the drives have power: what is typed next is not to be refused for the want of it.
+fn wait_for_power(operator: &Operator, link: &LinkConfig) -> Result<(), Failure> {
+    let (started, mut has_begun) = (Instant::now(), false);
+    loop {
+        let status = read_status(operator, link)?;
+        match status.power().map_err(LinkError::from)? {
+            Power::On | Power::Simulated => return Ok(()),
+            Power::Enabling => has_begun = true,
+            Power::Off if has_begun || started.elapsed() > PATIENCE => {
+                return Err(Failure::CommandRefused {
+                    command: "enable",
+                    state: state_name(status.state().map_err(LinkError::from)?),
+                    reason: "the drives did not get power, or lost it again; `glidepath status` \
+                             tells what is known of them"
+                        .to_owned(),
+                });
+            }
+            Power::Off => {}
+        }
+        std::thread::sleep(POLL);
+    }
 }
 
 /// Sends a command about joints: those given, or all of the machine.
@@ -62,16 +93,17 @@ pub(super) fn overrides(args: &OverrideArgs, config: &MachineConfig) -> Result<E
     let rapid = args.rapid.map(|p| Command::RapidOverride(p / 100.0));
     let jog = args.jog.map(|p| Command::JogOverride(p / 100.0));
     let given: Vec<Command> = feed.into_iter().chain(rapid).chain(jog).collect();
-    commands(&args.operator, config, "override", &given)
+    commands(&args.operator, config, "override", &given, |_, _| Ok(()))
 }
 
-/// Sends commands one after the other, up to the first that is refused, and reports the last
-/// answer.
+/// Sends commands one after the other, up to the first that is refused, waits until they have the
+/// effect that is waited for, and reports the last answer.
 fn commands(
     args: &OperatorArgs,
     config: &MachineConfig,
     name: &'static str,
     commands: &[Command],
+    wait: impl FnOnce(&Operator, &LinkConfig) -> Result<(), Failure>,
 ) -> Result<Exit, Failure> {
     let instance = session::instance(&args.instance, config);
     let link = session::link(&instance, config);
@@ -89,6 +121,7 @@ fn commands(
             });
         }
     }
+    wait(&operator, &link).map_err(|failure| failure.of_command(name))?;
     if args.basic.json {
         output::object(&json!({
             "command": name,
