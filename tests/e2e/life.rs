@@ -104,9 +104,7 @@ impl<'a> Life<'a> {
         std::thread::sleep(Duration::from_millis(millis));
         assert!(is_there(&self.stands(), &stands));
         let told = self.tape.since(begun.saturating_sub(1));
-        let stays = told
-            .iter()
-            .all(|s| is_there(&s.joint_position, &stands));
+        let stays = told.iter().all(|s| is_there(&s.joint_position, &stands));
         assert!(stays, "{stands:?}, told {:?}", told.last());
     }
 

@@ -313,7 +313,10 @@ impl Player {
             return from.joints;
         }
         // The stop begins when patience ends, whenever this is called.
-        let patience_ends_ns = from.heard_ns.saturating_add(self.patience_ns).max(from.at_ns);
+        let patience_ends_ns = from
+            .heard_ns
+            .saturating_add(self.patience_ns)
+            .max(from.at_ns);
         let coasted = from.coast(now_ns.min(patience_ends_ns));
         if now_ns <= patience_ends_ns {
             self.mode = Mode::Playing {

@@ -186,7 +186,9 @@ impl ReferencePath {
     pub(crate) fn set_rates(&mut self, mut rate_of: impl FnMut(u64) -> f64) -> bool {
         let held = self.held.iter_mut().map(|held| (held.tag, &mut held.top_v));
         let pieces = self.pieces.iter_mut();
-        let all = pieces.map(|piece| (piece.tag, &mut piece.top_v)).chain(held);
+        let all = pieces
+            .map(|piece| (piece.tag, &mut piece.top_v))
+            .chain(held);
         all.fold(false, |is_other, (tag, top_v)| {
             let before_v = core::mem::replace(top_v, rate_of(tag));
             is_other | (before_v.to_bits() != top_v.to_bits())
