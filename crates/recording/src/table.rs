@@ -21,37 +21,43 @@ pub(crate) trait Value {
     fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed>;
 }
 
-impl Value for u64 {
-    const TYPE: (Self, Self) = (FIXED64, OPTIONAL);
+/// Eight bytes each, alone or in a row.
+macro_rules! eight_bytes {
+    ($value:ty, $kind:ident) => {
+        impl Value for $value {
+            const TYPE: (u64, u64) = ($kind, OPTIONAL);
 
-    fn put(&self, number: u32, out: &mut Vec<u8>) {
-        put_fixed64(number, self.to_le_bytes(), out);
-    }
+            fn put(&self, number: u32, out: &mut Vec<u8>) {
+                put_fixed64(number, self.to_le_bytes(), out);
+            }
 
-    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
-        let Wire::Fixed64(bytes) = wire else {
-            return Err(Malformed);
-        };
-        *self = Self::from_le_bytes(bytes);
-        Ok(())
-    }
+            fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
+                let Wire::Fixed64(bytes) = wire else {
+                    return Err(Malformed);
+                };
+                *self = Self::from_le_bytes(bytes);
+                Ok(())
+            }
+        }
+
+        impl<const N: usize> Value for [$value; N] {
+            const TYPE: (u64, u64) = ($kind, REPEATED);
+
+            fn put(&self, number: u32, out: &mut Vec<u8>) {
+                put_packed(number, self.iter().map(|value| value.to_le_bytes()), out);
+            }
+
+            fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
+                for (value, bytes) in self.iter_mut().zip(get_packed(wire, N)?) {
+                    *value = <$value>::from_le_bytes(bytes);
+                }
+                Ok(())
+            }
+        }
+    };
 }
-
-impl Value for f64 {
-    const TYPE: (u64, u64) = (DOUBLE, OPTIONAL);
-
-    fn put(&self, number: u32, out: &mut Vec<u8>) {
-        put_fixed64(number, self.to_le_bytes(), out);
-    }
-
-    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
-        let Wire::Fixed64(bytes) = wire else {
-            return Err(Malformed);
-        };
-        *self = Self::from_le_bytes(bytes);
-        Ok(())
-    }
-}
+eight_bytes!(u64, FIXED64);
+eight_bytes!(f64, DOUBLE);
 
 impl Value for u32 {
     const TYPE: (u64, u64) = (UINT32, OPTIONAL);
@@ -103,36 +109,6 @@ fn get_packed<'a>(
         return Err(Malformed);
     }
     Ok(chunks.iter().copied())
-}
-
-impl<const N: usize> Value for [f64; N] {
-    const TYPE: (u64, u64) = (DOUBLE, REPEATED);
-
-    fn put(&self, number: u32, out: &mut Vec<u8>) {
-        put_packed(number, self.iter().map(|value| value.to_le_bytes()), out);
-    }
-
-    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
-        for (value, bytes) in self.iter_mut().zip(get_packed(wire, N)?) {
-            *value = f64::from_le_bytes(bytes);
-        }
-        Ok(())
-    }
-}
-
-impl<const N: usize> Value for [u64; N] {
-    const TYPE: (u64, u64) = (FIXED64, REPEATED);
-
-    fn put(&self, number: u32, out: &mut Vec<u8>) {
-        put_packed(number, self.iter().map(|value| value.to_le_bytes()), out);
-    }
-
-    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
-        for (value, bytes) in self.iter_mut().zip(get_packed(wire, N)?) {
-            *value = u64::from_le_bytes(bytes);
-        }
-        Ok(())
-    }
 }
 
 /// Half, 99 %, 99.9 %, the longest.
