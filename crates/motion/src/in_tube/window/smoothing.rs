@@ -11,8 +11,12 @@
 //! Progress stays in the objective: to hold it fast would forbid an arc to be driven at its radius,
 //! because the inner one is shorter. What is accepted has passed the judge and has lost hardly any
 //! progress; else the weights are made smaller, and in the end the motion of the search stays.
+//!
+//! Samples are given to the pieces that the motion of the search is on. It may have been found in a
+//! round that gave them to others, which it had no need to reach; and whatever rows it stands out
+//! of, what comes out is the judge's to refuse.
 
-use super::optimiser::{ENOUGH_VIOLATION, Optimiser, Question};
+use super::optimiser::{Optimiser, Question};
 use super::rounds::RoundState;
 use super::samples::Samples;
 use super::scaled_path::ScaledPath;
@@ -60,6 +64,7 @@ impl<const D: usize> Optimiser<D> {
         let least = mean - MOST_LOSS * mean;
         for weight in WEIGHTS {
             self.samples.clone_from(&samples);
+            self.samples.give_out(path, window_start.piece);
             let style = window_start.smooth_style(weight);
             let round_state = RoundState::polishing(&points);
             let smoothed = self.smooth_with(path, window_start, &style, round_state, judge);
@@ -92,8 +97,7 @@ impl<const D: usize> Optimiser<D> {
                 has_motion: round_state.has_motion,
                 ..*style
             };
-            let is_solved = self.take_round(path, window_start, &style, false, &mut round_state);
-            if !is_solved || self.interior.violation() > ENOUGH_VIOLATION {
+            if !self.take_round(path, window_start, &style, false, &mut round_state) {
                 break;
             }
             round_state.learn_feed(style.feed_r);
