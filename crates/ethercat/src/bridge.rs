@@ -174,6 +174,12 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         !self.drives.iter().all(Drive::is_present)
     }
 
+    /// Targets in motion so far that were found without a setpoint.
+    #[must_use]
+    pub const fn coasts(&self) -> u64 {
+        self.servo.counts().coasts
+    }
+
     /// A cycle: takes setpoints in, and says what each drive is to be told, for the setpoints of
     /// `meant_ns`. `since_ns` is the time since targets reached the drives last. Times are of
     /// `CLOCK_MONOTONIC`.

@@ -15,6 +15,8 @@ pub struct Counts {
     pub stale: u64,
     /// Cycles left out because their time was past.
     pub missed: u64,
+    /// Targets in motion for a time to which no setpoint led any more.
+    pub coasts: u64,
     /// How often the bus was brought up after the first time.
     pub restarts: u64,
     /// How late the frames were sent, ns.

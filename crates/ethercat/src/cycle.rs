@@ -200,6 +200,7 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
         self.hear(clock, &beat, is_sent);
         self.counts.cycles += 1;
         self.counts.quartz = clock.rate();
+        self.counts.coasts = self.bridge.coasts();
         if self.lost == 0 {
             self.targets_ns = beat.sync_ns;
             // What was answered was measured at the SYNC0 before, and belongs to the setpoints that were

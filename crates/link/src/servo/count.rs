@@ -15,6 +15,9 @@ pub struct ServoCounts {
     pub duplicates: u64,
     /// Setpoints that arrived after the time at which they were to be applied.
     pub late: u64,
+    /// Demands in motion for a time to which no setpoint led any more: the joints went on as they
+    /// were.
+    pub coasts: u64,
     /// Records that failed their check.
     pub refused: u64,
     /// Ticks the interpolator missed while this listened.

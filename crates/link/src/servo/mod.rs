@@ -261,6 +261,9 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
         let was_stopping = self.player.is_stopping();
         let demand = self.player.demand(now_ns);
         self.note_stop(was_stopping, OwnStop::Silence);
+        let moves = |joints: &JointStates| joints.iter().any(|joint| joint.velocity != 0.0);
+        self.counts.coasts +=
+            u64::from(self.player.is_coasting() && demand.as_ref().is_some_and(moves));
         demand
     }
 

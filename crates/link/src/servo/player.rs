@@ -181,6 +181,11 @@ impl Player {
         matches!(self.mode, Mode::Stopping { .. })
     }
 
+    /// Whether the last demand was for want of a setpoint.
+    pub(super) const fn is_coasting(&self) -> bool {
+        matches!(self.mode, Mode::Playing { coasting: true, .. })
+    }
+
     /// The jump that the way back to the setpoints would have been, if that is why the joints stop.
     pub(super) const fn jump(&self) -> Option<Jump> {
         match &self.mode {

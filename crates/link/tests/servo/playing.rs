@@ -23,6 +23,7 @@ fn setpoints_are_played_at_their_times_and_between() {
         assert!((joint.position - expected.position).abs() <= bound + 1e-13);
     }
     let counts = bench.servo.counts();
+    assert_eq!(counts.coasts, 0);
     assert_eq!(
         (counts.received, counts.lost, counts.late, counts.stops),
         (250, 0, 0, 0)
@@ -69,6 +70,7 @@ fn a_long_gap_ends_in_an_own_stop_that_is_latched() {
     assert_eq!((rest.velocity, rest.acceleration), (0.0, 0.0));
     let counts = *bench.servo.counts();
     assert_eq!((counts.stops, counts.lost, counts.gaps), (1, 30, 1));
+    assert!(counts.coasts > 0);
     assert!(
         !bench.servo.is_armed(),
         "later setpoints are counted, not played"

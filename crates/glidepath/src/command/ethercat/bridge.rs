@@ -118,6 +118,7 @@ pub(super) fn report(args: &EthercatArgs, counts: &Counts) {
             "bad_working_counters": counts.short,
             "late_frames": counts.stale,
             "missed_cycles": counts.missed,
+            "coasted_cycles": counts.coasts,
             "bus_restarts": counts.restarts,
             "quartz_ppm": counts.quartz * 1e6,
             "lateness_us": quantiles(&counts.lateness),
