@@ -5,6 +5,8 @@
 //!   says must never know each other does not, directly or by way of others.
 //! * `circles`: inside a crate, no file imports by way of others what imports it (`modules` reads
 //!   the imports). The few circles that stand are named there, each with its reason.
+//! * `links`: links between pages lead to what is there.
+//! * `readmes`: the pages of crates on a registry say what their documentation says.
 
 #![allow(
     clippy::expect_used,
@@ -17,7 +19,11 @@ mod arrows;
 #[cfg(test)]
 mod circles;
 #[cfg(test)]
+mod links;
+#[cfg(test)]
 mod modules;
+#[cfg(test)]
+mod readmes;
 
 #[cfg(test)]
 use std::path::{Path, PathBuf};

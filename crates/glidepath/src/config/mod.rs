@@ -37,10 +37,10 @@ use std::path::Path;
 const MOST_BYTES: u64 = 1 << 20;
 
 /// The machine that is used without `--config`.
-pub const EMBEDDED: &str = include_str!("../../../../config/mill.toml");
+pub const EMBEDDED: &str = include_str!("../../machines/mill.toml");
 
 /// A second built-in machine, for benchmarks: the one of published results on corner smoothing.
-pub const EMBEDDED_SEED: &str = include_str!("../../../../config/seed.toml");
+pub const EMBEDDED_SEED: &str = include_str!("../../machines/seed.toml");
 
 /// Reads a configuration file, or the embedded machine if `path` is `None`: that of
 /// `config/mill.toml` without its default feedrate.
