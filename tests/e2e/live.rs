@@ -15,14 +15,14 @@ use crate::programs::long_program;
 const PATIENCE: Duration = Duration::from_secs(240);
 
 /// `glidepath live` at work.
-struct Live {
+pub(crate) struct Live {
     child: Child,
     url: String,
-    port: u16,
+    pub(crate) port: u16,
 }
 
 impl Live {
-    fn start(instance: &Instance, arguments: &[&str]) -> Self {
+    pub(crate) fn start(instance: &Instance, arguments: &[&str]) -> Self {
         let mut child = Command::new(glidepath())
             .args(["live", "--json", "--port", "0"])
             .args(["--instance", &instance.config().instance])
@@ -64,9 +64,15 @@ impl Live {
         (status, body.to_owned())
     }
 
-    fn token(&self) -> String {
+    /// The header that lets a request in.
+    pub(crate) fn token(&self) -> String {
         let (_, token) = self.url.split_once("#token=").unwrap();
         format!("X-Glidepath-Token: {token}\r\n")
+    }
+
+    /// Its process number.
+    pub(crate) fn id(&self) -> u32 {
+        self.child.id()
     }
 }
 
@@ -181,6 +187,18 @@ fn a_browser_shows_the_machine_and_holds_it() {
     let most = most.as_f64().unwrap();
     assert!((0.5..1.0 + 1e-6).contains(&most), "{most}");
     assert_eq!(browser.evaluate("RINGED.lost"), 0);
+    // Of a pure tone the frequencies hold its power, whatever the window takes; of the motion there
+    // is a picture, and what of it is above the resonances.
+    let tone = browser.evaluate(
+        "(() => { const p = power(i => Math.sin(100 * Math.PI * i * 0.004), 4096, 0.004); \
+         return p.reduce((all, x) => all + x, 0) / 0.008 / (p.length - 1); })()",
+    );
+    assert!((tone.as_f64().unwrap() - 0.5).abs() < 1e-3, "{tone}");
+    browser.press("[data-box=spec]");
+    browser.wait(
+        "document.querySelector('#specbox canvas').width > 100 && \
+         document.querySelector('#specof').textContent.includes('rms above 30 Hz')",
+    );
     // A finger on hold, and on resume.
     browser.press("[data-c=hold]");
     let _held = services.wait_for(MachineState::Held);

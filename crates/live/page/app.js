@@ -78,7 +78,7 @@ function heard(kind, payload) {
     const errors = Object.values(S.status.following_error || {}).map(v => Math.abs(v || 0));
     RINGED.take(payload, S.p, Math.max(0, ...errors) * 1000, (S.status.queue_depth || 0) * DT());
     S.arrived = performance.now();
-    dirty.path = dirty.strips = dirty.ribbon = dirty.health = true;
+    dirty.path = dirty.strips = dirty.ribbon = dirty.health = dirty.tune = true;
   }
 }
 
@@ -149,14 +149,18 @@ $('#tools').addEventListener('click', e => {
 /* ---- what held the motion back, and where */
 function paintTune() {
   const report = INFO.report;
-  if (!report) { fill($('#bindbox'), ''); fill($('#slowbox'), `<div class="h"><b>No plan yet</b></div><p class="lab-text">${safe(emptyRibbon())}</p>`); return; }
+  if (!report) { fill($('#bindbox'), ''); fill($('#slowbox'), `<div class="h"><b>No plan yet</b><button data-box="spec">frequencies</button></div><p class="lab-text">${safe(emptyRibbon())}</p>`); return; }
   const sum = kind => Object.entries(report.binding).filter(([name]) => name.startsWith(kind)).reduce((all, [, part]) => all + part, 0);
   const parts = LIMITS.filter(kind => kind !== 'rest' && kind !== 'none').concat(['none', 'rest']).map(kind => [kind, sum(kind)]).filter(([kind, part]) => part > 0 || kind === 'feed');
   fill($('#bindbox'), `<div class="h"><b>What held the motion back</b><span>% of the time</span></div><div class="stack">${parts.map(([kind]) => `<i class="k-${kind.replace(' ', '-')}"></i>`).join('')}</div><div class="keys">${parts.map(([kind, part]) => `<div><i class="k-${kind.replace(' ', '-')}"></i>${LIMIT_WORDS[kind]}<span class="n">${(part * 100).toFixed(1)}</span></div>`).join('')}</div>`);
   $$('#bindbox .stack i').forEach((element, k) => { element.style.flex = `${parts[k][1]} 0 2px`; });
   const rows = innerHeight < 820 ? 4 : 6;
-  fill($('#slowbox'), `<div class="h"><b>Where most time is lost</b><span>click to look there</span></div><table class="slow"><tr><th>line</th><th>lost, s</th><th>slowest, mm/s</th><th>of</th><th>limit</th></tr>${report.slowest.slice(0, rows).map((place, n) => `<tr tabindex="0" data-n="${n}"><td class="n">${place.line}</td><td class="n">${num(place.lost_s, 3)}</td><td class="n">${num(place.speed_mm_s, 1)}</td><td class="n">${num(place.feed_mm_s, 0)}</td><td><i class="dot k-${/^(velocity|acceleration|jerk)/.test(place.limit) ? place.limit.split(' ')[0] : place.limit.replace(' ', '-')}"></i>${safe(place.limit)}</td></tr>`).join('')}</table>`);
+  fill($('#slowbox'), `<div class="h"><b>Where most time is lost</b><button data-box="spec">frequencies</button></div><table class="slow"><tr><th>line</th><th>lost, s</th><th>slowest, mm/s</th><th>of</th><th>limit</th></tr>${report.slowest.slice(0, rows).map((place, n) => `<tr tabindex="0" data-n="${n}"><td class="n">${place.line}</td><td class="n">${num(place.lost_s, 3)}</td><td class="n">${num(place.speed_mm_s, 1)}</td><td class="n">${num(place.feed_mm_s, 0)}</td><td><i class="dot k-${/^(velocity|acceleration|jerk)/.test(place.limit) ? place.limit.split(' ')[0] : place.limit.replace(' ', '-')}"></i>${safe(place.limit)}</td></tr>`).join('')}</table>`);
 }
+$('#tune .l').addEventListener('click', e => {
+  const b = e.target.closest('[data-box]');
+  if (b) { S.box = $('#tune').dataset.box = b.dataset.box; SPACE.stale = true; redraw(); }
+});
 const placeOfRow = row => { const place = INFO.report.slowest[row.dataset.n]; return { p: (place.start_s + place.duration_s / 2) / DT(), width: Math.max(0.4, place.duration_s * 6) }; };
 $('#slowbox').addEventListener('click', e => {
   const row = e.target.closest('tr[data-n]');
@@ -263,7 +267,7 @@ $('#sure .no').onclick = () => sure(false);
 }
 
 /* ---- the loop */
-let lastDigits = 0, lastHealth = 0;
+let lastDigits = 0, lastHealth = 0, lastSpectrum = 0;
 const FRAMES = { count: 0, since: 0, rate: 0 };
 function frame(t) {
   FRAMES.count++;
@@ -273,6 +277,7 @@ function frame(t) {
   if (dirty.path && $(`#${S.view} [data-path]`)) { SPACE.draw(S.p); dirty.path = false; }
   if (dirty.strips && S.view === 'tune') { strips(); dirty.strips = false; }
   if (dirty.ribbon) { ribbon(); dirty.ribbon = false; }
+  if (dirty.tune && S.view === 'tune' && S.box === 'spec' && t - lastSpectrum > 250) { lastSpectrum = t; spectrum(); dirty.tune = false; }
   if (dirty.health && S.view === 'health' && t - lastHealth > 200) { lastHealth = t; health(); dirty.health = false; }
   if (S.view === 'glance') eventLog();
   requestAnimationFrame(frame);

@@ -9,7 +9,7 @@ const hash = new URLSearchParams(location.hash.slice(1));
 const S = {
   file: !!window.GLIDEPATH_FILE, view: 'operate', state: 'stale', hover: null, p: 0,
   follow: true, span: 6, end: 0, commands: false, status: null, heard: 0, refusal: '',
-  axes: {}, parts: { p: true, v: true, a: true, j: true },
+  axes: {}, parts: { p: true, v: true, a: true, j: true }, box: 'slow',
 };
 /* The machine and its program, as `/api/plan` tells. */
 let INFO = { machine: { instance: '', axes: [], period_s: 0.004, tolerance_mm: 0.02 }, program: null, report: null };

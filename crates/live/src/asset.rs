@@ -8,13 +8,14 @@ pub(crate) const INDEX: &str = include_str!("../page/index.html");
 pub(crate) const STYLE: &str = include_str!("../page/style.css");
 
 /// What it does, in the order in which the page names it.
-pub(crate) const SCRIPTS: [(&str, &str); 9] = [
+pub(crate) const SCRIPTS: [(&str, &str); 10] = [
     ("/base.js", include_str!("../page/base.js")),
     ("/plan.js", include_str!("../page/plan.js")),
     ("/ring.js", include_str!("../page/ring.js")),
     ("/path3d.js", include_str!("../page/path3d.js")),
     ("/strips.js", include_str!("../page/strips.js")),
     ("/ribbon.js", include_str!("../page/ribbon.js")),
+    ("/spectrum.js", include_str!("../page/spectrum.js")),
     ("/words.js", include_str!("../page/words.js")),
     ("/health.js", include_str!("../page/health.js")),
     ("/app.js", include_str!("../page/app.js")),
