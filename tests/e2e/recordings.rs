@@ -18,7 +18,7 @@ const PATIENCE: Duration = Duration::from_secs(240);
 const LOST: Duration = Duration::from_millis(1500);
 
 /// The setpoints of a recording, and whether it was cut short.
-fn read(path: &Path) -> (Vec<Setpoint>, bool) {
+pub(crate) fn read(path: &Path) -> (Vec<Setpoint>, bool) {
     let mut reader = Reader::new(BufReader::new(File::open(path).unwrap())).unwrap();
     let mut setpoints = Vec::new();
     while let Some(entry) = reader.next_entry().unwrap() {
@@ -29,7 +29,7 @@ fn read(path: &Path) -> (Vec<Setpoint>, bool) {
     (setpoints, reader.is_cut())
 }
 
-fn is_gapless(setpoints: &[Setpoint]) -> bool {
+pub(crate) fn is_gapless(setpoints: &[Setpoint]) -> bool {
     let mut pairs = setpoints.windows(2);
     pairs.all(|pair| pair[1].number == pair[0].number + 1)
 }

@@ -16,7 +16,7 @@ const PATIENCE: Duration = Duration::from_secs(120);
 const PROGRAM: &str = "G21 G90 G1 X20 Y5 F1200\nM3 S1000\nX0 Y0\nM2\n";
 
 /// A process of the broker's, ended with its value.
-struct Ended(Child);
+pub(crate) struct Ended(Child);
 
 impl Drop for Ended {
     fn drop(&mut self) {
@@ -26,7 +26,14 @@ impl Drop for Ended {
     }
 }
 
-fn broker(instance: &Instance, port: u16) -> Ended {
+/// A port that is free now.
+pub(crate) fn free_port() -> u16 {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    listener.local_addr().unwrap().port()
+}
+
+/// A broker at a port of this host, once it listens.
+pub(crate) fn broker(instance: &Instance, port: u16) -> Ended {
     let text = format!("listener {port} 127.0.0.1\nallow_anonymous true\npersistence false\n");
     let config = instance.file("mosquitto.conf", &text);
     let child = Command::new("mosquitto")
@@ -110,7 +117,7 @@ impl Witness {
     }
 }
 
-fn is_there() -> bool {
+pub(crate) fn is_there() -> bool {
     ["mosquitto", "mosquitto_sub"]
         .iter()
         .all(|name| Command::new(name).arg("--help").output().is_ok())
@@ -123,12 +130,7 @@ fn a_broker_hears_what_the_machine_does_and_of_the_end_of_who_tells_it() {
         return;
     }
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
-    // A port that is free now.
-    let port = TcpListener::bind("127.0.0.1:0")
-        .unwrap()
-        .local_addr()
-        .unwrap()
-        .port();
+    let port = free_port();
     let mosquitto = broker(&instance, port);
     let witness = Witness::start(port);
     let services = Services::start(&instance);

@@ -18,6 +18,7 @@
 //! the monotonic clock, as they were.
 
 mod origin;
+mod proto;
 mod protobuf;
 mod reader;
 mod recorder;
@@ -25,6 +26,7 @@ mod records;
 mod table;
 
 pub use origin::Origin;
+pub use proto::proto;
 pub use protobuf::Malformed;
 pub use reader::{Entry, ReadError, Reader};
 pub use recorder::Recorder;

@@ -137,6 +137,20 @@ pub(crate) struct FieldOf {
     pub(crate) size: usize,
 }
 
+impl FieldOf {
+    /// Its type, as Protocol Buffers write it.
+    pub(crate) const fn type_name(&self) -> &'static str {
+        match self.kind {
+            (DOUBLE, REPEATED) => "repeated double",
+            (DOUBLE, _) => "double",
+            (FIXED64, REPEATED) => "repeated fixed64",
+            (FIXED64, _) => "fixed64",
+            (STRING, _) => "string",
+            _ => "uint32",
+        }
+    }
+}
+
 /// A record that is a message.
 pub(crate) trait Message: Sized {
     /// Its full name.

@@ -132,6 +132,46 @@ fn what_is_no_recording_is_refused() {
     assert!(broken, "a flipped bit is found");
 }
 
+/// A recording may have been damaged on its way, or on purpose: whatever its bytes, reading it ends,
+/// without a panic. `GLIDEPATH_DAMAGES=100000` does it more often.
+#[test]
+fn a_damaged_recording_is_read_to_its_end_or_refused() {
+    let rounds = std::env::var("GLIDEPATH_DAMAGES").ok();
+    let rounds: u64 = rounds.and_then(|text| text.parse().ok()).unwrap_or(500);
+    let whole = recorded(60);
+    let mut seed = 1_u64;
+    let mut next = move |below: usize| {
+        // Knuth's generator; its upper bits are good enough to choose by.
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        usize::try_from(seed >> 33).unwrap() % below
+    };
+    let mut refused = 0;
+    for _ in 0..rounds {
+        let mut bytes = whole.clone();
+        for _ in 0..=next(4) {
+            let place = next(bytes.len());
+            bytes[place] = u8::try_from(next(256)).unwrap();
+        }
+        if next(4) == 0 {
+            bytes.truncate(next(bytes.len()));
+        }
+        let read = Reader::new(bytes.as_slice()).and_then(|mut reader| {
+            let mut count = 0;
+            while reader.next_entry()?.is_some() {
+                count += 1;
+            }
+            Ok(count)
+        });
+        refused += u64::from(read.is_err());
+    }
+    assert!(
+        refused > rounds / 4,
+        "damages are found: {refused} of {rounds}"
+    );
+}
+
 /// Reads with Python's reader, and prints every position as hexadecimal digits.
 const PYTHON: &str = "\
 import sys
@@ -188,4 +228,17 @@ fn hex(value: f64) -> String {
             format!("{sign}0x1.{mantissa:013x}p{exponent:+}")
         }
     }
+}
+
+/// `GLIDEPATH_BLESS=1 cargo test -p glidepath-recording` writes the file.
+#[test]
+fn the_file_of_messages_is_what_the_code_says() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/glidepath.proto");
+    if std::env::var_os("GLIDEPATH_BLESS").is_some() {
+        std::fs::write(path, glidepath_recording::proto()).unwrap();
+    }
+    assert_eq!(
+        std::fs::read_to_string(path).unwrap(),
+        glidepath_recording::proto()
+    );
 }
