@@ -13,6 +13,7 @@ mod libraries;
 mod life;
 mod live;
 mod load;
+mod manual;
 mod onlookers;
 mod operating;
 mod operator;

@@ -10,12 +10,14 @@ mod hostile_numbers;
 mod joints;
 mod kept_state;
 mod keys;
+mod manual_words;
 mod migration;
 mod nurbs;
 mod outputs;
 mod pipes;
 mod plot;
 mod preview;
+mod reference;
 mod subroutines;
 #[path = "../support/mod.rs"]
 mod support;
