@@ -9,6 +9,7 @@ mod interleaving;
 mod limits;
 mod overrides;
 mod plan;
+mod planned;
 mod preview;
 mod refusals;
 mod scurve;

@@ -7,6 +7,7 @@
     reason = "a test that fails may panic"
 )]
 
+use crate::planned::{moves, numbered, plan};
 use crate::support::{FREE, at, cases, efforts, mill, optimal};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_motion::Planner;
@@ -14,47 +15,6 @@ use glidepath_program::{
     Event, Frame, FrameFlags, Item, ItemKind, Limits, PathMode, Rate, Settings, Smoothing,
 };
 use proptest::prelude::*;
-
-fn moves(points: &[AxisVector], feed_v: f64, mode: PathMode) -> Vec<ItemKind> {
-    points
-        .windows(2)
-        .map(|pair| ItemKind::Move {
-            segment: Segment::line(pair[0], pair[1]),
-            rate: Rate::Feed(feed_v),
-            mode,
-        })
-        .collect()
-}
-
-fn numbered(kinds: Vec<ItemKind>) -> Vec<Item> {
-    (1..)
-        .zip(kinds)
-        .map(|(line, kind)| Item {
-            block: 0,
-            line,
-            kind,
-        })
-        .collect()
-}
-
-/// All frames, taken after every `every`-th item and at the end.
-fn plan(items: &[Item], settings: Settings, every: usize) -> Vec<Frame> {
-    let mut planner = Planner::new(settings, AxisVector::zeros());
-    let mut frames = Vec::new();
-    for (i, item) in items.iter().enumerate() {
-        planner.push(item).expect("valid item");
-        if i % every == 0 {
-            frames.extend(std::iter::from_fn(|| {
-                planner.pop_frame().expect("a motion")
-            }));
-        }
-    }
-    planner.finish();
-    frames.extend(std::iter::from_fn(|| {
-        planner.pop_frame().expect("a motion")
-    }));
-    frames
-}
 
 fn time_t(frames: &[Frame]) -> f64 {
     let moving = |frame: &&Frame| frame.path_v > 0.0;
