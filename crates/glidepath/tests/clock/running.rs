@@ -11,7 +11,7 @@
 use crate::support::{finish, object};
 use glidepath_link::LinkConfig;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 /// About a second of motion, with a stop on the way.
@@ -182,22 +182,27 @@ fn a_rejected_program_starts_nothing() {
     assert_eq!(report["findings"][0]["line"], 1);
 }
 
-#[test]
-fn an_interrupted_run_ends_with_130_and_leaves_nothing() {
-    let folder = tempfile::tempdir().unwrap();
-    let program = file(folder.path(), "long.ngc", LONG);
-    let name = instance("interrupt");
-    let child = glidepath(&[
+/// Runs minutes of motion, which have begun.
+fn run_long(folder: &Path, name: &str) -> Child {
+    let program = file(folder, "long.ngc", LONG);
+    let arguments = [
         "run",
         &program,
         "--best-effort",
         "--instance",
-        &name,
+        name,
         "--json",
-    ])
-    .spawn()
-    .unwrap();
-    wait_for_motion(&name);
+    ];
+    let child = glidepath(&arguments).spawn().unwrap();
+    wait_for_motion(name);
+    child
+}
+
+#[test]
+fn an_interrupted_run_ends_with_130_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = instance("interrupt");
+    let child = run_long(folder.path(), &name);
     signal("INT", child.id());
     let output = finish(child, PATIENCE);
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
@@ -211,19 +216,8 @@ fn an_interrupted_run_ends_with_130_and_leaves_nothing() {
 #[test]
 fn the_death_of_a_process_ends_the_run_with_5_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    let program = file(folder.path(), "long.ngc", LONG);
     let name = instance("death");
-    let child = glidepath(&[
-        "run",
-        &program,
-        "--best-effort",
-        "--instance",
-        &name,
-        "--json",
-    ])
-    .spawn()
-    .unwrap();
-    wait_for_motion(&name);
+    let child = run_long(folder.path(), &name);
     let status = object(&run(&["status", "--instance", &name, "--json"]));
     signal(
         "KILL",
