@@ -26,7 +26,8 @@
 //! | G96 S D, G97 S | cutting speed, revolutions |
 //! | `@` `^` | polar words for X and Y |
 //! | S T M0 M1 M3–M9 M48 M49 M60 M61 Q, `$0`, `$-1` | events, in order with the motion; the one spindle there is |
-//! | M50 M51 P1, M52 M53 P0 | no effect: so it is; what they would change is refused |
+//! | M50 M51 P1, M53 P0 | no effect: so it is; what they would change is refused |
+//! | M52 P | the feed follows an input, where there is one ([`Options::adaptive_feed`](crate::Options::adaptive_feed)) |
 //! | M70 M71 M72 M73 | save and restore the modal state, by subroutine |
 //! | M19, M62 … M68 | events, only with simulated connections |
 //! | M2 M30, `%` | end of the program; the end of the input is one too |
@@ -36,7 +37,7 @@
 //! | `o<name> call`, `o100 call` of what the program does not define | the subroutine in `name.ngc`, `100.ngc` ([`Subroutines`](crate::Subroutines)) |
 //!
 //! Not supported, and refused by name: rigid tapping (G33.1), G87, G88, and to take overrides from
-//! the operator (M50, M51), adaptive feed (M52) and feed stop (M53).
+//! the operator (M50, M51) and feed stop (M53).
 //!
 //! # Order of execution
 //!

@@ -71,9 +71,9 @@ pub use execute::program::Program;
 pub use execute::state::in_force::InForce;
 pub use execute::state::modal::{Feed, Modal};
 pub use execute::state::probe_result::Probed;
-pub use setup::m_codes::MCodes;
+pub use setup::m_codes::{MCodes, WaitsAt};
 pub use setup::machine::{Machine, Travel};
-pub use setup::options::{Connections, LoopLimits, Options};
+pub use setup::options::{AdaptiveFeed, Connections, LoopLimits, Options};
 pub use setup::subroutine_file::{
     MAX_SUBROUTINE_BYTES, NoSubroutineFile, SubroutineFile, Subroutines,
 };

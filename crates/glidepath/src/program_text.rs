@@ -192,10 +192,15 @@ impl ProgramText {
             Event::SpindleSpeed(speed) => writeln!(self.text, "S{speed}"),
             Event::SelectTool(tool) => writeln!(self.text, "T{tool}"),
             // Their further words are not part of the event.
-            Event::MCode(19 | 61 | 66) | Event::Probe { .. } | Event::Synchronise { .. } => {
+            Event::MCode(19 | 61 | 66)
+            | Event::Probe { .. }
+            | Event::Synchronise { .. }
+            | Event::CodeWord { .. } => {
                 return Err(UnknownEvent { line });
             }
             Event::MCode(number) | Event::ProgramStop(number) => writeln!(self.text, "M{number}"),
+            // The configuration says so again.
+            Event::Await(_) => Ok(()),
             Event::OptionalStop => writeln!(self.text, "M1"),
             Event::DigitalOutput { number, on } => {
                 writeln!(self.text, "M{} P{number}", if on { 62 } else { 63 })

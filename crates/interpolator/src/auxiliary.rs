@@ -3,7 +3,7 @@
 
 use crate::gates::Gates;
 use crate::message::{Awaited, Report};
-use glidepath_link::{Auxiliary, EventId};
+use glidepath_link::{Auxiliary, CodeWords, EventId};
 
 /// The record, and what it was when it was published last.
 #[derive(Debug)]
@@ -42,10 +42,12 @@ impl AuxiliaryBook {
             record.awaited = EventId::default();
             (record.awaited_since_ns, record.awaited_until_ns) = (0, 0);
             (record.awaited_kind, record.awaited_value) = (0, 0.0);
+            record.awaited_words = CodeWords::default();
             return;
         };
         record.awaited = awaited.id(record.boot_id);
         (record.awaited_kind, record.awaited_value) = (awaited.event_kind, awaited.event_value);
+        record.awaited_words = awaited.words;
         record.awaited_since_ns = awaited.since_ns;
         record.awaited_until_ns = self.gates.deadline_ns(record, awaited.since_ns);
     }

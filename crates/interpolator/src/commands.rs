@@ -1,10 +1,10 @@
 //! Commands: what may be done when, and the answer.
 
+use crate::acknowledgements::Acknowledgements;
 use crate::feedback::DriveBook;
 use crate::message::{Order, PortsEnds, Report};
 use glidepath_link::{
-    Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, EndOfEpoch, EventId,
-    MachineState,
+    Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, MachineState,
 };
 
 /// Answers a command: passes it on to the real-time thread, or says why not.
@@ -16,20 +16,20 @@ pub(crate) fn answer(
     report: &Report,
     boot_id: u64,
     drives: Option<(&mut DriveBook, u64)>,
-    answered: &mut Option<EventId>,
+    acknowledgements: &mut Acknowledgements,
     ends: &mut PortsEnds<'_>,
 ) -> CommandReply {
     let (outcome, message) = match request.command() {
         Err(error) => (Err(CommandRefusal::Malformed), error.to_string()),
         Ok(Command::Ping | Command::Tell) => (Ok(()), String::new()),
         Ok(Command::Acknowledge { event, done }) => {
-            match judge_acknowledgement(event, done, report, boot_id, *answered) {
+            match acknowledgements.judge(event, done, report) {
                 Err(why) => (Err(CommandRefusal::WrongState), why.to_owned()),
                 Ok(()) => {
                     let command = Command::Acknowledge { event, done };
                     let (outcome, message) = pass_on(command, report.state, ends);
                     if outcome.is_ok() {
-                        *answered = Some(event);
+                        acknowledgements.answer(event);
                     }
                     (outcome, message)
                 }
@@ -62,43 +62,6 @@ fn judge(
     drives.map_or(Ok(true), |(book, now_ns)| {
         book.command(command, report, now_ns)
     })
-}
-
-/// Whether an event may be acknowledged now.
-fn judge_acknowledgement(
-    event: EventId,
-    done: bool,
-    report: &Report,
-    boot_id: u64,
-    answered: Option<EventId>,
-) -> Result<(), &'static str> {
-    if event.boot_id != boot_id {
-        return Err("that event is of another life of the interpolator");
-    }
-    if answered == Some(event) {
-        return Err("that event was answered already");
-    }
-    let Some(awaited) = report.awaited else {
-        let is_ahead = event.epoch == report.setpoint.epoch
-            && event.sequence > report.setpoint.sequence
-            && report.end_of_epoch == EndOfEpoch::Open;
-        return Err(if is_ahead {
-            "too early: the machine has not come to that event yet"
-        } else {
-            "no event is awaited"
-        });
-    };
-    let is_it = awaited.id(boot_id) == event;
-    if !is_it && (event.epoch, event.sequence) > (awaited.epoch, awaited.sequence) {
-        return Err("too early: the machine waits for another event before that one");
-    }
-    if !is_it {
-        return Err("another event is awaited");
-    }
-    if done && awaited.by_feedback {
-        return Err("the drives' feedback answers that event, and nobody else");
-    }
-    Ok(())
 }
 
 fn pass_on(

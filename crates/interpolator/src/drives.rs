@@ -225,6 +225,7 @@ impl Drives {
         while let Some(observation) = observations.dequeue() {
             self.seen = observation;
             self.seen_ticks = 0;
+            requests.adapt(observation.adaptive_r);
         }
         let rests = !is_open && output.published().is_at_rest();
         let consequence = self.watch(rests, requests.fault().is_some());

@@ -1,7 +1,7 @@
 //! Which M codes are waited for, and what ends the wait.
 
 use core::time::Duration;
-use glidepath_link::{Auxiliary, EventKind, SetpointFrame, SpindleFlags};
+use glidepath_link::{Auxiliary, EventKind, Setpoint, SetpointFrame, SpindleFlags};
 use glidepath_program::Event;
 
 /// Most rules of a machine.
@@ -65,6 +65,7 @@ const PASS: Gate = Gate {
     last: 0,
     answer: Answer::SpindleAngle,
     within: Some(SPINDLE_PATIENCE),
+    is_late: false,
 };
 
 /// The motion does not pass some M codes before they are answered.
@@ -78,6 +79,9 @@ pub struct Gate {
     pub answer: Answer,
     /// How long it may take; longer is a fault. `None`: for ever.
     pub within: Option<Duration>,
+    /// The motion goes on at the code, and waits where the program says so later
+    /// ([`Event::Await`]).
+    pub is_late: bool,
 }
 
 /// All M codes that are waited for. A code that several rules are about obeys the first of them.
@@ -121,8 +125,20 @@ impl Gates {
             return None;
         }
         match frame.event() {
-            Ok(Some(Event::MCode(code))) => self.of(code),
+            Ok(Some(Event::MCode(code))) => self.of(code).filter(|gate| !gate.is_late),
+            Ok(Some(Event::Await(code))) => self.of(code),
             Ok(Some(Event::Synchronise { .. })) => Some(PASS),
+            _ => None,
+        }
+    }
+
+    /// The rule for the event of a setpoint, if that is an M code that is waited for later.
+    pub(crate) fn late(&self, setpoint: &Setpoint) -> Option<Gate> {
+        if setpoint.event_kind != EventKind::MCode.code() {
+            return None;
+        }
+        match setpoint.event() {
+            Ok(Some(Event::MCode(code))) => self.of(code).filter(|gate| gate.is_late),
             _ => None,
         }
     }
@@ -130,7 +146,9 @@ impl Gates {
     /// The longest that is waited for an event, as a record has it: ns of `CLOCK_MONOTONIC`.
     pub(crate) fn deadline_ns(&self, auxiliary: &Auxiliary, since_ns: u64) -> u64 {
         let within = match auxiliary.awaited_event() {
-            Ok(Some(Event::MCode(code))) => self.of(code).and_then(|gate| gate.within),
+            Ok(Some(Event::MCode(code) | Event::Await(code))) => {
+                self.of(code).and_then(|gate| gate.within)
+            }
             _ => None,
         };
         within.map_or(0, |within| {
@@ -150,6 +168,7 @@ mod tests {
             last,
             answer,
             within: None,
+            is_late: false,
         };
         let spindle = gate(3, 4, Answer::SpindleAtSpeed);
         let exception = gate(120, 120, Answer::SpindleStopped);

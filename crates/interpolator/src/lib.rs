@@ -98,6 +98,7 @@
 #![cfg_attr(glidepath_rtsan, feature(sanitize))]
 
 mod account;
+mod acknowledgements;
 mod admission;
 mod auxiliary;
 mod block_end;
@@ -147,7 +148,7 @@ mod wait;
 static ALLOCATOR: glidepath_realtime::CountingAllocator = glidepath_realtime::CountingAllocator;
 
 pub use config::{Config, Gantry, JogSettings, RealTime, SoftLimits};
-pub use feedback::{FeedbackSettings, JointFeedback, ProbeInput};
+pub use feedback::{AdaptiveFeed, FeedbackSettings, JointFeedback, ProbeInput};
 pub use gates::{Answer, Gate, Gates, MAX_GATES};
 pub use homing::{HomingError, JointBounds, JointHoming};
 pub use loops::{RunError, lead_ns};

@@ -5,6 +5,7 @@
 //! and the leftovers of dead processes. It may allocate, log and wait; the real-time thread does
 //! not notice.
 
+use crate::acknowledgements::Acknowledgements;
 use crate::admission::{Admission, Machine, Verdict};
 use crate::auxiliary::AuxiliaryBook;
 use crate::commands::{answer, is_refusal};
@@ -16,9 +17,9 @@ use crate::message::{Happening, Order, PortsEnds, Report};
 use crate::status::{StatusBook, grants_of};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Auxiliary, Command, CommandReply, CommandRequest, EndOfEpoch, EventId, FaultCause, Feedback,
-    JogDemand, LinkError, MachineState, Publisher, Server, Setpoint, SetpointFrame, Status,
-    Subscriber, Transport,
+    Auxiliary, Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, Feedback, JogDemand,
+    LinkError, MachineState, Publisher, Server, Setpoint, SetpointFrame, Status, Subscriber,
+    Transport,
 };
 use glidepath_realtime::{EventReader, Grants, Mode};
 
@@ -82,8 +83,7 @@ pub(crate) struct Ports<'a> {
     report: Option<Report>,
     book: StatusBook,
     auxiliary: AuxiliaryBook,
-    /// The event that was acknowledged last.
-    answered: Option<EventId>,
+    acknowledgements: Acknowledgements,
     boot_id: u64,
     status_due_ns: u64,
     clean_up_due_ns: u64,
@@ -115,7 +115,7 @@ impl<'a> Ports<'a> {
             report: None,
             book: StatusBook::new(config, boot_id),
             auxiliary: AuxiliaryBook::new(boot_id, config.gates),
-            answered: None,
+            acknowledgements: Acknowledgements::new(boot_id, config.gates),
             boot_id,
             status_due_ns: 0,
             clean_up_due_ns: 0,
@@ -193,6 +193,7 @@ impl<'a> Ports<'a> {
             result = result.and(published);
             self.book.count(&report);
             self.auxiliary.note(&report);
+            self.acknowledgements.note(&report);
             if let Some(drives) = &mut self.drives {
                 drives.note(&report);
             }
@@ -259,7 +260,7 @@ impl<'a> Ports<'a> {
             book,
             boot_id,
             drives,
-            answered,
+            acknowledgements,
             log,
             ..
         } = self;
@@ -267,7 +268,7 @@ impl<'a> Ports<'a> {
             let served = links.commands.serve(&mut |request| {
                 let reply = {
                     let drives = drives.as_mut().map(|drives| (drives, now_ns));
-                    answer(request, &report, *boot_id, drives, answered, ends)
+                    answer(request, &report, *boot_id, drives, acknowledgements, ends)
                 };
                 let text = request.text.as_str();
                 match request.command() {

@@ -8,7 +8,7 @@
 //! | fault | Stopping | Faulted (the epoch has ended) | reset |
 //! | abort | Stopping | Idle (the epoch has ended) | – |
 //! | program stop, end of a block | – | ProgramStop | resume, step |
-//! | feed hold, or override 0 | Holding | Held | resume, step, or another override |
+//! | feed hold, or override 0, or an adaptive feed of 0 | Holding | Held | resume, step, or another override |
 //! | too few frames | Starving | Starved | frames |
 //! | the plan rests and has no more | – | Waiting | frames |
 //! | none | Running | Running | |
@@ -36,6 +36,11 @@ pub(crate) struct StopRequests {
     single_block: bool,
     feed_override: f64,
     rapid_override: f64,
+    /// What slows the program down besides, 0 to 1.
+    adaptive_r: f64,
+    /// Both together, for feeds and for rapids: every tick asks for them, and they change seldom.
+    feed_r: f64,
+    rapid_r: f64,
 }
 
 /// What the operator lets the motion pass, of what it stands at.
@@ -64,6 +69,9 @@ impl Default for StopRequests {
             single_block: false,
             feed_override: 1.0,
             rapid_override: 1.0,
+            adaptive_r: 1.0,
+            feed_r: 1.0,
+            rapid_r: 1.0,
         }
     }
 }
@@ -102,8 +110,14 @@ impl StopRequests {
             }
             Command::StopAtEndOfBlock => self.stop_at_block_end = is_open,
             Command::SingleBlock(on) => self.single_block = on,
-            Command::FeedOverride(ratio) => self.feed_override = ratio,
-            Command::RapidOverride(ratio) => self.rapid_override = ratio,
+            Command::FeedOverride(ratio) => {
+                self.feed_override = ratio;
+                self.adapt(self.adaptive_r);
+            }
+            Command::RapidOverride(ratio) => {
+                self.rapid_override = ratio;
+                self.adapt(self.adaptive_r);
+            }
             Command::Abort => self.abort = is_open,
             Command::Reset if is_open => self.abort = true,
             Command::Reset => self.fault = None,
@@ -192,12 +206,16 @@ impl StopRequests {
         (self.commanded(is_rapid) / planned_override).min(1.0)
     }
 
+    /// The override, and what slows the program down besides.
     const fn commanded(&self, is_rapid: bool) -> f64 {
-        if is_rapid {
-            self.rapid_override
-        } else {
-            self.feed_override
-        }
+        if is_rapid { self.rapid_r } else { self.feed_r }
+    }
+
+    /// An input slows the program down, 0 to 1.
+    pub(crate) const fn adapt(&mut self, ratio: f64) {
+        self.adaptive_r = ratio;
+        self.feed_r = self.feed_override * ratio;
+        self.rapid_r = self.rapid_override * ratio;
     }
 
     /// Whether the operator keeps the motion from going on.

@@ -111,7 +111,7 @@ impl Interpolator<'_> {
             MachineState::Idle if self.probing.goes_on() => MachineState::Waiting,
             MachineState::Idle => self.drives.state_at_rest(),
             MachineState::Running | MachineState::Waiting | MachineState::Starved
-                if self.wait.awaited().is_some() =>
+                if self.wait.is_standing() =>
             {
                 MachineState::Awaiting
             }

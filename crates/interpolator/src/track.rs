@@ -236,6 +236,11 @@ impl Track {
             .find(|&s| self.frame(s).is_some_and(is_at_rest));
     }
 
+    /// What is waited for.
+    pub(crate) const fn gates(&self) -> &Gates {
+        &self.gates
+    }
+
     /// The first frame whose event is to be answered, and by what.
     pub(crate) fn gate(&self) -> Option<(&SetpointFrame, Gate)> {
         let frame = self.frame(self.gate?)?;

@@ -4,11 +4,17 @@
 //!  motion ──► rest at the frame of the event ──► answered ──► on, when a stop after it is known
 //!                                           └──► failed, or nothing in time ──► fault
 //! ```
+//!
+//! Some events are told, and the motion comes to their gate later: what was answered meanwhile is
+//! kept ([`Told`]).
 
+use crate::acknowledgements::MOST_TOLD;
 use crate::drives::Drives;
 use crate::gates::{Answer, Gate};
 use crate::message::Awaited;
-use glidepath_link::{EventId, FaultCause};
+use glidepath_link::{CodeWords, EventId, EventKind, FaultCause, Setpoint};
+use glidepath_program::Event;
+
 
 /// What became of a wait in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,6 +31,9 @@ pub(crate) enum Outcome {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Wait {
     standing: Option<Standing>,
+    told: [Option<Told>; MOST_TOLD],
+    /// The words of the M code that comes next.
+    words: CodeWords,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -35,17 +44,86 @@ struct Standing {
     outcome: Option<bool>,
 }
 
+/// An event whose gate comes later.
+#[derive(Debug, Clone, Copy)]
+struct Told {
+    awaited: Awaited,
+    outcome: Option<bool>,
+}
+
 impl Wait {
     /// The motion stands at a gate.
-    pub(crate) const fn begin(&mut self, gate: Gate, awaited: Awaited) {
-        if self.standing.is_none() {
-            self.standing = Some(Standing {
-                gate,
-                awaited,
-                ticks: 0,
-                outcome: None,
-            });
+    pub(crate) fn begin(&mut self, gate: Gate, awaited: Awaited) {
+        if self.standing.is_some() {
+            return;
         }
+        let told = (awaited.event_kind == EventKind::Await.code())
+            .then(|| self.take_told(awaited.event_value))
+            .flatten();
+        let words = core::mem::take(&mut self.words);
+        let (awaited, outcome) = match told {
+            Some(told) => {
+                let since_ns = awaited.since_ns;
+                let awaited = Awaited {
+                    since_ns,
+                    by_feedback: awaited.by_feedback,
+                    ..told.awaited
+                };
+                (awaited, told.outcome)
+            }
+            None => (Awaited { words, ..awaited }, None),
+        };
+        self.standing = Some(Standing {
+            gate,
+            awaited,
+            ticks: 0,
+            outcome,
+        });
+    }
+
+    /// Takes note of the event of a setpoint: a word of the code that comes next, or one that
+    /// `is_late`.
+    pub(crate) fn hear(&mut self, setpoint: &Setpoint, is_late: bool) {
+        match setpoint.event() {
+            Ok(Some(Event::CodeWord { word, value })) => self.words.set(word, value),
+            Ok(Some(Event::MCode(_))) if is_late => {
+                let awaited = Awaited {
+                    epoch: setpoint.epoch,
+                    sequence: setpoint.sequence,
+                    line: setpoint.line,
+                    event_kind: setpoint.event_kind,
+                    event_value: setpoint.event_value,
+                    words: core::mem::take(&mut self.words),
+                    since_ns: 0,
+                    told_by: setpoint.number,
+                    by_feedback: false,
+                };
+                self.tell(awaited);
+            }
+            _ => {}
+        }
+    }
+
+    fn tell(&mut self, awaited: Awaited) {
+        let _before = self.take_told(awaited.event_value);
+        let told = Told {
+            awaited,
+            outcome: None,
+        };
+        // The newest is the first, and the last one the oldest: that is answered at its gate.
+        let place = self.told.iter().position(Option::is_none);
+        let place = place.unwrap_or(MOST_TOLD - 1);
+        self.told[..=place].rotate_right(1);
+        self.told[0] = Some(told);
+    }
+
+    #[allow(clippy::float_cmp, reason = "both are whole numbers")]
+    fn take_told(&mut self, code: f64) -> Option<Told> {
+        let is_it = |told: &&mut Option<Told>| {
+            told.as_ref()
+                .is_some_and(|told| told.awaited.event_value == code)
+        };
+        self.told.iter_mut().find(is_it)?.take()
     }
 
     /// Nothing is waited for any more.
@@ -53,18 +131,37 @@ impl Wait {
         self.standing = None;
     }
 
-    /// What is waited for.
-    pub(crate) fn awaited(&self) -> Option<Awaited> {
-        self.standing.map(|standing| standing.awaited)
+    /// Nor will be.
+    pub(crate) fn forget(&mut self) {
+        *self = Self::default();
     }
 
-    /// Somebody says what came of an event. Without effect if it is not the one that is awaited, or
-    /// if that was said before.
+    /// What is waited for.
+    pub(crate) const fn awaited(&self) -> Option<Awaited> {
+        match &self.standing {
+            Some(standing) => Some(standing.awaited),
+            None => None,
+        }
+    }
+
+    /// Whether anything is.
+    pub(crate) const fn is_standing(&self) -> bool {
+        self.standing.is_some()
+    }
+
+    /// Somebody says what came of an event. Without effect if it is not one that is awaited, or was
+    /// told, or if that was said before.
     pub(crate) fn acknowledge(&mut self, event: EventId, done: bool) {
+        let is_it = |of: &Awaited| (of.epoch, of.sequence) == (event.epoch, event.sequence);
         if let Some(standing) = &mut self.standing
-            && (standing.awaited.epoch, standing.awaited.sequence) == (event.epoch, event.sequence)
+            && is_it(&standing.awaited)
         {
             standing.outcome.get_or_insert(done);
+        }
+        for told in self.told.iter_mut().flatten() {
+            if is_it(&told.awaited) {
+                told.outcome.get_or_insert(done);
+            }
         }
     }
 

@@ -63,13 +63,13 @@ pub use port::{
     Client, Delivery, FrameSink, MAX_UNANSWERED, Publisher, Server, Subscriber, Transport,
 };
 pub use record::{
-    ALL_JOINTS, ANALOG_OUTPUTS, Auxiliary, COMMAND_KINDS, Command, CommandKind, CommandOutcome,
-    CommandRefusal, CommandReply, CommandRequest, ContactKind, Coolant, DriveState, EndOfEpoch,
-    EventId, EventKind, FRAME_REFUSALS, FaultCause, Feedback, FrameRefusal, Grants, JobKind,
-    JobReply, JobRequest, JobState, JogDemand, JogMode, LATCHES, Latch, LatchKind, LongText,
-    MachineState, ModeCode, MotionMode, OVERRIDE_MAX, PERIOD_NS_MAX, PlaneCode, Power, Quantiles,
-    Record, RecordError, RequestKind, SegmentOutcome, SegmentRefusal, SegmentReply, SegmentRequest,
-    Setpoint, SetpointFrame, SetpointMarks, SpindleFlags, SpindleState, Status, StreamItem, Text,
-    decode,
+    ALL_JOINTS, ANALOG_OUTPUTS, Auxiliary, COMMAND_KINDS, CodeWords, Command, CommandKind,
+    CommandOutcome, CommandRefusal, CommandReply, CommandRequest, ContactKind, Coolant, DriveState,
+    EndOfEpoch, EventId, EventKind, FRAME_REFUSALS, FaultCause, Feedback, FrameRefusal, Grants,
+    JobKind, JobReply, JobRequest, JobState, JogDemand, JogMode, LATCHES, Latch, LatchKind,
+    LongText, MachineState, ModeCode, MotionMode, OVERRIDE_MAX, PERIOD_NS_MAX, PlaneCode, Power,
+    Quantiles, Record, RecordError, RequestKind, SegmentOutcome, SegmentRefusal, SegmentReply,
+    SegmentRequest, Setpoint, SetpointFrame, SetpointMarks, SpindleFlags, SpindleState, Status,
+    StreamItem, Text, decode,
 };
 pub use service::Capacity;

@@ -35,7 +35,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v3", 656, {
     acceleration: 296, joint_position: 368, joint_velocity: 440, joint_acceleration: 512,
     away: 584,
 });
-layout!(status, Status, "glidepath.Status.v7", 1464, {
+layout!(status, Status, "glidepath.Status.v8", 1496, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_joint: 88, drive_fault: 92,
@@ -44,20 +44,20 @@ layout!(status, Status, "glidepath.Status.v7", 1464, {
     mode: 364, joints: 368, enabled: 372, homed: 376, drive_faults: 380, reference: 384,
     feedback_age_ns: 392, joint_actual: 400, following_error: 472, following_peak: 544,
     awaited_sequence: 616, awaited_since_ns: 624, awaited_value: 632,
-    awaited_kind: 640, awaited_line: 644, contact: 648, contact_kind: 720, reserved: 724, path_s: 728, block_path_s: 736, feed_v: 744,
-    feed_override: 752, rapid_override: 760, jog_override: 768, effective_override: 776, ticks: 784,
-    missed_ticks: 792, late_ticks: 800, setpoints_published: 808, setpoints_lost: 816,
-    reserve_stops: 824, starved_ticks: 832, commands_served: 840, commands_refused: 848,
-    frames_refused: 856, lateness: 952, work: 984, latency: 1016, response: 1048, last_error: 1080,
-    last_event: 1208, message: 1336,
+    awaited_kind: 640, awaited_line: 644, awaited_words: 648, contact: 672, contact_kind: 744, reserved: 748, path_s: 752, block_path_s: 760, feed_v: 768,
+    feed_override: 776, rapid_override: 784, jog_override: 792, effective_override: 800, adaptive_feed: 808, ticks: 816,
+    missed_ticks: 824, late_ticks: 832, setpoints_published: 840, setpoints_lost: 848,
+    reserve_stops: 856, starved_ticks: 864, commands_served: 872, commands_refused: 880,
+    frames_refused: 888, lateness: 984, work: 1016, latency: 1048, response: 1080, last_error: 1112,
+    last_event: 1240, message: 1368,
 });
 layout!(command_request, CommandRequest, "glidepath.CommandRequest.v4", 184, {
     client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, text: 56,
 });
-layout!(auxiliary, Auxiliary, "glidepath.Auxiliary.v1", 632, {
+layout!(auxiliary, Auxiliary, "glidepath.Auxiliary.v2", 656, {
     boot_id: 0, generation: 8, epoch: 16, sequence: 24, awaited: 32, awaited_since_ns: 56,
-    awaited_until_ns: 64, awaited_value: 72, awaited_kind: 80, line: 84, spindle_speed: 88,
-    spindle: 96, coolant: 100, tool: 104, prepared_tool: 108, digital_out: 112, analog_out: 120,
+    awaited_until_ns: 64, awaited_value: 72, awaited_kind: 80, line: 84, awaited_words: 88, spindle_speed: 112,
+    spindle: 120, coolant: 124, tool: 128, prepared_tool: 132, digital_out: 136, analog_out: 144,
 });
 layout!(command_reply, CommandReply, "glidepath.CommandReply.v3", 152, {
     boot_id: 0, number: 8, refusal: 16, state: 20, message: 24,

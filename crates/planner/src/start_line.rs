@@ -12,7 +12,7 @@ use std::collections::VecDeque;
 
 use glidepath_geometry::{Axis, AxisVector, Segment};
 use glidepath_link::{Auxiliary, Coolant, SpindleState};
-use glidepath_program::{Event, Item, ItemKind, PathMode, Rate};
+use glidepath_program::{CodeWord, Event, Item, ItemKind, PathMode, Rate};
 use thiserror::Error;
 
 use crate::{Answer, ItemSource, Refusal, Remainder, ResumePoint, Settled, Supply};
@@ -23,6 +23,9 @@ const NO_WAY: f64 = 1e-6;
 const SLOW_V: f64 = 5.0;
 /// Items looked ahead for the feed.
 const LOOK_AHEAD: usize = 64;
+
+/// The code that switches the adaptive feed by its P word.
+const ADAPTIVE_FEED: u32 = 52;
 
 /// A line, at one of the times that it is executed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,6 +78,8 @@ pub struct LineStart<S> {
     expected: Auxiliary,
     begins_at: AxisVector,
     told: u32,
+    /// What M52 has last made of the adaptive feed, as its P word.
+    adaptive: Option<f64>,
 }
 
 /// How the machine goes to where a program is to begin.
@@ -103,7 +108,7 @@ impl<S: ItemSource> LineStart<S> {
     ) -> Result<Self, StartLineError> {
         let mut expected = approach.now;
         let (mut begins_at, mut before, mut passes, mut block) = (approach.position, 0, 0, 1);
-        let mut told = 0;
+        let (mut told, mut word, mut adaptive) = (0, None, None);
         let mut next = None;
         loop {
             let item = match source.next_item() {
@@ -134,11 +139,17 @@ impl<S: ItemSource> LineStart<S> {
                     expected,
                     begins_at,
                     told,
+                    adaptive,
                 });
             }
             match item.kind {
                 ItemKind::Move { segment, .. } => begins_at = segment.end(),
                 ItemKind::Event(event) => {
+                    match event {
+                        Event::CodeWord { value, .. } => word = Some(value),
+                        Event::MCode(ADAPTIVE_FEED) => adaptive = word,
+                        _ => {}
+                    }
                     expected.take(event);
                 }
                 ItemKind::Dwell(_) => {}
@@ -183,7 +194,11 @@ impl<S: ItemSource> LineStart<S> {
         let mut over = self.begins_at;
         over[axis] = up[axis];
         push_move(&mut items, approach.position, up, Rate::Rapid);
-        let events = restoring(&approach.now, &self.expected);
+        let mut events = restoring(&approach.now, &self.expected);
+        if let Some(value) = self.adaptive {
+            let word = CodeWord::P;
+            events.extend([Event::CodeWord { word, value }, Event::MCode(ADAPTIVE_FEED)]);
+        }
         items.extend(events.into_iter().map(ItemKind::Event));
         push_move(&mut items, up, over, Rate::Rapid);
         let feed_v = self.feed_ahead();
@@ -411,6 +426,32 @@ mod tests {
             _ => None,
         });
         assert_eq!(events.collect::<Vec<_>>(), [Event::MCode(9)]);
+    }
+
+    #[test]
+    fn the_feed_follows_its_input_where_the_program_has_it_so() {
+        let approach = approach(AxisVector::zeros());
+        let text = "G21 G90\nM52 P1\nG1 X1 F600\nM52 P0\nX2\nM52\nX3\nM2\n";
+        for (line, expected) in [(3, Some(1.0)), (5, Some(0.0)), (7, Some(1.0))] {
+            let options = Options {
+                adaptive_feed: glidepath_gcode::AdaptiveFeed::Switched,
+                ..Options::default()
+            };
+            let source = ProgramSource::new(text.as_bytes(), options);
+            let start = StartLine { line, pass: 1 };
+            let found = LineStart::find(source, start, &approach).unwrap();
+            let rest = items(&mut found.approached(&approach));
+            let switch = rest
+                .windows(2)
+                .find_map(|pair| match (pair[0].kind, pair[1].kind) {
+                    (
+                        ItemKind::Event(Event::CodeWord { value, .. }),
+                        ItemKind::Event(Event::MCode(ADAPTIVE_FEED)),
+                    ) => Some(value),
+                    _ => None,
+                });
+            assert_eq!(switch, expected, "line {line}");
+        }
     }
 
     #[test]

@@ -37,6 +37,8 @@ pub enum Upset {
     IndexLost(bool),
     /// The encoder of the spindle does not count any more, or does again.
     EncoderLost(bool),
+    /// What an analog input says, by its number.
+    Analog(usize, f64),
 }
 
 /// A servo stack with its machine.
@@ -63,6 +65,7 @@ pub struct Plant {
     is_deflected: bool,
     /// Digital inputs, but for that of the probe.
     inputs: u64,
+    analog: [f64; 8],
     touches: bool,
     touch_count: u64,
     touched: ([f64; 9], u64),
@@ -91,6 +94,7 @@ impl Plant {
             bounces_ns: 0,
             is_deflected: false,
             inputs: 0,
+            analog: [0.0; 8],
             touches: false,
             touch_count: 0,
             touched: ([0.0; 9], 0),
@@ -146,6 +150,11 @@ impl Plant {
             Upset::Input(number, is_high) => {
                 let bit = 1 << (number & 63) & !1;
                 self.inputs = (self.inputs & !bit) | if is_high { bit } else { 0 };
+            }
+            Upset::Analog(number, value) => {
+                if let Some(input) = self.analog.get_mut(number) {
+                    *input = value;
+                }
             }
             Upset::Pushed(joint, distance) => self.joint(joint, |joint| joint.push(distance)),
             Upset::SpindlePart(part) => self.spindle.part = part,
@@ -264,6 +273,7 @@ impl Plant {
             position: self.positions(),
             digital_in: self.inputs | u64::from(self.touches),
             spindle_angle: self.spindle.counted(),
+            analog_in: self.analog,
             spindle_v: self.spindle.speed,
             spindle_index_count: self.spindle.index_count,
             spindle_flags: self.spindle.flags().0,

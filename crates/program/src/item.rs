@@ -117,6 +117,17 @@ pub enum Event {
         /// [`PHASE_STEPS`] of a revolution behind the index.
         phase: u32,
     },
+    /// A word of the M code that comes next, which the machine's builder gave a meaning. The machine
+    /// is at rest.
+    CodeWord {
+        /// The word.
+        word: CodeWord,
+        /// Its number.
+        value: f64,
+    },
+    /// The motion does not go on before an M code that was told before is answered. The machine is
+    /// at rest.
+    Await(u32),
     /// A digital output. Does not stop the motion.
     DigitalOutput {
         /// Its number, below 2²⁴.
@@ -146,9 +157,20 @@ impl Event {
             | Self::ProgramStop(_)
             | Self::OptionalStop
             | Self::Probe { .. }
-            | Self::Synchronise { .. } => true,
+            | Self::Synchronise { .. }
+            | Self::CodeWord { .. }
+            | Self::Await(_) => true,
         }
     }
+}
+
+/// A word of an M code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CodeWord {
+    /// P.
+    P,
+    /// Q.
+    Q,
 }
 
 /// A line of a program at one of the times it is executed.

@@ -109,6 +109,8 @@ message!(Status, "glidepath.Status", {
     69 contact,
     70 contact_kind,
     71 reserved,
+    72 awaited_words,
+    73 adaptive_feed,
 });
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! reading and the description in the file are all made from it.
 
 use crate::protobuf::{Fields, Malformed, Wire, put_bytes, put_fixed64, put_varint};
-use glidepath_link::{Quantiles, Text};
+use glidepath_link::{CodeWords, Quantiles, Text};
 
 /// Types of a `FieldDescriptorProto`.
 const DOUBLE: u64 = 1;
@@ -125,6 +125,36 @@ impl Value for Quantiles {
         [self.p50_ns, self.p99_ns, self.p999_ns, self.max_ns] = values;
         Ok(())
     }
+}
+
+/// P, Q, which of them are given, and what is reserved: a double has room for all of them.
+impl Value for CodeWords {
+    const TYPE: (u64, u64) = <[f64; 4]>::TYPE;
+
+    fn put(&self, number: u32, out: &mut Vec<u8>) {
+        let (given, reserved) = (self.given.into(), self.reserved.into());
+        [self.p, self.q, given, reserved].put(number, out);
+    }
+
+    fn get(&mut self, wire: Wire<'_>) -> Result<(), Malformed> {
+        let mut values = [0.0; 4];
+        values.get(wire)?;
+        let [p, q, given, reserved] = values;
+        (self.p, self.q) = (p, q);
+        (self.given, self.reserved) = (whole(given)?, whole(reserved)?);
+        Ok(())
+    }
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::float_cmp,
+    reason = "a number that is changed by it is refused"
+)]
+fn whole(value: f64) -> Result<u32, Malformed> {
+    let whole = value as u32;
+    (f64::from(whole) == value).then_some(whole).ok_or(Malformed)
 }
 
 /// A field in the description.

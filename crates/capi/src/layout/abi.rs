@@ -4,12 +4,13 @@ use super::structure::Structure;
 use super::{demands, digest, own, records};
 
 /// The version of the ABI: functions and structures. It rises with every change of either.
-pub(crate) const ABI: u32 = 2;
+pub(crate) const ABI: u32 = 3;
 
 /// All structures, each after those it is made of.
 pub(super) const STRUCTURES: &[&Structure] = &[
     &records::QUANTILES,
     &records::EVENT_ID,
+    &records::CODE_WORDS,
     &records::LATCH,
     &records::SETPOINT,
     &records::STATUS,

@@ -3,8 +3,8 @@
 use super::structure::{Each, Field, InC, Structure, structure};
 
 use glidepath_link::{
-    CommandReply, EventId, FRAME_REFUSALS, Feedback, LATCHES, Latch, Quantiles, Record, Setpoint,
-    Status, Text,
+    CodeWords, CommandReply, EventId, FRAME_REFUSALS, Feedback, LATCHES, Latch, Quantiles, Record,
+    Setpoint, Status, Text,
 };
 
 structure! {
@@ -30,6 +30,20 @@ structure! {
         epoch: u64,
         /// The sequence of its frame.
         sequence: u64,
+    }
+}
+
+structure! {
+    /// The words of an M code of the machine's own.
+    CODE_WORDS: "gp_code_words" = CodeWords, "", 24 {
+        /// P; zero where there is none.
+        p: f64,
+        /// Q; zero where there is none.
+        q: f64,
+        /// 1 with a P word, 2 with a Q word, 3 with both.
+        given: u32,
+        /// Must be zero.
+        reserved: u32,
     }
 }
 
@@ -129,7 +143,7 @@ structure! {
 
 structure! {
     /// What the interpolator does and how well. Counts are of this life of it.
-    STATUS: "gp_status" = Status, Status::NAME, 1464 {
+    STATUS: "gp_status" = Status, Status::NAME, 1496 {
         /// Identifies one life of the interpolator.
         boot_id: u64,
         /// When this was true, ns of CLOCK_MONOTONIC. A reader takes an old one for a dead
@@ -223,6 +237,8 @@ structure! {
         awaited_kind: u32,
         /// Its source line.
         awaited_line: u32,
+        /// Its words, where it is an M code of the machine's own.
+        awaited_words: CodeWords,
         /// Where the axes really were when the probe found what it looked for in this epoch, mm or
         /// degrees.
         contact: Each<f64>,
@@ -244,6 +260,8 @@ structure! {
         jog_override: f64,
         /// Override as executed.
         effective_override: f64,
+        /// What an input makes of both overrides, 0 to 1; 1 where none slows programs down.
+        adaptive_feed: f64,
         /// Ticks run.
         ticks: u64,
         /// Ticks that were not run because the one before took until after them.

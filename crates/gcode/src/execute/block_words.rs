@@ -14,7 +14,7 @@ use crate::syntax::modes::{
 use crate::syntax::word_check::{missing, negative, unused};
 
 /// The words each code of a block takes besides F, S and T.
-fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 10] {
+fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 11] {
     let codes = &block.codes;
     let none = Letters::of(b"");
     let non_modal = codes.non_modal.map(|non_modal| non_modal.code);
@@ -83,6 +83,10 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 10] {
             (Some(61), _) => Letters::of(b"Q"),
             (_, Some(_)) => Letters::of(b"RPQ"),
             _ => none,
+        },
+        match codes.user {
+            Some(_) => Letters::of(b"PQ"),
+            None => none,
         },
         if motion.is_some() || axes_non_modal {
             match block.dialect {

@@ -15,6 +15,7 @@
 //! code does.
 
 pub(crate) mod auxiliary;
+pub(crate) mod awaited_codes;
 pub(crate) mod block_order;
 pub(crate) mod block_words;
 pub(crate) mod canned_cycle;

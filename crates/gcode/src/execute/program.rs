@@ -10,6 +10,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::auxiliary::input_wait::InputWait;
+use crate::execute::awaited_codes::AwaitedCodes;
 use crate::execute::dialect::siemens::steps::SiemensState;
 use crate::execute::dialect::tape::Tape;
 use crate::execute::flow::activation::Flow;
@@ -45,6 +46,8 @@ pub struct Program<R> {
     pub(crate) siemens: SiemensState,
     pub(crate) origin: LineOrigin,
     pub(crate) block: Block,
+    /// M codes that are waited for later than where they stand.
+    pub(crate) awaited: AwaitedCodes,
     /// The line read last, if it was tried as a straight move.
     pub(crate) straight: StraightLine,
     /// The line executed last was one.
@@ -75,6 +78,7 @@ impl<R: BufRead> Program<R> {
     /// Starts to read a program. Nothing is read before the first item is asked for.
     pub fn new(reader: R, options: Options) -> Self {
         let block = Block::of(options.dialect, &options.m_codes);
+        let awaited = AwaitedCodes::new(&options.m_codes);
         let in_force = options.in_force.clone();
         let mut program = Self {
             source: LineSource::new(reader),
@@ -85,6 +89,7 @@ impl<R: BufRead> Program<R> {
             siemens: SiemensState::default(),
             origin: LineOrigin::Stream,
             block,
+            awaited,
             straight: StraightLine::default(),
             was_straight: false,
             lathe_cycle: None,

@@ -57,12 +57,24 @@ impl<R: BufRead> Iterator for Program<R> {
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             if let Some(item) = self.items.get(self.given) {
+                if let Some(awaited) = self.awaited.before(item) {
+                    return Some(Ok(awaited));
+                }
                 self.given += 1;
                 return Some(Ok(*item));
             }
-            if let Err(diagnostic) = self.next_line()? {
-                self.ended = true;
-                return Some(Err(diagnostic));
+            if let Some(awaited) = self.awaited.behind_block() {
+                return Some(Ok(awaited));
+            }
+            match self.next_line() {
+                Some(Ok(())) => {}
+                Some(Err(diagnostic)) => {
+                    self.ended = true;
+                    return Some(Err(diagnostic));
+                }
+                // Another line may go on from here: one that was typed.
+                None if self.ran_out => return self.awaited.behind_input().map(Ok),
+                None => return None,
             }
         }
     }

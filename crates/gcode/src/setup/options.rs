@@ -42,6 +42,8 @@ pub struct Options {
     pub probing_v: Option<f64>,
     /// What threads need (G33); `None`: nobody knows the angle of the spindle, and they are errors.
     pub threading: Option<Threading>,
+    /// Whether the feed follows an input of the machine (M52).
+    pub adaptive_feed: AdaptiveFeed,
     /// How far the pieces a spline is made of may be away from it, mm, > 0. G64 P overrides it with
     /// a thousandth of P.
     pub spline_tolerance_mm: f64,
@@ -68,6 +70,18 @@ pub enum Connections {
     /// The machine's: outputs are events, M66 waits until [`crate::Program::answer_input`] says what
     /// an input is, and a probing move ends where [`crate::Program::answer_probe`] says.
     Real,
+}
+
+/// Whether the feed follows an input of the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AdaptiveFeed {
+    /// It does not: M52 P1 is refused.
+    #[default]
+    None,
+    /// From M52 P1 to M52 P0.
+    Switched,
+    /// At all times: M52 P0 is refused.
+    Always,
 }
 
 /// How long subroutines and loops may go on.
@@ -111,6 +125,7 @@ impl Default for Options {
             connections: Connections::None,
             probing_v: None,
             threading: None,
+            adaptive_feed: AdaptiveFeed::None,
             spline_tolerance_mm: 1e-5,
             m_codes: Arc::default(),
             waits_for_speed: false,

@@ -5,9 +5,10 @@
 use std::sync::Arc;
 
 use glidepath_gcode::{
-    Connections, Input, InputWait, MCodes, Options, Program, Remark, RemarkKind, WaitFor, check,
+    AdaptiveFeed, Connections, Input, InputWait, MCodes, Options, Program, Remark, RemarkKind,
+    WaitFor, WaitsAt, check,
 };
-use glidepath_program::{Event, Item, ItemKind};
+use glidepath_program::{CodeWord, Event, Item, ItemKind};
 
 fn options() -> Options {
     let mut m_codes = MCodes::default();
@@ -44,7 +45,7 @@ fn declared_codes_are_events_and_others_are_refused() {
     assert_eq!(undeclared.diagnostics.len(), 1);
     // Nothing that stands beside a code is skipped.
     assert_eq!(
-        check("M100 P5\n".as_bytes(), options()).diagnostics.len(),
+        check("M100 R5\n".as_bytes(), options()).diagnostics.len(),
         1
     );
     assert_eq!(
@@ -53,6 +54,117 @@ fn declared_codes_are_events_and_others_are_refused() {
     );
     for code in [3, 6, 30, 66, 98] {
         assert!(!MCodes::is_free(code), "M{code}");
+    }
+}
+
+#[test]
+fn the_words_of_a_code_come_in_front_of_it() {
+    let told = events("G90\nM100 Q-2.5 P[1+2]\nM428 P0\nM2\n", options());
+    let word = |word, value| Event::CodeWord { word, value };
+    let expected = [
+        word(CodeWord::P, 3.0),
+        word(CodeWord::Q, -2.5),
+        Event::MCode(100),
+        word(CodeWord::P, 0.0),
+        Event::MCode(428),
+    ];
+    assert_eq!(told, expected);
+    // Two codes that both take P.
+    let report = check("M100 G4 P1\n".as_bytes(), options());
+    assert!(report.diagnostics[0].message.contains("which code the P"));
+}
+
+/// What a program comes to, in short.
+fn course(text: &str, options: Options) -> Vec<String> {
+    let items = Program::new(text.as_bytes(), options);
+    let kinds = items.map(|item| item.expect("a sound program").kind);
+    kinds
+        .map(|kind| match kind {
+            ItemKind::Move { rate, .. } if rate.is_rapid() => "rapid".to_owned(),
+            ItemKind::Move { .. } => "feed".to_owned(),
+            ItemKind::Dwell(_) => "dwell".to_owned(),
+            ItemKind::Event(Event::MCode(code)) => format!("M{code}"),
+            ItemKind::Event(Event::Await(code)) => format!("wait M{code}"),
+            ItemKind::Event(event) => format!("{event:?}"),
+        })
+        .collect()
+}
+
+#[test]
+fn codes_are_awaited_in_front_of_the_next_feed_or_at_the_end_of_their_block() {
+    let mut m_codes = MCodes::default();
+    m_codes.declare_waiting(3, 4, WaitsAt::NextFeed);
+    m_codes.declare_waiting(8, 8, WaitsAt::NextFeed);
+    m_codes.declare_waiting(110, 110, WaitsAt::BlockEnd);
+    m_codes.declare(100, 199);
+    let options = Options {
+        m_codes: Arc::new(m_codes),
+        default_feed_mm_min: Some(600.0),
+        connections: Connections::Simulated,
+        ..Options::default()
+    };
+    let expect = |text: &str, expected: &[&str]| {
+        assert_eq!(course(text, options.clone()), expected, "{text}");
+    };
+    expect(
+        "M3\nG0 X5\nM100\nX6\nG4 P1\nG1 X7\nX8\nM5\nM2\n",
+        &[
+            "M3", "rapid", "M100", "rapid", "dwell", "wait M3", "feed", "feed", "M5",
+        ],
+    );
+    // In a line, and in front of arcs, cycles and searches.
+    expect("M3 G1 X1\nM2\n", &["M3", "wait M3", "feed"]);
+    expect("M4\nG2 X2 I1\nM2\n", &["M4", "wait M4", "feed"]);
+    expect("M3\nG38.3 X5\nM2\n", &["M3", "wait M3", "feed"]);
+    expect(
+        "M3 M8\nG81 X1 Z-1 R1\nM2\n",
+        &[
+            "M3", "M8", "rapid", "rapid", "wait M8", "wait M3", "feed", "rapid",
+        ],
+    );
+    expect(
+        "G1 M110 X1\nX2\nM2\n",
+        &["M110", "feed", "wait M110", "feed"],
+    );
+    expect("G0 M110 X1\nM2\n", &["M110", "rapid", "wait M110"]);
+    expect("M110\nM2\n", &["M110", "wait M110"]);
+    // What is told again, or is void, is not waited for twice.
+    expect("M3\nM4\nG1 X1\nM2\n", &["M3", "M4", "wait M4", "feed"]);
+    expect(
+        "M3\nM5\nM8\nM9\nG1 X1\nM2\n",
+        &["M3", "M5", "M8", "M9", "feed"],
+    );
+    // The end of the program is no feed.
+    expect("M3\nG0 X1\nM2\n", &["M3", "rapid"]);
+    // A line that was typed has to have its answer: the feed may come with the next one.
+    expect("M3\nG0 X1\n", &["M3", "rapid", "wait M3"]);
+}
+
+#[test]
+fn the_feed_follows_an_input_where_there_is_one() {
+    let of = |adaptive_feed| Options {
+        adaptive_feed,
+        ..options()
+    };
+    let text = "M52 P1\nG1 X1\nM52 P0\nM52\nM2\n";
+    let told = events(text, of(AdaptiveFeed::Switched));
+    let switched = [1.0, 0.0, 1.0].map(|value| Event::CodeWord {
+        word: CodeWord::P,
+        value,
+    });
+    let told: Vec<Event> = told
+        .into_iter()
+        .filter(|e| *e != Event::MCode(52))
+        .collect();
+    assert_eq!(told, switched);
+    // What is always so, or never, is no event, and cannot be changed.
+    for (feed, is_so, is_not) in [
+        (AdaptiveFeed::None, "M52 P0\nM2\n", "M52\nM2\n"),
+        (AdaptiveFeed::Always, "M52\nM2\n", "M52 P0\nM2\n"),
+    ] {
+        assert_eq!(events(is_so, of(feed)), []);
+        let report = check(is_not.as_bytes(), of(feed));
+        assert!(report.diagnostics[0].help.contains("adaptive_feed"));
     }
 }
 

@@ -135,6 +135,7 @@ fn feedback(config: &MachineConfig) -> Option<FeedbackSettings> {
         settings.stale_after = Duration::from_secs_f64(stale_t);
     }
     settings.probe = config.probe.map(|probe| probe.input);
+    settings.adaptive = config.adaptive_feed;
     settings.off_after = Duration::from_secs_f64(given.off_t).max(settings.stale_after);
     given.is_expected.then_some(settings)
 }

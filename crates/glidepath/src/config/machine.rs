@@ -2,9 +2,11 @@
 
 use super::probe::ProbeConfig;
 use super::program::ProgramConfig;
-use glidepath_gcode::{Connections, LoopLimits, MCodes, Machine, Options, Threading, Travel};
+use glidepath_gcode::{
+    Connections, LoopLimits, MCodes, Machine, Options, Threading, Travel, WaitsAt,
+};
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_interpolator::{Answer, Gate, Gates, JointHoming};
+use glidepath_interpolator::{AdaptiveFeed, Answer, Gate, Gates, JointHoming};
 use glidepath_kinematics::{
     AxisRates, AxisShare, JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism, PathCaps,
 };
@@ -105,6 +107,15 @@ pub struct FeedbackConfig {
     pub off_t: f64,
 }
 
+/// An M code, or a range of them, that the machine has or waits for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MCodeRule {
+    /// The codes, and what answers them.
+    pub gate: Gate,
+    /// Where the motion waits.
+    pub at: WaitsAt,
+}
+
 /// A machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineConfig {
@@ -132,6 +143,8 @@ pub struct MachineConfig {
     pub probe: Option<ProbeConfig>,
     /// The angle of the spindle is known, and threads can follow it.
     pub has_spindle_encoder: bool,
+    /// What slows programs down besides the override, if anything does.
+    pub adaptive_feed: Option<AdaptiveFeed>,
     /// The preview by advance and retreat.
     pub preview: AdvanceRetreat,
     /// Name of the machine's shared memory; `None` if the file gives none.
@@ -140,7 +153,7 @@ pub struct MachineConfig {
     pub program: ProgramConfig,
     /// M codes that the machine has of its own, and those that are waited for; of two rules for a
     /// code the first one counts.
-    pub m_codes: Vec<Gate>,
+    pub m_codes: Vec<MCodeRule>,
     /// Folder of what is kept over a restart; `None`: nothing is.
     pub state_directory: Option<PathBuf>,
 }
@@ -285,7 +298,8 @@ impl MachineConfig {
         let default_feed_mm_min = self.path.default_feed;
         let mut m_codes = MCodes::default();
         for rule in &self.m_codes {
-            m_codes.declare(rule.first, rule.last);
+            let MCodeRule { gate, at } = rule;
+            m_codes.declare_waiting(gate.first, gate.last, *at);
         }
         Options {
             machine,
@@ -302,6 +316,11 @@ impl MachineConfig {
                 limits: self.limits(),
                 period_t: self.period_t(),
             }),
+            adaptive_feed: match self.adaptive_feed {
+                None => glidepath_gcode::AdaptiveFeed::None,
+                Some(feed) if feed.always => glidepath_gcode::AdaptiveFeed::Always,
+                Some(_) => glidepath_gcode::AdaptiveFeed::Switched,
+            },
             in_force: self.program.in_force.clone(),
             m_codes: Arc::new(m_codes),
             waits_for_speed: self.waits_for_speed(),
@@ -330,18 +349,21 @@ impl MachineConfig {
             last: 66,
             answer: Answer::Planner,
             within: None,
+            is_late: false,
         });
-        let rules: Vec<Gate> = input.into_iter().chain(self.m_codes.clone()).collect();
+        let rules: Vec<Gate> = input
+            .into_iter()
+            .chain(self.m_codes.iter().map(|rule| rule.gate))
+            .collect();
         Gates::new(&rules).unwrap_or_default()
     }
 
     /// Whether programs wait for the spindle to turn as fast as it was told to.
     fn waits_for_speed(&self) -> bool {
-        let is_speed = |rule: &Gate| {
-            rule.answer == Answer::SpindleAtSpeed
-                && [3, 4]
-                    .iter()
-                    .any(|code| (rule.first..=rule.last).contains(code))
+        let is_speed = |rule: &MCodeRule| {
+            let codes = rule.gate.first..=rule.gate.last;
+            rule.gate.answer == Answer::SpindleAtSpeed
+                && [3, 4].iter().any(|code| codes.contains(code))
         };
         self.m_codes.iter().any(is_speed)
     }

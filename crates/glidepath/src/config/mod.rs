@@ -24,7 +24,8 @@ pub use instance::{INSTANCE_RULE, is_instance_name};
 pub(crate) use judge::{Judge, Range};
 pub use judge::{MAX_FRAMES_AHEAD, effort, tolerance};
 pub use machine::{
-    AxisConfig, FeedbackConfig, HomingBy, InterpolatorConfig, JogConfig, MachineConfig, PathConfig,
+    AxisConfig, FeedbackConfig, HomingBy, InterpolatorConfig, JogConfig, MCodeRule, MachineConfig,
+    PathConfig,
 };
 pub use probe::ProbeConfig;
 pub use program::ProgramConfig;

@@ -32,6 +32,8 @@ pub(super) struct RawConfig {
     #[serde(default)]
     pub(super) spindle: RawSpindle,
     #[serde(default)]
+    pub(super) adaptive_feed: RawAdaptiveFeed,
+    #[serde(default)]
     pub(super) link: RawLink,
     #[serde(default)]
     pub(super) preview: RawPreview,
@@ -53,6 +55,7 @@ pub(super) struct RawState {
 #[serde(deny_unknown_fields, default)]
 pub(super) struct RawMCode {
     pub(super) done: Optional<String>,
+    pub(super) at: Optional<String>,
     pub(super) timeout_s: Optional<f64>,
 }
 
@@ -158,6 +161,15 @@ pub(super) struct RawProbe {
 #[serde(deny_unknown_fields, default)]
 pub(super) struct RawSpindle {
     pub(super) encoder: Optional<bool>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawAdaptiveFeed {
+    pub(super) input: Optional<i64>,
+    pub(super) at_zero: Optional<f64>,
+    pub(super) at_full: Optional<f64>,
+    pub(super) always: Optional<bool>,
 }
 
 #[derive(Debug, Default, Deserialize)]

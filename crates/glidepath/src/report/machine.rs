@@ -4,7 +4,7 @@ use super::quantity::microseconds;
 use core::fmt::Write as _;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{MotionMode, Power, Status};
-use glidepath_program::Event;
+use glidepath_program::{CodeWord, Event};
 use serde_json::{Map, Value, json};
 
 /// Whether the drives have power, in one word.
@@ -64,6 +64,8 @@ fn awaited(status: &Status) -> Option<Value> {
         let waited_ns = status.updated_ns.saturating_sub(status.awaited_since_ns);
         json!({
             "event": awaited_name(status),
+            "p": status.awaited_words.get(CodeWord::P),
+            "q": status.awaited_words.get(CodeWord::Q),
             "line": status.awaited_line,
             "epoch": status.epoch,
             "sequence": status.awaited_sequence,
@@ -75,10 +77,20 @@ fn awaited(status: &Status) -> Option<Value> {
 /// The name of the event that is awaited.
 fn awaited_name(status: &Status) -> String {
     match status.awaited_event() {
-        Ok(Some(Event::MCode(code))) => format!("M{code}"),
         Ok(Some(Event::Synchronise { .. })) => "the spindle's angle".to_owned(),
+        Ok(Some(Event::MCode(code) | Event::Await(code))) => format!("M{code}"),
         _ => "an event".to_owned(),
     }
+}
+
+/// Its words, each behind a space.
+fn awaited_words(status: &Status) -> String {
+    let words = [(CodeWord::P, 'P'), (CodeWord::Q, 'Q')];
+    let given = words.map(|(word, letter)| {
+        let value = status.awaited_words.get(word);
+        value.map_or_else(String::new, |value| format!(" {letter}{value}"))
+    });
+    given.concat()
 }
 
 /// What is awaited, and for how long, in words; nothing if nothing is.
@@ -93,8 +105,9 @@ pub(super) fn awaited_text(status: &Status) -> Option<String> {
             );
         }
         format!(
-            "the answer to {} of line {line}, for {waited_s:.1} s (glidepath acknowledge)",
+            "the answer to {}{} of line {line}, for {waited_s:.1} s (glidepath acknowledge)",
             awaited_name(status),
+            awaited_words(status),
         )
     })
 }

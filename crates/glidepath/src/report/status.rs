@@ -187,6 +187,7 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
         "rapid_override": status.rapid_override,
         "jog_override": status.jog_override,
         "effective_override": status.effective_override,
+        "adaptive_feed": status.adaptive_feed,
         "period_us": microseconds(status.period_ns),
         "ticks": status.ticks,
         "missed_ticks": status.missed_ticks,
@@ -209,6 +210,12 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
         object.extend(machine_object(status));
     }
     object
+}
+
+/// What an input makes of the overrides, if it does anything.
+pub(super) fn adaptive_text(status: &Status) -> Option<String> {
+    let part = status.adaptive_feed * 100.0;
+    (part < 100.0).then(|| format!("the adaptive feed lets through {part:.0} %"))
 }
 
 /// A status for people.
@@ -253,6 +260,9 @@ pub fn status_text(instance: &str, status: &Status) -> String {
         status.jog_override * 100.0,
         status.effective_override * 100.0
     );
+    if let Some(adaptive) = adaptive_text(status) {
+        let _ = writeln!(text, "  input         {adaptive}");
+    }
     let _ = writeln!(
         text,
         "  frames        epoch {} ({}), {} executed, {} queued",

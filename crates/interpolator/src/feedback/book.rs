@@ -1,5 +1,6 @@
 //! What the ports thread keeps of the drives.
 
+use super::adaptive::AdaptiveWatch;
 use super::claims::{Claims, Joints};
 use super::demands::Demands;
 use super::following::FollowingErrors;
@@ -36,6 +37,7 @@ pub(crate) struct DriveBook {
     pub(super) following: FollowingErrors,
     pub(super) probe: ProbeWatch,
     pub(super) spindle: SpindleWatch,
+    pub(super) adaptive: AdaptiveWatch,
     /// What is added to the drives' count.
     pub(super) offset: JointVector,
     /// Joints whose drives say that they know where they are, and are not believed.
@@ -80,6 +82,7 @@ impl DriveBook {
             following: FollowingErrors::default(),
             probe: ProbeWatch::new(settings.probe),
             spindle: SpindleWatch::default(),
+            adaptive: AdaptiveWatch::new(settings.adaptive, ns(settings.stale_after)),
             offset: JointVector::zeros(),
             unhomed: 0,
             handover: 0,
@@ -97,6 +100,7 @@ impl DriveBook {
     pub(crate) fn take(&mut self, feedback: &Feedback, now_ns: u64) -> Result<(), String> {
         self.claims.take(feedback, now_ns)?;
         self.spindle.take(feedback);
+        self.adaptive.look(feedback);
         if self.probe.is_searching() {
             self.probe.look(feedback, &self.claims.joints());
         }
@@ -116,6 +120,7 @@ impl DriveBook {
         self.ordered &= report.fault.is_none() && is_on;
         self.demands.push(&report.setpoint);
         self.probe.note(report);
+        self.adaptive.note(report);
     }
 
     /// What the real-time thread is to know now.
@@ -165,6 +170,7 @@ impl DriveBook {
             turn: self.spindle.turn(),
             played: joints.played,
             contact_in: self.probe.found_in(),
+            adaptive_r: self.adaptive.factor(now_ns),
         }
     }
 
@@ -228,6 +234,7 @@ impl DriveBook {
         status.joint_actual = (JointVector::from(joints.position) + self.offset).into();
         status.following_error = self.following.errors();
         status.following_peak = self.following.peaks();
+        status.adaptive_feed = self.adaptive.told();
         let contact = self.probe.found();
         status.contact_kind = contact
             .map_or(ContactKind::None, |contact| contact.kind)

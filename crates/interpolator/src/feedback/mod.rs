@@ -10,6 +10,7 @@
 //! All of this is done by the ports thread. The real-time thread gets one observation a turn, in
 //! which the joints are already axes.
 
+mod adaptive;
 mod book;
 mod claims;
 mod commands;
@@ -21,6 +22,7 @@ mod probe;
 mod settings;
 mod spindle;
 
+pub use adaptive::AdaptiveFeed;
 pub(crate) use book::DriveBook;
 pub(crate) use observation::{Observation, Turn};
 pub use settings::{FeedbackSettings, JointFeedback, ProbeInput};

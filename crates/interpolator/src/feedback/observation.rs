@@ -82,6 +82,8 @@ pub(crate) struct Observation {
     pub(crate) played: u64,
     /// The epoch in which the probe has found what it looked for, 0 if it has not.
     pub(crate) contact_in: u64,
+    /// What slows the program down, 0 to 1.
+    pub(crate) adaptive_r: f64,
 }
 
 impl Observation {
@@ -106,6 +108,7 @@ impl Observation {
             turn: Turn::NONE,
             played: 0,
             contact_in: 0,
+            adaptive_r: 1.0,
         }
     }
 }

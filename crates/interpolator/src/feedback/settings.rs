@@ -1,5 +1,6 @@
 //! What is expected of the drives' feedback.
 
+use super::adaptive::AdaptiveFeed;
 use crate::homing::JointHoming;
 use core::time::Duration;
 use glidepath_kinematics::JOINTS;
@@ -39,6 +40,8 @@ pub struct FeedbackSettings {
     pub off_after: Duration,
     /// Where a probe is connected, if there is one.
     pub probe: Option<ProbeInput>,
+    /// What slows programs down, if anything does.
+    pub adaptive: Option<AdaptiveFeed>,
     /// The joints; those the machine does not have mean nothing.
     pub joints: [JointFeedback; JOINTS],
 }
@@ -51,6 +54,7 @@ impl FeedbackSettings {
             stale_after: Duration::from_nanos(3 * period_ns),
             off_after: Duration::from_millis(100).max(Duration::from_nanos(6 * period_ns)),
             probe: None,
+            adaptive: None,
             joints: [joint; JOINTS],
         }
     }

@@ -9,6 +9,7 @@
     reason = "a test: what is exact is compared exactly"
 )]
 
+mod adaptive;
 mod bench;
 mod client;
 mod following;

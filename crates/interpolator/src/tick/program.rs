@@ -65,7 +65,9 @@ impl Interpolator<'_> {
         self.output.begin_epoch();
         self.block_stop = BlockStop::none();
         self.supply.begin_epoch();
-        self.wait.end();
+        if !self.probing.goes_on() {
+            self.wait.forget();
+        }
         let is_held = self.probing.goes_on();
         self.requests.forget_epoch(is_held);
         if self.probing.open() {
@@ -75,7 +77,7 @@ impl Interpolator<'_> {
 
     /// Looks whether there are frames enough, and stops for good if the planner is lost.
     pub(super) fn watch_supply(&mut self) {
-        let is_awaiting = self.wait.awaited().is_some();
+        let is_awaiting = self.wait.is_standing();
         let holds = self.requests.holds(self.is_rapid()) || is_awaiting;
         let (track, rate, published) = (&self.track, &self.rate, self.output.published());
         if self.is_open() && self.supply.watch(track, rate, published, holds) {
@@ -171,9 +173,19 @@ impl Interpolator<'_> {
             self.rate.rest_at(now.time, 0.0);
             self.write_standing(setpoint);
         }
+        if setpoint.event_kind != EventKind::None.code() {
+            self.hear_event(setpoint);
+        }
+    }
+
+    /// Takes note of what happens with a setpoint.
+    #[cold]
+    fn hear_event(&mut self, setpoint: &Setpoint) {
         if setpoint.event_kind == EventKind::Probe.code() {
             self.probing.begin();
         }
+        let is_late = self.track.gates().late(setpoint).is_some();
+        self.wait.hear(setpoint, is_late);
     }
 
     /// Looks whether the contact was made that the motion is looking for.

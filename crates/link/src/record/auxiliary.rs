@@ -2,7 +2,7 @@
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
-use super::{EventId, Record, event};
+use super::{CodeWords, EventId, Record, event};
 use glidepath_program::Event;
 use iceoryx2::prelude::ZeroCopySend;
 
@@ -49,7 +49,7 @@ impl Coolant {
 /// subscriber gets the last one at once.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Auxiliary.v1")]
+#[type_name("glidepath.Auxiliary.v2")]
 pub struct Auxiliary {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -71,6 +71,8 @@ pub struct Auxiliary {
     pub awaited_kind: u32,
     /// Source line of the last event.
     pub line: u32,
+    /// The words of the event that is awaited: those of [`CodeWords`] that it has.
+    pub awaited_words: CodeWords,
     /// Speed that the spindle is to have when it turns, rev/min.
     pub spindle_speed: f64,
     /// Code of a [`SpindleState`].
@@ -133,7 +135,9 @@ impl Auxiliary {
             Event::ProgramStop(_)
             | Event::OptionalStop
             | Event::Probe { .. }
-            | Event::Synchronise { .. } => {}
+            | Event::Synchronise { .. }
+            | Event::CodeWord { .. }
+            | Event::Await(_) => {}
         }
         *self != before
     }
@@ -165,13 +169,14 @@ impl Default for Auxiliary {
 }
 
 impl Record for Auxiliary {
-    const NAME: &'static str = "glidepath.Auxiliary.v1";
+    const NAME: &'static str = "glidepath.Auxiliary.v2";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
         self.spindle()?;
         fields.flags("coolant", self.coolant, Coolant::KNOWN)?;
         fields.finite("spindle_speed", self.spindle_speed)?;
+        self.awaited_words.check(Self::NAME)?;
         fields.all_finite("analog_out", &self.analog_out)?;
         self.awaited_event().map(|_| ())
     }

@@ -5,7 +5,7 @@
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
-use glidepath_program::Event;
+use glidepath_program::{CodeWord, Event};
 
 coded! {
     /// What the lowest byte of `event_kind` says; `event_value` is the speed, tool, M code or
@@ -32,6 +32,12 @@ coded! {
         /// What follows goes with the spindle; the value is the way of a revolution, mm, and above
         /// the lowest byte of the code stands the angle it begins at, in 2⁻²⁴ of a revolution.
         Synchronise = 9,
+        /// The P word of the M code that comes next.
+        CodeWordP = 10,
+        /// The Q word of the M code that comes next.
+        CodeWordQ = 11,
+        /// The motion waits until an M code is answered that was told before; the value is the code.
+        Await = 12,
     }
 }
 
@@ -55,6 +61,11 @@ pub(crate) fn encode(event: Option<Event>) -> (u32, f64) {
             output = phase;
             (EventKind::Synchronise, pitch_mm)
         }
+        Some(Event::CodeWord { word, value }) => match word {
+            CodeWord::P => (EventKind::CodeWordP, value),
+            CodeWord::Q => (EventKind::CodeWordQ, value),
+        },
+        Some(Event::Await(code)) => (EventKind::Await, f64::from(code)),
         Some(Event::DigitalOutput { number, on }) => {
             output = number;
             (EventKind::DigitalOutput, f64::from(u8::from(on)))
@@ -98,6 +109,15 @@ pub(crate) fn decode(
         EventKind::Probe => Some(Event::Probe {
             release: yes_or_no(&fields, value)?,
         }),
+        EventKind::CodeWordP => Some(Event::CodeWord {
+            word: CodeWord::P,
+            value,
+        }),
+        EventKind::CodeWordQ => Some(Event::CodeWord {
+            word: CodeWord::Q,
+            value,
+        }),
+        EventKind::Await => Some(Event::Await(fields.whole("event_value", value)?)),
         EventKind::AnalogOutput => Some(Event::AnalogOutput { number, value }),
         EventKind::Synchronise => {
             fields.range("event_value", value, f64::MIN_POSITIVE, PITCH_MOST_MM)?;

@@ -16,6 +16,7 @@
 mod auxiliary;
 mod check;
 mod code;
+mod code_words;
 mod command;
 mod event;
 mod feedback;
@@ -32,6 +33,7 @@ mod text;
 
 pub use auxiliary::{ANALOG_OUTPUTS, Auxiliary, Coolant, SpindleState};
 pub use check::{RecordError, decode};
+pub use code_words::CodeWords;
 pub use command::{
     COMMAND_KINDS, Command, CommandKind, CommandOutcome, CommandRefusal, CommandReply,
     CommandRequest, EventId,

@@ -2,8 +2,8 @@
 
 use super::check::{Fields, RecordError};
 use super::{
-    ALL_JOINTS, ContactKind, EndOfEpoch, FRAME_REFUSALS, FaultCause, MachineState, MotionMode,
-    OVERRIDE_MAX, Power, Record, Text, event,
+    ALL_JOINTS, CodeWords, ContactKind, EndOfEpoch, FRAME_REFUSALS, FaultCause, MachineState,
+    MotionMode, OVERRIDE_MAX, Power, Record, Text, event,
 };
 use glidepath_geometry::{AXES, Axis};
 use glidepath_program::Event;
@@ -61,7 +61,7 @@ pub struct Quantiles {
 /// What the interpolator does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v7")]
+#[type_name("glidepath.Status.v8")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -156,6 +156,8 @@ pub struct Status {
     pub awaited_kind: u32,
     /// Its source line.
     pub awaited_line: u32,
+    /// Its words, where it is an M code of the machine's own.
+    pub awaited_words: CodeWords,
     /// Where the axes really were when the probe found what it looked for in this epoch, mm or
     /// degrees.
     pub contact: [f64; AXES],
@@ -177,6 +179,8 @@ pub struct Status {
     pub jog_override: f64,
     /// Override as executed.
     pub effective_override: f64,
+    /// What an input makes of both overrides, 0 to 1; 1 where none slows programs down.
+    pub adaptive_feed: f64,
     /// Ticks run.
     pub ticks: u64,
     /// Ticks that were not run because the one before took until after them.
@@ -302,7 +306,7 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v7";
+    const NAME: &'static str = "glidepath.Status.v8";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -326,6 +330,7 @@ impl Record for Status {
             0.0,
             OVERRIDE_MAX,
         )?;
+        fields.range("adaptive_feed", self.adaptive_feed, 0.0, 1.0)?;
         fields.flags("grants", self.grants, Grants::KNOWN)?;
         fields.flags("single_block", self.single_block, 1)?;
         for (field, mask) in [
@@ -359,6 +364,7 @@ impl Record for Status {
         }
         self.state()?;
         self.awaited_event()?;
+        self.awaited_words.check(Self::NAME)?;
         self.end_of_epoch()?;
         self.fault()?;
         self.last_event.check(Self::NAME, "last_event")?;

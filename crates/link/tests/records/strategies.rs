@@ -2,7 +2,9 @@
 
 use glidepath_geometry::{Arc, AxisVector, Plane, Quintic, Segment};
 use glidepath_link::{ALL_JOINTS, Command, EventId, OVERRIDE_MAX, StreamItem};
-use glidepath_program::{Event, Frame, FrameFlags, Item, ItemKind, PHASE_STEPS, PathMode, Rate};
+use glidepath_program::{
+    CodeWord, Event, Frame, FrameFlags, Item, ItemKind, PHASE_STEPS, PathMode, Rate,
+};
 use proptest::prelude::*;
 
 pub(crate) fn finite() -> impl Strategy<Value = f64> {
@@ -26,6 +28,12 @@ pub(crate) fn event() -> impl Strategy<Value = Event> {
         any::<u32>().prop_map(Event::MCode),
         any::<u32>().prop_map(Event::ProgramStop),
         Just(Event::OptionalStop),
+        any::<bool>().prop_map(|release| Event::Probe { release }),
+        (any::<bool>(), finite()).prop_map(|(is_p, value)| Event::CodeWord {
+            word: if is_p { CodeWord::P } else { CodeWord::Q },
+            value,
+        }),
+        any::<u32>().prop_map(Event::Await),
         (1e-3..1e3, 0..PHASE_STEPS)
             .prop_map(|(pitch_mm, phase)| Event::Synchronise { pitch_mm, phase }),
     ]

@@ -9,9 +9,10 @@
 //! | M19 R | stops the spindle in a known position |
 //!
 //! They are refused unless the program is read with [`Connections::Simulated`] or
-//! [`Connections::Real`]. M codes that the machine's builder declared are events at rest.
+//! [`Connections::Real`]. M codes that the machine's builder declared are events at rest, with their
+//! P and Q words in front of them.
 
-use glidepath_program::{Event, Item, ItemKind};
+use glidepath_program::{CodeWord, Event, Item, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
@@ -35,6 +36,11 @@ impl Interpreter {
             self.push(out, ItemKind::Event(Event::MCode(code)));
         }
         if let Some(Coded { code, .. }) = block.codes.user {
+            for (letter, word) in [(b'P', CodeWord::P), (b'Q', CodeWord::Q)] {
+                if let Some(value) = block.get(letter) {
+                    self.push(out, ItemKind::Event(Event::CodeWord { word, value }));
+                }
+            }
             self.push(out, ItemKind::Event(Event::MCode(code)));
         }
         let Some(Coded { code, span }) = block.codes.input_output else {

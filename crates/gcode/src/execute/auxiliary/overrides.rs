@@ -1,11 +1,12 @@
 //! Overrides that the program switches: M48 to M53.
 
-use glidepath_program::{Event, Item, ItemKind};
+use glidepath_program::{CodeWord, Event, Item, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
+use crate::setup::options::AdaptiveFeed;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::dialect::Dialect;
@@ -21,9 +22,13 @@ fn override_refused(code: u32, block: &Block, span: SourceSpan) -> Box<Fault> {
             "the spindle override",
             "remove it, or write M48 after an M49",
         ),
+        52 if block.get(b'P') == Some(0.0) => (
+            "adaptive feed",
+            "remove it, or remove always = true from [adaptive_feed] of the configuration",
+        ),
         52 => (
             "adaptive feed",
-            "remove it; the feedrate follows no input here",
+            "remove it, or write the table [adaptive_feed] into the configuration",
         ),
         _ => (
             "the feed stop input",
@@ -58,8 +63,17 @@ impl Interpreter {
             return Err(refused_m(code, f64::from(code), span));
         }
         let on = whole(block, b'P', 1)? != Some(0);
+        let adaptive = self.options.adaptive_feed;
+        if code == 52 && adaptive == AdaptiveFeed::Switched {
+            let value = f64::from(u8::from(on));
+            let word = CodeWord::P;
+            self.push(out, ItemKind::Event(Event::CodeWord { word, value }));
+            self.push(out, ItemKind::Event(Event::MCode(code)));
+            return Ok(());
+        }
         let is_so = match code {
             50 | 51 => on && !self.state.overrides_off,
+            52 => on == (adaptive == AdaptiveFeed::Always),
             _ => !on,
         };
         if is_so {

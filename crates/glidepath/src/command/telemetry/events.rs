@@ -64,6 +64,8 @@ fn word(event: Event) -> String {
         Event::OptionalStop => "M1".to_owned(),
         Event::Probe { release: false } => "G38.2".to_owned(),
         Event::Probe { release: true } => "G38.4".to_owned(),
+        Event::CodeWord { word, value } => format!("{word:?}{value}"),
+        Event::Await(code) => format!("the answer to M{code}"),
         Event::Synchronise { pitch_mm, .. } => format!("G33 K{pitch_mm}"),
         Event::DigitalOutput { number, on } => format!("M{} P{number}", if on { 62 } else { 63 }),
         Event::AnalogOutput { number, value } => format!("M67 E{number} Q{value}"),

@@ -2,8 +2,9 @@
 
 use super::values::{Judge, Range};
 use crate::config::diagnostic::ConfigDiagnostic;
+use crate::config::machine::MCodeRule;
 use crate::config::raw::{Optional, RawMCode};
-use glidepath_gcode::MCodes;
+use glidepath_gcode::{MCodes, WaitsAt};
 use glidepath_interpolator::{Answer, Gate, MAX_GATES};
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -19,7 +20,7 @@ impl Judge {
     pub(super) fn m_codes(
         &mut self,
         raw: BTreeMap<Spanned<String>, Spanned<RawMCode>>,
-    ) -> Vec<Gate> {
+    ) -> Vec<MCodeRule> {
         let mut rules = Vec::new();
         for (name, raw) in raw {
             let key = format!("m_codes.{}", name.as_ref());
@@ -37,12 +38,29 @@ impl Judge {
                 .map(|value| self.number(&timeout_key, value, &seconds))
                 .map(Duration::from_secs_f64);
             let answer = self.answer(&format!("{key}.done"), raw.done);
+            let at = self.choice(
+                &format!("{key}.at"),
+                raw.at,
+                &[
+                    ("code", WaitsAt::Code),
+                    ("next-feed", WaitsAt::NextFeed),
+                    ("block-end", WaitsAt::BlockEnd),
+                ],
+            );
             match codes(name.as_ref()) {
-                Some((first, last)) if (first..=last).all(is_possible) => rules.push(Gate {
-                    first,
-                    last,
-                    answer,
-                    within,
+                Some((first, last)) if (first..=last).all(is_possible) => rules.push(MCodeRule {
+                    gate: Gate {
+                        first,
+                        last,
+                        answer,
+                        within,
+                        is_late: at != WaitsAt::Code,
+                    },
+                    at: if answer == Answer::Nobody {
+                        WaitsAt::Code
+                    } else {
+                        at
+                    },
                 }),
                 _ => self.diagnostics.push(ConfigDiagnostic {
                     message: format!("{key} names no M code that can be declared"),
@@ -57,7 +75,7 @@ impl Judge {
             }
         }
         // The more particular rule counts.
-        rules.sort_by_key(|rule| (rule.last - rule.first, rule.first));
+        rules.sort_by_key(|rule| (rule.gate.last - rule.gate.first, rule.gate.first));
         if rules.len() > MOST {
             self.diagnostics.push(ConfigDiagnostic {
                 key: "m_codes".to_owned(),

@@ -1,6 +1,7 @@
 //! [`RawConfig`] to [`MachineConfig`]: every value is judged by its range, and all that has to be
 //! mended is told at once. One file for each table of the configuration.
 
+mod adaptive_feed;
 mod axes;
 mod axis_share;
 mod feedback;
@@ -113,6 +114,7 @@ pub(super) fn judge(
         feedback,
         probe: judge.probe(raw.probe, expects_feedback),
         has_spindle_encoder: judge.spindle(&raw.spindle, is_axes),
+        adaptive_feed: judge.adaptive_feed(raw.adaptive_feed, expects_feedback),
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
         program: judge.program(raw.program, expects_feedback),

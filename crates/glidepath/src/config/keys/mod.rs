@@ -4,6 +4,7 @@
 //! one of the two does not have, a range, a list of names or a default that is another there fails
 //! the test.
 
+mod adaptive_feed;
 mod key;
 mod mechanisms;
 mod probing;
@@ -26,6 +27,7 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         tables::FEEDBACK,
         probing::PROBE,
         spindle::SPINDLE,
+        adaptive_feed::ADAPTIVE_FEED,
         programs::LINK,
         programs::PROGRAM,
         programs::M_CODES,

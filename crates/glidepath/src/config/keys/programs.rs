@@ -68,6 +68,15 @@ pub(super) const M_CODES: &[Key] = &[
          have by themselves (M428, M100-M199) is declared by its table",
     ),
     key(
+        "m_codes.M6.at",
+        Takes::Choice {
+            of: &["code", "next-feed", "block-end"],
+        },
+        LeftOut::Value("\"code\""),
+        "where the motion waits: at the code, in front of the next feed or probing move, or at the \
+         end of the code's block",
+    ),
+    key(
         "m_codes.M6.timeout_s",
         number(0.1, 86_400.0, "s"),
         LeftOut::Means("it is waited for ever"),

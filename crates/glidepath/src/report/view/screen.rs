@@ -4,7 +4,7 @@ use super::seen::{View, clock, doing};
 use crate::report::auxiliary::auxiliary_words;
 use crate::report::machine::{awaited_text, power_text};
 use crate::report::quantity::grouped;
-use crate::report::status::{fault_text, state_name};
+use crate::report::status::{adaptive_text, fault_text, state_name};
 use core::fmt::Write as _;
 use glidepath_geometry::AXES;
 use glidepath_link::Status;
@@ -47,6 +47,9 @@ pub fn view_text(view: &View<'_>) -> String {
             ""
         }
     ));
+    if let Some(adaptive) = adaptive_text(status) {
+        lines.push(format!("  input     {adaptive}"));
+    }
     let told = view.auxiliary.map(auxiliary_words);
     let told = told.unwrap_or_else(|| "nothing is known of it yet".to_owned());
     lines.push(format!("  tool      {told}"));
@@ -218,6 +221,7 @@ mod tests {
         status.state = MachineState::Running.code();
         status.period_ns = 4_000_000;
         (status.line, status.program, status.feed_override) = (12, 7, 0.5);
+        status.adaptive_feed = 0.4;
         (status.queue_depth, status.queue_capacity) = (150, 768);
         status.position = [110.0, 0.0, -1.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         status.message = glidepath_link::Text::new("clean the vice");

@@ -115,7 +115,7 @@ impl View<'_> {
     pub(super) fn left_t(&self) -> Option<f64> {
         let place = self.place.as_ref()?;
         let left = place.planned_t? - place.elapsed_t?;
-        let ratio = self.status.feed_override;
+        let ratio = self.status.feed_override * self.status.adaptive_feed;
         (ratio > 0.0).then(|| left.max(0.0) / ratio)
     }
 }

@@ -9,12 +9,12 @@ use crate::tick::Interpolator;
 use glidepath_geometry::AxisVector;
 use glidepath_link::servo::{Servo, ServoSettings};
 use glidepath_link::{
-    Client, Command, CommandReply, CommandRequest, Delivery, EventId, EventKind, FaultCause,
-    Feedback, FrameSink, InProcess, JogDemand, MachineState, Power, Publisher, Setpoint,
-    SetpointFrame, Status, Subscriber, Transport,
+    Client, Command, CommandReply, CommandRequest, Delivery, EventId, FaultCause, Feedback,
+    FrameSink, InProcess, JogDemand, MachineState, Power, Publisher, Setpoint, SetpointFrame,
+    Status, Subscriber, Transport,
 };
 use glidepath_plant::{JointSettings, Plant, Upset};
-use glidepath_program::FrameFlags;
+use glidepath_program::{Event, FrameFlags};
 use glidepath_realtime::{CountingAllocator, Events, Wake, event_ring};
 use heapless::spsc::Producer;
 use std::collections::VecDeque;
@@ -244,19 +244,25 @@ impl Bench {
 
     /// Lines up stretches of motion of about so many ticks, with an M code at rest before each.
     pub(super) fn load_codes(&mut self, seed: u64, ticks: usize, codes: &[u32]) {
+        let events: Vec<Event> = codes.iter().map(|code| Event::MCode(*code)).collect();
+        self.load_events(seed, ticks, &events);
+    }
+
+    /// Lines up motions with events at rest in front of them.
+    pub(super) fn load_events(&mut self, seed: u64, ticks: usize, events: &[Event]) {
         let mut at = AxisVector::from(self.last().position);
         let mut frames: Vec<SetpointFrame> = Vec::new();
         self.epoch += 1;
-        for (stretch, code) in codes.iter().enumerate() {
+        for (stretch, event) in events.iter().enumerate() {
             let limits = self.config.limits;
             let planned = plan(seed + stretch as u64, 3, ticks, &limits, 0.004, at);
             at = planned[planned.len() - 1].position;
             let mut part = records(&planned, self.epoch, PERIOD_NS);
+            let (mut told, line) = (planned[0], stretch as u32 + 1);
+            (told.event, told.line) = (Some(*event), line);
             let rest = SetpointFrame {
-                event_kind: EventKind::MCode.code(),
-                event_value: f64::from(*code),
-                line: stretch as u32 + 1,
-                ..part[0]
+                line,
+                ..SetpointFrame::from_frame(&told, self.epoch, PERIOD_NS)
             };
             part.insert(1, rest);
             part.insert(1, part[0]);

@@ -15,6 +15,7 @@ pub(super) fn settings() -> Config {
         last: 6,
         answer: Answer::Acknowledgement,
         within: Some(Duration::from_secs(1)),
+        is_late: false,
     };
     let mut settings = Config {
         gates: Gates::new(&[tool_change]).unwrap(),

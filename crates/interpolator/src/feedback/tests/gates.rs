@@ -5,9 +5,11 @@ use crate::config::Config;
 use crate::gates::{Answer, Gate, Gates};
 use core::time::Duration;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{Auxiliary, Command, EventId, FaultCause, MachineState, Transport as _};
+use glidepath_link::{
+    Auxiliary, Command, EventId, EventKind, FaultCause, MachineState, Transport as _,
+};
 use glidepath_plant::JointSettings;
-use glidepath_program::Event;
+use glidepath_program::{CodeWord, Event};
 
 fn gates(rules: &[(u32, Answer, u64)]) -> Gates {
     let rules: Vec<Gate> = rules
@@ -17,6 +19,7 @@ fn gates(rules: &[(u32, Answer, u64)]) -> Gates {
             last: code,
             answer,
             within: (within_ms > 0).then(|| Duration::from_millis(within_ms)),
+            is_late: false,
         })
         .collect();
     Gates::new(&rules).unwrap()
@@ -151,7 +154,7 @@ fn a_spindle_that_turns_up_is_waited_for() {
     ]));
     bench.load_codes(6, 60, &[7, 3, 5]);
     // A speed before the first motion: 3000 rev/min take 1.25 s.
-    bench.feed[1].event_kind = glidepath_link::EventKind::SpindleSpeed.code();
+    bench.feed[1].event_kind = EventKind::SpindleSpeed.code();
     bench.feed[1].event_value = 3000.0;
     assert!(bench.run_to(MachineState::Awaiting, 1000));
     let awaited = bench.awaited().unwrap();
@@ -283,4 +286,124 @@ fn random_answers() {
         assert!(bench.worst_ratio() < 1.0 + 1e-6, "seed {seed}");
         assert_eq!(bench.fault(), None, "seed {seed}");
     }
+}
+
+/// As [`gates`], for codes that are waited for later.
+fn late(rules: &[(u32, Answer, u64)]) -> Gates {
+    let rules: Vec<Gate> = rules
+        .iter()
+        .map(|&(code, ..)| gates(rules).of(code).unwrap())
+        .map(|gate| Gate {
+            is_late: true,
+            ..gate
+        })
+        .collect();
+    Gates::new(&rules).unwrap()
+}
+
+const LATER: [Event; 4] = [
+    Event::CodeWord {
+        word: CodeWord::Q,
+        value: -2.5,
+    },
+    Event::MCode(106),
+    Event::MCode(8),
+    Event::Await(106),
+];
+
+/// The event of a code that was told, once it was.
+fn told(bench: &mut Bench, code: f64) -> EventId {
+    for _ in 0..2000 {
+        bench.run(1);
+        let last = bench.last();
+        if last.event_kind == EventKind::MCode.code() && last.event_value == code {
+            return EventId {
+                boot_id: 77,
+                epoch: last.epoch,
+                sequence: last.sequence,
+            };
+        }
+    }
+    panic!("M{code} is not told");
+}
+
+#[test]
+fn a_code_that_is_awaited_later_may_be_answered_before() {
+    let mut free = bench(Gates::NONE);
+    free.load_events(3, 120, &LATER);
+    assert!(free.run_to(MachineState::Running, 50) && free.run_to(MachineState::Idle, 2000));
+
+    for early in [true, false] {
+        let mut bench = bench(late(&[(106, ACK, 9_000)]));
+        bench.load_events(3, 120, &LATER);
+        let event = told(&mut bench, 106.0);
+        bench.run(20);
+        assert_eq!(bench.status().state(), Ok(MachineState::Running));
+        if early {
+            acknowledge(&mut bench, event, DONE).unwrap();
+            let again = acknowledge(&mut bench, event, DONE).unwrap_err();
+            assert!(again.contains("already"), "{again}");
+        } else {
+            assert!(bench.run_to(MachineState::Awaiting, 2000));
+            let status = bench.status();
+            assert_eq!(
+                bench.awaited(),
+                Some(event),
+                "it is known by the code's event"
+            );
+            assert_eq!((status.awaited_value, status.awaited_line), (106.0, 2));
+            assert_eq!(status.awaited_words.get(CodeWord::Q), Some(-2.5));
+            assert_eq!(status.awaited_words.get(CodeWord::P), None);
+            let stood = bench.last().position;
+            bench.run(300);
+            assert_eq!(bench.last().position, stood);
+            acknowledge(&mut bench, event, DONE).unwrap();
+        }
+        assert!(bench.run_to(MachineState::Idle, 2000), "{early}");
+        assert_eq!(bench.fault(), None);
+        assert_eq!(moves(&free), moves(&bench));
+        assert!(bench.worst_ratio() < 1.0 + 1e-6);
+    }
+}
+
+#[test]
+fn what_is_awaited_later_and_fails_or_never_comes_is_a_fault_at_its_gate() {
+    for (answered, cause) in [
+        (Some(false), FaultCause::AuxFailed),
+        (None, FaultCause::AuxTimeout),
+    ] {
+        let mut bench = bench(late(&[(106, ACK, 400)]));
+        bench.load_events(5, 120, &LATER);
+        let event = told(&mut bench, 106.0);
+        if let Some(done) = answered {
+            acknowledge(&mut bench, event, done).unwrap();
+        }
+        bench.run(20);
+        assert_eq!(bench.fault(), None, "not before its gate");
+        assert!(bench.run_to(MachineState::Faulted, 2000));
+        assert_eq!(bench.fault(), Some(cause));
+    }
+}
+
+#[test]
+fn a_spindle_comes_up_to_speed_on_the_way_to_the_first_feed() {
+    let rules = [(3, Answer::SpindleAtSpeed, 20_000)];
+    let events = [Event::SpindleSpeed(900.0), Event::MCode(3), Event::Await(3)];
+    let mut stands = Vec::new();
+    for gates in [gates(&rules), late(&rules)] {
+        let mut bench = bench(gates);
+        bench.load_events(9, 250, &events);
+        let event = told(&mut bench, 3.0);
+        let early = acknowledge(&mut bench, event, DONE).unwrap_err();
+        assert!(early.contains("feedback"), "{early}");
+        assert!(bench.run_to(MachineState::Idle, 9000));
+        let (awaiting, at_speed): (Vec<_>, Vec<_>) = bench
+            .setpoints
+            .iter()
+            .map(|s| s.state == MachineState::Awaiting.code())
+            .partition(|awaits| *awaits);
+        assert!(!at_speed.is_empty());
+        stands.push(awaiting.len());
+    }
+    assert!(stands[1] + 50 < stands[0], "{stands:?}");
 }

@@ -1,0 +1,113 @@
+//! Which events may be acknowledged: the one that is awaited, and those that were told and are
+//! waited for later.
+
+use crate::gates::{Answer, Gates};
+use crate::message::Report;
+use glidepath_link::{EndOfEpoch, EventId};
+
+/// Most events that are told and not yet awaited. Of more the oldest is answered at its gate alone.
+pub(crate) const MOST_TOLD: usize = 4;
+
+/// An event that was told, and its M code.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Told {
+    event: EventId,
+    code: f64,
+    /// The drives' feedback answers it.
+    by_feedback: bool,
+}
+
+/// What was told, and what was answered.
+#[derive(Debug)]
+pub(crate) struct Acknowledgements {
+    boot_id: u64,
+    gates: Gates,
+    told: [Option<Told>; MOST_TOLD],
+    answered: [Option<EventId>; MOST_TOLD],
+}
+
+impl Acknowledgements {
+    pub(crate) const fn new(boot_id: u64, gates: Gates) -> Self {
+        Self {
+            boot_id,
+            gates,
+            told: [None; MOST_TOLD],
+            answered: [None; MOST_TOLD],
+        }
+    }
+
+    /// Takes note of the event of a setpoint.
+    pub(crate) fn note(&mut self, report: &Report) {
+        let setpoint = &report.setpoint;
+        let Some(gate) = self.gates.late(setpoint) else {
+            return;
+        };
+        self.tell(Told {
+            event: EventId {
+                boot_id: self.boot_id,
+                epoch: setpoint.epoch,
+                sequence: setpoint.sequence,
+            },
+            code: setpoint.event_value,
+            by_feedback: gate.answer != Answer::Acknowledgement,
+        });
+    }
+
+    /// What is told again takes the place of what was told before: nobody waits for that any more.
+    #[allow(clippy::float_cmp, reason = "both are whole numbers")]
+    fn tell(&mut self, told: Told) {
+        let is_it = |other: &Option<Told>| other.is_some_and(|other| other.code == told.code);
+        let place = self.told.iter().position(is_it).unwrap_or(MOST_TOLD - 1);
+        self.told[..=place].rotate_right(1);
+        self.told[0] = Some(told);
+    }
+
+    /// An event was answered.
+    pub(crate) fn answer(&mut self, event: EventId) {
+        self.answered.rotate_right(1);
+        self.answered[0] = Some(event);
+    }
+
+    /// Whether an event may be acknowledged now.
+    ///
+    /// # Errors
+    /// Why not.
+    pub(crate) fn judge(
+        &self,
+        event: EventId,
+        done: bool,
+        report: &Report,
+    ) -> Result<(), &'static str> {
+        if event.boot_id != self.boot_id {
+            return Err("that event is of another life of the interpolator");
+        }
+        if self.answered.contains(&Some(event)) {
+            return Err("that event was answered already");
+        }
+        let is_open =
+            event.epoch == report.setpoint.epoch && report.end_of_epoch == EndOfEpoch::Open;
+        let awaited = report.awaited.filter(|it| it.id(self.boot_id) == event);
+        let told = self.told.iter().flatten().find(|told| told.event == event);
+        let told = told.filter(|_| is_open);
+        let by_feedback = awaited
+            .map(|awaited| awaited.by_feedback)
+            .or(told.map(|told| told.by_feedback));
+        match by_feedback {
+            Some(true) if done => {
+                return Err("the drives' feedback answers that event, and nobody else");
+            }
+            Some(_) => return Ok(()),
+            None => {}
+        }
+        Err(match report.awaited {
+            None if is_open && event.sequence > report.setpoint.sequence => {
+                "too early: the machine has not come to that event yet"
+            }
+            None => "no event is awaited",
+            Some(awaited) if (event.epoch, event.sequence) > (awaited.epoch, awaited.sequence) => {
+                "too early: the machine waits for another event before that one"
+            }
+            Some(_) => "another event is awaited",
+        })
+    }
+}

@@ -1,0 +1,215 @@
+//! Adaptive feed: an analog input that slows the program down, as far as to a hold.
+//!
+//! The factor follows the input in steps, or the search for a ramp would never come to rest. Whoever
+//! sends the input is known by being the one that says something else than zero; if nothing new
+//! comes from there, the factor is zero.
+
+use crate::message::Report;
+use glidepath_link::{EventKind, Feedback};
+use glidepath_program::{CodeWord, Event};
+
+/// Least change of the factor, but for those to 0 and 1.
+const STEP: f64 = 0.02;
+
+/// The code that switches it, in LinuxCNC's language.
+const SWITCH: u32 = 52;
+
+/// The input that slows programs down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AdaptiveFeed {
+    /// Its number, 0 to 7.
+    pub input: u8,
+    /// What it says where the program is to stand.
+    pub at_zero: f64,
+    /// What it says where the program is to run as fast as the override lets it.
+    pub at_full: f64,
+    /// It does so at all times, and not only from M52 P1 to M52 P0.
+    pub always: bool,
+}
+
+/// Follows the input.
+#[derive(Debug)]
+pub(super) struct AdaptiveWatch {
+    settings: Option<AdaptiveFeed>,
+    stale_ns: u64,
+    is_on: bool,
+    /// The P word of the code that comes next.
+    word: Option<f64>,
+    /// The stack that sends the input, and its last sample.
+    source: Option<Source>,
+    /// What the input says, in steps.
+    factor: f64,
+    /// What was told last.
+    told: f64,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Source {
+    boot_id: u64,
+    sample_ns: u64,
+    value: f64,
+}
+
+impl AdaptiveWatch {
+    pub(super) fn new(settings: Option<AdaptiveFeed>, stale_ns: u64) -> Self {
+        Self {
+            settings,
+            stale_ns,
+            is_on: settings.is_some_and(|settings| settings.always),
+            word: None,
+            source: None,
+            factor: 0.0,
+            told: 1.0,
+        }
+    }
+
+    /// Takes note of a setpoint: its event may be the switch.
+    pub(super) fn note(&mut self, report: &Report) {
+        let setpoint = &report.setpoint;
+        let Some(settings) = self.settings else {
+            return;
+        };
+        if setpoint.event_kind == EventKind::None.code() {
+            return;
+        }
+        match setpoint.event() {
+            Ok(Some(Event::CodeWord {
+                word: CodeWord::P,
+                value,
+            })) => self.word = Some(value),
+            Ok(Some(Event::MCode(code))) => {
+                let on = self.word.take() != Some(0.0);
+                if code == SWITCH {
+                    self.is_on = on || settings.always;
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Looks at what a stack sends.
+    pub(super) fn look(&mut self, feedback: &Feedback) {
+        let Some(settings) = self.settings else {
+            return;
+        };
+        let value = feedback.analog_in.get(usize::from(settings.input));
+        let value = value.copied().unwrap_or(0.0);
+        let is_stale =
+            |source: Source| feedback.sample_ns.saturating_sub(source.sample_ns) > self.stale_ns;
+        let is_its = self.source.is_none_or(|source| {
+            source.boot_id == feedback.boot_id || (is_stale(source) && value != 0.0)
+        });
+        if is_its {
+            self.source = Some(Source {
+                boot_id: feedback.boot_id,
+                sample_ns: feedback.sample_ns,
+                value,
+            });
+        }
+    }
+
+    /// The factor as it was told last.
+    pub(super) const fn told(&self) -> f64 {
+        self.told
+    }
+
+    /// The factor of the rate of program time now, 0 to 1.
+    pub(super) fn factor(&mut self, now_ns: u64) -> f64 {
+        self.told = match self.settings {
+            Some(settings) if self.is_on => self.follow(settings, now_ns),
+            _ => 1.0,
+        };
+        self.told
+    }
+
+    fn follow(&mut self, settings: AdaptiveFeed, now_ns: u64) -> f64 {
+        let fresh = self
+            .source
+            .filter(|source| now_ns.saturating_sub(source.sample_ns) <= self.stale_ns);
+        let wanted = fresh.map_or(0.0, |source| {
+            let part = (source.value - settings.at_zero) / (settings.at_full - settings.at_zero);
+            // Neither is a number that is none a speed.
+            if part > 0.0 { part.min(1.0) } else { 0.0 }
+        });
+        let is_end = wanted <= 0.0 || wanted >= 1.0;
+        if is_end || (wanted - self.factor).abs() >= STEP {
+            self.factor = wanted;
+        }
+        self.factor
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bytemuck::Zeroable as _;
+
+    const MS: u64 = 1_000_000;
+
+    fn watch(always: bool) -> AdaptiveWatch {
+        let settings = AdaptiveFeed {
+            input: 2,
+            at_zero: 1.0,
+            at_full: 5.0,
+            always,
+        };
+        AdaptiveWatch::new(Some(settings), 12 * MS)
+    }
+
+    fn says(watch: &mut AdaptiveWatch, boot_id: u64, ms: u64, value: f64) {
+        let mut feedback = Feedback {
+            boot_id,
+            sample_ns: ms * MS,
+            ..Feedback::zeroed()
+        };
+        feedback.analog_in[2] = value;
+        watch.look(&feedback);
+    }
+
+    fn factor_of(value: f64) -> f64 {
+        let mut watch = watch(true);
+        says(&mut watch, 1, 100, value);
+        watch.factor(101 * MS)
+    }
+
+    #[test]
+    fn the_input_is_a_factor_and_silence_a_hold() {
+        let near = |value: f64, wanted: f64| {
+            let factor = factor_of(value);
+            assert!((factor - wanted).abs() < 1e-12, "{value}: {factor}");
+        };
+        near(5.0, 1.0);
+        near(9.0, 1.0);
+        near(3.0, 0.5);
+        near(1.0, 0.0);
+        near(-4.0, 0.0);
+        near(f64::NAN, 0.0);
+        let mut watch = watch(true);
+        assert!(watch.factor(0) <= 0.0, "nobody said anything");
+        says(&mut watch, 1, 100, 3.0);
+        assert!(watch.factor(112 * MS) > 0.4);
+        assert!(watch.factor(113 * MS) <= 0.0, "stale");
+        // A stack without the input does not speak for it, until the other is gone.
+        says(&mut watch, 1, 120, 3.0);
+        says(&mut watch, 2, 121, 5.0);
+        assert!((watch.factor(122 * MS) - 0.5).abs() < 1e-12);
+        says(&mut watch, 2, 140, 5.0);
+        assert!(watch.factor(141 * MS) >= 1.0);
+    }
+
+    #[test]
+    fn small_changes_are_none() {
+        let mut watch = watch(true);
+        let mut steps = 0;
+        let mut before = 2.0;
+        for ms in 100..1100 {
+            #[allow(clippy::cast_precision_loss, reason = "small")]
+            let noise = 0.03 * ((ms * 7919 % 100) as f64 / 100.0 - 0.5);
+            says(&mut watch, 1, ms, 3.0 + noise);
+            let factor = watch.factor(ms * MS);
+            steps += u32::from((factor - before).abs() > 0.0);
+            before = factor;
+        }
+        assert_eq!(steps, 1, "noise of less than a hundredth");
+    }
+}
