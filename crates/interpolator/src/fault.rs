@@ -54,6 +54,7 @@ impl fmt::Display for Fault {
             FaultCause::SpindleSpeed => write!(f, "the spindle left its speed in a thread")?,
             FaultCause::SpindleAngle => write!(f, "the spindle's angle was lost in a thread")?,
             FaultCause::ThreadLost => write!(f, "the axes could not follow the spindle")?,
+            FaultCause::ProbeContact => write!(f, "the probe touched outside of a probing move")?,
             FaultCause::LimitSwitch => write!(f, "a joint stands at its limit switch")?,
             FaultCause::Homing => write!(f, "a joint did not find its home")?,
         }

@@ -64,6 +64,7 @@ mod tests {
         let limits = [(2_000.0, 40_000.0)];
         for overtravel_mm in [0.05, 0.3, 2.0, 20.0] {
             let input = ProbeInput {
+                protects: false,
                 number: 0,
                 high: true,
             };

@@ -155,6 +155,7 @@ pub(super) struct RawProbe {
     pub(super) input: Optional<i64>,
     pub(super) contact: Optional<String>,
     pub(super) overtravel: Optional<f64>,
+    pub(super) protect: Optional<bool>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -112,6 +112,7 @@ pub fn fault_text(status: &Status) -> Option<String> {
         FaultCause::Drive => "a drive reports a fault".to_owned(),
         FaultCause::EnableLost => "a drive lost its power".to_owned(),
         FaultCause::AuxTimeout => "an event was not acknowledged in time".to_owned(),
+        FaultCause::ProbeContact => "the probe touched outside of a probing move".to_owned(),
         FaultCause::AuxFailed => "what an event asked for has failed".to_owned(),
         FaultCause::SpindleSpeed => {
             "in a thread the spindle left 50 to 109 % of its speed: the thread is not finished"

@@ -101,6 +101,8 @@ impl DriveBook {
         self.claims.take(feedback, now_ns)?;
         self.spindle.take(feedback);
         self.adaptive.look(feedback);
+        self.probe
+            .watch_out(feedback.sample_ns, &self.claims.joints());
         if self.probe.is_searching() {
             self.probe.look(feedback, &self.claims.joints());
         }

@@ -77,8 +77,17 @@ impl DriveBook {
         if order.is_none() && !self.conductor.is_busy() {
             order = self.judge_pairs(&joints, report);
         }
+        let contact = self.judge_contact(report);
+        order = order.or(contact);
         self.ordered |= order.is_some();
         (order, told)
+    }
+
+    /// Whether the probe touched something that nobody looked for.
+    fn judge_contact(&mut self, report: &Report) -> Option<Order> {
+        let is_touched = self.probe.take_touched() && report.fault.is_none();
+        let Setpoint { line, sequence, .. } = report.setpoint;
+        is_touched.then(|| Order::Fault(Fault::new(FaultCause::ProbeContact, line, sequence)))
     }
 
     /// Whether the two joints of an axis are apart.

@@ -37,6 +37,21 @@ pub(super) struct ProbeWatch {
     input: Option<ProbeInput>,
     search: Option<Search>,
     is_open: bool,
+    guard: Guard,
+}
+
+/// How long a probe has to be free before a contact is one: behind a search it bounces.
+const FREE_NS: u64 = 100_000_000;
+
+/// What is looked for outside of searches.
+#[derive(Debug, Default)]
+struct Guard {
+    /// Since when the probe is free.
+    free_since_ns: Option<u64>,
+    /// Something moves.
+    moves: bool,
+    /// It was touched, and nobody was told so far.
+    is_touched: bool,
 }
 
 impl ProbeWatch {
@@ -45,12 +60,14 @@ impl ProbeWatch {
             input,
             search: None,
             is_open: false,
+            guard: Guard::default(),
         }
     }
 
     /// Takes note of a setpoint: it may begin a search, or belong to an epoch after it.
     pub(super) fn note(&mut self, report: &Report) {
         let setpoint = &report.setpoint;
+        self.guard.moves = setpoint.velocity.iter().any(|v| v.abs() > 0.0);
         self.is_open = report.end_of_epoch == EndOfEpoch::Open;
         if setpoint.event_kind == EventKind::Probe.code() && self.is_open {
             self.search = Some(Search {
@@ -68,6 +85,25 @@ impl ProbeWatch {
         }
     }
 
+    /// Looks whether there is a contact that nobody looks for.
+    pub(super) fn watch_out(&mut self, sample_ns: u64, joints: &Joints) {
+        let Some(input) = self.input.filter(|input| input.protects) else {
+            return;
+        };
+        let guard = &mut self.guard;
+        if !touches(input, joints) {
+            guard.free_since_ns.get_or_insert(sample_ns);
+        } else if let Some(since_ns) = guard.free_since_ns.take() {
+            let is_news = sample_ns.saturating_sub(since_ns) >= FREE_NS;
+            guard.is_touched |= is_news && guard.moves && self.search.is_none();
+        }
+    }
+
+    /// Whether something was touched that nobody looked for, since this was asked last.
+    pub(super) const fn take_touched(&mut self) -> bool {
+        core::mem::replace(&mut self.guard.is_touched, false)
+    }
+
     /// Whether there is anything to look for.
     pub(super) fn is_searching(&self) -> bool {
         let is_open = |search: Search| search.found.is_none() && self.is_open;
@@ -79,8 +115,7 @@ impl ProbeWatch {
         let (Some(input), Some(search)) = (self.input, &mut self.search) else {
             return;
         };
-        let touches = (joints.digital_in >> (input.number & 63) & 1 == 1) == input.high;
-        if touches == search.release {
+        if touches(input, joints) == search.release {
             search.before = Some(joints.position);
             return;
         }
@@ -113,6 +148,10 @@ impl ProbeWatch {
         let search = self.search.filter(|search| search.found.is_some());
         search.map_or(0, |search| search.epoch)
     }
+}
+
+fn touches(input: ProbeInput, joints: &Joints) -> bool {
+    (joints.digital_in >> (input.number & 63) & 1 == 1) == input.high
 }
 
 /// What the hardware of a stack with all joints has latched since the search began.

@@ -29,6 +29,8 @@ pub struct ProbeInput {
     pub number: u8,
     /// What it is while the probe touches.
     pub high: bool,
+    /// A contact outside of a search stops whatever moves.
+    pub protects: bool,
 }
 
 /// How the feedback of the drives is judged.

@@ -193,6 +193,8 @@ pub enum FaultCause {
     SpindleAngle,
     /// In a thread the axes could not follow the spindle, or frames ran out.
     ThreadLost,
+    /// The probe touched something although nothing was looked for.
+    ProbeContact,
 }
 
 impl FaultCause {
@@ -219,6 +221,7 @@ impl FaultCause {
             Self::SpindleSpeed => 14,
             Self::SpindleAngle => 15,
             Self::ThreadLost => 16,
+            Self::ProbeContact => 17,
             Self::Frame(refusal) => Self::FRAME + refusal.code(),
         }
     }
@@ -243,6 +246,7 @@ impl FaultCause {
             14 => Some(Self::SpindleSpeed),
             15 => Some(Self::SpindleAngle),
             16 => Some(Self::ThreadLost),
+            17 => Some(Self::ProbeContact),
             Self::FRAME.. => match FrameRefusal::from_code(code - Self::FRAME) {
                 Some(refusal) => Some(Self::Frame(refusal)),
                 None => None,

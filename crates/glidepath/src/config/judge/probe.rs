@@ -20,6 +20,7 @@ impl Judge {
             help: "what the probe gives way, less what is to be in reserve",
         };
         let overtravel_mm = self.number_or("probe.overtravel", &raw.overtravel, &range, 2.0);
+        let protects = raw.protect.is_some_and(|protect| protect.into_inner());
         let input = raw.input?;
         let help = "the bit of the feedback's digital inputs";
         let number = self.whole("probe.input", &input, (0, 63), help)?;
@@ -32,7 +33,11 @@ impl Judge {
             });
         }
         Some(ProbeConfig {
-            input: ProbeInput { number, high },
+            input: ProbeInput {
+                number,
+                high,
+                protects,
+            },
             overtravel_mm,
         })
     }

@@ -28,4 +28,10 @@ pub(super) const PROBE: &[Key] = &[
         "how far the machine may go on after the contact; a program with a feed that takes longer is \
          refused",
     ),
+    key(
+        "probe.protect",
+        Takes::Flag,
+        LeftOut::Value("false"),
+        "true: a contact outside of a probing move stops whatever moves",
+    ),
 ];

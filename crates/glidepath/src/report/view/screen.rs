@@ -221,7 +221,7 @@ mod tests {
         status.state = MachineState::Running.code();
         status.period_ns = 4_000_000;
         (status.line, status.program, status.feed_override) = (12, 7, 0.5);
-        status.adaptive_feed = 0.4;
+        status.adaptive_feed = 0.5;
         (status.queue_depth, status.queue_capacity) = (150, 768);
         status.position = [110.0, 0.0, -1.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         status.message = glidepath_link::Text::new("clean the vice");
@@ -270,7 +270,8 @@ mod tests {
             "mill   RUNNING   the program runs",
             "  program   part.ngc",
             "  line      12     G1 X10 F1200 (a long",
-            "  progress  [######------------------] 25 % of 1:40, about 2:30 left",
+            "  progress  [######------------------] 25 % of 1:40, about 5:00 left",
+            "  input     the adaptive feed lets through 50 %",
             "  X             110.0000       10.0000",
             "  tool      T3, T4 selected, spindle M3 S8000, coolant M8",
             "  says      clean the vice",
@@ -281,7 +282,7 @@ mod tests {
         }
         let object = Value::Object(view_object(&view));
         assert_eq!(object["progress"], 0.25);
-        assert_eq!(object["left_s"], 150.0);
+        assert_eq!(object["left_s"], 300.0);
         assert_eq!(object["work_position"]["X"], 10.0);
         assert_eq!(
             (&object["tool"], &object["tool_selected"]),

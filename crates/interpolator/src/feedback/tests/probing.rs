@@ -6,7 +6,7 @@ use crate::feedback::{FeedbackSettings, ProbeInput};
 use core::f64::consts::TAU;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Command, ContactKind, EndOfEpoch, EventKind, MachineState, Setpoint, SetpointFrame,
+    Command, ContactKind, EndOfEpoch, EventKind, FaultCause, MachineState, Setpoint, SetpointFrame,
 };
 use glidepath_plant::JointSettings;
 use glidepath_program::FrameFlags;
@@ -22,6 +22,14 @@ fn bench(
     lag_t: f64,
     change: impl FnOnce(glidepath_plant::Plant) -> glidepath_plant::Plant,
 ) -> Bench {
+    guarded(false, lag_t, change)
+}
+
+fn guarded(
+    protects: bool,
+    lag_t: f64,
+    change: impl FnOnce(glidepath_plant::Plant) -> glidepath_plant::Plant,
+) -> Bench {
     let joint = |start| JointSettings {
         start,
         count: start,
@@ -30,6 +38,7 @@ fn bench(
     };
     let usual = config(false);
     let input = ProbeInput {
+        protects,
         number: 0,
         high: true,
     };
@@ -343,4 +352,48 @@ fn an_abort_behind_a_search_ends_the_program_and_what_is_under_way() {
     bench.load_frames(frames);
     assert!(bench.run_to(MachineState::Running, 50) && bench.run_to(MachineState::Idle, 900));
     assert_eq!(bench.status().end_of_epoch(), Ok(EndOfEpoch::Completed));
+}
+
+#[test]
+fn a_contact_that_nobody_looks_for_stops_the_motion_where_that_is_wanted() {
+    const PLANE: f64 = 35.0;
+    let down = |bench: &Bench, z: f64| {
+        let mut way = AxisVector::zeros();
+        way[2] = z - bench.last().position[2];
+        search(bench, way, 10.0, false)
+    };
+    for (protects, bounce_ns) in [(false, 0), (true, 0), (true, 8_000_000)] {
+        let mut bench = guarded(protects, 0.004, |plant| {
+            plant.with_probe(2, PLANE).with_bounce(bounce_ns)
+        });
+        bench.run(60);
+        // A search, and the way back from it, are none.
+        let frames = down(&bench, 30.0);
+        bench.load_frames(frames);
+        assert!(bench.run_to(MachineState::Waiting, 3000));
+        let mut back = down(&bench, 38.0);
+        back[1].event_kind = 0;
+        bench.load_frames(back);
+        assert!(bench.run_to(MachineState::Running, 100));
+        assert!(bench.run_to(MachineState::Idle, 3000));
+        bench.run(60);
+        assert_eq!(bench.fault(), None);
+
+        let mut frames = down(&bench, 30.0);
+        frames[1].event_kind = 0;
+        bench.load_frames(frames);
+        assert!(bench.run_to(MachineState::Running, 100));
+        let end = if protects {
+            MachineState::Faulted
+        } else {
+            MachineState::Idle
+        };
+        assert!(bench.run_to(end, 3000), "{:?}", bench.state());
+        let cause = protects.then_some(FaultCause::ProbeContact);
+        assert_eq!(bench.fault(), cause);
+        let z = bench.last().position[2];
+        let expected = if protects { 34.3..PLANE } else { 29.9..30.1 };
+        assert!(expected.contains(&z), "{z}");
+        assert!(bench.worst_ratio() < 1.0 + 1e-6, "{}", bench.worst_ratio());
+    }
 }
