@@ -19,6 +19,8 @@ const CLEAN_UP_PATIENCE: Duration = Duration::from_secs(5);
 const SETTLED: Duration = Duration::from_millis(1500);
 const PERIOD: Duration = Duration::from_millis(4);
 const POLL: Duration = Duration::from_millis(1);
+/// The M code that it waits for, and how long.
+const RULE: &str = "[m_codes.M101]\ntimeout_s = 0.3\n";
 
 /// What a check found wrong.
 pub(super) type Checked<T> = Result<T, String>;
@@ -57,6 +59,7 @@ pub(super) struct Bench<'a> {
     ending: Arc<AtomicBool>,
     recorder: Option<JoinHandle<()>>,
     commands: u64,
+    config: String,
     /// What lies in shared memory when everybody is there and nothing has happened.
     files: Vec<String>,
 }
@@ -81,6 +84,7 @@ impl<'a> Bench<'a> {
             ending,
             recorder: Some(recorder),
             commands: 0,
+            config: configured(instance),
             files: Vec::new(),
         };
         bench.start_servo();
@@ -90,7 +94,7 @@ impl<'a> Bench<'a> {
     }
 
     pub(super) fn start_interpolator(&mut self) {
-        let arguments = ["interpolator", "--best-effort"];
+        let arguments = ["interpolator", "--best-effort", "--config", &self.config];
         self.interpolator = Some(Process::join(self.instance, &arguments));
     }
 
@@ -113,7 +117,8 @@ impl<'a> Bench<'a> {
     }
 
     pub(super) fn planner(&self, arguments: &[&str]) -> Process {
-        Process::join(self.instance, &[&["planner"], arguments].concat())
+        let arguments = [&["planner"], arguments, &["--config", &self.config]].concat();
+        Process::join(self.instance, &arguments)
     }
 
     /// Forgets the setpoints heard so far.
@@ -207,6 +212,13 @@ impl Drop for Bench<'_> {
         // A recorder that failed has said so.
         let _ended = self.recorder.take().map(JoinHandle::join);
     }
+}
+
+/// The built-in machine, with an M code of its own.
+fn configured(instance: &Instance) -> String {
+    let printed = Process::start(instance, &["config", "--default"]).wait();
+    let text = printed.expect(0).stdout;
+    instance.file("machine.toml", &format!("{text}{RULE}"))
 }
 
 fn kill(process: &mut Option<Process>) {

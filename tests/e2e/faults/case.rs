@@ -17,6 +17,8 @@ pub(super) enum Fault {
     KillServo,
     /// A client is killed while it sends a command.
     KillClient,
+    /// What an M code waits for is answered late, or too late.
+    AnswerLate,
     /// A program in a pipe has a pause.
     PausePipe,
     /// Some byte of a frame has another value.
@@ -40,13 +42,14 @@ pub(super) enum Fault {
 }
 
 impl Fault {
-    pub(super) const ALL: [Self; 16] = [
+    pub(super) const ALL: [Self; 17] = [
         Self::KillPlanner,
         Self::StopPlannerBriefly,
         Self::StopPlannerForLong,
         Self::KillInterpolator,
         Self::KillServo,
         Self::KillClient,
+        Self::AnswerLate,
         Self::PausePipe,
         Self::CorruptFrame,
         Self::RepeatFrame,
@@ -66,6 +69,7 @@ impl Fault {
             Self::StopPlannerBriefly
                 | Self::KillServo
                 | Self::KillClient
+                | Self::AnswerLate
                 | Self::PausePipe
                 | Self::RepeatFrame
                 // Not every byte matters to the motion.
@@ -77,8 +81,13 @@ impl Fault {
     pub(super) const fn may_cause(self, cause: FaultCause) -> bool {
         use FrameRefusal::{Acceleration, Discontinuous, Jerk, NotFinite, SoftLimit, Velocity};
         let FaultCause::Frame(refusal) = cause else {
-            let is_lost = matches!(cause, FaultCause::PlannerLost);
-            return is_lost && matches!(self, Self::KillPlanner | Self::StopPlannerForLong);
+            return match cause {
+                FaultCause::PlannerLost => {
+                    matches!(self, Self::KillPlanner | Self::StopPlannerForLong)
+                }
+                FaultCause::AuxTimeout => matches!(self, Self::AnswerLate),
+                _ => false,
+            };
         };
         match self {
             Self::CorruptFrame => true,

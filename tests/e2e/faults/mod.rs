@@ -30,7 +30,7 @@ use glidepath_tests::{Instance, Watchdog, plan};
 use bench::Bench;
 pub(crate) use case::Chance;
 use case::cases;
-use script::{HOME, PROGRAM, Programs};
+use script::{HOME, PROGRAM, Programs, waiting};
 use table::Table;
 
 /// How many cases run unless the environment says otherwise.
@@ -56,6 +56,7 @@ fn whatever_goes_wrong_the_machine_rests_on_the_path_and_recovers() {
         items,
         file: instance.file("program.ngc", PROGRAM),
         home: instance.file("home.ngc", HOME),
+        waiting: instance.file("waiting.ngc", &waiting()),
     };
     let mut table = Table::default();
     let mut bench = Bench::start(&instance);

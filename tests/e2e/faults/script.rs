@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState};
+use glidepath_link::{Command, EndOfEpoch, EventId, FaultCause, MachineState};
 use glidepath_program::{Frame, Item};
 use glidepath_tests::Process;
 use rustix::process::Signal;
@@ -29,6 +29,12 @@ X5 Y8
 X0 Y0
 M2
 ";
+/// Where the program waits for an answer that comes late, if it comes in time at all.
+const WAITS: &str = "M101";
+/// In front of its last line but one, when everything has gone wrong that will.
+pub(super) fn waiting() -> String {
+    PROGRAM.replace("X0 Y0\n", &format!("{WAITS}\nX0 Y0\n"))
+}
 /// Where it turns.
 const CORNERS: [[f64; 2]; 8] = [
     [45.0, 5.0],
@@ -49,6 +55,7 @@ pub(super) struct Programs {
     pub(super) items: Vec<Item>,
     pub(super) file: String,
     pub(super) home: String,
+    pub(super) waiting: String,
 }
 
 /// Who plays the program.
@@ -73,6 +80,7 @@ impl Player {
                 planner.write(&PROGRAM[..cut]);
                 Self::Pipe(planner, &PROGRAM[cut..])
             }
+            Fault::AnswerLate => Self::Process(bench.planner(&[&programs.waiting])),
             Fault::KillPlanner
             | Fault::StopPlannerBriefly
             | Fault::StopPlannerForLong
@@ -200,7 +208,8 @@ fn inject(bench: &mut Bench<'_>, player: &mut Player, case: &mut Case) -> Checke
             client.signal(Signal::KILL);
             let _killed = client.wait();
         }
-        Fault::PausePipe => {} // It has come already.
+        Fault::AnswerLate => {} // It comes where the program waits.
+        Fault::PausePipe => {}  // It has come already.
         _ => {
             if let Player::Rogue(rogue) = player {
                 rogue.spoil(case.fault, &mut case.chance)?;
@@ -212,16 +221,19 @@ fn inject(bench: &mut Bench<'_>, player: &mut Player, case: &mut Case) -> Checke
 
 /// Follows the machine until the program is over or has failed, resuming where an operator would.
 fn follow(bench: &mut Bench<'_>, player: &mut Player, case: &mut Case) -> Checked<MachineState> {
-    use MachineState::{Faulted, Held, Idle, ProgramStop, Starved, Waiting};
+    use MachineState::{Awaiting, Faulted, Held, Idle, ProgramStop, Starved, Waiting};
     loop {
         bench.expect_news();
-        let wanted = [Faulted, Held, Idle, ProgramStop, Starved, Waiting];
+        let wanted = [Awaiting, Faulted, Held, Idle, ProgramStop, Starved, Waiting];
         player.until(bench, "rest", |heard| heard.is_any_of(&wanted))?;
         let is = |state| bench.look(|heard| heard.is(state));
         if is(Faulted) {
             return Ok(Faulted);
         } else if is(Idle) {
             return Ok(Idle);
+        } else if is(Awaiting) {
+            answer(bench, case)?;
+            player.until(bench, "the end of the wait", |heard| !heard.is(Awaiting))?;
         } else if is(Starved) || is(Waiting) {
             // A planner that a busy host keeps from its work may starve the machine once more.
             if let Player::Pipe(planner, rest) = player
@@ -246,6 +258,26 @@ fn follow(bench: &mut Bench<'_>, player: &mut Player, case: &mut Case) -> Checke
             player.until(bench, "motion", |heard| !is_held(heard))?;
         }
     }
+}
+
+/// Answers what is awaited, at about the time at which that becomes a fault.
+fn answer(bench: &mut Bench<'_>, case: &mut Case) -> Checked<()> {
+    let status = bench.look(|heard| heard.status).ok_or("no status")?;
+    let event = EventId {
+        boot_id: status.boot_id,
+        epoch: status.epoch,
+        sequence: status.awaited_sequence,
+    };
+    std::thread::sleep(case.chance.millis(0, 600));
+    let refused = bench.command(Command::Acknowledge { event, done: true });
+    if refused.is_err() {
+        bench.expect_news();
+        bench.until("a status", |heard| heard.status.is_some())?;
+        if bench.look(|heard| heard.is(MachineState::Faulted)) {
+            return Ok(());
+        }
+    }
+    refused
 }
 
 /// Resumes, unless what went wrong has ended the hold already.
