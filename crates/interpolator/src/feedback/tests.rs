@@ -10,6 +10,7 @@
 )]
 
 mod adaptive;
+mod answers;
 mod bench;
 mod client;
 mod following;

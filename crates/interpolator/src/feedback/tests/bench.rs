@@ -262,8 +262,12 @@ impl Bench {
             (told.event, told.line) = (Some(*event), line);
             let rest = SetpointFrame {
                 line,
+                block: line,
                 ..SetpointFrame::from_frame(&told, self.epoch, PERIOD_NS)
             };
+            for frame in &mut part {
+                frame.block = line;
+            }
             part.insert(1, rest);
             part.insert(1, part[0]);
             frames.extend(part);

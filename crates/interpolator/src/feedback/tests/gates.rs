@@ -11,7 +11,7 @@ use glidepath_link::{
 use glidepath_plant::JointSettings;
 use glidepath_program::{CodeWord, Event};
 
-fn gates(rules: &[(u32, Answer, u64)]) -> Gates {
+pub(super) fn gates(rules: &[(u32, Answer, u64)]) -> Gates {
     let rules: Vec<Gate> = rules
         .iter()
         .map(|&(code, answer, within_ms)| Gate {
@@ -25,7 +25,7 @@ fn gates(rules: &[(u32, Answer, u64)]) -> Gates {
     Gates::new(&rules).unwrap()
 }
 
-fn bench(gates: Gates) -> Bench {
+pub(super) fn bench(gates: Gates) -> Bench {
     let joint = |start| JointSettings {
         start,
         count: start,
@@ -43,15 +43,15 @@ fn bench(gates: Gates) -> Bench {
     bench
 }
 
-const ACK: Answer = Answer::Acknowledgement;
-const DONE: bool = true;
+pub(super) const ACK: Answer = Answer::Acknowledgement;
+pub(super) const DONE: bool = true;
 
-fn acknowledge(bench: &mut Bench, event: EventId, done: bool) -> Result<(), String> {
+pub(super) fn acknowledge(bench: &mut Bench, event: EventId, done: bool) -> Result<(), String> {
     bench.command(Command::Acknowledge { event, done })
 }
 
 /// The positions where the machine moves.
-fn moves(bench: &Bench) -> Vec<[f64; 9]> {
+pub(super) fn moves(bench: &Bench) -> Vec<[f64; 9]> {
     let mut positions: Vec<_> = bench.setpoints.iter().map(|s| s.position).collect();
     positions.dedup();
     positions
@@ -289,7 +289,7 @@ fn random_answers() {
 }
 
 /// As [`gates`], for codes that are waited for later.
-fn late(rules: &[(u32, Answer, u64)]) -> Gates {
+pub(super) fn late(rules: &[(u32, Answer, u64)]) -> Gates {
     let rules: Vec<Gate> = rules
         .iter()
         .map(|&(code, ..)| gates(rules).of(code).unwrap())
@@ -312,7 +312,7 @@ const LATER: [Event; 4] = [
 ];
 
 /// The event of a code that was told, once it was.
-fn told(bench: &mut Bench, code: f64) -> EventId {
+pub(super) fn told(bench: &mut Bench, code: f64) -> EventId {
     for _ in 0..2000 {
         bench.run(1);
         let last = bench.last();
