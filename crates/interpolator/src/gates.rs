@@ -126,7 +126,7 @@ impl Gates {
         }
         match frame.event() {
             Ok(Some(Event::MCode(code))) => self.of(code).filter(|gate| !gate.is_late),
-            Ok(Some(Event::Await(code))) => self.of(code),
+            Ok(Some(Event::Await(code))) => self.of(code).filter(|gate| gate.is_late),
             Ok(Some(Event::Synchronise { .. })) => Some(PASS),
             _ => None,
         }

@@ -195,12 +195,19 @@ impl<S: ItemSource> LineStart<S> {
         over[axis] = up[axis];
         push_move(&mut items, approach.position, up, Rate::Rapid);
         let mut events = restoring(&approach.now, &self.expected);
+        // In front of the first feed, whatever the machine waits for later than where it stands.
+        let awaited = events.iter().filter_map(|event| match event {
+            Event::MCode(code) => Some(Event::Await(*code)),
+            _ => None,
+        });
+        let awaited: Vec<Event> = awaited.collect();
         if let Some(value) = self.adaptive {
             let word = CodeWord::P;
             events.extend([Event::CodeWord { word, value }, Event::MCode(ADAPTIVE_FEED)]);
         }
         items.extend(events.into_iter().map(ItemKind::Event));
         push_move(&mut items, up, over, Rate::Rapid);
+        items.extend(awaited.into_iter().map(ItemKind::Event));
         let feed_v = self.feed_ahead();
         push_move(&mut items, over, self.begins_at, Rate::Feed(feed_v));
         let line = self.ahead.front().map_or(0, |item| item.line);
@@ -381,7 +388,7 @@ mod tests {
         let mut position = AxisVector::repeat(0.0);
         position[0] = -20.0;
         let way = items(&mut found.approached(&approach(position)));
-        let kinds: Vec<String> = way[..6]
+        let kinds: Vec<String> = way[..8]
             .iter()
             .map(|item| match item.kind {
                 ItemKind::Move { segment, rate, .. } => {
@@ -399,6 +406,8 @@ mod tests {
             "MCode(3)",
             "MCode(8)",
             "G0 3 0 50",
+            "Await(3)",
+            "Await(8)",
             "G1 3 0 5",
         ];
         assert_eq!(kinds, expected);
@@ -425,7 +434,8 @@ mod tests {
             ItemKind::Event(event) => Some(event),
             _ => None,
         });
-        assert_eq!(events.collect::<Vec<_>>(), [Event::MCode(9)]);
+        let expected = [Event::MCode(9), Event::Await(9)];
+        assert_eq!(events.collect::<Vec<_>>(), expected);
     }
 
     #[test]

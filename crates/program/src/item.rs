@@ -125,8 +125,8 @@ pub enum Event {
         /// Its number.
         value: f64,
     },
-    /// The motion does not go on before an M code that was told before is answered. The machine is
-    /// at rest.
+    /// The motion does not go on before an M code that was told before is answered, if it is one that
+    /// the machine waits for later than where it stands. The machine is at rest.
     Await(u32),
     /// A digital output. Does not stop the motion.
     DigitalOutput {
