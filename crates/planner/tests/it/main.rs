@@ -4,6 +4,7 @@ mod called_files;
 mod curves;
 mod curves_on_machines;
 mod families;
+mod from_line;
 mod joints;
 mod listen;
 mod nurbs;
