@@ -6,9 +6,10 @@
 
 use std::time::Duration;
 
-use glidepath_link::{EndOfEpoch, FaultCause, MachineState, Power};
+use glidepath_link::{EndOfEpoch, EventKind, FaultCause, MachineState, Power, Setpoint};
 use glidepath_plant::{HomeSettings, JointSettings, SwitchSettings, Upset};
 use glidepath_tests::{Instance, Operated, Process, ServoStack, Tape, Watchdog};
+use glidepath_program::CodeWord;
 use rustix::process::Signal;
 
 use crate::faults::Chance;
@@ -18,9 +19,10 @@ use crate::service::SHORT_WAY_UP;
 const SAMPLE: u64 = 5;
 
 const TABLES: &str = "
-[m_codes.M3]\ndone = \"spindle-at-speed\"\ntimeout_s = 20
+[m_codes.M3]\ndone = \"spindle-at-speed\"\nat = \"next-feed\"\ntimeout_s = 20
 [m_codes.M6]\ntimeout_s = 60
 [m_codes.M100-M199]
+[m_codes.M110]\nat = \"block-end\"
 [m_codes.M150]\ntimeout_s = 0.3
 ";
 
@@ -29,7 +31,7 @@ const HOME: &str = "search_velocity = -20.0\nlatch_velocity = 4.0\noffset = -7.0
                     search_travel = 60.0\nclearance = 3.0\n";
 
 const PART: &str = "G21 G90 G54\nT2 M6 (change to tool 2)\nS600 M3\nM8\nG1 X1 Y1 F3000\nM66 P3 L3 Q20\n\
-                    G1 X[2+#5399] (DEBUG, input #5399)\nM101\nX14 Y3\nX2 Y2\nM5 M9\nM2\n";
+                    G1 X[2+#5399] (DEBUG, input #5399)\nM101 Q-2.5\nX14 Y3\nM110 X2 Y2\nM5 M9\nM2\n";
 
 /// About a second and a half, with a way in three axes and corners.
 const WAY: &str = "G21 G90 G54\nG1 X12 Y4 Z-2 F2400\nX2 Y8\nX9 Y1 Z1\nX0 Y0 Z0\nM2\n";
@@ -71,6 +73,7 @@ impl<'a> Life<'a> {
             ("\nlift = 0.0 ", "\nlift = 3.5 "),
             ("inputs_outputs = \"none\"", "inputs_outputs = \"feedback\""),
             ("# directory = ", "directory = "),
+            ("[adaptive_feed]\n", "[adaptive_feed]\ninput = 2\n"),
             SHORT_WAY_UP,
         ];
         let homes = (0..3).map(|joint| format!("[home.J{joint}]\n{HOME}"));
@@ -157,6 +160,7 @@ impl<'a> Life<'a> {
         stack.upset(Upset::Input(3, true));
         let status = machine.wait(|status| (status.awaited_value - 101.0).abs() < 1e-9);
         assert_eq!(status.message.as_str(), "input 1.000000");
+        assert_eq!(status.awaited_words.get(CodeWord::Q), Some(-2.5));
         self.operate(&["acknowledge"]);
         let _moving = machine.wait(|status| status.line == 9 && status.feed_v > 20.0);
         self.operate(&["hold"]);
@@ -172,8 +176,46 @@ impl<'a> Life<'a> {
             held.position.map(f64::to_bits)
         );
         self.still(40);
+        let resumed = self.tape.length();
         self.operate(&["resume"]);
+        // Told in front of its motion, and answered during it.
+        let told = self.told(resumed, 110.0);
+        let event = format!("{}/{}", told.epoch, told.sequence);
+        self.operate(&["acknowledge", "--event", &event]);
+        machine.refused(&["acknowledge", "--event", &event], 5, "");
         let _done = running.wait().expect(0);
+    }
+
+    /// The setpoint that tells of an M code, behind a place of the tape.
+    fn told(&self, behind: usize, code: f64) -> Setpoint {
+        let is_it = |s: &&Setpoint| {
+            s.event_kind == EventKind::MCode.code() && (s.event_value - code).abs() < 1e-9
+        };
+        loop {
+            if let Some(told) = self.tape.since(behind).iter().find(is_it) {
+                return *told;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    /// An input slows a program down, and holds it.
+    fn slowed(&self, way: &str) {
+        let (machine, stack) = (&self.operated, &self.stack);
+        stack.upset(Upset::Analog(2, 0.5));
+        self.operate(&["mdi", "M52 P1"]);
+        let running = machine.process(&["run-file", way]);
+        let _half = machine.wait(|s| s.line > 1 && (s.effective_override - 0.5).abs() < 1e-3);
+        stack.upset(Upset::Analog(2, 0.0));
+        let status = machine.wait_for(MachineState::Held);
+        assert!(status.adaptive_feed <= 0.0 && status.feed_override >= 1.0);
+        self.still(100);
+        let told = machine.operate(&["status"]).stdout;
+        assert!(told.contains("lets through 0 %"), "{told}");
+        stack.upset(Upset::Analog(2, 1.0));
+        let _done = running.wait().expect(0);
+        self.operate(&["mdi", "M52 P0"]);
+        stack.upset(Upset::Analog(2, 0.0));
     }
 
     /// The power goes while something moves, or is about to; nothing does afterwards, until
@@ -257,6 +299,9 @@ fn a_life_from_cold_to_the_loss_of_every_process() {
     life.operated.assert_at([5.0, 2.5, 0.0]);
 
     life.part(&part);
+    life.operated.assert_at([6.0, 4.5, 0.0]);
+    life.slowed(&way);
+    life.operate(&["mdi", "G0 X2 Y2"]);
     life.operated.assert_at([6.0, 4.5, 0.0]);
     let end = life.place();
 
