@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use glidepath_link::{EndOfEpoch, EventKind, FaultCause, MachineState, Power, Setpoint};
 use glidepath_plant::{HomeSettings, JointSettings, SwitchSettings, Upset};
-use glidepath_tests::{Instance, Operated, Process, ServoStack, Tape, Watchdog};
 use glidepath_program::CodeWord;
+use glidepath_tests::{Instance, Operated, Process, ServoStack, Tape, Watchdog};
 use rustix::process::Signal;
 
 use crate::faults::Chance;

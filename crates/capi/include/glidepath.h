@@ -47,9 +47,9 @@ extern "C" {
 
 /* layout: begin, written by a test of the library */
 /* The version of the ABI: functions and structures. */
-#define GP_ABI 2u
+#define GP_ABI 3u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0xafb5a175115477ba)
+#define GP_LAYOUT UINT64_C(0x5fcab6b7824fc1f7)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -147,6 +147,7 @@ enum {
     GP_FAULT_SPINDLE_SPEED = 14,
     GP_FAULT_SPINDLE_ANGLE = 15,
     GP_FAULT_THREAD_LOST = 16,
+    GP_FAULT_PROBE_CONTACT = 17,
     GP_FAULT_FRAME_NOT_FINITE = 0x101,
     GP_FAULT_FRAME_MALFORMED = 0x102,
     GP_FAULT_FRAME_PERIOD = 0x103,
@@ -196,7 +197,10 @@ enum {
     GP_EVENT_DIGITAL_OUTPUT = 6,
     GP_EVENT_ANALOG_OUTPUT = 7,
     GP_EVENT_PROBE = 8,
-    GP_EVENT_SYNCHRONISE = 9
+    GP_EVENT_SYNCHRONISE = 9,
+    GP_EVENT_CODE_WORD_P = 10,
+    GP_EVENT_CODE_WORD_Q = 11,
+    GP_EVENT_AWAIT = 12
 };
 
 /* What a drive does, by the states of CiA 402. */
@@ -355,6 +359,23 @@ GP_FIELD(gp_event_id, boot_id, 0, 8);
 GP_FIELD(gp_event_id, epoch, 8, 8);
 GP_FIELD(gp_event_id, sequence, 16, 8);
 
+/* The words of an M code of the machine's own. */
+typedef struct gp_code_words {
+    /* P; zero where there is none. */
+    double p;
+    /* Q; zero where there is none. */
+    double q;
+    /* 1 with a P word, 2 with a Q word, 3 with both. */
+    uint32_t given;
+    /* Must be zero. */
+    uint32_t reserved;
+} gp_code_words;
+GP_ASSERT(sizeof(gp_code_words) == 24, "gp_code_words has another size");
+GP_FIELD(gp_code_words, p, 0, 8);
+GP_FIELD(gp_code_words, q, 8, 8);
+GP_FIELD(gp_code_words, given, 16, 4);
+GP_FIELD(gp_code_words, reserved, 20, 4);
+
 /* The positions at the last edge of an input. */
 typedef struct gp_latch {
     /* Counts the edges from 0. */
@@ -485,7 +506,7 @@ GP_FIELD(gp_setpoint, joint_acceleration, 512, 72);
 GP_FIELD(gp_setpoint, away, 584, 72);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
-   glidepath.Status.v7. */
+   glidepath.Status.v8. */
 typedef struct gp_status {
     /* Identifies one life of the interpolator. */
     uint64_t boot_id;
@@ -580,6 +601,8 @@ typedef struct gp_status {
     uint32_t awaited_kind;
     /* Its source line. */
     uint32_t awaited_line;
+    /* Its words, where it is an M code of the machine's own. */
+    gp_code_words awaited_words;
     /* Where the axes really were when the probe found what it looked for in this epoch, mm
        or degrees. */
     double contact[9];
@@ -601,6 +624,8 @@ typedef struct gp_status {
     double jog_override;
     /* Override as executed. */
     double effective_override;
+    /* What an input makes of both overrides, 0 to 1; 1 where none slows programs down. */
+    double adaptive_feed;
     /* Ticks run. */
     uint64_t ticks;
     /* Ticks that were not run because the one before took until after them. */
@@ -638,7 +663,7 @@ typedef struct gp_status {
        that. */
     char message[128];
 } gp_status;
-GP_ASSERT(sizeof(gp_status) == 1464, "gp_status has another size");
+GP_ASSERT(sizeof(gp_status) == 1496, "gp_status has another size");
 GP_FIELD(gp_status, boot_id, 0, 8);
 GP_FIELD(gp_status, updated_ns, 8, 8);
 GP_FIELD(gp_status, period_ns, 16, 8);
@@ -683,33 +708,35 @@ GP_FIELD(gp_status, awaited_since_ns, 624, 8);
 GP_FIELD(gp_status, awaited_value, 632, 8);
 GP_FIELD(gp_status, awaited_kind, 640, 4);
 GP_FIELD(gp_status, awaited_line, 644, 4);
-GP_FIELD(gp_status, contact, 648, 72);
-GP_FIELD(gp_status, contact_kind, 720, 4);
-GP_FIELD(gp_status, reserved, 724, 4);
-GP_FIELD(gp_status, path_s, 728, 8);
-GP_FIELD(gp_status, block_path_s, 736, 8);
-GP_FIELD(gp_status, feed_v, 744, 8);
-GP_FIELD(gp_status, feed_override, 752, 8);
-GP_FIELD(gp_status, rapid_override, 760, 8);
-GP_FIELD(gp_status, jog_override, 768, 8);
-GP_FIELD(gp_status, effective_override, 776, 8);
-GP_FIELD(gp_status, ticks, 784, 8);
-GP_FIELD(gp_status, missed_ticks, 792, 8);
-GP_FIELD(gp_status, late_ticks, 800, 8);
-GP_FIELD(gp_status, setpoints_published, 808, 8);
-GP_FIELD(gp_status, setpoints_lost, 816, 8);
-GP_FIELD(gp_status, reserve_stops, 824, 8);
-GP_FIELD(gp_status, starved_ticks, 832, 8);
-GP_FIELD(gp_status, commands_served, 840, 8);
-GP_FIELD(gp_status, commands_refused, 848, 8);
-GP_FIELD(gp_status, frames_refused, 856, 96);
-GP_FIELD(gp_status, lateness, 952, 32);
-GP_FIELD(gp_status, work, 984, 32);
-GP_FIELD(gp_status, latency, 1016, 32);
-GP_FIELD(gp_status, response, 1048, 32);
-GP_FIELD(gp_status, last_error, 1080, 128);
-GP_FIELD(gp_status, last_event, 1208, 128);
-GP_FIELD(gp_status, message, 1336, 128);
+GP_FIELD(gp_status, awaited_words, 648, 24);
+GP_FIELD(gp_status, contact, 672, 72);
+GP_FIELD(gp_status, contact_kind, 744, 4);
+GP_FIELD(gp_status, reserved, 748, 4);
+GP_FIELD(gp_status, path_s, 752, 8);
+GP_FIELD(gp_status, block_path_s, 760, 8);
+GP_FIELD(gp_status, feed_v, 768, 8);
+GP_FIELD(gp_status, feed_override, 776, 8);
+GP_FIELD(gp_status, rapid_override, 784, 8);
+GP_FIELD(gp_status, jog_override, 792, 8);
+GP_FIELD(gp_status, effective_override, 800, 8);
+GP_FIELD(gp_status, adaptive_feed, 808, 8);
+GP_FIELD(gp_status, ticks, 816, 8);
+GP_FIELD(gp_status, missed_ticks, 824, 8);
+GP_FIELD(gp_status, late_ticks, 832, 8);
+GP_FIELD(gp_status, setpoints_published, 840, 8);
+GP_FIELD(gp_status, setpoints_lost, 848, 8);
+GP_FIELD(gp_status, reserve_stops, 856, 8);
+GP_FIELD(gp_status, starved_ticks, 864, 8);
+GP_FIELD(gp_status, commands_served, 872, 8);
+GP_FIELD(gp_status, commands_refused, 880, 8);
+GP_FIELD(gp_status, frames_refused, 888, 96);
+GP_FIELD(gp_status, lateness, 984, 32);
+GP_FIELD(gp_status, work, 1016, 32);
+GP_FIELD(gp_status, latency, 1048, 32);
+GP_FIELD(gp_status, response, 1080, 32);
+GP_FIELD(gp_status, last_error, 1112, 128);
+GP_FIELD(gp_status, last_event, 1240, 128);
+GP_FIELD(gp_status, message, 1368, 128);
 
 /* What a servo stack knows of the joints it drives, at one moment. The record
    glidepath.Feedback.v1. */

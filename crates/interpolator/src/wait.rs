@@ -15,7 +15,6 @@ use crate::message::Awaited;
 use glidepath_link::{CodeWords, EventId, EventKind, FaultCause, Setpoint};
 use glidepath_program::Event;
 
-
 /// What became of a wait in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Outcome {

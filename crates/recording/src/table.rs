@@ -154,7 +154,9 @@ impl Value for CodeWords {
 )]
 fn whole(value: f64) -> Result<u32, Malformed> {
     let whole = value as u32;
-    (f64::from(whole) == value).then_some(whole).ok_or(Malformed)
+    (f64::from(whole) == value)
+        .then_some(whole)
+        .ok_or(Malformed)
 }
 
 /// A field in the description.

@@ -6,8 +6,8 @@ Written by a test of the library: do not change it here.
 import ctypes
 import enum
 
-ABI = 2
-LAYOUT = 0xafb5a175115477ba
+ABI = 3
+LAYOUT = 0x5fcab6b7824fc1f7
 AXES = 9
 
 
@@ -111,6 +111,7 @@ class Fault(enum.IntEnum):
     SPINDLE_SPEED = 14
     SPINDLE_ANGLE = 15
     THREAD_LOST = 16
+    PROBE_CONTACT = 17
     FRAME_NOT_FINITE = 257
     FRAME_MALFORMED = 258
     FRAME_PERIOD = 259
@@ -165,6 +166,9 @@ class Event(enum.IntEnum):
     ANALOG_OUTPUT = 7
     PROBE = 8
     SYNCHRONISE = 9
+    CODE_WORD_P = 10
+    CODE_WORD_Q = 11
+    AWAIT = 12
 
 
 class Drive(enum.IntEnum):
@@ -326,6 +330,17 @@ class EventIdRecord(ctypes.Structure):
     ]
 
 
+class CodeWordsRecord(ctypes.Structure):
+    """The words of an M code of the machine's own."""
+
+    _fields_ = [
+        ("p", ctypes.c_double),
+        ("q", ctypes.c_double),
+        ("given", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
+    ]
+
+
 class LatchRecord(ctypes.Structure):
     """The positions at the last edge of an input."""
 
@@ -425,6 +440,7 @@ class StatusRecord(ctypes.Structure):
         ("awaited_value", ctypes.c_double),
         ("awaited_kind", ctypes.c_uint32),
         ("awaited_line", ctypes.c_uint32),
+        ("awaited_words", CodeWordsRecord),
         ("contact", ctypes.c_double * 9),
         ("contact_kind", ctypes.c_uint32),
         ("reserved", ctypes.c_uint32),
@@ -435,6 +451,7 @@ class StatusRecord(ctypes.Structure):
         ("rapid_override", ctypes.c_double),
         ("jog_override", ctypes.c_double),
         ("effective_override", ctypes.c_double),
+        ("adaptive_feed", ctypes.c_double),
         ("ticks", ctypes.c_uint64),
         ("missed_ticks", ctypes.c_uint64),
         ("late_ticks", ctypes.c_uint64),
@@ -648,6 +665,12 @@ PLACES = {
         "epoch": 8,
         "sequence": 16,
     }),
+    CodeWordsRecord: (24, {
+        "p": 0,
+        "q": 8,
+        "given": 16,
+        "reserved": 20,
+    }),
     LatchRecord: (104, {
         "count": 0,
         "latch_ns": 8,
@@ -689,7 +712,7 @@ PLACES = {
         "joint_acceleration": 512,
         "away": 584,
     }),
-    StatusRecord: (1464, {
+    StatusRecord: (1496, {
         "boot_id": 0,
         "updated_ns": 8,
         "period_ns": 16,
@@ -734,33 +757,35 @@ PLACES = {
         "awaited_value": 632,
         "awaited_kind": 640,
         "awaited_line": 644,
-        "contact": 648,
-        "contact_kind": 720,
-        "reserved": 724,
-        "path_s": 728,
-        "block_path_s": 736,
-        "feed_v": 744,
-        "feed_override": 752,
-        "rapid_override": 760,
-        "jog_override": 768,
-        "effective_override": 776,
-        "ticks": 784,
-        "missed_ticks": 792,
-        "late_ticks": 800,
-        "setpoints_published": 808,
-        "setpoints_lost": 816,
-        "reserve_stops": 824,
-        "starved_ticks": 832,
-        "commands_served": 840,
-        "commands_refused": 848,
-        "frames_refused": 856,
-        "lateness": 952,
-        "work": 984,
-        "latency": 1016,
-        "response": 1048,
-        "last_error": 1080,
-        "last_event": 1208,
-        "message": 1336,
+        "awaited_words": 648,
+        "contact": 672,
+        "contact_kind": 744,
+        "reserved": 748,
+        "path_s": 752,
+        "block_path_s": 760,
+        "feed_v": 768,
+        "feed_override": 776,
+        "rapid_override": 784,
+        "jog_override": 792,
+        "effective_override": 800,
+        "adaptive_feed": 808,
+        "ticks": 816,
+        "missed_ticks": 824,
+        "late_ticks": 832,
+        "setpoints_published": 840,
+        "setpoints_lost": 848,
+        "reserve_stops": 856,
+        "starved_ticks": 864,
+        "commands_served": 872,
+        "commands_refused": 880,
+        "frames_refused": 888,
+        "lateness": 984,
+        "work": 1016,
+        "latency": 1048,
+        "response": 1080,
+        "last_error": 1112,
+        "last_event": 1240,
+        "message": 1368,
     }),
     FeedbackRecord: (808, {
         "boot_id": 0,

@@ -20,27 +20,7 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 11] {
     let non_modal = codes.non_modal.map(|non_modal| non_modal.code);
     let axes_non_modal = non_modal.is_some_and(NonModal::takes_axes);
     [
-        match motion {
-            Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Letters::of(b"IJKRP"),
-            Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQK"),
-            Some(Motion::Thread) => Letters::of(b"KQ"),
-            Some(Motion::ThreadCycle) => Letters::of(b"PIJKRQHEL"),
-            Some(Motion::Lathe(LatheCycle::Finish)) => Letters::of(b"QDEP"),
-            Some(Motion::Lathe(_)) => Letters::of(b"QDIR"),
-            Some(Motion::Spline(spline)) => match spline {
-                Spline::Cubic => Letters::of(b"IJPQ"),
-                Spline::Quadratic => Letters::of(b"IJ"),
-                Spline::Weighted => Letters::of(b"PL"),
-                Spline::EndWeighted => none,
-                Spline::Knotted => Letters::of(b"KRPQ"),
-            },
-            Some(Motion::Cycle(cycle)) => match cycle {
-                CannedCycle::Drill | CannedCycle::Bore => Letters::of(b"RL"),
-                CannedCycle::ChipBreak | CannedCycle::Peck => Letters::of(b"RLQ"),
-                _ => Letters::of(b"RLP"),
-            },
-            _ => none,
-        },
+        taken_by_motion(block, motion),
         match codes.tool_length.map(|length| length.code) {
             Some(ToolLength::FromTable) => Letters::of(b"H"),
             Some(ToolLength::Add) => Letters::of(b"H").and(AXIS_WORDS),
@@ -97,6 +77,31 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 11] {
             none
         },
     ]
+}
+
+/// The words that the motion of a block takes, besides those of axes.
+fn taken_by_motion(block: &Block, motion: Option<Motion>) -> Letters {
+    match motion {
+        Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Letters::of(b"IJKRP"),
+        Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQK"),
+        Some(Motion::Thread) => Letters::of(b"KQ"),
+        Some(Motion::ThreadCycle) => Letters::of(b"PIJKRQHEL"),
+        Some(Motion::Lathe(LatheCycle::Finish)) => Letters::of(b"QDEP"),
+        Some(Motion::Lathe(_)) => Letters::of(b"QDIR"),
+        Some(Motion::Spline(spline)) => match spline {
+            Spline::Cubic => Letters::of(b"IJPQ"),
+            Spline::Quadratic => Letters::of(b"IJ"),
+            Spline::Weighted => Letters::of(b"PL"),
+            Spline::EndWeighted => Letters::of(b""),
+            Spline::Knotted => Letters::of(b"KRPQ"),
+        },
+        Some(Motion::Cycle(cycle)) => match cycle {
+            CannedCycle::Drill | CannedCycle::Bore => Letters::of(b"RL"),
+            CannedCycle::ChipBreak | CannedCycle::Peck => Letters::of(b"RLQ"),
+            _ => Letters::of(b"RLP"),
+        },
+        _ => Letters::of(b""),
+    }
 }
 
 /// The word that says whose radius G41 and G42 are to take: D. Older controls of FANUC have one list

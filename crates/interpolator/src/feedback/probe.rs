@@ -55,7 +55,7 @@ struct Guard {
 }
 
 impl ProbeWatch {
-    pub(super) const fn new(input: Option<ProbeInput>) -> Self {
+    pub(super) fn new(input: Option<ProbeInput>) -> Self {
         Self {
             input,
             search: None,

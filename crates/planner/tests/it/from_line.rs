@@ -9,7 +9,7 @@
 //! GLIDEPATH_FROM_LINES=1000000 cargo test --release -p glidepath-planner --test it from_line -- --nocapture
 //! ```
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -54,7 +54,7 @@ fn items(source: &mut impl ItemSource, most: usize) -> Option<Vec<Item>> {
 
 /// Where the program comes to a line from another one, and which time that is.
 fn starts(items: &[Item]) -> Vec<(usize, StartLine)> {
-    let mut passes: HashMap<u32, u32> = HashMap::new();
+    let mut passes: BTreeMap<u32, u32> = BTreeMap::new();
     let mut starts = Vec::new();
     for (index, item) in items.iter().enumerate() {
         if index > 0 && items[index - 1].line == item.line {
@@ -101,14 +101,18 @@ fn begin(text: &[u8], most: usize, lines: usize) -> Option<(usize, Vec<String>)>
         let tail = &all[index..];
         begun += 1;
         if !rest.ends_with(tail) {
-            wrong.push(format!("{start:?}: {} items for {}", rest.len(), tail.len()));
+            wrong.push(format!(
+                "{start:?}: {} items for {}",
+                rest.len(),
+                tail.len()
+            ));
         }
     }
     Some((begun, wrong))
 }
 
 fn programs(directory: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(directory).unwrap().flatten() {
+    for entry in fs::read_dir(directory).into_iter().flatten().flatten() {
         let path = entry.path();
         if path.is_dir() {
             programs(&path, found);

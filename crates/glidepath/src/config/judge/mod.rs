@@ -67,15 +67,7 @@ pub(super) fn judge(
     } else {
         AxisShare::FULL
     };
-    // Stops take as long as joints let them.
-    let braking: Vec<AxisConfig> = axes
-        .iter()
-        .map(|axis| AxisConfig {
-            max_acceleration: axis.max_acceleration * axis_share.acceleration,
-            max_jerk: axis.max_jerk * axis_share.jerk,
-            ..*axis
-        })
-        .collect();
+    let braking = braking(&axes, axis_share);
     let interpolator = {
         let raw_axes: Vec<_> = raw_axes()
             .filter_map(|(_, raw)| raw.as_ref().map(Spanned::as_ref))
@@ -126,4 +118,14 @@ pub(super) fn judge(
     } else {
         Err(judge.diagnostics)
     }
+}
+
+/// The axes as they stop: that takes as long as joints let them.
+fn braking(axes: &[AxisConfig], share: AxisShare) -> Vec<AxisConfig> {
+    let slowed = axes.iter().map(|axis| AxisConfig {
+        max_acceleration: axis.max_acceleration * share.acceleration,
+        max_jerk: axis.max_jerk * share.jerk,
+        ..*axis
+    });
+    slowed.collect()
 }

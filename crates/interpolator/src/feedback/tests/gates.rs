@@ -6,7 +6,7 @@ use crate::gates::{Answer, Gate, Gates};
 use core::time::Duration;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
-    Auxiliary, Command, EventId, EventKind, FaultCause, MachineState, Transport as _,
+    Auxiliary, Command, EventId, EventKind, FaultCause, MachineState, Setpoint, Transport as _,
 };
 use glidepath_plant::JointSettings;
 use glidepath_program::{CodeWord, Event};
@@ -311,16 +311,19 @@ const LATER: [Event; 4] = [
     Event::Await(106),
 ];
 
-/// The event of a code that was told, once it was.
+/// The event of a code that was told, once it was; single blocks go on.
 pub(super) fn told(bench: &mut Bench, code: f64) -> EventId {
+    let begun = bench.setpoints.len();
+    let is_it = |s: &&Setpoint| s.event_kind == EventKind::MCode.code() && s.event_value == code;
     for _ in 0..2000 {
-        bench.run(1);
-        let last = bench.last();
-        if last.event_kind == EventKind::MCode.code() && last.event_value == code {
+        if bench.tick().state() == Ok(MachineState::ProgramStop) {
+            bench.command(Command::Resume).unwrap();
+        }
+        if let Some(told) = bench.setpoints[begun..].iter().find(is_it) {
             return EventId {
                 boot_id: 77,
-                epoch: last.epoch,
-                sequence: last.sequence,
+                epoch: told.epoch,
+                sequence: told.sequence,
             };
         }
     }
