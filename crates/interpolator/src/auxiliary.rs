@@ -1,6 +1,7 @@
 //! What the events of setpoints have come to: the record that spindle, coolant, tools and outputs
 //! obey.
 
+use crate::code_words::CodeWordsBook;
 use crate::gates::Gates;
 use crate::message::{Awaited, Report};
 use glidepath_link::{Auxiliary, CodeWords, EventId};
@@ -11,6 +12,7 @@ pub(crate) struct AuxiliaryBook {
     record: Auxiliary,
     published: Option<Auxiliary>,
     gates: Gates,
+    words: CodeWordsBook,
 }
 
 impl AuxiliaryBook {
@@ -22,6 +24,7 @@ impl AuxiliaryBook {
             },
             published: None,
             gates,
+            words: CodeWordsBook::default(),
         }
     }
 
@@ -30,6 +33,7 @@ impl AuxiliaryBook {
         let setpoint = &report.setpoint;
         if let Ok(Some(event)) = setpoint.event() {
             self.record.take(event);
+            self.words.note(setpoint, event);
             (self.record.epoch, self.record.sequence) = (setpoint.epoch, setpoint.sequence);
             self.record.line = setpoint.line;
         }
@@ -47,9 +51,14 @@ impl AuxiliaryBook {
         };
         record.awaited = awaited.id(record.boot_id);
         (record.awaited_kind, record.awaited_value) = (awaited.event_kind, awaited.event_value);
-        record.awaited_words = awaited.words;
+        record.awaited_words = self.words.of(&awaited);
         record.awaited_since_ns = awaited.since_ns;
         record.awaited_until_ns = self.gates.deadline_ns(record, awaited.since_ns);
+    }
+
+    /// The words of the M code that is awaited.
+    pub(crate) const fn awaited_words(&self) -> CodeWords {
+        self.record.awaited_words
     }
 
     /// The record, with a new generation, if it has changed since it was asked for last.

@@ -103,6 +103,7 @@ mod admission;
 mod auxiliary;
 mod block_end;
 mod block_stop;
+mod code_words;
 mod commands;
 mod config;
 mod counters;

@@ -10,9 +10,7 @@ use crate::feedback::Observation;
 use crate::homing::{JointsOrder, Moved};
 use crate::jog::Demand;
 use core::fmt;
-use glidepath_link::{
-    CodeWords, Command, EndOfEpoch, EventId, MachineState, Power, Setpoint, SetpointFrame,
-};
+use glidepath_link::{Command, EndOfEpoch, EventId, MachineState, Power, Setpoint, SetpointFrame};
 use heapless::spsc::{Consumer, Producer, Queue};
 
 /// Frames under way between the threads, one less.
@@ -106,8 +104,6 @@ pub(crate) struct Awaited {
     /// As in a setpoint.
     pub(crate) event_kind: u32,
     pub(crate) event_value: f64,
-    /// Its words, where it is an M code of the machine's own.
-    pub(crate) words: CodeWords,
     /// Since when, ns of `CLOCK_MONOTONIC`.
     pub(crate) since_ns: u64,
     /// Number of the setpoint that told of it.

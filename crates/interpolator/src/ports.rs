@@ -388,6 +388,7 @@ impl<'a> Ports<'a> {
         };
         let waiting = self.ends.frames.len() as u64;
         self.book.write(&report, &self.admission, waiting, now_ns);
+        self.book.status.awaited_words = self.auxiliary.awaited_words();
         if let Some(drives) = &self.drives {
             drives.write(&mut self.book.status, now_ns);
         }

@@ -150,7 +150,6 @@ impl StatusBook {
         status.awaited_value = awaited.map_or(0.0, |awaited| awaited.event_value);
         status.awaited_kind = awaited.map_or(0, |awaited| awaited.event_kind);
         status.awaited_line = awaited.map_or(0, |awaited| awaited.line);
-        status.awaited_words = awaited.map_or_else(Default::default, |awaited| awaited.words);
         self.write_fault(report);
     }
 

@@ -12,8 +12,7 @@ use crate::acknowledgements::MOST_TOLD;
 use crate::drives::Drives;
 use crate::gates::{Answer, Gate};
 use crate::message::Awaited;
-use glidepath_link::{CodeWords, EventId, EventKind, FaultCause, Setpoint};
-use glidepath_program::Event;
+use glidepath_link::{EventId, EventKind, FaultCause, Setpoint};
 
 /// What became of a wait in a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,8 +30,6 @@ pub(crate) enum Outcome {
 pub(crate) struct Wait {
     standing: Option<Standing>,
     told: [Option<Told>; MOST_TOLD],
-    /// The words of the M code that comes next.
-    words: CodeWords,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -52,6 +49,8 @@ struct Told {
 
 impl Wait {
     /// The motion stands at a gate.
+    #[cold]
+    #[inline(never)]
     pub(crate) fn begin(&mut self, gate: Gate, awaited: Awaited) {
         if self.standing.is_some() {
             return;
@@ -59,18 +58,19 @@ impl Wait {
         let told = (awaited.event_kind == EventKind::Await.code())
             .then(|| self.take_told(awaited.event_value))
             .flatten();
-        let words = core::mem::take(&mut self.words);
         let (awaited, outcome) = match told {
-            Some(told) => {
-                let since_ns = awaited.since_ns;
+            Some(told) if told.awaited.epoch == awaited.epoch => {
+                let (since_ns, by_feedback) = (awaited.since_ns, awaited.by_feedback);
                 let awaited = Awaited {
                     since_ns,
-                    by_feedback: awaited.by_feedback,
+                    by_feedback,
                     ..told.awaited
                 };
                 (awaited, told.outcome)
             }
-            None => (Awaited { words, ..awaited }, None),
+            // A probing move has ended the epoch in which it was told.
+            Some(told) => (awaited, told.outcome),
+            None => (awaited, None),
         };
         self.standing = Some(Standing {
             gate,
@@ -80,27 +80,18 @@ impl Wait {
         });
     }
 
-    /// Takes note of the event of a setpoint: a word of the code that comes next, or one that
-    /// `is_late`.
-    pub(crate) fn hear(&mut self, setpoint: &Setpoint, is_late: bool) {
-        match setpoint.event() {
-            Ok(Some(Event::CodeWord { word, value })) => self.words.set(word, value),
-            Ok(Some(Event::MCode(_))) if is_late => {
-                let awaited = Awaited {
-                    epoch: setpoint.epoch,
-                    sequence: setpoint.sequence,
-                    line: setpoint.line,
-                    event_kind: setpoint.event_kind,
-                    event_value: setpoint.event_value,
-                    words: core::mem::take(&mut self.words),
-                    since_ns: 0,
-                    told_by: setpoint.number,
-                    by_feedback: false,
-                };
-                self.tell(awaited);
-            }
-            _ => {}
-        }
+    /// Takes note of an M code that is told with a setpoint, and awaited later.
+    pub(crate) fn hear(&mut self, setpoint: &Setpoint) {
+        self.tell(Awaited {
+            epoch: setpoint.epoch,
+            sequence: setpoint.sequence,
+            line: setpoint.line,
+            event_kind: setpoint.event_kind,
+            event_value: setpoint.event_value,
+            since_ns: 0,
+            told_by: setpoint.number,
+            by_feedback: false,
+        });
     }
 
     fn tell(&mut self, awaited: Awaited) {
@@ -150,6 +141,8 @@ impl Wait {
 
     /// Somebody says what came of an event. Without effect if it is not one that is awaited, or was
     /// told, or if that was said before.
+    #[cold]
+    #[inline(never)]
     pub(crate) fn acknowledge(&mut self, event: EventId, done: bool) {
         let is_it = |of: &Awaited| (of.epoch, of.sequence) == (event.epoch, event.sequence);
         if let Some(standing) = &mut self.standing

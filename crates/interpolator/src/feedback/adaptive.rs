@@ -4,6 +4,7 @@
 //! sends the input is known by being the one that says something else than zero; if nothing new
 //! comes from there, the factor is zero.
 
+use super::settings::AdaptiveFeed;
 use crate::message::Report;
 use glidepath_link::{EventKind, Feedback};
 use glidepath_program::{CodeWord, Event};
@@ -13,19 +14,6 @@ const STEP: f64 = 0.02;
 
 /// The code that switches it, in LinuxCNC's language.
 const SWITCH: u32 = 52;
-
-/// The input that slows programs down.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AdaptiveFeed {
-    /// Its number, 0 to 7.
-    pub input: u8,
-    /// What it says where the program is to stand.
-    pub at_zero: f64,
-    /// What it says where the program is to run as fast as the override lets it.
-    pub at_full: f64,
-    /// It does so at all times, and not only from M52 P1 to M52 P0.
-    pub always: bool,
-}
 
 /// Follows the input.
 #[derive(Debug)]

@@ -22,10 +22,9 @@ mod probe;
 mod settings;
 mod spindle;
 
-pub use adaptive::AdaptiveFeed;
 pub(crate) use book::DriveBook;
 pub(crate) use observation::{Observation, Turn};
-pub use settings::{FeedbackSettings, JointFeedback, ProbeInput};
+pub use settings::{AdaptiveFeed, FeedbackSettings, JointFeedback, ProbeInput};
 
 #[cfg(test)]
 mod tests;

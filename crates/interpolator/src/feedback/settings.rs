@@ -1,6 +1,5 @@
 //! What is expected of the drives' feedback.
 
-use super::adaptive::AdaptiveFeed;
 use crate::homing::JointHoming;
 use core::time::Duration;
 use glidepath_kinematics::JOINTS;
@@ -31,6 +30,19 @@ pub struct ProbeInput {
     pub high: bool,
     /// A contact outside of a search stops whatever moves.
     pub protects: bool,
+}
+
+/// The input that slows programs down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AdaptiveFeed {
+    /// Its number, 0 to 7.
+    pub input: u8,
+    /// What it says where the program is to stand.
+    pub at_zero: f64,
+    /// What it says where the program is to run as fast as the override lets it.
+    pub at_full: f64,
+    /// It does so at all times, and not only from M52 P1 to M52 P0.
+    pub always: bool,
 }
 
 /// How the feedback of the drives is judged.

@@ -184,8 +184,9 @@ impl Interpolator<'_> {
         if setpoint.event_kind == EventKind::Probe.code() {
             self.probing.begin();
         }
-        let is_late = self.track.gates().late(setpoint).is_some();
-        self.wait.hear(setpoint, is_late);
+        if self.track.gates().late(setpoint).is_some() {
+            self.wait.hear(setpoint);
+        }
     }
 
     /// Looks whether the contact was made that the motion is looking for.

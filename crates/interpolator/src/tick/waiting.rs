@@ -5,7 +5,6 @@ use crate::gates::Answer;
 use crate::message::Awaited;
 use crate::program_time::ProgramTime;
 use crate::wait::Outcome;
-use glidepath_link::CodeWords;
 
 impl Interpolator<'_> {
     /// Looks whether what the motion stands for was answered.
@@ -37,7 +36,6 @@ impl Interpolator<'_> {
                 line: frame.line,
                 event_kind: frame.event_kind,
                 event_value: frame.event_value,
-                words: CodeWords::default(),
                 since_ns: scheduled_ns,
                 told_by: number,
                 by_feedback: gate.answer != Answer::Acknowledgement,

@@ -167,7 +167,14 @@ fn numbers_that_are_not_finite_are_refused() {
     refuses_not_finite(&good_setpoint(), &[(80, 88), (120, 656)]);
     refuses_not_finite(
         &good_status(),
-        &[(104, 120), (144, 360), (400, 616), (632, 640), (648, 696)],
+        &[
+            (104, 120),
+            (144, 360),
+            (400, 616),
+            (632, 640),
+            (648, 664),
+            (672, 744),
+        ],
     );
     refuses_not_finite(&good_segment(), &[(40, 240)]);
     refuses_not_finite(&CommandRequest::new(1, 1, Command::Ping), &[(16, 24)]);
@@ -225,12 +232,12 @@ fn frames_out_of_range_are_refused() {
         Err(RecordError::UnknownFlags { bits: 128, .. })
     ));
     let bad = SetpointFrame {
-        event_kind: 10,
+        event_kind: 13,
         ..good
     };
     assert!(matches!(
         bad.to_frame(),
-        Err(RecordError::UnknownCode { code: 10, .. })
+        Err(RecordError::UnknownCode { code: 13, .. })
     ));
 }
 
@@ -248,7 +255,10 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_setpoint(), |s| s.state = 0),
         refused(good_setpoint(), |s| s.state = 16),
         refused(good_status(), |s| s.state = 0),
-        refused(good_status(), |s| s.fault = 17),
+        refused(good_status(), |s| s.fault = 18),
+        refused(good_status(), |s| s.awaited_words.given = 4),
+        refused(good_status(), |s| s.awaited_words.reserved = 1),
+        refused(good_status(), |s| s.adaptive_feed = 1.01),
         refused(good_status(), |s| s.fault_axis = 10),
         refused(good_status(), |s| s.fault_axis = u32::MAX),
         refused(good_status(), |s| s.end_of_epoch = 6),
@@ -353,7 +363,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(JogMode::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 3);
     in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);
-    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 9);
+    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 12);
     assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
     assert!(
         FrameRefusal::ALL
@@ -364,7 +374,7 @@ fn codes_are_consecutive_and_known() {
     let faults: Vec<u32> = (0..0x200)
         .filter(|code| FaultCause::from_code(*code).is_some())
         .collect();
-    assert_eq!(faults, (1..=16).chain(0x101..=0x10c).collect::<Vec<_>>());
+    assert_eq!(faults, (1..=17).chain(0x101..=0x10c).collect::<Vec<_>>());
     for code in faults {
         assert_eq!(FaultCause::from_code(code).unwrap().code(), code);
     }
