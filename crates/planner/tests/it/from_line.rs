@@ -91,8 +91,10 @@ fn begin(text: &[u8], most: usize, lines: usize) -> Option<(usize, Vec<String>)>
             }
         };
         let stands = found.begins_at();
+        // Before the first move the machine is where it was.
+        let is_move = |item: &Item| matches!(item.kind, ItemKind::Move { .. });
         if let ItemKind::Move { segment, .. } = all[index].kind
-            && index > 0
+            && all[..index].iter().any(is_move)
             && stands != segment.start()
         {
             wrong.push(format!("{start:?}: begins at {stands:?}"));
