@@ -26,3 +26,4 @@ mod siemens;
 mod splines;
 mod subroutine_files;
 mod support;
+mod typed;
