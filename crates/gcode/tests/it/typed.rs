@@ -4,6 +4,8 @@
 //! Runs where the environment variable `GLIDEPATH_CORPUS` names the directory of the programs, and
 //! says so where it does not.
 
+#![expect(clippy::print_stderr, reason = "a skipped test says so")]
+
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -126,7 +128,7 @@ fn independent_lines(text: &str) -> Option<String> {
 /// Programs of the corpus, or of one of its folders; none where there is no corpus.
 fn programs(folder: Option<&str>) -> Vec<(PathBuf, String)> {
     let Some(corpus) = std::env::var_os("GLIDEPATH_CORPUS").map(PathBuf::from) else {
-        println!("skipped: GLIDEPATH_CORPUS is not set");
+        eprintln!("skipped: GLIDEPATH_CORPUS is not set");
         return Vec::new();
     };
     let folders: Vec<PathBuf> = match folder {
@@ -138,7 +140,7 @@ fn programs(folder: Option<&str>) -> Vec<(PathBuf, String)> {
             .filter(|path| path.is_dir())
             .collect(),
     };
-    let files = folders.iter().flat_map(|folder| fs::read_dir(folder));
+    let files = folders.iter().flat_map(fs::read_dir);
     let mut programs: Vec<_> = files
         .flatten()
         .flatten()
@@ -169,7 +171,7 @@ fn what_is_typed_line_by_line_is_what_it_is_in_a_file() {
         assert_eq!(end, typed_end, "{path:?}");
         (lines, read) = (lines + text.lines().count(), read + 1);
     }
-    println!("{lines} lines of {read} programs");
+    eprintln!("{lines} lines of {read} programs");
     assert!(programs.is_empty() || (read > 15 && lines > 1_000));
 }
 
@@ -190,6 +192,6 @@ fn a_line_with_a_finding_changes_nothing() {
         assert_eq!(end, before, "{path:?}, line {line}");
         seen += 1;
     }
-    println!("{seen} findings");
+    eprintln!("{seen} findings");
     assert!(programs.is_empty() || seen > 15);
 }
