@@ -355,5 +355,5 @@ fn a_page_as_a_file_has_everything_in_it() {
     }
     let scripts = text.matches("<script>").count();
     assert_eq!(text.matches("</script>").count(), scripts);
-    assert_eq!(scripts, 10);
+    assert_eq!(scripts, 11);
 }

@@ -1,7 +1,7 @@
 //! The end of a window that sees the end of its path: the shortest motion that rests exactly there.
 
-use super::optimiser::{ENOUGH_VIOLATION, Optimiser, Question, Solution};
-use super::rounds::hurried;
+use super::optimiser::{Optimiser, Question, Solution};
+use super::rounds::{ENOUGH_VIOLATION, hurried};
 use super::scaled_path::ScaledPath;
 use super::tube::Style;
 use super::window_start::WindowStart;

@@ -13,7 +13,7 @@ use super::budget;
 use super::cuts::Cuts;
 use super::guess::Guess;
 use super::pins::Pins;
-use super::rounds::{BestMotion, RoundState};
+use super::rounds::{BestMotion, ENOUGH_VIOLATION, RoundState};
 use super::samples::Samples;
 use super::scaled_path::ScaledPath;
 use super::solver::{Goal, Interior, Problem};
@@ -63,8 +63,6 @@ const ATTEMPTS: [Seed; 4] = [
     Seed::Guess(0.75),
     Seed::Stops,
 ];
-/// Rows violated by more than this, in radii, are so for good.
-pub(super) const ENOUGH_VIOLATION: f64 = 0.02;
 /// What a motion must gain of what the tail does: the search weighs smoothness too, and may end a
 /// little behind a tail that sees as far.
 const NO_LESS_R: f64 = 0.999;

@@ -7,6 +7,8 @@ use crate::in_tube::verify::FEED_SLACK;
 /// Gain of progress, relative to that of the window, below which nothing more is tried.
 const LITTLE_GAIN: f64 = 1e-4;
 
+/// Rows violated by more than this, in radii, are so for good.
+pub(super) const ENOUGH_VIOLATION: f64 = 0.02;
 /// Speed over the feed that is aimed at where motions stand out of the planes: the judge allows a
 /// little more.
 const ALLOWED_R: f64 = 1.0 + 4e-4;
@@ -43,6 +45,8 @@ pub(crate) struct RoundState<const D: usize> {
     pub(crate) speed_r: f64,
     /// Share of the feed to plan with in rounds in which samples stay where they are.
     pub(crate) feed_r: f64,
+    /// A solution that violates rows by more is not looked at when a motion is made smooth.
+    pub(crate) most_violation: f64,
 }
 
 impl<const D: usize> RoundState<D> {
@@ -63,6 +67,7 @@ impl<const D: usize> RoundState<D> {
             mean_t: f64::NEG_INFINITY,
             speed_r: 0.0,
             feed_r: FEED_R,
+            most_violation: ENOUGH_VIOLATION,
         }
     }
 

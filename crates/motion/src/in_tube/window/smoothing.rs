@@ -12,9 +12,9 @@
 //! because the inner one is shorter. What is accepted has passed the judge and has lost hardly any
 //! progress; else the weights are made smaller, and in the end the motion of the search stays.
 //!
-//! Samples are given to the pieces that the motion of the search is on. It may have been found in a
-//! round that gave them to others, which it had no need to reach; and whatever rows it stands out
-//! of, what comes out is the judge's to refuse.
+//! Samples stay with the pieces that the search gave them to. But a motion may have been found in a
+//! round in which it had no need to reach those; then they are given to the pieces that it is on,
+//! and whatever rows it stands out of there, what comes out is the judge's to refuse.
 
 use super::optimiser::{Optimiser, Question};
 use super::rounds::RoundState;
@@ -62,14 +62,24 @@ impl<const D: usize> Optimiser<D> {
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
     ) -> Vec<[f64; D]> {
         let least = mean - MOST_LOSS * mean;
-        for weight in WEIGHTS {
+        let (mut samples, mut is_given_out) = (samples, false);
+        let mut weights = WEIGHTS.into_iter().peekable();
+        while let Some(weight) = weights.peek() {
             self.samples.clone_from(&samples);
-            self.samples.give_out(path, window_start.piece);
-            let style = window_start.smooth_style(weight);
-            let round_state = RoundState::polishing(&points);
-            let smoothed = self.smooth_with(path, window_start, &style, round_state, judge);
-            if let Some(smoothed) = smoothed.filter(|(mean, ..)| *mean >= least) {
-                return smoothed.1;
+            let style = window_start.smooth_style(*weight);
+            let mut round_state = RoundState::polishing(&points);
+            if is_given_out {
+                round_state.most_violation = f64::INFINITY;
+            }
+            match self.smooth_with(path, window_start, &style, round_state, judge) {
+                Some((mean, points, _)) if mean >= least => return points,
+                None if !is_given_out => {
+                    samples.give_out(path, window_start.piece);
+                    is_given_out = true;
+                }
+                _ => {
+                    weights.next();
+                }
             }
             if self.interior.is_spent() {
                 break;
@@ -97,7 +107,8 @@ impl<const D: usize> Optimiser<D> {
                 has_motion: round_state.has_motion,
                 ..*style
             };
-            if !self.take_round(path, window_start, &style, false, &mut round_state) {
+            let is_solved = self.take_round(path, window_start, &style, false, &mut round_state);
+            if !is_solved || self.interior.violation() > round_state.most_violation {
                 break;
             }
             round_state.learn_feed(style.feed_r);
