@@ -6,9 +6,9 @@ use glidepath_tests::{Instance, Process, Watchdog};
 
 const PATIENCE: Duration = Duration::from_secs(240);
 
-/// Three passes of an outside thread with a way out, and a pass by itself.
+/// Three passes of an outside thread with a way out, a pass by itself, and a tapped hole.
 const THREAD: &str = "G18 G21 G90 G97 S600 M3\nG0 X12 Z4\nG76 P1.5 Z-10 I-2 J0.4 K0.8 E1 L2\n\
-                      G0 Z4\nX8\nG33 Z-6 K1.5\nG0 X12\nM5\nM2\n";
+                      G0 Z4\nX8\nG33 Z-6 K1.5\nG0 X12\nZ2\nX0\nG33.1 Z-8 K1\nG0 Z5\nM5\nM2\n";
 
 #[test]
 fn a_thread_is_cut_by_the_machine_that_is_shipped_and_refused_by_one_without_an_encoder() {
@@ -42,6 +42,26 @@ fn a_thread_is_cut_by_the_machine_that_is_shipped_and_refused_by_one_without_an_
         way_x.abs() < 1e-9 && (way_z + 1.5 * 10.0 * 0.004).abs() < 1e-9
     });
     assert!(steady.count() > 400);
+    // The hole: down to where the program says, with the spindle told to turn back before, by what
+    // the machine's configuration says that it runs on; in and out with 1 mm a revolution.
+    let hole: Vec<f64> = positions
+        .iter()
+        .filter(|[x, _]| *x == 0.0)
+        .map(|[_, z]| *z)
+        .collect();
+    let deepest = hole.iter().fold(0.0_f64, |low, z| low.min(*z));
+    assert!((-8.2..-7.9).contains(&deepest), "{deepest}");
+    for way in [-1.0, 1.0] {
+        let with = hole
+            .windows(2)
+            .filter(|pair| (pair[1] - pair[0] - way * 10.0 * 0.004).abs() < 1e-6);
+        assert!(with.count() > 100, "{way}");
+    }
+    assert_eq!(
+        report["final_position"]["Z"].as_f64(),
+        Some(5.0),
+        "{report:#}"
+    );
 
     let check = ["check", &program];
     let refused = Process::start(&instance, &check).wait().expect(1);

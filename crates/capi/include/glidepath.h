@@ -200,7 +200,8 @@ enum {
     GP_EVENT_SYNCHRONISE = 9,
     GP_EVENT_CODE_WORD_P = 10,
     GP_EVENT_CODE_WORD_Q = 11,
-    GP_EVENT_AWAIT = 12
+    GP_EVENT_AWAIT = 12,
+    GP_EVENT_TAP = 13
 };
 
 /* What a drive does, by the states of CiA 402. */

@@ -195,7 +195,8 @@ impl ProgramText {
             Event::MCode(19 | 61 | 66)
             | Event::Probe { .. }
             | Event::Synchronise { .. }
-            | Event::CodeWord { .. } => {
+            | Event::CodeWord { .. }
+            | Event::Tap { .. } => {
                 return Err(UnknownEvent { line });
             }
             Event::MCode(number) | Event::ProgramStop(number) => writeln!(self.text, "M{number}"),

@@ -127,7 +127,7 @@ impl Gates {
         match frame.event() {
             Ok(Some(Event::MCode(code))) => self.of(code).filter(|gate| !gate.is_late),
             Ok(Some(Event::Await(code))) => self.of(code).filter(|gate| gate.is_late),
-            Ok(Some(Event::Synchronise { .. })) => Some(PASS),
+            Ok(Some(Event::Synchronise { .. } | Event::Tap { .. })) => Some(PASS),
             _ => None,
         }
     }

@@ -27,6 +27,7 @@ pub(crate) use state::Interpolator;
 
 use crate::message::{Inputs, Report, Timing};
 use glidepath_link::{FaultCause, MachineState, Setpoint};
+use glidepath_program::FrameFlags;
 use glidepath_realtime::Wake;
 
 impl Interpolator<'_> {
@@ -52,12 +53,12 @@ impl Interpolator<'_> {
             self.follow_jog(due, &mut report.setpoint);
             self.write_joints(&mut report.setpoint);
         } else if self.is_open() {
-            if !(self.pass.is_in_use() && self.follow_spindle(due)) {
+            if !(self.pass.is_in_use() && self.follow_spindle(due, &mut report.setpoint)) {
                 self.look_for_block_end();
                 self.choose_rate();
                 self.advance_program_time(tick);
+                self.write_moving(tick, &mut report.setpoint);
             }
-            self.write_moving(tick, &mut report.setpoint);
             self.write_joints(&mut report.setpoint);
         } else if self.drives.following() != 0 && self.drives.seen().is_known {
             self.write_following(&mut report.setpoint);
@@ -101,7 +102,8 @@ impl Interpolator<'_> {
 
     fn update_state(&mut self, tick: u64) {
         let (is_open, stands) = (self.is_open(), self.is_standing());
-        let is_rapid = self.is_rapid();
+        // What is passed is the present frame, or the last one of an epoch that has ended.
+        let is_rapid = self.passed.has(FrameFlags::RAPID);
         let of_program = self.requests.state(is_open, stands, is_rapid, &self.supply);
         let state = match of_program {
             MachineState::Stopping => MachineState::Stopping,

@@ -241,6 +241,11 @@ impl Track {
         &self.gates
     }
 
+    /// Whether there is a frame whose event is to be answered. Every tick asks.
+    pub(crate) const fn has_gate(&self) -> bool {
+        self.gate.is_some()
+    }
+
     /// The first frame whose event is to be answered, and by what.
     pub(crate) fn gate(&self) -> Option<(&SetpointFrame, Gate)> {
         let frame = self.frame(self.gate?)?;

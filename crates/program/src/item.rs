@@ -89,6 +89,9 @@ pub enum PathMode {
 /// enough for the number that an event has.
 pub const PHASE_STEPS: u32 = 1 << 24;
 
+/// Depths that a hole may have, µm: a metre, about.
+pub const TAP_DEPTHS_UM: u32 = 1 << 20;
+
 /// Something that happens in order with the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
@@ -128,6 +131,16 @@ pub enum Event {
     /// The motion does not go on before an M code that was told before is answered, if it is one that
     /// the machine waits for later than where it stands. The machine is at rest.
     Await(u32),
+    /// An axis goes into a hole behind the spindle, and comes out of it when the spindle turns back
+    /// (G33.1). The machine is at rest when it begins, and afterwards where it was.
+    Tap {
+        /// Index of the axis.
+        axis: u32,
+        /// How far it goes with each revolution, mm; below 0 if it goes to lower positions.
+        pitch_mm: f64,
+        /// Where the spindle is told to turn back, µm into the hole, below [`TAP_DEPTHS_UM`].
+        depth_um: u32,
+    },
     /// A digital output. Does not stop the motion.
     DigitalOutput {
         /// Its number, below 2²⁴.
@@ -159,7 +172,8 @@ impl Event {
             | Self::Probe { .. }
             | Self::Synchronise { .. }
             | Self::CodeWord { .. }
-            | Self::Await(_) => true,
+            | Self::Await(_)
+            | Self::Tap { .. } => true,
         }
     }
 }

@@ -46,7 +46,9 @@ mod override_;
 mod settings;
 
 pub use frame::{Frame, FrameFlags};
-pub use item::{CodeWord, Event, Item, ItemKind, PHASE_STEPS, PathMode, ProgramLine, Rate};
+pub use item::{
+    CodeWord, Event, Item, ItemKind, PHASE_STEPS, PathMode, ProgramLine, Rate, TAP_DEPTHS_UM,
+};
 pub use limits::{Limits, PathBounds};
 pub use override_::Override;
 pub use settings::{Effort, Settings, Smoothing};

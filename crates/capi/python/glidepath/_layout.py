@@ -169,6 +169,7 @@ class Event(enum.IntEnum):
     CODE_WORD_P = 10
     CODE_WORD_Q = 11
     AWAIT = 12
+    TAP = 13
 
 
 class Drive(enum.IntEnum):

@@ -217,6 +217,7 @@ impl Interpreter {
             Motion::Probe(probe) => self.probe(probe, block, out)?,
             Motion::Spline(spline) => self.spline(block, spline, out)?,
             Motion::Thread => self.thread(block, out)?,
+            Motion::RigidTap => self.rigid_tap(block, out)?,
             Motion::ThreadCycle => self.thread_cycle(block, out)?,
         }
         self.follow_surface(out);

@@ -22,6 +22,7 @@
 //! |---|---|---|---|
 //! | G73 | Q at a time, 0.254 mm back after each | – | rapid |
 //! | G74, G84 | feed, overrides off | spindle reversed, dwell P | feed, then reversed again |
+//! | the same, rigidly | behind the spindle | – | behind the spindle to R, rapid from there |
 //! | G81 | feed | – | rapid |
 //! | G82 | feed | dwell P | rapid |
 //! | G83 | Q at a time, out to R after each | – | rapid |
@@ -29,7 +30,7 @@
 //! | G86 | feed | dwell P, spindle stop | rapid, spindle on |
 //! | G89 | feed | dwell P | feed |
 
-use glidepath_geometry::{AXES, Axis};
+use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use crate::diagnostic::code::DiagnosticCode;
@@ -37,8 +38,8 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
-use crate::execute::state::spindle::SpindleDirection;
 use crate::execute::state::sticky_words::{CycleSeries, StickyWords};
+use crate::execute::tapping_cycle::tap_turns;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{CannedCycle, Distance, FeedMode, Retract};
@@ -70,8 +71,8 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let normal = self.state.modal.plane.normal();
-        self.check_cycle(block, cycle)?;
         let sticky = self.keep(block, cycle)?;
+        self.check_cycle(block, &sticky)?;
         let repeats = whole(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?);
         let holes = match repeats {
             Some(0) => {
@@ -125,8 +126,8 @@ impl Interpreter {
     }
 
     /// Refuses cycles that cannot be made.
-    fn check_cycle(&self, block: &Block, cycle: CannedCycle) -> Outcome<()> {
-        let span = block.motion_span();
+    fn check_cycle(&self, block: &Block, sticky: &StickyWords) -> Outcome<()> {
+        let (span, cycle) = (block.motion_span(), sticky.cycle);
         let refuse = |span: SourceSpan, message: String, reason: &str, help: &str| {
             Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
                 .because(reason)
@@ -151,15 +152,11 @@ impl Interpreter {
                 "move the other axes in a block of their own",
             );
         }
-        let needs_spindle = matches!(
-            cycle,
-            CannedCycle::TapLeft | CannedCycle::TapRight | CannedCycle::BoreStop
-        );
-        let wrong = match (cycle, self.state.spindle.turning) {
-            (_, None) => needs_spindle,
-            (CannedCycle::TapRight, Some(turning)) => turning != SpindleDirection::Clockwise,
-            (CannedCycle::TapLeft, Some(turning)) => turning != SpindleDirection::Counterclockwise,
-            _ => false,
+        let wrong = match (tap_turns(cycle), self.state.spindle.turning) {
+            (Some(wanted), Some(turning)) => turning != wanted,
+            // Behind M29 the cycle itself lets it turn.
+            (Some(_), None) => !sticky.starts_spindle,
+            (None, turning) => cycle == CannedCycle::BoreStop && turning.is_none(),
         };
         if wrong {
             let message = "the spindle does not turn as the cycle needs it";
@@ -176,7 +173,7 @@ impl Interpreter {
     }
 
     /// The words of the block, with those kept from the block before where they are missing.
-    fn keep(&self, block: &Block, cycle: CannedCycle) -> Outcome<StickyWords> {
+    fn keep(&mut self, block: &Block, cycle: CannedCycle) -> Outcome<StickyWords> {
         let span = block.motion_span();
         let name = name(cycle);
         let scale = self.state.modal.units.mm();
@@ -202,6 +199,8 @@ impl Interpreter {
             depth,
             dwell_s: 0.0,
             peck: 0.0,
+            is_rigid: false,
+            starts_spindle: false,
         };
         let last_dwell = last.map(|l| l.dwell_s);
         match cycle {
@@ -237,6 +236,7 @@ impl Interpreter {
         if sticky.dwell_s < 0.0 {
             return Err(negative(block, b'P', "the dwell"));
         }
+        self.settle_rigidity(block, last.as_ref(), &mut sticky)?;
         Ok(sticky)
     }
 
@@ -292,7 +292,7 @@ impl Interpreter {
     }
 
     /// Moves the normal axis alone, to a program coordinate.
-    fn along(
+    pub(super) fn along(
         &mut self,
         block: &Block,
         normal: Axis,
@@ -300,10 +300,15 @@ impl Interpreter {
         pace: Pace,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
+        let target = self.level(normal, level);
+        self.straight(block, target, pace, out)
+    }
+
+    /// Where the tool is with the normal axis at a program coordinate, in machine coordinates.
+    pub(super) fn level(&self, normal: Axis, level: f64) -> AxisVector {
         let mut values = [None; AXES];
         values[normal.index()] = Some(level);
-        let target = self.absolute_target(&values);
-        self.straight(block, target, pace, out)
+        self.absolute_target(&values)
     }
 
     /// From the R plane to the bottom and out again.
@@ -316,24 +321,16 @@ impl Interpreter {
             ..
         } = hole.sticky;
         let code = |number: u32| ItemKind::Event(Event::MCode(number));
-        match cycle {
-            CannedCycle::ChipBreak | CannedCycle::Peck => self.pecks(block, hole, peck, out)?,
-            CannedCycle::TapLeft | CannedCycle::TapRight => {
-                let turning = if cycle == CannedCycle::TapRight {
-                    SpindleDirection::Clockwise
-                } else {
-                    SpindleDirection::Counterclockwise
-                };
-                self.push(out, code(49));
-                self.along(block, normal, hole.bottom, Pace::Feed, out)?;
-                self.push(out, code(turning.reversed().code()));
-                self.push(out, ItemKind::Dwell(dwell_s));
-                self.along(block, normal, hole.clear, Pace::Feed, out)?;
-                self.push(out, code(turning.code()));
-                self.push(out, code(48));
-                return Ok(());
-            }
-            _ => {}
+        if let Some(turning) = tap_turns(cycle) {
+            let levels = [hole.bottom, hole.clear];
+            return if hole.sticky.is_rigid {
+                self.tap_rigidly(block, turning, levels, out)
+            } else {
+                self.tap_with_holder(block, turning, levels, dwell_s, out)
+            };
+        }
+        if peck > 0.0 {
+            self.pecks(block, hole, peck, out)?;
         }
         self.along(block, normal, hole.bottom, Pace::Feed, out)?;
         match cycle {

@@ -28,6 +28,7 @@ impl<R: BufRead> Program<R> {
             modal.motion = Some(Motion::Linear);
             state.spindle = Spindle {
                 turning: None,
+                is_rigid: false,
                 ..state.spindle
             };
             state.coolant = Coolant::default();

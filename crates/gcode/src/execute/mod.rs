@@ -35,4 +35,5 @@ mod reading;
 mod remark;
 pub(crate) mod scope;
 pub(crate) mod state;
+mod tapping_cycle;
 mod thread_cycle;

@@ -184,6 +184,7 @@ const fn motion_code(motion: Option<Motion>) -> u16 {
         Some(Motion::ArcClockwise) => 20,
         Some(Motion::ArcCounterclockwise) => 30,
         Some(Motion::Thread) => 330,
+        Some(Motion::RigidTap) => 331,
         Some(Motion::ThreadCycle) => 760,
         Some(Motion::Spline(spline)) => match spline {
             Spline::Cubic => 50,

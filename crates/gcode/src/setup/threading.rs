@@ -16,12 +16,39 @@ pub struct Threading {
     pub limits: Limits,
     /// Interpolation period, s, > 0.
     pub period_t: f64,
+    /// G84 and G74 tap rigidly; else they are for a tap in a holder that gives way.
+    pub rigid_tapping: bool,
+    /// How fast the speed of the spindle changes when it turns back, rev/s², > 0: it is told to so
+    /// much before the bottom of a hole. `None`: nobody knows, and it is told at the bottom.
+    pub spindle_a: Option<f64>,
 }
 
 impl Threading {
+    /// A machine with these limits and this period, s, > 0, which taps rigidly by G33.1 alone.
+    #[must_use]
+    pub const fn new(limits: Limits, period_t: f64) -> Self {
+        Self {
+            limits,
+            period_t,
+            rigid_tapping: false,
+            spindle_a: None,
+        }
+    }
+
+    /// How far a tap goes on while a spindle of so many rev/s comes to rest, mm.
+    pub(crate) fn run_on_mm(&self, pitch_mm: f64, speed: f64) -> f64 {
+        self.spindle_a
+            .map_or(0.0, |a| 0.5 * pitch_mm * speed * speed / a)
+    }
+
     /// The highest speed along a direction of length 1, mm/s.
     pub(crate) fn most_v(&self, direction: &AxisVector) -> f64 {
         limit_along(direction, &self.limits.velocity)
+    }
+
+    /// The highest acceleration along a direction of length 1, mm/s².
+    pub(crate) fn most_a(&self, direction: &AxisVector) -> f64 {
+        limit_along(direction, &self.limits.acceleration)
     }
 
     /// How far the axes go along a direction of length 1 until they have a speed, mm: with the

@@ -208,6 +208,9 @@ impl Block {
             b'M' if self.dialect == Dialect::Marlin => {
                 self.codes.add_printer_m(value, span, &self.declared)
             }
+            b'M' if self.dialect == Dialect::Fanuc => {
+                self.codes.add_fanuc_m(value, span, &self.declared)
+            }
             b'M' => self.codes.add_m(value, span, &self.declared),
             _ => self
                 .add_value(Slot::of(letter), value, span)

@@ -61,6 +61,8 @@ pub(crate) struct Codes {
     pub(crate) user: Option<Coded<u32>>,
     /// An M code of printers that takes the words of its block.
     pub(crate) function: Option<Coded<u32>>,
+    /// M29 of FANUC.
+    pub(crate) rigid_tapping: Option<Coded<u32>>,
     /// The motion is that of this block alone: what was the mode stays it (G31).
     pub(crate) is_once: bool,
 }
@@ -88,6 +90,7 @@ impl Codes {
             200 => set(&mut self.units, Units::Inch, span),
             210 => set(&mut self.units, Units::Millimetre, span),
             330 => self.set_motion(Some(Motion::Thread), span),
+            331 => self.set_motion(Some(Motion::RigidTap), span),
             760 => self.set_motion(Some(Motion::ThreadCycle), span),
             382..=385 => self.set_motion(Some(Motion::Probe(probe(tenths))), span),
             400 | 410 | 411 | 420 | 421 => {
@@ -167,6 +170,7 @@ impl Codes {
             || self.input_output.is_some()
             || self.saved_state.is_some()
             || self.user.is_some()
+            || self.rigid_tapping.is_some()
     }
 
     /// G80 may stand beside another motion code, as in the first line of many programs; that
@@ -193,6 +197,19 @@ impl Codes {
             Some(number @ (82 | 83)) => set(&mut self.extruder, number == 83, span),
             Some(number) if is_function(number) => set(&mut self.function, number, span),
             Some(206) => Err(home_offset(span)),
+            _ => self.add_m(value, span, declared),
+        }
+    }
+
+    /// Adds an M word of a FANUC program: M29 taps rigidly, unless it is the machine's own.
+    pub(crate) fn add_fanuc_m(
+        &mut self,
+        value: f64,
+        span: SourceSpan,
+        declared: &MCodes,
+    ) -> Outcome<()> {
+        match code_number(value) {
+            Some(29) if !declared.contains(29) => set(&mut self.rigid_tapping, 29, span),
             _ => self.add_m(value, span, declared),
         }
     }

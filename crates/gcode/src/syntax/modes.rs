@@ -21,6 +21,8 @@ pub enum Motion {
     Spline(Spline),
     /// G33.
     Thread,
+    /// G33.1.
+    RigidTap,
     /// G76.
     ThreadCycle,
 }

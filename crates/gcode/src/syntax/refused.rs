@@ -30,11 +30,6 @@ pub(crate) fn unknown_m(value: f64, span: SourceSpan) -> Box<Fault> {
 #[cold]
 pub(crate) fn refused_g(tenths: u32, value: f64, span: SourceSpan) -> Box<Fault> {
     let (what, help) = match tenths {
-        331 => (
-            "motion synchronised with the spindle",
-            "cut the thread with passes of G33 or G76, with a tap in a holder that gives way (G84), or with a \
-             mill on a helix (G2, G3)",
-        ),
         870 => (
             "back boring",
             "write the moves out; the spindle has to stop in a known position for them",

@@ -44,7 +44,7 @@ fn codes_and_words() {
     refuses("G-1", "1:1 unknown-g-code");
     refuses("G99999999", "1:1 unknown-g-code");
     refuses("G1 M117", "1:4 unknown-m-code");
-    refuses("G33.1 Z-1 K1", "1:1 not-supported");
+    refuses("G33.1 Z-1 K1", "1:1 not-connected");
     refuses("M19 R90", "1:1 not-connected");
     refuses("M64 P1", "1:1 not-connected");
     refuses("G38.2 X1 F1", "1:1 not-connected");

@@ -26,4 +26,5 @@ mod siemens;
 mod splines;
 mod subroutine_files;
 mod support;
+mod tapping;
 mod typed;

@@ -2,6 +2,7 @@
 
 use super::probe::ProbeConfig;
 use super::program::ProgramConfig;
+use super::spindle::SpindleConfig;
 use glidepath_gcode::{
     Connections, LoopLimits, MCodes, Machine, Options, Threading, Travel, WaitsAt,
 };
@@ -141,8 +142,8 @@ pub struct MachineConfig {
     pub feedback: FeedbackConfig,
     /// The probe, if there is one.
     pub probe: Option<ProbeConfig>,
-    /// The angle of the spindle is known, and threads can follow it.
-    pub has_spindle_encoder: bool,
+    /// The spindle, if its angle is known: threads can follow it.
+    pub spindle: Option<SpindleConfig>,
     /// What slows programs down besides the override, if anything does.
     pub adaptive_feed: Option<AdaptiveFeed>,
     /// The preview by advance and retreat.
@@ -312,9 +313,11 @@ impl MachineConfig {
             extruder: self.program.extruder,
             connections: self.program.connections,
             probing_v: self.probing_v(),
-            threading: self.has_spindle_encoder.then(|| Threading {
+            threading: self.spindle.map(|spindle| Threading {
                 limits: self.limits(),
                 period_t: self.period_t(),
+                rigid_tapping: spindle.rigid_tapping,
+                spindle_a: spindle.acceleration,
             }),
             adaptive_feed: match self.adaptive_feed {
                 None => glidepath_gcode::AdaptiveFeed::None,

@@ -17,6 +17,7 @@ mod parse;
 mod probe;
 mod program;
 mod raw;
+mod spindle;
 mod tree;
 
 pub use diagnostic::{ConfigDiagnostic, ConfigError, DiagnosticReport};
@@ -29,6 +30,7 @@ pub use machine::{
 };
 pub use probe::ProbeConfig;
 pub use program::ProgramConfig;
+pub use spindle::SpindleConfig;
 
 use crate::text_file;
 use serde::de::DeserializeOwned;

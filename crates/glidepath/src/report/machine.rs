@@ -77,7 +77,7 @@ fn awaited(status: &Status) -> Option<Value> {
 /// The name of the event that is awaited.
 fn awaited_name(status: &Status) -> String {
     match status.awaited_event() {
-        Ok(Some(Event::Synchronise { .. })) => "the spindle's angle".to_owned(),
+        Ok(Some(Event::Synchronise { .. } | Event::Tap { .. })) => "the spindle's angle".to_owned(),
         Ok(Some(Event::MCode(code) | Event::Await(code))) => format!("M{code}"),
         _ => "an event".to_owned(),
     }
@@ -98,7 +98,10 @@ pub(super) fn awaited_text(status: &Status) -> Option<String> {
     (status.awaited_since_ns != 0).then(|| {
         let waited_ns = status.updated_ns.saturating_sub(status.awaited_since_ns);
         let (line, waited_s) = (status.awaited_line, microseconds(waited_ns) / 1e6);
-        if matches!(status.awaited_event(), Ok(Some(Event::Synchronise { .. }))) {
+        if matches!(
+            status.awaited_event(),
+            Ok(Some(Event::Synchronise { .. } | Event::Tap { .. }))
+        ) {
             return format!(
                 "the spindle, for the thread of line {line}: its speed and its angle, for \
                  {waited_s:.1} s"

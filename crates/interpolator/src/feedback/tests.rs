@@ -22,5 +22,6 @@ mod jogging;
 mod life_cycle;
 mod matrix;
 mod probing;
+mod tapping;
 mod threading;
 mod upsets;

@@ -319,6 +319,7 @@ impl Rate {
 
     /// One tick less until the reserve begins. Begins it when its time has come, and returns
     /// whether it has.
+    #[inline]
     fn count_down(&mut self) -> bool {
         let Some(reserve) = &mut self.reserve.kept else {
             return false;

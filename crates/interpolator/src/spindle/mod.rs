@@ -16,7 +16,8 @@
 //!
 //! * [`lead`]: from the frames at hand, how fast the spindle turns for program time to pass at
 //!   rate 1, and the lag of the run-in;
-//! * [`pass`]: whether a pass may begin, where it is to be, and whether the spindle still makes sense.
+//! * [`pass`]: whether a pass may begin, where it is to be, and whether the spindle still makes sense;
+//! * [`tap`]: into a hole and out of it, without a plan.
 //!
 //! Angle and speed of the spindle come with what is seen of the drives: see `feedback::spindle`.
 //!
@@ -25,6 +26,12 @@
 
 mod lead;
 mod pass;
+mod seen;
+mod simulated;
+mod tap;
 
 pub(crate) use lead::{Lead, LeadOutcome};
-pub(crate) use pass::{Follow, Pass, SpindleSeen};
+pub(crate) use pass::{Follow, Pass};
+pub(crate) use seen::SpindleSeen;
+pub(crate) use simulated::SimulatedSpindle;
+pub(crate) use tap::{Hole, Tap};

@@ -1,6 +1,7 @@
 //! A pass of a thread: when it begins, where it is to be, and whether the spindle still makes sense.
 
 use super::lead::Lead;
+use super::seen::SpindleSeen;
 use crate::feedback::Turn;
 use glidepath_link::FaultCause;
 use glidepath_program::PHASE_STEPS;
@@ -14,32 +15,6 @@ const FASTEST: f64 = 1.09 / 1.1;
 const FARTHEST: f64 = 0.02;
 /// How many index pulses may be missing or too many.
 const INDEX_SLACK: f64 = 1.1;
-/// A sample older than so many periods says nothing any more.
-const STALE_PERIODS: u64 = 6;
-/// The speed of a spindle that is simulated, in parts of that at rate 1: as programmed.
-const SIMULATED: f64 = 1.0 / 1.1;
-
-/// What is seen of the spindle.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum SpindleSeen {
-    /// It is simulated: it turns as it is told to, and has done so for a time, ns.
-    Simulated { turned_ns: u64 },
-    /// Its angle, and whether it is at speed.
-    Real { turn: Turn, at_speed: bool },
-}
-
-impl SpindleSeen {
-    /// Angle and speed of the spindle at a moment, whichever way it turns.
-    fn at(&self, lead: &Lead, at_ns: u64) -> (f64, f64) {
-        match self {
-            Self::Real { turn, .. } => turn.at(at_ns),
-            Self::Simulated { turned_ns } => {
-                let speed = SIMULATED * lead.rate_v;
-                (seconds(*turned_ns) * speed, speed)
-            }
-        }
-    }
-}
 
 /// A pass under way.
 #[derive(Debug, Clone, Copy)]
@@ -80,9 +55,6 @@ pub(crate) struct Follow {
 #[derive(Debug, Default)]
 pub(crate) struct Pass {
     state: State,
-    /// How long a spindle that is simulated has turned in passes: by ticks, not by the clock, so
-    /// that a tick that is missed on a desk does no harm.
-    turned_ns: u64,
 }
 
 impl Pass {
@@ -98,13 +70,6 @@ impl Pass {
     /// The motion stands at the beginning of a pass.
     pub(crate) fn wait(&mut self) {
         self.state = State::Waiting(None);
-    }
-
-    /// A tick passes in which the spindle is looked at. Returns how long it has turned if it is
-    /// simulated, ns.
-    pub(crate) const fn turn(&mut self, period_ns: u64) -> u64 {
-        self.turned_ns += period_ns;
-        self.turned_ns
     }
 
     /// There is no pass any more.
@@ -134,13 +99,11 @@ impl Pass {
         period_ns: u64,
     ) -> Option<(Follow, Begun)> {
         let lead = self.lead()?;
-        if let SpindleSeen::Real { turn, at_speed } = seen {
-            let is_fresh = at_ns.saturating_sub(turn.sample_ns) <= STALE_PERIODS * period_ns;
-            if !(*at_speed && is_fresh && turn.is_settled) {
-                return None;
-            }
+        if !seen.is_ready(at_ns, period_ns) {
+            return None;
         }
-        let (angle, speed) = seen.at(&lead, at_ns);
+        let turn = &seen.turn;
+        let (angle, speed) = turn.at(at_ns);
         if !(SLOWEST..=FASTEST).contains(&(speed.abs() / lead.rate_v)) {
             return None;
         }
@@ -158,10 +121,7 @@ impl Pass {
             start: lead.start,
             turns,
         };
-        let index = match seen {
-            SpindleSeen::Real { turn, .. } => turn.index_count.map(|count| (count, turn.angle)),
-            SpindleSeen::Simulated { .. } => None,
-        };
+        let index = turn.index_count.map(|count| (count, turn.angle));
         let begun = Following {
             lead,
             direction,
@@ -196,13 +156,11 @@ impl Pass {
             index,
         } = following;
         let period_ns = at_ns.saturating_sub(now_ns);
-        if let SpindleSeen::Real { turn, .. } = seen {
-            let is_stale = now_ns.saturating_sub(turn.sample_ns) > STALE_PERIODS * period_ns;
-            if is_stale || !turn.is_settled || !counts_fit(*index, turn) {
-                return Err(FaultCause::SpindleAngle);
-            }
+        let turn = &seen.turn;
+        if !seen.is_known(now_ns, period_ns) || !counts_fit(*index, turn) {
+            return Err(FaultCause::SpindleAngle);
         }
-        let (angle, speed) = seen.at(lead, at_ns);
+        let (angle, speed) = turn.at(at_ns);
         let rate = direction * speed / lead.rate_v;
         if !(SLOWEST..=FASTEST).contains(&rate) {
             return Err(FaultCause::SpindleSpeed);

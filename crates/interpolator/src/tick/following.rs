@@ -1,13 +1,16 @@
-//! What a tick does in a pass of a thread: program time goes on with the angle of the spindle.
+//! What a tick does behind the spindle: program time goes on with its angle in a pass of a thread,
+//! and an axis goes with it into a hole that is tapped.
 //!
 //! Overrides and a hold wait until the pass has come to its end, and so does an abort: a tool that
-//! stops in a thread cuts a groove. A fault does not wait.
+//! stops in a thread cuts a groove. From a hole, an abort leads out. A fault does not wait.
 
 use super::state::Interpolator;
+use crate::jog::AxesMotion;
 use crate::program_time::ProgramTime;
 use crate::rate::Situation;
-use crate::spindle::{Follow, Lead, LeadOutcome, SpindleSeen};
-use glidepath_link::{FaultCause, SpindleFlags};
+use crate::spindle::{Follow, Hole, Lead, LeadOutcome, SpindleSeen, Tap};
+use glidepath_geometry::AxisVector;
+use glidepath_link::{EventKind, FaultCause, Setpoint, SpindleFlags};
 use glidepath_program::{Event, FrameFlags};
 use glidepath_realtime::Wake;
 
@@ -22,21 +25,64 @@ const COUNTED_ON: f64 = 0.5;
 const PARTS: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 
 impl Interpolator<'_> {
-    /// Lets program time follow the spindle. Returns whether it does; if not, it waits for it, or
-    /// the pass was lost.
-    #[cold]
+    /// Follows the spindle, and writes the setpoint. Returns whether it does; if not, it waits for
+    /// the spindle, or has lost it.
     #[inline(never)]
-    pub(super) fn follow_spindle(&mut self, due: &Wake) -> bool {
+    pub(super) fn follow_spindle(&mut self, due: &Wake, setpoint: &mut Setpoint) -> bool {
         let applies_ns = due.scheduled_ns + self.drives.period_ns();
-        let seen = self.spindle_seen();
-        if !self.pass.is_following() {
-            return self.begin_pass(&seen, applies_ns);
+        let seen = self.spindle_seen(applies_ns);
+        if self.tap.is_some() {
+            self.go_on_tapping(&seen, due.tick, applies_ns, setpoint);
+            return true;
         }
+        let follows = if self.pass.is_following() {
+            self.go_on_with_pass(&seen, due, applies_ns)
+        } else {
+            match self.awaited_event() {
+                Some(Event::Synchronise { pitch_mm, phase }) => {
+                    self.begin_pass(&seen, (pitch_mm, phase), applies_ns)
+                }
+                Some(Event::Tap {
+                    axis,
+                    pitch_mm,
+                    depth_um,
+                }) => {
+                    let hole = Hole {
+                        axis: axis as usize,
+                        side: 1.0_f64.copysign(pitch_mm),
+                        pitch_mm: pitch_mm.abs(),
+                        depth_mm: f64::from(depth_um) * 1e-3,
+                    };
+                    if self.begin_tapping(&hole, &seen, applies_ns) {
+                        self.go_on_tapping(&seen, due.tick, applies_ns, setpoint);
+                        return true;
+                    }
+                    false
+                }
+                _ => {
+                    self.pass.end();
+                    false
+                }
+            }
+        };
+        if follows {
+            self.write_moving(due.tick, setpoint);
+        }
+        follows
+    }
+
+    /// The event that the motion stands at.
+    fn awaited_event(&self) -> Option<Event> {
+        let (frame, _) = self.track.gate()?;
+        frame.event().ok().flatten()
+    }
+
+    fn go_on_with_pass(&mut self, seen: &SpindleSeen, due: &Wake, applies_ns: u64) -> bool {
         if self.requests.fault().is_some() {
             self.pass.end();
             return false;
         }
-        match self.pass.follow(&seen, due.scheduled_ns, applies_ns) {
+        match self.pass.follow(seen, due.scheduled_ns, applies_ns) {
             Ok(follow) => self.go_with_spindle(&follow, due.tick),
             Err(cause) => {
                 self.lose_pass(cause);
@@ -46,17 +92,24 @@ impl Interpolator<'_> {
     }
 
     /// What is seen of the spindle. What was said before it heard of the event is not about that.
-    fn spindle_seen(&mut self) -> SpindleSeen {
+    fn spindle_seen(&mut self, applies_ns: u64) -> SpindleSeen {
         if self.drives.are_simulated() {
-            let turned_ns = self.pass.turn(self.drives.period_ns());
-            return SpindleSeen::Simulated { turned_ns };
+            let period_t = self.track.period_t();
+            return self.simulated_spindle.turn(period_t, applies_ns);
         }
         let seen = self.drives.seen();
         let awaited = self.wait.awaited();
         let has_heard = awaited.is_none_or(|awaited| seen.played >= awaited.told_by);
-        SpindleSeen::Real {
+        SpindleSeen {
             turn: seen.turn,
             at_speed: has_heard && seen.spindle.contains(SpindleFlags::AT_SPEED),
+        }
+    }
+
+    /// Tells a spindle that is simulated of an event.
+    pub(super) fn tell_spindle(&mut self, setpoint: &Setpoint) {
+        if let Ok(Some(event)) = setpoint.event() {
+            self.simulated_spindle.hear(event);
         }
     }
 
@@ -66,25 +119,21 @@ impl Interpolator<'_> {
     }
 
     /// Begins the pass that the motion stands at, if the spindle has come to the angle for that.
-    fn begin_pass(&mut self, seen: &SpindleSeen, applies_ns: u64) -> bool {
-        let Some((frame, _)) = self.track.gate() else {
-            self.pass.end();
-            return false;
-        };
-        let (event, sequence) = (frame.event(), frame.sequence);
-        let Ok(Some(Event::Synchronise { pitch_mm, phase })) = event else {
-            self.pass.end();
-            return false;
-        };
+    fn begin_pass(
+        &mut self,
+        seen: &SpindleSeen,
+        (pitch_mm, phase): (f64, u32),
+        applies_ns: u64,
+    ) -> bool {
         if self.pass.lead().is_none() {
+            let sequence = self.rate.now().time.sequence;
             match Lead::find(&self.track, sequence, pitch_mm) {
                 LeadOutcome::Found(lead) => self.pass.keep_lead(lead),
                 LeadOutcome::Open => {}
                 LeadOutcome::None => self.lose_pass(FaultCause::ThreadLost),
             }
         }
-        let is_kept = self.requests.holds(false) || self.requests.is_stopping();
-        if is_kept || self.supply.is_short() {
+        if self.is_kept() || self.supply.is_short() {
             return false;
         }
         let period_ns = self.drives.period_ns();
@@ -97,6 +146,11 @@ impl Interpolator<'_> {
         self.pass.begin(begun);
         self.wait.end();
         true
+    }
+
+    /// Whether the operator, or a fault, keeps it from beginning.
+    fn is_kept(&self) -> bool {
+        self.requests.holds(false) || self.requests.is_stopping()
     }
 
     /// Sets out with the spindle, if there is a stop to keep in reserve.
@@ -172,6 +226,90 @@ impl Interpolator<'_> {
         let goes_on = self.track.frame(end + 1);
         if goes_on.is_some_and(|frame| frame.has(FrameFlags::SYNC)) {
             self.fail(FaultCause::ThreadLost);
+        }
+    }
+
+    /// Whether an axis is in a hole, and on its way: an epoch does not end there.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn is_tapping(&self) -> bool {
+        self.tap.as_ref().is_some_and(|tap| !tap.is_stopping())
+    }
+
+    /// Begins to tap where the motion stands, if the spindle turns as it is to.
+    fn begin_tapping(&mut self, hole: &Hole, seen: &SpindleSeen, applies_ns: u64) -> bool {
+        let (_, speed) = seen.turn.at(applies_ns);
+        let is_ready = seen.is_ready(applies_ns, self.drives.period_ns());
+        if self.is_kept() || !is_ready || !Tap::turns(speed) {
+            return false;
+        }
+        let base = self.output.published().position();
+        self.tap = Some(Tap::new(
+            hole,
+            speed,
+            base,
+            &self.limits,
+            self.track.period_t(),
+        ));
+        self.wait.end();
+        true
+    }
+
+    /// A tick of a tap: the axes are where the plan rests, but for the one that goes into the hole.
+    fn go_on_tapping(
+        &mut self,
+        seen: &SpindleSeen,
+        tick: u64,
+        applies_ns: u64,
+        setpoint: &mut Setpoint,
+    ) {
+        let Some(mut tap) = self.tap else { return };
+        // Without a planner it can still come out; what else has failed may be what it goes by.
+        let fault = self.requests.fault().map(|fault| fault.cause);
+        let stops = fault.is_some_and(|cause| cause != FaultCause::PlannerLost);
+        let period_ns = self.drives.period_ns();
+        let stepped = if stops && !tap.is_stopping() {
+            Ok(tap.stop())
+        } else if seen.is_known(applies_ns, period_ns) || tap.is_stopping() {
+            tap.step(seen, applies_ns, self.requests.is_stopping())
+        } else {
+            Err(FaultCause::SpindleAngle)
+        };
+        let step = stepped.unwrap_or_else(|cause| {
+            self.fail(cause);
+            tap.stop()
+        });
+        self.tap = Some(tap);
+        let along = |x: f64| {
+            let mut vector = AxisVector::zeros();
+            if let Some(axis) = vector.get_mut(tap.hole().axis) {
+                *axis = tap.hole().side * x;
+            }
+            vector
+        };
+        let away = along(step.motion.x);
+        let motion = AxesMotion {
+            position: tap.base() + away,
+            velocity: along(step.motion.v),
+            acceleration: along(step.motion.a),
+        };
+        let (output, passed) = (&mut self.output, &self.passed);
+        let written = output.write_by_hand(self.epoch, passed, &motion, &away, setpoint);
+        self.judge(written, tick);
+        if let Some(turns) = step.turns {
+            let code = match turns {
+                turns if turns > 0.0 => 3.0,
+                turns if turns < 0.0 => 4.0,
+                _ => 5.0,
+            };
+            (setpoint.event_kind, setpoint.event_value) = (EventKind::MCode.code(), code);
+            self.tell_spindle(setpoint);
+        }
+        // Where it stopped for a fault, it stays until the epoch has ended.
+        if step.is_done && !tap.is_stopping() {
+            self.tap = None;
+            self.pass.end();
+            self.track.pass_gate();
         }
     }
 }

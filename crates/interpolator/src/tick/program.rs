@@ -180,6 +180,7 @@ impl Interpolator<'_> {
 
     /// Takes note of what happens with a setpoint.
     #[cold]
+    #[inline(never)]
     fn hear_event(&mut self, setpoint: &Setpoint) {
         if setpoint.event_kind == EventKind::Probe.code() {
             self.probing.begin();
@@ -187,6 +188,7 @@ impl Interpolator<'_> {
         if self.track.gates().late(setpoint).is_some() {
             self.wait.hear(setpoint);
         }
+        self.tell_spindle(setpoint);
     }
 
     /// Looks whether the contact was made that the motion is looking for.
@@ -206,7 +208,7 @@ impl Interpolator<'_> {
         let now = self.rate.now().time;
         let present = self.present();
         self.passed = present;
-        if self.requests.is_stopping() && self.is_standing() {
+        if self.requests.is_stopping() && self.is_standing() && !self.is_tapping() {
             self.close(if self.requests.fault().is_some() {
                 EndOfEpoch::Faulted
             } else {

@@ -13,13 +13,13 @@ use crate::output::{Output, Written};
 use crate::probing::Probing;
 use crate::program_time::ProgramTime;
 use crate::rate::Rate;
-use crate::spindle::Pass;
+use crate::spindle::{Pass, SimulatedSpindle, Tap};
 use crate::stop_requests::StopRequests;
 use crate::supply::Supply;
 use crate::track::Track;
 use crate::wait::Wait;
 use glidepath_link::{EndOfEpoch, FaultCause, Setpoint};
-use glidepath_program::FrameFlags;
+use glidepath_program::{FrameFlags, Limits};
 use glidepath_realtime::EventWriter;
 
 /// Share of a limit by which a setpoint may exceed it before the motion is stopped for that.
@@ -36,6 +36,10 @@ pub(crate) struct Interpolator<'a> {
     pub(super) probing: Probing,
     /// What program time follows instead of the clock, if it does.
     pub(super) pass: Pass,
+    /// The hole that is tapped, if one is.
+    pub(super) tap: Option<Tap>,
+    pub(super) simulated_spindle: SimulatedSpindle,
+    pub(super) limits: Limits,
     pub(super) jog: Jog,
     pub(super) mover: Mover,
     pub(super) drives: Drives,
@@ -66,6 +70,9 @@ impl<'a> Interpolator<'a> {
             wait: Wait::default(),
             probing: Probing::default(),
             pass: Pass::default(),
+            tap: None,
+            simulated_spindle: SimulatedSpindle::default(),
+            limits: config.limits,
             jog: Jog::new(config),
             mover: Mover::new(config),
             drives: Drives::new(config),
@@ -135,6 +142,7 @@ impl<'a> Interpolator<'a> {
         self.wait.end();
         self.probing.close(end);
         self.pass.end();
+        self.tap = None;
         self.output.rest();
         self.end_of_epoch = end;
         self.supply.end_epoch();

@@ -25,10 +25,14 @@ impl Interpolator<'_> {
 
     /// Begins to wait where the motion stands at an event that is to be answered.
     pub(super) fn stand_at_gate(&mut self, scheduled_ns: u64, number: u64) {
+        if !self.track.has_gate() {
+            return;
+        }
         let now = self.rate.now().time;
         if let Some((frame, gate)) = self.track.gate()
             && ProgramTime::at(frame.sequence) == now
             && !self.requests.is_stopping()
+            && self.tap.is_none()
         {
             let awaited = Awaited {
                 epoch: frame.epoch,

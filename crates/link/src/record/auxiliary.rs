@@ -137,7 +137,8 @@ impl Auxiliary {
             | Event::Probe { .. }
             | Event::Synchronise { .. }
             | Event::CodeWord { .. }
-            | Event::Await(_) => {}
+            | Event::Await(_)
+            | Event::Tap { .. } => {}
         }
         *self != before
     }

@@ -5,6 +5,7 @@
 
 use super::check::{Fields, RecordError};
 use super::code::coded;
+use glidepath_geometry::AXES;
 use glidepath_program::{CodeWord, Event};
 
 coded! {
@@ -38,11 +39,17 @@ coded! {
         CodeWordQ = 11,
         /// The motion waits until an M code is answered that was told before; the value is the code.
         Await = 12,
+        /// A hole is tapped; the value is the way of a revolution, mm, with the sign of the axis'
+        /// direction. Above the lowest byte of the code stand the axis, in four bits, and the depth
+        /// in µm.
+        Tap = 13,
     }
 }
 
 /// Bits of the kind; the number of an output, or a phase, is above them.
 const KIND_BITS: u32 = 8;
+/// Bits of the number of an event that are an axis.
+const AXIS_BITS: u32 = 4;
 /// The longest way of a revolution, mm: beyond any machine.
 const PITCH_MOST_MM: f64 = 1e6;
 
@@ -66,6 +73,14 @@ pub(crate) fn encode(event: Option<Event>) -> (u32, f64) {
             CodeWord::Q => (EventKind::CodeWordQ, value),
         },
         Some(Event::Await(code)) => (EventKind::Await, f64::from(code)),
+        Some(Event::Tap {
+            axis,
+            pitch_mm,
+            depth_um,
+        }) => {
+            output = axis | depth_um << AXIS_BITS;
+            (EventKind::Tap, pitch_mm)
+        }
         Some(Event::DigitalOutput { number, on }) => {
             output = number;
             (EventKind::DigitalOutput, f64::from(u8::from(on)))
@@ -91,6 +106,7 @@ pub(crate) fn decode(
         kind == EventKind::DigitalOutput.code()
             || kind == EventKind::AnalogOutput.code()
             || kind == EventKind::Synchronise.code()
+            || kind == EventKind::Tap.code()
     };
     let lowest = kind & ((1 << KIND_BITS) - 1);
     // A number beside a kind that has none makes a code that does not exist.
@@ -124,6 +140,17 @@ pub(crate) fn decode(
             Some(Event::Synchronise {
                 pitch_mm: value,
                 phase: number,
+            })
+        }
+        EventKind::Tap => {
+            fields.range("event_value", value.abs(), f64::MIN_POSITIVE, PITCH_MOST_MM)?;
+            let axis = number & ((1 << AXIS_BITS) - 1);
+            #[allow(clippy::cast_precision_loss, reason = "the number of axes")]
+            fields.range("event_kind", f64::from(axis), 0.0, (AXES - 1) as f64)?;
+            Some(Event::Tap {
+                axis,
+                pitch_mm: value,
+                depth_um: number >> AXIS_BITS,
             })
         }
     })

@@ -232,12 +232,12 @@ fn frames_out_of_range_are_refused() {
         Err(RecordError::UnknownFlags { bits: 128, .. })
     ));
     let bad = SetpointFrame {
-        event_kind: 13,
+        event_kind: 14,
         ..good
     };
     assert!(matches!(
         bad.to_frame(),
-        Err(RecordError::UnknownCode { code: 13, .. })
+        Err(RecordError::UnknownCode { code: 14, .. })
     ));
 }
 
@@ -362,7 +362,7 @@ fn codes_are_consecutive_and_known() {
     in_sequence(JogMode::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 3);
     in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);
-    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 12);
+    in_sequence(EventKind::ALL.iter().map(|code| code.code()), 0, 13);
     assert_eq!(FrameRefusal::ALL.len(), FRAME_REFUSALS);
     assert!(
         FrameRefusal::ALL

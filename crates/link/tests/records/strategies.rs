@@ -3,7 +3,7 @@
 use glidepath_geometry::{Arc, AxisVector, Plane, Quintic, Segment};
 use glidepath_link::{ALL_JOINTS, Command, EventId, OVERRIDE_MAX, StreamItem};
 use glidepath_program::{
-    CodeWord, Event, Frame, FrameFlags, Item, ItemKind, PHASE_STEPS, PathMode, Rate,
+    CodeWord, Event, Frame, FrameFlags, Item, ItemKind, PHASE_STEPS, PathMode, Rate, TAP_DEPTHS_UM,
 };
 use proptest::prelude::*;
 
@@ -36,6 +36,13 @@ pub(crate) fn event() -> impl Strategy<Value = Event> {
         any::<u32>().prop_map(Event::Await),
         (1e-3..1e3, 0..PHASE_STEPS)
             .prop_map(|(pitch_mm, phase)| Event::Synchronise { pitch_mm, phase }),
+        (0..9_u32, 1e-3..1e3, 0..TAP_DEPTHS_UM).prop_map(|(axis, pitch_mm, depth_um)| {
+            Event::Tap {
+                axis,
+                pitch_mm,
+                depth_um,
+            }
+        }),
     ]
 }
 

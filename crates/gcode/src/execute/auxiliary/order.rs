@@ -38,6 +38,7 @@ impl Interpreter {
         for Coded { code, .. } in [codes.spindle, codes.coolant].into_iter().flatten() {
             self.push(out, ItemKind::Event(Event::MCode(code)));
         }
+        self.arm_rigid_tapping(block, out)?;
         self.overrides(block, out)?;
         self.saved_state(block, out)?;
         self.input_output(block, out)?;

@@ -147,7 +147,13 @@ impl Interpreter {
             Some(Motion::Lathe(cycle)) => cycle != LatheCycle::Finish,
             code => matches!(
                 code,
-                Some(Motion::Cycle(_) | Motion::Probe(_) | Motion::Thread | Motion::ThreadCycle)
+                Some(
+                    Motion::Cycle(_)
+                        | Motion::Probe(_)
+                        | Motion::Thread
+                        | Motion::RigidTap
+                        | Motion::ThreadCycle
+                )
             ),
         });
         let plane = codes

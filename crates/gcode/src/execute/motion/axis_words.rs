@@ -62,7 +62,11 @@ impl Interpreter {
             ) => {
                 let needs = matches!(
                     motion,
-                    Motion::Cycle(_) | Motion::Probe(_) | Motion::Thread | Motion::ThreadCycle
+                    Motion::Cycle(_)
+                        | Motion::Probe(_)
+                        | Motion::Thread
+                        | Motion::RigidTap
+                        | Motion::ThreadCycle
                 );
                 if needs && !has_axes {
                     let meaning = "where to go";

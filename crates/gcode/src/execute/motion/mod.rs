@@ -10,6 +10,7 @@ mod nurbs;
 mod plain_move;
 mod polar;
 mod probe;
+mod rigid_tap;
 pub(crate) mod settled;
 pub(crate) mod speed;
 mod spline;

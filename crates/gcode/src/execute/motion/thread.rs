@@ -152,17 +152,22 @@ impl Interpreter {
         Ok(())
     }
 
-    /// Refuses a thread where the spindle is not known, or does not turn steadily.
-    fn check_spindle(&self, span: SourceSpan) -> Outcome<Threading> {
-        let Some(threading) = self.options.threading else {
+    /// What threads need of the machine, whose spindle's angle is known.
+    pub(crate) fn known_angle(&self, span: SourceSpan) -> Outcome<Threading> {
+        self.options.threading.ok_or_else(|| {
             let message = "the angle of the spindle is not known";
-            return Err(Fault::new(DiagnosticCode::NotConnected, span, message)
+            Fault::new(DiagnosticCode::NotConnected, span, message)
                 .because("a thread follows it, and the machine's configuration names no encoder")
                 .help(
                     "write `encoder = true` into the table [spindle] if the drives' feedback tells \
                      the angle, or where nothing is driven",
-                ));
-        };
+                )
+        })
+    }
+
+    /// Refuses a thread where the spindle is not known, or does not turn steadily.
+    pub(super) fn check_spindle(&self, span: SourceSpan) -> Outcome<Threading> {
+        let threading = self.known_angle(span)?;
         let spindle = &self.state.spindle;
         let message = if spindle.turning.is_none() {
             "a thread with the spindle at rest"
@@ -181,7 +186,7 @@ impl Interpreter {
     }
 
     /// Refuses what the axes cannot do. Returns the speed that it is planned with, mm/s.
-    fn check_groove(
+    pub(super) fn check_groove(
         &self,
         span: SourceSpan,
         threading: &Threading,

@@ -33,6 +33,8 @@ pub(crate) struct Spindle {
     /// Speed told last, rev/min; zero until there is an S word.
     pub(crate) speed: f64,
     pub(crate) surface: Option<Surface>,
+    /// The next tapping cycle is rigid (M29).
+    pub(crate) is_rigid: bool,
 }
 
 /// G96.

@@ -18,4 +18,8 @@ pub(crate) struct StickyWords {
     pub(crate) depth: f64,
     pub(crate) dwell_s: f64,
     pub(crate) peck: f64,
+    /// It taps behind the spindle.
+    pub(crate) is_rigid: bool,
+    /// The spindle turns in the hole alone (M29).
+    pub(crate) starts_spindle: bool,
 }

@@ -319,7 +319,53 @@ fn cycles_that_cannot_be_made_are_refused() {
         );
     }
     finds("G0 Z20\nPOCKET4(20,0,2,-5,20,0,0)", &["2:1 canned-cycle"]);
-    finds("CYCLE84(1)", &["1:1 not-supported"]);
+    finds("CYCLE840(1)", &["1:1 not-supported"]);
     // What is wrong with a step is wrong with the cycle's line.
     finds("G0 Z20\nG91 CYCLE81(20,0,2,-5)", &["2:5 not-supported"]);
+}
+
+#[test]
+fn rigid_taps_have_a_pitch_or_a_size() {
+    use glidepath_gcode::{Options, Program, Threading, check};
+    use glidepath_program::{Event, ItemKind, Limits};
+
+    let options = || Options {
+        threading: Some(Threading::new(
+            Limits::uniform(200.0, 2_000.0, 40_000.0),
+            0.004,
+        )),
+        ..super::options()
+    };
+    let items = |text: &str| -> Vec<String> {
+        Program::new(text.as_bytes(), options())
+            .map(|item| match item.expect("a sound program").kind {
+                ItemKind::Event(Event::Tap {
+                    pitch_mm, depth_um, ..
+                }) => format!("tap({pitch_mm},{depth_um})"),
+                ItemKind::Event(Event::MCode(code)) => format!("M{code}"),
+                ItemKind::Event(Event::SpindleSpeed(speed)) => format!("S{speed}"),
+                ItemKind::Move { segment, .. } => format!("{}", segment.end()[2]),
+                other => format!("{other:?}"),
+            })
+            .collect()
+    };
+    assert_eq!(
+        items("G0 Z20\nCYCLE84(20,0,2,-10,,0,3,8,,0,600,600)"),
+        ["20", "2", "S600", "M3", "tap(-1.25,12000)", "M3", "20"]
+    );
+    assert_eq!(
+        items("G0 Z20\nCYCLE84(20,0,2,,10,,5,,-0.75,,400)"),
+        ["20", "2", "S400", "M4", "tap(-0.75,12000)", "M5", "20"]
+    );
+    for (words, expected) in [
+        ("20,0,2,-10,,,,7,,,600", "1:1 canned-cycle"),
+        ("20,0,2,-10,,,,6", "1:1 missing-word"),
+        ("20,0,2,-10,,1,,6,,,600", "1:1 canned-cycle"),
+        ("20,0,2,-10,,,,6,,90,600", "1:1 canned-cycle"),
+        ("20,0,2,-10,,,,6,,,600,900", "1:1 canned-cycle"),
+    ] {
+        let text = format!("CYCLE84({words})");
+        let report = check(text.as_bytes(), options());
+        assert_eq!(crate::support::listed(&report), [expected], "{text}");
+    }
 }

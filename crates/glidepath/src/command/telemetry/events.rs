@@ -67,6 +67,7 @@ fn word(event: Event) -> String {
         Event::CodeWord { word, value } => format!("{word:?}{value}"),
         Event::Await(code) => format!("the answer to M{code}"),
         Event::Synchronise { pitch_mm, .. } => format!("G33 K{pitch_mm}"),
+        Event::Tap { pitch_mm, .. } => format!("G33.1 K{}", pitch_mm.abs()),
         Event::DigitalOutput { number, on } => format!("M{} P{number}", if on { 62 } else { 63 }),
         Event::AnalogOutput { number, value } => format!("M67 E{number} Q{value}"),
     }

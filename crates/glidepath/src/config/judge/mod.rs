@@ -105,7 +105,7 @@ pub(super) fn judge(
         jog,
         feedback,
         probe: judge.probe(raw.probe, expects_feedback),
-        has_spindle_encoder: judge.spindle(&raw.spindle, is_axes),
+        spindle: judge.spindle(&raw.spindle, is_axes),
         adaptive_feed: judge.adaptive_feed(raw.adaptive_feed, expects_feedback),
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),

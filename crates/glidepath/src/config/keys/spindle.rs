@@ -1,11 +1,26 @@
 //! The keys of `[spindle]`.
 
-use super::key::{Key, LeftOut, Takes, key};
+use super::key::{Key, LeftOut, Takes, key, number};
 
-pub(super) const SPINDLE: &[Key] = &[key(
-    "spindle.encoder",
-    Takes::Flag,
-    LeftOut::Value("false"),
-    "the angle of the spindle is known, so that threads (G33) can follow it: the drives' feedback tells \
-     it (feedback.source = \"drives\"), or it is simulated with them",
-)];
+pub(super) const SPINDLE: &[Key] = &[
+    key(
+        "spindle.encoder",
+        Takes::Flag,
+        LeftOut::Value("false"),
+        "the angle of the spindle is known, so that threads (G33) and taps (G33.1) can follow it: the \
+         drives' feedback tells it (feedback.source = \"drives\"), or it is simulated with them",
+    ),
+    key(
+        "spindle.rigid_tapping",
+        Takes::Flag,
+        LeftOut::Value("false"),
+        "G84 and G74 tap rigidly; else they are for a tap in a holder that gives way",
+    ),
+    key(
+        "spindle.acceleration",
+        number(0.1, 10_000.0, "rev/s²"),
+        LeftOut::Means("a rigid tap turns back at the bottom of its hole, and runs on below it"),
+        "how fast the speed of the spindle changes when it turns back: a rigid tap is turned back so \
+         much above the bottom of its hole",
+    ),
+];

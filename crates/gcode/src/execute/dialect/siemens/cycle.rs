@@ -5,6 +5,7 @@
 //! | `CYCLE81` | RTP, RFP, SDIS, DP, DPR |
 //! | `CYCLE82` | …, DTB |
 //! | `CYCLE83` | RTP, RFP, SDIS, DP, DPR, FDEP, FDPR, DAM, DTB, DTS, FRF, VARI |
+//! | `CYCLE84` | RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1 |
 //! | `CYCLE85` | RTP, RFP, SDIS, DP, DPR, DTB, FFR, RFF |
 //! | `CYCLE86` | RTP, RFP, SDIS, DP, DPR, DTB, SDIR, RPA, RPO, RPAP, POSS |
 //! | `POCKET3` | RTP, RFP, SDIS, DP, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AP2, AD, RAD1, DP1 |
@@ -33,10 +34,11 @@ use crate::syntax::word_check::missing;
 const MAX_LINES: usize = 200_000;
 
 /// Names of cycles, and how many arguments each takes.
-const CYCLES: [(&str, usize); 7] = [
+const CYCLES: [(&str, usize); 8] = [
     ("CYCLE81", 5),
     ("CYCLE82", 6),
     ("CYCLE83", 12),
+    ("CYCLE84", 12),
     ("CYCLE85", 8),
     ("CYCLE86", 11),
     ("POCKET3", 23),
@@ -293,7 +295,7 @@ impl<R: BufRead> Program<R> {
             let shown = String::from_utf8_lossy(name).into_owned();
             let message = format!("MCALL of {shown} is not supported");
             return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("CYCLE81, 82, 83, 85, 86, POCKET3 and POCKET4 can be called at every move")
+                .because("CYCLE81 to 86, POCKET3 and POCKET4 can be called at every move")
                 .help("use one of these"));
         }
         let (call, span) = self.siemens_call(text, start)?;
@@ -371,6 +373,7 @@ impl<R: BufRead> Program<R> {
         match arguments.call.name {
             "CYCLE81" | "CYCLE82" => interpreter.drill(arguments),
             "CYCLE83" => interpreter.deep_drill(arguments),
+            "CYCLE84" => interpreter.tap_hole(arguments),
             "CYCLE85" => interpreter.ream(arguments),
             "CYCLE86" => interpreter.bore(arguments),
             "POCKET3" => interpreter.rectangular_pocket(arguments),

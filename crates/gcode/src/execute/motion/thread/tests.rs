@@ -5,10 +5,10 @@ use glidepath_program::{Event, Item, ItemKind, Limits, PHASE_STEPS};
 
 fn options() -> Options {
     Options {
-        threading: Some(Threading {
-            limits: Limits::uniform(200.0, 2_000.0, 40_000.0),
-            period_t: 0.004,
-        }),
+        threading: Some(Threading::new(
+            Limits::uniform(200.0, 2_000.0, 40_000.0),
+            0.004,
+        )),
         ..Options::default()
     }
 }

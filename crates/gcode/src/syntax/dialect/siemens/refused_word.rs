@@ -5,16 +5,11 @@ use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 
 /// What is known of the language, and not read here.
-const REFUSED: [(&[u8], &str, &str); 24] = [
+const REFUSED: [(&[u8], &str, &str); 25] = [
     (
         b"TRAORI",
         "tool orientation",
         "let the CAM system write the positions of the axes",
-    ),
-    (
-        b"CYCLE84",
-        "tapping with a spindle that is led",
-        "cut the thread with a mill on a helix",
     ),
     (
         b"CYCLE840",
@@ -85,7 +80,21 @@ const REFUSED: [(&[u8], &str, &str); 24] = [
     (b"SPOS", "a spindle that stops at an angle", "write M19 R"),
     (b"DIAMON", "diameters", "write G7"),
     (b"DIAMOF", "radii", "write G8"),
-    (b"MEAS", "a measurement", "use G38.2 … G38.5"),
+    (
+        b"MEAS",
+        "a measurement that leaves out the rest of the way",
+        "write G38.3 with X, Y or Z",
+    ),
+    (
+        b"MEAW",
+        "a measurement on the way",
+        "measure at the end of the way: write G38.3",
+    ),
+    (
+        b"MEASA",
+        "measurements at several edges",
+        "write a G38.3 for each of them",
+    ),
 ];
 
 /// A word that is not read.

@@ -72,8 +72,8 @@ impl Statement {
 }
 
 /// Cycles that are made.
-const CYCLES: [&[u8]; 7] = [
-    b"CYCLE81", b"CYCLE82", b"CYCLE83", b"CYCLE85", b"CYCLE86", b"POCKET3", b"POCKET4",
+const CYCLES: [&[u8]; 8] = [
+    b"CYCLE81", b"CYCLE82", b"CYCLE83", b"CYCLE84", b"CYCLE85", b"CYCLE86", b"POCKET3", b"POCKET4",
 ];
 
 /// Letters, digits and underscores at the start of a text.

@@ -1,0 +1,141 @@
+//! Rigid tapping: G33.1, and the holes of G84 and G74 where these tap rigidly.
+//!
+//! Where the tap turns back depends on the spindle, so the way is no move: it is an event at rest,
+//! and the machine is where it was when it has happened.
+//!
+//! ```text
+//!   start ●  at rest, beside a spindle at speed
+//!         │  run-in: the axis comes to the speed of the spindle
+//!         │  with the spindle
+//!         ┆  the spindle is told to turn back: at the bottom, or before it by what it runs on
+//!  bottom ●  and out again, up to where it began
+//! ```
+
+use glidepath_geometry::{Axis, AxisVector, Segment};
+use glidepath_program::{Event, Item, ItemKind, TAP_DEPTHS_UM};
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::settled::settled;
+use crate::setup::threading::Threading;
+use crate::syntax::block::Block;
+use crate::syntax::word_check::missing;
+
+/// Revolutions for which the spindle may go on behind the bottom before it turns back: where it is
+/// told to there, and where it is told to before.
+const OVERRUN: [f64; 2] = [2.0, 0.5];
+
+impl Interpreter {
+    /// G33.1.
+    pub(crate) fn rigid_tap(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        let span = block.motion_span();
+        let Some(pitch) = block.get(b'K') else {
+            return Err(missing(span, "G33.1", "K", "the pitch of the tap"));
+        };
+        if pitch <= 0.0 || block.get(b'F').is_some() {
+            let message = "G33.1 takes a pitch K above zero, and no F";
+            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
+                .because("the spindle alone gives the speed of a tap")
+                .help("write the way of a revolution as K, and the axis word of the hole"));
+        }
+        let bottom = self.target(block)?;
+        self.tap_to(block, bottom, pitch * self.state.modal.units.mm(), out)
+    }
+
+    /// Taps from where the tool is to the bottom of a hole, machine coordinates, with so many mm of
+    /// way for each revolution, > 0.
+    pub(crate) fn tap_to(
+        &mut self,
+        block: &Block,
+        bottom: AxisVector,
+        pitch_mm: f64,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let span = block.motion_span();
+        let threading = self.check_spindle(span)?;
+        let start = self.state.path_end;
+        let end = settled(start, bottom, [None, None]);
+        let way = end - start;
+        let moved = Axis::ALL
+            .into_iter()
+            .filter(|axis| way[axis.index()].abs() > 0.0);
+        let axes: Vec<Axis> = moved.collect();
+        let [axis] = axes[..] else {
+            let message = "a tap along more than one axis, or none";
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("one axis goes with the spindle")
+                .help(
+                    "write the axis of the hole alone, with another depth than where the tool is",
+                ));
+        };
+        let along = way[axis.index()];
+        let hole = Segment::line(start, end);
+        let speed_v = self.check_groove(span, &threading, &hole, pitch_mm, [true, true])?;
+        let turn_mm = self.turn_mm(span, &threading, &hole, pitch_mm, speed_v)?;
+        let over = OVERRUN[usize::from(threading.spindle_a.is_some())] * pitch_mm;
+        let mut deepest = end;
+        deepest[axis.index()] += over.copysign(along);
+        let what = "the bottom, with what the spindle may run on there,";
+        self.check_limits(block, &deepest, &deepest, what)?;
+        let depth_um = (turn_mm * 1e3).round();
+        if depth_um >= f64::from(TAP_DEPTHS_UM) {
+            let message = "a hole of more than a metre";
+            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
+                .because("depths are kept up to that")
+                .help("check the axis word, and the units it is in"));
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "range checked"
+        )]
+        let tap = Event::Tap {
+            axis: axis.index() as u32,
+            pitch_mm: pitch_mm.copysign(along),
+            depth_um: depth_um as u32,
+        };
+        self.push(out, ItemKind::Event(tap));
+        Ok(())
+    }
+
+    /// How deep the tap is when the spindle is told to turn back, mm.
+    fn turn_mm(
+        &self,
+        span: SourceSpan,
+        threading: &Threading,
+        hole: &Segment,
+        pitch_mm: f64,
+        speed_v: f64,
+    ) -> Outcome<f64> {
+        let speed = self.state.spindle.speed;
+        let direction = hole.jet(0.0).d1;
+        let turning_a = threading.spindle_a.unwrap_or_default() * pitch_mm;
+        let most_a = threading.most_a(&direction);
+        if turning_a > most_a {
+            let message =
+                format!("the axis goes with {turning_a:.0} mm/s² where the spindle turns back");
+            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
+                .because(format!("it can do {most_a:.0} mm/s²"))
+                .help(
+                    "let the spindle turn back more slowly, and say so by `acceleration` of \
+                     [spindle]",
+                ));
+        }
+        let run_in_mm = threading.run_in_mm(&direction, speed_v);
+        let run_on_mm = threading.run_on_mm(pitch_mm, speed / 60.0);
+        let length_mm = hole.length();
+        let turn_mm = length_mm - run_on_mm;
+        if turn_mm < run_in_mm {
+            let message = format!("a hole of {length_mm:.3} mm is too short at S{speed}");
+            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
+                .because(format!(
+                    "the tap needs {run_in_mm:.3} mm to come to the speed of the spindle, which \
+                     runs on for {run_on_mm:.3} mm"
+                ))
+                .help("begin higher above the hole, or turn more slowly"));
+        }
+        Ok(turn_mm)
+    }
+}

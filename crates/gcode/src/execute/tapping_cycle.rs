@@ -1,0 +1,142 @@
+//! Holes of G84 and G74: with a tap in a holder that gives way, or rigidly behind the spindle.
+//!
+//! Rigidly where the machine is configured so (`rigid_tapping`), and behind FANUC's M29, for the
+//! series of holes that comes next. The way of a revolution is F / S, in G95 F. Behind M29 the
+//! spindle stands between the holes, as on that control.
+
+use glidepath_program::{Event, Item, ItemKind};
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::speed::Pace;
+use crate::execute::state::spindle::SpindleDirection;
+use crate::execute::state::sticky_words::StickyWords;
+use crate::syntax::block::Block;
+use crate::syntax::modes::{CannedCycle, FeedMode};
+
+/// Which way a tap turns into a hole.
+pub(super) const fn tap_turns(cycle: CannedCycle) -> Option<SpindleDirection> {
+    match cycle {
+        CannedCycle::TapRight => Some(SpindleDirection::Clockwise),
+        CannedCycle::TapLeft => Some(SpindleDirection::Counterclockwise),
+        _ => None,
+    }
+}
+
+impl Interpreter {
+    /// M29: the next tapping cycle is rigid. The spindle stands until it begins.
+    pub(crate) fn arm_rigid_tapping(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        let Some(coded) = block.codes.rigid_tapping else {
+            return Ok(());
+        };
+        self.known_angle(coded.span)?;
+        self.state.spindle.is_rigid = true;
+        if self.state.spindle.turning.take().is_some() {
+            self.push(out, ItemKind::Event(Event::MCode(5)));
+        }
+        Ok(())
+    }
+
+    /// Settles whether a cycle that taps does so rigidly; `last` is the hole before.
+    pub(super) fn settle_rigidity(
+        &mut self,
+        block: &Block,
+        last: Option<&StickyWords>,
+        sticky: &mut StickyWords,
+    ) -> Outcome<()> {
+        if tap_turns(sticky.cycle).is_none() {
+            return Ok(());
+        }
+        let is_armed = core::mem::take(&mut self.state.spindle.is_rigid);
+        let is_configured = self.options.threading.is_some_and(|it| it.rigid_tapping);
+        sticky.starts_spindle = is_armed || last.is_some_and(|last| last.starts_spindle);
+        sticky.is_rigid = sticky.starts_spindle || is_configured;
+        let has_pecks = block.get(b'Q').is_some_and(|peck| peck > 0.0);
+        let (letter, what, help) = if !sticky.is_rigid {
+            return Ok(());
+        } else if has_pecks {
+            let help = "leave Q out, or write a hole for each depth";
+            (b'Q', "rigid tapping in several depths (Q)", help)
+        } else if sticky.dwell_s > 0.0 {
+            let help = "leave P out, or write P0";
+            (b'P', "rigid tapping with a dwell at the bottom (P)", help)
+        } else {
+            return Ok(());
+        };
+        let message = format!("{what} is not supported");
+        Err(
+            Fault::new(DiagnosticCode::NotSupported, block.span(letter), message)
+                .because("the axis goes with the spindle, which turns back at once")
+                .help(help),
+        )
+    }
+
+    /// From the R plane to the bottom and out again, with a tap in a holder that gives way.
+    pub(super) fn tap_with_holder(
+        &mut self,
+        block: &Block,
+        turning: SpindleDirection,
+        [bottom, clear]: [f64; 2],
+        dwell_s: f64,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let code = |number: u32| ItemKind::Event(Event::MCode(number));
+        let normal = self.state.modal.plane.normal();
+        self.push(out, code(49));
+        self.along(block, normal, bottom, Pace::Feed, out)?;
+        self.push(out, code(turning.reversed().code()));
+        self.push(out, ItemKind::Dwell(dwell_s));
+        self.along(block, normal, clear, Pace::Feed, out)?;
+        self.push(out, code(turning.code()));
+        self.push(out, code(48));
+        Ok(())
+    }
+
+    /// From the R plane to the bottom and out again behind the spindle, then to the clear level.
+    pub(super) fn tap_rigidly(
+        &mut self,
+        block: &Block,
+        turning: SpindleDirection,
+        [bottom, clear]: [f64; 2],
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        let normal = self.state.modal.plane.normal();
+        let pitch_mm = self.tap_pitch(block)?;
+        let starts = self.state.spindle.turning.is_none();
+        if starts {
+            self.state.spindle.turning = Some(turning);
+            self.push(out, ItemKind::Event(Event::MCode(turning.code())));
+        }
+        let target = self.level(normal, bottom);
+        self.tap_to(block, target, pitch_mm, out)?;
+        if starts {
+            self.state.spindle.turning = None;
+            self.push(out, ItemKind::Event(Event::MCode(5)));
+        }
+        self.along(block, normal, clear, Pace::Rapid, out)
+    }
+
+    /// The way of a revolution of a tapping cycle, mm.
+    fn tap_pitch(&self, block: &Block) -> Outcome<f64> {
+        let span = block.motion_span();
+        let modal = &self.state.modal;
+        let speed = self.state.spindle.speed;
+        let Some(feed) = modal.feed else {
+            let message = "rigid tapping without a feedrate";
+            return Err(Fault::new(DiagnosticCode::MissingFeed, span, message)
+                .because("F over S is the way of a revolution of the tap, in G95 F alone")
+                .help("write an F word"));
+        };
+        if modal.feed_mode == FeedMode::PerRevolution {
+            return Ok(feed.linear_v);
+        }
+        if speed <= 0.0 {
+            let message = "rigid tapping with a spindle without a speed";
+            return Err(Fault::new(DiagnosticCode::Spindle, span, message)
+                .because("F over S is the way of a revolution of the tap")
+                .help("write an S word"));
+        }
+        Ok(feed.linear_v * 60.0 / speed)
+    }
+}
