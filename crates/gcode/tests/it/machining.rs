@@ -216,6 +216,42 @@ fn feeds_per_revolution_and_cutting_speeds() {
 }
 
 #[test]
+fn a_cutting_speed_is_kept_on_the_way_to_the_middle() {
+    // Facing from a radius of 50 mm: of 300 m/min, at most 2000 rev/min.
+    let text = "G0 X50\nG96 S300 D2000 M3\nG95 F0.2\nG1 X0\nX10 G97 S100";
+    let (mut told, mut at, mut worst, mut changes) = (0.0_f64, 50.0_f64, 0.0_f64, 0);
+    for item in Program::new(text.as_bytes(), options()) {
+        match item.expect("a sound program").kind {
+            ItemKind::Event(Event::SpindleSpeed(speed)) => (told, changes) = (speed, changes + 1),
+            ItemKind::Move { segment, rate, .. } if rate != Rate::Rapid => {
+                if told <= 100.0 {
+                    break;
+                }
+                // The feed is that of the speed told last.
+                let feed_v = rate.feed_v().expect("a feed");
+                assert!((feed_v - 0.2 * told / 60.0).abs() < 1e-9);
+                let end = segment.end()[0];
+                let wanted = |x: f64| (300_000.0 / (core::f64::consts::TAU * x)).min(2_000.0);
+                for x in [at, end] {
+                    worst = worst.max((told - wanted(x.max(1e-9))).abs() / wanted(x.max(1e-9)));
+                }
+                at = end;
+            }
+            _ => {}
+        }
+    }
+    assert_eq!(at, 0.0);
+    // 1 % is what is worth telling, and what passes until it is looked at comes on top.
+    assert!(worst < 0.015, "{worst}");
+    assert!((50..150).contains(&changes), "{changes}");
+    // Where the time of the move is given, it stays one.
+    assert_eq!(
+        items("G0 X50\nG96 S300 D2000\nG93 G1 X10 F1"),
+        "r(50,0,0) S955 f(10,0,0) S2000"
+    );
+}
+
+#[test]
 fn simulated_probing_and_outputs() {
     assert_eq!(
         items("M64 P3\nM63 P0\nM68 E1 Q2.5\nM66 P1 L0\nG38.2 X10 F60\nG0 X[#5061+#5070+#5399]"),

@@ -2,11 +2,12 @@
 //!
 //! With G96 the S word is a cutting speed (m/min, or ft/min in inches) and the revolutions follow
 //! from the distance of the tool from the X axis' zero: n = 1000 S / (2 π |x|), at most D. The
-//! event with the speed is given out with the S word and after every move that changes it by more
-//! than 1 %.
+//! event with the speed is given out with the S word, on the way of straight moves at feed, and
+//! after every move that changes it by more than 1 %.
 
 use core::f64::consts::TAU;
 
+use glidepath_geometry::AxisVector;
 use glidepath_program::{Event, Item, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
@@ -109,8 +110,12 @@ impl Interpreter {
 
     /// Revolutions a minute for the cutting speed of G96 where the tool is; `None` in G97.
     fn surface_revolutions(&self) -> Option<f64> {
+        self.surface_revolutions_at(self.state.position)
+    }
+
+    fn surface_revolutions_at(&self, machine: AxisVector) -> Option<f64> {
         let surface = self.state.spindle.surface?;
-        let program = self.offsets.to_program(self.state.position);
+        let program = self.offsets.to_program(machine);
         let round_mm = TAU * program[0].abs();
         let speed = surface.speed / round_mm.max(1e-6);
         Some(speed.min(surface.most).min(MAX_NUMBER))
@@ -118,9 +123,20 @@ impl Interpreter {
 
     /// After a move in G96: tells the spindle's speed if it has changed.
     pub(crate) fn follow_surface(&mut self, out: &mut Vec<Item>) {
+        self.follow_surface_at(self.state.position, out);
+    }
+
+    /// Whether the speed of G96 at a place, machine coordinates, is worth telling.
+    pub(crate) fn is_surface_speed_new(&self, machine: AxisVector) -> bool {
         let told = self.state.spindle.speed;
-        if let Some(speed) = self.surface_revolutions()
-            && (speed - told).abs() > WORTH_TELLING * told
+        let speed = self.surface_revolutions_at(machine);
+        speed.is_some_and(|speed| (speed - told).abs() > WORTH_TELLING * told)
+    }
+
+    /// Tells the speed of G96 at a place, machine coordinates, if it has changed.
+    pub(crate) fn follow_surface_at(&mut self, machine: AxisVector, out: &mut Vec<Item>) {
+        if self.is_surface_speed_new(machine)
+            && let Some(speed) = self.surface_revolutions_at(machine)
         {
             self.tell_speed(speed, out);
         }

@@ -15,5 +15,6 @@ pub(crate) mod settled;
 pub(crate) mod speed;
 mod spline;
 mod straight;
+mod surface;
 mod target;
 pub(crate) mod thread;

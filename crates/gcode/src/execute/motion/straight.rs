@@ -31,6 +31,9 @@ impl Interpreter {
             return Ok(());
         }
         self.check_limits(block, &end, &end, "the end")?;
+        if pace == Pace::Feed && self.state.spindle.follows_tool() {
+            return self.straight_at_surface(block, end, out);
+        }
         let segment = Segment::line(start, end);
         let speed = self.speed(block, &segment, pace)?;
         self.push_move(segment, speed, out);
