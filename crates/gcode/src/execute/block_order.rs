@@ -218,6 +218,9 @@ impl Interpreter {
             Motion::Spline(spline) => self.spline(block, spline, out)?,
             Motion::Thread => self.thread(block, out)?,
             Motion::RigidTap => self.rigid_tap(block, out)?,
+            Motion::ThreadCycle if block.dialect == Dialect::Fanuc => {
+                self.fanuc_thread(block, out)?;
+            }
             Motion::ThreadCycle => self.thread_cycle(block, out)?,
         }
         self.follow_surface(out);

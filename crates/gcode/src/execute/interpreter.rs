@@ -93,6 +93,7 @@ impl Interpreter {
                 leaving_contour: false,
                 cubic_tail: None,
                 thread_end: None,
+                thread_setup: None,
             },
             open_spline: None,
             offsets,

@@ -23,6 +23,7 @@ mod carry_over;
 pub(crate) mod compensation;
 pub(crate) mod dialect;
 mod execute_line;
+mod fanuc_thread;
 pub(crate) mod flow;
 pub(crate) mod interpreter;
 pub(crate) mod lathe_cycle;

@@ -27,7 +27,7 @@ use crate::syntax::dialect::Dialect;
 use crate::syntax::word_check::{missing, whole};
 
 /// Most passes of a thread: more is a mistake in a word.
-const MAX_PASSES: u32 = 1000;
+pub(super) const MAX_PASSES: u32 = 1000;
 /// Most spring passes.
 const MAX_SPRINGS: u32 = 100;
 /// The steepest angle of the slide, degrees.
@@ -216,7 +216,13 @@ impl Interpreter {
         self.rapid_to(block, at(out_x, end_z), out)
     }
 
-    fn rapid_to(&mut self, block: &Block, program: AxisVector, out: &mut Vec<Item>) -> Outcome<()> {
+    /// Goes to program coordinates at rapid.
+    pub(super) fn rapid_to(
+        &mut self,
+        block: &Block,
+        program: AxisVector,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
         let target = self.offsets.to_machine(program);
         self.straight(block, target, Pace::Rapid, out)
     }

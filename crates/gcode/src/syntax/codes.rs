@@ -63,7 +63,7 @@ pub(crate) struct Codes {
     pub(crate) function: Option<Coded<u32>>,
     /// M29 of FANUC.
     pub(crate) rigid_tapping: Option<Coded<u32>>,
-    /// The motion is that of this block alone: what was the mode stays it (G31).
+    /// The motion is that of this block alone: what was the mode stays it (G31, G76 of FANUC).
     pub(crate) is_once: bool,
 }
 
@@ -132,17 +132,19 @@ impl Codes {
         }
     }
 
-    /// Adds a G word of a FANUC program: G31 is a move that a contact ends, and no error without.
+    /// Adds a G word of a FANUC program. G31 is a move that a contact ends, and no error without;
+    /// like G76 it is of its block alone.
     pub(crate) fn add_fanuc_g(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
-        if code_number(value) != Some(31) {
-            return self.add_g(value, span);
-        }
-        self.is_once = true;
-        let skip = Probe {
-            toward: true,
-            must: false,
+        let motion = match code_number(value) {
+            Some(31) => Motion::Probe(Probe {
+                toward: true,
+                must: false,
+            }),
+            Some(76) => Motion::ThreadCycle,
+            _ => return self.add_g(value, span),
         };
-        self.set_motion(Some(Motion::Probe(skip)), span)
+        self.is_once = true;
+        self.set_motion(Some(motion), span)
     }
 
     /// True if the block has any code.

@@ -12,6 +12,7 @@ mod corpus;
 mod damaged;
 mod diagnostics;
 mod dialects;
+mod fanuc_threads;
 mod flow;
 mod lathe_cycles;
 mod lathe_reference;

@@ -21,7 +21,8 @@ impl Interpreter {
             modal.feed_mode = code;
         }
         // On a FANUC the F of a thread is its pitch.
-        let is_pitch = block.dialect == Dialect::Fanuc && matches!(motion, Some(Motion::Thread));
+        let is_pitch = block.dialect == Dialect::Fanuc
+            && matches!(motion, Some(Motion::Thread | Motion::ThreadCycle));
         let Some(feed) = block.get(b'F').filter(|_| !is_pitch) else {
             return Ok(());
         };

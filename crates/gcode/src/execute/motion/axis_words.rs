@@ -60,6 +60,8 @@ impl Interpreter {
                 }),
                 false,
             ) => {
+                // The first block of FANUC's G76 goes nowhere.
+                let is_setup = fanuc && motion == Motion::ThreadCycle;
                 let needs = matches!(
                     motion,
                     Motion::Cycle(_)
@@ -67,7 +69,7 @@ impl Interpreter {
                         | Motion::Thread
                         | Motion::RigidTap
                         | Motion::ThreadCycle
-                );
+                ) && !is_setup;
                 if needs && !has_axes {
                     let meaning = "where to go";
                     return Err(missing(
@@ -77,7 +79,7 @@ impl Interpreter {
                         meaning,
                     ));
                 }
-                Ok((has_axes || motion.may_lack_axes()).then_some(motion))
+                Ok((has_axes || is_setup || motion.may_lack_axes()).then_some(motion))
             }
             (_, true) => Ok(None),
             (_, false) => self.modal_motion(block, has_axes),
@@ -106,10 +108,14 @@ impl Interpreter {
         if !block.has_any(self.lacking) {
             return Ok(());
         }
-        match block
-            .axes()
-            .find(|(axis, _)| !self.options.machine.has(*axis))
-        {
+        // In FANUC's G76 A is the angle of the tool.
+        let is_thread = block.dialect == Dialect::Fanuc
+            && block
+                .codes
+                .motion
+                .is_some_and(|coded| coded.code == Some(Motion::ThreadCycle));
+        let lacks = |axis: Axis| !self.options.machine.has(axis) && !(is_thread && axis == Axis::A);
+        match block.axes().find(|(axis, _)| lacks(*axis)) {
             None => Ok(()),
             Some((axis, _)) => {
                 let message = format!("the machine has no {axis} axis");

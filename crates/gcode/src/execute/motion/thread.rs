@@ -63,10 +63,17 @@ impl Interpreter {
                 .help("write the thread in one block, or retract between two"));
         }
         let phase = self.phase(block)?;
-        let pitch_mm = pitch * self.state.modal.units.mm();
+        let end = settled(self.state.path_end, target, [None, None]);
+        let way = end - self.state.path_end;
+        // On a FANUC the lead is that of the axis that goes further.
+        let along = if is_fanuc && way.amax() > 0.0 {
+            way.norm() / way.amax()
+        } else {
+            1.0
+        };
         let groove = Groove {
-            end: settled(self.state.path_end, target, [None, None]),
-            pitch_mm,
+            end,
+            pitch_mm: pitch * self.state.modal.units.mm() * along,
             corner_mm: 0.0,
         };
         self.pass(block, &[groove], phase, out)?;
@@ -75,7 +82,7 @@ impl Interpreter {
     }
 
     /// The angle at which a pass begins, of the Q word: degrees, on a FANUC thousandths of them.
-    fn phase(&self, block: &Block) -> Outcome<u32> {
+    pub(crate) fn phase(&self, block: &Block) -> Outcome<u32> {
         let Some(angle) = block.get(b'Q') else {
             return Ok(0);
         };

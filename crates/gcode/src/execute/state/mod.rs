@@ -13,3 +13,4 @@ pub(crate) mod saved_states;
 pub(crate) mod soft_limits;
 pub(crate) mod spindle;
 pub(crate) mod sticky_words;
+pub(crate) mod thread_setup;

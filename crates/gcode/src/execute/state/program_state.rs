@@ -7,6 +7,7 @@ use crate::execute::state::modal::Modal;
 use crate::execute::state::probe_result::ProbeResult;
 use crate::execute::state::spindle::Spindle;
 use crate::execute::state::sticky_words::CycleSeries;
+use crate::execute::state::thread_setup::ThreadSetup;
 use crate::syntax::modes::Side;
 
 /// The part of the state a block may change, offsets apart.
@@ -44,4 +45,6 @@ pub(crate) struct State {
     pub(crate) cubic_tail: Option<[f64; 2]>,
     /// Where the last pass of a thread ended.
     pub(crate) thread_end: Option<AxisVector>,
+    /// What the first block of FANUC's G76 said.
+    pub(crate) thread_setup: Option<ThreadSetup>,
 }

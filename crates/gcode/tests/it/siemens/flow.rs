@@ -90,3 +90,16 @@ fn loops_without_moves_end() {
         &["66:7 call-depth"],
     );
 }
+
+#[test]
+fn measurements_are_refused_by_name_with_what_to_write() {
+    for (text, expected) in [
+        ("MEAS=1 G1 X10 F100", "1:1 not-supported"),
+        ("G1 X10 F100 MEAW=-1", "1:13 not-supported"),
+    ] {
+        finds(text, &[expected]);
+        let report = glidepath_gcode::check(text.as_bytes(), super::options());
+        let help = &report.diagnostics[0].help;
+        assert!(help.contains("G38.3"), "{help}");
+    }
+}
