@@ -192,7 +192,7 @@ const fn unjudged(outline: &Outline) -> Option<&'static str> {
         ([], _) => Some("nothing moved: there is no path to judge"),
         ([_], None) => Some("it begins in the middle of the program: its path is not judged"),
         ([_], Some(_)) if outline.is_away => {
-            Some("axes were jogged away from the path: it is not judged")
+            Some("axes left the path, by hand or into a tapped hole: it is not judged")
         }
         ([_], Some(_)) => None,
         _ => Some("there are several motions in it: their paths are not judged"),
