@@ -114,8 +114,8 @@ impl Interpreter {
                 .codes
                 .motion
                 .is_some_and(|coded| coded.code == Some(Motion::ThreadCycle));
-        let lacks = |axis: Axis| !self.options.machine.has(axis) && !(is_thread && axis == Axis::A);
-        match block.axes().find(|(axis, _)| lacks(*axis)) {
+        let has = |axis: Axis| self.options.machine.has(axis) || is_thread && axis == Axis::A;
+        match block.axes().find(|(axis, _)| !has(*axis)) {
             None => Ok(()),
             Some((axis, _)) => {
                 let message = format!("the machine has no {axis} axis");
