@@ -319,7 +319,11 @@ impl Rate {
 
     /// One tick less until the reserve begins. Begins it when its time has come, and returns
     /// whether it has.
-    #[inline]
+    #[inline(always)]
+    #[allow(
+        clippy::inline_always,
+        reason = "every tick does it: a call costs more than what it mostly does"
+    )]
     fn count_down(&mut self) -> bool {
         let Some(reserve) = &mut self.reserve.kept else {
             return false;
