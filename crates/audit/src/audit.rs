@@ -47,6 +47,12 @@ impl Audit {
         self.see(&sample.into());
     }
 
+    /// The next sample of the motion, away from the path: it is judged by the limits alone. The
+    /// motion comes back to where it left the path.
+    pub fn sample_away(&mut self, sample: &Sample) {
+        self.limits.sample(&sample.into());
+    }
+
     /// The next sample of the motion and its path position, whose limits are judged too.
     pub fn sample_at(&mut self, sample: &Sample, path_s: f64) {
         let seen = sample.into();
@@ -133,6 +139,41 @@ mod tests {
         });
         assert!(audit.finish().is_clean());
         assert!(most < 5000, "{most}");
+    }
+
+    #[test]
+    fn what_is_away_from_the_path_is_judged_by_limits_alone() {
+        let judged = |is_away: bool, jump_mm: f64| {
+            let limits = Limits::uniform(100.0, 1e6, 1e9);
+            let mut audit = Audit::new(&AuditSettings {
+                limits,
+                ..settings()
+            });
+            let to = AxisVector::x() * 0.2;
+            audit.program(&item(Segment::line(AxisVector::zeros(), to)));
+            let aside = AxisVector::z() * jump_mm;
+            for (tick, position) in [to * 0.0, to * 0.5, to * 0.5 + aside, to * 0.5, to]
+                .into_iter()
+                .enumerate()
+            {
+                let sample = Sample {
+                    tick: tick as u64,
+                    line: 1,
+                    position,
+                    reported: None,
+                };
+                if is_away && tick == 2 {
+                    audit.sample_away(&sample);
+                } else {
+                    audit.sample(&sample);
+                }
+            }
+            audit.finish().is_clean()
+        };
+        assert!(!judged(false, 0.3));
+        assert!(judged(true, 0.3));
+        // 0.5 mm in 4 ms is too fast for 100 mm/s.
+        assert!(!judged(true, 0.5));
     }
 
     #[test]

@@ -168,14 +168,20 @@ impl Judge {
             return sample;
         }
         while self.told_s < setpoint.path_s + AHEAD_MM && self.tell(recording) {}
-        self.audit.sample(&audit::Sample {
+        let judged = audit::Sample {
             // Not the tick of the clock: after a missed tick the next setpoint is the next of the
             // path.
             tick: setpoint.number,
             line: setpoint.line,
             position: AxisVector::from(setpoint.position),
             reported: None,
-        });
+        };
+        // Into a tapped hole the way is that of the spindle, which no program says.
+        if setpoint.away.iter().any(|away| *away != 0.0) {
+            self.audit.sample_away(&judged);
+        } else {
+            self.audit.sample(&judged);
+        }
         // Waiting before and after the program is no part of the motion.
         if matches!(setpoint.state(), Ok(MachineState::Idle)) {
             return sample;
