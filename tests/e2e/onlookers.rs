@@ -171,7 +171,7 @@ fn whoever_looks_misses_nothing_and_is_not_felt() {
     let asked = std::env::var("GLIDEPATH_ONLOOKERS").ok();
     let asked: Option<u64> = asked.and_then(|text| text.parse().ok());
     let seconds = asked.unwrap_or(3);
-    let _watchdog = Watchdog::new(Duration::from_secs(180 + 3 * seconds));
+    let _watchdog = Watchdog::new(Duration::from_secs(300 + 3 * seconds));
     if asked.is_some() {
         let (status, _) = life(seconds, false);
         eprintln!("nobody looks: {}", told(&status));
