@@ -33,7 +33,7 @@ use crate::execute::state::thread_setup::ThreadSetup;
 use crate::execute::thread_cycle::MAX_PASSES;
 use crate::syntax::block::Block;
 use crate::syntax::modes::{Distance, Units};
-use crate::syntax::word_check::{missing, whole};
+use crate::syntax::word_check::{missing, none_wrong, whole};
 
 /// Angles that a tool may have, degrees: 0 cuts with both flanks.
 const MOST_ANGLE: f64 = 120.0;
@@ -260,16 +260,7 @@ impl FanucThread {
                 "an X from which the tool stands outside the peak of the thread",
             ),
         ];
-        match wrong.into_iter().find(|(_, is_wrong, _)| *is_wrong) {
-            Some((letter, _, rule)) => {
-                let message = format!("{} of G76 is out of range", char::from(letter));
-                Err(
-                    Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
-                        .help(format!("write {rule}")),
-                )
-            }
-            None => Ok(()),
-        }
+        none_wrong(block, "G76", wrong)
     }
 
     /// How far the passes are below the peak, one after the other.

@@ -24,7 +24,7 @@ use crate::execute::motion::speed::Pace;
 use crate::execute::motion::thread::Groove;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::word_check::{missing, whole};
+use crate::syntax::word_check::{missing, none_wrong, whole};
 
 /// Most passes of a thread: more is a mistake in a word.
 pub(super) const MAX_PASSES: u32 = 1000;
@@ -154,16 +154,8 @@ impl Interpreter {
                 "0 to half of the length of the thread",
             ),
         ];
-        match wrong.into_iter().find(|(_, is_wrong, _)| *is_wrong) {
-            Some((letter, _, rule)) => {
-                let message = format!("{} of G76 is out of range", char::from(letter));
-                Err(
-                    Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
-                        .help(format!("write {rule}")),
-                )
-            }
-            None => Ok(cycle),
-        }
+        none_wrong(block, "G76", wrong)?;
+        Ok(cycle)
     }
 
     /// A pass at a depth below the drive line, and out of the groove: the last one to the drive line,

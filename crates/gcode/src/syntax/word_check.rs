@@ -46,6 +46,23 @@ pub(crate) fn negative(block: &Block, letter: u8, what: &str) -> Box<Fault> {
     .help("write zero or more")
 }
 
+/// The first word of a code that is wrong is refused, with its rule.
+pub(crate) fn none_wrong<'a>(
+    block: &Block,
+    code: &str,
+    words: impl IntoIterator<Item = (u8, bool, &'a str)>,
+) -> Outcome<()> {
+    let mut words = words.into_iter();
+    let Some((letter, _, rule)) = words.find(|(_, is_wrong, _)| *is_wrong) else {
+        return Ok(());
+    };
+    let message = format!("{} of {code} is out of range", char::from(letter));
+    Err(
+        Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message)
+            .help(format!("write {rule}")),
+    )
+}
+
 /// Value of a word that must be a whole number from 0 to `max`.
 pub(crate) fn whole(block: &Block, letter: u8, max: u32) -> Outcome<Option<u32>> {
     let Some(value) = block.get(letter) else {
