@@ -269,20 +269,17 @@ fn answer(bench: &mut Bench<'_>, case: &mut Case) -> Checked<()> {
         sequence: status.awaited_sequence,
     };
     std::thread::sleep(case.chance.millis(0, 600));
-    let refused = bench.command(Command::Acknowledge { event, done: true });
-    if refused.is_err() {
-        bench.expect_news();
-        bench.until("a status", |heard| heard.status.is_some())?;
-        if bench.look(|heard| heard.is(MachineState::Faulted)) {
-            return Ok(());
-        }
-    }
-    refused
+    unless_faulted(bench, Command::Acknowledge { event, done: true })
 }
 
 /// Resumes, unless what went wrong has ended the hold already.
 fn resume(bench: &mut Bench<'_>) -> Checked<()> {
-    let refused = bench.command(Command::Resume);
+    unless_faulted(bench, Command::Resume)
+}
+
+/// A command that may be refused if the machine has a fault already.
+fn unless_faulted(bench: &mut Bench<'_>, command: Command) -> Checked<()> {
+    let refused = bench.command(command);
     if refused.is_err() {
         bench.expect_news();
         bench.until("a status", |heard| heard.status.is_some())?;
