@@ -15,7 +15,7 @@ use crate::programs::{PROGRAM, long_program};
 const PATIENCE: Duration = Duration::from_secs(240);
 /// What a recorder that was killed may lose: what came since its last flush, and what it had not yet
 /// taken.
-const LOST: Duration = Duration::from_millis(1500);
+const LOST: Duration = Duration::from_secs(1);
 
 /// The setpoints of a recording, and whether it was cut short.
 pub(crate) fn read(path: &Path) -> (Vec<Setpoint>, bool) {

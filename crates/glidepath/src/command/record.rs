@@ -27,8 +27,8 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 /// Between two looks: a small part of the queue of setpoints.
 const POLL: Duration = Duration::from_millis(10);
-/// What a killed recorder loses at most.
-const FLUSH_EVERY: Duration = Duration::from_secs(1);
+/// Half of what a killed recorder may lose, so that a busy host leaves the other half.
+const FLUSH_EVERY: Duration = Duration::from_millis(500);
 /// Between two looks for processes that died.
 const CLEAN_EVERY: Duration = Duration::from_secs(1);
 /// How long a black box goes on behind a fault.
