@@ -8,7 +8,7 @@ use crate::settings::Settings;
 use crate::state;
 use bytemuck::Zeroable as _;
 use glidepath_geometry::AXES;
-use glidepath_link::servo::{JointStates, OwnStop, Servo};
+use glidepath_link::servo::{JointStates, OwnStop, Servo, ServoCounts};
 use glidepath_link::{DriveState, Feedback, MachineState, Setpoint, Subscriber};
 
 /// Over how many cycles a velocity is taken: a count is not to look like a motion.
@@ -174,10 +174,10 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         !self.drives.iter().all(Drive::is_present)
     }
 
-    /// Targets in motion so far that were found without a setpoint.
+    /// What has become of the setpoints so far.
     #[must_use]
-    pub const fn coasts(&self) -> u64 {
-        self.servo.counts().coasts
+    pub const fn played(&self) -> ServoCounts {
+        *self.servo.counts()
     }
 
     /// A cycle: takes setpoints in, and says what each drive is to be told, for the setpoints of

@@ -15,6 +15,7 @@ use crate::bridge::Bridge;
 use crate::bus::{Init, Op, Reception};
 use crate::bus_clock::{Beat, BusClock};
 use crate::counts::Counts;
+use crate::demand::Demand;
 use crate::error::BusError;
 use crate::event::Event;
 use crate::image::Inputs;
@@ -43,9 +44,8 @@ pub struct Ends {
     pub events: Producer<Event>,
     /// Lines for the log, while no cycles run.
     pub log: Sender<String>,
-    /// The demand of every cycle: number of its datagrams and SYNC0 in ns of `CLOCK_MONOTONIC`, for
-    /// measurements; `None` for none.
-    pub demands: Option<Producer<(u8, u64)>>,
+    /// The demand of every cycle, for measurements; `None` for none.
+    pub demands: Option<Producer<Demand>>,
 }
 
 impl Ends {
@@ -194,13 +194,20 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
         let meant_ns = beat.sync_ns.saturating_sub(self.settings.bus.delay_ns);
         let outputs = self.bridge.cycle(now_ns, meant_ns, since_ns, &mut tell);
         let is_sent = self.op.send(outputs).is_ok();
+        let played = self.bridge.played();
         if let Some(demands) = &mut self.ends.demands {
-            let _ = demands.push((self.op.index(), beat.sync_ns));
+            let _ = demands.push(Demand {
+                index: self.op.index(),
+                sync_ns: beat.sync_ns,
+                missed_ticks: played.missed_ticks,
+                lost_setpoints: played.lost,
+                coasts: played.coasts,
+            });
         }
         self.hear(clock, &beat, is_sent);
         self.counts.cycles += 1;
         self.counts.quartz = clock.rate();
-        self.counts.coasts = self.bridge.coasts();
+        self.counts.coasts = played.coasts;
         if self.lost == 0 {
             self.targets_ns = beat.sync_ns;
             // What was answered was measured at the SYNC0 before, and belongs to the setpoints that were

@@ -8,6 +8,7 @@
 
 use crate::counts::Counts;
 use crate::cycle::{Ends, drive_bus};
+use crate::demand::Demand;
 use crate::error::BusError;
 use crate::event::Event;
 use crate::settings::Settings;
@@ -57,9 +58,8 @@ pub enum RunError {
 pub struct Listeners<'l, 'd> {
     /// Given lines for the log.
     pub log: &'l mut dyn FnMut(&str),
-    /// Given the demand of every cycle, if anybody wants it: the number of its datagrams, and the
-    /// SYNC0 that it is for, ns of `CLOCK_MONOTONIC`.
-    pub demands: Option<&'d mut dyn FnMut(u8, u64)>,
+    /// Given the demand of every cycle, if anybody wants it.
+    pub demands: Option<&'d mut dyn FnMut(Demand)>,
 }
 
 impl core::fmt::Debug for Listeners<'_, '_> {
@@ -123,9 +123,9 @@ pub fn run<W: Wire + Send>(
                 }
             }
             tell(&mut happened, &said, log);
-            while let Ok((index, sync_ns)) = asked.pop() {
+            while let Ok(demand) = asked.pop() {
                 if let Some(demands) = &mut demands {
-                    demands(index, sync_ns);
+                    demands(demand);
                 }
             }
             if is_last {

@@ -9,7 +9,7 @@ use crate::exit::Exit;
 use crate::interrupt::{Interrupt, end_with};
 use crate::output;
 use crate::report::grouped;
-use glidepath_ethercat::{Counts, Listeners, PacketWire, RunSettings, Settings, run};
+use glidepath_ethercat::{Counts, Demand, Listeners, PacketWire, RunSettings, Settings, run};
 use glidepath_link::{Ipc, Transport};
 use glidepath_realtime::{Histogram, Mode, Request};
 use serde_json::{Value, json};
@@ -61,7 +61,7 @@ pub(super) fn bridge(
     wire: &mut PacketWire,
     settings: &Settings,
     interrupt: &Interrupt,
-    demands: Option<&mut dyn FnMut(u8, u64)>,
+    demands: Option<&mut dyn FnMut(Demand)>,
 ) -> Result<Counts, Failure> {
     let link = session::link(&session::instance(&args.instance, config), config);
     let transport = move || Ok(Box::new(Ipc::connect(&link)?) as Box<dyn Transport>);

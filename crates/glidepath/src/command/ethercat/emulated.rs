@@ -12,7 +12,7 @@ use crate::file_error::FileError;
 use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_emulator::{DriveSettings as Emulated, HomeSwitch, Segment};
 use glidepath_ethercat::{
-    BusSettings, DriveSettings, HomingSettings, MAX_FRAME, PacketWire, Settings, Wire as _,
+    BusSettings, Demand, DriveSettings, HomingSettings, MAX_FRAME, PacketWire, Settings, Wire as _,
 };
 use glidepath_realtime::{Mode, Request, enter};
 use std::fs::File;
@@ -71,8 +71,8 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     let mut demanded = Vec::new();
     let counts = std::thread::scope(|scope| {
         let answers = scope.spawn(|| answer(&mut there, &mut segment, &is_over));
-        let mut note = |index: u8, sync_ns: u64| demanded.push((index, sync_ns));
-        let demands = record.map(|_| &mut note as &mut dyn FnMut(u8, u64));
+        let mut note = |demand: Demand| demanded.push(demand);
+        let demands = record.map(|_| &mut note as &mut dyn FnMut(Demand));
         let counts = bridge::bridge(args, config, &mut master, &settings, &interrupt, demands);
         is_over.store(true, Ordering::Relaxed);
         answers
@@ -186,38 +186,43 @@ fn machine(
     Ok((drives, emulated))
 }
 
-/// What the drives recorded, and for what time each target was meant.
+/// What the drives recorded, for what time each target was meant, and what had become of the setpoints
+/// when it was found.
 fn write(
     path: &Path,
     settings: &Settings,
     segment: &mut Segment,
-    demanded: &[(u8, u64)],
+    demanded: &[Demand],
 ) -> std::io::Result<()> {
     let mut file = BufWriter::new(File::create(path)?);
     writeln!(
         file,
-        "joint,sync_ns,meant_ns,target,actual,statusword,follows"
+        "joint,sync_ns,meant_ns,target,actual,statusword,follows,missed_ticks,lost_setpoints,coasts"
     )?;
     let period_ns = settings.bus.period_ns;
     for drive in &settings.drives {
         for record in segment.take_records(drive.position) {
             // The demand of that number that is nearest in time.
-            let from = demanded.partition_point(|(_, sync)| sync + 64 * period_ns < record.at_ns);
+            let from =
+                demanded.partition_point(|demand| demand.sync_ns + 64 * period_ns < record.at_ns);
             let near = demanded[from..].iter().take(128);
-            let meant = near.filter(|(index, _)| *index == record.index);
-            let meant = meant
-                .map(|(_, sync)| *sync)
-                .min_by_key(|sync| sync.abs_diff(record.at_ns));
+            let meant = near
+                .filter(|demand| demand.index == record.index)
+                .min_by_key(|demand| demand.sync_ns.abs_diff(record.at_ns));
+            let meant = meant.copied().unwrap_or_default();
             writeln!(
                 file,
-                "{},{},{},{},{},{:#06x},{}",
+                "{},{},{},{},{},{:#06x},{},{},{},{}",
                 drive.joint,
                 record.at_ns,
-                meant.unwrap_or(0),
+                meant.sync_ns,
                 drive.place(record.target),
                 drive.place(record.actual),
                 record.status,
-                u8::from(record.follows)
+                u8::from(record.follows),
+                meant.missed_ticks,
+                meant.lost_setpoints,
+                meant.coasts,
             )?;
         }
     }

@@ -1,0 +1,137 @@
+//! The whole chain over emulated drives: planner, interpolator, bridge, a pair of virtual interfaces,
+//! drives. Judged by what the drives themselves recorded at every SYNC0.
+//!
+//! `GLIDEPATH_CHAIN` is the length of the program in seconds, about; then all periods of the bus are run, and
+//! a host that left too little to be judged is a failure, too.
+#![allow(
+    clippy::print_stderr,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "a test that tells what it measured"
+)]
+
+mod judge;
+
+use std::fmt::Write as _;
+use std::time::Duration;
+
+use glidepath_tests::{Instance, Process, Watchdog};
+use judge::{COUNTS, Row, judge, rows};
+
+/// Time constant of their lag, s.
+const LAG_T: f64 = 0.002;
+
+/// A zigzag of about so many seconds.
+fn program(seconds: u32) -> String {
+    let mut text = String::from("G21 G90 G64 P0.02 F9000\n");
+    for leg in 0..seconds * 3 {
+        let (x, y) = (20 * (leg % 2), 3 * (leg % 7));
+        let _ = writeln!(text, "G1 X{x} Y{y} Z{}", leg % 3);
+    }
+    text + "M2\n"
+}
+
+/// How far each time is from the one it was meant for, sorted, µs.
+fn phase_errors_us(rows: &[Row]) -> Vec<f64> {
+    let led = rows.iter().filter(|row| row.follows && row.meant_ns != 0);
+    let mut errors: Vec<f64> = led
+        .map(|row| row.sync_ns.abs_diff(row.meant_ns) as f64 / 1e3)
+        .collect();
+    errors.sort_by(f64::total_cmp);
+    errors
+}
+
+/// The largest difference of a motor to where the model of its lag has it, mm.
+fn model_error(rows: &[Row], period_t: f64) -> f64 {
+    let stays = (-period_t / LAG_T).exp();
+    let pairs = rows
+        .windows(2)
+        .filter(|pair| pair[0].follows && pair[1].follows);
+    pairs
+        .map(|pair| {
+            let expected = pair[1].target - (pair[1].target - pair[0].actual) * stays;
+            (pair[1].actual - expected).abs()
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Runs the chain. Whether its limits were judged: not if this host cannot emulate drives, or stood
+/// still for too long.
+fn chain(seconds: u32, period_us: u32) -> bool {
+    let patience = Duration::from_secs(u64::from(seconds) * 3 + 120);
+    let (instance, _watchdog) = (Instance::alone(), Watchdog::new(patience * 2));
+    let program = instance.file("program.ngc", &program(seconds));
+    let (csv, period) = (instance.path("drives.csv"), period_us.to_string());
+    let arguments = [
+        "run",
+        &program,
+        "--drives",
+        "emulated",
+        "--best-effort",
+        "--json",
+        "--bus-period-us",
+        &period,
+        "--drives-record",
+        &csv,
+    ];
+    let output = Process::join(&instance, &arguments).wait_for(patience);
+    if output.stdout.contains("cannot emulate drives on this host") {
+        eprintln!("SKIPPED: {}", output.stdout);
+        return false;
+    }
+    let report = output.expect(0).json();
+    let drives = &report["drives"];
+    assert_eq!(drives["bad_working_counters"], 0, "{report:#}");
+    let rows = rows(&std::fs::read_to_string(&csv).unwrap());
+    let period_t = f64::from(period_us) * 1e-6;
+    let errors = phase_errors_us(&rows[0]);
+    let at = |part: f64| errors[((errors.len() - 1) as f64 * part) as usize];
+    let verdict = judge(&rows, period_t);
+    let [v, a, j] = verdict.ratios;
+    eprintln!(
+        "bus {period_us} us: {} rows, phase error p50 {:.1} us, p99 {:.1} us, max {:.1} us; v {v:.4}, a \
+         {a:.4}, j {j:.4} of the limits (rounding {:.4}) at {:.2} % of the SYNC0, {:.2} % left out around \
+         missing setpoints; frames lost {}, cycles missed {}, coasted {}, ticks missed {}, round trip {}, \
+         sent late {}",
+        rows[0].len(),
+        at(0.5),
+        at(0.99),
+        at(1.0),
+        verdict.rounding,
+        100.0 * verdict.judged,
+        100.0 * verdict.left_out,
+        drives["lost_frames"],
+        drives["missed_cycles"],
+        drives["coasted_cycles"],
+        report["missed_ticks"],
+        drives["round_trip_us"],
+        drives["lateness_us"],
+    );
+    for rows in &rows {
+        let error = model_error(rows, period_t);
+        assert!(error < 2.0 / COUNTS, "{error} mm off the model of the lag");
+        let end = rows.last().unwrap();
+        assert!(!end.follows, "without power at the end");
+    }
+    // Where frames run out, setpoints keep the limits at their own period only.
+    if !verdict.is_enough() || report["starved_ticks"] != 0 {
+        eprintln!(
+            "the host stood still for too long: the limits are not judged; frames ran out for {} ticks",
+            report["starved_ticks"]
+        );
+        return false;
+    }
+    assert!(verdict.keeps_limits(), "{verdict:?}");
+    true
+}
+
+#[test]
+fn the_chain_keeps_the_limits_at_the_period_of_the_bus() {
+    let Ok(seconds) = std::env::var("GLIDEPATH_CHAIN").map(|text| text.parse().unwrap()) else {
+        let _judged = chain(3, 2000);
+        return;
+    };
+    let judged = [1000, 2000, 4000].map(|period_us| chain(seconds, period_us));
+    assert_eq!(judged, [true; 3], "not all of it was judged");
+}
