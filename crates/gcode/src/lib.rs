@@ -74,6 +74,7 @@ pub use execute::state::probe_result::Probed;
 pub use setup::m_codes::{MCodes, WaitsAt};
 pub use setup::machine::{Machine, Travel};
 pub use setup::options::{AdaptiveFeed, Connections, LoopLimits, Options};
+pub use setup::spindle_axis::SpindleAxis;
 pub use setup::subroutine_file::{
     MAX_SUBROUTINE_BYTES, NoSubroutineFile, SubroutineFile, Subroutines,
 };

@@ -199,6 +199,9 @@ impl Interpreter {
         motion: Motion,
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
+        if !matches!(motion, Motion::RigidTap | Motion::Cycle(_)) {
+            self.spindle_from_taps(out);
+        }
         match motion {
             Motion::Rapid | Motion::Linear => {
                 let target = self.target(block)?;

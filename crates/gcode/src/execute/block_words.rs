@@ -85,7 +85,7 @@ fn taken_by_motion(block: &Block, motion: Option<Motion>) -> Letters {
         Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Letters::of(b"IJKRP"),
         Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQK"),
         Some(Motion::Thread) => Letters::of(b"KQ"),
-        Some(Motion::RigidTap) => Letters::of(b"K"),
+        Some(Motion::RigidTap) => Letters::of(b"KIPQR"),
         Some(Motion::ThreadCycle) if block.dialect == Dialect::Fanuc => Letters::of(b"PQRIKDA"),
         Some(Motion::ThreadCycle) => Letters::of(b"PIJKRQHEL"),
         Some(Motion::Lathe(LatheCycle::Finish)) => Letters::of(b"QDEP"),

@@ -120,6 +120,9 @@ impl Interpreter {
             clear,
         };
         let mode = core::mem::replace(&mut self.state.modal.path_mode, PathMode::ExactPath);
+        if !sticky.is_rigid {
+            self.spindle_from_taps(out);
+        }
         let made = self.holes(block, hole, holes, out);
         self.state.modal.path_mode = mode;
         made
@@ -154,8 +157,8 @@ impl Interpreter {
         }
         let wrong = match (tap_turns(cycle), self.state.spindle.turning) {
             (Some(wanted), Some(turning)) => turning != wanted,
-            // Behind M29 the cycle itself lets it turn.
-            (Some(_), None) => !sticky.starts_spindle,
+            // Behind M29, and as an axis, the cycle itself lets it turn.
+            (Some(_), None) => !sticky.starts_spindle && !self.taps_by_axis(sticky),
             (None, turning) => cycle == CannedCycle::BoreStop && turning.is_none(),
         };
         if wrong {
@@ -209,6 +212,8 @@ impl Interpreter {
             }
             CannedCycle::TapLeft | CannedCycle::TapRight => {
                 sticky.dwell_s = block.get(b'P').or(last_dwell).unwrap_or(0.0);
+                let word = block.get(b'Q').map(|peck| peck * scale);
+                sticky.peck = word.or(last.map(|l| l.peck)).unwrap_or(0.0);
             }
             CannedCycle::ChipBreak | CannedCycle::Peck => {
                 sticky.peck = get(
@@ -324,7 +329,7 @@ impl Interpreter {
         if let Some(turning) = tap_turns(cycle) {
             let levels = [hole.bottom, hole.clear];
             return if hole.sticky.is_rigid {
-                self.tap_rigidly(block, turning, levels, out)
+                self.tap_rigidly(block, turning, levels, [dwell_s, peck], out)
             } else {
                 self.tap_with_holder(block, turning, levels, dwell_s, out)
             };

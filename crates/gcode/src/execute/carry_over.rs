@@ -29,6 +29,7 @@ impl<R: BufRead> Program<R> {
             state.spindle = Spindle {
                 turning: None,
                 is_rigid: false,
+                is_axis: false,
                 ..state.spindle
             };
             state.coolant = Coolant::default();

@@ -36,7 +36,7 @@ pub(crate) struct Interpreter {
     pub(crate) options: Options,
     pub(crate) state: State,
     pub(crate) offsets: Offsets,
-    /// Words of the axes the machine does not have.
+    /// Words of the axes the machine does not have, and of the one that is the spindle.
     pub(crate) lacking: Letters,
     /// Where moves may end.
     pub(crate) soft_limits: SoftLimits,
@@ -69,7 +69,8 @@ impl Interpreter {
     pub(crate) fn new(options: Options) -> Self {
         let start = options.start;
         let soft_limits = SoftLimits::of(&options.machine);
-        let lacking = Letters::of_axes(|axis| !options.machine.has(axis));
+        let spindle = options.spindle_axis.map(|spindle| spindle.axis);
+        let lacking = Letters::of_axes(|axis| !options.machine.has(axis) || spindle == Some(axis));
         let modal = Modal::new(options.default_feed_mm_min);
         let tools = options.tools.clone();
         let offsets = Offsets::of(&options.offsets);

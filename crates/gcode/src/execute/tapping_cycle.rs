@@ -1,14 +1,17 @@
-//! Holes of G84 and G74: with a tap in a holder that gives way, or rigidly behind the spindle.
+//! Holes of G84 and G74: with a tap in a holder that gives way, or rigidly, behind the spindle or
+//! by it where it is an axis.
 //!
 //! Rigidly where the machine is configured so (`rigid_tapping`), and behind FANUC's M29, for the
-//! series of holes that comes next. The way of a revolution is F / S, in G95 F. Behind M29 the
-//! spindle stands between the holes, as on that control.
+//! series of holes that comes next. The way of a revolution is F / S, in G95 F. Behind M29, and as
+//! an axis, the spindle stands between the holes, as on that control.
 
 use glidepath_program::{Event, Item, ItemKind};
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::planned_tap::TappedHole;
+use crate::execute::motion::rigid_tap::needs_axis;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::spindle::SpindleDirection;
 use crate::execute::state::sticky_words::StickyWords;
@@ -30,9 +33,12 @@ impl Interpreter {
         let Some(coded) = block.codes.rigid_tapping else {
             return Ok(());
         };
-        self.known_angle(coded.span)?;
+        if self.options.spindle_axis.is_none() {
+            self.known_angle(coded.span)?;
+        }
         self.state.spindle.is_rigid = true;
-        if self.state.spindle.turning.take().is_some() {
+        if self.state.spindle.turning.is_some() {
+            self.turn_spindle(None);
             self.push(out, ItemKind::Event(Event::MCode(5)));
         }
         Ok(())
@@ -49,27 +55,34 @@ impl Interpreter {
             return Ok(());
         }
         let is_armed = core::mem::take(&mut self.state.spindle.is_rigid);
-        let is_configured = self.options.threading.is_some_and(|it| it.rigid_tapping);
+        let options = &self.options;
+        let is_configured = options.threading.is_some_and(|it| it.rigid_tapping)
+            || options.spindle_axis.is_some_and(|it| it.rigid_tapping);
         sticky.starts_spindle = is_armed || last.is_some_and(|last| last.starts_spindle);
         sticky.is_rigid = sticky.starts_spindle || is_configured;
-        let has_pecks = block.get(b'Q').is_some_and(|peck| peck > 0.0);
-        let (letter, what, help) = if !sticky.is_rigid {
-            return Ok(());
+        let has_pecks = sticky.peck > 0.0;
+        if !sticky.is_rigid && has_pecks {
+            let message = "tapping in several depths (Q) with a tap in a holder is not supported";
+            return Err(
+                Fault::new(DiagnosticCode::NotSupported, block.span(b'Q'), message)
+                    .because("a tap that gives way does not find back into its thread")
+                    .help("leave Q out, or tap rigidly by a spindle that is an axis"),
+            );
+        }
+        if !sticky.is_rigid || self.options.spindle_axis.is_some() {
+            Ok(())
         } else if has_pecks {
-            let help = "leave Q out, or write a hole for each depth";
-            (b'Q', "rigid tapping in several depths (Q)", help)
+            Err(needs_axis(block, b'Q'))
         } else if sticky.dwell_s > 0.0 {
-            let help = "leave P out, or write P0";
-            (b'P', "rigid tapping with a dwell at the bottom (P)", help)
+            Err(needs_axis(block, b'P'))
         } else {
-            return Ok(());
-        };
-        let message = format!("{what} is not supported");
-        Err(
-            Fault::new(DiagnosticCode::NotSupported, block.span(letter), message)
-                .because("the axis goes with the spindle, which turns back at once")
-                .help(help),
-        )
+            Ok(())
+        }
+    }
+
+    /// Whether a cycle taps by a spindle that is an axis.
+    pub(super) const fn taps_by_axis(&self, sticky: &StickyWords) -> bool {
+        sticky.is_rigid && self.options.spindle_axis.is_some()
     }
 
     /// From the R plane to the bottom and out again, with a tap in a holder that gives way.
@@ -93,25 +106,39 @@ impl Interpreter {
         Ok(())
     }
 
-    /// From the R plane to the bottom and out again behind the spindle, then to the clear level.
+    /// From the R plane to the bottom and out again with the spindle, then to the clear level.
     pub(super) fn tap_rigidly(
         &mut self,
         block: &Block,
         turning: SpindleDirection,
         [bottom, clear]: [f64; 2],
+        [dwell_s, peck_mm]: [f64; 2],
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let normal = self.state.modal.plane.normal();
         let pitch_mm = self.tap_pitch(block)?;
+        if let Some(axis) = self.options.spindle_axis {
+            let hole = TappedHole {
+                bottom: self.level(normal, bottom),
+                pitch_mm,
+                turning,
+                dwell_s,
+                speed_out_r: 1.0,
+                peck_mm: Some(peck_mm).filter(|peck_mm| *peck_mm > 0.0),
+                back_mm: None,
+            };
+            self.tap_by_axis(block, &axis, &hole, out)?;
+            return self.along(block, normal, clear, Pace::Rapid, out);
+        }
         let starts = self.state.spindle.turning.is_none();
         if starts {
-            self.state.spindle.turning = Some(turning);
+            self.turn_spindle(Some(turning));
             self.push(out, ItemKind::Event(Event::MCode(turning.code())));
         }
         let target = self.level(normal, bottom);
         self.tap_to(block, target, pitch_mm, out)?;
         if starts {
-            self.state.spindle.turning = None;
+            self.turn_spindle(None);
             self.push(out, ItemKind::Event(Event::MCode(5)));
         }
         self.along(block, normal, clear, Pace::Rapid, out)

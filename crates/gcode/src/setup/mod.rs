@@ -3,6 +3,7 @@
 pub(crate) mod m_codes;
 pub(crate) mod machine;
 pub(crate) mod options;
+pub(crate) mod spindle_axis;
 pub(crate) mod subroutine_file;
 pub(crate) mod threading;
 pub(crate) mod tool_table;

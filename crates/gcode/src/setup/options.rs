@@ -7,6 +7,7 @@ use glidepath_geometry::{Axis, AxisVector};
 use crate::execute::state::in_force::InForce;
 use crate::setup::m_codes::MCodes;
 use crate::setup::machine::Machine;
+use crate::setup::spindle_axis::SpindleAxis;
 use crate::setup::subroutine_file::Subroutines;
 use crate::setup::threading::Threading;
 use crate::setup::tool_table::ToolTable;
@@ -42,6 +43,8 @@ pub struct Options {
     pub probing_v: Option<f64>,
     /// What threads need (G33); `None`: nobody knows the angle of the spindle, and they are errors.
     pub threading: Option<Threading>,
+    /// The axis that the spindle is where it does not turn; `None`: it is none.
+    pub spindle_axis: Option<SpindleAxis>,
     /// Whether the feed follows an input of the machine (M52).
     pub adaptive_feed: AdaptiveFeed,
     /// How far the pieces a spline is made of may be away from it, mm, > 0. G64 P overrides it with
@@ -125,6 +128,7 @@ impl Default for Options {
             connections: Connections::None,
             probing_v: None,
             threading: None,
+            spindle_axis: None,
             adaptive_feed: AdaptiveFeed::None,
             spline_tolerance_mm: 1e-5,
             m_codes: Arc::default(),

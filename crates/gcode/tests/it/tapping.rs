@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use crate::support::listed;
-use glidepath_gcode::{Dialect, MCodes, Options, Program, Threading, check};
-use glidepath_program::{Event, ItemKind, Limits, Rate};
+use glidepath_gcode::{Dialect, MCodes, Options, Program, SpindleAxis, Threading, check};
+use glidepath_geometry::{Axis, AxisVector};
+use glidepath_program::{Event, ItemKind, Limits, PathMode, Rate};
 
 fn options(dialect: Dialect, rigid_tapping: bool, spindle_a: Option<f64>) -> Options {
     Options {
@@ -165,5 +166,168 @@ fn fanuc_s_m29_is_of_the_next_series_of_holes() {
         "M29",
         options(Dialect::LinuxCnc, false, None),
         &["1:1 unknown-m-code"],
+    );
+}
+
+/// A machine whose spindle is the axis C, which turns 3000 rev/min at most.
+fn with_axis(dialect: Dialect, rigid_tapping: bool) -> Options {
+    let mut limits = Limits::uniform(200.0, 2_000.0, 40_000.0);
+    limits.velocity[5] = 18_000.0;
+    Options {
+        dialect,
+        spindle_axis: Some(SpindleAxis {
+            axis: Axis::C,
+            limits,
+            rigid_tapping,
+        }),
+        ..Options::default()
+    }
+}
+
+/// As [`items`], of moves Z and C where C moves, with the speed in mm/min.
+fn moves(text: &str, options: Options) -> String {
+    let mut at = AxisVector::zeros();
+    let shown = Program::new(text.as_bytes(), options).map(|item| {
+        match item.unwrap_or_else(|found| panic!("{text}\n{found}")).kind {
+            ItemKind::Event(Event::MCode(code)) => format!("M{code}"),
+            ItemKind::Event(Event::SpindleSpeed(speed)) => format!("S{speed}"),
+            ItemKind::Dwell(0.0) => "stop".to_owned(),
+            ItemKind::Dwell(seconds) => format!("dwell{seconds}"),
+            ItemKind::Move {
+                segment,
+                rate,
+                mode,
+            } => {
+                assert_eq!(segment.start(), at);
+                let turns = segment.end()[5] != at[5];
+                at = segment.end();
+                match rate {
+                    Rate::FeedUpTo { feed_v, most_v } => {
+                        assert_eq!((feed_v, mode), (most_v, PathMode::ExactStop));
+                        format!("({},{})f{:.0}", at[2], at[5], feed_v * 60.0)
+                    }
+                    _ if turns => format!("c{}", at[5]),
+                    rate => format!("{}{}", if rate.is_rapid() { 'r' } else { 'f' }, at[2]),
+                }
+            }
+            other => format!("{other:?}"),
+        }
+    });
+    shown.collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn a_spindle_that_is_an_axis_taps_by_straight_moves() {
+    let of = |text: &str| moves(text, with_axis(Dialect::LinuxCnc, false));
+    // It stands before, and turns again before the next move.
+    assert_eq!(
+        of("S600 M3\nG0 Z2\nG33.1 Z-10 K1.25\n(again)\nG33.1 Z-1 K0.5\nG0 Z3"),
+        "S600 M3 r2 M5 stop (-10,3456)f750 stop (2,0)f750 stop (-1,2160)f300 stop (2,0)f300 M3 r3"
+    );
+    assert_eq!(
+        of("S600 M3\nG33.1 Z-10 K1\nG1 F100 Z1\nG33.1 Z-9 K1\nM5\nG0 Z3"),
+        "S600 M3 M5 stop (-10,3600)f600 stop (0,0)f600 M3 f1 M5 stop (-9,3600)f600 stop (1,0)f600 M5 r3"
+    );
+    // One that stands is told by the sign of the pitch, one that turns left goes in to the left.
+    assert_eq!(
+        of("S600 M5\nG33.1 Z-1 K-0.5"),
+        "S600 M5 stop (-1,-720)f300 stop (0,0)f300"
+    );
+    assert_eq!(
+        of("S600 M4\nG33.1 Z-1 K0.5"),
+        "S600 M4 M5 stop (-1,-720)f300 stop (0,0)f300"
+    );
+    // In depths, back by a millimetre or all the way, faster out than in, and with a rest.
+    assert_eq!(
+        of("S600\nG33.1 Z-5 K1 Q2 R1 I2 P0.5"),
+        "S600 M5 stop (-2,720)f600 (-1,360)f1200 (-4,1440)f600 (-3,1080)f1200 (-5,1800)f600 dwell0.5 \
+         (0,0)f1200"
+    );
+    // Along any straight way.
+    assert_eq!(
+        of("S600\nG33.1 X3 Z-4 K1"),
+        "S600 M5 stop (-4,1800)f600 stop (0,0)f600"
+    );
+    assert_eq!(
+        of("G20 S600\nG33.1 Z-1 K0.05 Q0.5"),
+        "S600 M5 stop (-12.7,3600)f762 (0,0)f762 (-25.4,7200)f762 stop (0,0)f762"
+    );
+}
+
+#[test]
+fn cycles_tap_by_the_axis_of_the_spindle() {
+    assert_eq!(
+        moves(
+            "F600 S600 M3\nG0 Z5\nG99 G84 Z-8 R2 P0.1\nX10\nG80\nM3\nG1 Z1",
+            with_axis(Dialect::LinuxCnc, true)
+        ),
+        "S600 M3 r5 r2 M5 stop (-8,3600)f600 dwell0.1 (2,0)f600 r2 stop (-8,3600)f600 dwell0.1 (2,0)f600 \
+         M3 f1"
+    );
+    // M29 needs no table of a machine that taps rigidly, and has it stand afterwards.
+    assert_eq!(
+        moves(
+            "M3 S300\nM29 S600\nG98 G84 Z-8 R2 Q4 P1 F600\nG80\nG0 Z5",
+            with_axis(Dialect::Fanuc, false)
+        ),
+        "S300 M3 S600 M5 r2 stop (-2,1440)f600 (2,0)f600 (-6,2880)f600 (2,0)f600 (-8,3600)f600 \
+         dwell0.001 (2,0)f600 r5"
+    );
+    assert_eq!(
+        moves(
+            "G95 F1.5 S600\nG74 Z-8 R1",
+            with_axis(Dialect::LinuxCnc, true)
+        ),
+        "S600 r1 M5 stop (-8,-2160)f900 stop (1,0)f900"
+    );
+    // Without M29 or `rigid_tapping` the tap is in a holder.
+    assert_eq!(
+        moves(
+            "F600 S600 M3\nG84 Z-8 R2",
+            with_axis(Dialect::LinuxCnc, false)
+        ),
+        "S600 M3 r2 M49 f-8 M4 stop f2 M3 M48"
+    );
+}
+
+#[test]
+fn what_a_spindle_that_is_an_axis_cannot_do_is_refused() {
+    let axis = || with_axis(Dialect::LinuxCnc, true);
+    for (words, expected) in [
+        // 3001 rev/min, and 200 mm/s of Z.
+        ("S3001\nG33.1 Z-10 K1", "2:1 invalid-value"),
+        ("S3000\nG33.1 Z-10 K1 I1.1", "2:1 invalid-value"),
+        ("S2500\nG33.1 Z-10 K5", "2:1 invalid-value"),
+        ("G33.1 Z-10 K1", "1:1 spindle"),
+        ("S600 M3\nG33.1 Z-10 K-1", "2:1 invalid-value"),
+        ("S600\nG33.1 Z-10 K0", "2:1 invalid-value"),
+        ("S600\nG33.1 Z-10 K1 Q0", "2:15 invalid-value"),
+        ("S600\nG33.1 Z-10 K1 Q0.0001", "2:1 invalid-value"),
+        ("S600\nG33.1 Z-10 K1 P-1", "2:15 invalid-value"),
+        ("S600\nG33.1 A1 Z-10 K1", "2:1 not-supported"),
+        ("S600\nG33.1 C90 K1", "2:1 not-supported"),
+        ("S600 M3\nG0 C90", "2:4 spindle"),
+        ("S600 M3\nG91 G1 F100 X1 C90", "2:16 spindle"),
+        ("S600 M3\nG33.1 Z-1 K1\nG0 C90", "3:4 spindle"),
+        ("S600 M4\nF600 G84 Z-10 R2", "2:6 spindle"),
+    ] {
+        finds(words, axis(), &[expected]);
+    }
+    finds("S600 M3\nM5\nG0 C90\nG28", axis(), &[]);
+    finds("S600 M3\nG0 X1 C0\nG28\nG92 C5", axis(), &[]);
+    // A thread follows the angle, which nobody tells here.
+    finds("S600 M3\nG33 Z-10 K1", axis(), &["2:1 not-connected"]);
+    // What follows a spindle goes in once, and a tap in a holder too.
+    let followed = options(Dialect::LinuxCnc, false, None);
+    finds(
+        "S600 M3\nG33.1 Z-10 K1 Q2",
+        followed,
+        &["2:15 not-supported"],
+    );
+    let holder = options(Dialect::Fanuc, false, None);
+    finds(
+        "S600 M3\nG84 Z-10 R2 Q3 F600",
+        holder,
+        &["2:13 not-supported"],
     );
 }

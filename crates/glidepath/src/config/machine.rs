@@ -4,7 +4,7 @@ use super::probe::ProbeConfig;
 use super::program::ProgramConfig;
 use super::spindle::SpindleConfig;
 use glidepath_gcode::{
-    Connections, LoopLimits, MCodes, Machine, Options, Threading, Travel, WaitsAt,
+    Connections, LoopLimits, MCodes, Machine, Options, SpindleAxis, Threading, Travel, WaitsAt,
 };
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_interpolator::{AdaptiveFeed, Answer, Gate, Gates, JointHoming};
@@ -142,7 +142,7 @@ pub struct MachineConfig {
     pub feedback: FeedbackConfig,
     /// The probe, if there is one.
     pub probe: Option<ProbeConfig>,
-    /// The spindle, if its angle is known: threads can follow it.
+    /// The spindle, if programs can follow its angle, or turn it as an axis.
     pub spindle: Option<SpindleConfig>,
     /// What slows programs down besides the override, if anything does.
     pub adaptive_feed: Option<AdaptiveFeed>,
@@ -313,11 +313,21 @@ impl MachineConfig {
             extruder: self.program.extruder,
             connections: self.program.connections,
             probing_v: self.probing_v(),
-            threading: self.spindle.map(|spindle| Threading {
-                limits: self.limits(),
-                period_t: self.period_t(),
-                rigid_tapping: spindle.rigid_tapping,
-                spindle_a: spindle.acceleration,
+            threading: self
+                .spindle
+                .filter(|spindle| spindle.encoder)
+                .map(|spindle| Threading {
+                    limits: self.limits(),
+                    period_t: self.period_t(),
+                    rigid_tapping: spindle.rigid_tapping,
+                    spindle_a: spindle.acceleration,
+                }),
+            spindle_axis: self.spindle.and_then(|spindle| {
+                Some(SpindleAxis {
+                    axis: spindle.axis?,
+                    limits: self.limits(),
+                    rigid_tapping: spindle.rigid_tapping,
+                })
             }),
             adaptive_feed: match self.adaptive_feed {
                 None => glidepath_gcode::AdaptiveFeed::None,

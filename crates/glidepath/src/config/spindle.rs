@@ -1,8 +1,14 @@
 //! The table `[spindle]`.
 
-/// A spindle whose angle is known.
+use glidepath_geometry::Axis;
+
+/// A spindle whose angle is known, or which is an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpindleConfig {
+    /// Its angle is known.
+    pub encoder: bool,
+    /// The axis that its drive follows while M3 and M4 do not turn it.
+    pub axis: Option<Axis>,
     /// G84 and G74 tap rigidly.
     pub rigid_tapping: bool,
     /// How fast its speed changes when it turns back, rev/s²; `None`: nobody knows.

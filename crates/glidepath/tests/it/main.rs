@@ -18,6 +18,7 @@ mod pipes;
 mod plot;
 mod preview;
 mod reference;
+mod spindle_axis;
 mod subroutines;
 #[path = "../support/mod.rs"]
 mod support;

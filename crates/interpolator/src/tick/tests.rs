@@ -18,6 +18,7 @@ mod jog_in_a_hold;
 mod jog_random;
 mod planned;
 mod supply;
+mod tap_by_axis;
 
 use super::*;
 use crate::config::Config;

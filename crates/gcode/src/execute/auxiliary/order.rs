@@ -21,11 +21,11 @@ impl Interpreter {
         let codes = &block.codes;
         self.tell_speed_at_rest(block, speed, out);
         if let Some(Coded { code, .. }) = codes.spindle {
-            self.state.spindle.turning = match code {
+            self.turn_spindle(match code {
                 3 => Some(SpindleDirection::Clockwise),
                 4 => Some(SpindleDirection::Counterclockwise),
                 _ => None,
-            };
+            });
         }
         if let Some(Coded { code, .. }) = codes.coolant {
             let coolant = &mut self.state.coolant;

@@ -107,7 +107,7 @@ impl Interpreter {
         self.restore_speed(saved.spindle, out);
         let turning = saved.spindle.turning;
         if turning != self.state.spindle.turning {
-            self.state.spindle.turning = turning;
+            self.turn_spindle(turning);
             self.event(turning.map_or(5, SpindleDirection::code), out);
         }
         self.restore_coolant(saved.coolant, out);

@@ -83,7 +83,8 @@ impl Interpreter {
         };
         let spindle = &self.state.spindle;
         let is_new = (spindle.speed - before).abs() > 0.0 && spindle.surface.is_none();
-        if self.options.waits_for_speed && is_new && block.codes.spindle.is_none() {
+        let turns = !spindle.is_axis;
+        if self.options.waits_for_speed && is_new && turns && block.codes.spindle.is_none() {
             self.push(out, ItemKind::Event(Event::MCode(direction.code())));
         }
     }

@@ -8,7 +8,8 @@ use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
 
 impl Interpreter {
-    /// Refuses a move whose box, from `low` to `high`, leaves the travel of an axis that moves.
+    /// Refuses a move whose box, from `low` to `high`, leaves the travel of an axis that moves, or
+    /// turns a spindle by its axis that turns already.
     pub(crate) fn check_limits(
         &self,
         block: &Block,
@@ -16,6 +17,7 @@ impl Interpreter {
         high: &AxisVector,
         what: &str,
     ) -> Outcome<()> {
+        self.check_spindle_axis(block, low, high)?;
         for axis in Axis::ALL {
             let i = axis.index();
             let Some(travel) = self.options.machine.travel(axis) else {

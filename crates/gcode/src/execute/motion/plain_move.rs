@@ -143,7 +143,8 @@ impl Interpreter {
             && !state.on_contour
             && !state.leaving_contour
             && self.open_spline.is_none()
-            && !state.spindle.follows_tool();
+            && !state.spindle.follows_tool()
+            && !state.spindle.stands_for_tap();
         let is_settled = |i: usize| {
             (state.position[i] - state.path_end[i]).abs() <= MIN_MOVE
                 && !self.soft_limits.is_beyond(i, state.path_end[i])

@@ -1,6 +1,7 @@
 //! Rigid tapping: G33.1, and the holes of G84 and G74 where these tap rigidly.
 //!
-//! Where the tap turns back depends on the spindle, so the way is no move: it is an event at rest,
+//! A spindle that is an axis is planned with the others: [`planned_tap`]. Behind any other one, where
+//! the tap turns back depends on the spindle, so the way is no move: it is an event at rest,
 //! and the machine is where it was when it has happened.
 //!
 //! ```text
@@ -18,10 +19,12 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::planned_tap::TappedHole;
 use crate::execute::motion::settled::settled;
+use crate::execute::state::spindle::SpindleDirection;
 use crate::setup::threading::Threading;
 use crate::syntax::block::Block;
-use crate::syntax::word_check::missing;
+use crate::syntax::word_check::{missing, negative};
 
 /// Revolutions for which the spindle may go on behind the bottom before it turns back: where it is
 /// told to there, and where it is told to before.
@@ -34,14 +37,57 @@ impl Interpreter {
         let Some(pitch) = block.get(b'K') else {
             return Err(missing(span, "G33.1", "K", "the pitch of the tap"));
         };
-        if pitch <= 0.0 || block.get(b'F').is_some() {
+        let axis = self.options.spindle_axis;
+        let turning = self.state.spindle.turning;
+        // A spindle that stands is told by the sign of the pitch.
+        let is_signed = axis.is_some() && turning.is_none();
+        let is_pitch = if is_signed { pitch != 0.0 } else { pitch > 0.0 };
+        if !is_pitch || block.get(b'F').is_some() {
             let message = "G33.1 takes a pitch K above zero, and no F";
             return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
                 .because("the spindle alone gives the speed of a tap")
                 .help("write the way of a revolution as K, and the axis word of the hole"));
         }
+        let scale = self.state.modal.units.mm();
         let bottom = self.target(block)?;
-        self.tap_to(block, bottom, pitch * self.state.modal.units.mm(), out)
+        let Some(axis) = axis else {
+            return match b"IPQR".iter().find(|letter| block.get(**letter).is_some()) {
+                Some(letter) => Err(needs_axis(block, *letter)),
+                None => self.tap_to(block, bottom, pitch * scale, out),
+            };
+        };
+        let above_zero = |letter: u8, scale: f64, meaning: &str| match block.get(letter) {
+            Some(value) if value <= 0.0 => {
+                let message = format!("{} is not above zero", char::from(letter));
+                let fault = Fault::new(DiagnosticCode::InvalidValue, block.span(letter), message);
+                Err(fault
+                    .because(meaning)
+                    .help("write a value above zero, or leave it out"))
+            }
+            value => Ok(value.map(|value| value * scale)),
+        };
+        let by_sign = if pitch > 0.0 {
+            SpindleDirection::Clockwise
+        } else {
+            SpindleDirection::Counterclockwise
+        };
+        let dwell_s = block.get(b'P').unwrap_or(0.0);
+        if dwell_s < 0.0 {
+            return Err(
+                negative(block, b'P', "the dwell").because("P is the seconds at the bottom")
+            );
+        }
+        let hole = TappedHole {
+            bottom,
+            pitch_mm: pitch.abs() * scale,
+            turning: turning.unwrap_or(by_sign),
+            dwell_s,
+            speed_out_r: above_zero(b'I', 1.0, "I is how much faster the tap comes out")?
+                .unwrap_or(1.0),
+            peck_mm: above_zero(b'Q', scale, "Q is how deep the tap goes at a time")?,
+            back_mm: above_zero(b'R', scale, "R is how far it comes back after each depth")?,
+        };
+        self.tap_by_axis(block, &axis, &hole, out)
     }
 
     /// Taps from where the tool is to the bottom of a hole, machine coordinates, with so many mm of
@@ -56,21 +102,8 @@ impl Interpreter {
         let span = block.motion_span();
         let threading = self.check_spindle(span)?;
         let start = self.state.path_end;
+        let (axis, along) = hole_axis(span, &start, &bottom)?;
         let end = settled(start, bottom, [None, None]);
-        let way = end - start;
-        let moved = Axis::ALL
-            .into_iter()
-            .filter(|axis| way[axis.index()].abs() > 0.0);
-        let axes: Vec<Axis> = moved.collect();
-        let [axis] = axes[..] else {
-            let message = "a tap along more than one axis, or none";
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
-                .because("one axis goes with the spindle")
-                .help(
-                    "write the axis of the hole alone, with another depth than where the tool is",
-                ));
-        };
-        let along = way[axis.index()];
         let hole = Segment::line(start, end);
         let speed_v = self.check_groove(span, &threading, &hole, pitch_mm, [true, true])?;
         let turn_mm = self.turn_mm(span, &threading, &hole, pitch_mm, speed_v)?;
@@ -138,4 +171,53 @@ impl Interpreter {
         }
         Ok(turn_mm)
     }
+}
+
+/// The axis of a hole, and its way to the bottom.
+fn hole_axis(span: SourceSpan, start: &AxisVector, bottom: &AxisVector) -> Outcome<(Axis, f64)> {
+    let way = settled(*start, *bottom, [None, None]) - start;
+    let moved = Axis::ALL
+        .into_iter()
+        .filter(|axis| way[axis.index()].abs() > 0.0);
+    let axes: Vec<Axis> = moved.collect();
+    match axes[..] {
+        [axis] if !axis.is_rotary() => Ok((axis, way[axis.index()])),
+        _ => {
+            let message = "a tap along more than one axis, or none that is straight";
+            Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("one axis goes with the spindle")
+                .help(
+                    "write the axis of the hole alone, with another depth than where the tool is",
+                ))
+        }
+    }
+}
+
+/// Refuses a word of a tap that a spindle that is only followed cannot do.
+#[cold]
+pub(crate) fn needs_axis(block: &Block, letter: u8) -> Box<Fault> {
+    let (what, reason) = match letter {
+        b'P' => (
+            "with a dwell at the bottom (P)",
+            "the spindle that is followed turns back at once",
+        ),
+        b'I' => (
+            "that comes out faster (I)",
+            "the spindle that is followed turns at S both ways",
+        ),
+        _ => (
+            "in several depths (Q, R)",
+            "it would begin again at another angle of a spindle that is followed, beside its thread",
+        ),
+    };
+    let letter_name = char::from(letter);
+    Fault::new(
+        DiagnosticCode::NotSupported,
+        block.span(letter),
+        format!("a rigid tap {what} is not supported"),
+    )
+    .because(reason)
+    .help(format!(
+        "leave {letter_name} out, or name the axis of a spindle with a servo: `axis` of [spindle]"
+    ))
 }

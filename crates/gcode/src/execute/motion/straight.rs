@@ -51,7 +51,7 @@ impl Interpreter {
     }
 
     /// G28 and G30: by way of the programmed point to the reference position, at rapid speed. With
-    /// axis words, only those axes move.
+    /// axis words, only those axes move; without, neither the extruder nor the spindle does.
     pub(crate) fn go_to_reference(
         &mut self,
         block: &Block,
@@ -73,7 +73,8 @@ impl Interpreter {
         let values = self.axis_values(block)?;
         for axis in Axis::ALL {
             let i = axis.index();
-            let goes = self.options.machine.has(axis) && self.options.extruder != Some(axis);
+            let stays = [self.options.extruder, self.spindle_axis()].contains(&Some(axis));
+            let goes = self.options.machine.has(axis) && !stays;
             if values[i].is_some() || (all && goes) {
                 target[i] = reference[i];
             }

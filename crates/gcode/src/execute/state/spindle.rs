@@ -29,7 +29,11 @@ impl SpindleDirection {
 /// State of the spindle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Spindle {
+    /// Which way the program has it turn.
     pub(crate) turning: Option<SpindleDirection>,
+    /// It was told to stand since it turned last, by the program or for a tap, and so is an axis
+    /// where it can be one.
+    pub(crate) is_axis: bool,
     /// Speed told last, rev/min; zero until there is an S word.
     pub(crate) speed: f64,
     pub(crate) surface: Option<Surface>,
@@ -50,5 +54,10 @@ impl Spindle {
     /// G96 is in force: the speed depends on where the tool is.
     pub(crate) const fn follows_tool(&self) -> bool {
         self.surface.is_some()
+    }
+
+    /// It stands for taps alone, and is to turn again behind them.
+    pub(crate) const fn stands_for_tap(&self) -> bool {
+        self.is_axis && self.turning.is_some()
     }
 }

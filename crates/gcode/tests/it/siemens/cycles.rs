@@ -363,9 +363,60 @@ fn rigid_taps_have_a_pitch_or_a_size() {
         ("20,0,2,-10,,1,,6,,,600", "1:1 canned-cycle"),
         ("20,0,2,-10,,,,6,,90,600", "1:1 canned-cycle"),
         ("20,0,2,-10,,,,6,,,600,900", "1:1 canned-cycle"),
+        ("20,0,2,-10,,,,6,,,600,,,,,1,3", "1:1 canned-cycle"),
+        ("20,0,2,-10,,,,6,,,600,,1", "1:1 canned-cycle"),
     ] {
         let text = format!("CYCLE84({words})");
         let report = check(text.as_bytes(), options());
         assert_eq!(crate::support::listed(&report), [expected], "{text}");
     }
+}
+
+#[test]
+fn a_spindle_that_is_an_axis_does_all_of_cycle84() {
+    use glidepath_gcode::{Options, Program, SpindleAxis};
+    use glidepath_geometry::Axis;
+    use glidepath_program::{Event, ItemKind, Limits};
+
+    let mut limits = Limits::uniform(200.0, 2_000.0, 40_000.0);
+    limits.velocity[5] = 18_000.0;
+    let items = |text: &str| -> String {
+        let spindle_axis = Some(SpindleAxis {
+            axis: Axis::C,
+            limits,
+            rigid_tapping: false,
+        });
+        let options = Options {
+            spindle_axis,
+            ..super::options()
+        };
+        let shown = Program::new(text.as_bytes(), options).map(|item| {
+            match item.expect("a sound program").kind {
+                ItemKind::Event(Event::MCode(code)) => format!("M{code}"),
+                ItemKind::Event(Event::SpindleSpeed(speed)) => format!("S{speed}"),
+                ItemKind::Dwell(seconds) => format!("dwell{seconds}"),
+                ItemKind::Move { segment, rate, .. } => {
+                    let end = segment.end();
+                    let feed = rate.feed_v().map(|feed_v| format!("f{:.0}", feed_v * 60.0));
+                    format!("({},{}){}", end[2], end[5], feed.unwrap_or_default())
+                }
+                other => format!("{other:?}"),
+            }
+        });
+        shown.collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(
+        items("G0 Z20 C400\nM3\nCYCLE84(20,0,2,-10,,0.5,3,8,,90,600,900)"),
+        "(20,400) M3 (2,400) S600 M5 (2,450) dwell0 (-10,3906)f750 dwell0.5 (2,450)f1125 M3 (20,450)"
+    );
+    // Back by a millimetre after every 5 mm, and all the way out.
+    assert_eq!(
+        items("G0 Z20\nCYCLE84(20,0,2,-10,,,,,-1,,600,,3,0,0,1,5)"),
+        "(20,0) (2,0) S600 M5 dwell0 (-3,-1800)f600 (-2,-1440)f600 (-8,-3600)f600 (-7,-3240)f600 \
+         (-10,-4320)f600 dwell0 (2,0)f600 (20,0)"
+    );
+    assert_eq!(
+        items("G0 Z20\nCYCLE84(20,0,2,-10,,,,,1,,600,,3,0,0,2,6)"),
+        "(20,0) (2,0) S600 M5 dwell0 (-4,2160)f600 (2,0)f600 (-10,4320)f600 dwell0 (2,0)f600 (20,0)"
+    );
 }

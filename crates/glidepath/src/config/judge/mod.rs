@@ -33,6 +33,7 @@ use axis_share::axis_share;
 use glidepath_geometry::Axis;
 use glidepath_kinematics::{AxisShare, Mechanism};
 use home::HomeSurroundings;
+use spindle::SpindleSurroundings;
 use toml::Spanned;
 
 /// Judges every value, beside what was found wrong with the text before.
@@ -51,12 +52,7 @@ pub(super) fn judge(
         .filter_map(|(axis, raw)| Some(judge.axis(axis, raw.as_ref()?)))
         .collect();
     if axes.is_empty() {
-        judge.diagnostics.push(ConfigDiagnostic {
-            key: "axis".to_owned(),
-            message: "the machine has no axis".to_owned(),
-            help: Some("add a table such as [axis.X]".to_owned()),
-            span: Some(axes_span),
-        });
+        judge.diagnostics.push(no_axis(axes_span));
     }
     let names: Vec<Axis> = axes.iter().map(|axis| axis.axis).collect();
     let mechanism = judge.mechanism(&raw.machine, &names);
@@ -93,6 +89,16 @@ pub(super) fn judge(
     );
     let expects_feedback = feedback.is_expected;
     let is_axes = matches!(mechanism, Mechanism::Trivial(_));
+    let m_codes = judge.m_codes(raw.m_codes);
+    let spindle = judge.spindle(
+        raw.spindle,
+        &SpindleSurroundings {
+            is_axes,
+            axes: &names,
+            m_codes: &m_codes,
+            has_drives: expects_feedback,
+        },
+    );
     let config = MachineConfig {
         mechanism,
         home_of_joints,
@@ -105,18 +111,27 @@ pub(super) fn judge(
         jog,
         feedback,
         probe: judge.probe(raw.probe, expects_feedback),
-        spindle: judge.spindle(&raw.spindle, is_axes),
+        spindle,
         adaptive_feed: judge.adaptive_feed(raw.adaptive_feed, expects_feedback),
         preview: judge.preview(&raw.preview),
         instance: judge.instance(raw.link),
         program: judge.program(raw.program, expects_feedback),
-        m_codes: judge.m_codes(raw.m_codes),
+        m_codes,
         state_directory: raw.state.directory.map(|path| path.into_inner().into()),
     };
     if judge.diagnostics.is_empty() {
         Ok(config)
     } else {
         Err(judge.diagnostics)
+    }
+}
+
+fn no_axis(span: core::ops::Range<usize>) -> ConfigDiagnostic {
+    ConfigDiagnostic {
+        key: "axis".to_owned(),
+        message: "the machine has no axis".to_owned(),
+        help: Some("add a table such as [axis.X]".to_owned()),
+        span: Some(span),
     }
 }
 

@@ -1,13 +1,32 @@
-//! `[spindle]`: whether its angle is known, and how it taps.
+//! `[spindle]`: whether its angle is known, which axis it is, and how it taps.
 
 use super::values::{Judge, Range};
 use crate::config::diagnostic::ConfigDiagnostic;
-use crate::config::raw::RawSpindle;
+use crate::config::machine::MCodeRule;
+use crate::config::raw::{Optional, RawSpindle};
 use crate::config::spindle::SpindleConfig;
+use glidepath_gcode::WaitsAt;
+use glidepath_geometry::Axis;
+use glidepath_interpolator::Answer;
+
+/// What of the machine a spindle is judged by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SpindleSurroundings<'a> {
+    /// The joints are the axes.
+    pub(super) is_axes: bool,
+    pub(super) axes: &'a [Axis],
+    pub(super) m_codes: &'a [MCodeRule],
+    /// There are drives, which take their time.
+    pub(super) has_drives: bool,
+}
 
 impl Judge {
-    /// The spindle, if programs may follow its angle. `is_axes`: the joints are the axes.
-    pub(super) fn spindle(&mut self, raw: &RawSpindle, is_axes: bool) -> Option<SpindleConfig> {
+    /// The spindle, if programs may follow its angle or turn it as an axis.
+    pub(super) fn spindle(
+        &mut self,
+        raw: RawSpindle,
+        of: &SpindleSurroundings<'_>,
+    ) -> Option<SpindleConfig> {
         let range = Range {
             min: 0.1,
             max: 10_000.0,
@@ -20,28 +39,91 @@ impl Judge {
             .map(|value| self.number("spindle.acceleration", value, &range));
         let rigid_tapping = raw.rigid_tapping.as_ref().filter(|taps| *taps.get_ref());
         let encoder = raw.encoder.as_ref().filter(|encoder| *encoder.get_ref());
-        let Some(encoder) = encoder else {
-            if let Some(taps) = rigid_tapping {
-                self.diagnostics.push(ConfigDiagnostic {
-                    key: "spindle.rigid_tapping".to_owned(),
-                    message: "a rigid tap follows the spindle, whose angle nobody tells".to_owned(),
-                    help: Some("set spindle.encoder = true, or leave it out".to_owned()),
-                    span: Some(taps.span()),
-                });
-            }
-            return None;
-        };
-        if !is_axes {
-            self.diagnostics.push(ConfigDiagnostic {
-                key: "spindle.encoder".to_owned(),
-                message: "threads are cut only where every joint is an axis".to_owned(),
-                help: Some("leave it out, or set machine.kinematics = \"trivial\"".to_owned()),
-                span: Some(encoder.span()),
-            });
+        let axis = self.spindle_axis(raw.axis, of);
+        if let (Some(taps), None, None) = (rigid_tapping, encoder, axis) {
+            self.spindle_finding(
+                "rigid_tapping",
+                taps.span(),
+                "a rigid tap follows the spindle, whose angle nobody tells",
+                "set spindle.encoder = true, name the axis of the spindle, or leave it out",
+            );
         }
-        Some(SpindleConfig {
+        if let Some(encoder) = encoder.filter(|_| !of.is_axes) {
+            self.spindle_finding(
+                "encoder",
+                encoder.span(),
+                "threads are cut only where every joint is an axis",
+                "leave it out, or set machine.kinematics = \"trivial\"",
+            );
+        }
+        (encoder.is_some() || axis.is_some()).then_some(SpindleConfig {
+            encoder: encoder.is_some(),
+            axis,
             rigid_tapping: rigid_tapping.is_some(),
             acceleration,
         })
+    }
+
+    /// The axis that the spindle is.
+    fn spindle_axis(
+        &mut self,
+        raw: Optional<String>,
+        of: &SpindleSurroundings<'_>,
+    ) -> Option<Axis> {
+        let span = raw.as_ref()?.span();
+        let names = [
+            ("none", None),
+            ("A", Some(Axis::A)),
+            ("B", Some(Axis::B)),
+            ("C", Some(Axis::C)),
+        ];
+        let axis = self.choice("spindle.axis", raw, &names)?;
+        if !of.axes.contains(&axis) {
+            self.spindle_finding(
+                "axis",
+                span.clone(),
+                &format!("the machine has no axis {axis}"),
+                &format!("add a table [axis.{axis}]"),
+            );
+        }
+        if !of.is_axes {
+            self.spindle_finding(
+                "axis",
+                span.clone(),
+                "a spindle is an axis only where every joint is one",
+                "leave it out, or set machine.kinematics = \"trivial\"",
+            );
+        }
+        let stop = of
+            .m_codes
+            .iter()
+            .find(|rule| (rule.gate.first..=rule.gate.last).contains(&5));
+        let is_awaited =
+            stop.is_some_and(|rule| rule.gate.answer != Answer::Nobody && rule.at == WaitsAt::Code);
+        if of.has_drives && !is_awaited {
+            self.spindle_finding(
+                "axis",
+                span.clone(),
+                "nobody says when the spindle stands, and follows its axis",
+                "add a table [m_codes.M5] with done = \"spindle-stopped\" or what else says so, \
+                 and without at",
+            );
+        }
+        Some(axis)
+    }
+
+    fn spindle_finding(
+        &mut self,
+        key: &str,
+        span: core::ops::Range<usize>,
+        message: &str,
+        help: &str,
+    ) {
+        self.diagnostics.push(ConfigDiagnostic {
+            key: format!("spindle.{key}"),
+            message: message.to_owned(),
+            help: Some(help.to_owned()),
+            span: Some(span),
+        });
     }
 }

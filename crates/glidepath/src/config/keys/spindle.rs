@@ -11,6 +11,17 @@ pub(super) const SPINDLE: &[Key] = &[
          drives' feedback tells it (feedback.source = \"drives\"), or it is simulated with them",
     ),
     key(
+        "spindle.axis",
+        Takes::Choice {
+            of: &["none", "A", "B", "C"],
+        },
+        LeftOut::Value("\"none\""),
+        "the rotary axis that the servo of the spindle follows while M3 and M4 do not turn it: taps \
+         (G33.1, CYCLE84, and G84 and G74 where they are rigid) are straight moves of both axes then, \
+         and follow nothing. M3 turns it to higher angles. With feedback of drives it takes a table \
+         [m_codes.M5] that says when the spindle stands",
+    ),
+    key(
         "spindle.rigid_tapping",
         Takes::Flag,
         LeftOut::Value("false"),

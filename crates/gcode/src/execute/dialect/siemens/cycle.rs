@@ -5,7 +5,7 @@
 //! | `CYCLE81` | RTP, RFP, SDIS, DP, DPR |
 //! | `CYCLE82` | …, DTB |
 //! | `CYCLE83` | RTP, RFP, SDIS, DP, DPR, FDEP, FDPR, DAM, DTB, DTS, FRF, VARI |
-//! | `CYCLE84` | RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1 |
+//! | `CYCLE84` | RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, AXN, PITA, TECHNO, VARI, DAM, VRT |
 //! | `CYCLE85` | RTP, RFP, SDIS, DP, DPR, DTB, FFR, RFF |
 //! | `CYCLE86` | RTP, RFP, SDIS, DP, DPR, DTB, SDIR, RPA, RPO, RPAP, POSS |
 //! | `POCKET3` | RTP, RFP, SDIS, DP, LENG, WID, CRAD, PA, PO, STA, MID, FAL, FALD, FFP1, FFD, CDIR, VARI, MIDA, AP1, AP2, AD, RAD1, DP1 |
@@ -38,7 +38,7 @@ const CYCLES: [(&str, usize); 8] = [
     ("CYCLE81", 5),
     ("CYCLE82", 6),
     ("CYCLE83", 12),
-    ("CYCLE84", 12),
+    ("CYCLE84", 18),
     ("CYCLE85", 8),
     ("CYCLE86", 11),
     ("POCKET3", 23),

@@ -1,7 +1,11 @@
 //! CYCLE84: a hole that is tapped rigidly.
 //!
-//! From SDIS above the surface behind the spindle to the bottom and out again, then to RTP. The
-//! pitch is PIT, or that of the metric thread MPIT (3: M3); below zero it is a left-hand one.
+//! From SDIS above the surface with the spindle to the bottom and out again, then to RTP. The
+//! pitch is PIT, or that of the metric thread MPIT (3: M3); below zero it is a left-hand one. A
+//! spindle that is an axis begins at the angle POSS, dwells for DTB, comes out at SST1, and goes DAM
+//! deep at a time (VARI 1: back by VRT, 2: all the way out); one that is followed can do none of it.
+
+use glidepath_geometry::Axis;
 
 use crate::diagnostic::fault::Outcome;
 use crate::execute::dialect::siemens::cycle::{Arguments, Lines, plane_axes};
@@ -32,6 +36,9 @@ const METRIC: [(f64, f64); 21] = [
     (48.0, 5.0),
 ];
 
+/// How far the tap comes back to break the chip where VRT does not say so, mm.
+const BACK_MM: f64 = 1.0;
+
 impl Interpreter {
     /// CYCLE84.
     pub(super) fn tap_hole(&self, arguments: Arguments<'_>) -> Outcome<Lines> {
@@ -39,31 +46,55 @@ impl Interpreter {
         let behind = arguments.choice(6, "SDAC", &[0, 3, 4, 5])?;
         let pitch = self.metric_pitch(arguments)?;
         let speed = arguments.positive(10, "SST", "the speed of the spindle, rev/min")?;
-        let outwards = arguments.or_zero(11);
-        let refused = if arguments.or_zero(5) != 0.0 {
-            Some(("DTB", "the spindle turns back at once"))
-        } else if arguments.or_zero(9) != 0.0 {
-            Some(("POSS", "the angle that the tap begins at is not chosen"))
-        } else if outwards != 0.0 && (outwards - speed).abs() > 0.0 {
-            Some(("SST1", "the tap comes out as fast as it went in"))
-        } else {
-            None
-        };
-        if let Some((name, reason)) = refused {
-            return Err(arguments
-                .refused(format!("{name} is not supported"), reason)
-                .help(format!("leave {name} out, or write 0")));
-        }
+        arguments.choice(12, "AXN", &[0, 3])?;
+        arguments.choice(13, "PITA", &[0, 1])?;
+        arguments.choice(14, "TECHNO", &[0])?;
         let mut lines = Lines::new(plane_axes(self, arguments)?);
         lines.along("G0", levels.clear);
-        lines.line(format!("S[{speed}] M{}", if pitch < 0.0 { 4 } else { 3 }));
-        let pitch = pitch.abs();
-        lines.along(&format!("G33.1 K[{pitch}]"), levels.bottom);
+        if let Some(axis) = self.spindle_axis() {
+            let words = self.words_of_tap(arguments, speed)?;
+            lines.line(format!("S[{speed}] M5"));
+            if let Some(angle) = arguments.get(9) {
+                let letter = axis.letter();
+                let angle = nearest(angle, coordinate_of(self, axis));
+                lines.line(format!("G0 {letter}[{angle}]"));
+            }
+            lines.along(&format!("G33.1 K[{pitch}]{words}"), levels.bottom);
+        } else {
+            check_followed(arguments, speed)?;
+            lines.line(format!("S[{speed}] M{}", if pitch < 0.0 { 4 } else { 3 }));
+            let pitch = pitch.abs();
+            lines.along(&format!("G33.1 K[{pitch}]"), levels.bottom);
+        }
         if behind != 0 {
             lines.line(format!("M{behind}"));
         }
         lines.along("G0", levels.retract);
         Ok(lines)
+    }
+
+    /// Dwell, depths and the speed out of the hole, where the spindle is an axis.
+    fn words_of_tap(&self, arguments: Arguments<'_>, speed: f64) -> Outcome<String> {
+        let mut words = String::new();
+        let dwell = arguments.not_negative(5, "DTB", "the seconds at the bottom")?;
+        if dwell > 0.0 {
+            words += &format!(" P[{dwell}]");
+        }
+        let outwards = arguments.not_negative(11, "SST1", "the speed out of the hole, rev/min")?;
+        if outwards > 0.0 {
+            words += &format!(" I[{}]", outwards / speed);
+        }
+        let variant = arguments.choice(15, "VARI", &[0, 1, 2])?;
+        if variant != 0 {
+            let depth = arguments.positive(16, "DAM", "how deep the tap goes at a time")?;
+            words += &format!(" Q[{depth}]");
+        }
+        if variant == 1 {
+            let back = arguments.not_negative(17, "VRT", "how far the tap comes back")?;
+            let default = BACK_MM / self.state.modal.units.mm();
+            words += &format!(" R[{}]", if back > 0.0 { back } else { default });
+        }
+        Ok(words)
     }
 
     /// The pitch in the units in force, below zero of a left-hand thread.
@@ -83,4 +114,35 @@ impl Interpreter {
         };
         Ok((pitch_mm / self.state.modal.units.mm()).copysign(size))
     }
+}
+
+/// Refuses what a spindle that is followed cannot do.
+fn check_followed(arguments: Arguments<'_>, speed: f64) -> Outcome<()> {
+    let outwards = arguments.or_zero(11);
+    let (name, reason) = if arguments.or_zero(5) != 0.0 {
+        ("DTB", "the spindle turns back at once")
+    } else if arguments.or_zero(9) != 0.0 {
+        ("POSS", "the angle that the tap begins at is not chosen")
+    } else if outwards != 0.0 && (outwards - speed).abs() > 0.0 {
+        ("SST1", "the tap comes out as fast as it went in")
+    } else if arguments.or_zero(15) != 0.0 {
+        ("VARI", "the tap would begin again beside its thread")
+    } else {
+        return Ok(());
+    };
+    Err(arguments
+        .refused(format!("{name} is not supported"), reason)
+        .help(format!(
+            "leave {name} out, or write 0; a spindle that is an axis can do it (`axis` of [spindle])"
+        )))
+}
+
+/// The angle nearest to where the spindle is, degrees, among those that are the same in a turn.
+fn nearest(angle: f64, present: f64) -> f64 {
+    angle + 360.0 * ((present - angle) / 360.0).round()
+}
+
+/// Where the program has an axis that turns, degrees.
+fn coordinate_of(interpreter: &Interpreter, axis: Axis) -> f64 {
+    interpreter.offsets.to_program(interpreter.state.position)[axis.index()]
 }
