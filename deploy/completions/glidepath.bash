@@ -52,6 +52,9 @@ _glidepath() {
             glidepath,fit)
                 cmd="glidepath__subcmd__fit"
                 ;;
+            glidepath,forward)
+                cmd="glidepath__subcmd__forward"
+                ;;
             glidepath,help)
                 cmd="glidepath__subcmd__help"
                 ;;
@@ -105,6 +108,9 @@ _glidepath() {
                 ;;
             glidepath,return)
                 cmd="glidepath__subcmd__return"
+                ;;
+            glidepath,reverse)
+                cmd="glidepath__subcmd__reverse"
                 ;;
             glidepath,run)
                 cmd="glidepath__subcmd__run"
@@ -208,6 +214,9 @@ _glidepath() {
             glidepath__subcmd__help,fit)
                 cmd="glidepath__subcmd__help__subcmd__fit"
                 ;;
+            glidepath__subcmd__help,forward)
+                cmd="glidepath__subcmd__help__subcmd__forward"
+                ;;
             glidepath__subcmd__help,help)
                 cmd="glidepath__subcmd__help__subcmd__help"
                 ;;
@@ -261,6 +270,9 @@ _glidepath() {
                 ;;
             glidepath__subcmd__help,return)
                 cmd="glidepath__subcmd__help__subcmd__return"
+                ;;
+            glidepath__subcmd__help,reverse)
+                cmd="glidepath__subcmd__help__subcmd__reverse"
                 ;;
             glidepath__subcmd__help,run)
                 cmd="glidepath__subcmd__help__subcmd__run"
@@ -380,7 +392,7 @@ _glidepath() {
 
     case "${cmd}" in
         glidepath)
-            opts="-h -V --help --version run plan check interpolator planner run-file mdi servo ethercat feed status live record replay audit telemetry hold resume step stop-at-block-end single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
+            opts="-h -V --help --version run plan check interpolator planner run-file mdi servo ethercat feed status live record replay audit telemetry hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -945,8 +957,34 @@ _glidepath() {
             COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
             return 0
             ;;
+        glidepath__subcmd__forward)
+            opts="-c -h --config --json --instance --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --config)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                -c)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
         glidepath__subcmd__help)
-            opts="run plan check interpolator planner run-file mdi servo ethercat feed status live record replay audit telemetry hold resume step stop-at-block-end single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
+            opts="run plan check interpolator planner run-file mdi servo ethercat feed status live record replay audit telemetry hold resume step stop-at-block-end reverse forward single-block override jog return acknowledge abort reset enable disable home unhome set-position preview bench fit offsets config doctor jitter help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -1170,6 +1208,20 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__help__subcmd__fit)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__help__subcmd__forward)
             opts=""
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
@@ -1520,6 +1572,20 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__help__subcmd__return)
+            opts=""
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__help__subcmd__reverse)
             opts=""
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
@@ -2514,6 +2580,32 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__return)
+            opts="-c -h --config --json --instance --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --config)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                -c)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --instance)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        glidepath__subcmd__reverse)
             opts="-c -h --config --json --instance --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )

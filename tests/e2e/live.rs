@@ -110,7 +110,7 @@ fn commands_take_the_token_and_leave() {
         "{\"kind\":\"reset\"}",
         "{\"kind\":\"set-position\",\"value\":0}",
         "{\"kind\":\"feed-override\",\"value\":3}",
-        "{\"kind\":\"feed-override\",\"value\":-1}",
+        "{\"kind\":\"feed-override\",\"value\":-3}",
         "{\"kind\":\"feed-override\"}",
         "{\"kind\":\"hold\",\"joint\":1}",
         "hold",

@@ -5,7 +5,7 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use glidepath_link::{MachineState, Setpoint};
+use glidepath_link::{MachineState, MotionMode, Setpoint};
 use glidepath_recording::{Entry, Reader};
 use glidepath_tests::{Instance, Process, Services, Watchdog};
 use rustix::process::Signal;
@@ -34,8 +34,9 @@ pub(crate) fn is_gapless(setpoints: &[Setpoint]) -> bool {
     pairs.all(|pair| pair[1].number == pair[0].number + 1)
 }
 
+/// With a hold in it, and a way back and onward again.
 #[test]
-fn a_recording_with_a_hold_in_it_is_judged_and_played_again() {
+fn a_recording_of_what_an_operator_did_is_judged_and_played_again() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let program = instance.file("program.ngc", PROGRAM);
     let file = instance.path("run.mcap");
@@ -50,9 +51,15 @@ fn a_recording_with_a_hold_in_it_is_judged_and_played_again() {
     }
     let planner = Process::join(&instance, &["planner", &program]);
     let _moving = services.wait(|status| status.frames_executed > 100);
-    let _held = Process::join(&instance, &["hold"]).wait().expect(0);
-    let _still = services.wait_for(MachineState::Held);
-    let _on = Process::join(&instance, &["resume"]).wait().expect(0);
+    let operate = |command| drop(Process::join(&instance, &[command]).wait().expect(0));
+    operate("hold");
+    let held = services.wait_for(MachineState::Held);
+    operate("reverse");
+    operate("resume");
+    let back = services.wait(|status| status.frames_executed + 30 < held.frames_executed);
+    assert_eq!(back.mode(), Ok(MotionMode::Backwards));
+    assert!(back.feed_v < 0.0 && back.path_s < held.path_s);
+    operate("forward");
     let _planner = planner.wait().expect(0);
     let _idle = services.wait_for(MachineState::Idle);
     let report = record.end().expect(0).json();

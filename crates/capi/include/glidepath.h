@@ -49,7 +49,7 @@ extern "C" {
 /* The version of the ABI: functions and structures. */
 #define GP_ABI 3u
 /* What the structures of this header are, as one number. */
-#define GP_LAYOUT UINT64_C(0x5fcab6b7824fc1f7)
+#define GP_LAYOUT UINT64_C(0x257be0137e94ded6)
 /* Axes X Y Z A B C U V W, and joints J0 to J8. */
 #define GP_AXES 9
 
@@ -106,7 +106,9 @@ enum {
     GP_COMMAND_RETURN = 16,
     GP_COMMAND_ACKNOWLEDGE = 17,
     GP_COMMAND_JOG_OVERRIDE = 18,
-    GP_COMMAND_TELL = 19
+    GP_COMMAND_TELL = 19,
+    GP_COMMAND_REVERSE = 20,
+    GP_COMMAND_FORWARD = 21
 };
 
 /* Why a command was refused. */
@@ -176,7 +178,8 @@ enum {
     GP_MODE_PROGRAM = 1,
     GP_MODE_JOG = 2,
     GP_MODE_HOMING = 3,
-    GP_MODE_RETURN = 4
+    GP_MODE_RETURN = 4,
+    GP_MODE_BACKWARDS = 5
 };
 
 /* What a probe has found. */
@@ -507,7 +510,7 @@ GP_FIELD(gp_setpoint, joint_acceleration, 512, 72);
 GP_FIELD(gp_setpoint, away, 584, 72);
 
 /* What the interpolator does and how well. Counts are of this life of it. The record
-   glidepath.Status.v8. */
+   glidepath.Status.v9. */
 typedef struct gp_status {
     /* Identifies one life of the interpolator. */
     uint64_t boot_id;

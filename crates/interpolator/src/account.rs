@@ -52,6 +52,11 @@ impl<'a> Account<'a> {
         self.happenings.write(Happening::ReserveStop { tick });
     }
 
+    /// There is no way back beyond where the motion stands.
+    pub(crate) fn end_way_back(&mut self, line: u32) {
+        self.happenings.write(Happening::WayBackEnds { line });
+    }
+
     /// A setpoint exceeds a limit by this share of it.
     pub(crate) fn exceed(&mut self, tick: u64, part: f64) {
         self.happenings.write(Happening::Excess { tick, part });

@@ -112,7 +112,12 @@ mod tests {
     use glidepath_link::SetpointFrame;
 
     fn track(blocks: &[(u32, u32)]) -> Track {
-        let mut track = Track::new(0.004, mill(), crate::gates::Gates::NONE);
+        let mut track = Track::new(
+            0.004,
+            mill(),
+            crate::gates::Gates::NONE,
+            crate::track::TRACK_CAPACITY,
+        );
         for (sequence, &(block, line)) in (0..).zip(blocks) {
             let velocity = if block == 4 { 0.0 } else { 1.0 };
             track.push(&SetpointFrame {

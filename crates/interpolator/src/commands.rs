@@ -96,10 +96,15 @@ fn objection(command: Command, report: &Report, has_drives: bool) -> Option<&'st
     let (is_possible, why) = match command {
         Command::Ping
         | Command::Tell
-        | Command::FeedOverride(_)
+        | Command::Forward
         | Command::RapidOverride(_)
         | Command::JogOverride(_)
         | Command::SingleBlock(_) => return None,
+        Command::FeedOverride(ratio) if ratio >= 0.0 => return None,
+        Command::FeedOverride(_) | Command::Reverse => (
+            !matches!(state, Idle | Faulted | Off | NotHomed | Homing),
+            "no program runs: there is no path to go back along",
+        ),
         Command::Hold => (
             !matches!(state, Idle | Faulted | Off | NotHomed | Homing),
             "no program runs: there is nothing to hold",

@@ -214,6 +214,10 @@ pub(crate) enum Happening {
     ReserveStop {
         tick: u64,
     },
+    /// The motion cannot go further back than to a line.
+    WayBackEnds {
+        line: u32,
+    },
 }
 
 impl fmt::Display for Happening {
@@ -233,6 +237,9 @@ impl fmt::Display for Happening {
             }
             Self::ReserveStop { tick } => {
                 write!(f, "tick {tick}: no later stop is known, so it begins")
+            }
+            Self::WayBackEnds { line } => {
+                write!(f, "the way back ends in line {line}: go on forward")
             }
         }
     }

@@ -36,6 +36,15 @@ impl ProgramTime {
         }
     }
 
+    /// The same, where rounding has made a whole period of the fraction.
+    pub(crate) fn normal(self) -> Self {
+        if self.fraction >= 1.0 {
+            Self::at(self.sequence + 1)
+        } else {
+            self
+        }
+    }
+
     /// This time, but not past a frame that holds the motion, if one does.
     pub(crate) fn held_at(self, frame: Option<u64>) -> Self {
         match frame {

@@ -5,7 +5,7 @@ use crate::jog::AxesMotion;
 use crate::rate::Progress;
 use crate::track::Track;
 use glidepath_geometry::{AXES, AxisVector};
-use glidepath_link::{OVERRIDE_MAX, Setpoint};
+use glidepath_link::{OVERRIDE_MAX, Setpoint, SetpointFrame};
 
 /// Writes setpoints, and counts them.
 #[derive(Debug)]
@@ -60,17 +60,16 @@ impl SetpointWriter {
         track: &Track,
         setpoint: &mut Setpoint,
     ) -> Option<()> {
-        let summary = FrameSummary::of(track.frame(now.time.sequence)?);
-        write_motion(self.period_t, now, track, setpoint)?;
+        let frame = track.frame(now.time.sequence)?;
+        let summary = FrameSummary::of(frame);
+        write_motion(self.period_t, now, frame, track, setpoint)?;
         self.identify(epoch, &summary, setpoint);
         setpoint.fraction = now.time.fraction;
         setpoint.effective_override = (summary.planned_override * now.rate).min(OVERRIDE_MAX);
         (setpoint.event_kind, setpoint.event_value) = (0, 0.0);
         if self.announced != Some(summary.sequence) {
             self.announced = Some(summary.sequence);
-            if let Some(frame) = track.frame(summary.sequence) {
-                (setpoint.event_kind, setpoint.event_value) = (frame.event_kind, frame.event_value);
-            }
+            (setpoint.event_kind, setpoint.event_value) = (frame.event_kind, frame.event_value);
         }
         Some(())
     }
@@ -130,10 +129,10 @@ impl SetpointWriter {
 fn write_motion(
     period_t: f64,
     now: &Progress,
+    frame: &SetpointFrame,
     track: &Track,
     setpoint: &mut Setpoint,
 ) -> Option<()> {
-    let frame = track.frame(now.time.sequence)?;
     if now.rate >= 1.0 && now.slope == 0.0 && now.time.fraction <= 0.0 {
         setpoint.position = frame.position;
         setpoint.velocity = frame.velocity;

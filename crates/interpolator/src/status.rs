@@ -1,8 +1,10 @@
 //! Keeping the status record.
 
 use crate::admission::Admission;
+use crate::block_starts::BlockStarts;
 use crate::config::Config;
 use crate::message::{FRAMES, Report};
+use crate::retrace::frames_kept;
 use crate::track::TRACK_CAPACITY;
 use glidepath_link::{
     EndOfEpoch, FrameRefusal, Grants, MachineState, MotionMode, Quantiles, SetpointFrame, Status,
@@ -13,6 +15,7 @@ use glidepath_realtime::{Histogram, Item, Mode};
 /// The status, and what it is worked out from.
 pub(crate) struct StatusBook {
     pub(crate) status: Status,
+    block_starts: BlockStarts,
     lateness: Histogram,
     work: Histogram,
     latency: Histogram,
@@ -37,6 +40,7 @@ impl StatusBook {
         };
         Self {
             status,
+            block_starts: BlockStarts::new(frames_kept(config.period_t())),
             lateness: Histogram::new(),
             work: Histogram::new(),
             latency: Histogram::new(),
@@ -48,7 +52,8 @@ impl StatusBook {
     pub(crate) fn count(&mut self, report: &Report) {
         if report.setpoint.block != self.status.block {
             self.status.block = report.setpoint.block;
-            self.status.block_path_s = report.setpoint.path_s;
+            let path_s = report.setpoint.path_s;
+            self.status.block_path_s = self.block_starts.enter(self.status.block, path_s);
         }
         self.lateness.record(report.setpoint.lateness_ns);
         if report.setpoint.number > 0 {
@@ -78,6 +83,7 @@ impl StatusBook {
             self.message("");
         }
         if frame.block == 0 || frame.program != self.status.program {
+            self.block_starts.forget();
             self.status.program = frame.program;
             self.status.program_start = frame.position;
         }
@@ -176,8 +182,9 @@ fn mode(report: &Report) -> MotionMode {
         MachineState::Jogging if report.is_returning => MotionMode::Return,
         MachineState::Jogging => MotionMode::Jog,
         MachineState::Homing => MotionMode::Homing,
-        _ if report.end_of_epoch == EndOfEpoch::Open => MotionMode::Program,
-        _ => MotionMode::None,
+        _ if report.end_of_epoch != EndOfEpoch::Open => MotionMode::None,
+        _ if report.feed_override.is_sign_negative() => MotionMode::Backwards,
+        _ => MotionMode::Program,
     }
 }
 

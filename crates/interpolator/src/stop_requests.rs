@@ -9,6 +9,8 @@
 //! | abort | Stopping | Idle (the epoch has ended) | – |
 //! | program stop, end of a block | – | ProgramStop | resume, step |
 //! | feed hold, or override 0, or an adaptive feed of 0 | Holding | Held | resume, step, or another override |
+//! | the other way along the path is wanted | Holding | – | the turn |
+//! | the way back ends here | – | Held | the way onward is wanted |
 //! | too few frames | Starving | Starved | frames |
 //! | the plan rests and has no more | – | Waiting | frames |
 //! | none | Running | Running | |
@@ -36,11 +38,37 @@ pub(crate) struct StopRequests {
     single_block: bool,
     feed_override: f64,
     rapid_override: f64,
-    /// What slows the program down besides, 0 to 1.
+    /// What slows the program down besides, -1 to 1; below 0 it turns the motion round.
     adaptive_r: f64,
+    /// The operator wants the motion to go back along the path.
+    is_reversed: bool,
+    /// Which way the motion goes.
+    course: Course,
     /// Both together, for feeds and for rapids: every tick asks for them, and they change seldom.
     feed_r: f64,
     rapid_r: f64,
+    /// It goes, or is to go, through frames that were passed before.
+    retraces: bool,
+}
+
+/// Which way along the path the motion goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Course {
+    /// As the frames come in.
+    Onward,
+    /// Onward, through frames that were passed before, or taken to be.
+    OnwardAgain,
+    /// Back through frames that were passed.
+    Back,
+    /// Nowhere: there is no way back beyond this.
+    BackAtEnd,
+}
+
+impl Course {
+    /// Whether the track that is played is the way back.
+    pub(crate) const fn is_back(self) -> bool {
+        matches!(self, Self::Back | Self::BackAtEnd)
+    }
 }
 
 /// What the operator lets the motion pass, of what it stands at.
@@ -70,8 +98,11 @@ impl Default for StopRequests {
             feed_override: 1.0,
             rapid_override: 1.0,
             adaptive_r: 1.0,
+            is_reversed: false,
+            course: Course::Onward,
             feed_r: 1.0,
             rapid_r: 1.0,
+            retraces: false,
         }
     }
 }
@@ -111,9 +142,11 @@ impl StopRequests {
             Command::StopAtEndOfBlock => self.stop_at_block_end = is_open,
             Command::SingleBlock(on) => self.single_block = on,
             Command::FeedOverride(ratio) => {
-                self.feed_override = ratio;
-                self.adapt(self.adaptive_r);
+                self.feed_override = ratio.abs();
+                self.reverse(ratio < 0.0 && is_open);
             }
+            Command::Reverse => self.reverse(is_open),
+            Command::Forward => self.reverse(false),
             Command::RapidOverride(ratio) => {
                 self.rapid_override = ratio;
                 self.adapt(self.adaptive_r);
@@ -185,8 +218,10 @@ impl StopRequests {
     }
 
     /// An epoch begins or ends: only a latched fault, the overrides and the single-block mode
-    /// outlive it, and a hold if the program goes on.
+    /// outlive it, and a hold if the program goes on. Every program begins onward.
     pub(crate) const fn forget_epoch(&mut self, goes_on: bool) {
+        self.go(Course::Onward);
+        self.reverse(false);
         self.abort = false;
         self.hold = self.hold && goes_on;
         self.program_stop = false;
@@ -194,8 +229,51 @@ impl StopRequests {
         self.stop_at_block_end = false;
     }
 
+    /// Those of feeds and of rapids as commanded; that of feeds is below 0 if the motion is to go
+    /// back.
     pub(crate) const fn overrides(&self) -> (f64, f64) {
-        (self.feed_override, self.rapid_override)
+        let feed = if self.is_reversed {
+            -self.feed_override
+        } else {
+            self.feed_override
+        };
+        (feed, self.rapid_override)
+    }
+
+    const fn reverse(&mut self, is_reversed: bool) {
+        self.is_reversed = is_reversed;
+        self.adapt(self.adaptive_r);
+    }
+
+    /// The motion turns where it stands. What it stood at on its way does not hold it on the other.
+    pub(crate) const fn turn(&mut self, course: Course) {
+        self.hold |= self.program_stop;
+        self.go(course);
+    }
+
+    /// The motion goes this way from now on.
+    pub(crate) const fn go(&mut self, course: Course) {
+        self.course = course;
+        self.adapt(self.adaptive_r);
+    }
+
+    /// Which way it goes.
+    pub(crate) const fn course(&self) -> Course {
+        self.course
+    }
+
+    /// Whether it goes the other way than is wanted.
+    pub(crate) const fn is_to_turn(&self) -> bool {
+        self.wants_back() != self.course.is_back()
+    }
+
+    const fn wants_back(&self) -> bool {
+        self.is_reversed != (self.adaptive_r < 0.0)
+    }
+
+    /// Whether it goes, or is to go, through frames that were passed before. Every tick asks.
+    pub(crate) const fn retraces(&self) -> bool {
+        self.retraces
     }
 
     /// The rate of program time that is wanted, where supply does not matter.
@@ -211,11 +289,16 @@ impl StopRequests {
         if is_rapid { self.rapid_r } else { self.feed_r }
     }
 
-    /// An input slows the program down, 0 to 1.
+    /// An input slows the program down, -1 to 1; below 0 it turns it round.
     pub(crate) const fn adapt(&mut self, ratio: f64) {
         self.adaptive_r = ratio;
-        self.feed_r = self.feed_override * ratio;
-        self.rapid_r = self.rapid_override * ratio;
+        if self.wants_back() && matches!(self.course, Course::BackAtEnd) || self.is_to_turn() {
+            (self.feed_r, self.rapid_r) = (0.0, 0.0);
+        } else {
+            self.feed_r = self.feed_override * ratio.abs();
+            self.rapid_r = self.rapid_override * ratio.abs();
+        }
+        self.retraces = self.wants_back() || !matches!(self.course, Course::Onward);
     }
 
     /// Whether the operator keeps the motion from going on.

@@ -122,6 +122,11 @@ impl Supply {
         self.short
     }
 
+    /// True if the motion cannot go on with what is left of frames of which there are no more.
+    pub(crate) const fn is_at_end(&self) -> bool {
+        self.short && self.quiet_ticks > QUIET_TICKS
+    }
+
     /// True if the motion stands at a barrier.
     pub(crate) const fn is_barred(&self) -> bool {
         self.barred

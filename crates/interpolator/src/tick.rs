@@ -20,6 +20,7 @@
 mod by_hand;
 mod following;
 mod program;
+mod retracing;
 mod state;
 mod waiting;
 
@@ -117,6 +118,12 @@ impl Interpolator<'_> {
             {
                 MachineState::Awaiting
             }
+            // What it waits for, where it has turned, comes from no planner.
+            MachineState::Waiting | MachineState::Starved | MachineState::Starving
+                if self.requests.retraces() =>
+            {
+                MachineState::Held
+            }
             _ => of_program,
         };
         self.has_moved = is_open && (self.has_moved || !stands);
@@ -140,7 +147,11 @@ impl Interpolator<'_> {
         report.awaited = self.wait.awaited();
         report.is_returning = self.jog.is_returning();
         report.is_away = self.jog.owns_axes() && self.is_open();
-        report.frames_executed = if self.epoch == 0 { 0 } else { now + 1 };
+        report.frames_executed = if self.epoch == 0 {
+            0
+        } else {
+            report.setpoint.sequence + 1
+        };
         report.queue_depth = if self.is_open() {
             self.track.end().saturating_sub(now + 1)
         } else {

@@ -4,8 +4,10 @@
 //! velocity and acceleration at both ends.
 //!
 //! ```text
-//! released │ oldest … now … newest │ free          a ring over sequence numbers
+//! kept │ oldest … now … newest │ free              a ring over sequence numbers
 //! ```
+//!
+//! Frames that were given back are kept as long as there is room: the motion may come back to them.
 //!
 //! Four kinds of frames hold the motion: the next program stop, and the end of a block where the
 //! plan rests, until the operator lets it pass, the next *gate*, whose event is to be answered
@@ -19,7 +21,7 @@ use crate::quintic::{Kinematic, Quintic};
 use crate::rest::is_at_rest;
 use crate::stop_time::{StopLimits, StopTime};
 use glidepath_geometry::AxisVector;
-use glidepath_link::SetpointFrame;
+use glidepath_link::{EventKind, SetpointFrame};
 use glidepath_program::{FrameFlags, Limits};
 
 /// Most frames that are owned at a time.
@@ -35,6 +37,7 @@ pub(crate) struct PathState {
 /// The owned frames of one epoch. Sequences are consecutive.
 #[derive(Debug)]
 pub(crate) struct Track {
+    /// Also those before the oldest that were not yet written over: a power of two.
     frames: Box<[SetpointFrame]>,
     /// In the slot of a frame: the motion from it to the next.
     quintics: Box<[Quintic]>,
@@ -55,12 +58,13 @@ pub(crate) struct Track {
 }
 
 impl Track {
-    /// An empty track. Allocates all it will ever use.
-    pub(crate) fn new(period_t: f64, limits: Limits, gates: Gates) -> Self {
+    /// An empty track that keeps at least so many frames. Allocates all it will ever use.
+    pub(crate) fn new(period_t: f64, limits: Limits, gates: Gates, kept: usize) -> Self {
+        let kept = kept.max(TRACK_CAPACITY).next_power_of_two();
         let blank = <SetpointFrame as bytemuck::Zeroable>::zeroed();
         let quintic = Quintic::zeros();
         Self {
-            frames: vec![blank; TRACK_CAPACITY].into_boxed_slice(),
+            frames: vec![blank; kept].into_boxed_slice(),
             quintics: vec![quintic; TRACK_CAPACITY].into_boxed_slice(),
             stop_times: vec![StopTime::default(); TRACK_CAPACITY].into_boxed_slice(),
             oldest: 0,
@@ -80,7 +84,18 @@ impl Track {
         (sequence % TRACK_CAPACITY as u64) as usize
     }
 
-    /// Forgets everything.
+    /// Where a frame is, in the ring of those that are kept, too.
+    #[allow(clippy::cast_possible_truncation, reason = "it is masked")]
+    const fn place(&self, sequence: u64) -> usize {
+        sequence as usize & (self.frames.len() - 1)
+    }
+
+    /// Most frames that are kept.
+    pub(crate) const fn kept(&self) -> u64 {
+        self.frames.len() as u64
+    }
+
+    /// Owns nothing any more.
     pub(crate) const fn clear(&mut self) {
         self.len = 0;
         self.program_stop = None;
@@ -109,31 +124,58 @@ impl Track {
 
     /// Appends a frame. Only called with room, and with the sequence after the newest.
     pub(crate) fn push(&mut self, frame: &SetpointFrame) {
-        if self.is_empty() {
-            self.oldest = frame.sequence;
-        } else {
-            let before = Self::slot(self.end().wrapping_sub(1));
-            if let (Some(previous), Some(quintic)) =
-                (self.frames.get(before), self.quintics.get_mut(before))
-            {
-                quintic.set_between(previous, frame, self.period_t);
-            }
-        }
-        if let Some(slot) = self.frames.get_mut(Self::slot(frame.sequence)) {
+        self.push_at(frame.sequence, frame);
+    }
+
+    /// Appends a frame under another sequence: the one after the newest.
+    pub(crate) fn push_at(&mut self, sequence: u64, frame: &SetpointFrame) {
+        let place = self.place(sequence);
+        if let Some(slot) = self.frames.get_mut(place) {
             *slot = *frame;
-            self.len += 1;
+            self.own(sequence);
         }
-        if let Some(slot) = self.stop_times.get_mut(Self::slot(frame.sequence)) {
+    }
+
+    /// Appends a frame that is kept: the one after the newest, or any if there is none.
+    pub(crate) fn own(&mut self, sequence: u64) {
+        let (place, before) = (self.place(sequence), self.place(sequence.wrapping_sub(1)));
+        let Some(frame) = self.frames.get(place) else {
+            return;
+        };
+        if self.is_empty() {
+            self.oldest = sequence;
+        } else if let (Some(previous), Some(quintic)) = (
+            self.frames.get(before),
+            self.quintics.get_mut(Self::slot(sequence.wrapping_sub(1))),
+        ) {
+            quintic.set_between(previous, frame, self.period_t);
+        }
+        self.len += 1;
+        if let Some(slot) = self.stop_times.get_mut(Self::slot(sequence)) {
             *slot = self.limits.stop_time(frame, self.period_t);
         }
         if is_at_rest(frame) {
-            self.barrier = Some(frame.sequence);
+            self.barrier = Some(sequence);
         }
         if self.program_stop.is_none() && frame.has(FrameFlags::PROGRAM_STOP) {
-            self.program_stop = Some(frame.sequence);
+            self.program_stop = Some(sequence);
         }
         if self.gate.is_none() && self.gates.of_frame(frame).is_some() {
-            self.gate = Some(frame.sequence);
+            self.gate = Some(sequence);
+        }
+    }
+
+    /// A frame that is kept, if nothing was written over it, and for whoever knows that it is.
+    pub(crate) fn kept_frame(&self, sequence: u64) -> Option<&SetpointFrame> {
+        self.frames.get(self.place(sequence))
+    }
+
+    /// What happened at a frame that is kept does not happen again.
+    pub(crate) fn silence(&mut self, sequence: u64) {
+        let place = self.place(sequence);
+        if let Some(frame) = self.frames.get_mut(place) {
+            (frame.event_kind, frame.event_value) = (EventKind::None.code(), 0.0);
+            frame.flags &= !FrameFlags::PROGRAM_STOP.0;
         }
     }
 
@@ -148,7 +190,7 @@ impl Track {
     pub(crate) fn frame(&self, sequence: u64) -> Option<&SetpointFrame> {
         let offset = sequence.checked_sub(self.oldest)?;
         if offset < self.len as u64 {
-            self.frames.get(Self::slot(sequence))
+            self.frames.get(self.place(sequence))
         } else {
             None
         }
@@ -363,53 +405,4 @@ impl Track {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::testing::{frame_of, mill};
-
-    /// A polynomial of degree five is its own quintic through two frames.
-    #[test]
-    fn a_quintic_is_reproduced() {
-        let t = 0.004;
-        let p = |x: f64| 3.0 + x * (20.0 + x * (-500.0 + x * (8e3 + x * (1e5 - x * 7e6))));
-        let v = |x: f64| 20.0 + x * (-1e3 + x * (24e3 + x * (4e5 - x * 35e6)));
-        let a = |x: f64| -1e3 + x * (48e3 + x * (12e5 - x * 140e6));
-        let mut track = Track::new(t, mill(), Gates::NONE);
-        for (k, x) in [(0, 0.0), (1, t)] {
-            track.push(&frame_of(k, [p(x)], [v(x)], [a(x)]));
-        }
-        for u in [0.0, 0.125, 0.5, 0.9] {
-            let time = ProgramTime {
-                sequence: 0,
-                fraction: u,
-            };
-            let got = track.kinematic(time).unwrap();
-            assert!((got.position[0] - p(u * t)).abs() < 1e-12);
-            assert!((got.velocity[0] / t - v(u * t)).abs() < 1e-9);
-            assert!((got.acceleration[0] / (t * t) - a(u * t)).abs() < 1e-6);
-            assert!((track.position(time).unwrap() - got.position).norm() < 1e-15);
-        }
-    }
-
-    #[test]
-    fn the_ring_owns_consecutive_frames() {
-        let mut track = Track::new(0.004, mill(), Gates::NONE);
-        for k in 0..TRACK_CAPACITY as u64 {
-            track.push(&frame_of(k, [0.1], [1.0], [0.0]));
-        }
-        assert!(track.is_full() && track.holding_frame().is_none() && !track.ends_at_rest());
-        track.release_before(10);
-        assert!(track.frame(9).is_none() && track.frame(10).is_some());
-        track.push(&frame_of(TRACK_CAPACITY as u64, [0.1], [0.0], [0.0]));
-        assert_eq!(track.holding_frame(), Some(512));
-        assert_eq!(track.end(), 513);
-        let beyond = ProgramTime {
-            sequence: 600,
-            fraction: 0.5,
-        };
-        assert_eq!(beyond.held_at(track.holding_frame()), ProgramTime::at(512));
-        assert!(track.position(beyond).is_none());
-        track.clear();
-        assert!(track.position(ProgramTime::at(512)).is_none());
-    }
-}
+mod tests;

@@ -35,7 +35,7 @@ layout!(setpoint, Setpoint, "glidepath.Setpoint.v3", 656, {
     acceleration: 296, joint_position: 368, joint_velocity: 440, joint_acceleration: 512,
     away: 584,
 });
-layout!(status, Status, "glidepath.Status.v8", 1496, {
+layout!(status, Status, "glidepath.Status.v9", 1496, {
     boot_id: 0, updated_ns: 8, period_ns: 16, tick: 24, epoch: 32, frames_received: 40,
     frames_executed: 48, queue_depth: 56, queue_capacity: 60, pid: 64, state: 68, end_of_epoch: 72,
     fault: 76, fault_line: 80, fault_axis: 84, fault_joint: 88, drive_fault: 92,
@@ -51,7 +51,7 @@ layout!(status, Status, "glidepath.Status.v8", 1496, {
     frames_refused: 888, lateness: 984, work: 1016, latency: 1048, response: 1080, last_error: 1112,
     last_event: 1240, message: 1368,
 });
-layout!(command_request, CommandRequest, "glidepath.CommandRequest.v4", 184, {
+layout!(command_request, CommandRequest, "glidepath.CommandRequest.v5", 184, {
     client: 0, number: 8, value: 16, kind: 24, joints: 28, event: 32, text: 56,
 });
 layout!(auxiliary, Auxiliary, "glidepath.Auxiliary.v2", 656, {

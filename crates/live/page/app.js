@@ -192,7 +192,7 @@ function digits() {
   const s = S.status;
   if (S.file) { put($('#left'), span(PLAN ? PLAN.seconds : 0)); return; }
   if (!s || S.state === 'none') { put($('#left'), '–:––.–'); put($('#ends'), ''); put($('#why'), cause()); return; }
-  const ring = RINGED, fresh = ring && ring.count, axes = AXES(), speed = fresh ? ring.feed[(ring.count - 1) & (RING - 1)] : s.feed_mm_s;
+  const ring = RINGED, fresh = ring && ring.count, axes = AXES(), speed = Math.abs(fresh ? ring.feed[(ring.count - 1) & (RING - 1)] : s.feed_mm_s);
   const machine = axes.map((a, k) => fresh ? ring.last_position(k) : s.position[a.name]), shown = work(machine), moving = speed > 1e-6 && S.state !== 'stale';
   $('#app').classList.toggle('moving', moving);
   put($('#system'), s.offset ? s.offset.system : ''); put($('#dro-of'), s.offset ? 'from part zero, mm' : 'from machine zero, mm'); put($('#dro-machine'), s.offset ? 'machine, mm' : 'travel');
@@ -206,10 +206,11 @@ function digits() {
     if (k < 3) put($(`#g${axis.name}`), num(shown[k], 2));
   });
   feedDigits(speed * 60, moving);
+  if (s.mode === 'backwards') put($('#feedof'), moving ? 'back along the path' : 'backwards: no way, or held');
   for (const [key, ratio] of [['feed-override', s.feed_override], ['rapid-override', s.rapid_override]]) {
     const tile = $(`[data-ov=${key}]`);
     fill($('[data-v]', tile), `${Math.round(ratio * 100)}<span class="unit">%</span>`);
-    $('.bar i', tile).style.width = `${Math.min(100, ratio * 50)}%`; $('.bar u', tile).style.left = '50%';
+    $('.bar i', tile).style.width = `${Math.min(100, Math.abs(ratio) * 50)}%`; $('.bar u', tile).style.left = '50%';
   }
   put($('#spin'), s.spindle && s.spindle.turns !== 'off' ? grouped(s.spindle.speed) : s.spindle ? '0' : '–'); put($('#spinof'), s.spindle ? s.spindle.turns + (s.spindle.coolant ? `, ${s.spindle.coolant}` : '') : 'not known here');
   put($('#tool'), !s.tool ? '–' : `T${s.tool}`); put($('#toolof'), !s.tool ? 'none, or not told' : 'in the spindle');
@@ -248,7 +249,9 @@ $$('.ov').forEach(tile => {
   less.innerHTML = icon('minus'); more.innerHTML = icon('plus');
   const kind = tile.dataset.ov, most = kind === 'feed-override' ? 2 : 1;
   const now = () => S.status ? S.status[kind.replace('-', '_')] : 1;
-  for (const b of [less, more]) b.onclick = () => command(kind, Math.round(Math.max(0, Math.min(most, now() + +b.dataset.d)) * 100) / 100);
+  // Whichever way the motion goes, more is faster.
+  const way = () => now() < 0 || Object.is(now(), -0) ? -1 : 1;
+  for (const b of [less, more]) b.onclick = () => command(kind, way() * Math.round(Math.max(0, Math.min(most, Math.abs(now()) + +b.dataset.d)) * 100) / 100);
   $('.mid', tile).ondblclick = () => command(kind, 1);
 });
 function sure(on) {

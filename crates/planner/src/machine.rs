@@ -115,11 +115,11 @@ impl Machine {
         self.latest.as_ref().filter(|_| self.alive)
     }
 
-    /// The override to plan with, if one was commanded that can be planned with. An override of
-    /// zero cannot: the interpolator holds the motion then.
+    /// The override to plan with, if one was commanded that can be planned with, whichever way the
+    /// motion goes. An override of zero cannot: the interpolator holds the motion then.
     pub(crate) fn wanted_override(&self) -> Option<Override> {
         let status = self.status()?;
-        let (feed_r, rapid_r) = (status.feed_override, status.rapid_override.min(1.0));
+        let (feed_r, rapid_r) = (status.feed_override.abs(), status.rapid_override.min(1.0));
         (feed_r > 0.0 && rapid_r > 0.0).then_some(Override { feed_r, rapid_r })
     }
 

@@ -7,7 +7,7 @@ import ctypes
 import enum
 
 ABI = 3
-LAYOUT = 0x5fcab6b7824fc1f7
+LAYOUT = 0x257be0137e94ded6
 AXES = 9
 
 
@@ -68,6 +68,8 @@ class Command(enum.IntEnum):
     ACKNOWLEDGE = 17
     JOG_OVERRIDE = 18
     TELL = 19
+    REVERSE = 20
+    FORWARD = 21
 
 
 class Refusal(enum.IntEnum):
@@ -143,6 +145,7 @@ class Mode(enum.IntEnum):
     JOG = 2
     HOMING = 3
     RETURN = 4
+    BACKWARDS = 5
 
 
 class Contact(enum.IntEnum):

@@ -103,12 +103,19 @@ pub enum Command {
     /// Come to rest at the end of the present block, or of the first at which that is possible
     #[command(after_help = "Example: glidepath stop-at-block-end")]
     StopAtBlockEnd(OperatorArgs),
+    /// Go back along the path that was run: at most a minute, and not past what cannot be undone
+    #[command(after_help = "Example: glidepath hold && glidepath reverse && glidepath resume")]
+    Reverse(OperatorArgs),
+    /// Go onward along the path, after `reverse`
+    #[command(after_help = "Example: glidepath forward")]
+    Forward(OperatorArgs),
     /// Rest at the end of every block, or do so no longer; `resume` or `step` goes on
     #[command(after_help = "Example: glidepath single-block on")]
     SingleBlock(SingleBlockArgs),
     /// Set the override of the feed, of rapids, or of jogs
     #[command(
-        after_help = "Examples: glidepath override 80 · glidepath override --rapid 25 · \
+        after_help = "Examples: glidepath override 80 · glidepath override -50 · \
+                            glidepath override --rapid 25 · \
                             glidepath override --jog 10"
     )]
     Override(OverrideArgs),
@@ -226,6 +233,8 @@ impl Command {
             | Self::Resume(args)
             | Self::Step(args)
             | Self::StopAtBlockEnd(args)
+            | Self::Reverse(args)
+            | Self::Forward(args)
             | Self::Return(args)
             | Self::Enable(args)
             | Self::Disable(args)

@@ -59,8 +59,8 @@ pub struct AbortArgs {
 #[derive(Debug, Args)]
 #[group(id = "factor", required = true, multiple = true)]
 pub struct OverrideArgs {
-    /// Percent of the programmed feedrate, 0 to 200
-    #[arg(value_parser = percent, group = "factor")]
+    /// Percent of the programmed feedrate, up to 200; below 0 the motion goes back along the path
+    #[arg(value_parser = percent, group = "factor", allow_negative_numbers = true)]
     pub percent: Option<f64>,
     /// Percent of the speed of rapids, 0 to 100
     #[arg(long, value_name = "PERCENT", value_parser = rapid_percent, group = "factor")]
@@ -194,14 +194,14 @@ fn position(text: &str) -> Result<f64, &'static str> {
 }
 
 fn percent(text: &str) -> Result<f64, &'static str> {
-    percent_to(200.0, text).ok_or("give a number from 0 to 200")
+    percent_from(-200.0, 200.0, text).ok_or("give a number from -200 to 200")
 }
 
 fn rapid_percent(text: &str) -> Result<f64, &'static str> {
-    percent_to(100.0, text).ok_or("give a number from 0 to 100")
+    percent_from(0.0, 100.0, text).ok_or("give a number from 0 to 100")
 }
 
-fn percent_to(most: f64, text: &str) -> Option<f64> {
+fn percent_from(least: f64, most: f64, text: &str) -> Option<f64> {
     let percent = text.parse().ok()?;
-    (0.0..=most).contains(&percent).then_some(percent)
+    (least..=most).contains(&percent).then_some(percent)
 }

@@ -114,6 +114,12 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
             let command = link::Command::StopAtEndOfBlock;
             operator::command(args, &config()?, "stop-at-block-end", command)
         }
+        Command::Reverse(args) => {
+            operator::command(args, &config()?, "reverse", link::Command::Reverse)
+        }
+        Command::Forward(args) => {
+            operator::command(args, &config()?, "forward", link::Command::Forward)
+        }
         Command::Fit(args) => fit::fit(args, &config()?),
         Command::Preview(args) => preview::preview(args, &config()?),
         Command::SingleBlock(args) => {

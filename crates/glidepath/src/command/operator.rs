@@ -1,5 +1,5 @@
 //! What an operator does: `glidepath hold`, `resume`, `step`, `stop-at-block-end`, `single-block`,
-//! `override`, `abort` and `status`, talking to a running interpolator by its panel, and
+//! `reverse`, `forward`, `override`, `abort` and `status`, talking to a running interpolator by its panel, and
 //! `abort --signal`, which reaches the process itself.
 
 use super::jog::lift;

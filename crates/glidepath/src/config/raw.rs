@@ -174,6 +174,7 @@ pub(super) struct RawAdaptiveFeed {
     pub(super) at_zero: Optional<f64>,
     pub(super) at_full: Optional<f64>,
     pub(super) always: Optional<bool>,
+    pub(super) backwards: Optional<bool>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -25,6 +25,7 @@ const fn mode_name(mode: MotionMode) -> &'static str {
         MotionMode::Jog => "jog",
         MotionMode::Homing => "homing",
         MotionMode::Return => "return",
+        MotionMode::Backwards => "backwards",
     }
 }
 

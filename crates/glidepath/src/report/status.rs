@@ -4,7 +4,7 @@ use super::machine::{awaited_text, by_axis, machine_object, power_text};
 use super::quantity::{grouped, microseconds};
 use core::fmt::Write as _;
 use glidepath_geometry::Axis;
-use glidepath_link::{EndOfEpoch, FaultCause, Grants, MachineState, Quantiles, Status};
+use glidepath_link::{EndOfEpoch, FaultCause, Grants, MachineState, MotionMode, Quantiles, Status};
 use serde_json::{Map, Value, json};
 
 /// What a machine does, in one word.
@@ -216,7 +216,27 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
 /// What an input makes of the overrides, if it does anything.
 pub(super) fn adaptive_text(status: &Status) -> Option<String> {
     let part = status.adaptive_feed * 100.0;
-    (part < 100.0).then(|| format!("the adaptive feed lets through {part:.0} %"))
+    (part < 100.0).then(|| {
+        if part < 0.0 {
+            format!(
+                "the adaptive feed turns the motion round, at {:.0} %",
+                -part
+            )
+        } else {
+            format!("the adaptive feed lets through {part:.0} %")
+        }
+    })
+}
+
+/// How a program is executed, where that is not the ordinary way.
+pub(super) fn manner_text(status: &Status) -> String {
+    let is_backwards = status.mode() == Ok(MotionMode::Backwards);
+    let manners = [
+        (is_backwards, ", backwards"),
+        (status.single_block == 1, ", single block"),
+    ];
+    let in_force = manners.into_iter().filter(|(is_so, _)| *is_so);
+    in_force.map(|(_, text)| text).collect()
 }
 
 /// A status for people.
@@ -247,11 +267,7 @@ pub fn status_text(instance: &str, status: &Status) -> String {
         status.line,
         status.path_s,
         status.feed_v,
-        if status.single_block == 1 {
-            ", single block"
-        } else {
-            ""
-        }
+        manner_text(status)
     );
     let _ = writeln!(
         text,

@@ -17,6 +17,9 @@ mod admission;
 #[allow(dead_code, reason = "only the judge is used")]
 #[path = "../../src/fault.rs"]
 mod fault;
+#[allow(dead_code, reason = "only the judge is used")]
+#[path = "../../src/gates.rs"]
+mod gates;
 #[path = "../../src/rest.rs"]
 mod rest;
 #[allow(dead_code, reason = "what the tests share")]

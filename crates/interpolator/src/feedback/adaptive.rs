@@ -1,12 +1,13 @@
 //! Adaptive feed: an analog input that slows the program down, as far as to a hold.
 //!
 //! The factor follows the input in steps, or the search for a ramp would never come to rest. Whoever
+//! Where the machine is configured for that, it goes on below zero: back along the path. Whoever
 //! sends the input is known by being the one that says something else than zero; if nothing new
 //! comes from there, the factor is zero.
 
 use super::settings::AdaptiveFeed;
 use crate::message::Report;
-use glidepath_link::{EventKind, Feedback};
+use glidepath_link::{EventKind, Feedback, MotionMode};
 use glidepath_program::{CodeWord, Event};
 
 /// Least change of the factor, but for those to 0 and 1.
@@ -101,7 +102,7 @@ impl AdaptiveWatch {
         self.told
     }
 
-    /// The factor of the rate of program time now, 0 to 1.
+    /// The factor of the rate of program time now, -1 to 1.
     pub(super) fn factor(&mut self, now_ns: u64) -> f64 {
         self.told = match self.settings {
             Some(settings) if self.is_on => self.follow(settings, now_ns),
@@ -116,14 +117,30 @@ impl AdaptiveWatch {
             .filter(|source| now_ns.saturating_sub(source.sample_ns) <= self.stale_ns);
         let wanted = fresh.map_or(0.0, |source| {
             let part = (source.value - settings.at_zero) / (settings.at_full - settings.at_zero);
+            let least = if settings.backwards { -1.0 } else { 0.0 };
             // Neither is a number that is none a speed.
-            if part > 0.0 { part.min(1.0) } else { 0.0 }
+            if part > least {
+                part.min(1.0)
+            } else if part.is_nan() {
+                0.0
+            } else {
+                least
+            }
         });
-        let is_end = wanted <= 0.0 || wanted >= 1.0;
+        let is_end = wanted.abs() >= 1.0 || wanted.abs() <= 0.0;
         if is_end || (wanted - self.factor).abs() >= STEP {
             self.factor = wanted;
         }
         self.factor
+    }
+}
+
+/// What moves the axes, if the input turns a program round.
+pub(super) fn turned_round(mode: u32) -> u32 {
+    match MotionMode::from_code(mode) {
+        Some(MotionMode::Program) => MotionMode::Backwards.code(),
+        Some(MotionMode::Backwards) => MotionMode::Program.code(),
+        _ => mode,
     }
 }
 
@@ -140,6 +157,7 @@ mod tests {
             at_zero: 1.0,
             at_full: 5.0,
             always,
+            backwards: false,
         };
         AdaptiveWatch::new(Some(settings), 12 * MS)
     }
@@ -183,6 +201,24 @@ mod tests {
         assert!((watch.factor(122 * MS) - 0.5).abs() < 1e-12);
         says(&mut watch, 2, 140, 5.0);
         assert!(watch.factor(141 * MS) >= 1.0);
+    }
+
+    #[test]
+    fn below_zero_the_motion_goes_back_where_that_is_wanted() {
+        let mut watch = watch(true);
+        watch.settings.as_mut().unwrap().backwards = true;
+        for (ms, value, wanted) in [
+            (100, 3.0, 0.5),
+            (110, 0.0, -0.25),
+            (120, 1.02, 0.005),
+            (130, -9.0, -1.0),
+            (140, f64::NAN, 0.0),
+        ] {
+            says(&mut watch, 1, ms, value);
+            let factor = watch.factor((ms + 1) * MS);
+            assert!((factor - wanted).abs() < 1e-12, "{value}: {factor}");
+        }
+        assert!(watch.factor(200 * MS).abs() <= 0.0, "stale");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What the ports thread keeps of the drives.
 
-use super::adaptive::AdaptiveWatch;
+use super::adaptive::{AdaptiveWatch, turned_round};
 use super::claims::{Claims, Joints};
 use super::demands::Demands;
 use super::following::FollowingErrors;
@@ -237,6 +237,9 @@ impl DriveBook {
         status.following_error = self.following.errors();
         status.following_peak = self.following.peaks();
         status.adaptive_feed = self.adaptive.told();
+        if status.adaptive_feed < 0.0 {
+            status.mode = turned_round(status.mode);
+        }
         let contact = self.probe.found();
         status.contact_kind = contact
             .map_or(ContactKind::None, |contact| contact.kind)

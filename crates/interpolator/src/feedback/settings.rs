@@ -43,6 +43,9 @@ pub struct AdaptiveFeed {
     pub at_full: f64,
     /// It does so at all times, and not only from M52 P1 to M52 P0.
     pub always: bool,
+    /// Below the value that stands the motion goes back along the path: as fast as the plan as far
+    /// below it as the full value is above.
+    pub backwards: bool,
 }
 
 /// How the feedback of the drives is judged.

@@ -42,7 +42,7 @@ struct Player {
 impl Player {
     fn new(frames: Vec<SetpointFrame>, limits: Limits) -> Self {
         let start = AxisVector::from(frames[0].position);
-        let mut track = Track::new(PERIOD_T, limits, crate::gates::Gates::NONE);
+        let mut track = Track::new(PERIOD_T, limits, crate::gates::Gates::NONE, TRACK_CAPACITY);
         for frame in frames.iter().take(TRACK_CAPACITY) {
             track.push(frame);
         }

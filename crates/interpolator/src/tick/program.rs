@@ -21,6 +21,9 @@ impl Interpolator<'_> {
     /// when its epoch ended, and is dropped.
     pub(super) fn take_frames(&mut self, inputs: &mut Inputs<'_>) {
         self.track.release_before(self.rate.now().time.sequence);
+        if self.requests.retraces() && !self.retrace() {
+            return;
+        }
         for _ in 0..FRAMES_PER_TICK {
             if self.track.is_full() {
                 return;
@@ -59,6 +62,7 @@ impl Interpolator<'_> {
         }
         self.track.clear();
         self.track.push(frame);
+        self.retrace.begin_at(frame.sequence);
         self.rate.begin_at(ProgramTime::at(frame.sequence));
         self.epoch = frame.epoch;
         self.end_of_epoch = EndOfEpoch::Open;
@@ -81,7 +85,10 @@ impl Interpolator<'_> {
         let holds = self.requests.holds(self.is_rapid()) || is_awaiting;
         let (track, rate, published) = (&self.track, &self.rate, self.output.published());
         if self.is_open() && self.supply.watch(track, rate, published, holds) {
-            self.fail(FaultCause::PlannerLost);
+            // Behind the motion there is no planner to be lost.
+            if !self.requests.course().is_back() {
+                self.fail(FaultCause::PlannerLost);
+            }
         }
     }
 
@@ -172,6 +179,9 @@ impl Interpolator<'_> {
             self.fail(FaultCause::Output);
             self.rate.rest_at(now.time, 0.0);
             self.write_standing(setpoint);
+        }
+        if self.requests.retraces() {
+            self.place_retraced(setpoint);
         }
         if setpoint.event_kind != EventKind::None.code() {
             self.hear_event(setpoint);

@@ -13,6 +13,7 @@ use crate::output::{Output, Written};
 use crate::probing::Probing;
 use crate::program_time::ProgramTime;
 use crate::rate::Rate;
+use crate::retrace::{Retrace, frames_kept};
 use crate::spindle::{Pass, SimulatedSpindle, Tap};
 use crate::stop_requests::StopRequests;
 use crate::supply::Supply;
@@ -28,6 +29,7 @@ const EXCESS_FAULT: f64 = 0.05;
 /// The real-time thread's state.
 pub(crate) struct Interpolator<'a> {
     pub(super) track: Track,
+    pub(super) retrace: Retrace,
     pub(super) rate: Rate,
     pub(super) requests: StopRequests,
     pub(super) supply: Supply,
@@ -62,7 +64,8 @@ impl<'a> Interpolator<'a> {
     ) -> Self {
         let period_t = config.period_t();
         Self {
-            track: Track::new(period_t, config.limits, config.gates),
+            track: Track::new(period_t, config.limits, config.gates, frames_kept(period_t)),
+            retrace: Retrace::new(period_t, config.limits),
             rate: Rate::new(ProgramTime::at(0), 0.0),
             requests: StopRequests::default(),
             supply: Supply::new(config),
@@ -132,6 +135,9 @@ impl<'a> Interpolator<'a> {
     }
 
     pub(super) fn close(&mut self, end: EndOfEpoch) {
+        if self.requests.course().is_back() {
+            self.leave_way_back();
+        }
         // Where the machine stands is not at a frame in general.
         if let Some(path) = self.track.path(self.rate.now().time) {
             self.passed.path_s = path.path_s;

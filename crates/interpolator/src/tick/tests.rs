@@ -17,6 +17,7 @@ mod jog;
 mod jog_in_a_hold;
 mod jog_random;
 mod planned;
+mod retracing;
 mod supply;
 mod tap_by_axis;
 

@@ -139,6 +139,15 @@ impl Fields {
         self.range(field, value, 0.0, OVERRIDE_MAX)
     }
 
+    /// An override as commanded, below 0 for the way back.
+    pub(crate) fn signed_override(
+        self,
+        field: &'static str,
+        value: f64,
+    ) -> Result<(), RecordError> {
+        self.range(field, value, -OVERRIDE_MAX, OVERRIDE_MAX)
+    }
+
     pub(crate) fn code<C: Code>(self, field: &'static str, code: u32) -> Result<C, RecordError> {
         C::known(code).ok_or(RecordError::UnknownCode {
             record: self.0,

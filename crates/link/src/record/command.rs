@@ -46,6 +46,10 @@ coded! {
         JogOverride = 18,
         /// See [`Command::Tell`].
         Tell = 19,
+        /// See [`Command::Reverse`].
+        Reverse = 20,
+        /// See [`Command::Forward`].
+        Forward = 21,
     }
 }
 
@@ -61,7 +65,8 @@ pub enum Command {
     Hold,
     /// Go on after a hold, a program stop or the end of a block.
     Resume,
-    /// Set the feed override, a ratio from 0 to [`super::OVERRIDE_MAX`].
+    /// Set the feed override, a ratio of up to [`super::OVERRIDE_MAX`]; below 0 the motion goes back
+    /// along the path.
     FeedOverride(f64),
     /// Set the rapid override, a ratio from 0 to [`super::OVERRIDE_MAX`].
     RapidOverride(f64),
@@ -102,6 +107,10 @@ pub enum Command {
     },
     /// Set the part of their speed that jogs have, a ratio from 0 to 1.
     JogOverride(f64),
+    /// Go back along the path, at the override that is in force.
+    Reverse,
+    /// Go onward along the path.
+    Forward,
     /// What the program says to people: the text of the request becomes the message of the status.
     Tell,
 }
@@ -144,6 +153,8 @@ impl Command {
             Self::Acknowledge { .. } => CommandKind::Acknowledge,
             Self::JogOverride(_) => CommandKind::JogOverride,
             Self::Tell => CommandKind::Tell,
+            Self::Reverse => CommandKind::Reverse,
+            Self::Forward => CommandKind::Forward,
         }
     }
 }
@@ -151,7 +162,7 @@ impl Command {
 /// A command on its way.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.CommandRequest.v4")]
+#[type_name("glidepath.CommandRequest.v5")]
 pub struct CommandRequest {
     /// Who asks: any number the client keeps, for the log.
     pub client: u64,
@@ -206,6 +217,8 @@ impl CommandRequest {
             | Command::Enable
             | Command::Disable
             | Command::Return
+            | Command::Reverse
+            | Command::Forward
             | Command::Tell => {}
         }
         record
@@ -234,7 +247,7 @@ impl CommandRequest {
             CommandKind::Hold => Command::Hold,
             CommandKind::Resume => Command::Resume,
             CommandKind::FeedOverride => {
-                fields.override_ratio("value", self.value)?;
+                fields.signed_override("value", self.value)?;
                 Command::FeedOverride(self.value)
             }
             CommandKind::RapidOverride => {
@@ -256,6 +269,8 @@ impl CommandRequest {
             CommandKind::Unhome => Command::Unhome(self.joints),
             CommandKind::Return => Command::Return,
             CommandKind::Tell => Command::Tell,
+            CommandKind::Reverse => Command::Reverse,
+            CommandKind::Forward => Command::Forward,
             CommandKind::Acknowledge => Command::Acknowledge {
                 event: self.event,
                 done: self.switch()?,
@@ -288,7 +303,7 @@ impl CommandRequest {
 }
 
 impl Record for CommandRequest {
-    const NAME: &'static str = "glidepath.CommandRequest.v4";
+    const NAME: &'static str = "glidepath.CommandRequest.v5";
 
     fn check(&self) -> Result<(), RecordError> {
         self.command()?;

@@ -94,6 +94,8 @@ coded! {
         Homing = 3,
         /// The way back to the path, after a jog in a hold.
         Return = 4,
+        /// A program, back along its path.
+        Backwards = 5,
     }
 }
 

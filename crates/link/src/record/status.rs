@@ -61,7 +61,7 @@ pub struct Quantiles {
 /// What the interpolator does and how well. Counts are of this life of it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
-#[type_name("glidepath.Status.v8")]
+#[type_name("glidepath.Status.v9")]
 pub struct Status {
     /// Identifies one life of the interpolator.
     pub boot_id: u64,
@@ -171,7 +171,7 @@ pub struct Status {
     pub block_path_s: f64,
     /// Rate of path position, mm/s.
     pub feed_v: f64,
-    /// Feed override as commanded.
+    /// Feed override as commanded; below 0 if the motion is to go back along the path.
     pub feed_override: f64,
     /// Rapid override as commanded.
     pub rapid_override: f64,
@@ -179,7 +179,8 @@ pub struct Status {
     pub jog_override: f64,
     /// Override as executed.
     pub effective_override: f64,
-    /// What an input makes of both overrides, 0 to 1; 1 where none slows programs down.
+    /// What an input makes of both overrides, -1 to 1; below 0 it turns the motion round. 1 where
+    /// none slows programs down.
     pub adaptive_feed: f64,
     /// Ticks run.
     pub ticks: u64,
@@ -306,7 +307,7 @@ impl Status {
 }
 
 impl Record for Status {
-    const NAME: &'static str = "glidepath.Status.v8";
+    const NAME: &'static str = "glidepath.Status.v9";
 
     fn check(&self) -> Result<(), RecordError> {
         let fields = Fields(Self::NAME);
@@ -321,7 +322,7 @@ impl Record for Status {
         fields.finite("feed_v", self.feed_v)?;
         fields.finite("fault_value", self.fault_value)?;
         fields.finite("fault_limit", self.fault_limit)?;
-        fields.override_ratio("feed_override", self.feed_override)?;
+        fields.signed_override("feed_override", self.feed_override)?;
         fields.override_ratio("rapid_override", self.rapid_override)?;
         fields.range("jog_override", self.jog_override, 0.0, 1.0)?;
         fields.range(
@@ -330,7 +331,7 @@ impl Record for Status {
             0.0,
             OVERRIDE_MAX,
         )?;
-        fields.range("adaptive_feed", self.adaptive_feed, 0.0, 1.0)?;
+        fields.range("adaptive_feed", self.adaptive_feed, -1.0, 1.0)?;
         fields.flags("grants", self.grants, Grants::KNOWN)?;
         fields.flags("single_block", self.single_block, 1)?;
         for (field, mask) in [

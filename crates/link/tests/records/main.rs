@@ -262,12 +262,12 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_status(), |s| s.contact_kind = 3),
         refused(good_status(), |s| s.fault_joint = 10),
         refused(good_status(), |s| s.power = 4),
-        refused(good_status(), |s| s.mode = 5),
+        refused(good_status(), |s| s.mode = 6),
         refused(Feedback::zeroed(), |f| f.drive_state[8] = 9),
         refused(Feedback::zeroed(), |f| f.latch[3].kind = 4),
         refused(JogDemand::zeroed(), |j| j.mode = 5),
         refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 0),
-        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 20),
+        refused(CommandRequest::new(1, 1, Command::Ping), |c| c.kind = 22),
         refused(SegmentReply::zeroed(), |r| r.refusal = 11),
         refused(good_segment(), |s| s.kind = 0),
         refused(good_segment(), |s| s.mode = 5),
@@ -354,11 +354,11 @@ fn codes_are_consecutive_and_known() {
     in_sequence(EndOfEpoch::ALL.iter().map(|code| code.code()), 0, 5);
     in_sequence(ContactKind::ALL.iter().map(|code| code.code()), 0, 2);
     in_sequence(FrameRefusal::ALL.iter().map(|code| code.code()), 1, 12);
-    in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 19);
+    in_sequence(CommandKind::ALL.iter().map(|code| code.code()), 1, 21);
     in_sequence(CommandRefusal::ALL.iter().map(|code| code.code()), 1, 5);
     in_sequence(SegmentRefusal::ALL.iter().map(|code| code.code()), 1, 10);
     in_sequence(Power::ALL.iter().map(|code| code.code()), 0, 3);
-    in_sequence(MotionMode::ALL.iter().map(|code| code.code()), 0, 4);
+    in_sequence(MotionMode::ALL.iter().map(|code| code.code()), 0, 5);
     in_sequence(JogMode::ALL.iter().map(|code| code.code()), 0, 4);
     in_sequence(LatchKind::ALL.iter().map(|code| code.code()), 0, 3);
     in_sequence(DriveState::ALL.iter().map(|code| code.code()), 0, 8);

@@ -11,6 +11,12 @@ pub enum ResumeError {
     /// The last one was executed to its end.
     #[error("the last program came to its end: there is nothing to resume")]
     Completed,
+    /// The program that is under way goes back along its path.
+    #[error(
+        "the program under way goes back along its path: let it go on (`glidepath forward`), or end \
+         it (`glidepath abort`)"
+    )]
+    GoesBack,
     /// The program is not the one that was under way, or was edited since.
     #[error(
         "this is not the program that was under way, or it was edited since; only the same text can \

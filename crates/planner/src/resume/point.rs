@@ -2,7 +2,7 @@
 
 use glidepath_gcode::Probed;
 use glidepath_geometry::AxisVector;
-use glidepath_link::{ContactKind, EndOfEpoch, LinkError, Status};
+use glidepath_link::{ContactKind, EndOfEpoch, LinkError, MotionMode, Status};
 
 use super::error::ResumeError;
 use crate::RunError;
@@ -35,6 +35,10 @@ impl ResumePoint {
             EndOfEpoch::None => Err(ResumeError::NothingToResume)?,
             EndOfEpoch::Completed => Err(ResumeError::Completed)?,
             EndOfEpoch::Open | EndOfEpoch::Aborted | EndOfEpoch::Faulted | EndOfEpoch::Tripped => {}
+        }
+        let is_open = status.end_of_epoch == EndOfEpoch::Open.code();
+        if is_open && status.mode().map_err(LinkError::from)? == MotionMode::Backwards {
+            Err(ResumeError::GoesBack)?;
         }
         let position = AxisVector::from(status.position);
         let kind = status.contact().map_err(LinkError::from)?;

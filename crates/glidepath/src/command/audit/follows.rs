@@ -1,6 +1,7 @@
 //! Whether a motion follows its program, and whether it is the one that is planned for it today.
 
 use super::finding::{Finding, Findings};
+use super::passed::Passed;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::plan_steps::PlanSteps;
@@ -23,6 +24,8 @@ pub(super) struct Follows {
     told_s: f64,
     /// The positions of the plan, by sequence; none where they need not be those.
     plan: Option<Vec<AxisVector>>,
+    passed: Passed,
+    tolerance_mm: f64,
     has_moved: bool,
     is_over: bool,
     findings: Findings,
@@ -65,6 +68,8 @@ impl Follows {
             program: FileSource::open(path, config.program_options(stands), &config.settings())?,
             told_s: 0.0,
             plan,
+            passed: Passed::default(),
+            tolerance_mm: settings.tolerance_mm,
             has_moved: false,
             is_over: false,
             findings: Findings::default(),
@@ -88,12 +93,22 @@ impl Follows {
         let is_idle = setpoint.state() == Ok(MachineState::Idle);
         self.has_moved |= !is_idle;
         while self.told_s < setpoint.path_s + AHEAD_MM && self.tell() {}
-        self.audit.sample(&Sample {
+        let sample = Sample {
             tick: setpoint.number,
             line: setpoint.line,
             position: setpoint.position.into(),
             reported: None,
-        });
+        };
+        let behind_mm = (!is_idle).then(|| self.passed.off_mm(setpoint)).flatten();
+        if let Some(off_mm) = behind_mm {
+            // Back along the path, or onward again.
+            self.audit.sample_away(&sample);
+            if off_mm > self.tolerance_mm {
+                self.deviates(setpoint, off_mm, "where the motion went before");
+            }
+        } else {
+            self.audit.sample(&sample);
+        }
         // What is done behind the program, by hand, is none of its business.
         self.is_over = is_idle && self.has_moved;
         let at = usize::try_from(setpoint.sequence).ok();
@@ -106,14 +121,18 @@ impl Follows {
             let off = AxisVector::from(setpoint.position) - planned;
             let off_mm = off.amax();
             if off_mm > SAME_MM {
-                self.findings.push(Finding {
-                    kind: "deviation",
-                    tick: setpoint.tick,
-                    line: setpoint.line,
-                    text: format!("{off_mm:.6} mm off the plan of the program"),
-                });
+                self.deviates(setpoint, off_mm, "the plan of the program");
             }
         }
+    }
+
+    fn deviates(&mut self, setpoint: &Setpoint, off_mm: f64, from: &str) {
+        self.findings.push(Finding {
+            kind: "deviation",
+            tick: setpoint.tick,
+            line: setpoint.line,
+            text: format!("{off_mm:.6} mm off {from}"),
+        });
     }
 
     fn tell(&mut self) -> bool {

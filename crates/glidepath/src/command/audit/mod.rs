@@ -3,6 +3,7 @@
 mod continuity;
 mod finding;
 mod follows;
+mod passed;
 mod trace;
 
 use crate::cli::AuditArgs;
@@ -106,6 +107,8 @@ struct Outline {
     begin: Option<AxisVector>,
     overrides: Option<(f64, f64)>,
     is_away: bool,
+    /// Whether the motion went back along the path.
+    goes_back: bool,
     /// The machine came to the end of what it did.
     is_idle: bool,
     end: Option<EndOfEpoch>,
@@ -132,6 +135,7 @@ impl Outline {
             }
             self.epochs.push(setpoint.epoch);
         }
+        self.goes_back |= setpoint.feed_v < 0.0;
         self.is_away |= setpoint.away.iter().any(|away| *away != 0.0);
         if state == Ok(MachineState::Running) {
             let now = setpoint.effective_override;
@@ -178,6 +182,7 @@ fn judge(file: &Path, config: &MachineConfig, program: Option<&Path>) -> Result<
     if verdict.is_cut {
         verdict.note("the recording was cut short: judged as far as it goes");
     }
+    outline.goes_back &= !trace.has_program_time();
     match (program, unjudged(&outline)) {
         (None, _) => verdict.note("no program was given: its path is not judged (--program)"),
         (Some(_), Some(why)) => verdict.note(why),
@@ -194,6 +199,9 @@ const fn unjudged(outline: &Outline) -> Option<&'static str> {
         ([_], Some(_)) if outline.is_away => {
             Some("axes left the path, by hand or into a tapped hole: it is not judged")
         }
+        ([_], Some(_)) if outline.goes_back => Some(
+            "the motion went back along its path, and rows do not tell how far: it is not judged",
+        ),
         ([_], Some(_)) => None,
         _ => Some("there are several motions in it: their paths are not judged"),
     }

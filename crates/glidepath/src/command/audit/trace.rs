@@ -77,6 +77,11 @@ impl Trace {
         }
     }
 
+    /// Whether it tells at which program time a setpoint was.
+    pub(super) const fn has_program_time(&self) -> bool {
+        matches!(self, Self::Recording(..))
+    }
+
     /// Whether it was found to be cut short, once all of it is read.
     pub(super) const fn is_cut(&self) -> bool {
         match self {

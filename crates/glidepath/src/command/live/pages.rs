@@ -48,7 +48,7 @@ impl Asked {
             (Kind::Resume, None) => Command::Resume,
             (Kind::Step, None) => Command::Step,
             (Kind::Abort, None) => Command::Abort,
-            (Kind::FeedOverride, Some(ratio @ 0.0..=2.0)) => Command::FeedOverride(ratio),
+            (Kind::FeedOverride, Some(ratio @ -2.0..=2.0)) => Command::FeedOverride(ratio),
             (Kind::RapidOverride, Some(ratio @ 0.0..=1.0)) => Command::RapidOverride(ratio),
             _ => return None,
         })

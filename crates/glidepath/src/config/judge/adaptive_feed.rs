@@ -47,6 +47,7 @@ impl Judge {
             at_zero,
             at_full,
             always: raw.always.is_some_and(|always| always.into_inner()),
+            backwards: raw.backwards.is_some_and(|back| back.into_inner()),
         })
     }
 }

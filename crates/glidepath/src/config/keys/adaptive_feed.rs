@@ -31,4 +31,10 @@ pub(super) const ADAPTIVE_FEED: &[Key] = &[
         LeftOut::Value("false"),
         "true: at all times; false: from M52 P1 to M52 P0",
     ),
+    key(
+        "adaptive_feed.backwards",
+        Takes::Flag,
+        LeftOut::Value("false"),
+        "true: on the other side of at_zero the motion goes back along the path; false: it stands",
+    ),
 ];

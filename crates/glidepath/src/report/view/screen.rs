@@ -4,7 +4,7 @@ use super::seen::{View, clock, doing};
 use crate::report::auxiliary::auxiliary_words;
 use crate::report::machine::{awaited_text, power_text};
 use crate::report::quantity::grouped;
-use crate::report::status::{adaptive_text, fault_text, state_name};
+use crate::report::status::{adaptive_text, fault_text, manner_text, state_name};
 use core::fmt::Write as _;
 use glidepath_geometry::AXES;
 use glidepath_link::Status;
@@ -41,11 +41,7 @@ pub fn view_text(view: &View<'_>) -> String {
         status.rapid_override * 100.0,
         status.jog_override * 100.0,
         status.effective_override * 100.0,
-        if status.single_block == 1 {
-            "; single block"
-        } else {
-            ""
-        }
+        manner_text(status)
     ));
     if let Some(adaptive) = adaptive_text(status) {
         lines.push(format!("  input     {adaptive}"));

@@ -3,7 +3,7 @@
 use super::bench::{Bench, config};
 use crate::config::Config;
 use crate::feedback::AdaptiveFeed;
-use glidepath_link::{Command, MachineState};
+use glidepath_link::{Command, MachineState, MotionMode};
 use glidepath_plant::{JointSettings, Upset};
 
 const INPUT: usize = 3;
@@ -21,6 +21,8 @@ fn bench(always: bool) -> Bench {
             at_zero: 0.0,
             at_full: 10.0,
             always,
+            // Below zero the other tests do not go.
+            backwards: true,
         });
     }
     let mut bench = Bench::new(
@@ -73,6 +75,35 @@ fn the_input_is_a_factor_of_the_override_and_zero_holds() {
 }
 
 #[test]
+fn below_zero_the_input_turns_the_motion_round() {
+    let mut bench = bench(true);
+    bench.upset(Upset::Analog(INPUT, 10.0));
+    bench.run(20);
+    bench.load(5, 900);
+    assert!(bench.run_to(MachineState::Running, 50));
+    bench.run(300);
+    let turned = bench.last();
+    bench.upset(Upset::Analog(INPUT, -5.0));
+    bench.run(200);
+    let back = bench.last();
+    assert!(
+        back.feed_v < 0.0 && back.sequence + 40 < turned.sequence,
+        "{back:?}"
+    );
+    assert!((back.effective_override - 0.5).abs() < 1e-9, "{back:?}");
+    let status = bench.status();
+    assert_eq!(status.mode(), Ok(MotionMode::Backwards));
+    assert!((status.adaptive_feed + 0.5).abs() < 1e-9);
+    // To the beginning, where there is no more way.
+    assert!(bench.run_to(MachineState::Held, 4000));
+    assert_eq!(bench.last().sequence, 0);
+    bench.upset(Upset::Analog(INPUT, 10.0));
+    assert!(bench.run_to(MachineState::Idle, 4000));
+    assert_eq!(bench.fault(), None);
+    assert!(bench.worst_ratio() < 1.0 + 1e-6, "{}", bench.worst_ratio());
+}
+
+#[test]
 fn a_machine_whose_input_trembles_keeps_its_limits() {
     let mut bench = bench(true);
     let mut numbers = super::bench::numbers(77);
@@ -81,6 +112,12 @@ fn a_machine_whose_input_trembles_keeps_its_limits() {
         let value = 12.0 * numbers.unit();
         bench.upset(Upset::Analog(INPUT, value));
         bench.run(5);
+    }
+    // And one that turns the motion round now and then.
+    for _ in 0..150 {
+        let value = 24.0 * numbers.unit() - 8.0;
+        bench.upset(Upset::Analog(INPUT, value));
+        bench.run(40);
     }
     bench.upset(Upset::Analog(INPUT, 10.0));
     assert!(bench.run_to(MachineState::Idle, 4000));

@@ -161,6 +161,9 @@ fn command_planned(
             6 => rig.command(Command::SingleBlock(true)),
             7 => rig.command(Command::SingleBlock(false)),
             8 => rig.command(Command::Step),
+            10 => rig.command(Command::Reverse),
+            11 => rig.command(Command::Forward),
+            12 => rig.command(Command::FeedOverride(-numbers.unit())),
             _ => rig.command(Command::FeedOverride(1.0)),
         }
         for _ in 0..ticks {
@@ -169,6 +172,7 @@ fn command_planned(
         }
     }
     rig.command(Command::SingleBlock(false));
+    rig.command(Command::Forward);
     rig.command(Command::Resume);
     rig.command(Command::FeedOverride(1.0));
     rig.command(Command::RapidOverride(1.0));
@@ -196,7 +200,7 @@ proptest! {
     fn commands_and_death_keep_the_limits_of_planned_motion(
         seed in 0_u64..1_000_000,
         dies_at in 0.2_f64..2.0,
-        commands in prop::collection::vec((0_u8..10, 1_usize..120), 0..12),
+        commands in prop::collection::vec((0_u8..13, 1_usize..120), 0..12),
     ) {
         command_planned(Effort::Fast, seed, dies_at, &commands)?;
     }
@@ -209,7 +213,7 @@ proptest! {
     fn commands_and_death_keep_the_limits_of_motion_planned_with_effort(
         seed in 0_u64..1_000_000,
         dies_at in 0.2_f64..2.0,
-        commands in prop::collection::vec((0_u8..10, 1_usize..120), 0..12),
+        commands in prop::collection::vec((0_u8..13, 1_usize..120), 0..12),
     ) {
         command_planned(Effort::Optimal, seed, dies_at, &commands)?;
     }
