@@ -236,7 +236,8 @@ enum {
     GP_FLAG_EXACT_STOP = 0x8,
     GP_FLAG_DWELL = 0x10,
     GP_FLAG_PROGRAM_STOP = 0x20,
-    GP_FLAG_SYNC = 0x40
+    GP_FLAG_SYNC = 0x40,
+    GP_FLAG_PER_REV = 0x80
 };
 
 /* Properties of a setpoint. */

@@ -237,6 +237,7 @@ impl<'a> Ports<'a> {
         let observation = drives.observe(report, now_ns);
         // A full ring says that the real-time thread does not run; there is nobody to be told.
         self.ends.observations.enqueue(observation).ok();
+        let news = drives.take_news();
         let (order, told) = drives.judge(report);
         for order in [order, drives.conduct(report, now_ns)]
             .into_iter()
@@ -246,6 +247,9 @@ impl<'a> Ports<'a> {
         }
         if let Some(told) = told {
             self.tell(&told);
+        }
+        if let Some(news) = news {
+            self.tell(news);
         }
         Ok(())
     }

@@ -35,6 +35,8 @@ pub(crate) struct Passing {
     pub rapid: bool,
     /// It follows the spindle.
     pub synchronised: bool,
+    /// Its feed is one per revolution.
+    pub per_revolution: bool,
     /// The override it was planned with.
     pub planned_override: f64,
 }
@@ -45,6 +47,7 @@ impl Passing {
         line: ProgramLine::NONE,
         rapid: false,
         synchronised: false,
+        per_revolution: false,
         planned_override: 1.0,
     };
 }
@@ -211,6 +214,8 @@ impl FrameGrid {
             FrameFlags::RAPID
         } else if self.passing.synchronised {
             FrameFlags::SYNC
+        } else if self.passing.per_revolution {
+            FrameFlags::PER_REV
         } else {
             FrameFlags::default()
         };

@@ -22,6 +22,9 @@ impl FrameFlags {
     pub const PROGRAM_STOP: Self = Self(1 << 5);
     /// A move that follows the spindle: program time goes on with its angle.
     pub const SYNC: Self = Self(1 << 6);
+    /// A move at a feed per revolution: program time goes on with the speed of the spindle, where
+    /// that is measured.
+    pub const PER_REV: Self = Self(1 << 7);
 
     /// These flags and others.
     #[must_use]

@@ -19,6 +19,14 @@ pub enum Rate {
         /// The speed that is not exceeded.
         most_v: f64,
     },
+    /// As [`Rate::FeedUpTo`], of a feed per revolution: `feed_v` is that at the speed that the spindle
+    /// was told, and the motion goes on more slowly where it turns more slowly than that.
+    PerRevolution {
+        /// Feedrate at the speed that the spindle was told.
+        feed_v: f64,
+        /// The speed that is not exceeded; infinite where there is none.
+        most_v: f64,
+    },
     /// This rate of path position, mm/s, > 0, neither more nor less: the move follows the spindle
     /// ([`Event::Synchronise`]), and is planned for the highest speed that the spindle may have. No
     /// override changes it.
@@ -37,9 +45,10 @@ impl Rate {
     pub const fn feed_v(self) -> Option<f64> {
         match self {
             Self::Rapid | Self::RapidUpTo(_) => None,
-            Self::Feed(feed_v) | Self::FeedUpTo { feed_v, .. } | Self::Synchronised(feed_v) => {
-                Some(feed_v)
-            }
+            Self::Feed(feed_v)
+            | Self::FeedUpTo { feed_v, .. }
+            | Self::PerRevolution { feed_v, .. }
+            | Self::Synchronised(feed_v) => Some(feed_v),
         }
     }
 
@@ -48,7 +57,9 @@ impl Rate {
     pub const fn most_v(self) -> f64 {
         match self {
             Self::Rapid | Self::Feed(_) | Self::Synchronised(_) => f64::INFINITY,
-            Self::RapidUpTo(most_v) | Self::FeedUpTo { most_v, .. } => most_v,
+            Self::RapidUpTo(most_v)
+            | Self::FeedUpTo { most_v, .. }
+            | Self::PerRevolution { most_v, .. } => most_v,
         }
     }
 
@@ -58,6 +69,12 @@ impl Rate {
         matches!(self, Self::Synchronised(_))
     }
 
+    /// True for a move at a feed per revolution of a spindle whose speed is measured.
+    #[must_use]
+    pub const fn is_per_revolution(self) -> bool {
+        matches!(self, Self::PerRevolution { .. })
+    }
+
     /// The same rate, never above a speed. One that follows the spindle stays: slower, it would be
     /// another thread.
     #[must_use]
@@ -65,6 +82,7 @@ impl Rate {
         match self {
             Self::Rapid | Self::RapidUpTo(_) => Self::RapidUpTo(most_v),
             Self::Feed(feed_v) | Self::FeedUpTo { feed_v, .. } => Self::FeedUpTo { feed_v, most_v },
+            Self::PerRevolution { feed_v, .. } => Self::PerRevolution { feed_v, most_v },
             Self::Synchronised(_) => self,
         }
     }

@@ -208,6 +208,7 @@ class Flag(enum.IntFlag):
     DWELL = 16
     PROGRAM_STOP = 32
     SYNC = 64
+    PER_REV = 128
 
 
 class Mark(enum.IntFlag):

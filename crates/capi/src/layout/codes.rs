@@ -146,6 +146,7 @@ pub(super) fn codes() -> Vec<Codes> {
                 ("DWELL", FrameFlags::DWELL.0),
                 ("PROGRAM_STOP", FrameFlags::PROGRAM_STOP.0),
                 ("SYNC", FrameFlags::SYNC.0),
+                ("PER_REV", FrameFlags::PER_REV.0),
             ],
         ),
         bits(

@@ -7,10 +7,10 @@ use std::sync::Arc;
 
 use crate::support::listed;
 use glidepath_gcode::{
-    Connections, Machine, Options, Program, ToolTable, Travel, WorkOffsets, check,
+    Connections, Machine, Options, Program, Threading, ToolTable, Travel, WorkOffsets, check,
 };
 use glidepath_geometry::{Axis, Segment};
-use glidepath_program::{Event, ItemKind, Rate};
+use glidepath_program::{Event, ItemKind, Limits, Rate};
 
 fn options() -> Options {
     let table = b"T1 D2 Z10\nT2 D4 Z5 Q2\nT3 D-2\n";
@@ -208,6 +208,33 @@ fn feeds_per_revolution_and_cutting_speeds() {
     };
     assert_eq!(rates("G95 S300 F0.2\nG1 X1\nS600\nX2"), [1.0, 2.0]);
     finds("G95 F1\nG1 X1", "2:1 spindle");
+    // With an encoder the moves say so, and those of G94 do not.
+    let measured = Options {
+        threading: Some(Threading::new(Limits::uniform(200.0, 2e3, 4e4), 0.004)),
+        ..options()
+    };
+    let text =
+        "G95 S300 F0.2 M3\nG1 X1\nG2 X3 I1\nG0 X9\nG94 F60\nG1 X4\nG96 S100 D300 G95 F0.2\nX9";
+    let rates = Program::new(text.as_bytes(), measured).filter_map(|item| {
+        match item.expect("a sound program").kind {
+            ItemKind::Move { rate, .. } => Some(rate),
+            _ => None,
+        }
+    });
+    let per_revolution = Rate::PerRevolution {
+        feed_v: 1.0,
+        most_v: f64::INFINITY,
+    };
+    assert_eq!(
+        rates.collect::<Vec<_>>(),
+        [
+            per_revolution,
+            per_revolution,
+            Rate::Rapid,
+            Rate::Feed(1.0),
+            per_revolution
+        ]
+    );
     // 100 m/min at a radius of 50 mm: 318 rev/min; at 100 mm half of it, at most 300.
     assert_eq!(
         items("G0 X50\nG96 S100\nG0 X100\nG96 S100 D100\nG97 S7"),

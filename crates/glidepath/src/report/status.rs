@@ -223,7 +223,7 @@ pub(super) fn adaptive_text(status: &Status) -> Option<String> {
                 -part
             )
         } else {
-            format!("the adaptive feed lets through {part:.0} %")
+            format!("the adaptive feed, or the spindle in G95, lets through {part:.0} %")
         }
     })
 }

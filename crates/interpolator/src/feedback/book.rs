@@ -6,6 +6,7 @@ use super::demands::Demands;
 use super::following::FollowingErrors;
 use super::observation::Observation;
 use super::probe::ProbeWatch;
+use super::revolutions::RevolutionWatch;
 use super::settings::FeedbackSettings;
 use super::spindle::SpindleWatch;
 use crate::config::Config;
@@ -38,6 +39,7 @@ pub(crate) struct DriveBook {
     pub(super) probe: ProbeWatch,
     pub(super) spindle: SpindleWatch,
     pub(super) adaptive: AdaptiveWatch,
+    pub(super) revolutions: RevolutionWatch,
     /// What is added to the drives' count.
     pub(super) offset: JointVector,
     /// Joints whose drives say that they know where they are, and are not believed.
@@ -83,6 +85,7 @@ impl DriveBook {
             probe: ProbeWatch::new(settings.probe),
             spindle: SpindleWatch::default(),
             adaptive: AdaptiveWatch::new(settings.adaptive, ns(settings.stale_after)),
+            revolutions: RevolutionWatch::new(ns(settings.stale_after)),
             offset: JointVector::zeros(),
             unhomed: 0,
             handover: 0,
@@ -123,6 +126,7 @@ impl DriveBook {
         self.demands.push(&report.setpoint);
         self.probe.note(report);
         self.adaptive.note(report);
+        self.revolutions.note(report);
     }
 
     /// What the real-time thread is to know now.
@@ -152,6 +156,10 @@ impl DriveBook {
         if let Ok(axes) = axes {
             self.near = axes;
         }
+        let turn = self.spindle.turn();
+        let input_r = self.adaptive.factor(now_ns);
+        let is_back = report.feed_override.is_sign_negative() != (input_r < 0.0);
+        let by_spindle_r = self.revolutions.factor(&turn, is_back, now_ns);
         let lowest_fault = joints.fault.trailing_zeros() as usize;
         Observation {
             age_ns,
@@ -169,11 +177,16 @@ impl DriveBook {
             handover: self.handover,
             digital_in: joints.digital_in,
             spindle: joints.spindle,
-            turn: self.spindle.turn(),
+            turn,
             played: joints.played,
             contact_in: self.probe.found_in(),
-            adaptive_r: self.adaptive.factor(now_ns),
+            adaptive_r: input_r * by_spindle_r,
         }
+    }
+
+    /// What the motion waits for besides, once.
+    pub(crate) const fn take_news(&mut self) -> Option<&'static str> {
+        self.revolutions.take_news()
     }
 
     /// How old the oldest sample of a joint is.
@@ -236,7 +249,7 @@ impl DriveBook {
         status.joint_actual = (JointVector::from(joints.position) + self.offset).into();
         status.following_error = self.following.errors();
         status.following_peak = self.following.peaks();
-        status.adaptive_feed = self.adaptive.told();
+        status.adaptive_feed = self.adaptive.told() * self.revolutions.told();
         if status.adaptive_feed < 0.0 {
             status.mode = turned_round(status.mode);
         }

@@ -19,6 +19,7 @@ mod following;
 mod judging;
 mod observation;
 mod probe;
+mod revolutions;
 mod settings;
 mod spindle;
 

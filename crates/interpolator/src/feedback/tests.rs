@@ -22,6 +22,7 @@ mod jogging;
 mod life_cycle;
 mod matrix;
 mod probing;
+mod revolutions;
 mod tapping;
 mod threading;
 mod upsets;

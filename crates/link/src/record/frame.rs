@@ -17,6 +17,7 @@ pub(crate) const FRAME_FLAGS: u32 = FrameFlags::FIRST
     .with(FrameFlags::DWELL)
     .with(FrameFlags::PROGRAM_STOP)
     .with(FrameFlags::SYNC)
+    .with(FrameFlags::PER_REV)
     .0;
 
 /// The state of the machine at program time `sequence · period`. Between two frames the motion is

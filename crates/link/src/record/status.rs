@@ -179,8 +179,8 @@ pub struct Status {
     pub jog_override: f64,
     /// Override as executed.
     pub effective_override: f64,
-    /// What an input makes of both overrides, -1 to 1; below 0 it turns the motion round. 1 where
-    /// none slows programs down.
+    /// What an input, and the spindle at a feed per revolution, make of both overrides, -1 to 1;
+    /// below 0 it turns the motion round. 1 where nothing slows programs down.
     pub adaptive_feed: f64,
     /// Ticks run.
     pub ticks: u64,

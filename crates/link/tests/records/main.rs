@@ -224,12 +224,12 @@ fn frames_out_of_range_are_refused() {
         );
     }
     let bad = SetpointFrame {
-        flags: 1 << 7,
+        flags: 1 << 8,
         ..good
     };
     assert!(matches!(
         bad.to_frame(),
-        Err(RecordError::UnknownFlags { bits: 128, .. })
+        Err(RecordError::UnknownFlags { bits: 256, .. })
     ));
     let bad = SetpointFrame {
         event_kind: 14,
@@ -278,7 +278,7 @@ fn unknown_codes_and_bits_are_refused() {
     }
     for error in [
         refused(good_setpoint(), |s| s.marks = 4),
-        refused(good_setpoint(), |s| s.flags = 128),
+        refused(good_setpoint(), |s| s.flags = 256),
         refused(good_status(), |s| s.grants = 64),
         refused(good_status(), |s| s.awaited_words.given = 4),
         refused(good_status(), |s| s.homed = 1 << 9),

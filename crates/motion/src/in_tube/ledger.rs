@@ -123,6 +123,7 @@ impl Ledger {
             line,
             rapid,
             synchronised,
+            per_revolution: entry.rate.rate.is_per_revolution(),
             planned_override: if rapid {
                 self.told.rapid_r
             } else if synchronised {

@@ -250,6 +250,7 @@ impl Sampler {
             line: piece.line_at(piece_s),
             rapid: piece.rapid,
             synchronised: piece.synchronised,
+            per_revolution: piece.per_revolution,
             planned_override: piece.planned_override(),
         });
         *frame = self.grid.motion_frame(&Moving {
@@ -284,6 +285,7 @@ impl Sampler {
                     line: piece.line,
                     rapid: piece.rapid,
                     synchronised: piece.synchronised,
+                    per_revolution: piece.per_revolution,
                     planned_override: piece.planned_override(),
                 },
                 &piece.events,
@@ -366,6 +368,7 @@ mod tests {
             lines: Vec::new(),
             rapid: false,
             synchronised: false,
+            per_revolution: false,
             events: Vec::new(),
         };
         let mut settled = VecDeque::from([Settled::Motion {

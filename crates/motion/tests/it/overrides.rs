@@ -372,3 +372,58 @@ fn a_pass_with_ways_in_and_out_does_not_rest_under_way() {
         assert!(speeds.iter().all(|v| *v > 0.0));
     }
 }
+
+#[test]
+fn frames_at_a_feed_per_revolution_say_so_and_are_those_of_a_feed() {
+    let per_revolution = Rate::PerRevolution {
+        feed_v: 30.0,
+        most_v: f64::INFINITY,
+    };
+    let moves = |rate| {
+        let arc = Arc {
+            plane: Plane::Xy,
+            start: at(30.0, 20.0),
+            end: at(10.0, 20.0),
+            center: [20.0, 20.0],
+            sweep_rad: core::f64::consts::PI,
+        };
+        [
+            item(1, Segment::line(at(0.0, 0.0), at(30.0, 0.0)), rate),
+            item(2, Segment::line(at(30.0, 0.0), at(30.0, 20.0)), rate),
+            item(3, Segment::Arc(arc), rate),
+            item(4, Segment::line(at(10.0, 20.0), at(0.0, 0.0)), Rate::Rapid),
+            item(
+                5,
+                Segment::line(at(0.0, 0.0), at(0.0, 9.0)),
+                Rate::Feed(30.0),
+            ),
+        ]
+    };
+    for settings in efforts() {
+        let plain = plan(&moves(Rate::Feed(30.0)), settings, &[]);
+        let told = plan(&moves(per_revolution), settings, &[]);
+        assert_eq!(plain.len(), told.len());
+        for (plain, told) in plain.iter().zip(&told) {
+            let is_told = told.flags.contains(FrameFlags::PER_REV);
+            let flags = if is_told {
+                plain.flags.with(FrameFlags::PER_REV)
+            } else {
+                plain.flags
+            };
+            // But for that flag, they are the same to the bit.
+            assert_eq!(Frame { flags, ..*plain }, *told);
+            if told.path_v > 0.0 && !told.flags.contains(FrameFlags::RAPID) {
+                // A corner of both feeds goes with the spindle.
+                let is_between = told.line == 4 || told.line == 5;
+                assert!(is_told == (told.line <= 3) || is_between, "{told:?}");
+            }
+        }
+        let at_last = told.iter().rev().filter(|frame| frame.line == 5).take(20);
+        assert!(at_last.clone().count() == 20);
+        assert!(
+            at_last
+                .clone()
+                .all(|frame| !frame.flags.contains(FrameFlags::PER_REV))
+        );
+    }
+}

@@ -53,6 +53,10 @@ impl Interpreter {
                     .help("write an S word above zero, or go back to G94"),
             );
         }
-        Ok(Speed::Feed(feed * speed / 60.0))
+        let feed_v = feed * speed / 60.0;
+        Ok(match self.options.threading {
+            Some(_) => Speed::PerRevolution(feed_v),
+            None => Speed::Feed(feed_v),
+        })
     }
 }

@@ -16,6 +16,9 @@ pub(crate) enum Speed {
     Rapid,
     /// mm/s or °/s.
     Feed(f64),
+    /// mm/s or °/s at the speed that the spindle was told: a feed per revolution of a spindle whose
+    /// speed is measured.
+    PerRevolution(f64),
     /// G93: moves of this length per minute.
     Moves(f64),
 }
@@ -25,6 +28,10 @@ impl Speed {
         match self {
             Self::Rapid => Rate::Rapid,
             Self::Feed(feed_v) => Rate::Feed(feed_v),
+            Self::PerRevolution(feed_v) => Rate::PerRevolution {
+                feed_v,
+                most_v: f64::INFINITY,
+            },
             Self::Moves(per_minute) => Rate::Feed(segment.length() * per_minute / 60.0),
         }
     }

@@ -32,7 +32,7 @@ impl Interpreter {
         let start = self.state.path_end;
         let whole = Segment::line(start, end);
         let speed = self.speed(block, &whole, Pace::Feed)?;
-        let Speed::Feed(feed_v) = speed else {
+        let (Speed::Feed(feed_v) | Speed::PerRevolution(feed_v)) = speed else {
             // The time of the move is given.
             self.push_move(whole, speed, out);
             return Ok(());

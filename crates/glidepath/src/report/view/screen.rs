@@ -267,7 +267,7 @@ mod tests {
             "  program   part.ngc",
             "  line      12     G1 X10 F1200 (a long",
             "  progress  [######------------------] 25 % of 1:40, about 5:00 left",
-            "  input     the adaptive feed lets through 50 %",
+            "  input     the adaptive feed, or the spindle in G95, lets through 50 %",
             "  X             110.0000       10.0000",
             "  tool      T3, T4 selected, spindle M3 S8000, coolant M8",
             "  says      clean the vice",

@@ -168,6 +168,7 @@ impl Assembly {
             limit: rule.limit(self.wanted, &self.settings.limits),
             rapid: rule.is_rapid(),
             synchronised: rule.is_synchronised(),
+            per_revolution: rule.is_per_revolution(),
             rule,
             planned: self.wanted,
             line,

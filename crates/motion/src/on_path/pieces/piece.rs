@@ -22,6 +22,8 @@ pub(crate) struct Piece {
     pub rapid: bool,
     /// It follows the spindle.
     pub synchronised: bool,
+    /// Its feed is one per revolution.
+    pub per_revolution: bool,
     /// Events that happen when the piece is entered, without stopping.
     pub events: Vec<Event>,
 }

@@ -14,7 +14,7 @@
 use crate::programmed_rate::ProgrammedRate;
 use crate::scurve::{Extremes, PathLimits};
 use glidepath_geometry::{AXES, Arc, AxisVector, DerivativeBounds, feed_length, limit_along};
-use glidepath_program::{Limits, Override, PathBounds, tolerance_norm};
+use glidepath_program::{Limits, Override, PathBounds, Rate, tolerance_norm};
 
 /// What a piece of path allows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -206,10 +206,18 @@ impl SpeedRule {
 
     /// True if the piece follows the spindle.
     pub(crate) fn is_synchronised(&self) -> bool {
-        let is_synchronised = |rate: &ProgrammedRate| rate.rate.is_synchronised();
+        self.any_rate(Rate::is_synchronised)
+    }
+
+    /// True if some feed of the piece is one per revolution.
+    pub(crate) fn is_per_revolution(&self) -> bool {
+        self.any_rate(Rate::is_per_revolution)
+    }
+
+    fn any_rate(&self, is_it: fn(Rate) -> bool) -> bool {
         match self {
-            Self::Straight { rate, .. } | Self::Arc { rate, .. } => is_synchronised(rate),
-            Self::Curve { rates, .. } => rates.iter().any(is_synchronised),
+            Self::Straight { rate, .. } | Self::Arc { rate, .. } => is_it(rate.rate),
+            Self::Curve { rates, .. } => rates.iter().any(|rate| is_it(rate.rate)),
         }
     }
 }
