@@ -431,7 +431,8 @@ typedef struct gp_setpoint {
     uint64_t missed_ticks;
     /* The trajectory, 0 before the first. */
     uint64_t epoch;
-    /* Last frame at or before the present program time. */
+    /* Last frame at or before the present program time, which falls while the motion goes
+       back. */
     uint64_t sequence;
     /* Program time past that frame, in periods, 0 <= f < 1. */
     double fraction;
@@ -458,7 +459,7 @@ typedef struct gp_setpoint {
     double event_value;
     /* Path position since the start of the program, mm. */
     double path_s;
-    /* Rate of path position as executed, mm/s. */
+    /* Rate of path position as executed, mm/s; below 0 while the motion goes back. */
     double feed_v;
     /* Override as executed, 0 to 2: that of the plan times the rate of program time. */
     double effective_override;
@@ -621,7 +622,7 @@ typedef struct gp_status {
     double block_path_s;
     /* Rate of path position, mm/s. */
     double feed_v;
-    /* Feed override as commanded. */
+    /* Feed override as commanded; below 0 if the motion is to go back along the path. */
     double feed_override;
     /* Rapid override as commanded. */
     double rapid_override;
@@ -629,7 +630,8 @@ typedef struct gp_status {
     double jog_override;
     /* Override as executed. */
     double effective_override;
-    /* What an input makes of both overrides, 0 to 1; 1 where none slows programs down. */
+    /* What an input makes of both overrides, -1 to 1; below 0 it turns the motion round. 1
+       where none slows programs down. */
     double adaptive_feed;
     /* Ticks run. */
     uint64_t ticks;

@@ -119,8 +119,9 @@ impl Gates {
             .filter(|rule| rule.answer != Answer::Nobody)
     }
 
-    /// The rule for the event of a frame.
-    pub(crate) fn of_frame(&self, frame: &SetpointFrame) -> Option<Gate> {
+    /// The rule for the event of a frame, if the motion does not pass it.
+    #[must_use]
+    pub fn of_frame(&self, frame: &SetpointFrame) -> Option<Gate> {
         if frame.event_kind == EventKind::None.code() {
             return None;
         }

@@ -119,16 +119,19 @@ pub(super) enum Situation {
     BlockEnd,
     /// The operator has just switched to single block.
     SingleBlock,
+    /// The operator has just turned the motion round.
+    WayBack,
 }
 
 impl Situation {
-    pub(super) const ALL: [Self; 6] = [
+    pub(super) const ALL: [Self; 7] = [
         Self::FullSpeed,
         Self::Corner,
         Self::Hold,
         Self::Override,
         Self::BlockEnd,
         Self::SingleBlock,
+        Self::WayBack,
     ];
 }
 

@@ -176,6 +176,7 @@ fn approach(
         Situation::Hold => bench.command(Command::Hold)?,
         Situation::BlockEnd => bench.command(Command::StopAtEndOfBlock)?,
         Situation::SingleBlock => bench.command(Command::SingleBlock(true))?,
+        Situation::WayBack => bench.command(Command::Reverse)?,
         Situation::Override => {
             let ratio = [0.3, 0.5, 0.8, 1.2, 1.5][case.chance.below(5)];
             largest = f64::max(ratio, 1.0);
@@ -253,7 +254,10 @@ fn follow(bench: &mut Bench<'_>, player: &mut Player, case: &mut Case) -> Checke
             player.until(bench, "the end of the wait", |heard| !waits(heard))?;
         } else {
             player.go_on(bench, case.chance.millis(0, 100))?;
-            resume(bench)?;
+            unless_faulted(bench, Command::Resume)?;
+            if case.situation == Situation::WayBack {
+                unless_faulted(bench, Command::Forward)?;
+            }
             let is_held = |heard: &Heard| heard.is_any_of(&[Held, ProgramStop]);
             player.until(bench, "motion", |heard| !is_held(heard))?;
         }
@@ -272,12 +276,7 @@ fn answer(bench: &mut Bench<'_>, case: &mut Case) -> Checked<()> {
     unless_faulted(bench, Command::Acknowledge { event, done: true })
 }
 
-/// Resumes, unless what went wrong has ended the hold already.
-fn resume(bench: &mut Bench<'_>) -> Checked<()> {
-    unless_faulted(bench, Command::Resume)
-}
-
-/// A command that may be refused if the machine has a fault already.
+/// A command that may be refused if what went wrong has made a fault already.
 fn unless_faulted(bench: &mut Bench<'_>, command: Command) -> Checked<()> {
     let refused = bench.command(command);
     if refused.is_err() {

@@ -92,7 +92,7 @@ structure! {
         missed_ticks: u64,
         /// The trajectory, 0 before the first.
         epoch: u64,
-        /// Last frame at or before the present program time.
+        /// Last frame at or before the present program time, which falls while the motion goes back.
         sequence: u64,
         /// Program time past that frame, in periods, 0 <= f < 1.
         fraction: f64,
@@ -119,7 +119,7 @@ structure! {
         event_value: f64,
         /// Path position since the start of the program, mm.
         path_s: f64,
-        /// Rate of path position as executed, mm/s.
+        /// Rate of path position as executed, mm/s; below 0 while the motion goes back.
         feed_v: f64,
         /// Override as executed, 0 to 2: that of the plan times the rate of program time.
         effective_override: f64,
@@ -252,7 +252,7 @@ structure! {
         block_path_s: f64,
         /// Rate of path position, mm/s.
         feed_v: f64,
-        /// Feed override as commanded.
+        /// Feed override as commanded; below 0 if the motion is to go back along the path.
         feed_override: f64,
         /// Rapid override as commanded.
         rapid_override: f64,
@@ -260,7 +260,8 @@ structure! {
         jog_override: f64,
         /// Override as executed.
         effective_override: f64,
-        /// What an input makes of both overrides, 0 to 1; 1 where none slows programs down.
+        /// What an input makes of both overrides, -1 to 1; below 0 it turns the motion round. 1 where
+        /// none slows programs down.
         adaptive_feed: f64,
         /// Ticks run.
         ticks: u64,

@@ -17,15 +17,15 @@ mod admission;
 #[allow(dead_code, reason = "only the judge is used")]
 #[path = "../../src/fault.rs"]
 mod fault;
-#[allow(dead_code, reason = "only the judge is used")]
-#[path = "../../src/gates.rs"]
-mod gates;
 #[path = "../../src/rest.rs"]
 mod rest;
 #[allow(dead_code, reason = "what the tests share")]
 #[path = "../../tests/synthetic/mod.rs"]
 mod synthetic;
 
+mod gates {
+    pub(crate) use glidepath_interpolator::Gates;
+}
 mod config {
     pub(crate) use glidepath_interpolator::{Config, SoftLimits};
 }

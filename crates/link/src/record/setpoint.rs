@@ -43,7 +43,7 @@ pub struct Setpoint {
     pub missed_ticks: u64,
     /// The trajectory, 0 before the first.
     pub epoch: u64,
-    /// Last frame at or before the present program time.
+    /// Last frame at or before the present program time, which falls while the motion goes back.
     pub sequence: u64,
     /// Program time past that frame, in periods, 0 ≤ f < 1.
     pub fraction: f64,
@@ -70,7 +70,7 @@ pub struct Setpoint {
     pub event_value: f64,
     /// Path position since the start of the program, mm.
     pub path_s: f64,
-    /// Rate of path position as executed, mm/s.
+    /// Rate of path position as executed, mm/s; below 0 while the motion goes back.
     pub feed_v: f64,
     /// Override as executed, 0 to [`OVERRIDE_MAX`]: that of the plan times the rate of program
     /// time.

@@ -4,7 +4,7 @@
 //! them, at other moments:
 //!
 //! ```text
-//! GLIDEPATH_DRIVE_FAULTS=840 cargo test --release -p glidepath-interpolator --lib matrix -- --nocapture
+//! GLIDEPATH_DRIVE_FAULTS=960 cargo test --release -p glidepath-interpolator --lib matrix -- --nocapture
 //! ```
 //!
 //! What must be true of each: the machine comes to rest inside its limits and stays there until
@@ -34,10 +34,12 @@ enum Situation {
     Returning,
     ToATool,
     Awaiting,
+    WayBack,
+    OnwardAgain,
 }
 
 impl Situation {
-    const ALL: [Self; 14] = [
+    const ALL: [Self; 16] = [
         Self::Off,
         Self::Enabling,
         Self::NotHomed,
@@ -52,6 +54,8 @@ impl Situation {
         Self::Returning,
         Self::ToATool,
         Self::Awaiting,
+        Self::WayBack,
+        Self::OnwardAgain,
     ];
 
     /// Whether a tool change is waited for, or will be.
@@ -224,8 +228,18 @@ impl Machine {
         if situation.has_gate() {
             return None;
         }
-        if situation == Situation::Running {
-            return None;
+        match situation {
+            Situation::Running => return None,
+            Situation::WayBack | Situation::OnwardAgain => {
+                self.bench.command(Command::Reverse).unwrap();
+                self.bench.run(numbers.whole(0, 60) as usize);
+                if situation == Situation::OnwardAgain {
+                    self.bench.command(Command::Forward).unwrap();
+                    self.bench.run(numbers.whole(0, 60) as usize);
+                }
+                return None;
+            }
+            _ => {}
         }
         self.bench.command(Command::Hold).unwrap();
         if situation == Situation::Holding {
@@ -422,7 +436,7 @@ fn goes_on(machine: &mut Machine, situation: Situation, seed: u64) -> Checked {
 fn whatever_goes_wrong_in_whatever_situation_the_machine_rests_and_can_go_on() {
     let wanted = std::env::var("GLIDEPATH_DRIVE_FAULTS").ok();
     let all = wanted.is_some();
-    let count: usize = wanted.map_or(168, |text| text.parse().unwrap());
+    let count: usize = wanted.map_or(192, |text| text.parse().unwrap());
     let cells = Situation::ALL.len() * Wrong::ALL.len();
     let mut bad = Vec::new();
     for case in 0..count {
