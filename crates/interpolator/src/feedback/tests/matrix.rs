@@ -228,18 +228,12 @@ impl Machine {
         if situation.has_gate() {
             return None;
         }
-        match situation {
-            Situation::Running => return None,
-            Situation::WayBack | Situation::OnwardAgain => {
-                self.bench.command(Command::Reverse).unwrap();
-                self.bench.run(numbers.whole(0, 60) as usize);
-                if situation == Situation::OnwardAgain {
-                    self.bench.command(Command::Forward).unwrap();
-                    self.bench.run(numbers.whole(0, 60) as usize);
-                }
-                return None;
-            }
-            _ => {}
+        if matches!(situation, Situation::WayBack | Situation::OnwardAgain) {
+            self.turn(situation, numbers);
+            return None;
+        }
+        if situation == Situation::Running {
+            return None;
         }
         self.bench.command(Command::Hold).unwrap();
         if situation == Situation::Holding {
@@ -263,6 +257,18 @@ impl Machine {
             _ => {}
         }
         None
+    }
+}
+
+impl Machine {
+    /// Turns the motion round, and perhaps again.
+    fn turn(&mut self, situation: Situation, numbers: &mut Numbers) {
+        self.bench.command(Command::Reverse).unwrap();
+        self.bench.run(numbers.whole(0, 60) as usize);
+        if situation == Situation::OnwardAgain {
+            self.bench.command(Command::Forward).unwrap();
+            self.bench.run(numbers.whole(0, 60) as usize);
+        }
     }
 }
 
