@@ -27,10 +27,12 @@ enum Cause {
     Starvation,
     /// An override lower than that of the plan, or a rate that limits allowed no faster.
     Slower,
+    /// Back along the path, and onward again to where it turned.
+    WayBack,
 }
 
 /// The number of causes.
-const CAUSES: usize = 5;
+const CAUSES: usize = 6;
 
 /// A setpoint, as far as it tells of time.
 #[derive(Debug, Clone, Copy)]
@@ -40,6 +42,18 @@ struct Moment {
     number: u64,
     sequence: u64,
     fraction: f64,
+}
+
+impl Moment {
+    fn is_before(&self, other: &Self) -> bool {
+        (self.sequence, self.fraction) < (other.sequence, other.fraction)
+    }
+
+    /// Periods of program time since another one.
+    #[allow(clippy::cast_precision_loss, reason = "far below 2^53")]
+    fn since(&self, other: &Self) -> f64 {
+        self.sequence.saturating_sub(other.sequence) as f64 + (self.fraction - other.fraction)
+    }
 }
 
 /// Ticks that went by.
@@ -65,6 +79,8 @@ impl Spent {
 pub struct PlayTime {
     period_t: f64,
     last: Option<Moment>,
+    /// The furthest that the motion has come.
+    furthest: Option<Moment>,
     /// The machine has moved in the present epoch; rests that a program begins with are no motion.
     has_moved: bool,
     cause: Cause,
@@ -101,6 +117,8 @@ pub struct TimeLost {
     pub starvation: f64,
     /// By an override lower than that of the plan, and where limits allowed no faster.
     pub slower: f64,
+    /// Back along the path, and onward again.
+    pub way_back: f64,
     /// By ticks that were missed.
     pub missed_ticks: f64,
 }
@@ -112,6 +130,7 @@ impl PlayTime {
         Self {
             period_t,
             last: None,
+            furthest: None,
             has_moved: false,
             cause: Cause::StartUp,
             planned_ticks: 0.0,
@@ -136,15 +155,22 @@ impl PlayTime {
         }
         let Some(before) = before.filter(|before| before.epoch == now.epoch) else {
             (self.cause, self.has_moved) = (Cause::StartUp, false);
+            self.furthest = Some(now);
             return;
         };
+        let furthest = self.furthest.unwrap_or(before);
+        let is_again = now.is_before(&furthest);
+        if !is_again {
+            self.furthest = Some(now);
+        }
         let ticks = now.tick.saturating_sub(before.tick);
         let published = now.number.saturating_sub(before.number).min(ticks);
         #[allow(clippy::cast_precision_loss, reason = "far below 2^53")]
-        let (advance, wanted) = (
-            now.sequence.saturating_sub(before.sequence) as f64 + (now.fraction - before.fraction),
-            published as f64,
-        );
+        let (advance, wanted) = if is_again {
+            (0.0, published as f64)
+        } else {
+            (now.since(&furthest), published as f64)
+        };
         let state = setpoint.state().unwrap_or(MachineState::Idle);
         if advance >= WHOLE * wanted {
             self.cause = Cause::Slower;
@@ -154,6 +180,9 @@ impl PlayTime {
         }
         self.has_moved |= setpoint.velocity.iter().any(|v| *v != 0.0);
         self.cause = cause_of(state, self.has_moved).unwrap_or(self.cause);
+        if is_again {
+            self.cause = Cause::WayBack;
+        }
         self.standing.all += ticks;
         self.standing.missed += ticks - published;
         self.standing.lost[self.cause as usize] += (wanted - advance).max(0.0);
@@ -186,6 +215,7 @@ impl PlayTime {
                 program_stop: lost(Cause::ProgramStop),
                 starvation: lost(Cause::Starvation),
                 slower: lost(Cause::Slower),
+                way_back: lost(Cause::WayBack),
                 missed_ticks: whole(self.spent.missed),
             },
             planned_override: self.overrides.unwrap_or([1.0; 2]),
@@ -220,6 +250,7 @@ impl PlayedTime {
             program_stop,
             starvation,
             slower,
+            way_back,
             missed_ticks,
         } = self.time_lost_s;
         let parts: Vec<String> = [
@@ -228,6 +259,7 @@ impl PlayedTime {
             (program_stop, "at program stops"),
             (starvation, "for want of frames"),
             (slower, "below the planned override or at limits"),
+            (way_back, "back and onward again"),
             (missed_ticks, "in missed ticks"),
         ]
         .into_iter()
@@ -324,6 +356,10 @@ mod tests {
             (Running, 1.0, 1),
             (ProgramStop, 0.0, 20),
             (Running, 1.0, 10),
+            (Holding, -0.5, 2),
+            (Running, -1.0, 9),
+            (Held, 0.0, 3),
+            (Running, 1.0, 20), // Ten of them where it was before.
             (Idle, 0.0, 30),
         ]);
         let played = play_time.played();
@@ -334,7 +370,16 @@ mod tests {
         assert!(near(lost.starvation, ticks(3.0 + 7.0 + 1.0)), "{lost:?}");
         assert!(near(lost.slower, ticks(1.0)), "{lost:?}");
         assert!(near(lost.program_stop, ticks(20.0)), "{lost:?}");
-        let sum = lost.start_up + lost.hold + lost.starvation + lost.slower + lost.program_stop;
+        assert!(
+            near(lost.way_back, ticks(2.0 + 9.0 + 3.0 + 10.0)),
+            "{lost:?}"
+        );
+        let sum = lost.start_up
+            + lost.hold
+            + lost.starvation
+            + lost.slower
+            + lost.way_back
+            + lost.program_stop;
         assert!(near(played.played_s, played.planned_s + sum), "{played:?}");
         assert!(
             played.text().contains("0.044 s for want of frames"),

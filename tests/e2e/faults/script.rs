@@ -254,10 +254,7 @@ fn follow(bench: &mut Bench<'_>, player: &mut Player, case: &mut Case) -> Checke
             player.until(bench, "the end of the wait", |heard| !waits(heard))?;
         } else {
             player.go_on(bench, case.chance.millis(0, 100))?;
-            unless_faulted(bench, Command::Resume)?;
-            if case.situation == Situation::WayBack {
-                unless_faulted(bench, Command::Forward)?;
-            }
+            go_on(bench, case)?;
             let is_held = |heard: &Heard| heard.is_any_of(&[Held, ProgramStop]);
             player.until(bench, "motion", |heard| !is_held(heard))?;
         }
@@ -274,6 +271,16 @@ fn answer(bench: &mut Bench<'_>, case: &mut Case) -> Checked<()> {
     };
     std::thread::sleep(case.chance.millis(0, 600));
     unless_faulted(bench, Command::Acknowledge { event, done: true })
+}
+
+/// Goes on as an operator would.
+fn go_on(bench: &mut Bench<'_>, case: &Case) -> Checked<()> {
+    if case.situation != Situation::WayBack {
+        return unless_faulted(bench, Command::Resume);
+    }
+    // Where it turns it is held for a moment only: then there is nothing to resume.
+    let _held = bench.command(Command::Resume);
+    unless_faulted(bench, Command::Forward)
 }
 
 /// A command that may be refused if what went wrong has made a fault already.

@@ -81,6 +81,12 @@ impl Diagnosis {
         self.follow.program(item);
     }
 
+    /// The next frame is passed again, on a way back or onward again: it is not diagnosed once more.
+    pub fn pass(&mut self, frame: &Frame) {
+        self.differences.next(&frame.position, false);
+        self.smoothness.pass(&frame.position);
+    }
+
     /// The next frame; tells what binds in the period that it ends. The program must have been fed
     /// as far as the frame is.
     pub fn frame(&mut self, frame: &Frame) -> Binding {

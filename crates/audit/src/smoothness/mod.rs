@@ -104,9 +104,23 @@ impl Smoothness {
     /// The next position, whether the feed binds in the period that it ends, and its distance from
     /// the programmed path. Before the first one the machine is at rest there.
     pub fn next(&mut self, position: &AxisVector, is_at_feed: bool, deviation_mm: f64) {
+        if let Some(period) = self.advance(position, deviation_mm) {
+            self.whole.add(&period);
+            if is_at_feed {
+                self.at_feed.add(&period);
+            }
+        }
+    }
+
+    /// A position that the motion goes through and that is not counted.
+    pub fn pass(&mut self, position: &AxisVector) {
+        let _uncounted = self.advance(position, 0.0);
+    }
+
+    fn advance(&mut self, position: &AxisVector, deviation_mm: f64) -> Option<Period> {
         let Some([last, first, second]) = self.last else {
             self.last = Some([*position, AxisVector::zeros(), AxisVector::zeros()]);
-            return;
+            return None;
         };
         let now_first = position - last;
         let now_second = now_first - first;
@@ -117,10 +131,7 @@ impl Smoothness {
             deviation_mm,
         };
         self.last = Some([*position, now_first, now_second]);
-        self.whole.add(&period);
-        if is_at_feed {
-            self.at_feed.add(&period);
-        }
+        Some(period)
     }
 
     /// The axes that move the other way than they last did.

@@ -1,9 +1,9 @@
 //! Whether a motion follows its program, and whether it is the one that is planned for it today.
 
 use super::finding::{Finding, Findings};
-use super::passed::Passed;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
+use crate::passed::Passed;
 use crate::plan_steps::PlanSteps;
 use glidepath_audit::{Audit, AuditSettings, Sample, ViolationKind};
 use glidepath_geometry::AxisVector;

@@ -3,7 +3,6 @@
 mod continuity;
 mod finding;
 mod follows;
-mod passed;
 mod trace;
 
 use crate::cli::AuditArgs;

@@ -3,6 +3,7 @@
 use super::pipe::Pipe;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
+use crate::passed::Passed;
 use crate::play_time::{PlayTime, PlayedTime};
 use crate::recording::Recording;
 use crate::sample::Sample;
@@ -142,6 +143,8 @@ struct Judge {
     program: FileSource,
     /// Path of the program told so far, mm.
     told_s: f64,
+    passed: Passed,
+    tolerance_mm: f64,
 }
 
 impl Judge {
@@ -158,6 +161,8 @@ impl Judge {
             diagnosis: Diagnosis::new(&judged),
             program,
             told_s: 0.0,
+            passed: Passed::default(),
+            tolerance_mm: config.path.tolerance_mm,
         })
     }
 
@@ -176,14 +181,25 @@ impl Judge {
             position: AxisVector::from(setpoint.position),
             reported: None,
         };
+        let is_idle = matches!(setpoint.state(), Ok(MachineState::Idle));
+        let is_away = setpoint.away.iter().any(|away| *away != 0.0);
+        let behind_mm = (!is_idle && !is_away).then(|| self.passed.off_mm(setpoint));
+        // On a way back it is where it was before. Anywhere else it would be found off the path.
+        let is_again = behind_mm
+            .flatten()
+            .is_some_and(|off| off <= self.tolerance_mm);
         // Into a tapped hole the way is that of the spindle, which no program says.
-        if setpoint.away.iter().any(|away| *away != 0.0) {
+        if is_away || is_again {
             self.audit.sample_away(&judged);
         } else {
             self.audit.sample(&judged);
         }
+        if is_again {
+            self.diagnosis.pass(&as_frame(setpoint));
+            return sample;
+        }
         // Waiting before and after the program is no part of the motion.
-        if matches!(setpoint.state(), Ok(MachineState::Idle)) {
+        if is_idle {
             return sample;
         }
         let binding = self.diagnosis.frame(&as_frame(setpoint));

@@ -31,12 +31,12 @@ impl Place {
 
 /// The places that were passed, two a frame at most.
 #[derive(Debug, Default)]
-pub(super) struct Passed(VecDeque<Place>);
+pub(crate) struct Passed(VecDeque<Place>);
 
 impl Passed {
     /// How far a setpoint is from where the motion has gone, mm or degrees, if it is behind the
     /// furthest; else it is the furthest from now on.
-    pub(super) fn off_mm(&mut self, setpoint: &Setpoint) -> Option<f64> {
+    pub(crate) fn off_mm(&mut self, setpoint: &Setpoint) -> Option<f64> {
         let now = Place::of(setpoint);
         if self
             .0
