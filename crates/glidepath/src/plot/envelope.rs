@@ -48,6 +48,12 @@ impl Envelope {
         self.peak
     }
 
+    /// Whether any value was below zero.
+    pub(super) fn is_ever_negative(&self) -> bool {
+        let lows = self.stretches.iter().flatten().map(|(low, _)| *low);
+        lows.fold(0.0, f64::min) < 0.0
+    }
+
     /// Tick in the middle of each stretch, with its smallest and largest value; `None` where no
     /// value was taken.
     pub(super) fn stretches(&self) -> impl Iterator<Item = (f64, Option<(f64, f64)>)> {

@@ -253,7 +253,8 @@ impl Plot {
             curve: &self.feed,
             limit: None,
             band: None,
-            signed: false,
+            // On a way back.
+            signed: self.feed.is_ever_negative(),
         };
         let mut strips = vec![feed];
         let [deviation, tolerance] = &self.deviation;
