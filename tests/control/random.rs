@@ -21,7 +21,12 @@ fn command() -> impl Strategy<Value = Command> {
         prop_oneof![Just(0.25), Just(0.5), Just(1.0)].prop_map(Command::RapidOverride),
         Just(Command::FeedOverride(0.999)),
     ];
-    prop_oneof![4 => stops, 3 => goes_on, 2 => overrides]
+    let turns = prop_oneof![
+        3 => Just(Command::Reverse),
+        3 => Just(Command::Forward),
+        1 => (-2.0..=0.0).prop_map(Command::FeedOverride),
+    ];
+    prop_oneof![4 => stops, 3 => goes_on, 2 => overrides, 3 => turns]
 }
 
 fn short_programs() -> impl Strategy<Value = &'static str> {
@@ -54,7 +59,7 @@ fn carry_out(job: &Job, commands: &[(Command, usize)]) -> Result<(), TestCaseErr
         let mut largest_override = 1.0_f64;
         for &(command, ticks) in commands {
             if let Command::FeedOverride(ratio) = command {
-                largest_override = largest_override.max(ratio);
+                largest_override = largest_override.max(ratio.abs());
             }
             supervisor.command(command);
             supervisor.play(ticks);
@@ -94,6 +99,7 @@ fn finish(supervisor: &mut Supervisor<'_, '_, '_>) -> Result<(), TestCaseError> 
         supervisor.play(1);
     }
     for _ in 0..50 {
+        supervisor.command(Command::Forward);
         supervisor.command(Command::Resume);
         supervisor.play(1_000);
         if supervisor.is_over() {
@@ -119,10 +125,12 @@ fn assert_bits(supervisor: &Supervisor<'_, '_, '_>) -> Result<(), TestCaseError>
         let Some(frame) = frame.filter(|_| now.epoch > 0 && now.fraction <= 0.0) else {
             continue;
         };
-        let follows = before.fraction <= 0.0 && now.sequence == before.sequence + 1;
+        let is_steady = before.fraction <= 0.0;
+        let follows = is_steady && now.sequence == before.sequence + 1;
+        let goes_back = is_steady && now.sequence + 1 == before.sequence;
         let stands =
             now.state() == Ok(MachineState::ProgramStop) && now.position == before.position;
-        if follows || stands {
+        if follows || stands || goes_back {
             prop_assert_eq!(
                 now.position.map(f64::to_bits),
                 frame.position.map(f64::to_bits)
@@ -133,6 +141,10 @@ fn assert_bits(supervisor: &Supervisor<'_, '_, '_>) -> Result<(), TestCaseError>
                 now.velocity.map(f64::to_bits),
                 frame.velocity.map(f64::to_bits)
             );
+        }
+        if goes_back {
+            let back = frame.velocity.map(|v| 0.0 - v);
+            prop_assert_eq!(now.velocity.map(f64::to_bits), back.map(f64::to_bits));
         }
     }
     Ok(())

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use glidepath_audit::{Audit, AuditSettings, Report, Sample};
+use glidepath_audit::{Audit, AuditSettings, Passed, Report, Sample};
 use glidepath_gcode::Options;
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::{Config, Stepped, stepped};
@@ -136,7 +136,7 @@ impl Supervisor<'_, '_, '_> {
     pub(crate) fn command(&mut self, command: Command) {
         assert!(self.stepped.command(command));
         match command {
-            Command::FeedOverride(ratio) if ratio > 0.0 => self.wanted.feed_r = ratio,
+            Command::FeedOverride(ratio) if ratio.abs() > 0.0 => self.wanted.feed_r = ratio.abs(),
             Command::RapidOverride(ratio) if ratio > 0.0 => self.wanted.rapid_r = ratio,
             _ => return,
         }
@@ -213,13 +213,20 @@ impl Supervisor<'_, '_, '_> {
         for item in &self.items {
             audit.program(item);
         }
+        let mut passed = Passed::default();
         for setpoint in &self.setpoints {
-            audit.sample(&Sample {
+            let sample = Sample {
                 tick: setpoint.number,
                 line: setpoint.line,
                 position: AxisVector::from(setpoint.position),
                 reported: None,
-            });
+            };
+            let time = (setpoint.sequence, setpoint.fraction);
+            match passed.off_mm(time, &sample.position) {
+                // Back along the path, or onward again: where it was before.
+                Some(off_mm) if off_mm <= settings.tolerance_mm => audit.sample_away(&sample),
+                _ => audit.sample(&sample),
+            }
         }
         audit.finish()
     }

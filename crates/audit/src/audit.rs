@@ -37,6 +37,12 @@ impl Audit {
         self
     }
 
+    /// From the samples that were not judged yet on, allows the feed times a factor, if that is more
+    /// than it was: the operator has raised the override.
+    pub const fn raise_override(&mut self, factor: f64) {
+        self.matching.feed_factor = self.matching.feed_factor.max(factor);
+    }
+
     /// The next item of the program.
     pub fn program(&mut self, item: &Item) {
         self.matching.program(item);

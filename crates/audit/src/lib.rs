@@ -46,6 +46,7 @@ mod free_space;
 mod judge;
 mod limits;
 mod matching;
+mod passed;
 mod piece;
 mod program;
 mod report;
@@ -58,6 +59,7 @@ mod violation;
 mod widen;
 
 pub use audit::Audit;
+pub use passed::Passed;
 pub use report::Report;
 pub use sample::Sample;
 pub use settings::AuditSettings;

@@ -7,7 +7,7 @@
 //!             │
 //!             ├─▶ cli, config                        what the user wants, judged
 //!             ├─▶ joints, jitter, bench, recording,
-//!             │   passed · play_time                 what commands share
+//!             │   play_time                          what commands share
 //!             ├─▶ report, plot, setpoints            results as text, JSON, SVG and CSV
 //!             └─▶ output, progress, exit             the terminal
 //! ```
@@ -53,7 +53,6 @@ mod kept;
 pub mod output;
 pub mod output_file;
 pub mod page;
-mod passed;
 pub mod picture;
 mod plan_steps;
 pub mod play_time;

@@ -1,18 +1,13 @@
 //! What subscribers got, judged by the auditor.
 
-use std::collections::BTreeMap;
-
-use glidepath_audit::{Audit, AuditSettings, Report, Sample, Violation, ViolationKind};
-use glidepath_geometry::{AXES, AxisVector};
+use glidepath_audit::{Audit, AuditSettings, Passed, Report, Sample, Violation, ViolationKind};
+use glidepath_geometry::AxisVector;
 use glidepath_link::Setpoint;
 use glidepath_program::Item;
 use glidepath_tests::{plan, settings};
 
 use super::bench::Bench;
 use super::script::{HOME, Programs};
-
-/// A frame that is passed twice is the same place: rounding, mm or degrees.
-const SAME_MM: f64 = 1e-9;
 
 /// What an audit, or several, found.
 #[derive(Debug, Default)]
@@ -139,50 +134,15 @@ fn audit(setpoints: &[Setpoint], items: &[Item], largest_override: f64) -> Verdi
             position: AxisVector::from(setpoint.position),
             reported: None,
         };
-        if passed.is_behind(setpoint) {
-            audit.sample_away(&sample);
-        } else {
-            audit.sample(&sample);
+        let time = (setpoint.sequence, setpoint.fraction);
+        match passed.off_mm(time, &sample.position) {
+            // Back along the path, or onward again: where it was before.
+            Some(off_mm) if off_mm <= settings.tolerance_mm => audit.sample_away(&sample),
+            _ => audit.sample(&sample),
         }
     }
     let last_tick = setpoints.last().map_or(0, |setpoint| setpoint.number);
-    let mut verdict = Verdict::new(&audit.finish(), last_tick);
-    verdict.violations = passed.violations;
-    verdict
-}
-
-/// What a motion that goes back along its path has passed.
-#[derive(Default)]
-struct Passed {
-    furthest: (u64, f64),
-    /// By frame, where the motion was exactly there.
-    places: BTreeMap<u64, [f64; AXES]>,
-    violations: Vec<String>,
-}
-
-impl Passed {
-    /// Whether a setpoint is one of a way back, or onward again. At a frame it is to be where it was
-    /// before.
-    fn is_behind(&mut self, setpoint: &Setpoint) -> bool {
-        if setpoint.fraction <= 0.0 {
-            let place = *self
-                .places
-                .entry(setpoint.sequence)
-                .or_insert(setpoint.position);
-            let apart = place.iter().zip(setpoint.position);
-            if apart.fold(0.0, |most, (was, is)| f64::max(most, (was - is).abs())) > SAME_MM {
-                let number = setpoint.number;
-                self.violations
-                    .push(format!("setpoint {number}: not where it was before"));
-            }
-        }
-        let now = (setpoint.sequence, setpoint.fraction);
-        let is_behind = now < self.furthest;
-        if !is_behind {
-            self.furthest = now;
-        }
-        is_behind
-    }
+    Verdict::new(&audit.finish(), last_tick)
 }
 
 /// From the moment to the first three setpoints at the same place, s.

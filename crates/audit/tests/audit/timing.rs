@@ -62,6 +62,18 @@ fn an_override_scales_the_feed() {
         }
         assert_eq!(audit.finish().is_clean(), clean);
     }
+    // Raised on the way, behind what it allows.
+    for (raised_at, clean) in [(0, true), (20, false)] {
+        let mut audit = Audit::new(&settings(Limits::UNLIMITED));
+        audit.program(&program[0]);
+        for (tick, position) in (0..).zip(walk(&[point(0.0, 0.0), point(10.0, 0.0)], 0.24)) {
+            if tick == raised_at {
+                audit.raise_override(1.2);
+            }
+            audit.sample(&sample(tick, position));
+        }
+        assert_eq!(audit.finish().is_clean(), clean, "{raised_at}");
+    }
 }
 
 /// Samples lost on the way are a gap, not a motion at a multiple of the feed.

@@ -3,9 +3,8 @@
 use super::finding::{Finding, Findings};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
-use crate::passed::Passed;
 use crate::plan_steps::PlanSteps;
-use glidepath_audit::{Audit, AuditSettings, Sample, ViolationKind};
+use glidepath_audit::{Audit, AuditSettings, Passed, Sample, ViolationKind};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{MachineState, Setpoint};
 use glidepath_planner::{FileSource, ItemSource as _, Step, Supply};
@@ -99,8 +98,9 @@ impl Follows {
             position: setpoint.position.into(),
             reported: None,
         };
-        let behind_mm = (!is_idle).then(|| self.passed.off_mm(setpoint)).flatten();
-        if let Some(off_mm) = behind_mm {
+        let time = (setpoint.sequence, setpoint.fraction);
+        let behind_mm = (!is_idle).then(|| self.passed.off_mm(time, &sample.position));
+        if let Some(off_mm) = behind_mm.flatten() {
             // Back along the path, or onward again.
             self.audit.sample_away(&sample);
             if off_mm > self.tolerance_mm {

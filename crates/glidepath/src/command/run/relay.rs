@@ -3,13 +3,12 @@
 use super::pipe::Pipe;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
-use crate::passed::Passed;
 use crate::play_time::{PlayTime, PlayedTime};
 use crate::recording::Recording;
 use crate::sample::Sample;
 use glidepath_audit as audit;
 use glidepath_audit::diagnosis::{Diagnosis, Summary};
-use glidepath_audit::{Audit, AuditSettings};
+use glidepath_audit::{Audit, AuditSettings, Passed};
 use glidepath_geometry::AxisVector;
 use glidepath_link::servo::{Servo, ServoCounts, ServoSettings};
 use glidepath_link::{MachineState, Setpoint};
@@ -181,9 +180,11 @@ impl Judge {
             position: AxisVector::from(setpoint.position),
             reported: None,
         };
+        self.audit.raise_override(setpoint.effective_override);
         let is_idle = matches!(setpoint.state(), Ok(MachineState::Idle));
         let is_away = setpoint.away.iter().any(|away| *away != 0.0);
-        let behind_mm = (!is_idle && !is_away).then(|| self.passed.off_mm(setpoint));
+        let time = (setpoint.sequence, setpoint.fraction);
+        let behind_mm = (!is_idle && !is_away).then(|| self.passed.off_mm(time, &judged.position));
         // On a way back it is where it was before. Anywhere else it would be found off the path.
         let is_again = behind_mm
             .flatten()

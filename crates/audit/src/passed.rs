@@ -1,7 +1,6 @@
 //! Where a motion has gone, for one that goes back along its path and onward again.
 
 use glidepath_geometry::AxisVector;
-use glidepath_link::Setpoint;
 use std::collections::VecDeque;
 
 /// Frames behind the furthest that are kept: more than a motion can go back.
@@ -16,33 +15,31 @@ struct Place {
 }
 
 impl Place {
-    fn of(setpoint: &Setpoint) -> Self {
-        Self {
-            sequence: setpoint.sequence,
-            fraction: setpoint.fraction,
-            position: setpoint.position.into(),
-        }
-    }
-
     fn is_before(&self, other: &Self) -> bool {
         (self.sequence, self.fraction) < (other.sequence, other.fraction)
     }
 }
 
-/// The places that were passed, two a frame at most.
-#[derive(Debug, Default)]
-pub(crate) struct Passed(VecDeque<Place>);
+/// The places that a motion has passed, two a frame at most.
+#[derive(Debug, Clone, Default)]
+pub struct Passed(VecDeque<Place>);
 
 impl Passed {
-    /// How far a setpoint is from where the motion has gone, mm or degrees, if it is behind the
-    /// furthest; else it is the furthest from now on.
-    pub(crate) fn off_mm(&mut self, setpoint: &Setpoint) -> Option<f64> {
-        let now = Place::of(setpoint);
-        if self
-            .0
-            .back()
-            .is_some_and(|furthest| now.is_before(furthest))
-        {
+    /// The next place of the motion, at a program time: a frame, and the part of a period past it.
+    /// Behind the furthest time so far, gives how far it is from where the motion has gone then, mm
+    /// or degrees; it is to be judged by the limits alone ([`crate::Audit::sample_away`]). Else it
+    /// is the furthest from now on.
+    pub fn off_mm(
+        &mut self,
+        (sequence, fraction): (u64, f64),
+        position: &AxisVector,
+    ) -> Option<f64> {
+        let now = Place {
+            sequence,
+            fraction,
+            position: *position,
+        };
+        if self.0.back().is_some_and(|last| now.is_before(last)) {
             return Some(self.off_chord_mm(&now));
         }
         let same = |place: Option<&Place>| place.is_some_and(|p| p.sequence == now.sequence);
@@ -51,11 +48,7 @@ impl Passed {
             self.0.pop_back();
         }
         self.0.push_back(now);
-        while self
-            .0
-            .front()
-            .is_some_and(|p| p.sequence + KEPT < now.sequence)
-        {
+        while (self.0.front()).is_some_and(|p| p.sequence + KEPT < now.sequence) {
             self.0.pop_front();
         }
         None
@@ -82,33 +75,24 @@ impl Passed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bytemuck::Zeroable as _;
 
-    fn at(sequence: u64, fraction: f64, x: f64) -> Setpoint {
-        let mut setpoint = Setpoint {
-            sequence,
-            fraction,
-            ..Setpoint::zeroed()
-        };
-        setpoint.position[0] = x;
-        setpoint
+    fn at(passed: &mut Passed, sequence: u32, fraction: f64, [x, y]: [f64; 2]) -> Option<f64> {
+        let mut position = AxisVector::zeros();
+        (position[0], position[1]) = (x, y);
+        passed.off_mm((sequence.into(), fraction), &position)
     }
 
     #[test]
     fn what_is_behind_is_held_against_where_it_went() {
         let mut passed = Passed::default();
         for k in 0..5_u32 {
-            let x = f64::from(k);
-            assert_eq!(passed.off_mm(&at(u64::from(k), 0.0, x)), None);
+            assert_eq!(at(&mut passed, k, 0.0, [f64::from(k), 0.0]), None);
         }
-        let off = |passed: &mut Passed, setpoint| passed.off_mm(&setpoint).unwrap();
-        assert!(off(&mut passed, at(2, 0.5, 2.4)) < 1e-12);
-        assert!((off(&mut passed, at(2, 0.5, 3.4)) - 0.4).abs() < 1e-12);
-        let mut aside = at(1, 0.25, 1.25);
-        aside.position[1] = 0.03;
-        assert!((off(&mut passed, aside) - 0.03).abs() < 1e-12);
-        assert_eq!(passed.off_mm(&at(4, 0.0, 4.0)), None, "it stands there");
-        assert_eq!(passed.off_mm(&at(5, 0.0, 5.0)), None);
+        assert!(at(&mut passed, 2, 0.5, [2.4, 0.0]).unwrap() < 1e-12);
+        assert!((at(&mut passed, 2, 0.5, [3.4, 0.0]).unwrap() - 0.4).abs() < 1e-12);
+        assert!((at(&mut passed, 1, 0.25, [1.25, 0.03]).unwrap() - 0.03).abs() < 1e-12);
+        assert_eq!(at(&mut passed, 4, 0.0, [4.0, 0.0]), None, "it stands there");
+        assert_eq!(at(&mut passed, 5, 0.0, [5.0, 0.0]), None);
     }
 
     #[test]
@@ -117,9 +101,9 @@ mod tests {
         for k in 0..1000_u32 {
             let hundredths = f64::from(k % 100) * 0.01;
             let x = f64::from(k / 100) + hundredths;
-            assert_eq!(passed.off_mm(&at(u64::from(k / 100), hundredths, x)), None);
+            assert_eq!(at(&mut passed, k / 100, hundredths, [x, 0.0]), None);
         }
         assert!(passed.0.len() <= 20, "{}", passed.0.len());
-        assert!(passed.off_mm(&at(3, 0.4, 3.4)).unwrap() < 1e-9);
+        assert!(at(&mut passed, 3, 0.4, [3.4, 0.0]).unwrap() < 1e-9);
     }
 }
