@@ -2,6 +2,7 @@
 #![allow(
     clippy::unwrap_used,
     clippy::float_cmp,
+    clippy::panic,
     reason = "a test: what is exact is compared exactly"
 )]
 
@@ -163,4 +164,58 @@ fn a_feed_from_which_the_machine_could_not_stop_is_refused() {
         findings("G38.2 Z-5 F100\n", without),
         ["no probe is connected"]
     );
+}
+
+/// What the parameters say leads back to where the probe touched, whatever lies between the
+/// coordinates of the program and those of the machine.
+#[test]
+fn the_contact_is_in_the_coordinates_of_the_block() {
+    let set_up = [
+        "",
+        "G92 X3 Y-2 Z7",
+        "G52 X-4 Y1 Z2",
+        "G10 L2 P1 X1 Y2 Z3 R30",
+        "G10 L2 P2 X-5 Y4 Z1 R-75\nG55",
+        "G43.1 Z12.5",
+        "G20",
+        "G10 L2 P1 X1 Y2 Z3 R40\nG92 X1 Y1 Z1\nG43.1 X2 Z10\nG20",
+        "G19 G91.1 G61",
+    ];
+    let touched = AxisVector::x() * 2.5 + AxisVector::y() * -1.25 + AxisVector::z() * -3.75;
+    for set_up in set_up {
+        for distance in ["G90", "G91"] {
+            let text = format!(
+                "{set_up}\n{distance} F5\nG38.2 X1 Y1 Z-1\nG90 G1 X#5061 Y#5062 Z#5063\nM2\n"
+            );
+            let mut program = Program::new(text.as_bytes(), options());
+            until_probe(&mut program);
+            let stands = touched + AxisVector::z() * -0.1;
+            let found = answer(Some(touched), false, stands);
+            program.answer_probe(&found).unwrap();
+            let items = until_probe(&mut program);
+            let end = items.iter().rev().find_map(|item| match &item.kind {
+                ItemKind::Move { segment, .. } => Some(segment.end()),
+                _ => None,
+            });
+            let off = (end.unwrap() - touched).amax();
+            assert!(off < 1e-12, "{set_up} {distance}: {off}");
+        }
+    }
+    // In diameters, too, they tell radii, as LinuxCNC's do.
+    let text = "G7 F5\nG38.2 X-8\nG1 X[#5061*2]\nM2\n";
+    let mut program = Program::new(text.as_bytes(), options());
+    until_probe(&mut program);
+    let found = answer(Some(at(-3.0, 0.0)), false, at(-3.5, 0.0));
+    program.answer_probe(&found).unwrap();
+    assert_eq!(ends(&until_probe(&mut program)), [(-3.0, 0.0)]);
+    // And they are numbers in the units of the block.
+    let text = "G20 F5\nG38.2 Z-1\nG1 X[#5063*25.4]\nM2\n";
+    let mut program = Program::new(text.as_bytes(), options());
+    until_probe(&mut program);
+    let found = answer(Some(at(0.0, -12.7)), false, at(0.0, -12.7));
+    program.answer_probe(&found).unwrap();
+    let [(x, _)] = ends(&until_probe(&mut program))[..] else {
+        panic!("one move");
+    };
+    assert!((x + 12.7 * 25.4).abs() < 1e-9, "{x}");
 }

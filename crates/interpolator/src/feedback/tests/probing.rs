@@ -8,7 +8,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_link::{
     Command, ContactKind, EndOfEpoch, EventKind, FaultCause, MachineState, Setpoint, SetpointFrame,
 };
-use glidepath_plant::JointSettings;
+use glidepath_plant::{JointSettings, Upset};
 use glidepath_program::FrameFlags;
 
 const T: f64 = 0.004;
@@ -219,7 +219,7 @@ fn one_case(seed: u64) -> f64 {
 
 /// Cases of a run: `GLIDEPATH_PROBES` for more of them.
 fn cases() -> u64 {
-    std::env::var("GLIDEPATH_PROBES").map_or(60, |text| text.parse().unwrap())
+    std::env::var("GLIDEPATH_PROBES").map_or(1000, |text| text.parse().unwrap())
 }
 
 #[test]
@@ -267,6 +267,84 @@ fn a_contact_that_was_there_before_stops_at_once_and_one_that_ends_is_found() {
     let status = bench.status();
     assert_eq!(status.end_of_epoch(), Ok(EndOfEpoch::Completed));
     assert_eq!(status.contact(), Ok(ContactKind::None));
+}
+
+/// Of a probe that opens its contact where it touches, a cable that is lost looks like a touch; of one
+/// that closes it, like none at all: that is found at the end of the way alone.
+#[test]
+fn a_lost_cable_stops_the_search_or_is_found_at_its_end() {
+    const INPUT: u8 = 5;
+    let way = AxisVector::z() * -5.0;
+    for (high, is_before) in [(false, true), (false, false), (true, false)] {
+        let joint = |start| JointSettings {
+            start,
+            count: start,
+            ..JointSettings::default()
+        };
+        let input = ProbeInput {
+            protects: false,
+            number: INPUT,
+            high,
+        };
+        let usual = config(false);
+        let feedback = usual.feedback.map(|feedback| FeedbackSettings {
+            probe: Some(input),
+            ..feedback
+        });
+        let mut bench = Bench::new(Config { feedback, ..usual }, &START.map(joint));
+        let signal = |bench: &mut Bench, is_there: bool| {
+            bench.upset(Upset::Input(u32::from(INPUT), is_there && !high));
+        };
+        signal(&mut bench, !is_before);
+        bench.enable(MachineState::Idle);
+        let begun = bench.setpoints.len();
+        let start = AxisVector::from(bench.last().position);
+        let frames = search(&bench, way, 5.0, false);
+        let most = frames.len() + 400;
+        bench.load_frames(frames);
+        assert!(bench.run_to(MachineState::Running, 50));
+        bench.run(100);
+        let lost_at = bench.last().position[2];
+        signal(&mut bench, false);
+        assert!(bench.run_to(MachineState::Waiting, most));
+        let status = bench.status();
+        assert_on_line(&bench.setpoints[begun..], start, way);
+        assert!(bench.worst_ratio() < 1.0 + 1e-6);
+        let found = (status.end_of_epoch(), status.contact());
+        let z = status.position[2];
+        if high {
+            let none = (Ok(EndOfEpoch::Completed), Ok(ContactKind::None));
+            assert_eq!(found, none);
+            assert!((z - (START[2] - 5.0)).abs() < 1e-9);
+        } else if is_before {
+            let already = (Ok(EndOfEpoch::Tripped), Ok(ContactKind::AlreadySo));
+            assert_eq!(found, already);
+            assert!(START[2] - z < 0.01, "{z}");
+        } else {
+            let made = (Ok(EndOfEpoch::Tripped), Ok(ContactKind::Made));
+            assert_eq!(found, made);
+            assert!(lost_at - z < most_overtravel(5.0), "{z}");
+        }
+    }
+    // Nothing is heard any more.
+    let mut bench = bench(0.0, |plant| plant.with_probe(2, START[2] - 4.0));
+    let frames = search(&bench, way, 5.0, false);
+    bench.load_frames(frames);
+    assert!(bench.run_to(MachineState::Running, 50));
+    bench.run(100);
+    let lost_at = bench.last().position[2];
+    bench.upset(Upset::Dropout(true));
+    assert!(
+        bench.run_to(MachineState::Faulted, 400),
+        "{:?}",
+        bench.state()
+    );
+    let last = bench.last().position[2];
+    assert!(
+        (0.0..5.0 * 0.1).contains(&(lost_at - last)),
+        "{lost_at} {last}"
+    );
+    assert_eq!(bench.fault(), Some(FaultCause::FeedbackLost));
 }
 
 #[test]
