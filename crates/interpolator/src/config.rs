@@ -9,7 +9,7 @@ use glidepath_kinematics::{
     AxisList, JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism, Trivial,
 };
 use glidepath_link::ALL_JOINTS;
-use glidepath_program::Limits;
+use glidepath_program::{Limits, TAP_OVERTRAVEL};
 use glidepath_realtime::{Mode, Request};
 
 /// Where the axes may be, mm or degrees.
@@ -135,6 +135,9 @@ pub struct Config {
     pub feedback: Option<FeedbackSettings>,
     /// The M codes that are to be answered before the motion goes on.
     pub gates: Gates,
+    /// Revolutions for which a tap goes on at most from where the spindle is told to turn back, > 0.
+    /// There it stops in its hole, with a fault.
+    pub tap_overtravel: f64,
     /// Ends the process at the first system call of the real-time thread other than the sleep and
     /// the clock. For tests; [`run`](crate::run) does not return then.
     pub forbid_system_calls: bool,
@@ -162,6 +165,7 @@ impl Config {
             planner_lost_after: Some(Duration::from_secs(2)),
             feedback: None,
             gates: Gates::NONE,
+            tap_overtravel: TAP_OVERTRAVEL,
             forbid_system_calls: false,
         }
     }

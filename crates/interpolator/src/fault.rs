@@ -55,6 +55,7 @@ impl fmt::Display for Fault {
             FaultCause::SpindleAngle => write!(f, "the spindle's angle was lost in a thread")?,
             FaultCause::ThreadLost => write!(f, "the axes could not follow the spindle")?,
             FaultCause::ProbeContact => write!(f, "the probe touched outside of a probing move")?,
+            FaultCause::TapOvertravel => write!(f, "a tap went on into its hole for too long")?,
             FaultCause::LimitSwitch => write!(f, "a joint stands at its limit switch")?,
             FaultCause::Homing => write!(f, "a joint did not find its home")?,
         }

@@ -110,6 +110,10 @@ pub const PHASE_STEPS: u32 = 1 << 24;
 /// Depths that a hole may have, µm: a metre, about.
 pub const TAP_DEPTHS_UM: u32 = 1 << 20;
 
+/// Revolutions for which a tap goes on at most from where the spindle is told to turn back, unless the
+/// machine says otherwise: as many as `LinuxCNC`'s G33.1 allows.
+pub const TAP_OVERTRAVEL: f64 = 10.0;
+
 /// Something that happens in order with the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {

@@ -48,6 +48,7 @@ mod settings;
 pub use frame::{Frame, FrameFlags};
 pub use item::{
     CodeWord, Event, Item, ItemKind, PHASE_STEPS, PathMode, ProgramLine, Rate, TAP_DEPTHS_UM,
+    TAP_OVERTRAVEL,
 };
 pub use limits::{Limits, PathBounds};
 pub use override_::Override;

@@ -1,7 +1,7 @@
 //! What threads need of a machine.
 
 use glidepath_geometry::{AxisVector, limit_along};
-use glidepath_program::Limits;
+use glidepath_program::{Limits, TAP_OVERTRAVEL};
 
 /// A pass of a thread is planned for a spindle that turns faster than programmed by this factor, so
 /// that the axes can follow one that does.
@@ -21,6 +21,9 @@ pub struct Threading {
     /// How fast the speed of the spindle changes when it turns back, rev/s², > 0: it is told to so
     /// much before the bottom of a hole. `None`: nobody knows, and it is told at the bottom.
     pub spindle_a: Option<f64>,
+    /// Revolutions for which a tap goes on at most from where the spindle is told to turn back, > 0:
+    /// the machine stops it there, and there it has to be inside its travel.
+    pub overtravel: f64,
 }
 
 impl Threading {
@@ -32,6 +35,7 @@ impl Threading {
             period_t,
             rigid_tapping: false,
             spindle_a: None,
+            overtravel: TAP_OVERTRAVEL,
         }
     }
 

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use crate::support::listed;
-use glidepath_gcode::{Dialect, MCodes, Options, Program, SpindleAxis, Threading, check};
+use glidepath_gcode::{
+    Dialect, MCodes, Machine, Options, Program, SpindleAxis, Threading, Travel, check,
+};
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_program::{Event, ItemKind, Limits, PathMode, Rate};
 
@@ -98,6 +100,65 @@ fn what_cannot_be_tapped_is_refused() {
         Options::default(),
         &["2:1 not-connected"],
     );
+}
+
+#[test]
+fn the_deepest_that_a_tap_may_go_is_inside_the_travel() {
+    let of = |overtravel: f64, spindle_a, lowest: f64| {
+        let mut options = options(Dialect::LinuxCnc, true, spindle_a);
+        options.threading = options.threading.map(|threading| Threading {
+            overtravel,
+            ..threading
+        });
+        options.machine = Machine::unlimited().with_travel(
+            Axis::Z,
+            Travel {
+                min: lowest,
+                max: 50.0,
+            },
+        );
+        options
+    };
+    // Told at 10 mm, and 10 revolutions of 1.25 mm below: 22.5 mm.
+    let tap = "S600 M3\nG0 Z2\nG33.1 Z-10 K1.25";
+    finds(tap, of(10.0, None, -22.5), &[]);
+    finds(tap, of(10.0, None, -22.49), &["3:7 soft-limit"]);
+    finds(tap, of(2.0, None, -12.5), &[]);
+    // Told a revolution before.
+    finds(tap, of(10.0, Some(50.0), -21.25), &[]);
+    finds(tap, of(10.0, Some(50.0), -21.24), &["3:7 soft-limit"]);
+    // Upwards there is less room, and the other way round, in a cycle.
+    let up = "S600 M3\nG0 Z30\nG33.1 Z40 K1.25";
+    finds(up, of(8.0, None, -100.0), &[]);
+    finds(up, of(8.01, None, -100.0), &["3:7 soft-limit"]);
+    let cycle = "F750 S600 M4\nG0 Z2\nG74 Z-10 R2";
+    finds(cycle, of(10.0, None, -22.5), &[]);
+    finds(cycle, of(10.0, None, -22.49), &["3:5 soft-limit"]);
+    let report = check(tap.as_bytes(), of(10.0, None, -15.0));
+    let told = report.diagnostics[0].to_string();
+    assert!(
+        told.contains("overtravel") && told.contains("-22.5 mm"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_spindle_that_runs_on_for_longer_than_a_tap_may_go_is_refused() {
+    let of = |overtravel: f64, spindle_a| {
+        let mut options = options(Dialect::LinuxCnc, false, spindle_a);
+        options.threading = options.threading.map(|threading| Threading {
+            overtravel,
+            ..threading
+        });
+        options
+    };
+    let tap = "S600 M3\nG33.1 Z-30 K1";
+    // A revolution, and 0.28 for the tap: 0.18 to stop, and two periods.
+    finds(tap, of(1.3, Some(50.0)), &[]);
+    finds(tap, of(1.25, Some(50.0)), &["2:1 invalid-value"]);
+    finds(tap, of(0.3, None), &[]);
+    finds(tap, of(0.25, None), &["2:1 invalid-value"]);
+    finds(tap, of(10.0, Some(5.0)), &["2:1 invalid-value"]);
 }
 
 #[test]

@@ -16,6 +16,7 @@ use glidepath_interpolator::{
     Config, FeedbackSettings, Gantry, JogSettings, JointFeedback, RealTime, SoftLimits,
 };
 use glidepath_link::{Ipc, Transport};
+use glidepath_program::TAP_OVERTRAVEL;
 use glidepath_realtime::{Mode, Request};
 
 /// Runs until asked to end; the motion then comes to rest on the path.
@@ -177,6 +178,9 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
         feedback: feedback(config),
         gantries: gantries(config),
         gates: config.gates(),
+        tap_overtravel: config
+            .spindle
+            .map_or(TAP_OVERTRAVEL, |spindle| spindle.overtravel),
         horizon_frames: session::pace(config).horizon_frames,
         jog: JogSettings {
             velocity: config.jog.velocity,

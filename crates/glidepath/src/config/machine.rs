@@ -321,6 +321,7 @@ impl MachineConfig {
                     period_t: self.period_t(),
                     rigid_tapping: spindle.rigid_tapping,
                     spindle_a: spindle.acceleration,
+                    overtravel: spindle.overtravel,
                 }),
             spindle_axis: self.spindle.and_then(|spindle| {
                 Some(SpindleAxis {

@@ -165,6 +165,7 @@ pub(super) struct RawSpindle {
     pub(super) axis: Optional<String>,
     pub(super) rigid_tapping: Optional<bool>,
     pub(super) acceleration: Optional<f64>,
+    pub(super) overtravel: Optional<f64>,
 }
 
 #[derive(Debug, Default, Deserialize)]

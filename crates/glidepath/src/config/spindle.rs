@@ -13,4 +13,6 @@ pub struct SpindleConfig {
     pub rigid_tapping: bool,
     /// How fast its speed changes when it turns back, rev/s²; `None`: nobody knows.
     pub acceleration: Option<f64>,
+    /// Revolutions for which a tap goes on at most from where it is told to turn back.
+    pub overtravel: f64,
 }

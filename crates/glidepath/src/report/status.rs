@@ -125,6 +125,11 @@ pub fn fault_text(status: &Status) -> Option<String> {
         FaultCause::ThreadLost => {
             "in a thread the axes could not follow the spindle, or frames ran out".to_owned()
         }
+        FaultCause::TapOvertravel => {
+            "a tap went on into its hole for spindle.overtravel revolutions, and the spindle did not \
+             turn back: it was told to stop, and the tap stands in the hole"
+                .to_owned()
+        }
         FaultCause::LimitSwitch => "a joint stands at its limit switch".to_owned(),
         FaultCause::Homing => "a joint did not find its home".to_owned(),
     };

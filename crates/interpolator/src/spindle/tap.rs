@@ -13,10 +13,12 @@
 //! spindle turns, until it comes back to the same place. It ends where it began, to the bit.
 //!
 //! The motion has a constant jerk in each period, inside the limits, and can always be stopped
-//! without exceeding one.
+//! without exceeding one. Once the spindle is told to turn back it can always be stopped, too, before
+//! it has gone on for longer than it may: a spindle that does not turn back in time leaves the tap in
+//! its hole, but not in what is below.
 
 use super::seen::SpindleSeen;
-use crate::tracker::{Bounds, Motion, Target, Tracker};
+use crate::tracker::{Bounds, Motion, Profile, Target, Tracker};
 use glidepath_geometry::AxisVector;
 use glidepath_link::FaultCause;
 use glidepath_program::Limits;
@@ -46,6 +48,8 @@ pub(crate) struct Hole {
     pub(crate) pitch_mm: f64,
     /// Where the spindle is told to turn back, mm, > 0.
     pub(crate) depth_mm: f64,
+    /// How far it goes on from there at most, mm, > 0.
+    pub(crate) overtravel_mm: f64,
 }
 
 /// Where a tap is.
@@ -75,7 +79,8 @@ pub(crate) struct Tap {
     speed: f64,
     stage: Stage,
     motion: Motion,
-    is_back: bool,
+    /// How deep it may be, mm, once the spindle was told to turn back.
+    deepest_mm: Option<f64>,
     waited_t: f64,
 }
 
@@ -117,7 +122,7 @@ impl Tap {
             speed: speed.abs(),
             stage: Stage::RunIn(tracker),
             motion: Motion::default(),
-            is_back: false,
+            deepest_mm: None,
             waited_t: 0.0,
         }
     }
@@ -183,11 +188,13 @@ impl Tap {
             } => {
                 let (offset_mm, clear_mm) = (*offset_mm, *clear_mm);
                 self.go_with(seen, at_ns, offset_mm)?;
-                if !self.is_back && (leaves || self.motion.x >= self.hole.depth_mm) {
-                    self.is_back = true;
+                if self.deepest_mm.is_none() && (leaves || self.motion.x >= self.hole.depth_mm) {
+                    let from_mm = self.motion.x.min(self.hole.depth_mm);
+                    self.deepest_mm = Some(from_mm + self.hole.overtravel_mm);
                     turns = Some(-self.direction);
                 }
-                if self.is_back && self.motion.x <= clear_mm && self.motion.v < 0.0 {
+                let is_back = self.deepest_mm.is_some() && self.motion.v < 0.0;
+                if is_back && self.motion.x <= clear_mm {
                     let mut tracker = Tracker::new(self.motion);
                     tracker.aim(Target::Rest(0.0), self.bounds);
                     self.stage = Stage::Out(tracker);
@@ -226,10 +233,10 @@ impl Tap {
             v: per_turn * speed,
             a: per_turn * acceleration,
         };
-        if !self.is_back && self.direction * speed < SLOWEST * self.speed {
+        if self.deepest_mm.is_none() && self.direction * speed < SLOWEST * self.speed {
             return Err(FaultCause::SpindleSpeed);
         }
-        self.waited_t += if self.is_back { t } else { 0.0 };
+        self.waited_t += if self.deepest_mm.is_some() { t } else { 0.0 };
         if self.waited_t > PATIENCE_T && wanted.v >= 0.0 {
             return Err(FaultCause::SpindleSpeed);
         }
@@ -243,10 +250,19 @@ impl Tap {
             + of_v * t * (before.v - self.motion.v)
             + of_a * t * t * (before.a - self.motion.a);
         let jerk = self.allowed_jerk(off / t.powi(3));
-        self.motion = self.motion.after(t, jerk);
-        if (self.motion.x - wanted.x).abs() > FARTHEST * self.hole.pitch_mm {
+        // What is refused is not gone: the stop sets out from where the axis is.
+        let next = self.motion.after(t, jerk);
+        if (next.x - wanted.x).abs() > FARTHEST * self.hole.pitch_mm {
             return Err(FaultCause::ThreadLost);
         }
+        let (_, rests_mm) = Profile::to_stop(next, &self.bounds).extent();
+        if self
+            .deepest_mm
+            .is_some_and(|deepest_mm| rests_mm > deepest_mm)
+        {
+            return Err(FaultCause::TapOvertravel);
+        }
+        self.motion = next;
         Ok(())
     }
 

@@ -52,6 +52,7 @@ impl Interpolator<'_> {
                         side: 1.0_f64.copysign(pitch_mm),
                         pitch_mm: pitch_mm.abs(),
                         depth_mm: f64::from(depth_um) * 1e-3,
+                        overtravel_mm: self.tap_overtravel * pitch_mm.abs(),
                     };
                     if self.begin_tapping(&hole, &seen, applies_ns) {
                         self.go_on_tapping(&seen, due.tick, applies_ns, setpoint);

@@ -40,6 +40,8 @@ pub(crate) struct Interpolator<'a> {
     pub(super) pass: Pass,
     /// The hole that is tapped, if one is.
     pub(super) tap: Option<Tap>,
+    /// Revolutions for which a tap goes on at most when the spindle is told to turn back.
+    pub(super) tap_overtravel: f64,
     pub(super) simulated_spindle: SimulatedSpindle,
     pub(super) limits: Limits,
     pub(super) jog: Jog,
@@ -74,6 +76,7 @@ impl<'a> Interpolator<'a> {
             probing: Probing::default(),
             pass: Pass::default(),
             tap: None,
+            tap_overtravel: config.tap_overtravel,
             simulated_spindle: SimulatedSpindle::default(),
             limits: config.limits,
             jog: Jog::new(config),

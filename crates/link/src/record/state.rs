@@ -197,6 +197,8 @@ pub enum FaultCause {
     ThreadLost,
     /// The probe touched something although nothing was looked for.
     ProbeContact,
+    /// A rigid tap went on into its hole as far as it may: the spindle did not turn back in time.
+    TapOvertravel,
 }
 
 impl FaultCause {
@@ -224,6 +226,7 @@ impl FaultCause {
             Self::SpindleAngle => 15,
             Self::ThreadLost => 16,
             Self::ProbeContact => 17,
+            Self::TapOvertravel => 18,
             Self::Frame(refusal) => Self::FRAME + refusal.code(),
         }
     }
@@ -249,6 +252,7 @@ impl FaultCause {
             15 => Some(Self::SpindleAngle),
             16 => Some(Self::ThreadLost),
             17 => Some(Self::ProbeContact),
+            18 => Some(Self::TapOvertravel),
             Self::FRAME.. => match FrameRefusal::from_code(code - Self::FRAME) {
                 Some(refusal) => Some(Self::Frame(refusal)),
                 None => None,

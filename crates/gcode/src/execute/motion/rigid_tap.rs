@@ -10,6 +10,8 @@
 //!         │  with the spindle
 //!         ┆  the spindle is told to turn back: at the bottom, or before it by what it runs on
 //!  bottom ●  and out again, up to where it began
+//!         ┆
+//! deepest ●  where the machine stops the tap, if the spindle has not turned back by then
 //! ```
 
 use glidepath_geometry::{Axis, AxisVector, Segment};
@@ -26,9 +28,8 @@ use crate::setup::threading::Threading;
 use crate::syntax::block::Block;
 use crate::syntax::word_check::{missing, negative};
 
-/// Revolutions for which the spindle may go on behind the bottom before it turns back: where it is
-/// told to there, and where it is told to before.
-const OVERRUN: [f64; 2] = [2.0, 0.5];
+/// Periods that a tap goes on before its stop begins.
+const STOP_PERIODS: f64 = 2.0;
 
 impl Interpreter {
     /// G33.1.
@@ -107,12 +108,12 @@ impl Interpreter {
         let hole = Segment::line(start, end);
         let speed_v = self.check_groove(span, &threading, &hole, pitch_mm, [true, true])?;
         let turn_mm = self.turn_mm(span, &threading, &hole, pitch_mm, speed_v)?;
-        let over = OVERRUN[usize::from(threading.spindle_a.is_some())] * pitch_mm;
-        let mut deepest = end;
-        deepest[axis.index()] += over.copysign(along);
-        let what = "the bottom, with what the spindle may run on there,";
-        self.check_limits(block, &deepest, &deepest, what)?;
         let depth_um = (turn_mm * 1e3).round();
+        let mut deepest = start;
+        let deepest_mm = depth_um * 1e-3 + threading.overtravel * pitch_mm;
+        deepest[axis.index()] += deepest_mm.copysign(along);
+        let what = "the deepest that the tap may go, with `overtravel` of [spindle],";
+        self.check_limits(block, &deepest, &deepest, what)?;
         if depth_um >= f64::from(TAP_DEPTHS_UM) {
             let message = "a hole of more than a metre";
             return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
@@ -168,6 +169,23 @@ impl Interpreter {
                      runs on for {run_on_mm:.3} mm"
                 ))
                 .help("begin higher above the hole, or turn more slowly"));
+        }
+        // As long as it comes to its speed it comes to rest, in less than the run-in of the plan.
+        let stop_mm = run_in_mm + STOP_PERIODS * threading.period_t * speed_v;
+        let least = (run_on_mm + stop_mm) / pitch_mm;
+        if threading.overtravel < least {
+            let overtravel = threading.overtravel;
+            let message =
+                format!("at S{speed} the tap goes on for more than {overtravel} revolutions");
+            return Err(Fault::new(DiagnosticCode::InvalidValue, span, message)
+                .because(format!(
+                    "the spindle runs on for {:.2} revolutions when it is told to turn back, and to \
+                     stop the tap takes {:.2}: that is beyond `overtravel` of [spindle], where the \
+                     machine stops in the hole",
+                    run_on_mm / pitch_mm,
+                    stop_mm / pitch_mm
+                ))
+                .help("turn more slowly, or let the tap go on further, where there is room below"));
         }
         Ok(turn_mm)
     }

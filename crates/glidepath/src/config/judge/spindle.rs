@@ -8,6 +8,7 @@ use crate::config::spindle::SpindleConfig;
 use glidepath_gcode::WaitsAt;
 use glidepath_geometry::Axis;
 use glidepath_interpolator::Answer;
+use glidepath_program::TAP_OVERTRAVEL;
 
 /// What of the machine a spindle is judged by.
 #[derive(Debug, Clone, Copy)]
@@ -37,6 +38,15 @@ impl Judge {
             .acceleration
             .as_ref()
             .map(|value| self.number("spindle.acceleration", value, &range));
+        let range = Range {
+            min: 0.1,
+            max: 100.0,
+            unit: "revolutions",
+            help: "a little more than the spindle turns until it has stopped, and less than there is \
+                   room for below the holes",
+        };
+        let overtravel = &raw.overtravel;
+        let overtravel = self.number_or("spindle.overtravel", overtravel, &range, TAP_OVERTRAVEL);
         let rigid_tapping = raw.rigid_tapping.as_ref().filter(|taps| *taps.get_ref());
         let encoder = raw.encoder.as_ref().filter(|encoder| *encoder.get_ref());
         let axis = self.spindle_axis(raw.axis, of);
@@ -61,6 +71,7 @@ impl Judge {
             axis,
             rigid_tapping: rigid_tapping.is_some(),
             acceleration,
+            overtravel,
         })
     }
 

@@ -34,4 +34,11 @@ pub(super) const SPINDLE: &[Key] = &[
         "how fast the speed of the spindle changes when it turns back: a rigid tap is turned back so \
          much above the bottom of its hole",
     ),
+    key(
+        "spindle.overtravel",
+        number(0.1, 100.0, "revolutions"),
+        LeftOut::Value("10"),
+        "how far a rigid tap goes on, at most, from where the spindle is told to turn back: there it \
+         stops in its hole, with a fault, and there it has to be inside the travel of its axis",
+    ),
 ];

@@ -3,7 +3,7 @@
 use super::bench::{Bench, PERIOD_NS, config};
 use crate::config::Config;
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState, SetpointFrame};
+use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState, Setpoint, SetpointFrame};
 use glidepath_motion::Planner;
 use glidepath_plant::{JointSettings, SpindleSettings, Upset};
 use glidepath_program::{Effort, Event, Item, ItemKind, PathMode, Rate, Settings, Smoothing};
@@ -63,18 +63,25 @@ fn bench() -> Bench {
 }
 
 fn bench_with(config: Config) -> Bench {
+    bench_beside(
+        config,
+        SpindleSettings {
+            counts: 4096,
+            lag_t: 0.05,
+            angle: 0.37,
+            ..SpindleSettings::default()
+        },
+    )
+}
+
+fn bench_beside(config: Config, spindle: SpindleSettings) -> Bench {
     let joint = |start| JointSettings {
         start,
         count: start,
         ..JointSettings::default()
     };
     let mut bench = Bench::new(config, &START.map(joint));
-    bench.plant = bench.plant.with_spindle(SpindleSettings {
-        counts: 4096,
-        lag_t: 0.05,
-        angle: 0.37,
-        ..SpindleSettings::default()
-    });
+    bench.plant = bench.plant.with_spindle(spindle);
     bench.enable(MachineState::Idle);
     bench
 }
@@ -180,6 +187,97 @@ fn a_spindle_that_is_blocked_in_a_hole_stops_the_axis_there() {
     let depth = start - bench.last().position[2];
     assert!((5.0..8.0).contains(&depth), "{depth}");
     assert!(bench.worst_ratio() < 1.0 + 1e-6);
+}
+
+/// A tap behind a spindle that changes its speed by so many rev/s² and is allowed so many revolutions:
+/// how deep it comes, at most and at its end.
+fn slow_spindle(
+    acceleration: f64,
+    overtravel: f64,
+    during: impl FnMut(&mut Bench, f64),
+) -> (Bench, f64, f64) {
+    let config = Config {
+        tap_overtravel: overtravel,
+        ..config(false)
+    };
+    let spindle = SpindleSettings {
+        acceleration,
+        counts: 4096,
+        ..SpindleSettings::default()
+    };
+    let mut bench = bench_beside(config, spindle);
+    let start = bench.last().position[2];
+    let samples = tap(&mut bench, during);
+    let deepest = samples
+        .iter()
+        .fold(0.0_f64, |most, (depth, _)| most.max(*depth));
+    let depth = start - bench.last().position[2];
+    assert!(bench.worst_ratio() < 1.0 + 1e-6, "{}", bench.worst_ratio());
+    (bench, deepest, depth)
+}
+
+/// The spindle was told to turn back, and then to stop.
+fn was_told_to_stop(bench: &Bench) -> bool {
+    let told = |setpoint: &Setpoint| setpoint.event().ok().flatten();
+    let codes: Vec<Event> = bench.setpoints.iter().filter_map(told).collect();
+    codes.ends_with(&[Event::MCode(4), Event::MCode(5)])
+}
+
+#[test]
+fn a_spindle_that_does_not_turn_back_in_time_stops_the_tap_where_it_may_go_at_most() {
+    // From 10 rev/s it runs on for 50 / a revolutions.
+    for (acceleration, overtravel, goes_back) in [
+        (40.0, 10.0, true),
+        (40.0, 1.4, true),
+        (40.0, 1.1, false),
+        (10.0, 5.2, true),
+        (10.0, 4.9, false),
+        (2.0, 10.0, false),
+        (2.0, 3.0, false),
+        (2.0, 0.3, false),
+    ] {
+        let (mut bench, deepest, depth) = slow_spindle(acceleration, overtravel, |_, _| {});
+        let what = format!("{acceleration} {overtravel}: {deepest} {depth}");
+        let most = DEPTH_MM + overtravel * PITCH_MM;
+        assert!(deepest <= most, "{what}");
+        if goes_back {
+            assert_eq!((bench.fault(), depth), (None, 0.0), "{what}");
+            continue;
+        }
+        assert_eq!(bench.fault(), Some(FaultCause::TapOvertravel), "{what}");
+        assert!(was_told_to_stop(&bench), "{what}");
+        // As far as it may, in the hole, at rest.
+        assert!(most - depth < 0.3 * PITCH_MM, "{what}");
+        assert!(bench.last().velocity[2] == 0.0, "{what}");
+        assert_eq!(bench.status().end_of_epoch(), Ok(EndOfEpoch::Faulted));
+    }
+}
+
+#[test]
+fn an_abort_counts_the_overtravel_from_where_it_came() {
+    let mut is_asked = false;
+    let (mut bench, deepest, depth) = slow_spindle(2.0, 4.0, |bench, depth| {
+        if depth > 5.0 && !core::mem::replace(&mut is_asked, true) {
+            bench.command(Command::Abort).unwrap();
+        }
+    });
+    assert_eq!(bench.fault(), Some(FaultCause::TapOvertravel));
+    // The abort is heard a period or two later, at 10 mm/s.
+    assert!((8.7..9.2).contains(&depth), "{depth}");
+    assert!(deepest <= depth + 1e-9, "{deepest} {depth}");
+}
+
+#[test]
+fn an_axis_that_cannot_follow_stops_from_where_it_is() {
+    // The spindle goes on faster than the axis may.
+    let mut bench = bench();
+    let _samples = tap(&mut bench, |bench, depth| {
+        if depth > 5.0 {
+            bench.upset(Upset::SpindlePart(30.0));
+        }
+    });
+    assert_eq!(bench.fault(), Some(FaultCause::ThreadLost));
+    assert!(bench.worst_ratio() < 1.0 + 1e-6, "{}", bench.worst_ratio());
 }
 
 #[test]
