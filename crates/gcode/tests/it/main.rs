@@ -9,6 +9,7 @@
 )]
 
 mod corpus;
+mod corpus_refused;
 mod damaged;
 mod diagnostics;
 mod dialects;
