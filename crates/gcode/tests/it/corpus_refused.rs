@@ -1,7 +1,5 @@
 //! Every real program that is refused, against the table that says why.
 
-#![expect(clippy::print_stderr, reason = "a skipped test says so")]
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
