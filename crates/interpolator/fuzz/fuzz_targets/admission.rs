@@ -4,7 +4,7 @@
 
 use glidepath_geometry::AxisVector;
 use glidepath_interpolator::{Config, SoftLimits, stepped};
-use glidepath_link::{MachineState, SetpointFrame, decode};
+use glidepath_link::{Command, MachineState, SetpointFrame, decode};
 use glidepath_program::Limits;
 use libfuzzer_sys::fuzz_target;
 
@@ -78,8 +78,11 @@ fn keeps_limits(positions: &[AxisVector], limits: &Limits) {
     assert!(worst.iter().all(|ratio| *ratio <= 1.0 + 1e-5), "{worst:?}");
 }
 
-fuzz_target!(|input: (u8, Vec<Change>)| {
-    let (seed, changes) = input;
+/// Turns an operator may make of the motion: after so many ticks each, back and onward in turn.
+type Turns = Vec<u8>;
+
+fuzz_target!(|input: (u8, Vec<Change>, Turns)| {
+    let (seed, changes, turns) = input;
     let limits = synthetic::mill();
     let mut config = Config::new(limits, PERIOD_NS);
     config.soft_limits = SoftLimits {
@@ -97,7 +100,15 @@ fuzz_target!(|input: (u8, Vec<Change>)| {
             is_open: false,
         };
         let mut is_broken = false;
-        for _ in 0..TICKS {
+        let (mut turns, mut until) = (turns.into_iter(), 0);
+        let mut ways = [Command::Forward, Command::Reverse].into_iter().cycle();
+        for tick in 0..TICKS {
+            if tick == until
+                && let (Some(ticks), Some(way)) = (turns.next(), ways.next())
+            {
+                assert!(machine.command(way), "room for a command");
+                until = tick + 1 + usize::from(ticks);
+            }
             judge.note(&known);
             let mut room = PASS_PER_TICK;
             while room > 0
