@@ -3,6 +3,7 @@
 
 use super::*;
 use glidepath_geometry::Segment;
+use glidepath_link::Setpoint;
 use glidepath_motion::Planner;
 use glidepath_program::{
     Effort, Item, ItemKind, Limits, PathMode, Rate as Speed, Settings, Smoothing,
@@ -77,14 +78,17 @@ fn both_axes_stay_on_their_line_under_overrides_holds_and_an_abort() {
         let mut numbers = Numbers::new(seed);
         for _ in 0..12 {
             rig.run((5.0 + 80.0 * numbers.unit()) as usize);
-            rig.command(match (numbers.unit() * 3.0) as u32 {
+            rig.command(match (numbers.unit() * 5.0) as u32 {
                 0 => Command::Hold,
                 1 => Command::Resume,
+                2 => Command::Reverse,
+                3 => Command::Forward,
                 _ => Command::FeedOverride(0.1 + 1.2 * numbers.unit()),
             });
         }
         let is_aborted = seed % 3 == 0;
         rig.command(Command::FeedOverride(1.2));
+        rig.command(Command::Forward);
         rig.command(if is_aborted {
             Command::Abort
         } else {
@@ -99,4 +103,24 @@ fn both_axes_stay_on_their_line_under_overrides_holds_and_an_abort() {
     println!("{worst_mm:.1e} mm from the line at most");
     // Rounding of a position of 4320° alone is 1.6e-15 mm of the pitch, that of 15 mm 0.9e-15.
     assert!(worst_mm < 2e-14, "{worst_mm}");
+}
+
+/// What an operator does with a tap that is held in its hole: back along the same line.
+#[test]
+fn a_tap_goes_back_out_of_its_hole_along_its_line() {
+    let mut rig = Rig::new(Config::new(limits(), 4_000_000));
+    rig.feed.extend(program());
+    let is_deep = |s: &Setpoint| s.position[2] < -6.0;
+    assert!(rig.run_until(4_000, is_deep));
+    rig.command(Command::Hold);
+    assert!(rig.run_until(500, |s| s.state() == Ok(MachineState::Held)));
+    rig.command(Command::Reverse);
+    rig.command(Command::Resume);
+    assert!(rig.run_until(4_000, |s| s.position[2] == 0.0));
+    let last = rig.setpoints.last().unwrap();
+    assert_eq!(last.position[5], 0.0);
+    let (off_mm, deepest_mm) = off_line(&rig);
+    assert!(off_mm < 2e-14, "{off_mm}");
+    assert!((6.0..10.0).contains(&deepest_mm), "{deepest_mm}");
+    assert!(rig.worst_ratio() <= INSIDE, "{}", rig.worst_ratio());
 }
