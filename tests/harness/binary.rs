@@ -6,7 +6,8 @@ use std::sync::OnceLock;
 
 /// The `glidepath` binary of the profile and target directory these tests were built with, brought
 /// up to date by cargo the first time (which takes a moment if `cargo test --workspace` has just
-/// built it, and longer if only the tests were built). Outside of cargo it is taken as it is.
+/// built it, and longer if only the tests were built). Outside of cargo, and where `GLIDEPATH_BUILT`
+/// says that everything was built just now, it is taken as it is.
 #[must_use]
 pub fn glidepath() -> &'static Path {
     static BINARY: OnceLock<PathBuf> = OnceLock::new();
@@ -14,7 +15,9 @@ pub fn glidepath() -> &'static Path {
         // <target>/<profile>/deps/<this test>
         let this = std::env::current_exe().unwrap();
         let profile = this.parent().and_then(Path::parent).unwrap();
-        if let Some(cargo) = std::env::var_os("CARGO") {
+        if std::env::var_os("GLIDEPATH_BUILT").is_none()
+            && let Some(cargo) = std::env::var_os("CARGO")
+        {
             build(Path::new(&cargo), profile);
         }
         let binary = profile.join("glidepath");

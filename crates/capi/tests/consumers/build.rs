@@ -66,10 +66,14 @@ pub(crate) fn source(name: &str) -> String {
 }
 
 /// The library. What is a test of a library for other languages does not make cargo build it, so it
-/// is built here, once, with all it needs being there.
+/// is built here, once, with all it needs being there; not where `GLIDEPATH_BUILT` says that everything
+/// was built just now.
 pub(crate) fn library(linked: Linked) -> PathBuf {
     static BUILT: OnceLock<()> = OnceLock::new();
     BUILT.get_or_init(|| {
+        if std::env::var_os("GLIDEPATH_BUILT").is_some() {
+            return;
+        }
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let mut build = Command::new(cargo);
         build.args(["build", "--quiet", "--offline", "--package"]);
