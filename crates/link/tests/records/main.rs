@@ -255,7 +255,7 @@ fn unknown_codes_and_bits_are_refused() {
         refused(good_setpoint(), |s| s.state = 0),
         refused(good_setpoint(), |s| s.state = 16),
         refused(good_status(), |s| s.state = 0),
-        refused(good_status(), |s| s.fault = 18),
+        refused(good_status(), |s| s.fault = 19),
         refused(good_status(), |s| s.fault_axis = 10),
         refused(good_status(), |s| s.fault_axis = u32::MAX),
         refused(good_status(), |s| s.end_of_epoch = 6),
@@ -373,7 +373,7 @@ fn codes_are_consecutive_and_known() {
     let faults: Vec<u32> = (0..0x200)
         .filter(|code| FaultCause::from_code(*code).is_some())
         .collect();
-    assert_eq!(faults, (1..=17).chain(0x101..=0x10c).collect::<Vec<_>>());
+    assert_eq!(faults, (1..=18).chain(0x101..=0x10c).collect::<Vec<_>>());
     for code in faults {
         assert_eq!(FaultCause::from_code(code).unwrap().code(), code);
     }
