@@ -61,24 +61,28 @@ impl Machine {
             .map(|c| c.to_ascii_uppercase())
             .filter(|c| "XYZABCUVW".contains(*c))
             .collect();
-        let mut once = letters.clone();
-        once.sort_unstable();
-        once.dedup();
-        if once.len() < letters.len() {
+        let joints_of = |letter: &char| letters.iter().filter(|of| *of == letter).count();
+        let mut gantries = letters.clone();
+        gantries.sort_unstable();
+        gantries.dedup();
+        gantries.retain(|letter| joints_of(letter) > 1);
+        for letter in &gantries {
+            let why =
+                "the axis has two joints: by how much may they differ before the motion stops";
+            let table = format!("axis.{letter}");
+            self.draft.choose(&table, "gantry_difference", why);
+        }
+        let (fate, note) = if gantries.iter().any(|letter| joints_of(letter) > 2) {
+            let note = "a letter stands there more than twice: an axis has two joints here at most";
+            (Fate::NoCounterpart, note)
+        } else if gantries.is_empty() {
+            (Fate::Converted, "one table [axis.…] for each")
+        } else {
             let note = "a letter stands there twice: the second joint of that axis comes after those of \
                         all axes here";
-            self.inputs.decide(at, Fate::Changed, note);
-            for (joint, letter) in letters.iter().enumerate() {
-                if letters.get(..joint).unwrap_or(&[]).contains(letter) {
-                    let why = "the axis has two joints: by how much may they differ before the motion stops";
-                    let table = format!("axis.{letter}");
-                    self.draft.choose(&table, "gantry_difference", why);
-                }
-            }
-        } else {
-            self.inputs
-                .decide(at, Fate::Converted, "one table [axis.…] for each");
-        }
+            (Fate::Changed, note)
+        };
+        self.inputs.decide(at, fate, note);
         self.letters = letters;
     }
 

@@ -132,6 +132,22 @@ fn what_cannot_be_read_is_refused_with_its_place() {
     );
 }
 
+/// Found by fuzzing: each further joint of an axis asked for the same key again.
+#[test]
+fn an_axis_with_three_joints_is_asked_for_once_and_told() {
+    let conversion = convert("linuxcnc", "[TRAJ]\nCOORDINATES = X Y A A A\n");
+    let parsed: Result<toml::Table, _> = conversion.configuration.parse();
+    assert!(parsed.is_ok(), "{parsed:?}");
+    let asked = conversion.asked.iter();
+    let asked = asked.filter(|asked| asked.key == "axis.A.gantry_difference");
+    assert_eq!(asked.count(), 1);
+    let told = format!("{conversion:?}");
+    assert!(
+        told.contains("an axis has two joints here at most"),
+        "{told}"
+    );
+}
+
 /// Lines as they may stand in such files, and some that may not.
 fn lines() -> impl Strategy<Value = String> {
     let section = prop::sample::select(vec![
@@ -179,6 +195,7 @@ fn lines() -> impl Strategy<Value = String> {
     ]);
     let value = prop_oneof![
         Just("XYZ".to_owned()),
+        Just("XXYAAA".to_owned()),
         Just("mm".to_owned()),
         Just("inch".to_owned()),
         Just("trivkins".to_owned()),
