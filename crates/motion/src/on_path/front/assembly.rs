@@ -42,7 +42,7 @@ impl Assembly {
     /// Plans what follows with another override.
     pub(crate) fn set_override(&mut self, wanted: Override) {
         self.wanted = wanted;
-        self.blocks.lose();
+        self.blocks.lose_any();
         let settings = self.settings;
         if let Some(held) = &mut self.pending {
             let chord_v = chord_speed(&held.segment, held.mode, &settings);

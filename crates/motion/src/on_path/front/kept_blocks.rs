@@ -44,6 +44,13 @@ impl KeptBlocks {
         self.is_lost = true;
     }
 
+    /// The same if there are any: from a rest on all are kept.
+    pub(crate) fn lose_any(&mut self) {
+        if !self.pieces.is_empty() {
+            self.lose();
+        }
+    }
+
     /// The machine rests, and no block is kept elsewhere.
     pub(crate) fn restart(&mut self) {
         self.pieces.clear();
