@@ -16,6 +16,10 @@ use glidepath_program::Limits;
 /// the third derivative of the path changes fast.
 const PLACES: u32 = 8;
 const PLACES_OF_TRANSITION: u32 = 20;
+/// Shares of limits up to which nothing is done, of jerk and of the others: between the places it
+/// may be a little more. At knots the constraints leave twice as much.
+const ENOUGH_R: f64 = 1.0 - 1e-4;
+const ENOUGH_JERK_R: f64 = 1.0 - 1e-3;
 /// Where a limit is exceeded by more than this factor, another knot is put in.
 const MUCH_R: f64 = 1.05;
 /// The least share of the limits: of less, there is none to start from.
@@ -23,7 +27,8 @@ const LEAST_SHARE_R: f64 = 0.7;
 /// Taken off more than was exceeded, for the places between these.
 const MORE_R: f64 = 1e-3;
 
-/// The largest share of a limit of an axis that is used on a phase of a time parametrisation.
+/// The largest share of what is enough of a limit of an axis that a phase of a time parametrisation
+/// uses.
 fn worst(
     phase: &MotionPhase,
     duration_t: f64,
@@ -52,12 +57,12 @@ fn worst(
         let speed = jet.d1 * v;
         let accel = jet.d2 * (v * v) + jet.d1 * a;
         let jerk = jet.d3 * (v * v * v) + jet.d2 * (3.0 * v * a) + jet.d1 * j;
-        for (asked, limit) in [
-            (speed, &limits.velocity),
-            (accel, &limits.acceleration),
-            (jerk, &limits.jerk),
+        for (asked, limit, enough_r) in [
+            (speed, &limits.velocity, ENOUGH_R),
+            (accel, &limits.acceleration, ENOUGH_R),
+            (jerk, &limits.jerk, ENOUGH_JERK_R),
         ] {
-            worst = worst.max(asked.abs().component_div(limit).max());
+            worst = worst.max(asked.abs().component_div(limit).max() / enough_r);
         }
     }
     worst
