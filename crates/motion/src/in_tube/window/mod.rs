@@ -21,6 +21,7 @@ mod at_feed;
 mod attempt;
 mod budget;
 mod cuts;
+mod damping;
 mod finishing;
 mod guess;
 mod optimiser;

@@ -11,6 +11,7 @@
 
 use super::budget;
 use super::cuts::Cuts;
+use super::damping;
 use super::guess::Guess;
 use super::pins::Pins;
 use super::rounds::{BestMotion, ENOUGH_VIOLATION, RoundState};
@@ -324,6 +325,9 @@ impl<const D: usize> Optimiser<D> {
             style,
         };
         tube::build(&mut self.problem, &layout, extents);
+        if style.is_damped {
+            damping::add(&mut self.problem, &layout);
+        }
         let top = path
             .segments
             .iter()

@@ -278,8 +278,22 @@ impl<const D: usize> ScaledPath<D> {
 
     /// Where the program is near the place of some progress on piece `i`.
     pub(crate) fn center(&self, i: usize, progress: f64) -> [f64; D] {
+        self.center_at(i, self.share_of(i, progress).clamp(0.0, 1.0))
+    }
+
+    /// The same beyond the ends of the piece, too, where its parabola goes on.
+    pub(crate) fn center_beyond(&self, i: usize, progress: f64) -> [f64; D] {
+        self.center_at(i, self.share_of(i, progress))
+    }
+
+    /// How far along a piece a progress is, 0 to 1.
+    fn share_of(&self, i: usize, progress: f64) -> f64 {
         let segment = &self.segments[i];
-        let u = ((progress - segment.s) / segment.length).clamp(0.0, 1.0);
+        (progress - segment.s) / segment.length
+    }
+
+    fn center_at(&self, i: usize, u: f64) -> [f64; D] {
+        let segment = &self.segments[i];
         let height = 4.0 * u * (1.0 - u);
         core::array::from_fn(|k| segment.start[k] + height * segment.bow[k])
     }

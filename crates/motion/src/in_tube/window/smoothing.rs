@@ -21,7 +21,7 @@ use super::rounds::RoundState;
 use super::samples::Samples;
 use super::scaled_path::ScaledPath;
 use super::tube::Style;
-use super::window_start::WindowStart;
+use super::window_start::{SearchWeights, WindowStart};
 
 /// What an offset of the whole radius costs at one sample, and what jerk at its limit does.
 const PULL: f64 = 0.1;
@@ -47,6 +47,8 @@ impl<const D: usize> WindowStart<'_, D> {
             keep_r: KEEP_R,
             ridge: weight * PULL,
             jerk: weight * JERK,
+            // Another look at a short stretch is for time alone.
+            is_damped: self.weights == SearchWeights::USUAL,
             ..self.style(true)
         }
     }

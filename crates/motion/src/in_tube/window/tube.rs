@@ -54,6 +54,8 @@ pub(crate) struct Style {
     pub(crate) ridge: f64,
     /// What jerk at its limit costs, in the same measure.
     pub(crate) jerk: f64,
+    /// After a corner the motion comes to the path without swinging ([`super::damping`]).
+    pub(crate) is_damped: bool,
     /// Not as far as possible, but as much in the middle as possible.
     pub(crate) is_centred: bool,
     /// The points of the last motion are one, and not only a place to start from.

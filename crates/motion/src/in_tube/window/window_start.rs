@@ -61,6 +61,7 @@ impl<const D: usize> WindowStart<'_, D> {
             stray_r: 1.0,
             is_feed_firm: true,
             feed_r: FEED_R,
+            is_damped: false,
             is_centred: false,
             keep_r: 0.995,
             ridge: self.weights.pull,

@@ -1,0 +1,79 @@
+//! What keeps a smooth motion from swinging about the path when it comes back to it.
+//!
+//! A pull to the path and a price on jerk by themselves make a motion that overshoots: of the six
+//! ways in which such a motion may come and go, two pairs swing, with a damping ratio of one half.
+//!
+//! ```text
+//!   corner                          minimise  Σ p·y² + v·y′² + a·y″² + j·y‴²       y: across the path
+//!      ╲  swings about the path
+//!       ╲      ╭─╮                  stationary where  j·z³ − a·z² + v·z − p = 0,   z = s²
+//!  ──────╲────╱───╲───╭──           with v = a = 0:   s = ±ω and, swinging, ω·e^{±i·60°}, −ω·e^{±i·60°}
+//!         ╰──╯     ╰─╯              with a = 3jω², v = 3jω⁴:   (z − ω²)³, all at ±ω, none swings
+//! ```
+//!
+//! So the velocity across the path and the acceleration across it get prices, too, those that go with
+//! the other two. They are measured against what the curve that the piece stands for has of both.
+//! Near corners there are none: there the motion is off the path, and crosses it, on purpose; and
+//! none where pieces are shorter than a period's way, because their curves are as rough as the
+//! points they were laid through.
+
+use super::scaled_path::ScaledPath;
+use super::solver::Problem;
+use super::tube::Layout;
+
+/// Turn of the path, radians, from which there is a corner.
+const CORNER: f64 = 0.1;
+/// Share of the time to settle after a corner in which nothing is damped.
+const LEFT_OUT: usize = 4;
+
+/// Adds the prices that go with those of offset and jerk that the style has.
+pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
+    for k in 1..layout.samples.count() {
+        add_at(problem, layout, k);
+    }
+}
+
+fn add_at<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: usize) {
+    let (path, samples, style) = (layout.path, layout.samples, layout.style);
+    let piece = samples.piece[k];
+    let segment = &path.segments[piece];
+    let margin = style.settling_periods(path).div_ceil(LEFT_OUT);
+    let last = (k + margin).min(samples.count());
+    let mut seen = samples.piece[k.saturating_sub(margin)]..samples.piece[last];
+    if seen.any(|i| path.turn(i, i + 1) > CORNER) {
+        return;
+    }
+    let progress = [k - 1, k, k + 1].map(|k| samples.progress[k]);
+    if segment.length < progress[2] - progress[0] {
+        return;
+    }
+    let center = progress.map(|progress| path.center_beyond(piece, progress));
+    let radius = segment.radius * style.keep_r;
+    let pull = style.ridge / (radius * radius);
+    let square = square_of_rate(path, layout, pull);
+    let mut price = |(first, weights), ridge, center: [f64; D]| {
+        problem.add_site(first, weights);
+        if let Some(site) = problem.sites.last_mut() {
+            (site.ridge, site.center, site.tangent) = (ridge, center, segment.tangent);
+        }
+    };
+    price(
+        style.grid.velocity_site(k),
+        3.0 * pull / square,
+        core::array::from_fn(|a| 0.5 * (center[2][a] - center[0][a])),
+    );
+    price(
+        style.grid.bend_site(k),
+        3.0 * pull / (square * square),
+        core::array::from_fn(|a| center[2][a] - 2.0 * center[1][a] + center[0][a]),
+    );
+}
+
+/// The square of ω, per period: of the rate that a pull makes with the price of jerk.
+fn square_of_rate<const D: usize>(path: &ScaledPath<D>, layout: &Layout<'_, D>, pull: f64) -> f64 {
+    let style = layout.style;
+    let slowest_j = path.jerk.iter().copied().fold(f64::INFINITY, f64::min);
+    let per_period = style.period_t / style.grid.knot_t;
+    let jerk = style.jerk * per_period / (slowest_j * slowest_j);
+    (pull / jerk).cbrt() * style.period_t.powi(2)
+}
