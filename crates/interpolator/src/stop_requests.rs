@@ -43,7 +43,9 @@ pub(crate) struct StopRequests {
     /// The operator wants the motion to go back along the path.
     is_reversed: bool,
     /// Which way the motion goes.
-    course: Course,
+    heading: Heading,
+    /// It was told that there is no way back from where the motion stands.
+    is_told: bool,
     /// Both together, for feeds and for rapids: every tick asks for them, and they change seldom.
     feed_r: f64,
     rapid_r: f64,
@@ -53,7 +55,7 @@ pub(crate) struct StopRequests {
 
 /// Which way along the path the motion goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Course {
+pub(crate) enum Heading {
     /// As the frames come in.
     Onward,
     /// Onward, through frames that were passed before, or taken to be.
@@ -64,7 +66,7 @@ pub(crate) enum Course {
     BackAtEnd,
 }
 
-impl Course {
+impl Heading {
     /// Whether the track that is played is the way back.
     pub(crate) const fn is_back(self) -> bool {
         matches!(self, Self::Back | Self::BackAtEnd)
@@ -99,7 +101,8 @@ impl Default for StopRequests {
             rapid_override: 1.0,
             adaptive_r: 1.0,
             is_reversed: false,
-            course: Course::Onward,
+            heading: Heading::Onward,
+            is_told: false,
             feed_r: 1.0,
             rapid_r: 1.0,
             retraces: false,
@@ -220,7 +223,7 @@ impl StopRequests {
     /// An epoch begins or ends: only a latched fault, the overrides and the single-block mode
     /// outlive it, and a hold if the program goes on. Every program begins onward.
     pub(crate) const fn forget_epoch(&mut self, goes_on: bool) {
-        self.go(Course::Onward);
+        self.go(Heading::Onward);
         self.reverse(false);
         self.abort = false;
         self.hold = self.hold && goes_on;
@@ -246,25 +249,30 @@ impl StopRequests {
     }
 
     /// The motion turns where it stands. What it stood at on its way does not hold it on the other.
-    pub(crate) const fn turn(&mut self, course: Course) {
+    pub(crate) const fn turn(&mut self, heading: Heading) {
         self.hold |= self.program_stop;
-        self.go(course);
+        self.go(heading);
     }
 
     /// The motion goes this way from now on.
-    pub(crate) const fn go(&mut self, course: Course) {
-        self.course = course;
+    pub(crate) const fn go(&mut self, heading: Heading) {
+        self.heading = heading;
         self.adapt(self.adaptive_r);
     }
 
+    /// There is no way back from where it stands. Returns whether that is news.
+    pub(crate) const fn refuse_to_turn(&mut self) -> bool {
+        !core::mem::replace(&mut self.is_told, true)
+    }
+
     /// Which way it goes.
-    pub(crate) const fn course(&self) -> Course {
-        self.course
+    pub(crate) const fn heading(&self) -> Heading {
+        self.heading
     }
 
     /// Whether it goes the other way than is wanted.
     pub(crate) const fn is_to_turn(&self) -> bool {
-        self.wants_back() != self.course.is_back()
+        self.wants_back() != self.heading.is_back()
     }
 
     const fn wants_back(&self) -> bool {
@@ -292,13 +300,14 @@ impl StopRequests {
     /// An input slows the program down, -1 to 1; below 0 it turns it round.
     pub(crate) const fn adapt(&mut self, ratio: f64) {
         self.adaptive_r = ratio;
-        if self.wants_back() && matches!(self.course, Course::BackAtEnd) || self.is_to_turn() {
+        if self.wants_back() && matches!(self.heading, Heading::BackAtEnd) || self.is_to_turn() {
             (self.feed_r, self.rapid_r) = (0.0, 0.0);
         } else {
             self.feed_r = self.feed_override * ratio.abs();
             self.rapid_r = self.rapid_override * ratio.abs();
         }
-        self.retraces = self.wants_back() || !matches!(self.course, Course::Onward);
+        self.is_told &= self.wants_back();
+        self.retraces = self.wants_back() || !matches!(self.heading, Heading::Onward);
     }
 
     /// Whether the operator keeps the motion from going on.

@@ -48,13 +48,48 @@ pub(crate) fn frame_of<const N: usize>(
     }
 }
 
+/// Items of which each is a block, numbered from 1.
+pub(crate) fn blocks(kinds: impl IntoIterator<Item = ItemKind>) -> Vec<Item> {
+    let item = |(kind, block)| Item {
+        line: block,
+        block,
+        kind,
+    };
+    kinds.into_iter().zip(1..).map(item).collect()
+}
+
+/// Frames of items as the planner makes them, from rest at `start`, at 4 ms within 0.02 mm.
+pub(crate) fn planned(
+    items: &[Item],
+    limits: Limits,
+    start: AxisVector,
+    effort: Effort,
+) -> Vec<SetpointFrame> {
+    let settings = Settings {
+        limits,
+        tolerance_mm: 0.02,
+        smoothing: Smoothing::Auto,
+        period_t: 0.004,
+        effort,
+    };
+    let mut planner = Planner::new(settings, start);
+    for item in items {
+        planner.push(item).unwrap();
+    }
+    planner.finish();
+    let frames: Vec<_> = std::iter::from_fn(|| planner.pop_frame().unwrap()).collect();
+    records(&frames, 1, 4_000_000)
+}
+
 use crate::config::Config;
 use crate::jog::DemandReader;
 use crate::message::{HAPPENINGS, Happening, Inputs, Order, PortsEnds, Report, Rings};
 use crate::tick::Interpolator;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Command, JogDemand, MachineState, Setpoint};
-use glidepath_realtime::{Events, Wake, event_ring};
+use glidepath_motion::Planner;
+use glidepath_program::{Effort, Item, ItemKind, Limits, Settings, Smoothing};
+use glidepath_realtime::{EventReader, Events, Wake, event_ring};
 use heapless::spsc::Producer;
 use std::collections::VecDeque;
 
@@ -69,6 +104,7 @@ pub(crate) struct Rig {
     pub(crate) feed: VecDeque<SetpointFrame>,
     pub(crate) setpoints: Vec<Setpoint>,
     pub(crate) last: Option<Report>,
+    pub(crate) log: EventReader<'static, Happening>,
     tick: u64,
     /// Frames published.
     sent: u64,
@@ -79,7 +115,7 @@ impl Rig {
         let rings = Box::leak(Box::<Rings>::default());
         let events = Box::leak(Box::<Events<Happening, HAPPENINGS>>::default());
         let ((inputs, reports), ends) = rings.split();
-        let (writer, _log) = event_ring(events);
+        let (writer, log) = event_ring(events);
         let interpolator = Interpolator::new(&config, 77, writer);
         let (feed, setpoints) = (VecDeque::new(), Vec::new());
         Self {
@@ -91,6 +127,7 @@ impl Rig {
             feed,
             setpoints,
             last: None,
+            log,
             tick: 0,
             sent: 0,
         }

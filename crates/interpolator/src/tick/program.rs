@@ -21,7 +21,7 @@ impl Interpolator<'_> {
     /// when its epoch ended, and is dropped.
     pub(super) fn take_frames(&mut self, inputs: &mut Inputs<'_>) {
         self.track.release_before(self.rate.now().time.sequence);
-        if self.requests.retraces() && !self.retrace() {
+        if self.requests.retraces() && !self.take_kept_frames() {
             return;
         }
         for _ in 0..FRAMES_PER_TICK {
@@ -86,7 +86,7 @@ impl Interpolator<'_> {
         let (track, rate, published) = (&self.track, &self.rate, self.output.published());
         if self.is_open() && self.supply.watch(track, rate, published, holds) {
             // Behind the motion there is no planner to be lost.
-            if !self.requests.course().is_back() {
+            if !self.requests.heading().is_back() {
                 self.fail(FaultCause::PlannerLost);
             }
         }

@@ -4,7 +4,7 @@ use super::state::Interpolator;
 use crate::block_stop::BlockStop;
 use crate::frame_summary::FrameSummary;
 use crate::retrace::mirrored;
-use crate::stop_requests::Course;
+use crate::stop_requests::Heading;
 use glidepath_link::Setpoint;
 
 impl Interpolator<'_> {
@@ -12,22 +12,22 @@ impl Interpolator<'_> {
     /// may be taken, too.
     #[cold]
     #[inline(never)]
-    pub(super) fn retrace(&mut self) -> bool {
+    pub(super) fn take_kept_frames(&mut self) -> bool {
         if !self.is_open() {
             return true;
         }
         if self.requests.is_to_turn() && self.may_turn() {
             self.turn();
         }
-        match self.requests.course() {
-            Course::Onward => true,
-            Course::OnwardAgain => {
+        match self.requests.heading() {
+            Heading::Onward => true,
+            Heading::OnwardAgain => {
                 if self.retrace.go_onward(&mut self.track) {
-                    self.requests.go(Course::Onward);
+                    self.requests.go(Heading::Onward);
                 }
                 false
             }
-            Course::Back => {
+            Heading::Back => {
                 let is_all = self.retrace.go_back(&mut self.track);
                 let ahead = self.track.end() - self.rate.now().time.sequence;
                 if is_all && self.is_standing() && (ahead <= 1 || self.supply.is_at_end()) {
@@ -35,7 +35,7 @@ impl Interpolator<'_> {
                 }
                 false
             }
-            Course::BackAtEnd => false,
+            Heading::BackAtEnd => false,
         }
     }
 
@@ -49,26 +49,29 @@ impl Interpolator<'_> {
 
     fn turn(&mut self) {
         let now = self.rate.now().time;
-        let (track, course) = (&mut self.track, self.requests.course());
-        let (time, course) = if course.is_back() {
+        let (track, heading) = (&mut self.track, self.requests.heading());
+        let (time, heading) = if heading.is_back() {
             let time = self.retrace.turn_onward(track, now);
-            (Some(time), Course::OnwardAgain)
+            (Some(time), Heading::OnwardAgain)
         } else {
-            let is_again = course == Course::OnwardAgain;
-            (self.retrace.turn_back(track, now, is_again), Course::Back)
+            let is_again = heading == Heading::OnwardAgain;
+            (self.retrace.turn_back(track, now, is_again), Heading::Back)
         };
         let Some(time) = time else {
+            if self.requests.refuse_to_turn() {
+                self.account.end_way_back(self.passed.line);
+            }
             return;
         };
         self.rate.begin_at(time);
         self.block_stop = BlockStop::none();
         self.supply.begin_epoch();
-        self.requests.turn(course);
+        self.requests.turn(heading);
     }
 
     /// There is no way back beyond where the motion stands.
     fn end_way_back(&mut self) {
-        self.requests.go(Course::BackAtEnd);
+        self.requests.go(Heading::BackAtEnd);
         self.account.end_way_back(self.passed.line);
     }
 
@@ -92,7 +95,7 @@ impl Interpolator<'_> {
     #[inline(never)]
     pub(super) fn place_retraced(&self, setpoint: &mut Setpoint) {
         let now = self.rate.now().time;
-        if self.requests.course().is_back()
+        if self.requests.heading().is_back()
             && let Some(frame) = self.retrace.frame_at(now)
         {
             setpoint.sequence = frame.sequence;

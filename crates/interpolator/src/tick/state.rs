@@ -138,7 +138,7 @@ impl<'a> Interpolator<'a> {
     }
 
     pub(super) fn close(&mut self, end: EndOfEpoch) {
-        if self.requests.course().is_back() {
+        if self.requests.heading().is_back() {
             self.leave_way_back();
         }
         // Where the machine stands is not at a frame in general.

@@ -2,6 +2,7 @@
 
 use super::planned::{planned, program};
 use super::*;
+use crate::message::Happening;
 use glidepath_geometry::Segment;
 use glidepath_program::{Effort, Event, Item, ItemKind, PathMode, Rate as Speed};
 
@@ -231,6 +232,36 @@ fn the_way_back_ends_at_what_cannot_be_taken_back() {
         assert_eq!(rig.last.unwrap().end_of_epoch, EndOfEpoch::Completed);
         assert!(rig.worst_ratio() <= INSIDE);
     }
+}
+
+#[test]
+fn where_there_is_no_way_back_that_is_told_once() {
+    let mut rig = Rig::playing(&square(&[Event::MCode(8)]));
+    let ends = |rig: &mut Rig| {
+        let told = std::iter::from_fn(|| rig.log.read());
+        told.filter(|told| matches!(told, Happening::WayBackEnds { .. }))
+            .count()
+    };
+    play_until(&mut rig, 20_000, |s| s.path_s > 5.0);
+    rig.command(Command::Reverse);
+    play(&mut rig, 100);
+    play_until(&mut rig, 20_000, is_held);
+    assert_eq!(rig.setpoints.last().unwrap().path_s, 0.0);
+    assert_eq!(ends(&mut rig), 1, "at the end of the way back");
+    for _ in 0..2 {
+        rig.command(Command::Hold);
+        rig.command(Command::Forward);
+        play(&mut rig, 20);
+        rig.command(Command::Reverse);
+        play(&mut rig, 50);
+        assert_eq!(rig.setpoints.last().unwrap().path_s, 0.0);
+        assert_eq!(ends(&mut rig), 1, "where it cannot begin");
+    }
+    rig.command(Command::Forward);
+    rig.command(Command::Resume);
+    play_until(&mut rig, 20_000, is_idle);
+    assert_eq!(rig.last.unwrap().end_of_epoch, EndOfEpoch::Completed);
+    assert_eq!(ends(&mut rig), 0);
 }
 
 #[test]
