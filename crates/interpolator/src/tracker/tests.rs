@@ -205,9 +205,10 @@ proptest! {
         let (low, high) = stop.extent();
         let points = (0..=1_000).map(|k| stop.at(stop.duration_t() * f64::from(k) / 1e3).x);
         let (least, most) = points.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
-        let size = 1e-5 * (high - low) + 1e-12;
-        prop_assert!(low <= least + 1e-12 && low >= least - size, "{low} {least}");
-        prop_assert!(high >= most - 1e-12 && high <= most + size, "{high} {most}");
+        let rounding = 1e-12 + 4.0 * f64::EPSILON * low.abs().max(high.abs());
+        let size = 1e-5 * (high - low) + rounding;
+        prop_assert!(low <= least + rounding && low >= least - size, "{low} {least}");
+        prop_assert!(high >= most - rounding && high <= most + size, "{high} {most}");
     }
 }
 

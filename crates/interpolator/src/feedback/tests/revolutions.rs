@@ -1,13 +1,11 @@
 //! A feed per revolution behind a spindle that does not turn as fast as it was told.
 
-use super::bench::{Bench, PERIOD_NS, config};
+use super::bench::{Bench, config};
+use crate::testing::{blocks, mill, planned};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_link::{MachineState, Setpoint, SetpointFrame};
-use glidepath_motion::Planner;
 use glidepath_plant::{JointSettings, SpindleSettings, Upset};
-use glidepath_program::{
-    Effort, Event, FrameFlags, Item, ItemKind, PathMode, Rate, Settings, Smoothing,
-};
+use glidepath_program::{Effort, Event, FrameFlags, ItemKind, PathMode, Rate};
 
 const START: [f64; 3] = [12.5, -3.0, 40.0];
 /// 0.5 mm a revolution at 20 revolutions a second.
@@ -36,28 +34,7 @@ fn program(start: AxisVector, turns: bool) -> Vec<SetpointFrame> {
         to(end, start, Rate::Rapid),
         to(start, end, Rate::Feed(50.0)),
     ]);
-    let settings = Settings {
-        limits: crate::testing::mill(),
-        tolerance_mm: 0.02,
-        smoothing: Smoothing::Auto,
-        period_t: 0.004,
-        effort: Effort::Optimal,
-    };
-    let mut planner = Planner::new(settings, start);
-    for (kind, block) in kinds.into_iter().zip(1..) {
-        let item = Item {
-            line: block,
-            block,
-            kind,
-        };
-        planner.push(&item).unwrap();
-    }
-    planner.finish();
-    let mut frames = Vec::new();
-    while let Some(frame) = planner.pop_frame().unwrap() {
-        frames.push(SetpointFrame::from_frame(&frame, 1, PERIOD_NS));
-    }
-    frames
+    planned(&blocks(kinds), mill(), start, Effort::Optimal)
 }
 
 fn bench() -> Bench {

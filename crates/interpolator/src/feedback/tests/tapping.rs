@@ -1,14 +1,13 @@
 //! Holes that are tapped behind a spindle that takes its time to turn back.
 
-use super::bench::{Bench, PERIOD_NS, config};
+use super::bench::{Bench, config};
 use crate::config::Config;
+use crate::testing::{blocks, mill, planned};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState, Setpoint, SetpointFrame};
-use glidepath_motion::Planner;
 use glidepath_plant::{JointSettings, SpindleSettings, Upset};
-use glidepath_program::{Effort, Event, Item, ItemKind, PathMode, Rate, Settings, Smoothing};
+use glidepath_program::{Effort, Event, ItemKind, PathMode, Rate};
 
-const T: f64 = 0.004;
 const START: [f64; 3] = [12.5, -3.0, 40.0];
 const PITCH_MM: f64 = 1.0;
 const DEPTH_MM: f64 = 12.0;
@@ -34,28 +33,7 @@ fn program(start: AxisVector) -> Vec<SetpointFrame> {
         tap,
         to(next, start),
     ];
-    let settings = Settings {
-        limits: crate::testing::mill(),
-        tolerance_mm: 0.02,
-        smoothing: Smoothing::Auto,
-        period_t: T,
-        effort: Effort::Optimal,
-    };
-    let mut planner = Planner::new(settings, start);
-    for (kind, block) in kinds.into_iter().zip(1..) {
-        let item = Item {
-            line: block,
-            block,
-            kind,
-        };
-        planner.push(&item).unwrap();
-    }
-    planner.finish();
-    let mut frames = Vec::new();
-    while let Some(frame) = planner.pop_frame().unwrap() {
-        frames.push(SetpointFrame::from_frame(&frame, 1, PERIOD_NS));
-    }
-    frames
+    planned(&blocks(kinds), mill(), start, Effort::Optimal)
 }
 
 fn bench() -> Bench {

@@ -2,16 +2,14 @@
 //!
 //! Each sample holds a setpoint against the angle that the spindle really has when it applies.
 
-use super::bench::{Bench, PERIOD_NS, config};
+use super::bench::{Bench, config};
+use crate::testing::{blocks, mill, planned};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_link::{
     Command, EndOfEpoch, EventKind, FaultCause, MachineState, Setpoint, SetpointFrame,
 };
-use glidepath_motion::Planner;
 use glidepath_plant::{JointSettings, SpindleSettings, Upset};
-use glidepath_program::{
-    Effort, Event, FrameFlags, Item, ItemKind, PHASE_STEPS, PathMode, Rate, Settings, Smoothing,
-};
+use glidepath_program::{Effort, Event, FrameFlags, Item, ItemKind, PHASE_STEPS, PathMode, Rate};
 
 const T: f64 = 0.004;
 const START: [f64; 3] = [12.5, -3.0, 40.0];
@@ -64,33 +62,12 @@ impl Thread {
             ),
             to(start + AxisVector::x() * 2.0, start, Rate::Rapid),
         ];
-        let item = |(kind, block)| Item {
-            line: block,
-            block,
-            kind,
-        };
-        kinds.into_iter().zip(1..).map(item).collect()
+        blocks(kinds)
     }
 }
 
 fn frames(items: &[Item], start: AxisVector, effort: Effort) -> Vec<SetpointFrame> {
-    let settings = Settings {
-        limits: crate::testing::mill(),
-        tolerance_mm: 0.02,
-        smoothing: Smoothing::Auto,
-        period_t: T,
-        effort,
-    };
-    let mut planner = Planner::new(settings, start);
-    let mut frames = Vec::new();
-    for item in items {
-        planner.push(item).unwrap();
-    }
-    planner.finish();
-    while let Some(frame) = planner.pop_frame().unwrap() {
-        frames.push(SetpointFrame::from_frame(&frame, 1, PERIOD_NS));
-    }
-    frames
+    planned(items, mill(), start, effort)
 }
 
 fn bench(spindle: SpindleSettings) -> Bench {

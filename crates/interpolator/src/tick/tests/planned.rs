@@ -51,20 +51,7 @@ pub(super) fn program(seed: u64, moves: usize, effort: Effort) -> Vec<SetpointFr
 
 /// Frames of a program.
 pub(super) fn planned(items: &[Item], effort: Effort) -> Vec<SetpointFrame> {
-    let settings = Settings {
-        limits: mill(),
-        tolerance_mm: 0.02,
-        smoothing: Smoothing::Auto,
-        period_t: 0.004,
-        effort,
-    };
-    let mut planner = Planner::new(settings, AxisVector::zeros());
-    for item in items {
-        planner.push(item).unwrap();
-    }
-    planner.finish();
-    let frames: Vec<_> = std::iter::from_fn(|| planner.pop_frame().ok().flatten()).collect();
-    records(&frames, 1, 4_000_000)
+    crate::testing::planned(items, mill(), AxisVector::zeros(), effort)
 }
 
 fn positions(frames: &[SetpointFrame]) -> Vec<AxisVector> {

@@ -2,12 +2,10 @@
 //! whatever becomes of the time.
 
 use super::*;
+use crate::testing::{blocks, planned};
 use glidepath_geometry::Segment;
 use glidepath_link::Setpoint;
-use glidepath_motion::Planner;
-use glidepath_program::{
-    Effort, Item, ItemKind, Limits, PathMode, Rate as Speed, Settings, Smoothing,
-};
+use glidepath_program::{Effort, ItemKind, Limits, PathMode, Rate as Speed};
 
 const PITCH_MM: f64 = 1.25;
 const DEPTH_MM: f64 = 15.0;
@@ -27,35 +25,18 @@ fn program() -> Vec<SetpointFrame> {
         (point[2], point[5]) = (-depth, depth / PITCH_MM * 360.0);
         point
     };
-    let settings = Settings {
-        limits: limits(),
-        tolerance_mm: 0.02,
-        smoothing: Smoothing::Auto,
-        period_t: 0.004,
-        effort: Effort::Optimal,
-    };
-    let mut planner = Planner::new(settings, AxisVector::zeros());
     let depths = [0.0, 5.0, 0.0, 10.0, 0.0, DEPTH_MM, 0.0];
-    for (line, pair) in (1..).zip(depths.windows(2)) {
-        let feed_v = PITCH_MM * 20.0;
-        let kind = ItemKind::Move {
-            segment: Segment::line(at(pair[0]), at(pair[1])),
-            rate: Speed::FeedUpTo {
-                feed_v,
-                most_v: feed_v,
-            },
-            mode: PathMode::ExactStop,
-        };
-        let item = Item {
-            line,
-            block: line,
-            kind,
-        };
-        planner.push(&item).unwrap();
-    }
-    planner.finish();
-    let frames: Vec<_> = std::iter::from_fn(|| planner.pop_frame().ok().flatten()).collect();
-    records(&frames, 1, 4_000_000)
+    let feed_v = PITCH_MM * 20.0;
+    let kinds = depths.windows(2).map(|pair| ItemKind::Move {
+        segment: Segment::line(at(pair[0]), at(pair[1])),
+        rate: Speed::FeedUpTo {
+            feed_v,
+            most_v: feed_v,
+        },
+        mode: PathMode::ExactStop,
+    });
+    let start = AxisVector::zeros();
+    planned(&blocks(kinds), limits(), start, Effort::Optimal)
 }
 
 /// How far both axes are from their line at most, mm; the depth reached, mm.
