@@ -89,7 +89,7 @@ const CASES: [Case; 5] = [
         feed_v: 100.0,
         is_audited: false,
         blocks: 120,
-        most: 60_000_000,
+        most: 62_000_000,
     },
 ];
 

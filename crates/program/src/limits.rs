@@ -56,6 +56,7 @@ impl PathBounds {
 
     /// True if there are no such limits.
     #[must_use]
+    #[inline]
     pub fn is_none(&self) -> bool {
         let limits = [self.tangential_a, self.normal_a, self.jerk_j];
         limits.iter().all(|limit| *limit >= Limits::UNLIMITED)

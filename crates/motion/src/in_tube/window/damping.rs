@@ -17,32 +17,45 @@
 //! none where pieces are shorter than a period's way, because their curves are as rough as the
 //! points they were laid through.
 
-use super::scaled_path::ScaledPath;
 use super::solver::Problem;
 use super::tube::Layout;
 
 /// Turn of the path, radians, from which there is a corner.
 const CORNER: f64 = 0.1;
-/// Share of the time to settle after a corner in which nothing is damped.
+/// Nothing is damped in one part in so many of the time to settle, on both sides of a corner.
 const LEFT_OUT: usize = 4;
 
 /// Adds the prices that go with those of offset and jerk that the style has.
 pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
+    let margin = layout
+        .style
+        .settling_periods(layout.path)
+        .div_ceil(LEFT_OUT);
+    let dearest_jerk = dearest_jerk(layout);
     for k in 1..layout.samples.count() {
-        add_at(problem, layout, k);
+        if !is_near_corner(layout, k, margin) {
+            add_at(problem, layout, k, dearest_jerk);
+        }
     }
 }
 
-fn add_at<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: usize) {
+/// True if the path turns sharply within some periods of a sample.
+fn is_near_corner<const D: usize>(layout: &Layout<'_, D>, k: usize, margin: usize) -> bool {
+    let samples = layout.samples;
+    let last = (k + margin).min(samples.count());
+    let mut seen = samples.piece[k.saturating_sub(margin)]..samples.piece[last];
+    seen.any(|i| layout.path.turn(i, i + 1) > CORNER)
+}
+
+fn add_at<const D: usize>(
+    problem: &mut Problem<D>,
+    layout: &Layout<'_, D>,
+    k: usize,
+    dearest_jerk: f64,
+) {
     let (path, samples, style) = (layout.path, layout.samples, layout.style);
     let piece = samples.piece[k];
     let segment = &path.segments[piece];
-    let margin = style.settling_periods(path).div_ceil(LEFT_OUT);
-    let last = (k + margin).min(samples.count());
-    let mut seen = samples.piece[k.saturating_sub(margin)]..samples.piece[last];
-    if seen.any(|i| path.turn(i, i + 1) > CORNER) {
-        return;
-    }
     let progress = [k - 1, k, k + 1].map(|k| samples.progress[k]);
     if segment.length < progress[2] - progress[0] {
         return;
@@ -50,7 +63,8 @@ fn add_at<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: u
     let center = progress.map(|progress| path.center_beyond(piece, progress));
     let radius = segment.radius * style.keep_r;
     let pull = style.ridge / (radius * radius);
-    let square = square_of_rate(path, layout, pull);
+    // The square of ω, per period: of the rate that this pull makes with the price of jerk.
+    let square = (pull / dearest_jerk).cbrt() * style.period_t.powi(2);
     let mut price = |(first, weights), ridge, center: [f64; D]| {
         problem.add_site(first, weights);
         if let Some(site) = problem.sites.last_mut() {
@@ -69,11 +83,13 @@ fn add_at<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: u
     );
 }
 
-/// The square of ω, per period: of the rate that a pull makes with the price of jerk.
-fn square_of_rate<const D: usize>(path: &ScaledPath<D>, layout: &Layout<'_, D>, pull: f64) -> f64 {
+/// The price of jerk for a period, on the axis where it is highest.
+fn dearest_jerk<const D: usize>(layout: &Layout<'_, D>) -> f64 {
     let style = layout.style;
-    let slowest_j = path.jerk.iter().copied().fold(f64::INFINITY, f64::min);
+    let slowest_j = style
+        .priced_jerk(layout.path)
+        .into_iter()
+        .fold(f64::INFINITY, f64::min);
     let per_period = style.period_t / style.grid.knot_t;
-    let jerk = style.jerk * per_period / (slowest_j * slowest_j);
-    (pull / jerk).cbrt() * style.period_t.powi(2)
+    style.jerk * per_period / (slowest_j * slowest_j)
 }

@@ -308,9 +308,7 @@ impl<const D: usize> Optimiser<D> {
             path.acceleration.map(|a| a * h * h * keep),
             path.jerk.map(|j| j * h * h * h * keep),
         ];
-        let unit = path
-            .jerk
-            .map(|j| j.min(style.period_t.powi(-3)) * h * h * h);
+        let unit = style.priced_jerk(path).map(|j| j * h * h * h);
         self.problem.jerk = unit.map(|unit| style.jerk / (unit * unit));
         let margin = style.settling_periods(path);
         self.pins

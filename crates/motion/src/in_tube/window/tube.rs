@@ -67,6 +67,12 @@ pub(crate) struct Style {
 const SETTLING: f64 = 7.5;
 
 impl Style {
+    /// The jerk of each axis that costs [`Style::jerk`], in tolerances: its limit, but no more than
+    /// can be seen in a period.
+    pub(crate) fn priced_jerk<const D: usize>(&self, path: &ScaledPath<D>) -> [f64; D] {
+        path.jerk.map(|jerk| jerk.min(self.period_t.powi(-3)))
+    }
+
     /// Periods in which the motion settles on the path after a corner.
     pub(crate) fn settling_periods<const D: usize>(&self, path: &ScaledPath<D>) -> usize {
         let slowest_j = path.jerk.iter().copied().fold(f64::INFINITY, f64::min);

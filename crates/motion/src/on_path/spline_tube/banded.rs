@@ -33,6 +33,7 @@ impl<const D: usize> Banded<D> {
     }
 
     /// Solves by LDLᵀ without pivoting.
+    #[inline]
     pub(super) fn solve(&mut self) {
         let count = self.rows.len().min(self.right.len());
         let (rows, right) = (&mut self.rows[..count], &mut self.right[..count]);
