@@ -331,6 +331,6 @@ fn whole(value: f64) -> Option<i32> {
         reason = "whole and small, or not taken"
     )]
     let truncated = value as i32;
-    (f64::from(truncated).to_bits() == value.to_bits() && truncated.abs() <= 1000)
+    (f64::from(truncated).to_bits() == value.to_bits() && truncated.unsigned_abs() <= 1000)
         .then_some(truncated)
 }

@@ -42,6 +42,7 @@ fn the_usual_meaning() {
         ("x^0.5 - sqrt(x)", 0.0),
         ("x^y - sqrt(x)", 0.0),
         ("(-8)^(-1)", -0.125),
+        ("x^-2147483648", 0.0),
     ];
     for (text, want) in same {
         let got = value(text);
