@@ -25,7 +25,8 @@ impl ChordRule {
 pub struct Chord {
     /// Where it ends, mm.
     pub point: Vector3<f64>,
-    /// Its length, mm.
+    /// Its length, mm; as long as wanted within the rounding of the coordinates, 2 pm and eight
+    /// units in their last place (1e-7 mm where they are 6e7 mm).
     pub chord_mm: f64,
     /// Bound on the distance between the chord and the curve, both ways and in order, mm.
     pub error_mm: f64,

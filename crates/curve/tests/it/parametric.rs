@@ -202,6 +202,22 @@ fn what_cannot_be_followed_is_refused() {
     ));
 }
 
+#[test]
+fn far_out_a_chord_is_as_long_as_coordinates_can_tell() {
+    // 6.4e7 mm from the origin, where neighbouring doubles are 7e-9 mm apart.
+    let curve = formulas(["7", "5*sin(t)", "sqrt(400 - 225*sin(t))^6"]);
+    let rule = ChordRule {
+        longest_mm: 0.5,
+        error_mm: 0.01,
+    };
+    let mut chords = ParametricChords::new(curve, (0.0, std::f64::consts::TAU), rule).unwrap();
+    for _ in 0..10 {
+        let chord = chords.next_chord().unwrap().unwrap();
+        let room_mm = 8.0 * f64::EPSILON * chord.point.amax();
+        assert!((chord.chord_mm - rule.longest_mm).abs() <= room_mm);
+    }
+}
+
 /// Coefficients of a cubic Bezier through a box.
 fn cubic() -> impl Strategy<Value = ParametricCurve> {
     prop::array::uniform4(prop::array::uniform3(-40.0..40.0_f64)).prop_map(|p| {
