@@ -1,6 +1,6 @@
 //! A parametric curve as a sequence of chords whose error is proven.
 
-use super::step::{ChordEnd, ParametricStepper};
+use super::step::{ChordEnd, ParametricStepper, precision_mm};
 use super::{Local, ParametricCurve, breaks};
 use crate::{Chord, ChordRule, CurveError, chord_mm};
 use nalgebra::Vector3;
@@ -49,11 +49,26 @@ impl ParametricChords {
     /// The next chord; `None` after the last.
     ///
     /// # Errors
-    /// The error of no chord can be bounded.
+    /// The error of no chord can be bounded, or the curve stands still all over its domain.
     pub fn next_chord(&mut self) -> Result<Option<Chord>, CurveError> {
-        let Some(&limit) = self.limits.last() else {
-            return Ok(None);
-        };
+        while let Some(&limit) = self.limits.last() {
+            let (step, wanted, error_mm) = self.look(limit)?;
+            if !step.is_end || step.chord_mm > precision_mm(&step.local.point) {
+                return Ok(Some(self.take(&step, wanted, error_mm)));
+            }
+            // What is left of the range up to a cusp or the end, or a range over which the curve
+            // moves by less than its coordinates can tell.
+            let t = self.t;
+            self.go_to(&step);
+            if self.limits.is_empty() && self.last_mm.is_infinite() {
+                return Err(CurveError::StandsStill { t });
+            }
+        }
+        Ok(None)
+    }
+
+    /// The longest chord that the rule allows: its end, the length asked for, its error, mm.
+    fn look(&self, limit: f64) -> Result<(ChordEnd, f64, f64), CurveError> {
         let stepper = ParametricStepper::resume(&self.curve, self.t, self.local);
         let curvature = self.local.curvature_k();
         let round = if curvature.is_finite() {
@@ -66,7 +81,7 @@ impl ParametricChords {
             let step = stepper.look(wanted, limit)?;
             let error_mm = self.curve.chord_error_mm(self.t, step.t);
             if let Some(error_mm) = error_mm.filter(|error| *error <= self.rule.error_mm) {
-                return Ok(Some(self.take(&step, wanted, error_mm)));
+                return Ok((step, wanted, error_mm));
             }
             wanted *= 0.7;
             if wanted < self.rule.shortest_mm() {
@@ -78,15 +93,19 @@ impl ParametricChords {
     fn take(&mut self, step: &ChordEnd, wanted: f64, error_mm: f64) -> Chord {
         // The way back from a cusp begins as slowly as the way to it ended.
         self.last_mm = wanted;
-        (self.t, self.local) = (step.t, step.local);
-        if step.is_end {
-            self.limits.pop();
-        }
+        self.go_to(step);
         Chord {
             point: step.local.point,
             chord_mm: step.chord_mm,
             error_mm,
             is_proven: true,
+        }
+    }
+
+    fn go_to(&mut self, step: &ChordEnd) {
+        (self.t, self.local) = (step.t, step.local);
+        if step.is_end {
+            self.limits.pop();
         }
     }
 }

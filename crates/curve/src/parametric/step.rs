@@ -50,7 +50,7 @@ pub struct ParametricStepper<'a> {
 }
 
 /// What is left of a chord's error, mm.
-fn precision_mm(point: &Vector3<f64>) -> f64 {
+pub(super) fn precision_mm(point: &Vector3<f64>) -> f64 {
     // Rounding of coordinates makes a few units in the last place of the distance.
     2e-12 + 8.0 * f64::EPSILON * point.amax()
 }

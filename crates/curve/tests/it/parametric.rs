@@ -203,6 +203,19 @@ fn what_cannot_be_followed_is_refused() {
 }
 
 #[test]
+fn a_curve_that_moves_less_than_its_coordinates_can_tell_stands_still() {
+    // tanh(107) is 1 in doubles, its derivatives are not 0 in them.
+    let curve = formulas(["14", "0", "tanh(107 + 24*sin(t)^4)"]);
+    let rule = ChordRule {
+        longest_mm: 0.5,
+        error_mm: 0.01,
+    };
+    let followed = ParametricChords::new(curve, (0.0, 5.0 * std::f64::consts::PI), rule)
+        .and_then(|mut chords| chords.next_chord());
+    assert!(matches!(followed, Err(CurveError::StandsStill { .. })));
+}
+
+#[test]
 fn far_out_a_chord_is_as_long_as_coordinates_can_tell() {
     // 6.4e7 mm from the origin, where neighbouring doubles are 7e-9 mm apart.
     let curve = formulas(["7", "5*sin(t)", "sqrt(400 - 225*sin(t))^6"]);
