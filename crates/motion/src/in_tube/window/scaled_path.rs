@@ -286,6 +286,13 @@ impl<const D: usize> ScaledPath<D> {
         self.center_at(i, self.share_of(i, progress))
     }
 
+    /// The point of what a piece stands for at a progress.
+    pub(crate) fn position(&self, i: usize, progress: f64) -> [f64; D] {
+        let segment = &self.segments[i];
+        let (center, along) = (self.center_beyond(i, progress), progress - segment.s);
+        core::array::from_fn(|k| center[k] + along * segment.tangent[k])
+    }
+
     /// How far along a piece a progress is, 0 to 1.
     fn share_of(&self, i: usize, progress: f64) -> f64 {
         let segment = &self.segments[i];

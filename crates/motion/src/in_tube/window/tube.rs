@@ -58,6 +58,8 @@ pub(crate) struct Style {
     pub(crate) is_damped: bool,
     /// Not as far as possible, but as much in the middle as possible.
     pub(crate) is_centred: bool,
+    /// The aim is the mean progress of the samples beyond this one.
+    pub(crate) aims_beyond: usize,
     /// The points of the last motion are one, and not only a place to start from.
     pub(crate) has_motion: bool,
 }
@@ -190,7 +192,7 @@ pub(crate) fn build<const D: usize>(
         ..
     } = layout;
     #[expect(clippy::cast_precision_loss, reason = "hundreds")]
-    let share = 1.0 / samples.count() as f64;
+    let share = 1.0 / samples.count().saturating_sub(style.aims_beyond).max(1) as f64;
     for k in 1..=samples.count() {
         let i = samples.piece[k];
         let segment = &path.segments[i];
@@ -198,7 +200,7 @@ pub(crate) fn build<const D: usize>(
         problem.add_site(first, weights);
         let span = extents.of(path, i, style);
         add_tube(problem, layout, k, span);
-        let aim = if style.is_centred {
+        let aim = if style.is_centred || k <= style.aims_beyond {
             0.0
         } else {
             share / (segment.top * style.period_t)

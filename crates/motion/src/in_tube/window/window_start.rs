@@ -31,6 +31,12 @@ impl SearchWeights {
     };
 }
 
+/// Speed falls along a cubic when a guess brakes: what its time to stop is, squared in the second,
+/// in times to reach the speed at the limits of acceleration and of jerk. Exactly 1.5 and 6; some
+/// of both is left for what else a curve needs.
+const BRAKE_A: f64 = 2.0;
+const BRAKE_J: f64 = 9.0;
+
 /// What a window starts from.
 #[derive(Debug)]
 pub(crate) struct WindowStart<'a, const D: usize> {
@@ -63,6 +69,7 @@ impl<const D: usize> WindowStart<'_, D> {
             feed_r: FEED_R,
             is_damped: false,
             is_centred: false,
+            aims_beyond: 0,
             keep_r: 0.995,
             ridge: self.weights.pull,
             jerk: self.weights.jerk,
@@ -105,6 +112,43 @@ impl<const D: usize> WindowStart<'_, D> {
             let most = progress[k - 1] + path.segments[hint].top * self.period_t;
             progress[k] = s.min(most).max(progress[k]).max(progress[k - 1]);
         }
+    }
+
+    /// Lets samples that go on come to rest at the last one, in a time in which a machine can; from
+    /// which sample on they brake.
+    pub(crate) fn brake(&self, path: &ScaledPath<D>, progress: &mut [f64]) -> usize {
+        let segment = &path.segments[self.piece];
+        let (top, limits) = (segment.top, segment.limits);
+        let brake_t = (BRAKE_A * top / limits.accel_a).max((BRAKE_J * top / limits.jerk_j).sqrt());
+        let last = progress.len() - 1;
+        let end = last.saturating_sub(self.grid.periods_in(3 + self.grid.knots));
+        let from = end.saturating_sub(self.whole_periods(brake_t) + 1);
+        let steps: Vec<f64> = progress.windows(2).map(|step| step[1] - step[0]).collect();
+        for k in from..last {
+            #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+            let x = ((k - from) as f64 / (end - from).max(1) as f64).min(1.0);
+            progress[k + 1] = progress[k] + steps[k] * (1.0 - x * x * (3.0 - 2.0 * x));
+        }
+        from
+    }
+
+    /// Control points of a motion that is exactly on the path when samples are: from the start
+    /// state on, and to a rest where the last sample is.
+    pub(crate) fn points_along(&self, path: &ScaledPath<D>, progress: &[f64]) -> Vec<[f64; D]> {
+        let count = self.tail.len();
+        let mut piece = self.piece;
+        let mut points = self.tail[..3].to_vec();
+        points.extend((3..count).map(|k| {
+            let knot = (k - 1).min(count - 4) * self.grid.periods;
+            let (sample, part) = (knot / self.grid.knots, knot % self.grid.knots);
+            let next = progress[(sample + 1).min(progress.len() - 1)];
+            #[expect(clippy::cast_precision_loss, reason = "a few")]
+            let share = part as f64 / self.grid.knots as f64;
+            let s = progress[sample] + share * (next - progress[sample]);
+            piece = piece_at(path, piece, s);
+            path.position(piece, s)
+        }));
+        points
     }
 
     /// Samples from `from` on stop at every vertex, with time to spare.
