@@ -26,7 +26,8 @@ pub struct Chord {
     /// Where it ends, mm.
     pub point: Vector3<f64>,
     /// Its length, mm; as long as wanted within the rounding of the coordinates, 2 pm and eight
-    /// units in their last place (1e-7 mm where they are 6e7 mm).
+    /// units in their last place (1e-7 mm where they are 6e7 mm), and of the formulas. One that
+    /// is longer by more than a thousandth of the longest is refused.
     pub chord_mm: f64,
     /// Bound on the distance between the chord and the curve, both ways and in order, mm.
     pub error_mm: f64,
@@ -48,6 +49,14 @@ pub enum CurveError {
     /// A value or derivative grows beyond all bounds, or jumps.
     #[error("the curve or its derivatives are not defined or have no bound near t = {t}")]
     Unbounded {
+        /// Parameter.
+        t: f64,
+    },
+    /// What a formula rounds away is more than a thousandth of the longest chord, or all of one.
+    #[error(
+        "the numbers are too coarse to follow the curve near t = {t}: they are rounded too much for a chord"
+    )]
+    TooCoarse {
         /// Parameter.
         t: f64,
     },

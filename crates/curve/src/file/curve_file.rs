@@ -95,6 +95,7 @@ impl CurveFile {
         match error {
             CurveError::Undefined { .. }
             | CurveError::Unbounded { .. }
+            | CurveError::TooCoarse { .. }
             | CurveError::StandsStill { .. }
             | CurveError::Singular { .. } => ShapeKey::Formula,
             CurveError::Lost { .. } | CurveError::Sideways => ShapeKey::Start,

@@ -5,6 +5,10 @@ use super::{Local, ParametricCurve, breaks};
 use crate::{Chord, ChordRule, CurveError, chord_mm};
 use nalgebra::Vector3;
 
+/// By how much rounding may make a chord longer than wanted, of the longest one. (Shorter ones come
+/// from cusps, where the way is flat in the parameter.)
+const MISS_R: f64 = 1e-3;
+
 /// Chords from one end of a domain to the other.
 #[derive(Debug, Clone)]
 pub struct ParametricChords {
@@ -79,6 +83,11 @@ impl ParametricChords {
         let mut wanted = self.rule.longest_mm.min(round).min(1.5 * self.last_mm);
         loop {
             let step = stepper.look(wanted, limit)?;
+            let is_missed = step.chord_mm > wanted + MISS_R * self.rule.longest_mm
+                || !step.is_end && step.chord_mm <= precision_mm(&step.local.point);
+            if is_missed {
+                return Err(CurveError::TooCoarse { t: self.t });
+            }
             let error_mm = self.curve.chord_error_mm(self.t, step.t);
             if let Some(error_mm) = error_mm.filter(|error| *error <= self.rule.error_mm) {
                 return Ok((step, wanted, error_mm));

@@ -216,6 +216,31 @@ fn a_curve_that_moves_less_than_its_coordinates_can_tell_stands_still() {
 }
 
 #[test]
+fn a_curve_that_is_rounded_by_more_than_its_chords_is_refused() {
+    let rule = ChordRule {
+        longest_mm: 0.5,
+        error_mm: 0.01,
+    };
+    let turn = (1.0, std::f64::consts::TAU);
+    // e^266 mm from the origin; steps of 1e-4 mm in a chord of 0.5; steps of 4e-3 mm.
+    for (z, is_told) in [
+        ("sinh(400 - 225*sin(t)^3)", false),
+        ("t + 1e12 - 1e12", true),
+        ("t + 3e13 - 3e13", false),
+    ] {
+        let mut chords = ParametricChords::new(formulas(["7", "5*sin(t)", z]), turn, rule).unwrap();
+        let followed = (0..10).try_for_each(|_| chords.next_chord().map(drop));
+        assert_eq!(followed.is_ok(), is_told, "{z}: {followed:?}");
+        if !is_told {
+            assert!(
+                matches!(followed, Err(CurveError::TooCoarse { .. })),
+                "{z}: {followed:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn far_out_a_chord_is_as_long_as_coordinates_can_tell() {
     // 6.4e7 mm from the origin, where neighbouring doubles are 7e-9 mm apart.
     let curve = formulas(["7", "5*sin(t)", "sqrt(400 - 225*sin(t))^6"]);
