@@ -14,7 +14,7 @@ use glidepath_kinematics::{
     JointFault, JointWatch, Kinematics as _, KinematicsError, Mechanism, Quantity,
 };
 use glidepath_planner::{FileSource, ItemSource, Refusal, Supply};
-use glidepath_program::{Frame, ItemKind};
+use glidepath_program::{Effort, Frame, ItemKind};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -139,7 +139,11 @@ impl PlanWatch {
 /// Frames between two notices of how far a plan was judged.
 const FRAMES_PER_NOTICE: u64 = 256;
 
-/// Plans a file from a position, and judges the plan. `told` hears the lines read.
+/// Plans a file from a position along its path, and judges the plan. `told` hears the lines read.
+///
+/// Where geometry is planned with the time, too, that takes a part of the time of the motion, for which
+/// nobody should have to wait before it begins. It need not be done twice: a window that joints cannot
+/// follow is not driven, and what is driven instead goes along the path.
 ///
 /// # Errors
 /// All that is wrong with the file, or what its joints cannot do.
@@ -152,6 +156,9 @@ pub(crate) fn check_plan(
     let Some(mut watch) = config.joint_watch() else {
         return Ok(());
     };
+    let mut along_path = config.clone();
+    along_path.path.effort = Effort::Fast;
+    let config = &along_path;
     let settings = config.settings();
     let source = || FileSource::open(path, config.program_options(start), &settings);
     let mut steps = PlanSteps::on_all_cores(source, config, start)?;

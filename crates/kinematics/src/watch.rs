@@ -83,6 +83,33 @@ impl JointWatch {
             velocity: zero,
             acceleration: zero,
         });
+        self.last = Some(self.follow(&last, position)?);
+        Ok(())
+    }
+
+    /// Judges the newest of four positions that follow each other by a period, the newest first;
+    /// what was taken before does not count.
+    ///
+    /// # Errors
+    /// The first thing that the mechanism cannot do.
+    pub fn judge(&self, axes: &[AxisVector; 4]) -> Result<(), JointFault> {
+        let position = self.stand(&axes[0])?;
+        let mut before = [position; 3];
+        for (joints, axes) in before.iter_mut().zip(&axes[1..]) {
+            *joints = self.mechanism.inverse(axes)?;
+        }
+        let [a, b, c] = before;
+        let (velocity, earlier) = ((a - b) / self.period_t, (b - c) / self.period_t);
+        let last = Last {
+            position: a,
+            velocity,
+            acceleration: (velocity - earlier) / self.period_t,
+        };
+        self.follow(&last, position).map(|_| ())
+    }
+
+    /// A position that follows another.
+    fn follow(&self, last: &Last, position: JointVector) -> Result<Last, JointFault> {
         let velocity = (position - last.position) / self.period_t;
         let acceleration = (velocity - last.velocity) / self.period_t;
         let jerk = (acceleration - last.acceleration) / self.period_t;
@@ -95,11 +122,10 @@ impl JointWatch {
         if let Some(violation) = broken.or_else(|| self.limits.jerk_broken_by(&jerk)) {
             return Err(JointFault::Limit(violation));
         }
-        self.last = Some(Last {
+        Ok(Last {
             position,
             velocity,
             acceleration,
-        });
-        Ok(())
+        })
     }
 }

@@ -87,6 +87,7 @@ mod grid;
 mod guard;
 mod in_tube;
 mod intake;
+mod joints;
 mod on_path;
 pub mod parts;
 mod planner;
@@ -98,4 +99,5 @@ mod stretches;
 mod wing;
 
 pub use error::PlanError;
+pub use joints::Joints;
 pub use planner::Planner;

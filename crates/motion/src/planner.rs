@@ -3,10 +3,11 @@
 use super::guard::GuardedFrames;
 use super::on_path::OnPathEngine;
 use super::stretches::StretchEngine;
-use crate::PlanError;
 use crate::wing::Wing;
+use crate::{Joints, PlanError};
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, Item, Override, Settings};
+use std::sync::Arc;
 
 /// Plans a program as it comes, in memory that does not grow with its length.
 ///
@@ -47,6 +48,18 @@ impl Planner {
             engine: Engine::new(settings, start),
             frames: GuardedFrames::new(&settings, start),
         }
+    }
+
+    /// The same planner, before its first item, for a machine whose joints are not its axes.
+    ///
+    /// They count where corners are rounded with [`glidepath_program::Effort::Optimal`]. Along the
+    /// items they have to be able to follow at the rates given.
+    #[must_use]
+    pub fn with_joints(mut self, joints: Arc<dyn Joints>) -> Self {
+        if let Engine::Stretches(engine) = &mut self.engine {
+            engine.set_joints(joints);
+        }
+        self
     }
 
     /// Takes the next item.

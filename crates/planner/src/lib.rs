@@ -78,6 +78,7 @@ mod fingerprint;
 mod history;
 mod inputs;
 mod jobs;
+mod joint_bounds;
 mod joint_speed;
 mod listen;
 mod machine;

@@ -21,6 +21,7 @@ use glidepath_program::{Frame, Item, ItemKind, Override, Settings};
 
 use crate::blocks::Blocks;
 use crate::history::History;
+use crate::joint_bounds::JointBounds;
 use crate::joint_speed::JointSpeed;
 use crate::planning::{Planning, Stage};
 use crate::{ItemSource, Refusal, Remainder, Supply};
@@ -141,6 +142,7 @@ impl<S: ItemSource> Pipeline<S> {
     pub fn with_joints(self, caps: Option<PathCaps>) -> Self {
         Self {
             joints: caps.map(|caps| JointSpeed::new(caps, self.settings)),
+            planning: self.planning.with_joints(caps.map(JointBounds::shared)),
             ..self
         }
     }

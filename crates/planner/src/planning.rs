@@ -1,8 +1,9 @@
 //! Where planning is: all that the frames to come depend on, beside the items to come.
 
 use glidepath_geometry::AxisVector;
-use glidepath_motion::{PlanError, Planner};
+use glidepath_motion::{Joints, PlanError, Planner};
 use glidepath_program::{Frame, Item, Override, Settings};
+use std::sync::Arc;
 
 use crate::blocks::Blocks;
 
@@ -22,6 +23,7 @@ pub(crate) enum Stage {
 #[derive(Debug, Clone)]
 pub(crate) struct Planning {
     planner: Planner,
+    joints: Option<Arc<dyn Joints>>,
     blocks: Blocks,
     stage: Stage,
     wanted: Override,
@@ -38,6 +40,7 @@ impl Planning {
     pub(crate) fn new(settings: Settings, start: AxisVector, blocks: Blocks, start_s: f64) -> Self {
         Self {
             planner: Planner::new(settings, start),
+            joints: None,
             blocks,
             stage: Stage::Open,
             wanted: Override::NONE,
@@ -48,9 +51,22 @@ impl Planning {
         }
     }
 
+    /// The same, before its first item, for a machine whose joints are not its axes.
+    pub(crate) fn with_joints(self, joints: Option<Arc<dyn Joints>>) -> Self {
+        let planner = match &joints {
+            Some(joints) => self.planner.with_joints(Arc::clone(joints)),
+            None => self.planner,
+        };
+        Self {
+            planner,
+            joints,
+            ..self
+        }
+    }
+
     /// The same program behind what was planned of it, from a machine at rest elsewhere.
     pub(crate) fn behind(&self, settings: Settings, start: AxisVector, start_s: f64) -> Self {
-        Self::new(settings, start, self.blocks.clone(), start_s)
+        Self::new(settings, start, self.blocks.clone(), start_s).with_joints(self.joints.clone())
     }
 
     /// Makes the next frame, if the motion is settled that far.

@@ -252,6 +252,41 @@ fn the_first_joint_limit_that_breaks_is_named() {
 }
 
 #[test]
+fn four_positions_are_judged_as_they_are_in_a_motion() {
+    let mechanism = Mechanism::Hexapod(Hexapod::paired(400.0, 150.0, 15.0));
+    let mut limits = JointLimits::NONE;
+    for joint in &mut limits.0 {
+        (joint.velocity, joint.acceleration, joint.jerk) = (20.0, 35.0, 90.0);
+    }
+    let period_t = 0.004;
+    let place = |tick: u32| {
+        let t = period_t * f64::from(tick);
+        let [x, y] = [(1.3 * t).sin(), (1.7 * t).cos()].map(|part| 12.0 * part);
+        axes(&[x, y, 500.0, 0.5 * x])
+    };
+    let (mut kept, mut broken) = (0, 0);
+    for first in 0..2000 {
+        let four = [3, 2, 1, 0].map(|k| place(first + k));
+        let judged = JointWatch::new(mechanism, limits, period_t).judge(&four);
+        let [q, q1, q2, q3] = four.map(|place| mechanism.inverse(&place).unwrap());
+        let differences = [q - q1, q - q1 * 2.0 + q2, q - q1 * 3.0 + q2 * 3.0 - q3];
+        let limits = [20.0, 35.0, 90.0];
+        let used = (1..).zip(differences.iter().zip(limits));
+        let is_kept = used.map(|(order, (difference, limit))| {
+            difference.amax() <= limit * period_t.powi(order) * (1.0 + 1e-6)
+        });
+        let is_kept = is_kept.fold(true, |all, one| all && one);
+        assert_eq!(judged.is_ok(), is_kept, "{first}");
+        *if judged.is_ok() {
+            &mut kept
+        } else {
+            &mut broken
+        } += 1;
+    }
+    assert!(kept > 100 && broken > 100, "{kept} {broken}");
+}
+
+#[test]
 fn a_watch_finds_what_the_differences_show() {
     let mechanism = Mechanism::Translational(translational());
     let period_t = 0.004;

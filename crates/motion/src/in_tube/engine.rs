@@ -9,6 +9,7 @@ use super::window::SearchWeights;
 use super::works::Works;
 use crate::PlanError;
 use crate::grid::{FrameGrid, Moving};
+use crate::joints::SharedJoints;
 use crate::on_path::OnPathEngine;
 use crate::rest::Rest;
 use glidepath_geometry::AxisVector;
@@ -18,6 +19,7 @@ use glidepath_program::{Frame, FrameFlags, Item, Override, Settings};
 #[derive(Debug, Clone)]
 pub(crate) struct InTubeEngine {
     settings: Settings,
+    joints: SharedJoints,
     wanted: Override,
     weights: SearchWeights,
     works: Works,
@@ -71,6 +73,7 @@ impl InTubeEngine {
     ) -> Self {
         Self {
             settings,
+            joints: None,
             wanted,
             weights,
             works: Works::new(settings, start),
@@ -80,6 +83,11 @@ impl InTubeEngine {
             position: start,
             path_s: 0.0,
         }
+    }
+
+    /// The same engine, before its first item, for joints that are not the axes.
+    pub(crate) fn with_joints(self, joints: SharedJoints) -> Self {
+        Self { joints, ..self }
     }
 
     /// Takes the next item of the stretch: a move, or an event that does not stop the motion.
@@ -176,7 +184,8 @@ impl InTubeEngine {
                 limits, period_t, ..
             } = &self.settings;
             self.drive = Drive::Window(Stretch {
-                planner: TubePlanner::new(limits, *period_t, self.position, self.weights),
+                planner: TubePlanner::new(limits, *period_t, self.position, self.weights)
+                    .with_joints(self.joints.clone()),
                 ledger: Ledger::new(self.wanted),
                 length_s: 0.0,
                 end: self.position,

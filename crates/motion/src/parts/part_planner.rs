@@ -1,12 +1,13 @@
 //! Plans one part.
 
 use super::part_step::{PartStep, StepKind};
-use crate::PlanError;
 use crate::on_path::OnPathEngine;
 use crate::stretches::StretchEngine;
 use crate::wing::Wing;
+use crate::{Joints, PlanError};
 use glidepath_geometry::AxisVector;
 use glidepath_program::{FrameFlags, Item, Override, Settings};
+use std::sync::Arc;
 
 /// Plans a part of a program from where it begins.
 #[derive(Debug)]
@@ -51,6 +52,15 @@ impl PartPlanner {
             origin_s: None,
             failure: Failure::None,
         }
+    }
+
+    /// As [`crate::Planner::with_joints`].
+    #[must_use]
+    pub fn with_joints(mut self, joints: Arc<dyn Joints>) -> Self {
+        if let PartEngine::Stretches(engine) = &mut self.engine {
+            engine.set_joints(joints);
+        }
+        self
     }
 
     /// Takes the next item of the part, which a [`crate::parts::Cutter`] has accepted. Before it,

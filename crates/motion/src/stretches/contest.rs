@@ -9,11 +9,11 @@
 //! With that no such stretch takes longer than with effort "fast", which in turn knows the way with
 //! a stop at every block.
 
-use super::way::{Manner, Way};
+use super::way::{Manner, Outset, Way};
 use crate::PlanError;
 use crate::in_tube::SearchWeights;
-use glidepath_geometry::{AxisVector, Segment};
-use glidepath_program::{Frame, Item, ItemKind, Override, PathMode, Settings};
+use glidepath_geometry::Segment;
+use glidepath_program::{Frame, Item, ItemKind, PathMode};
 use std::sync::Arc;
 
 /// The longest motion that is kept, s. Many short moves may take far longer than at their rates, and
@@ -23,9 +23,7 @@ const MOST_T: f64 = 5.0;
 /// What a stretch is planned with, from its first item on.
 #[derive(Debug, Clone)]
 pub(crate) struct Entry {
-    pub(crate) settings: Settings,
-    pub(crate) start: AxisVector,
-    pub(crate) wanted: Override,
+    pub(crate) outset: Outset,
     pub(crate) items: Arc<[Item]>,
 }
 
@@ -70,7 +68,7 @@ impl Planned {
         let mut frames = Vec::new();
         let mut time_t = 0.0;
         while let Some(frame) = way.pop_frame()? {
-            time_t += entry.settings.period_t;
+            time_t += entry.outset.settings.period_t;
             if time_t > MOST_T {
                 return Ok(None);
             }
@@ -111,7 +109,7 @@ impl Planned {
 impl Entry {
     /// The whole stretch, to be driven in some manner.
     pub(crate) fn way(&self, manner: Manner) -> Result<Way, PlanError> {
-        let mut way = Way::new(manner, self.settings, self.start, self.wanted);
+        let mut way = Way::new(manner, self.outset.clone());
         for item in &*self.items {
             way.push(item)?;
         }

@@ -2,12 +2,14 @@
 
 use super::contest::{Entry, Planned};
 use super::gathering::{Gathering, Task};
-use super::way::{Manner, Way};
-use crate::PlanError;
+use super::way::{Manner, Outset, Way};
 use crate::grid::FrameGrid;
 use crate::in_tube::SearchWeights;
+use crate::joints::SharedJoints;
+use crate::{Joints, PlanError};
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, Item, Override, Settings};
+use std::sync::Arc;
 
 /// How a stretch is driven that is planned as it comes.
 const ALONE: Manner = Manner::InTube(SearchWeights::USUAL);
@@ -16,6 +18,7 @@ const ALONE: Manner = Manner::InTube(SearchWeights::USUAL);
 #[derive(Debug, Clone)]
 pub(crate) struct StretchEngine {
     settings: Settings,
+    joints: SharedJoints,
     wanted: Override,
     gathering: Gathering,
     grid: FrameGrid,
@@ -43,6 +46,7 @@ impl StretchEngine {
     pub(crate) fn new(settings: Settings, start: AxisVector) -> Self {
         Self {
             settings,
+            joints: None,
             wanted: Override::NONE,
             gathering: Gathering::new(settings, start),
             grid: FrameGrid::new(settings.period_t, start),
@@ -51,6 +55,11 @@ impl StretchEngine {
             end: start,
             path_s: 0.0,
         }
+    }
+
+    /// See [`crate::Planner::with_joints`].
+    pub(crate) fn set_joints(&mut self, joints: Arc<dyn Joints>) {
+        self.joints = Some(joints);
     }
 
     /// Takes the next item; see [`crate::Planner::push`].
@@ -101,6 +110,16 @@ impl StretchEngine {
         }
     }
 
+    /// What the next stretch begins with.
+    fn outset(&self) -> Outset {
+        Outset {
+            settings: self.settings,
+            joints: self.joints.clone(),
+            start: self.position,
+            wanted: self.wanted,
+        }
+    }
+
     fn arrive(&mut self, length_s: f64) {
         self.position = self.end;
         self.path_s += length_s;
@@ -117,9 +136,7 @@ impl StretchEngine {
             Task::Whole { items, end } => {
                 self.end = end;
                 let entry = Entry {
-                    settings: self.settings,
-                    start: self.position,
-                    wanted: self.wanted,
+                    outset: self.outset(),
                     items: items.into(),
                 };
                 self.drive = match Planned::new(entry.clone())? {
@@ -129,7 +146,7 @@ impl StretchEngine {
             }
             Task::Part(item) => {
                 if matches!(self.drive, Drive::None) {
-                    let way = Way::new(ALONE, self.settings, self.position, self.wanted);
+                    let way = Way::new(ALONE, self.outset());
                     self.drive = Drive::Live(way);
                 }
                 if let Drive::Live(way) = &mut self.drive {

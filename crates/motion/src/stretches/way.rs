@@ -2,6 +2,7 @@
 
 use crate::PlanError;
 use crate::in_tube::{InTubeEngine, SearchWeights};
+use crate::joints::SharedJoints;
 use crate::on_path::OnPathEngine;
 use glidepath_geometry::AxisVector;
 use glidepath_program::{Frame, FrameFlags, Item, Override, Settings};
@@ -13,6 +14,15 @@ pub(crate) struct Way {
     is_finished: bool,
     /// How long it is, mm, once its last frame is taken.
     length_s: Option<f64>,
+}
+
+/// What a way begins with: at rest at `start`, under an override.
+#[derive(Debug, Clone)]
+pub(crate) struct Outset {
+    pub(crate) settings: Settings,
+    pub(crate) joints: SharedJoints,
+    pub(crate) start: AxisVector,
+    pub(crate) wanted: Override,
 }
 
 /// How a stretch is driven.
@@ -29,18 +39,19 @@ enum Engine {
 }
 
 impl Way {
-    /// A way for a machine at rest at `start`.
-    pub(crate) fn new(
-        manner: Manner,
-        settings: Settings,
-        start: AxisVector,
-        wanted: Override,
-    ) -> Self {
+    /// A way on which nothing is known yet.
+    pub(crate) fn new(manner: Manner, outset: Outset) -> Self {
+        let Outset {
+            settings,
+            joints,
+            start,
+            wanted,
+        } = outset;
         let engine = match manner {
             Manner::OnPath => Engine::OnPath(Box::new(OnPathEngine::new(settings, start, wanted))),
             Manner::InTube(weights) => {
                 let engine = InTubeEngine::new(settings, start, wanted, weights);
-                Engine::InTube(Box::new(engine))
+                Engine::InTube(Box::new(engine.with_joints(joints)))
             }
         };
         Self {

@@ -6,6 +6,7 @@ mod dense;
 mod diagnosis;
 mod helices;
 mod interleaving;
+mod joints;
 mod limits;
 mod overrides;
 mod plan;

@@ -14,7 +14,6 @@ use super::allowance::Allowance;
 use super::message::{PlanStep, Planned};
 use super::threads::Threads;
 use crate::blocks::Blocks;
-use crate::joint_speed::JointSpeed;
 use crate::{ItemSource, Refusal, Statistics, Step};
 
 /// As a [`crate::Pipeline`] of a whole program, planned by several threads: the same items and
@@ -54,7 +53,6 @@ impl ParallelPipeline {
         workers: NonZeroUsize,
     ) -> io::Result<Self> {
         let allowance = Arc::new(Allowance::new());
-        let joints = joints.map(|caps| JointSpeed::new(caps, settings));
         let (threads, parts) =
             Threads::start(source, (settings, start), joints, workers, &allowance)?;
         Ok(Self {

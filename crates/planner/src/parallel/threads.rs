@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::{Builder, JoinHandle};
 
 use glidepath_geometry::AxisVector;
+use glidepath_kinematics::PathCaps;
 use glidepath_program::Settings;
 
 use super::allowance::Allowance;
@@ -34,7 +35,7 @@ impl Threads {
     pub(super) fn start<S: ItemSource + Send + 'static>(
         source: S,
         (settings, start): (Settings, AxisVector),
-        joints: Option<JointSpeed>,
+        joints: Option<PathCaps>,
         workers: NonZeroUsize,
         allowance: &Arc<Allowance>,
     ) -> io::Result<(Self, Receiver<Receiver<Planned>>)> {
@@ -48,13 +49,14 @@ impl Threads {
         for _ in 0..workers.get() {
             let (waiting, allowance) = (Arc::clone(&waiting), Arc::clone(allowance));
             let worker = Builder::new().name("planning".to_owned());
-            let worker = worker.spawn(move || work(&waiting, settings, &allowance))?;
+            let worker = worker.spawn(move || work(&waiting, (settings, joints), &allowance))?;
             threads.workers.push(worker);
         }
         let outlets = Outlets {
             workers: parts,
             plans,
         };
+        let joints = joints.map(|caps| JointSpeed::new(caps, settings));
         let reader = Builder::new().name("reading".to_owned());
         let reader = reader.spawn(move || read(source, &settings, start, joints, outlets))?;
         threads.reader = Some(reader);

@@ -3,21 +3,26 @@
 use std::sync::mpsc::{Receiver, Sender};
 use std::sync::{Mutex, PoisonError};
 
+use glidepath_kinematics::PathCaps;
 use glidepath_motion::parts::PartPlanner;
 use glidepath_program::Settings;
 
 use super::allowance::Allowance;
 use super::message::{Batch, Gone, Part, PlanStep, Planned};
+use crate::joint_bounds::JointBounds;
+
+/// What parts are planned for: settings, and joints that are not the axes.
+type Machine = (Settings, Option<PathCaps>);
 
 /// Frames, or what weighs as much, that are handed over together.
 const CHUNK: usize = 256;
 
 /// Plans parts as they come, until there are no more or nobody wants them.
-pub(super) fn work(parts: &Mutex<Receiver<Part>>, settings: Settings, allowance: &Allowance) {
+pub(super) fn work(parts: &Mutex<Receiver<Part>>, machine: Machine, allowance: &Allowance) {
     loop {
         let part = parts.lock().unwrap_or_else(PoisonError::into_inner).recv();
         let Ok(part) = part else { return };
-        if plan(part, settings, allowance).is_err() {
+        if plan(part, machine, allowance).is_err() {
             return;
         }
     }
@@ -68,8 +73,11 @@ impl Outlet<'_> {
     }
 }
 
-fn plan(part: Part, settings: Settings, allowance: &Allowance) -> Result<(), Gone> {
+fn plan(part: Part, (settings, joints): Machine, allowance: &Allowance) -> Result<(), Gone> {
     let mut planner = PartPlanner::new(settings, part.start, part.number == 0);
+    if let Some(caps) = joints {
+        planner = planner.with_joints(JointBounds::shared(caps));
+    }
     let mut outlet = Outlet {
         part: part.number,
         plan: part.plan,

@@ -200,6 +200,7 @@ impl PlannerState {
         let setting = WindowContext {
             limits: &self.limits,
             period_t: self.period_t,
+            joints: &self.joints,
             grid,
             reference_path: &self.reference_path,
             history: &self.history,

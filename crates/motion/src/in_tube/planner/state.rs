@@ -4,6 +4,7 @@ use crate::in_tube::fallback::{Baseline, StopLeg};
 use crate::in_tube::path::ReferencePath;
 use crate::in_tube::verify::{Follower, History, Reachable};
 use crate::in_tube::window::{Grid, Optimisers, SearchWeights};
+use crate::joints::SharedJoints;
 use glidepath_geometry::AxisVector;
 use glidepath_program::Limits;
 
@@ -37,6 +38,7 @@ pub(crate) enum ActiveMotion {
 pub(crate) struct PlannerState {
     pub(crate) limits: Limits,
     pub(crate) period_t: f64,
+    pub(crate) joints: SharedJoints,
     pub(crate) reference_path: ReferencePath,
     /// Positions handed out last, and where on the path the last one is.
     pub(crate) history: History,
@@ -66,6 +68,7 @@ impl PlannerState {
         Self {
             limits: *limits,
             period_t,
+            joints: None,
             reference_path: ReferencePath::new(start),
             history: History::new(start),
             follower: Follower::new(Reachable::start_of(0), 0),

@@ -5,6 +5,7 @@ use crate::in_tube::path::Reference;
 use crate::in_tube::period::Period;
 use crate::in_tube::verify::FEED_SLACK;
 use crate::in_tube::window::SearchWeights;
+use crate::joints::SharedJoints;
 use glidepath_geometry::AxisVector;
 use glidepath_program::Limits;
 
@@ -25,6 +26,12 @@ impl TubePlanner {
         Self {
             state: PlannerState::new(limits, period_t, start, weights),
         }
+    }
+
+    /// The same planner, before its first piece, for joints that are not the axes.
+    pub(crate) fn with_joints(mut self, joints: SharedJoints) -> Self {
+        self.state.joints = joints;
+        self
     }
 
     /// The path goes on. A piece of length zero counts for nothing.

@@ -40,6 +40,11 @@ impl History {
         self.recent[0]
     }
 
+    /// The last positions handed out, newest first.
+    pub(crate) const fn recent(&self) -> &[AxisVector; 3] {
+        &self.recent
+    }
+
     pub(crate) const fn velocity(&self) -> &AxisVector {
         &self.state.velocity
     }

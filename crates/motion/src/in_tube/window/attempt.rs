@@ -6,6 +6,7 @@ use super::spline::Grid;
 use super::window_start::{SearchWeights, WindowStart};
 use crate::in_tube::path::{ReferencePath, directional};
 use crate::in_tube::verify::{Follower, History};
+use crate::joints::SharedJoints;
 use glidepath_geometry::{AXES, AxisVector};
 use glidepath_program::Limits;
 
@@ -88,6 +89,7 @@ pub(crate) struct WindowMotion {
 pub(crate) struct WindowContext<'a> {
     pub(crate) limits: &'a Limits,
     pub(crate) period_t: f64,
+    pub(crate) joints: &'a SharedJoints,
     pub(crate) grid: &'a Grid,
     pub(crate) reference_path: &'a ReferencePath,
     pub(crate) history: &'a History,
@@ -184,7 +186,8 @@ fn attempt<const D: usize>(
         view.pieces.clone(),
         origin,
         moves,
-    );
+    )
+    .with_joints(context.joints);
     path.is_final |= view.is_halt;
     let tail: Vec<_> = (0..view.intervals.max(tail.len() - 3) + 3)
         .filter_map(|k| tail.get(k).or(tail.last()))
@@ -248,6 +251,12 @@ fn passes(context: &WindowContext<'_>, points: &[AxisVector], question: Question
     for period in 1..=periods + 3 {
         let next = context.grid.state(&points, period);
         let way = (context.reference_path, &mut follower);
+        if let Some(joints) = context.joints {
+            let [last, before, first] = *history.recent();
+            if !joints.allow(&[next.position, last, before, first], context.period_t) {
+                return false;
+            }
+        }
         if !history.follow(context.limits, context.period_t, way, &next) {
             return false;
         }

@@ -24,6 +24,7 @@ mod cuts;
 mod damping;
 mod finishing;
 mod guess;
+mod joint_rows;
 mod optimiser;
 mod pins;
 mod rounds;

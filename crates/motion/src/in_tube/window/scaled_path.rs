@@ -8,6 +8,7 @@
 use super::solver::dot;
 use crate::feed_axes::counted_axes;
 use crate::in_tube::path::{ReferencePath, TubePiece, directional};
+use crate::joints::SharedJoints;
 use crate::scurve::PathLimits;
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_program::Limits;
@@ -68,6 +69,7 @@ pub(crate) struct ScaledPath<const D: usize> {
     pub(crate) velocity: [f64; D],
     pub(crate) acceleration: [f64; D],
     pub(crate) jerk: [f64; D],
+    joints: SharedJoints,
 }
 
 /// Axes on which something differs from `from`.
@@ -108,6 +110,7 @@ impl<const D: usize> ScaledPath<D> {
             velocity: [1.0; D],
             acceleration: [1.0; D],
             jerk: [1.0; D],
+            joints: None,
         };
         for axis in Axis::ALL
             .into_iter()
@@ -132,6 +135,33 @@ impl<const D: usize> ScaledPath<D> {
             levels.dedup_by(|a, b| a.0.total_cmp(&b.0).is_eq());
         }
         path
+    }
+
+    /// The same path for joints that are not the axes.
+    pub(crate) fn with_joints(self, joints: &SharedJoints) -> Self {
+        let joints = joints.clone();
+        Self { joints, ..self }
+    }
+
+    /// True if joints limit the speed beside the axes.
+    pub(crate) const fn has_joints(&self) -> bool {
+        self.joints.is_some()
+    }
+
+    /// The rows of the joints at a point: each can have a velocity v if |row · v| ≤ 1.
+    pub(crate) fn joint_rows(&self, point: &[f64; D]) -> Vec<[f64; D]> {
+        let Some(joints) = &self.joints else {
+            return Vec::new();
+        };
+        let rows = joints.velocity_rows(&self.outside(point));
+        let inside = |row: AxisVector| {
+            let mut part = [0.0; D];
+            for k in 0..self.moving {
+                part[k] = row[self.axes[k]] * self.unit[k];
+            }
+            part
+        };
+        rows.into_iter().map(inside).collect()
     }
 
     fn add(&mut self, limits: &Limits, piece: &TubePiece, [unit_mm, unit_deg]: [f64; 2]) {
