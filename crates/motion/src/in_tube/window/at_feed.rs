@@ -23,7 +23,7 @@ pub(crate) const AT_FEED_R: f64 = 0.999;
 
 /// Weights of offset and jerk, relative to the usual ones: progress at the end has as much weight as
 /// the mean progress of the window has elsewhere, which gains half as much from a way that is shorter.
-const WEIGHT: f64 = 2.0;
+pub(super) const WEIGHT: f64 = 2.0;
 
 impl<const D: usize> Optimiser<D> {
     /// The motion that goes on at the feed, if that is all there is to do.
@@ -72,7 +72,7 @@ impl<const D: usize> Optimiser<D> {
 }
 
 /// Until which sample the motion is at the feed without a break.
-fn at_feed_until<const D: usize>(
+pub(super) fn at_feed_until<const D: usize>(
     path: &ScaledPath<D>,
     first: usize,
     samples: &Samples,

@@ -12,10 +12,15 @@
 //! because the inner one is shorter. What is accepted has passed the judge and has lost hardly any
 //! progress; else the weights are made smaller, and in the end the motion of the search stays.
 //!
+//! Where a window begins at the feed, progress counts from where it slows down on, as it does in windows
+//! that go on at the feed ([`super::at_feed`]): what one of them cuts a curve by does not depend on how
+//! long it is, so that the next one has nothing to jump to.
+//!
 //! Samples stay with the pieces that the search gave them to. But a motion may have been found in a
 //! round in which it had no need to reach those; then they are given to the pieces that it is on,
 //! and whatever rows it stands out of there, what comes out is the judge's to refuse.
 
+use super::at_feed::{WEIGHT, at_feed_until};
 use super::optimiser::{Optimiser, Question};
 use super::rounds::RoundState;
 use super::samples::Samples;
@@ -64,11 +69,15 @@ impl<const D: usize> Optimiser<D> {
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
     ) -> Vec<[f64; D]> {
         let least = mean - MOST_LOSS * mean;
+        let (aims_beyond, scale) = aim(path, window_start, &samples);
         let (mut samples, mut is_given_out) = (samples, false);
         let mut weights = WEIGHTS.into_iter().peekable();
         while let Some(weight) = weights.peek() {
             self.samples.clone_from(&samples);
-            let style = window_start.smooth_style(*weight);
+            let style = Style {
+                aims_beyond,
+                ..window_start.smooth_style(scale * *weight)
+            };
             let mut round_state = RoundState::polishing(&points);
             if is_given_out {
                 round_state.most_violation = f64::INFINITY;
@@ -125,5 +134,19 @@ impl<const D: usize> Optimiser<D> {
             }
         }
         passed
+    }
+}
+
+/// From which sample on progress counts, and how much stronger the weights are for that.
+fn aim<const D: usize>(
+    path: &ScaledPath<D>,
+    window_start: &WindowStart<'_, D>,
+    samples: &Samples,
+) -> (usize, f64) {
+    let slowing_at = at_feed_until(path, window_start.piece, samples, window_start.period_t);
+    if slowing_at >= window_start.commit {
+        (slowing_at, WEIGHT)
+    } else {
+        (0, 1.0)
     }
 }
