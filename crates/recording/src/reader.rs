@@ -13,6 +13,10 @@ use std::io::{self, Read};
 /// Longest part of a file that is believed: a program of some ten million lines.
 const MOST_BYTES: usize = 1 << 30;
 
+/// Longest program that a recording may have, so that it can be read again: the part of the file that
+/// it is has a name and a time, too.
+pub const MOST_PROGRAM_BYTES: u64 = MOST_BYTES as u64 - 4096;
+
 /// Why a recording cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
