@@ -56,6 +56,7 @@ pub mod published;
 mod range;
 mod rule;
 mod sagitta;
+mod serde_words;
 
 pub use expression::{Expression, ExpressionError};
 pub use file::{CurveFile, FileDiagnostic, Shape, ShapeKey};

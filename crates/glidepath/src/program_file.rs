@@ -1,10 +1,11 @@
-//! A program on the command line: its name, and where it can be read as often as needed.
+//! A program on the command line, or another file that is read: its name, and where it can be read
+//! as often as needed.
 //!
 //! A program is read more than once: its beginning tells its dialect, then it is checked as a
-//! whole, then it is planned, by `run` in another process. A pipe can be read once. What comes
-//! through one is therefore kept in a file without a name, which is gone with this process, and
-//! read from there: `-`, `/dev/stdin`, a FIFO and `<(…)` are the same program as a file with their
-//! text.
+//! whole, then it is planned, by `run` in another process. So are configurations, tool tables and
+//! recordings. A pipe can be read once. What comes through one is therefore kept in a file without
+//! a name, which is gone with this process, and read from there: `-`, `/dev/stdin`, a FIFO and
+//! `<(…)` are the same program as a file with their text.
 
 use crate::file_error::FileError;
 use std::fs::File;
@@ -21,8 +22,8 @@ const MOST_BYTES: u64 = 4 << 30;
 /// The number of /dev/null, which is a program without blocks.
 const NOTHING: u64 = (1 << 8) | 3;
 
-/// A program as it is named on the command line; [`ProgramFile::open`] comes before
-/// [`ProgramFile::path`].
+/// A file as it is named on the command line; [`ProgramFile::open`] or [`ProgramFile::keep`] comes
+/// before [`ProgramFile::path`].
 #[derive(Debug, Clone)]
 pub struct ProgramFile {
     name: PathBuf,
@@ -88,39 +89,64 @@ impl ProgramFile {
             let error = io::Error::new(io::ErrorKind::InvalidInput, "it is a device, no program");
             return Err(FileError::open(&self.name)(error));
         }
-        let is_pipe = || {
-            let kind = there.map(|there| there.file_type());
-            is_terminal || kind.is_some_and(|kind| kind.is_fifo() || kind.is_socket())
-        };
-        if self.kept.get().is_some() || !(self.is_standard_input() || is_pipe()) {
-            return Ok(());
+        if is_terminal {
+            return self.keep_text(MOST_BYTES).map(drop);
         }
-        let kept = self.keep().map_err(FileError::file("read", &self.name))?;
-        // Nobody else opens it meanwhile: commands open programs before anything else.
-        self.kept.set(Arc::new(kept)).ok();
+        self.keep_whole()
+    }
+
+    /// Keeps all that comes through a pipe. Of files nothing is read.
+    ///
+    /// # Errors
+    /// As [`ProgramFile::open`].
+    pub fn keep_whole(&self) -> Result<(), FileError> {
+        if self.keep(MOST_BYTES)? > MOST_BYTES {
+            let message = "what comes from a pipe has at most 4 GiB; put more into a file";
+            let error = io::Error::new(io::ErrorKind::InvalidData, message);
+            return Err(FileError::file("read", &self.name)(error));
+        }
         Ok(())
     }
 
-    fn keep(&self) -> io::Result<Kept> {
-        let mut file = tempfile::tempfile()?;
-        if self.is_standard_input() {
-            copy(io::stdin().lock(), &mut file)?;
-        } else {
-            copy(File::open(&self.name)?, &mut file)?;
+    /// Keeps what comes through a pipe, whatever it is, but hardly more than so many bytes: whoever
+    /// reads the file refuses one that is longer. How many were kept; of files nothing is read.
+    ///
+    /// # Errors
+    /// As [`ProgramFile::open`].
+    pub fn keep(&self, most_bytes: u64) -> Result<u64, FileError> {
+        let is_pipe = || {
+            let kind = self.name.metadata().map(|there| there.file_type());
+            kind.is_ok_and(|kind| kind.is_fifo() || kind.is_socket())
+        };
+        if self.kept.get().is_some() || !(self.is_standard_input() || is_pipe()) {
+            return Ok(0);
         }
+        self.keep_text(most_bytes)
+    }
+
+    fn keep_text(&self, most_bytes: u64) -> Result<u64, FileError> {
+        if self.kept.get().is_some() {
+            return Ok(0);
+        }
+        let kept = self.copied(most_bytes);
+        let (kept, length) = kept.map_err(FileError::file("read", &self.name))?;
+        // Nobody else opens it meanwhile: commands open programs before anything else.
+        self.kept.set(Arc::new(kept)).ok();
+        Ok(length)
+    }
+
+    fn copied(&self, most_bytes: u64) -> io::Result<(Kept, u64)> {
+        let mut file = tempfile::tempfile()?;
+        let length = if self.is_standard_input() {
+            io::copy(&mut io::stdin().lock().take(most_bytes + 1), &mut file)?
+        } else {
+            io::copy(&mut File::open(&self.name)?.take(most_bytes + 1), &mut file)?
+        };
         let path = format!("/proc/{}/fd/{}", std::process::id(), file.as_raw_fd());
-        Ok(Kept {
+        let kept = Kept {
             _file: file,
             path: path.into(),
-        })
+        };
+        Ok((kept, length))
     }
-}
-
-/// Copies all of a pipe.
-fn copy(pipe: impl Read, file: &mut File) -> io::Result<()> {
-    if io::copy(&mut pipe.take(MOST_BYTES + 1), file)? > MOST_BYTES {
-        let message = "a program from a pipe has at most 4 GiB; put a longer one into a file";
-        return Err(io::Error::new(io::ErrorKind::InvalidData, message));
-    }
-    Ok(())
 }

@@ -1,9 +1,10 @@
 //! Programs in files, of whatever kind.
 
+use std::fs::File;
 use std::io::{self, BufReader, Read as _};
 use std::path::Path;
 
-use glidepath_curve::NurbsFile;
+use glidepath_curve::{CurveFile, NurbsFile};
 use glidepath_gcode::{Diagnostics, InForce, Options, Report, check, diagnostics};
 use glidepath_program::Settings;
 
@@ -19,7 +20,11 @@ const BUFFER: usize = 64 * 1024;
 /// Largest curve file, bytes: a hundred thousand control points.
 const MOST_BYTES: u64 = 4 << 20;
 
-/// Items of a file: G-code, or a curve if the name ends in `.toml` or `.json`.
+/// How much of a file tells what it is, bytes.
+const BEGINNING: u64 = 4096;
+
+/// Items of a file: G-code, or a curve if the name ends in `.toml` or `.json`, or has no ending and
+/// the text begins as that of a curve file.
 #[derive(Debug)]
 pub enum FileSource {
     /// G-code.
@@ -106,10 +111,17 @@ impl FileSource {
     }
 }
 
-/// Whether a file is a curve file, by its name.
+/// Whether a file is a curve file, by its name; where that has no ending, as that of a pipe has none,
+/// by its beginning.
 fn is_curve(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|extension| extension == "toml" || extension == "json")
+    let Some(extension) = path.extension() else {
+        let mut beginning = Vec::new();
+        // A file that cannot be read is told of where it is read as a program.
+        let read =
+            File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut beginning));
+        return read.is_ok() && CurveFile::begins(&String::from_utf8_lossy(&beginning));
+    };
+    extension == "toml" || extension == "json"
 }
 
 /// Reads a file, and tells how far it has come.

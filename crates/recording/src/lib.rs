@@ -28,7 +28,7 @@ mod table;
 pub use origin::Origin;
 pub use proto::proto;
 pub use protobuf::Malformed;
-pub use reader::{Entry, ReadError, Reader};
+pub use reader::{Entry, MOST_PROGRAM_BYTES, ReadError, Reader};
 pub use recorder::Recorder;
 
 /// What a file begins with.

@@ -13,6 +13,13 @@ use std::io::{self, Read};
 /// Longest part of a file that is believed: a program of some ten million lines.
 const MOST_BYTES: usize = 1 << 30;
 
+/// Bytes that room is made for before they are there.
+const MOST_AT_ONCE: usize = 1 << 20;
+
+/// Longest program that a recording may have, so that it can be read again: the part of the file that
+/// it is has a name and a time, too.
+pub const MOST_PROGRAM_BYTES: u64 = MOST_BYTES as u64 - 4096;
+
 /// Why a recording cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
@@ -134,7 +141,10 @@ impl<R: Read> Reader<R> {
             };
             match event {
                 Ok(LinearReadEvent::ReadRequest(count)) => {
-                    let got = self.from.read(self.reader.insert(count))?;
+                    // A length is believed as far as there are bytes: else a file of no length at
+                    // all would take all of the memory.
+                    let place = self.reader.insert(count.min(MOST_AT_ONCE));
+                    let got = self.from.read(place)?;
                     self.reader.notify_read(got);
                 }
                 Ok(LinearReadEvent::Record { data, opcode }) => {

@@ -30,9 +30,45 @@ mod raw;
 pub use curve_file::{CurveFile, Shape, ShapeKey};
 pub use diagnostic::FileDiagnostic;
 
+use crate::serde_words::in_words;
 use raw::Raw;
 
+/// Keys of curve files, of formulas or of NURBS, which are words of no program.
+const KEYS: [&str; 18] = [
+    "kind",
+    "name",
+    "feed",
+    "tolerance",
+    "chord",
+    "laps",
+    "from",
+    "to",
+    "start",
+    "direction",
+    "end",
+    "degree",
+    "control_points",
+    "weights",
+    "knots",
+    "units",
+    "source",
+    "status",
+];
+
 impl CurveFile {
+    /// True if a text begins as that of a curve file, of formulas or of a NURBS: behind comments and
+    /// empty lines stands JSON, or a key of such a file with a value.
+    #[must_use]
+    pub fn begins(text: &str) -> bool {
+        let lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
+        let mut lines = lines.filter(|line| !(line.is_empty() || line.starts_with('#')));
+        lines.next().is_some_and(|line| {
+            let key = line.split('=').next().unwrap_or_default().trim();
+            let has_value = line.len() > key.len();
+            line.starts_with('{') || (has_value && KEYS.contains(&key))
+        })
+    }
+
     /// Reads the text of a curve file.
     ///
     /// # Errors
@@ -40,7 +76,7 @@ impl CurveFile {
     pub fn parse(text: &str) -> Result<Self, Vec<FileDiagnostic>> {
         let raw: Raw = toml::from_str(text).map_err(|error| {
             vec![FileDiagnostic {
-                message: error.message().lines().next().unwrap_or("").to_owned(),
+                message: in_words(error.message().lines().next().unwrap_or_default()),
                 help: "a curve file is TOML with the keys of its kind".to_owned(),
                 at: error.span().unwrap_or(0..0),
             }]

@@ -1,6 +1,7 @@
 //! A curve file as it is written, before any value is judged.
 
 use crate::FileDiagnostic;
+use crate::serde_words::in_words;
 use core::ops::Range;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -58,6 +59,7 @@ pub(super) fn parse(text: &str) -> Result<RawCurve, Box<FileDiagnostic>> {
         }
     };
     let help = help(&message);
+    let message = in_words(&message);
     Err(Box::new(FileDiagnostic { message, help, at }))
 }
 

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 
-use glidepath_curve::{ChordRule, CurveFile};
+use glidepath_curve::{ChordRule, CurveFile, NurbsFile};
 use nalgebra::Vector3;
 
 const PARAMETRIC: &str = "\
@@ -118,5 +118,81 @@ fn ends_may_be_points_or_lengths() {
             Some(point) => assert!((chords.point() - point).norm() < 1e-6),
             None => assert!((length - 25.0).abs() < 1e-3),
         }
+    }
+}
+
+const ARCH: &str = "kind = \"nurbs\"\nfeed = 3000.0\ndegree = 2\nknots = [0, 0, 0, 1, 1, 1]\n\
+                    control_points = [[0.0, 0.0], [5.0, 10.0], [10.0, 0.0]]\n";
+
+/// Nobody has to know with what the files are read.
+#[test]
+fn wrong_types_are_told_in_words_for_people() {
+    let nurbs = |text: &str| NurbsFile::parse(text).unwrap_err().message;
+    let formulas = |text: &str| diagnostic(text).0;
+    let told = [
+        formulas(&PARAMETRIC.replace("3000.0", "\"fast\"")),
+        formulas(&PARAMETRIC.replace("from = 0", "from = true")),
+        formulas(&PARAMETRIC.replace("\"20*sin(t)\"", "20")),
+        formulas(&PARAMETRIC.replace("laps = 10", "laps = 1.5")),
+        formulas(&PARAMETRIC.replace("\"parametric\"", "1")),
+        formulas(&PARAMETRIC.replace("kind = \"parametric\"\n", "")),
+        formulas(&PARAMETRIC.replace("feed", "fead")),
+        formulas(&IMPLICIT.replace("[20.0, 20.0, 28.2843]", "[20.0, 20.0]")),
+        formulas(&IMPLICIT.replace("[-1.0, 0.0, 0.0]", "-1.0")),
+        formulas(&IMPLICIT.replace("\"closed\"", "true")),
+        nurbs(&ARCH.replace("3000.0", "\"fast\"")),
+        nurbs(&ARCH.replace("degree = 2", "degree = -1")),
+        nurbs(&ARCH.replace("degree = 2", "degree = 2.5")),
+        nurbs(&ARCH.replace("[0.0, 0.0]", "\"origin\"")),
+        nurbs(&ARCH.replace("knots = [0, 0, 0, 1, 1, 1]\n", "")),
+        nurbs(&ARCH.replace("\"nurbs\"", "\"nurb\"")),
+        nurbs("{\"kind\": \"nurbs\", \"degree\": \"two\"}"),
+    ];
+    assert_eq!(
+        told,
+        [
+            "this is text, not a number",
+            "this is neither a number nor a formula in quotes",
+            "this is a whole number, not text in quotes",
+            "this is a number with a decimal point, not a whole number of its range",
+            "this is a whole number, not text in quotes",
+            "the key `kind` is missing",
+            "unknown key `fead`",
+            "this is a list of 2, not a list of three numbers",
+            "this is a number with a decimal point, not a list of three numbers",
+            "this is neither \"closed\", nor a point, nor a length",
+            "this is text, not a number",
+            "this is a negative number, not a whole number of its range",
+            "this is a number with a decimal point, not a whole number of its range",
+            "this is text, not a list",
+            "the key `knots` is missing",
+            "\"nurb\" is not known",
+            "this is text, not a whole number of its range",
+        ]
+    );
+}
+
+/// What comes through a pipe has no name that tells what it is.
+#[test]
+fn curve_files_are_known_by_their_beginning() {
+    let json = "{\"kind\": \"nurbs\"}";
+    let arch = ARCH.replace("kind = \"nurbs\"\n", "");
+    for text in [PARAMETRIC, IMPLICIT, ARCH, json, &arch] {
+        assert!(CurveFile::begins(text), "{text}");
+        let text = format!("# a curve\n\n  {text}");
+        assert!(CurveFile::begins(&text), "{text}");
+    }
+    for text in [
+        "",
+        "%\nG21 G90\n",
+        "#1 = 0\n#2 = 5\nG1 X1\n",
+        "; kind = \"nurbs\"\nG21\n",
+        "(name = x)\n",
+        "FEED = 100\nG1 X10\n",
+        "DEF REAL FROM\nFROM = 1\n",
+        "R1 = 5\nX = R1\n",
+        "o<kind> sub\n",
+    ] {
+        assert!(!CurveFile::begins(text), "{text}");
     }
 }

@@ -1,15 +1,16 @@
 //! What many commands are told: the machine, the form of the report, the shared memory.
 
+use super::program::program_file;
 use crate::config::{INSTANCE_RULE, is_instance_name};
+use crate::program_file::ProgramFile;
 use clap::Args;
-use std::path::PathBuf;
 
 /// Configuration and form of the report: the same for every command.
 #[derive(Debug, Clone, Args)]
 pub struct BasicArgs {
     /// Machine configuration (TOML); without it the built-in 3-axis mill
-    #[arg(long, short, value_name = "TOML")]
-    pub config: Option<PathBuf>,
+    #[arg(long, short, value_name = "TOML", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
+    pub config: Option<ProgramFile>,
     /// Print one JSON object instead of text
     #[arg(long)]
     pub json: bool,

@@ -20,8 +20,9 @@ pub enum PreviewMethod {
 /// Arguments of `preview`. What is not given is taken from the curve file or the configuration.
 #[derive(Debug, Args)]
 pub struct PreviewArgs {
-    /// The curve file (TOML or JSON)
-    pub file: PathBuf,
+    /// The curve file (TOML or JSON); `-` is standard input
+    #[arg(value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
+    pub file: ProgramFile,
     /// Configuration and form of the report.
     #[command(flatten)]
     pub basic: BasicArgs,
@@ -72,7 +73,7 @@ impl FitMethod {
 #[derive(Debug, Args)]
 pub struct FitArgs {
     /// The G-code program; `-` is standard input
-    #[arg(value_parser = program_file())]
+    #[arg(value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub file: ProgramFile,
     /// Configuration and form of the report.
     #[command(flatten)]

@@ -10,7 +10,7 @@ use clap::Args;
 #[derive(Debug, Args)]
 pub struct LiveArgs {
     /// The program that runs, to show its path, its lines, and how long it takes yet
-    #[arg(value_name = "PROGRAM", value_parser = program_file())]
+    #[arg(value_name = "PROGRAM", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub file: Option<ProgramFile>,
     /// The port on 127.0.0.1; 0 takes any that is free
     #[arg(long, default_value_t = 8420)]

@@ -20,7 +20,7 @@ pub enum RunDrives {
 #[derive(Debug, Args)]
 pub struct RunArgs {
     /// The G-code program; `-` is standard input
-    #[arg(value_parser = program_file())]
+    #[arg(value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub file: ProgramFile,
     /// How the program is read.
     #[command(flatten)]
@@ -64,7 +64,7 @@ pub struct RunArgs {
 #[derive(Debug, Args)]
 pub struct PlanArgs {
     /// The G-code program; `-` is standard input
-    #[arg(value_parser = program_file())]
+    #[arg(value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub file: ProgramFile,
     /// How the program is read.
     #[command(flatten)]
@@ -90,7 +90,7 @@ pub struct PlanArgs {
 #[derive(Debug, Args)]
 pub struct CheckArgs {
     /// The G-code programs; `-` is standard input
-    #[arg(required = true, value_parser = program_file())]
+    #[arg(required = true, value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub files: Vec<ProgramFile>,
     /// How the program is read.
     #[command(flatten)]
@@ -124,7 +124,7 @@ pub struct InterpolatorArgs {
 #[derive(Debug, Args)]
 pub struct PlannerArgs {
     /// The G-code program, or `-` for standard input
-    #[arg(required_unless_present = "listen", conflicts_with = "listen", value_parser = program_file())]
+    #[arg(required_unless_present = "listen", conflicts_with = "listen", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub file: Option<ProgramFile>,
     /// Be the service of the machine: execute lines (`mdi`), programs (`run-file`) and segments of
     /// other processes (`feed`), one at a time
@@ -243,7 +243,7 @@ pub struct HalArgs {
 #[derive(Debug, Args)]
 pub struct FeedArgs {
     /// The G-code program; `-` is standard input
-    #[arg(value_parser = program_file())]
+    #[arg(value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
     pub file: ProgramFile,
     /// How the program is read.
     #[command(flatten)]

@@ -10,8 +10,8 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, Default, Args)]
 pub struct ProgramArgs {
     /// Tool table (LinuxCNC's .tbl); overrides `program.tool_table` of the configuration
-    #[arg(long, value_name = "TBL")]
-    pub tool_table: Option<PathBuf>,
+    #[arg(long, value_name = "TBL", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
+    pub tool_table: Option<ProgramFile>,
     /// Folder to look in for subroutines in files of their own, behind that of the program; may be
     /// given several times, and comes before `program.subroutine_path` of the configuration
     #[arg(long, value_name = "FOLDER")]
@@ -25,7 +25,7 @@ pub struct ProgramArgs {
     pub allow_unchecked: bool,
 }
 
-/// A program by its name.
+/// A program, or another file that is read, by its name.
 pub(super) fn program_file() -> impl TypedValueParser<Value = ProgramFile> {
     PathBufValueParser::new().map(ProgramFile::named)
 }

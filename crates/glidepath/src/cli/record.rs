@@ -3,6 +3,8 @@
 use super::basic::{BasicArgs, OverwriteArgs};
 use super::operator::OperatorArgs;
 use super::path::PathArgs;
+use super::program::program_file;
+use crate::program_file::ProgramFile;
 use clap::Args;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -13,8 +15,8 @@ pub struct RecordArgs {
     /// The recording (MCAP); while it grows it is called FILE.part
     pub file: PathBuf,
     /// The program that runs, to be part of the recording: `audit` then judges by it
-    #[arg(long, value_name = "PROGRAM")]
-    pub program: Option<PathBuf>,
+    #[arg(long, value_name = "PROGRAM", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
+    pub program: Option<ProgramFile>,
     /// Be a black box: keep the last minutes in memory, and write them when a fault stops the
     /// machine, to FILE with the time in its name; such as 10min or 90s
     #[arg(long, value_name = "TIME", value_parser = duration, conflicts_with = "seconds")]
@@ -46,11 +48,12 @@ pub struct ReplayArgs {
 /// Arguments of `audit`.
 #[derive(Debug, Args)]
 pub struct AuditArgs {
-    /// The recording (MCAP), or setpoints (CSV) of `plan`, `run` or `servo`
-    pub file: PathBuf,
+    /// The recording (MCAP), or setpoints (CSV) of `plan`, `run` or `servo`; `-` is standard input
+    #[arg(value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
+    pub file: ProgramFile,
     /// The program that it has to follow; a recording may have one of its own
-    #[arg(long, value_name = "PROGRAM")]
-    pub program: Option<PathBuf>,
+    #[arg(long, value_name = "PROGRAM", value_parser = program_file(), value_hint = clap::ValueHint::AnyPath)]
+    pub program: Option<ProgramFile>,
     /// How the path was to be followed.
     #[command(flatten)]
     pub path: PathArgs,

@@ -284,6 +284,12 @@ pub(super) enum Failure {
     /// The command was interrupted.
     #[error("interrupted")]
     Interrupted,
+    /// The command was interrupted while the planner's service did not answer.
+    #[error(
+        "interrupted, and the planner does not answer: what it was given may begin yet; `glidepath \
+         abort` stops it then"
+    )]
+    NoAnswer,
 }
 
 impl From<CurveFileError> for Failure {
@@ -378,7 +384,8 @@ impl Failure {
             | Self::Interpolator(interpolator::RunError::NotRealTime(_)) => Exit::NotRealTime,
             Self::Planner(planner::RunError::Interrupted)
             | Self::Feed(FeedError::Interrupted)
-            | Self::Interrupted => Exit::Interrupted,
+            | Self::Interrupted
+            | Self::NoAnswer => Exit::Interrupted,
             Self::File(_)
             | Self::State(_)
             | Self::Signals(_)

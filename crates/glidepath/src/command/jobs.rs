@@ -19,6 +19,8 @@ use std::time::{Duration, Instant};
 
 /// How long a service may take to start.
 const PATIENCE: Duration = Duration::from_secs(2);
+/// How long an answer is waited for behind an interrupt: that comes when a program has been read.
+const ANSWER_PATIENCE: Duration = Duration::from_secs(10);
 /// Between two looks at how a job stands.
 const POLL: Duration = Duration::from_millis(20);
 
@@ -87,7 +89,7 @@ fn execute(
     let mut client = transport.job_client()?;
     let mut is_aborted = false;
     loop {
-        let reply = ask(&mut *client, &request)?;
+        let reply = ask(&mut *client, &request, &interrupt)?;
         let text = reply.text.as_str().to_owned();
         match reply.state().map_err(LinkError::from)? {
             JobState::Running => {}
@@ -128,8 +130,10 @@ fn execute(
 fn ask(
     client: &mut dyn Client<JobRequest, JobReply>,
     request: &JobRequest,
+    interrupt: &Interrupt,
 ) -> Result<JobReply, Failure> {
     let started = Instant::now();
+    let mut interrupted = None::<Instant>;
     loop {
         match client.ask(request) {
             // It may have been started just now.
@@ -148,6 +152,12 @@ fn ask(
         if let Some(reply) = client.reply()? {
             reply.check().map_err(LinkError::from)?;
             return Ok(reply);
+        }
+        // What was asked for may begin yet: then it is aborted. One that is stopped itself never answers.
+        if interrupt.is_set()
+            && interrupted.get_or_insert_with(Instant::now).elapsed() > ANSWER_PATIENCE
+        {
+            return Err(Failure::NoAnswer);
         }
         std::thread::sleep(Duration::from_millis(1));
     }

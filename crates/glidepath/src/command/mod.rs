@@ -155,8 +155,14 @@ fn dispatch(command: &Command) -> Result<Exit, Failure> {
 
 /// The machine a command works for: its configuration, with what the command line overrides.
 fn machine(command: &Command) -> Result<MachineConfig, Failure> {
-    let file = command.basic().and_then(|basic| basic.config.as_deref());
-    let mut config = config::load(file)?;
+    let file = command.basic().and_then(|basic| basic.config.as_ref());
+    let mut config = match file {
+        Some(file) => {
+            file.keep(config::MOST_BYTES)?;
+            config::load_kept(file.name(), file.path())?
+        }
+        None => config::load(None)?,
+    };
     if let Some(args) = command.path() {
         config.path.effort = args.effort.unwrap_or(config.path.effort);
         config.path.tolerance_mm = args.tolerance.unwrap_or(config.path.tolerance_mm);

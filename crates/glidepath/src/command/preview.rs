@@ -22,7 +22,8 @@ use serde_json::{Value, json};
 /// # Errors
 /// The curve file is rejected, there is no feedrate, or the plot cannot be written.
 pub(super) fn preview(args: &PreviewArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let file = curve_file::read(&args.file)?;
+    args.file.keep(curve_file::MOST_BYTES)?;
+    let file = curve_file::read(args.file.name(), args.file.path())?;
     let feed = args.feed.or(file.feed_mm_min).or(config.path.default_feed);
     let feed_mm_min = feed.ok_or(Failure::NoFeed)?;
     let period_us = args.period_us.unwrap_or(config.interpolator.period_us);
@@ -48,8 +49,10 @@ pub(super) fn preview(args: &PreviewArgs, config: &MachineConfig) -> Result<Exit
     };
     if let Some(plot) = &args.plot {
         let guard = Guard {
-            inputs: core::iter::once(args.file.clone())
-                .chain(args.basic.config.clone())
+            inputs: [Some(&args.file), args.basic.config.as_ref()]
+                .into_iter()
+                .flatten()
+                .map(|file| file.name().to_owned())
                 .collect(),
             force: args.overwrite.force,
         };

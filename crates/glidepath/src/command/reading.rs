@@ -28,7 +28,8 @@ pub(super) fn settle(command: &Command, config: &mut MachineConfig) -> Result<()
         return Ok(());
     };
     if let Some(table) = &args.tool_table {
-        config.program.tool_table = Some(table.clone());
+        table.keep(MOST_TABLE_BYTES)?;
+        config.program.tool_table = Some(table.path().to_owned());
     }
     // Folders of the command line come before those of the configuration.
     let mut path = args.subroutine_path.clone();

@@ -4,19 +4,20 @@
 use super::session;
 use crate::cli::RecordArgs;
 use crate::command::failure::Failure;
-use crate::config::{EMBEDDED, MachineConfig};
+use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::output_file::{OutputFile, OutputKind};
 use crate::report::{fault_text, grouped};
+use crate::text_file;
 use glidepath_link::{
     Ipc, MachineState, Record as _, Setpoint, Status, Subscriber, Transport as _,
 };
 use glidepath_program::Effort;
 use glidepath_realtime::{Clock as _, Monotonic};
-use glidepath_recording::{Origin, Recorder};
+use glidepath_recording::{MOST_PROGRAM_BYTES, Origin, Recorder};
 use serde_json::json;
 use std::collections::VecDeque;
 use std::ffi::OsString;
@@ -41,7 +42,10 @@ const BEHIND: Duration = Duration::from_secs(2);
 pub(super) fn record(args: &RecordArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let basic = &args.operator.basic;
-    let guard = session::guard(None, basic, config, args.overwrite);
+    if let Some(program) = &args.program {
+        program.open()?;
+    }
+    let guard = session::guard(args.program.as_ref(), basic, config, args.overwrite);
     // Begun and dropped: whether it may be written is told now.
     drop(OutputFile::create(
         &args.file,
@@ -106,14 +110,12 @@ impl Source {
 
 /// What the recording is of.
 fn origin(args: &RecordArgs, config: &MachineConfig, instance: &str) -> Result<Origin, Failure> {
-    let configuration = match &args.operator.basic.config {
-        Some(path) => std::fs::read_to_string(path).map_err(FileError::open(path))?,
-        None => EMBEDDED.to_owned(),
-    };
-    let program = match &args.program {
-        Some(path) => Some(std::fs::read(path).map_err(FileError::open(path))?),
-        None => None,
-    };
+    let configuration = session::configuration(&args.operator.basic)?;
+    let program = args.program.as_ref().map(|program| {
+        let bytes = text_file::bytes(program.path(), MOST_PROGRAM_BYTES);
+        bytes.map_err(FileError::open(program.name()))
+    });
+    let program = program.transpose()?;
     let mut origin = Origin {
         configuration,
         program,
@@ -140,7 +142,7 @@ fn origin(args: &RecordArgs, config: &MachineConfig, instance: &str) -> Result<O
     };
     origin.tell("effort", effort);
     if let Some(program) = &args.program {
-        origin.tell("program", program.display());
+        origin.tell("program", program.name().display());
     }
     Ok(origin)
 }

@@ -2,9 +2,12 @@
 
 use crate::cli::{BasicArgs, InstanceArgs, OverwriteArgs};
 use crate::command::failure::Failure;
-use crate::config::{MAX_FRAMES_AHEAD, MachineConfig};
+use crate::config::{self, EMBEDDED, MAX_FRAMES_AHEAD, MachineConfig};
+use crate::file_error::FileError;
 use crate::output_file::Guard;
 use crate::program_file::ProgramFile;
+use crate::text_file;
+use glidepath_gcode::Subroutines;
 use glidepath_link::{Ipc, LinkConfig};
 use glidepath_planner::Pace;
 use std::path::PathBuf;
@@ -15,6 +18,14 @@ pub(super) fn instance(args: &InstanceArgs, config: &MachineConfig) -> String {
         .clone()
         .or_else(|| config.instance.clone())
         .unwrap_or_else(|| MachineConfig::DEFAULT_INSTANCE.to_owned())
+}
+
+/// The text of the machine's configuration, which was judged before.
+pub(super) fn configuration(basic: &BasicArgs) -> Result<String, FileError> {
+    let Some(file) = &basic.config else {
+        return Ok(EMBEDDED.to_owned());
+    };
+    text_file::read(file.path(), config::MOST_BYTES).map_err(FileError::open(file.name()))
 }
 
 /// What a command that reads these files may not overwrite.
@@ -31,7 +42,14 @@ pub(super) fn guard(
             program.name().to_owned()
         }
     });
-    let inputs = named.into_iter().chain(basic.config.clone());
+    let config_file = basic.config.as_ref().map(|file| file.name().to_owned());
+    // Those that checking the program came to.
+    let subroutines = config.program.subroutines.as_ref();
+    let subroutines = subroutines.map(Subroutines::read).unwrap_or_default();
+    let subroutines = subroutines
+        .iter()
+        .map(|(_, file)| PathBuf::from(&*file.name));
+    let inputs = named.into_iter().chain(config_file).chain(subroutines);
     Guard {
         inputs: inputs.chain(config.program.tool_table.clone()).collect(),
         force: overwrite.force,

@@ -96,6 +96,7 @@ impl<'c> Workshop<'c> {
         start: AxisVector,
         bench: &mut Bench<'_, '_, '_>,
     ) -> End {
+        must_be_a_file(path)?;
         let (config, attendant) = self.set_up()?;
         let config = for_program(&ProgramFile::named(path), &config);
         joints::check_plan(path, &config, start, &mut |_| {}).map_err(|e| refusal(&e))?;
@@ -271,6 +272,17 @@ impl From<Failure> for Stop {
     fn from(failure: Failure) -> Self {
         Self::Refused(failure.to_string())
     }
+}
+
+/// A device gives bytes without end, and a pipe none until somebody else writes: nobody else would be
+/// served meanwhile.
+fn must_be_a_file(path: &Path) -> Result<(), Stop> {
+    let why = match path.metadata() {
+        Ok(there) if there.is_file() => return Ok(()),
+        Ok(_) => "it is no ordinary file".to_owned(),
+        Err(error) => error.to_string(),
+    };
+    Err(Stop::Refused(format!("{}: {why}", path.display())))
 }
 
 /// A refusal in a few lines.

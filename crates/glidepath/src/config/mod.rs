@@ -37,7 +37,7 @@ use serde::de::DeserializeOwned;
 use std::path::Path;
 
 /// Largest configuration file, bytes: the longest machine is described in a hundredth of it.
-const MOST_BYTES: u64 = 1 << 20;
+pub(crate) const MOST_BYTES: u64 = 1 << 20;
 
 /// The machine that is used without `--config`.
 pub const EMBEDDED: &str = include_str!("../../machines/mill.toml");
@@ -57,12 +57,21 @@ pub fn load(path: Option<&Path>) -> Result<MachineConfig, ConfigError> {
         machine.path.default_feed = None;
         return Ok(machine);
     };
-    let name = path.display().to_string();
+    load_kept(path, path)
+}
+
+/// Reads a configuration file that can be read at another place than it has its name from, as what
+/// came through a pipe.
+///
+/// # Errors
+/// As [`load`].
+pub(crate) fn load_kept(named: &Path, path: &Path) -> Result<MachineConfig, ConfigError> {
+    let name = named.display().to_string();
     match text_file::read(path, MOST_BYTES) {
         Ok(text) => {
             let mut config = parse(&name, &text)?;
             // The tool table and folders are named from where the configuration is.
-            let folder = path.parent().unwrap_or(Path::new(""));
+            let folder = named.parent().unwrap_or(Path::new(""));
             let table = config.program.tool_table.take();
             config.program.tool_table = table.map(|table| folder.join(table));
             let state = config.state_directory.take();

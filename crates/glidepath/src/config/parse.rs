@@ -4,7 +4,7 @@
 //! until all of it fits: so everything that is wrong is told at once.
 
 use super::diagnostic::ConfigDiagnostic;
-use super::tree::Tree;
+use super::tree::{TABLES, Tree};
 use core::ops::Range;
 use serde::de::DeserializeOwned;
 
@@ -74,12 +74,22 @@ fn put_aside(tree: &mut Tree<'_>, message: &str, at: &Range<usize>) -> bool {
         };
         return tree.add(at, key, value);
     }
-    expected(message).is_some_and(|(_, value)| tree.replace(at, value))
+    let (_, kind) = tree.described(at);
+    wanted(kind, message).is_some_and(|(_, value)| tree.replace(at, value))
 }
 
 /// The key that a message says is missing.
 fn missing(message: &str) -> Option<&str> {
     message.strip_prefix("missing field `")?.split('`').next()
+}
+
+/// What is wanted in place of something of this kind. serde takes a list for a table whose values
+/// come in order, and then speaks of the first of them.
+fn wanted(kind: &str, message: &str) -> Option<(&'static str, &'static str)> {
+    if kind == TABLES {
+        return Some(("a table", "{}"));
+    }
+    expected(message)
 }
 
 /// What a message says is wanted, in words, and a value of that kind.
@@ -131,7 +141,7 @@ fn told(tree: &Tree<'_>, message: &str, at: &Range<usize>, explained: &str) -> C
             let key = [table.as_str(), missing].join(if table.is_empty() { "" } else { "." });
             (key, format!("the key `{missing}` is missing"), Some(help))
         }
-        _ => match expected(message) {
+        _ => match wanted(kind, message) {
             Some((wanted, _)) if !key.is_empty() => {
                 let name = key.rsplit('.').next().unwrap_or_default();
                 let help = match wanted {

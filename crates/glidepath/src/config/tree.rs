@@ -14,6 +14,9 @@ pub(super) struct Tree<'t> {
     nowhere: usize,
 }
 
+/// The kind of a list that `[[name]]` begins.
+pub(super) const TABLES: &str = "a list of tables";
+
 /// What has the bytes of an error.
 enum Found<'a, 't> {
     Key(String, &'a mut DeTable<'t>),
@@ -146,13 +149,14 @@ fn describe(table: &DeTable<'_>, path: &str, at: &Range<usize>) -> Option<(Strin
 }
 
 /// What a value is, in words.
-const fn kind(value: &DeValue<'_>) -> &'static str {
+fn kind(value: &DeValue<'_>) -> &'static str {
     match value {
         DeValue::String(_) => "text",
         DeValue::Integer(_) => "a whole number",
         DeValue::Float(_) => "a number with a decimal point",
         DeValue::Boolean(_) => "true or false",
         DeValue::Datetime(_) => "a date",
+        DeValue::Array(list) if list.iter().any(|value| value.as_ref().is_table()) => TABLES,
         DeValue::Array(_) => "a list",
         DeValue::Table(_) => "a table",
     }

@@ -5,7 +5,7 @@ mod read;
 mod write;
 
 pub use diagnostic::CurveDiagnostic;
-pub use read::{CurveFileError, parse, read};
+pub use read::{CurveFileError, MOST_BYTES, parse, read};
 pub use write::to_toml;
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use std::path::Path;
 use thiserror::Error;
 
 /// Largest curve file, bytes: a hundred thousand control points.
-const MOST_BYTES: u64 = 4 << 20;
+pub const MOST_BYTES: u64 = 4 << 20;
 
 /// Why a curve file cannot be used.
 #[derive(Debug, Error)]
@@ -21,13 +21,13 @@ pub enum CurveFileError {
     Rejected(#[from] Box<CurveDiagnostic>),
 }
 
-/// Reads a curve file.
+/// Reads a curve file of a name, from where it can be read: what came through a pipe is elsewhere.
 ///
 /// # Errors
 /// The file cannot be read, or something in it has to be mended.
-pub fn read(path: &Path) -> Result<NurbsFile, CurveFileError> {
-    let text = text_file::read(path, MOST_BYTES).map_err(FileError::open(path))?;
-    Ok(parse(&path.display().to_string(), &text)?)
+pub fn read(named: &Path, path: &Path) -> Result<NurbsFile, CurveFileError> {
+    let text = text_file::read(path, MOST_BYTES).map_err(FileError::open(named))?;
+    Ok(parse(&named.display().to_string(), &text)?)
 }
 
 /// Judges the text of a curve file; `name` is the file's, for reports and for a curve without a

@@ -35,7 +35,7 @@ fn the_reference_curves_are_json_curve_files() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/method/");
     for (name, degree) in [("butterfly", 3), ("infinity", 2), ("helix3d", 3)] {
         let path = format!("{folder}{name}.json");
-        let file = read(Path::new(&path)).expect("valid");
+        let file = read(Path::new(&path), Path::new(&path)).expect("valid");
         assert_eq!(
             (file.name.as_deref(), file.curve.degree()),
             (Some(name), degree)
@@ -62,7 +62,7 @@ fn findings_have_a_place_and_a_remedy() {
     assert_eq!(place, (2, 44));
 
     let (message, place, help) = refused(&ARCH.replace("knots", "knot"));
-    assert!(message.starts_with("unknown field `knot`"), "{message}");
+    assert!(message.starts_with("unknown key `knot`"), "{message}");
     assert_eq!(place, (4, 1));
     assert!(help.contains("`knots`"), "{help}");
 

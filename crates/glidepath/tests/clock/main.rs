@@ -1,6 +1,7 @@
 //! The command where it moves a machine, at the speed of the clock.
 
 mod host;
+mod hostile_jobs;
 mod joints_under_way;
 mod last_resort;
 mod manners;

@@ -216,6 +216,11 @@ fn syntax_and_types_are_refused_with_their_place() {
             "path.effort is a whole number, not text in quotes",
         ),
         ("path = 5", "path is a whole number, not a table"),
+        ("[[path]]", "path is a list of tables, not a table"),
+        (
+            "[[spindle]]\nx = 1",
+            "spindle is a list of tables, not a table",
+        ),
         (
             "program.subroutine_path = \"lib\"",
             "program.subroutine_path is text, not a list",

@@ -165,6 +165,22 @@ fn what_has_no_end_is_no_program() {
         assert_eq!(code, 2, "{said}");
         assert!(said.contains("it is a device, no program"), "{said}");
     }
+    let (code, said) = bounded(folder.path(), "audit /dev/zero");
+    assert_eq!(code, 2, "{said}");
+    assert!(said.contains("neither a recording nor a CSV"), "{said}");
+    let header = "tick,time_s,line,state,feed_mm_s,path_mm\n";
+    std::fs::write(
+        folder.path().join("t.csv"),
+        header.to_owned() + &"1".repeat(9 << 20),
+    )
+    .unwrap();
+    let (code, said) = bounded(folder.path(), "audit t.csv");
+    assert_eq!(code, 2);
+    assert!(said.contains("row 2 is no setpoint") && said.len() < 100_000);
+    let record = "record r.mcap --instance endless --seconds 0.1 --program /dev/zero";
+    let (code, said) = bounded(folder.path(), record);
+    assert_eq!(code, 2, "{said}");
+    assert!(said.contains("it is a device, no program"), "{said}");
     assert_eq!(bounded(folder.path(), "check /dev/null").0, 0);
     std::fs::write(folder.path().join("long.ngc"), vec![b'G'; 20 << 20]).unwrap();
     let (code, said) = bounded(folder.path(), "check long.ngc");

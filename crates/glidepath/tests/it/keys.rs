@@ -239,6 +239,37 @@ fn ranges_units_and_names_are_those_of_the_loader() {
     }
 }
 
+/// Numbers that are in no range, or at the end of one that nothing can be computed with.
+#[test]
+fn no_key_takes_a_number_that_is_none() {
+    for key in keys::all() {
+        let (min, max) = match key.takes {
+            Takes::Number { min, max, .. }
+            | Takes::ThreeNumbers { min, max, .. }
+            | Takes::Numbers { min, max, .. } => (min, max),
+            _ => continue,
+        };
+        assert!(min.is_finite() && max.is_finite(), "{}", key.name);
+        for number in [
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            1e300,
+            -1e300,
+            1e15,
+        ] {
+            let is_list = !matches!(key.takes, Takes::Number { .. });
+            let value = if is_list {
+                Value::Array(vec![Value::Float(number); 3])
+            } else {
+                Value::Float(number)
+            };
+            let found = finding(key, value);
+            assert!(found.is_some(), "{} = {number} is taken", key.name);
+        }
+    }
+}
+
 fn said(name: &str, found: &ConfigDiagnostic, begins: &str) {
     let help = found.help.clone().unwrap_or_default();
     assert!(help.starts_with(begins), "{name}: {help} / {begins}");

@@ -3,6 +3,7 @@
 mod arms;
 mod command_line;
 mod config_command;
+mod config_stages;
 mod configuration;
 mod fit;
 mod hostile_curves;

@@ -72,6 +72,40 @@ fn what_is_read_is_never_overwritten() {
     );
 }
 
+/// What a program calls is read, too, wherever it was found.
+#[test]
+fn a_subroutine_that_is_called_is_never_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let drill = "o<drill> sub\nG1 X2 F600\no<drill> endsub\nM2\n";
+    fs::create_dir(here.join("lib")).unwrap();
+    fs::write(here.join("lib/drill.ngc"), drill).unwrap();
+    fs::write(here.join("part.ngc"), "G21 G90\no<drill> call\nM2\n").unwrap();
+    for output in ["--setpoints", "--plot"] {
+        let args = ["plan", "part.ngc", "--subroutine-path", "lib", "--force"];
+        let args = [&args[..], &[output, "lib/drill.ngc"]].concat();
+        let (code, text) = said(&glidepath(here, &args));
+        assert_eq!(code, 2, "{output}: {text}");
+        assert!(text.contains("the command reads it"), "{output}: {text}");
+    }
+    let kept = fs::read_to_string(here.join("lib/drill.ngc")).unwrap();
+    assert_eq!(kept, drill);
+}
+
+/// Nor is the program that becomes part of a recording.
+#[test]
+fn a_program_that_is_recorded_is_not_overwritten_by_its_recording() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("part.ngc"), SQUARE).unwrap();
+    let args = ["record", "part.ngc", "--program", "part.ngc", "--force"];
+    let args = [&args[..], &["--seconds", "0.1", "--instance", "outputs"]].concat();
+    let (code, text) = said(&glidepath(here, &args));
+    assert_eq!(code, 2, "{text}");
+    assert!(text.contains("the command reads it"), "{text}");
+    assert_eq!(fs::read_to_string(here.join("part.ngc")).unwrap(), SQUARE);
+}
+
 #[test]
 fn a_file_of_another_kind_is_overwritten_only_when_told() {
     let folder = tempfile::tempdir().unwrap();

@@ -132,6 +132,97 @@ fn fit_fits_the_same_from_a_pipe() {
     assert_eq!(code, 0, "{said}");
 }
 
+const RING: &str = "# a circle\n\nkind = \"parametric\"\nx = \"5*cos(t)\"\ny = \"5*sin(t)\"\n\
+                    z = \"0*t\"\nfrom = 0\nto = \"2*pi\"\nfeed = 1200.0\n";
+const ARCH: &str = "{\"kind\": \"nurbs\", \"feed\": 3000.0, \"degree\": 2, \"knots\": [0, 0, 0, 1, 1, 1],\n\
+                    \"control_points\": [[0.0, 0.0], [5.0, 10.0], [10.0, 0.0]]}\n";
+
+/// A pipe has no ending that says what comes through it.
+#[test]
+fn a_curve_is_a_curve_in_a_pipe() {
+    let same = |text: &str, command: &str| {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("curve.toml");
+        std::fs::write(&file, text).unwrap();
+        let whole = |output: Output, name: &Path| {
+            let all = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
+            let all = all.replace(&name.display().to_string(), "CURVE");
+            (output.status.code().unwrap(), common(&all, "CURVE"))
+        };
+        let as_file = whole(fed("", &[command], &file), &file);
+        let piped = fed(text, &[command], Path::new("/dev/stdin"));
+        assert_eq!(whole(piped, Path::new("/dev/stdin")), as_file, "{command}");
+        // The name of one dash is in many words.
+        let code = fed(text, &[command], Path::new("-")).status.code();
+        assert_eq!(code, Some(as_file.0), "{command}");
+        as_file
+    };
+    for curve in [RING, ARCH] {
+        for command in ["check", "plan"] {
+            let (code, said) = same(curve, command);
+            assert_eq!(code, 0, "{said}");
+        }
+    }
+    assert_eq!(same(ARCH, "preview").0, 0);
+    let (code, said) = same(&RING.replace("1200.0", "1e-9"), "check");
+    assert_eq!(code, 1);
+    assert!(said.contains("is out of range"), "{said}");
+}
+
+/// All that a command reads, it may read more than once, and the processes that it starts do.
+#[test]
+fn configuration_and_tools_may_come_through_pipes() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let mill = include_str!("../../../../config/mill.toml");
+    std::fs::write(here.join("mill.toml"), mill).unwrap();
+    std::fs::write(here.join("t.tbl"), "T1 P1 Z5\n").unwrap();
+    let part = "G21 G90\nT1 M6\nG43\nG1 X2 F3000\nM2\n";
+    std::fs::write(here.join("part.ngc"), part).unwrap();
+    let script = "exec \"$0\" run part.ngc --best-effort --json -c <(cat mill.toml) \
+                  --tool-table <(cat t.tbl)";
+    let output = bash(here, script);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+}
+
+#[test]
+fn a_trace_may_come_through_a_pipe() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let part = "G21 G90\nG1 X5 F3000\nY5\nM2\n";
+    std::fs::write(here.join("part.ngc"), part).unwrap();
+    let script = "\"$0\" plan part.ngc --setpoints trace.csv --json > /dev/null";
+    assert!(bash(here, script).status.success());
+    let verdicts = [
+        "trace.csv",
+        "<(cat trace.csv)",
+        "/dev/stdin < trace.csv",
+        "- < trace.csv",
+    ];
+    let verdicts = verdicts.map(|trace| {
+        let script = format!("exec \"$0\" audit --program <(cat part.ngc) --json {trace}");
+        let output = bash(here, &script);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{trace}: {said}");
+        let mut verdict: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        verdict["file"].take();
+        verdict
+    });
+    assert!(verdicts[0]["setpoints"].as_u64() > Some(10));
+    assert!(verdicts[0]["max_deviation_mm"].is_number());
+    for verdict in &verdicts[1..] {
+        assert_eq!(verdict, &verdicts[0]);
+    }
+}
+
+/// A script for the command, `$0`, in a folder.
+fn bash(here: &Path, script: &str) -> Output {
+    let mut command = Command::new("timeout");
+    command.args(["60", "bash", "-c", script, env!("CARGO_BIN_EXE_glidepath")]);
+    command.current_dir(here).output().unwrap()
+}
+
 #[test]
 fn a_pipe_is_in_no_folder() {
     let [file, pipes @ ..] = four_ways("o<nowhere> call\nM2\n", &["check"]);

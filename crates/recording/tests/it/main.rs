@@ -44,6 +44,34 @@ fn setpoint(number: u64) -> Setpoint {
     setpoint
 }
 
+/// Bytes, whose reader makes no more room for than a megabyte at a time.
+struct Frugal<'b>(&'b [u8]);
+
+impl std::io::Read for Frugal<'_> {
+    fn read(&mut self, place: &mut [u8]) -> std::io::Result<usize> {
+        assert!(place.len() <= 1 << 20, "room for {} bytes", place.len());
+        std::io::Read::read(&mut self.0, place)
+    }
+}
+
+/// What a file says of a length is no reason to take so much memory, and what is long is read all the
+/// same.
+#[test]
+fn a_length_is_believed_as_far_as_there_are_bytes() {
+    let mut bytes = MAGIC.to_vec();
+    bytes.push(1);
+    bytes.extend_from_slice(&((1u64 << 30) - 1).to_le_bytes());
+    bytes.extend_from_slice(b"short");
+    assert!(Reader::new(Frugal(&bytes)).is_err());
+    let mut origin = origin();
+    origin.program = Some(b"G1 X1 F100\n".repeat(400_000));
+    let mut recorder = Recorder::new(Cursor::new(Vec::new()), &origin).unwrap();
+    recorder.setpoint(&setpoint(0)).unwrap();
+    let bytes = recorder.finish().unwrap().into_inner();
+    let reader = Reader::new(Frugal(&bytes)).unwrap();
+    assert_eq!(reader.origin().program, origin.program);
+}
+
 fn recorded(count: u64) -> Vec<u8> {
     let mut recorder = Recorder::new(Cursor::new(Vec::new()), &origin()).unwrap();
     for number in 0..count {

@@ -11,6 +11,7 @@ use crate::config::{self, MachineConfig};
 use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::output;
+use crate::program_file::ProgramFile;
 use crate::report::grouped;
 use continuity::Continuity;
 use finding::Findings;
@@ -34,6 +35,10 @@ const SHOWN: usize = 20;
 /// # Errors
 /// It cannot be read, or its program cannot be planned.
 pub(super) fn audit(args: &AuditArgs, config: &MachineConfig) -> Result<Exit, Failure> {
+    args.file.keep_whole()?;
+    if let Some(program) = &args.program {
+        program.open()?;
+    }
     let program = Program::of(args, config)?;
     let verdict = judge(&args.file, &program.config, program.path.as_deref())?;
     verdict.tell(args);
@@ -53,14 +58,14 @@ impl Program {
         let trace = Trace::open(&args.file, config)?;
         let mut program = Self {
             config: config.clone(),
-            path: args.program.clone(),
+            path: args.program.as_ref().map(|file| file.path().to_owned()),
             _kept: None,
         };
         let Some(origin) = trace.origin() else {
             return Ok(program);
         };
         if args.basic.config.is_none() {
-            let name = format!("configuration of {}", args.file.display());
+            let name = format!("configuration of {}", args.file.name().display());
             program.config = config::parse(&name, &origin.configuration)?;
             let fact = |name: &str| origin.fact(name).unwrap_or_default();
             let path = &mut program.config.path;
@@ -76,7 +81,7 @@ impl Program {
                 file.write_all(text)?;
                 Ok(file)
             };
-            let file = write().map_err(FileError::file("keep the program of", &args.file))?;
+            let file = write().map_err(FileError::file("keep the program of", args.file.name()))?;
             program.path = Some(file.path().to_owned());
             program._kept = Some(file);
         }
@@ -145,7 +150,11 @@ impl Outline {
 }
 
 /// Judges a file by a machine and, if there is one, by a program.
-fn judge(file: &Path, config: &MachineConfig, program: Option<&Path>) -> Result<Verdict, Failure> {
+fn judge(
+    file: &ProgramFile,
+    config: &MachineConfig,
+    program: Option<&Path>,
+) -> Result<Verdict, Failure> {
     let mut trace = Trace::open(file, config)?;
     let mut continuity = Continuity::new(config);
     let mut outline = Outline::default();
@@ -207,7 +216,7 @@ const fn unjudged(outline: &Outline) -> Option<&'static str> {
 }
 
 fn follow(
-    file: &Path,
+    file: &ProgramFile,
     config: &MachineConfig,
     program: &Path,
     outline: &Outline,
@@ -264,7 +273,7 @@ impl Verdict {
         if args.basic.json {
             let listed = self.findings.listed.iter();
             output::object(&json!({
-                "file": args.file,
+                "file": args.file.name(),
                 "setpoints": self.setpoints,
                 "seconds": self.seconds,
                 "is_cut": self.is_cut,
@@ -282,7 +291,7 @@ impl Verdict {
         let mut text = format!(
             "{}: {} setpoints, {:.1} s\n  limits used   velocity {:.2} %, acceleration {:.2} %, \
              jerk {:.2} %\n",
-            args.file.display(),
+            args.file.name().display(),
             grouped(self.setpoints),
             self.seconds,
             velocity * 100.0,

@@ -201,7 +201,7 @@ fn every_fault_is_found_and_none_where_there_is_none() {
         std::fs::write(&path, &program).unwrap();
         let mut setpoints = played(&path, &config);
         let clean = record(folder.path(), "clean.mcap", &setpoints);
-        let verdict = judge(&clean, &config, Some(&path)).unwrap();
+        let verdict = judge(&ProgramFile::named(&clean), &config, Some(&path)).unwrap();
         assert_eq!(verdict.setpoints, setpoints.len() as u64);
         assert!(
             verdict.was_replanned && verdict.notes.is_empty(),
@@ -214,7 +214,7 @@ fn every_fault_is_found_and_none_where_there_is_none() {
         );
         let expected = plant(seed, &mut setpoints, numbers);
         let faulty = record(folder.path(), "faulty.mcap", &setpoints);
-        let verdict = judge(&faulty, &config, Some(&path)).unwrap();
+        let verdict = judge(&ProgramFile::named(&faulty), &config, Some(&path)).unwrap();
         let kinds: Vec<_> = verdict
             .findings
             .listed
@@ -246,7 +246,7 @@ fn a_deviation_is_found_without_the_plan_too() {
         .take(1)
         .for_each(|setpoint| setpoint.effective_override = 0.9);
     let clean = record(folder.path(), "clean.mcap", &setpoints);
-    let verdict = judge(&clean, &config, Some(&path)).unwrap();
+    let verdict = judge(&ProgramFile::named(&clean), &config, Some(&path)).unwrap();
     assert!(!verdict.was_replanned);
     assert_eq!(verdict.findings.listed, []);
     // A smooth bump across the path, which lies in a plane there.
@@ -256,7 +256,7 @@ fn a_deviation_is_found_without_the_plan_too() {
         setpoint.position[2] += 0.2 * (1.0 - turn.cos()) / 2.0;
     }
     let faulty = record(folder.path(), "faulty.mcap", &setpoints);
-    let verdict = judge(&faulty, &config, Some(&path)).unwrap();
+    let verdict = judge(&ProgramFile::named(&faulty), &config, Some(&path)).unwrap();
     assert!(
         verdict
             .findings

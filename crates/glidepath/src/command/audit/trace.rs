@@ -3,13 +3,14 @@
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::file_error::FileError;
+use crate::program_file::ProgramFile;
 use bytemuck::Zeroable as _;
 use glidepath_geometry::Axis;
 use glidepath_link::{MachineState, Setpoint};
 use glidepath_recording::{Entry, MAGIC, Origin, Reader};
 use std::fs::File;
-use std::io::{self, BufRead as _, BufReader, Read as _};
-use std::path::{Path, PathBuf};
+use std::io::{self, BufRead as _, BufReader, Read as _, Seek as _};
+use std::path::PathBuf;
 
 /// A file with setpoints in it.
 pub(super) enum Trace {
@@ -19,9 +20,12 @@ pub(super) enum Trace {
     Csv(Box<Csv>),
 }
 
+/// More than the longest row, of nine axes and as many joints.
+const MOST_ROW_BYTES: u64 = 1 << 14;
+
 /// Rows of setpoints as `plan`, `run` and `servo` write them.
 pub(super) struct Csv {
-    rows: io::Lines<BufReader<File>>,
+    rows: BufReader<File>,
     path: PathBuf,
     /// The axis and the quantity of each column behind the first six.
     columns: Vec<Option<(Axis, usize)>>,
@@ -30,25 +34,27 @@ pub(super) struct Csv {
 }
 
 impl Trace {
-    pub(super) fn open(path: &Path, config: &MachineConfig) -> Result<Self, Failure> {
+    pub(super) fn open(file: &ProgramFile, config: &MachineConfig) -> Result<Self, Failure> {
+        let path = file.name();
         let mut head = Vec::new();
-        let file = File::open(path).map_err(FileError::open(path))?;
+        let mut file = File::open(file.path()).map_err(FileError::open(path))?;
         let read = (&file).take(8).read_to_end(&mut head);
+        let read = read.and_then(|_| file.rewind());
         read.map_err(FileError::open(path))?;
-        let file = File::open(path).map_err(FileError::open(path))?;
         if head == MAGIC {
             let reader = Reader::new(BufReader::with_capacity(1 << 18, file))
                 .map_err(|error| Failure::recording(path, error))?;
             return Ok(Self::Recording(Box::new(reader), path.to_owned()));
         }
-        let mut rows = BufReader::new(file).lines();
-        let header = rows.next().transpose().map_err(FileError::open(path))?;
+        let mut rows = BufReader::new(file);
+        let header = next_row(&mut rows).map_err(FileError::open(path))?;
         let header = header.unwrap_or_default();
         let mut names = header.split(',');
         let first = ["tick", "time_s", "line", "state", "feed_mm_s", "path_mm"];
         if !first.iter().all(|name| names.next() == Some(name)) {
-            let reason = "it is neither a recording nor a CSV file of setpoints".to_owned();
-            return Err(FileError::guarded(path, reason).into());
+            let reason = "it is neither a recording nor a CSV file of setpoints";
+            let error = io::Error::new(io::ErrorKind::InvalidData, reason);
+            return Err(FileError::open(path)(error).into());
         }
         let column = |name: &str| {
             let (quantity, axis) = name.split_once('_')?;
@@ -101,16 +107,29 @@ impl Trace {
     }
 }
 
+/// The next row; of a file that is none of ours, it may have no end.
+fn next_row(rows: &mut BufReader<File>) -> io::Result<Option<String>> {
+    let mut row = Vec::new();
+    rows.by_ref()
+        .take(MOST_ROW_BYTES)
+        .read_until(b'\n', &mut row)?;
+    if row.is_empty() {
+        return Ok(None);
+    }
+    let text = row.strip_suffix(b"\n").unwrap_or(&row);
+    Ok(Some(String::from_utf8_lossy(text).trim_end().to_owned()))
+}
+
 impl Csv {
     fn next_setpoint(&mut self) -> Result<Option<Entry>, Failure> {
-        let Some(row) = self.rows.next() else {
+        let row = next_row(&mut self.rows).map_err(FileError::open(&self.path))?;
+        let Some(row) = row else {
             return Ok(None);
         };
-        let row = row.map_err(FileError::open(&self.path))?;
         self.row += 1;
         let setpoint = self.setpoint(&row).ok_or_else(|| {
             let reason = format!("row {} is no setpoint: {row}", self.row);
-            FileError::guarded(&self.path, reason)
+            FileError::open(&self.path)(io::Error::new(io::ErrorKind::InvalidData, reason))
         })?;
         Ok(Some(Entry::Setpoint(setpoint)))
     }

@@ -245,7 +245,7 @@ impl Supervisor<'_> {
             }
         }
         if let Some(config) = &self.args.basic.config {
-            args.extend(["--config".into(), config.into()]);
+            args.extend(["--config".into(), config.path().into()]);
         }
         Process::start(name, args).map_err(Failure::Process)
     }

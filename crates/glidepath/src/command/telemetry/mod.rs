@@ -7,9 +7,8 @@ mod message;
 use super::session;
 use crate::cli::TelemetryArgs;
 use crate::command::failure::Failure;
-use crate::config::{EMBEDDED, MachineConfig};
+use crate::config::MachineConfig;
 use crate::exit::Exit;
-use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::report::grouped;
@@ -88,10 +87,7 @@ fn settings(
     config: &MachineConfig,
     instance: &str,
 ) -> Result<BrokerSettings, Failure> {
-    let configuration = match &args.basic.config {
-        Some(path) => std::fs::read_to_string(path).map_err(FileError::open(path))?,
-        None => EMBEDDED.to_owned(),
-    };
+    let configuration = session::configuration(&args.basic)?;
     let (host, port) = args.broker.clone();
     let password = std::env::var("GLIDEPATH_MQTT_PASSWORD").unwrap_or_default();
     Ok(BrokerSettings {

@@ -28,6 +28,10 @@ impl Judge {
                 "µs between two setpoints",
             )
         });
+        let horizon_t = horizon::default_t(axes);
+        let horizon_t = self.number_or("interpolator.horizon_s", &raw.horizon_s, &range, horizon_t);
+        // What follows has no part in how the motion stops.
+        let times_are_good = !self.has_found(&["interpolator"]);
         let priority = raw.priority.as_ref().map_or(Some(80), |value| {
             self.whole(
                 "interpolator.priority",
@@ -48,8 +52,6 @@ impl Judge {
             let help = "ticks missed within a second before the motion stops with a fault";
             self.whole("interpolator.max_missed_ticks", value, (0, 1_000_000), help)
         });
-        let horizon_t = horizon::default_t(axes);
-        let horizon_t = self.number_or("interpolator.horizon_s", &raw.horizon_s, &range, horizon_t);
         let config = InterpolatorConfig {
             // A value that does not fit was found already: the configuration is refused.
             period_us: period_us.unwrap_or(4000),
@@ -58,11 +60,12 @@ impl Judge {
             max_missed_ticks: missed.unwrap_or(10),
             horizon_t,
         };
-        if self.diagnostics.is_empty() {
+        // Only numbers that are good by themselves can be judged together.
+        if times_are_good {
             self.stops(axes, raw_axes, &config);
         }
-        // Only numbers that are good by themselves can be judged together.
-        if self.diagnostics.is_empty()
+        if times_are_good
+            && !self.has_found(&["axis", "joint", "machine"])
             && let Some(mut diagnostic) = horizon::diagnostic(&config, axes)
         {
             let (horizon, period) = (raw.horizon_s.as_ref(), raw.period_us.as_ref());
@@ -83,6 +86,9 @@ impl Judge {
         interpolator: &InterpolatorConfig,
     ) {
         for (axis, raw) in axes.iter().zip(raw_axes) {
+            if self.has_found(&[&format!("axis.{}", axis.axis)]) {
+                continue;
+            }
             // The values of the file, not what joints leave of them.
             let axis = AxisConfig {
                 max_acceleration: *raw.max_acceleration.as_ref(),

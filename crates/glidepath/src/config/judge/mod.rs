@@ -58,10 +58,10 @@ pub(super) fn judge(
     let mechanism = judge.mechanism(&raw.machine, &names);
     let joint_limits = judge.joints(&raw.joint, &mechanism);
     // Looked for all over the travel, so only of a machine that can be.
-    let axis_share = if judge.diagnostics.is_empty() {
-        axis_share(&mechanism, &joint_limits, &axes)
-    } else {
+    let axis_share = if judge.has_found(&["axis", "joint", "machine"]) {
         AxisShare::FULL
+    } else {
+        axis_share(&mechanism, &joint_limits, &axes)
     };
     let braking = braking(&axes, axis_share);
     let interpolator = {

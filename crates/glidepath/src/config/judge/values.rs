@@ -18,6 +18,18 @@ pub(crate) struct Judge {
 }
 
 impl Judge {
+    /// Whether anything is wrong with tables of these names, or in them. A finding without a name may
+    /// be about any.
+    pub(super) fn has_found(&self, tables: &[&str]) -> bool {
+        self.diagnostics.iter().any(|found| {
+            let is_of = |table: &&str| {
+                let rest = found.key.strip_prefix(*table);
+                rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+            };
+            found.key.is_empty() || tables.iter().any(is_of)
+        })
+    }
+
     /// A number, which is in its range in any case: the nearest one that is stands for one that is
     /// not, so that whatever is computed from it before the file is refused comes to an end.
     pub(crate) fn number(&mut self, key: &str, value: &Spanned<f64>, range: &Range) -> f64 {

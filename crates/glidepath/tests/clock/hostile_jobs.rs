@@ -1,0 +1,94 @@
+//! What is handed to the planner's service does not take the service away from others, and a service
+//! that does not answer does not keep whoever asked it.
+
+#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
+
+use crate::support::finish;
+use rustix::process::{Pid, Signal, kill_process};
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+/// Far longer than a refusal takes, and than an answer is waited for behind an interrupt.
+const PATIENCE: Duration = Duration::from_secs(40);
+
+struct Machine {
+    instance: String,
+    interpolator: Child,
+    planner: Child,
+}
+
+impl Machine {
+    fn start() -> Self {
+        let instance = format!("jobs-{}", std::process::id());
+        let start = |args: &[&str]| {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+            let command = command.args(args).args(["--instance", &instance]);
+            let command = command.stdin(Stdio::null()).stdout(Stdio::null());
+            command.stderr(Stdio::null()).spawn().unwrap()
+        };
+        let interpolator = start(&["interpolator", "--best-effort"]);
+        let planner = start(&["planner", "--listen"]);
+        let machine = Self {
+            instance,
+            interpolator,
+            planner,
+        };
+        let started = Instant::now();
+        while !machine.ask(&["mdi", "G0 X0"]).status.success() {
+            assert!(started.elapsed() < PATIENCE, "no service");
+        }
+        machine
+    }
+
+    fn begin(&self, args: &[&str]) -> Child {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+        let command = command.args(args).args(["--instance", &self.instance]);
+        let command = command.stdin(Stdio::null()).stdout(Stdio::piped());
+        command.stderr(Stdio::piped()).spawn().unwrap()
+    }
+
+    fn ask(&self, args: &[&str]) -> Output {
+        finish(self.begin(args), PATIENCE)
+    }
+}
+
+impl Drop for Machine {
+    fn drop(&mut self) {
+        for child in [&mut self.planner, &mut self.interpolator] {
+            child.kill().ok();
+            child.wait().ok();
+        }
+    }
+}
+
+fn refused(output: &Output, file: &Path) {
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{}: {said}", file.display());
+    assert!(said.contains("no ordinary file"), "{said}");
+}
+
+#[test]
+fn no_job_takes_the_service_away() {
+    let machine = Machine::start();
+    let folder = tempfile::tempdir().unwrap();
+    let fifo = folder.path().join("fifo");
+    let made = Command::new("mkfifo").arg(&fifo).status().unwrap();
+    assert!(made.success());
+    for file in [Path::new("/dev/zero"), &fifo, folder.path()] {
+        refused(&machine.ask(&["run-file", file.to_str().unwrap()]), file);
+        let output = machine.ask(&["mdi", "G0 X1"]);
+        assert!(output.status.success(), "{}: {output:?}", file.display());
+    }
+    // A service that is stopped answers nobody.
+    let planner = Pid::from_child(&machine.planner);
+    kill_process(planner, Signal::STOP).unwrap();
+    let asked = machine.begin(&["mdi", "G0 X2"]);
+    std::thread::sleep(Duration::from_millis(500));
+    kill_process(Pid::from_child(&asked), Signal::TERM).unwrap();
+    let output = finish(asked, PATIENCE);
+    kill_process(planner, Signal::CONT).unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.contains("the planner does not answer"), "{said}");
+}

@@ -1,0 +1,60 @@
+//! What is wrong in one place of a configuration does not hide what only a later stage finds in
+//! another, nor does it make anything up.
+
+#![allow(clippy::expect_used, reason = "a test that fails may panic")]
+
+use glidepath::config;
+
+const AXIS: &str = "[axis.X]\nmin_position = -10\nmax_position = 10\nmax_velocity = 100\n\
+                    max_acceleration = 1000\nmax_jerk = 10000\n";
+
+/// One thing each that is wrong, at every stage.
+const WRONG: [&str; 7] = [
+    "[path]\ntolerance = \"x\"\n",
+    "[path]\ntolerance = -1\n",
+    "[path]\nqqqq = 1\n",
+    "[paht]\n",
+    "[interpolator]\npriority = 200\n",
+    "[home.J7]\n",
+    "[axis.Y]\nmin_position = 5\nmax_position = -5\nmax_velocity = -1\nmax_acceleration = 1\n\
+     max_jerk = 1\n",
+];
+
+fn messages(text: &str) -> Vec<String> {
+    let error = config::parse("m.toml", text).expect_err("the text has to be refused");
+    let found = error.diagnostics().iter();
+    found.map(|found| found.message.clone()).collect()
+}
+
+#[test]
+fn a_velocity_per_minute_is_told_beside_whatever_else_is_wrong() {
+    let grbl = AXIS.replace("max_velocity = 100", "max_velocity = 12000");
+    for wrong in WRONG {
+        let found = messages(&format!("{grbl}{wrong}"));
+        let told = "axis.X.max_velocity = 12000 mm/s is 720 m/min";
+        let is_told = found.iter().any(|message| message.starts_with(told));
+        assert!(is_told && found.len() > 1, "{wrong}: {found:?}");
+        let found = messages(&format!("{AXIS}{wrong}"));
+        let is_told = found.iter().any(|message| message.contains("mm/min"));
+        assert!(!is_told, "{wrong}: {found:?}");
+    }
+}
+
+#[test]
+fn a_horizon_that_is_too_short_is_told_beside_what_does_not_concern_it() {
+    let short = format!("{AXIS}[interpolator]\nhorizon_s = 0.5\n");
+    for wrong in WRONG.iter().filter(|wrong| wrong.starts_with("[pa")) {
+        let found = messages(&format!("{short}{wrong}"));
+        let told = "interpolator.horizon_s = 0.5 s is too short for this machine";
+        assert!(
+            found.iter().any(|message| message == told),
+            "{wrong}: {found:?}"
+        );
+    }
+    // Of an axis whose numbers are wrong nobody knows how long it takes to stop.
+    let found = messages(&short.replace("= 1000\n", "= -1\n"));
+    assert_eq!(
+        found,
+        ["axis.X.max_acceleration = -1 mm/s² is out of range"]
+    );
+}
