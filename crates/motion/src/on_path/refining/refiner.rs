@@ -1,7 +1,7 @@
 //! Takes what is settled and gives it on, what is curved driven by time parametrisations.
 
 use super::motion_chain::MotionChain;
-use super::worth::is_worthwhile;
+use super::worth::{is_dense, is_worthwhile};
 use crate::on_path::look_ahead::{Planned, Settled};
 use crate::on_path::pieces::{Element, Piece};
 use crate::on_path::speed::{Course, Leg};
@@ -233,6 +233,8 @@ impl Refiner {
         let course = Course::new(pieces);
         let fineness = if self.is_wanted {
             Fineness::CLOSE
+        } else if is_dense(pieces, legs.iter().map(|leg| leg.profile.duration_t()).sum()) {
+            Fineness::COARSE
         } else {
             Fineness::QUICK
         };

@@ -29,6 +29,17 @@ impl Row {
     }
 }
 
+/// What of an interval a place is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Part {
+    /// Its start, where b and b′ depend on the first two of its three coefficients.
+    Start,
+    /// Between its ends, where only speed is limited.
+    Inside,
+    /// Its end, where b and b′ depend on the last two.
+    End,
+}
+
 /// A place where limits are kept.
 #[derive(Debug)]
 pub(crate) struct Place {
@@ -36,6 +47,7 @@ pub(crate) struct Place {
     pub(crate) first: usize,
     /// b, b′ and b″ over these.
     pub(crate) taylor: Taylor,
+    pub(crate) part: Part,
     /// The square of the top speed.
     pub(crate) cap_b: f64,
     /// The length that is driven as fast as this place, mm.
@@ -90,7 +102,7 @@ impl Problem {
             problem.path(limits);
             let start_v = share_r * interval.start_v;
             let share_s = half_s + 0.5 * knot_path.before_s(k);
-            problem.place(k, parabola.start, start_v, share_s);
+            problem.place((k, Part::Start), parabola.start, start_v, share_s);
 
             // Within a piece, only the jerk is another at the start of the next interval.
             let next = knot_path.intervals.get(k + 1);
@@ -103,7 +115,7 @@ impl Problem {
                 share_r * interval.end_v
             };
             let share_s = if next.is_none() { half_s } else { 0.0 };
-            problem.place(k, parabola.end, end_v, share_s);
+            problem.place((k, Part::End), parabola.end, end_v, share_s);
             problem.inside(k, &parabola, interval, *share_r);
         }
         problem
@@ -117,12 +129,19 @@ impl Problem {
     }
 
     /// A place with the rows put in since the one before.
-    fn place(&mut self, first: usize, taylor: Taylor, top_v: f64, share_s: f64) {
+    fn place(
+        &mut self,
+        (first, part): (usize, Part),
+        taylor: Taylor,
+        top_v: f64,
+        share_s: f64,
+    ) {
         let cap_b = top_v * top_v;
         self.count += usize::from(cap_b.is_finite());
         self.places.push(Place {
             first,
             taylor,
+            part,
             cap_b,
             share_s,
             rows_end: self.rows.len(),
@@ -145,9 +164,10 @@ impl Problem {
             ..
         } = *interval;
         let top_v = start_v.max(middle_v).max(end_v);
-        self.place(first, alone([0.0, 1.0, 0.0]), share_r * top_v, 0.0);
+        let place = (first, Part::Inside);
+        self.place(place, alone([0.0, 1.0, 0.0]), share_r * top_v, 0.0);
         if middle_v < top_v {
-            self.place(first, alone(parabola.middle()), share_r * middle_v, 0.0);
+            self.place(place, alone(parabola.middle()), share_r * middle_v, 0.0);
         }
     }
 

@@ -13,17 +13,13 @@ use glidepath_program::Limits;
 /// Most knots. A piece that is driven for longer than these last, at a feed of micrometres, has
 /// them farther apart: its speed is the feed then, and memory does not grow with the time.
 const MOST_KNOTS: f64 = 30_000.0;
-/// Time from knot to knot on the S-curves: this share of that in which the jerk of an axis makes up
-/// its acceleration, and at least so long, s.
-const KNOT_R: f64 = 0.1;
+/// Time from knot to knot on the S-curves, at least, s.
 const LEAST_KNOT_T: f64 = 0.002;
 /// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's.
 const REST_T: f64 = 0.001;
 const REST_R: f64 = 0.25;
 /// Next to a rest, the time to a knot grows by this factor from the one before.
 const REST_GROWTH: f64 = 1.2;
-/// Knots nearer than this share of their distance to a place where pieces meet are left out.
-const NEAREST_R: f64 = 0.35;
 
 /// A place on the S-curves: time and path position.
 #[derive(Debug, Clone, Copy)]
@@ -48,6 +44,7 @@ pub(crate) struct KnotPath {
     marks: Vec<Mark>,
     /// Time from knot to knot, s.
     knot_t: f64,
+    nearest_r: f64,
     /// At start and end; `None` where the motion does not rest.
     pub(crate) rests: [Option<RestPhase>; 2],
     pub(crate) ends_v: [f64; 2],
@@ -81,6 +78,7 @@ impl KnotPath {
             ends_v: [first.entry_v(), last.exit_v()],
             length_s: course.length_s(),
             knot_t,
+            nearest_r: fineness.nearest_r,
         };
         let knots = knot_path.knots(course);
         knot_path.lay(course, &knots, limits);
@@ -129,7 +127,7 @@ impl KnotPath {
         let mut next = junctions.iter().copied().peekable();
         for window in own.windows(3) {
             let [before_s, here_s, after_s] = [window[0], window[1], window[2]];
-            let near_s = NEAREST_R * (here_s - before_s).min(after_s - here_s);
+            let near_s = self.nearest_r * (here_s - before_s).min(after_s - here_s);
             while let Some(junction_s) = next.next_if(|s| *s <= here_s) {
                 knots.push(junction_s);
             }
@@ -262,7 +260,7 @@ fn knot_time(limits: &Limits, fineness: &Fineness) -> f64 {
     let limited = axes.filter(|(_, jerk_j)| **jerk_j < Limits::UNLIMITED);
     let rises_t = limited.map(|(accel_a, jerk_j)| accel_a / jerk_j);
     let least_t = rises_t.fold(f64::INFINITY, f64::min);
-    (KNOT_R * least_t).max(LEAST_KNOT_T).min(fineness.knot_t)
+    (fineness.knot_r * least_t).max(LEAST_KNOT_T).min(fineness.knot_t)
 }
 
 /// Times of knots from an end of the motion up to some time, without the end.

@@ -41,7 +41,7 @@ pub(crate) fn optimise(
             firmness,
             &knot_path.intervals,
             course,
-            limits,
+            (limits, fineness),
         );
         if remedy.is_none {
             return Some(parametrisation);
@@ -61,7 +61,7 @@ fn parametrisation_of(
     rate_r: f64,
     fineness: &Fineness,
 ) -> Option<Parametrisation> {
-    let x = solve(problem, knot_path.start(rate_r), fineness.gap_r)?;
+    let x = solve(problem, knot_path.start(rate_r), fineness)?;
     let mut builder = Builder::new();
     let zero = PathState {
         position_s: 0.0,
