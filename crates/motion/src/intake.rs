@@ -92,8 +92,8 @@ impl Intake {
         self.program_position = end;
         start_at(segment, self.position);
         let is_arc = matches!(segment, Segment::Arc(_));
-        let is_made = !is_near(&end, &self.position)
-            || (is_arc && segment.length() >= SHORTEST_MOVE_MM);
+        let is_made =
+            !is_near(&end, &self.position) || (is_arc && segment.length() >= SHORTEST_MOVE_MM);
         if is_made {
             self.position = end;
         }
@@ -124,7 +124,9 @@ pub(crate) fn check_dwell(line: u32, dwell_t: f64) -> Result<(), PlanError> {
 /// True if no coordinate differs by more than [`SHORTEST_MOVE_MM`].
 fn is_near(a: &AxisVector, b: &AxisVector) -> bool {
     let pairs = a.as_slice().iter().zip(b.as_slice());
-    pairs.fold(true, |all, (a, b)| all & ((a - b).abs() <= SHORTEST_MOVE_MM))
+    pairs.fold(true, |all, (a, b)| {
+        all & ((a - b).abs() <= SHORTEST_MOVE_MM)
+    })
 }
 
 /// Gives a segment a start that differs by less than [`SHORTEST_MOVE_MM`].

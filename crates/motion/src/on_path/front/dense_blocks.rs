@@ -76,9 +76,10 @@ impl DenseBlocks {
             mode,
             feed_axes: feed_axes(&displacement),
         };
-        let goes_on = self.run.as_ref().is_some_and(|run| {
-            run.manner == manner && run.compressor.takes(&displacement)
-        });
+        let goes_on = self
+            .run
+            .as_ref()
+            .is_some_and(|run| run.manner == manner && run.compressor.takes(&displacement));
         if !goes_on {
             self.end_run(assembly, out);
         }
@@ -148,12 +149,7 @@ struct PartOutput<'a> {
 }
 
 impl PartOutput<'_> {
-    fn put_part(
-        &mut self,
-        part: SplinePart,
-        assembly: &mut Assembly,
-        out: &mut Vec<Element>,
-    ) {
+    fn put_part(&mut self, part: SplinePart, assembly: &mut Assembly, out: &mut Vec<Element>) {
         let SplinePart { shape, cuts } = part;
         let mode = self.manner.mode;
         match shape {

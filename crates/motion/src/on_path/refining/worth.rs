@@ -14,7 +14,7 @@ const GOOD_R: f64 = 1.1;
 /// spline takes the place of several.
 const LEAST_PIECE_T: f64 = 0.25e-3;
 /// Blocks that take less time than this on average, s, are dense.
-const DENSE_BLOCK_T: f64 = 0.25e-3;
+const DENSE_BLOCK_T: f64 = 0.2e-3;
 
 /// True if there are many blocks for the time that they take.
 pub(super) fn is_dense(pieces: &[Piece], duration_t: f64) -> bool {
@@ -35,6 +35,11 @@ pub(super) fn is_worthwhile(chain: &MotionChain, limits: &Limits) -> bool {
         return false;
     }
     if chain.duration_t < LEAST_PIECE_T * chain.pieces.len() as f64 {
+        return false;
+    }
+    // At the rate of the program already, as most of it is, nothing else has to be asked.
+    let at_rate_t = |piece: &Piece| piece.length_s / piece.rule.rate_v(piece.planned);
+    if chain.duration_t <= GOOD_R * chain.pieces.iter().map(at_rate_t).sum::<f64>() {
         return false;
     }
     let steady_t = |piece: &Piece| piece.length_s / piece.rule.steady_v(piece.planned, limits);

@@ -217,7 +217,11 @@ impl<const D: usize> Window<D> {
                 if solve >= solves + MORE_SOLVES {
                     return Some(verdict.worst_sample);
                 }
-                worst = if is_in_tube { beyond } else { Some(verdict.worst_sample) };
+                worst = if is_in_tube {
+                    beyond
+                } else {
+                    Some(verdict.worst_sample)
+                };
             }
             self.weigh(worst);
         }
@@ -232,7 +236,9 @@ impl<const D: usize> Window<D> {
             return None;
         };
         let from_t = knots[spans + DEGREE];
-        let first = self.samples.partition_point(|sample| sample.foot_t <= from_t);
+        let first = self
+            .samples
+            .partition_point(|sample| sample.foot_t <= from_t);
         let samples = self.samples.iter().enumerate().skip(first);
         let beyond = samples.take_while(|(_, sample)| sample.foot_t <= to_t);
         let worst = beyond.max_by(|(_, a), (_, b)| a.error_mm.total_cmp(&b.error_mm))?;

@@ -100,7 +100,14 @@ impl Problem {
             let (start, end) = (&interval.start, &interval.end);
             problem.axes((start, interval.start_v), limits, *share_r, true);
             problem.path(limits);
-            let start_v = share_r * interval.start_v;
+            // The speed of S-curves is within the top speed, or at it: there is no room to ask for.
+            let is_given = |is_end: bool, end: usize| is_end && knot_path.ends_r[end].is_some();
+            let (from_given, to_given) = (is_given(k == 0, 0), is_given(k + 1 == count, 1));
+            let start_v = if from_given {
+                f64::INFINITY
+            } else {
+                share_r * interval.start_v
+            };
             let share_s = half_s + 0.5 * knot_path.before_s(k);
             problem.place((k, Part::Start), parabola.start, start_v, share_s);
 
@@ -109,14 +116,14 @@ impl Problem {
             let is_inside = next.is_some_and(|next| next.piece == interval.piece);
             problem.axes((end, interval.end_v), limits, *share_r, !is_inside);
             problem.path(limits);
-            let end_v = if is_inside {
+            let end_v = if is_inside || to_given {
                 f64::INFINITY
             } else {
                 share_r * interval.end_v
             };
             let share_s = if next.is_none() { half_s } else { 0.0 };
             problem.place((k, Part::End), parabola.end, end_v, share_s);
-            problem.inside(k, &parabola, interval, *share_r);
+            problem.inside(k, &parabola, interval, *share_r, from_given || to_given);
         }
         problem
     }
@@ -129,13 +136,7 @@ impl Problem {
     }
 
     /// A place with the rows put in since the one before.
-    fn place(
-        &mut self,
-        (first, part): (usize, Part),
-        taylor: Taylor,
-        top_v: f64,
-        share_s: f64,
-    ) {
+    fn place(&mut self, (first, part): (usize, Part), taylor: Taylor, top_v: f64, share_s: f64) {
         let cap_b = top_v * top_v;
         self.count += usize::from(cap_b.is_finite());
         self.places.push(Place {
@@ -150,8 +151,16 @@ impl Problem {
 
     /// The top speed between the ends of an interval. Its coefficient is the middle Bézier point of
     /// b there, so b is nowhere above the largest of it and the values at both ends; where the top
-    /// speed changes, b is kept below it in the middle, too.
-    fn inside(&mut self, first: usize, parabola: &Parabola, interval: &Interval, share_r: f64) {
+    /// speed changes, b is kept below it in the middle, too. At an end where the speed is given, the
+    /// coefficient is.
+    fn inside(
+        &mut self,
+        first: usize,
+        parabola: &Parabola,
+        interval: &Interval,
+        share_r: f64,
+        is_given: bool,
+    ) {
         let alone = |value: [f64; 3]| Taylor {
             value,
             slope: [0.0; 3],
@@ -165,7 +174,9 @@ impl Problem {
         } = *interval;
         let top_v = start_v.max(middle_v).max(end_v);
         let place = (first, Part::Inside);
-        self.place(place, alone([0.0, 1.0, 0.0]), share_r * top_v, 0.0);
+        if !is_given {
+            self.place(place, alone([0.0, 1.0, 0.0]), share_r * top_v, 0.0);
+        }
         if middle_v < top_v {
             self.place(place, alone(parabola.middle()), share_r * middle_v, 0.0);
         }

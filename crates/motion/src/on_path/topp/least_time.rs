@@ -68,6 +68,7 @@ fn parametrisation_of(
         speed_v: 0.0,
         accel_a: 0.0,
     };
+    // Ends at rest are as fast as the start.
     let slowed = |rest: RestPhase| (rest.jerk_j * rate_r.powi(3), rest.duration_t / rate_r);
     if let Some((jerk_j, duration_t)) = knot_path.rests[0].map(slowed) {
         builder.push_phase(zero, jerk_j, duration_t);
@@ -91,7 +92,7 @@ fn parametrisation_of(
     }
     Some(builder.finish(PathState {
         position_s: knot_path.length_s,
-        speed_v: knot_path.ends_v[1] * rate_r,
+        speed_v: knot_path.ends_v[1] * knot_path.ends_at(rate_r)[1],
         accel_a: 0.0,
     }))
 }
