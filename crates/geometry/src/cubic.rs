@@ -187,7 +187,14 @@ impl Cubic {
     /// allocates.
     #[must_use]
     pub fn jet(&self, s: f64) -> Jet {
-        let at = ParameterJet::new(self, self.parameter_at(s));
+        self.jet_at_parameter(self.parameter_at(s))
+    }
+
+    /// The same at a parameter in 0…1, which has not to be sought.
+    #[must_use]
+    #[inline]
+    pub fn jet_at_parameter(&self, u: f64) -> Jet {
+        let at = ParameterJet::new(self, u);
         let [e0, e1, e2] = at.steps;
         let c3 = (e2 - e1 * 2.0 + e0) * 6.0;
         let w2 = 2.0 * (self.dot(&at.c2, &at.c2) + self.dot(&at.c1, &c3));

@@ -47,17 +47,15 @@ impl Intake {
         rate: Rate,
         mode: PathMode,
     ) -> Result<(), PlanError> {
-        let finite = segment
-            .start()
-            .iter()
-            .chain(segment.end().iter())
-            .all(|x| x.is_finite())
-            && segment.length().is_finite();
-        if !finite {
+        let (start, end) = (segment.start(), segment.end());
+        // Zero times what is not finite is not a number.
+        let nothing = |point: &AxisVector| point.as_slice().iter().map(|x| 0.0 * x).sum::<f64>();
+        let is_finite = nothing(&start) + nothing(&end) == 0.0;
+        if !(is_finite && segment.length().is_finite()) {
             return Err(PlanError::NotFinite { line });
         }
-        let gap_mm = (segment.start() - self.program_position).amax();
-        if gap_mm > SHORTEST_MOVE_MM {
+        if !is_near(&start, &self.program_position) {
+            let gap_mm = (start - self.program_position).amax();
             return Err(PlanError::Gap { line, gap_mm });
         }
         // Not a number is no rate either.
@@ -82,17 +80,24 @@ impl Intake {
     /// Takes a move that was checked: its segment from where the last one ended; `None` if it is
     /// too short to be made.
     #[inline]
-    pub(crate) fn take(&mut self, segment: Segment) -> Option<Segment> {
-        self.program_position = segment.end();
-        let segment = starting_at(segment, self.position);
+    pub(crate) fn take(&mut self, mut segment: Segment) -> Option<Segment> {
+        self.takes(&mut segment).then_some(segment)
+    }
+
+    /// As [`Intake::take`], where the segment is: it is large, and a program has millions. False if
+    /// it is too short to be made.
+    #[inline]
+    pub(crate) fn takes(&mut self, segment: &mut Segment) -> bool {
+        let end = segment.end();
+        self.program_position = end;
+        start_at(segment, self.position);
         let is_arc = matches!(segment, Segment::Arc(_));
-        if (segment.end() - segment.start()).amax() < SHORTEST_MOVE_MM
-            && (!is_arc || segment.length() < SHORTEST_MOVE_MM)
-        {
-            return None;
+        let is_made =
+            !is_near(&end, &self.position) || (is_arc && segment.length() >= SHORTEST_MOVE_MM);
+        if is_made {
+            self.position = end;
         }
-        self.position = segment.end();
-        Some(segment)
+        is_made
     }
 
     /// The way from where the segments end to where the program is: what moves too short to be made
@@ -116,12 +121,19 @@ pub(crate) fn check_dwell(line: u32, dwell_t: f64) -> Result<(), PlanError> {
     }
 }
 
-/// The same segment from a start that differs by less than [`SHORTEST_MOVE_MM`].
-fn starting_at(mut segment: Segment, start: AxisVector) -> Segment {
-    match &mut segment {
+/// True if no coordinate differs by more than [`SHORTEST_MOVE_MM`].
+fn is_near(a: &AxisVector, b: &AxisVector) -> bool {
+    let pairs = a.as_slice().iter().zip(b.as_slice());
+    pairs.fold(true, |all, (a, b)| {
+        all & ((a - b).abs() <= SHORTEST_MOVE_MM)
+    })
+}
+
+/// Gives a segment a start that differs by less than [`SHORTEST_MOVE_MM`].
+const fn start_at(segment: &mut Segment, start: AxisVector) {
+    match segment {
         Segment::Line(line) => line.start = start,
         Segment::Arc(arc) => arc.start = start,
         Segment::Curve(curve) => curve.start = start,
     }
-    segment
 }

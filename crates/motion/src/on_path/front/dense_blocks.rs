@@ -76,17 +76,18 @@ impl DenseBlocks {
             mode,
             feed_axes: feed_axes(&displacement),
         };
-        let run = match self.run.take() {
-            Some(run) if run.manner == manner && run.compressor.takes(&displacement) => Some(run),
-            other => {
-                self.run = other;
-                self.end_run(assembly, out);
-                None
-            }
-        };
+        let goes_on = self
+            .run
+            .as_ref()
+            .is_some_and(|run| run.manner == manner && run.compressor.takes(&displacement));
+        if !goes_on {
+            self.end_run(assembly, out);
+        }
         self.is_linear &= displacement.iter().skip(3).all(|x| *x == 0.0);
+        let is_linear = self.is_linear;
         let mut is_new = false;
-        let mut run = run.unwrap_or_else(|| {
+        // A run is large: it stays where it is.
+        let run = self.run.get_or_insert_with(|| {
             is_new = true;
             let tolerance_mm = mode.tolerance_mm(assembly.settings.tolerance_mm);
             let (start, settings) = (block.start, &assembly.settings);
@@ -94,7 +95,7 @@ impl DenseBlocks {
                 compressor: Compressor::new(
                     start,
                     manner.feed_axes.clone(),
-                    self.is_linear,
+                    is_linear,
                     tolerance_mm,
                     settings,
                 ),
@@ -112,8 +113,7 @@ impl DenseBlocks {
         });
         run.rate = rate;
         run.compressor.push(&block.end, line, change);
-        self.put_parts(&mut run, assembly, out);
-        self.run = Some(run);
+        run.put_parts(&mut self.run_rate, assembly, out);
         true
     }
 
@@ -121,25 +121,37 @@ impl DenseBlocks {
     pub(crate) fn end_run(&mut self, assembly: &mut Assembly, out: &mut Vec<Element>) {
         if let Some(mut run) = self.run.take() {
             run.compressor.finish();
-            self.put_parts(&mut run, assembly, out);
+            run.put_parts(&mut self.run_rate, assembly, out);
         }
     }
+}
 
-    fn put_parts(&mut self, run: &mut DenseRun, assembly: &mut Assembly, out: &mut Vec<Element>) {
-        for part in run.compressor.parts() {
-            self.put_part(part, &run.manner, assembly, out);
-        }
-    }
-
-    fn put_part(
+impl DenseRun {
+    /// Puts out what is decided; `run_rate`: that of the block put out last.
+    fn put_parts(
         &mut self,
-        part: SplinePart,
-        manner: &Manner,
+        run_rate: &mut ProgrammedRate,
         assembly: &mut Assembly,
         out: &mut Vec<Element>,
     ) {
+        let manner = &self.manner;
+        for part in self.compressor.parts() {
+            PartOutput { run_rate, manner }.put_part(part, assembly, out);
+        }
+    }
+}
+
+/// Puts out parts of a run.
+struct PartOutput<'a> {
+    /// The rate of the block that was last put out.
+    run_rate: &'a mut ProgrammedRate,
+    manner: &'a Manner,
+}
+
+impl PartOutput<'_> {
+    fn put_part(&mut self, part: SplinePart, assembly: &mut Assembly, out: &mut Vec<Element>) {
         let SplinePart { shape, cuts } = part;
-        let mode = manner.mode;
+        let mode = self.manner.mode;
         match shape {
             PartShape::Line {
                 start,
@@ -157,7 +169,7 @@ impl DenseBlocks {
             }
             PartShape::Span { control, error_mm } => {
                 assembly.put_pending(out);
-                self.put_span((control, error_mm), cuts, manner, assembly, out);
+                self.put_span((control, error_mm), cuts, assembly, out);
             }
             PartShape::Stop => {
                 assembly.put_pending(out);
@@ -180,7 +192,7 @@ impl DenseBlocks {
         let Some(Change { rate, events }) = cut.change.take() else {
             return Vec::new();
         };
-        self.run_rate = rate;
+        *self.run_rate = rate;
         events
     }
 
@@ -200,7 +212,7 @@ impl DenseBlocks {
         let lines = cuts.iter().skip(1);
         let rate = ProgrammedRate {
             axes_v: axes_speed(&segment, &assembly.settings.limits),
-            ..self.run_rate
+            ..*self.run_rate
         };
         Pending {
             segment,
@@ -222,10 +234,10 @@ impl DenseBlocks {
         &mut self,
         (control, error_mm): ([AxisVector; 4], f64),
         cuts: Vec<Cut>,
-        manner: &Manner,
         assembly: &Assembly,
         out: &mut Vec<Element>,
     ) {
+        let manner = self.manner;
         let Some(span) = Cubic::new(control, manner.feed_axes.clone()) else {
             return;
         };
@@ -253,7 +265,7 @@ impl DenseBlocks {
                 .map_or(end_s, |next| span.position_at(next.from_u));
             let rule = SpeedRule::Curve {
                 curve: Box::new(curve),
-                rates: [self.run_rate; 2],
+                rates: [*self.run_rate; 2],
             };
             let shape = Shape::Spline(Box::new(span.clone()));
             let mut piece = assembly.piece(shape, (from_s, to_s - from_s), rule, cut.line);

@@ -45,7 +45,7 @@ impl PathFront {
     pub(crate) fn push(&mut self, item: &Item, out: &mut Vec<Element>) -> Result<(), PlanError> {
         match item.kind {
             ItemKind::Move {
-                segment,
+                ref segment,
                 rate,
                 mode,
             } => {
@@ -72,29 +72,29 @@ impl PathFront {
     fn push_move(
         &mut self,
         line: ProgramLine,
-        segment: Segment,
+        segment: &Segment,
         rate: Rate,
         mode: PathMode,
         out: &mut Vec<Element>,
     ) -> Result<(), PlanError> {
-        self.intake.check_move(line.number, &segment, rate, mode)?;
+        self.intake.check_move(line.number, segment, rate, mode)?;
         self.last_rate = rate;
-        let Some(segment) = self.intake.take(segment) else {
+        let mut segment = *segment;
+        if !self.intake.takes(&mut segment) {
             return Ok(());
-        };
+        }
         let length_s = segment.length();
         let assembly = &mut self.assembly;
-        let limits = assembly.settings.limits;
-        let programmed = || ProgrammedRate {
+        let programmed = |settings: &Settings| ProgrammedRate {
             rate,
-            axes_v: axes_speed(&segment, &limits),
+            axes_v: axes_speed(&segment, &settings.limits),
         };
         if rate.is_synchronised() {
             // A pass is not interrupted, however much faster that were.
             assembly.blocks.lose();
         }
         if assembly.blocks.keeps() {
-            let rule = assembly.rule(&segment, programmed(), mode);
+            let rule = assembly.rule(&segment, programmed(&assembly.settings), mode);
             let shape = Shape::Segment(segment);
             let mut piece = assembly.piece(shape, (0.0, length_s), rule, line);
             piece.events.clone_from(&assembly.events);
@@ -107,7 +107,7 @@ impl PathFront {
             return Ok(());
         }
         self.dense.end_run(assembly, out);
-        let rate = programmed();
+        let rate = programmed(&assembly.settings);
         let mut next = Pending {
             segment,
             length_s,

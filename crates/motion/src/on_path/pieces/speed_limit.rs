@@ -147,18 +147,27 @@ impl SpeedRule {
         }
     }
 
+    /// The rate, mm/s: the speed is nowhere higher.
+    pub(crate) fn rate_v(&self, wanted: Override) -> f64 {
+        match self {
+            Self::Straight { rate, .. } | Self::Arc { rate, .. } => rate.under(wanted),
+            Self::Curve { curve, rates } => {
+                rates[0].under(wanted).min(rates[1].under(wanted)) / curve.stretch_r
+            }
+        }
+    }
+
     /// What bounds the speed whatever the axes can do: the rate, mm/s, the acceleration across the
     /// path at which the chord of one period uses up the tolerance, mm/s², and the speed at which it
     /// does so where the curvature is largest, mm/s.
     pub(crate) fn caps(&self, wanted: Override) -> (f64, f64, f64) {
         match self {
-            Self::Straight { rate, .. } => (rate.under(wanted), f64::INFINITY, f64::INFINITY),
-            Self::Arc { rate, chord_v, .. } => {
+            Self::Straight { .. } => (self.rate_v(wanted), f64::INFINITY, f64::INFINITY),
+            Self::Arc { chord_v, .. } => {
                 let chord_a = chord_v * chord_v * self.curvature_k();
-                (rate.under(wanted), chord_a, *chord_v)
+                (self.rate_v(wanted), chord_a, *chord_v)
             }
-            Self::Curve { curve, rates } => {
-                let rate_v = rates[0].under(wanted).min(rates[1].under(wanted));
+            Self::Curve { curve, .. } => {
                 let chord_a = curve.chord_v * curve.chord_v * tolerance_norm(&curve.bounds.d2);
                 // On a straight one both factors are without meaning.
                 let chord_a = if chord_a.is_nan() {
@@ -166,7 +175,7 @@ impl SpeedRule {
                 } else {
                     chord_a
                 };
-                (rate_v / curve.stretch_r, chord_a, curve.chord_v)
+                (self.rate_v(wanted), chord_a, curve.chord_v)
             }
         }
     }

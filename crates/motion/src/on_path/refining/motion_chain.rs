@@ -4,6 +4,9 @@ use crate::on_path::look_ahead::Settled;
 use crate::on_path::pieces::Piece;
 use crate::on_path::speed::Leg;
 
+/// Times that differ by less are the same, s.
+const ROUNDING_T: f64 = 1e-9;
+
 /// Motions one after the other, as they were settled.
 #[derive(Debug, Clone, Default)]
 pub(super) struct MotionChain {
@@ -47,6 +50,43 @@ impl MotionChain {
 
     pub(super) fn exit_v(&self) -> f64 {
         self.legs.last().map_or(0.0, |leg| leg.profile.exit_v())
+    }
+
+    pub(super) fn entry_v(&self) -> f64 {
+        self.legs.first().map_or(0.0, |leg| leg.profile.entry_v())
+    }
+
+    /// How long the S-curves keep the speed at which they begin, and that at which they end, s.
+    pub(super) fn cruises_t(&self) -> [f64; 2] {
+        let (mut first_t, mut last_t) = (0.0, 0.0);
+        for leg in &self.legs {
+            let (cruise, duration_t) = (leg.profile.cruise_t(), leg.profile.duration_t());
+            if cruise.start > ROUNDING_T {
+                break;
+            }
+            first_t += cruise.end;
+            if cruise.end < duration_t - ROUNDING_T {
+                break;
+            }
+        }
+        for leg in self.legs.iter().rev() {
+            let (cruise, duration_t) = (leg.profile.cruise_t(), leg.profile.duration_t());
+            if cruise.end < duration_t - ROUNDING_T {
+                break;
+            }
+            last_t += duration_t - cruise.start;
+            if cruise.start > ROUNDING_T {
+                break;
+            }
+        }
+        [first_t, last_t]
+    }
+
+    /// The first end after a share of the time, if another follows.
+    pub(super) fn first_after(&self, share_r: f64) -> Option<End> {
+        let others = self.ends.split_last()?.1;
+        let is_after = |end: &&End| end.duration_t >= share_r * self.duration_t;
+        others.iter().find(is_after).copied()
     }
 
     /// The end at which the S-curves are slowest, between two shares of the time.

@@ -1,7 +1,15 @@
 //! Takes what is settled and gives it on, what is curved driven by time parametrisations.
+//!
+//! Motion is taken in windows. A window on which S-curves are good enough stays with them; any other
+//! is driven by a parametrisation, which starts from the S-curves slowed down. Where one window
+//! meets the next the motion has no acceleration.
+//!
+//! A parametrisation can begin and end at the speed of the S-curves where these cruise: there is
+//! room to slow the start down and to speed it up. So it takes over from S-curves, and they from it.
+//! Elsewhere it passes on slowed down to another parametrisation.
 
 use super::motion_chain::MotionChain;
-use super::worth::is_worthwhile;
+use super::worth::{is_dense, is_worthwhile};
 use crate::on_path::look_ahead::{Planned, Settled};
 use crate::on_path::pieces::{Element, Piece};
 use crate::on_path::speed::{Course, Leg};
@@ -22,6 +30,12 @@ pub(crate) const RATE_R: f64 = 0.85;
 /// Where no parametrisation is found, the window is parted in this share of it, so often at most.
 const MIDDLE_R: [f64; 2] = [0.2, 0.8];
 const HALVINGS: u32 = 6;
+/// Where S-curves cruise so long, s, a time parametrisation can take over from them at their speed.
+const CRUISE_T: f64 = 0.05;
+/// Where S-curves cannot be left at their own speed, they are left after this share of the time,
+/// tried so often.
+const LATER_R: f64 = 0.1;
+const MOST_STARTS: u32 = 8;
 /// From rest to rest, other rates to start from.
 const RATES: [f64; 4] = [RATE_R, 0.7, 0.55, 0.4];
 /// Stops are not refined unless the S-curves between them take less than this many times what the
@@ -34,8 +48,8 @@ pub(crate) struct Refiner {
     limits: Limits,
     /// A NURBS has come: what is still to be driven gets parametrisations, from the next rest on.
     is_wanted: bool,
-    /// Nothing that goes on without a time parametrisation was given on since the last rest.
-    is_from_rest: bool,
+    /// The motion was planned anew from a speed: it keeps to S-curves up to the next rest.
+    is_fixed: bool,
     /// The motion goes on at [`RATE_R`] of the speed that the S-curves have.
     is_slowed: bool,
     waiting: MotionChain,
@@ -46,7 +60,7 @@ impl Refiner {
         Self {
             limits,
             is_wanted: false,
-            is_from_rest: true,
+            is_fixed: false,
             is_slowed: false,
             waiting: MotionChain::default(),
         }
@@ -67,7 +81,7 @@ impl Refiner {
     pub(crate) fn restart(&mut self, entry_v: f64, is_slowed: bool) {
         *self = Self {
             is_wanted: self.is_wanted,
-            is_from_rest: entry_v <= 0.0 || is_slowed,
+            is_fixed: entry_v > 0.0 && !is_slowed,
             is_slowed,
             ..Self::new(self.limits)
         };
@@ -113,7 +127,7 @@ impl Refiner {
 
     fn push_settled(&mut self, settled: Settled, out: &mut VecDeque<Settled>) {
         match settled {
-            Settled::Motion { pieces, legs } if self.is_from_rest => {
+            Settled::Motion { pieces, legs } if !self.is_fixed => {
                 self.waiting.push(pieces, &legs);
                 let window_t = if self.is_wanted {
                     WINDOW_OF_NURBS_T
@@ -124,13 +138,10 @@ impl Refiner {
                     self.put_window(out);
                 }
             }
-            Settled::Motion { .. } | Settled::Parametrised { .. } => {
-                self.is_from_rest = false;
-                out.push_back(settled);
-            }
+            Settled::Motion { .. } | Settled::Parametrised { .. } => out.push_back(settled),
             Settled::Rest(_) => {
                 self.put(out);
-                self.is_from_rest = true;
+                self.is_fixed = false;
                 self.is_slowed = false;
                 out.push_back(settled);
             }
@@ -141,7 +152,6 @@ impl Refiner {
     /// good enough.
     fn put_window(&mut self, out: &mut VecDeque<Settled>) {
         if self.is_good() {
-            self.is_from_rest = false;
             out.extend(core::mem::take(&mut self.waiting).settled());
             return;
         }
@@ -149,7 +159,9 @@ impl Refiner {
             return;
         };
         let remainder = self.waiting.split_off(&end);
-        self.refine(out);
+        let goes_on =
+            self.waiting.cruises_t()[1] >= CRUISE_T && remainder.cruises_t()[0] >= CRUISE_T;
+        self.refine(goes_on, out);
         self.waiting = remainder;
     }
 
@@ -158,7 +170,7 @@ impl Refiner {
         if self.is_good() {
             out.extend(core::mem::take(&mut self.waiting).settled());
         } else {
-            self.refine(out);
+            self.refine(false, out);
         }
     }
 
@@ -167,41 +179,61 @@ impl Refiner {
         !self.is_wanted && !self.is_slowed && !is_worthwhile(&self.waiting, &self.limits)
     }
 
-    fn refine(&mut self, out: &mut VecDeque<Settled>) {
-        let chain = core::mem::take(&mut self.waiting);
-        if chain.legs.is_empty() {
-            return;
-        }
-        let is_free = chain.exit_v() <= 0.0 && !self.is_slowed;
-        self.is_slowed = chain.exit_v() > 0.0;
-        if !is_free {
-            return self.put_slowed(chain, HALVINGS, out);
-        }
-        let MotionChain {
-            pieces,
-            legs,
-            duration_t,
-            ..
-        } = chain;
-        let parametrisation = self.parametrisation(&pieces, &legs, &RATES);
-        out.push_back(
-            match parametrisation
-                .filter(|parametrisation| parametrisation.duration_t() < duration_t)
-            {
-                Some(parametrisation) => Settled::Parametrised {
+    /// A time parametrisation in place of the S-curves that wait. `at_speed`: they cruise at their
+    /// end, which it may reach at their speed.
+    fn refine(&mut self, at_speed: bool, out: &mut VecDeque<Settled>) {
+        let mut chain = core::mem::take(&mut self.waiting);
+        for _ in 0..MOST_STARTS {
+            if chain.legs.is_empty() {
+                return;
+            }
+            if let Some(parametrisation) = self.whole(&chain, at_speed) {
+                self.is_slowed = chain.exit_v() > 0.0 && !at_speed;
+                let MotionChain { pieces, .. } = chain;
+                out.push_back(Settled::Parametrised {
                     pieces,
                     parametrisation,
-                },
-                None => Settled::Motion { pieces, legs },
-            },
-        );
+                });
+                return;
+            }
+            if self.is_slowed || (chain.entry_v() <= 0.0 && chain.exit_v() > 0.0) {
+                self.is_slowed = chain.exit_v() > 0.0;
+                return self.put_slowed(chain, HALVINGS, out);
+            }
+            // The S-curves are left a little later.
+            let Some(end) = chain.first_after(LATER_R).filter(|_| chain.entry_v() > 0.0) else {
+                break;
+            };
+            let remainder = chain.split_off(&end);
+            out.extend(core::mem::replace(&mut chain, remainder).settled());
+        }
+        out.extend(chain.settled());
+    }
+
+    /// A time parametrisation along a chain that takes less time than S-curves, as fast as these at
+    /// its start unless it is slowed, and `at_speed` at its end.
+    fn whole(&self, chain: &MotionChain, at_speed: bool) -> Option<Parametrisation> {
+        let ends_v = [chain.entry_v(), chain.exit_v()];
+        let is_at_speed = [
+            ends_v[0] > 0.0 && !self.is_slowed,
+            ends_v[1] > 0.0 && at_speed,
+        ];
+        let ends_r = is_at_speed.map(|is_at_speed| is_at_speed.then_some(1.0));
+        let rates: &[f64] = if ends_v.iter().all(|v| *v <= 0.0) {
+            &RATES
+        } else {
+            &[RATE_R]
+        };
+        self.parametrisation(&chain.pieces, &chain.legs, rates, ends_r)
+            .filter(|found| self.is_slowed || found.duration_t() < chain.duration_t)
     }
 
     /// With a time parametrisation that begins and ends at [`RATE_R`] of the speed of the S-curves.
     /// If none is found for all of it, one is for most of its parts: only where there is none, the
     /// S-curves are driven slower.
     fn put_slowed(&self, mut chain: MotionChain, halvings: u32, out: &mut VecDeque<Settled>) {
-        let parametrisation = self.parametrisation(&chain.pieces, &chain.legs, &[RATE_R]);
+        let parametrisation =
+            self.parametrisation(&chain.pieces, &chain.legs, &[RATE_R], [None; 2]);
         if parametrisation.is_none()
             && let Some(fewer) = halvings.checked_sub(1)
             && let Some(middle) = chain.slowest(MIDDLE_R)
@@ -229,14 +261,20 @@ impl Refiner {
         pieces: &[Piece],
         legs: &[Leg],
         rates: &[f64],
+        ends_r: [Option<f64>; 2],
     ) -> Option<Parametrisation> {
         let course = Course::new(pieces);
         let fineness = if self.is_wanted {
             Fineness::CLOSE
+        } else if is_dense(
+            pieces,
+            legs.iter().map(|leg| leg.profile.duration_t()).sum(),
+        ) {
+            Fineness::COARSE
         } else {
             Fineness::QUICK
         };
-        let knot_path = KnotPath::new(&course, legs, &self.limits, &fineness)?;
+        let knot_path = KnotPath::new(&course, legs, &self.limits, &fineness, ends_r)?;
         optimise(knot_path, &course, &self.limits, (rates, &fineness))
     }
 }

@@ -9,9 +9,18 @@ use glidepath_program::Limits;
 /// good enough: mostly, they are at the programmed feed.
 const GOOD_R: f64 = 1.1;
 
-/// Blocks that take less time than this on average, s, stay with S-curves: how many of them are
-/// planned in a second goes before how long they take.
-const LEAST_BLOCK_T: f64 = 0.25e-3;
+/// Pieces that take less time than this on average, s, stay with S-curves: how many blocks are
+/// planned in a second goes before how long they take. Dense lines are not so short: a span of their
+/// spline takes the place of several.
+const LEAST_PIECE_T: f64 = 0.25e-3;
+/// Blocks that take less time than this on average, s, are dense.
+const DENSE_BLOCK_T: f64 = 0.2e-3;
+
+/// True if there are many blocks for the time that they take.
+pub(super) fn is_dense(pieces: &[Piece], duration_t: f64) -> bool {
+    let blocks: usize = pieces.iter().map(|piece| 1 + piece.lines.len()).sum();
+    duration_t < DENSE_BLOCK_T * blocks as f64
+}
 
 /// True if S-curves may lose time along a chain: there are curves on it, on which limits bind.
 ///
@@ -25,8 +34,12 @@ pub(super) fn is_worthwhile(chain: &MotionChain, limits: &Limits) -> bool {
     if !chain.pieces.iter().any(is_curve) {
         return false;
     }
-    let blocks: usize = chain.pieces.iter().map(|piece| 1 + piece.lines.len()).sum();
-    if chain.duration_t < LEAST_BLOCK_T * blocks as f64 {
+    if chain.duration_t < LEAST_PIECE_T * chain.pieces.len() as f64 {
+        return false;
+    }
+    // At the rate of the program already, as most of it is, nothing else has to be asked.
+    let at_rate_t = |piece: &Piece| piece.length_s / piece.rule.rate_v(piece.planned);
+    if chain.duration_t <= GOOD_R * chain.pieces.iter().map(at_rate_t).sum::<f64>() {
         return false;
     }
     let steady_t = |piece: &Piece| piece.length_s / piece.rule.steady_v(piece.planned, limits);

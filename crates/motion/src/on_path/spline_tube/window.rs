@@ -40,6 +40,8 @@ const SOLVES: u32 = 6;
 const SOLVES_REFINED: u32 = 4;
 /// Solves more that a certificate that fails may cost.
 const MORE_SOLVES: u32 = 6;
+/// Solves more where the curve is in the tube as far as it is put out, and not right behind that.
+const SOLVES_BEYOND: u32 = 2;
 /// First weight: so stiff that the first curve keeps near the samples.
 const FIRST_STIFFNESS: f64 = 2.0;
 /// Weights stay between these, times the sixth power of 1/spacing.
@@ -206,18 +208,41 @@ impl<const D: usize> Window<D> {
                     &self.shares.feed_axes,
                     &mut self.errors_mm,
                 );
-                if verdict.worst_mm <= self.shares.allowed_mm {
+                let is_in_tube = verdict.worst_mm <= self.shares.allowed_mm;
+                let beyond = self.worst_beyond(end, spans);
+                if is_in_tube && (beyond.is_none() || solve >= solves + SOLVES_BEYOND) {
                     (self.chord, self.passed_u) = (verdict.chord, verdict.passed_u);
                     return None;
                 }
                 if solve >= solves + MORE_SOLVES {
                     return Some(verdict.worst_sample);
                 }
-                worst = Some(verdict.worst_sample);
+                worst = if is_in_tube {
+                    beyond
+                } else {
+                    Some(verdict.worst_sample)
+                };
             }
             self.weigh(worst);
         }
         None
+    }
+
+    /// The worst sample out of the tube on the spans behind those that are put out, whose control
+    /// points the next window has to keep: it can hardly mend what they leave it.
+    fn worst_beyond(&self, end: Option<End>, spans: usize) -> Option<usize> {
+        let knots = &self.spline.knots;
+        let (None, Some(&to_t)) = (end, knots.get(spans + 2 * DEGREE)) else {
+            return None;
+        };
+        let from_t = knots[spans + DEGREE];
+        let first = self
+            .samples
+            .partition_point(|sample| sample.foot_t <= from_t);
+        let samples = self.samples.iter().enumerate().skip(first);
+        let beyond = samples.take_while(|(_, sample)| sample.foot_t <= to_t);
+        let worst = beyond.max_by(|(_, a), (_, b)| a.error_mm.total_cmp(&b.error_mm))?;
+        (worst.1.error_mm > self.shares.allowed_mm).then_some(worst.0)
     }
 
     /// Raises the weights where the curve is too far away, lowers them where it is near; once the

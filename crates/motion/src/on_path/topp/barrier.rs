@@ -3,34 +3,35 @@
 //! At each place slope and bend of the barrier are collected over b, b′ and b″, and brought to the
 //! three coefficients at once.
 
-use super::constraints::{Place, Problem, Row};
+use super::constraints::{Part, Place, Problem, Row};
+use super::fineness::Fineness;
 
 /// The weight of the time at the start, in limits for the time that the start takes.
 const START: f64 = 5.0;
 /// Steps of Newton's method for one weight of the barrier.
 const STEPS: u32 = 60;
+/// The square of a step, in the measure of the barrier, that is small whatever the number of knots.
+const SMALL_STEP: f64 = 1.0;
 /// The weight of the time grows by this factor when a step is small.
 const GROWTH: f64 = 50.0;
-/// The square of a step, in the measure of the barrier, that counts as small.
-const SMALL_STEP: f64 = 1.0;
 /// Halvings of a step that would leave the limits.
 const HALVINGS: u32 = 40;
 
 /// Coefficients of a time parametrisation that keeps all limits and takes near the least time, from
-/// one that keeps them with room to spare; `None` if the start does not. `gap_r`: what may be left
-/// to gain, as a share of the time.
-pub(crate) fn solve(problem: &Problem, start: Vec<f64>, gap_r: f64) -> Option<Vec<f64>> {
+/// one that keeps them with room to spare; `None` if the start does not.
+pub(crate) fn solve(problem: &Problem, start: Vec<f64>, fineness: &Fineness) -> Option<Vec<f64>> {
     let mut x = start;
     let time_t = problem.time(&x);
     let mut weight = START * problem.count as f64 / time_t;
-    let last = 3.0 * problem.knots as f64 / (gap_r * time_t);
+    let last = 3.0 * problem.knots as f64 / (fineness.gap_r * time_t);
+    let small_step = (fineness.small_r * problem.knots as f64).max(SMALL_STEP);
     let mut value = merit(problem, &x, weight)?;
     let mut newton = Newton::new(x.len());
     loop {
         for _ in 0..STEPS {
             newton.assemble(problem, &x, weight);
             let decrement = newton.solve();
-            if decrement.is_nan() || decrement < SMALL_STEP {
+            if decrement.is_nan() || decrement < small_step {
                 break;
             }
             let Some(next_value) = newton.search(problem, &x, weight, value, decrement) else {
@@ -129,8 +130,7 @@ impl Local {
         for row in rows {
             if row.most_a.is_finite() {
                 let [c0, c1] = row.accel();
-                let used = c0 * b + c1 * b1;
-                local.both([c0, c1, 0.0], used, row.most_a, 0.0);
+                local.both_fixed([c0, c1], c0 * b + c1 * b1, row.most_a);
             }
             if row.most_j.is_finite() {
                 let [c0, c1, c2] = row.jerk();
@@ -140,6 +140,21 @@ impl Local {
             }
         }
         local
+    }
+
+    /// A limit both ways: `used` = `of`·(b, b′) within ±`allowed`, whatever b is.
+    #[inline]
+    fn both_fixed(&mut self, of: [f64; 2], used: f64, allowed: f64) {
+        let [c0, c1] = of;
+        let product = 1.0 / ((allowed - used) * (allowed + used));
+        let (above, below) = ((allowed + used) * product, (allowed - used) * product);
+        let difference = above - below;
+        self.slope[0] += difference * c0;
+        self.slope[1] += difference * c1;
+        let square = above * above + below * below;
+        self.bend[0] += square * (c0 * c0);
+        self.bend[1] += square * c0 * c1;
+        self.bend[3] += square * c1 * c1;
     }
 
     /// A limit both ways: `used` = `of`·(b, b′, b″) within ±`allowed`, which changes by `change`
@@ -192,10 +207,10 @@ impl Newton {
             let rows = &problem.rows[from..place.rows_end];
             from = place.rows_end;
             let local = Local::at(place, rows, place.values(x), weight);
-            if rows.is_empty() {
-                self.add_value(place, &local);
-            } else {
-                self.add(place, &local);
+            match place.part {
+                Part::Inside => self.add_value(place, &local),
+                Part::Start => self.add::<0, 1, 2>(place, &local),
+                Part::End => self.add::<1, 2, 0>(place, &local),
             }
         }
         // The two coefficients at either end are given.
@@ -226,9 +241,14 @@ impl Newton {
         }
     }
 
-    /// Brings slope and bend at a place to its three coefficients.
+    /// Brings slope and bend at an end of an interval to its three coefficients. b and b′ depend on
+    /// two of them, `I` and `J`, `I` < `J`; on the third, `K`, only b″ does.
     #[inline]
-    fn add(&mut self, place: &Place, local: &Local) {
+    fn add<const I: usize, const J: usize, const K: usize>(
+        &mut self,
+        place: &Place,
+        local: &Local,
+    ) {
         let (v, s, c) = (
             &place.taylor.value,
             &place.taylor.slope,
@@ -238,15 +258,20 @@ impl Newton {
         let [h00, h01, h02, h11, h12, h22] = local.bend;
         let gradient = &mut self.gradient[place.first..place.first + 3];
         let band = &mut self.band[place.first..place.first + 3];
-        for i in 0..3 {
+        for i in [I, J] {
             gradient[i] += g0 * v[i] + g1 * s[i] + g2 * c[i];
             let of_b = h00 * v[i] + h01 * s[i] + h02 * c[i];
             let of_slope = h01 * v[i] + h11 * s[i] + h12 * c[i];
             let of_second = h02 * v[i] + h12 * s[i] + h22 * c[i];
-            for j in i..3 {
-                band[i][j - i] += of_b * v[j] + of_slope * s[j] + of_second * c[j];
+            band[i][0] += of_b * v[i] + of_slope * s[i] + of_second * c[i];
+            if i == I {
+                band[I][J - I] += of_b * v[J] + of_slope * s[J] + of_second * c[J];
             }
+            let (low, high) = if i < K { (i, K) } else { (K, i) };
+            band[low][high - low] += of_second * c[K];
         }
+        gradient[K] += g2 * c[K];
+        band[K][0] += h22 * c[K] * c[K];
     }
 
     /// Factorises, and solves for the step; gives the square of its size in the measure of the

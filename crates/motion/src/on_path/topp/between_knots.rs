@@ -6,10 +6,13 @@
 //! what was optimised is looked at in between, and where it demands too much the constraints of the
 //! intervals around are given a smaller share of the limits, and the parametrisation is made anew.
 
+use super::fineness::Fineness;
 use super::interval::Interval;
 use super::parametrisation::{MotionPhase, Parametrisation};
 use crate::on_path::pieces::Shape;
 use crate::on_path::speed::Course;
+use crate::scurve::PathState;
+use glidepath_geometry::{Cubic, Jet};
 use glidepath_program::Limits;
 
 /// Places on an interval that are looked at, besides its start, and those on a transition, where
@@ -45,8 +48,6 @@ fn worst(
     let mut worst = 0.0_f64;
     for k in 0..=places {
         let state = phase.at(duration_t * f64::from(k) / f64::from(places));
-        let (v, a) = (state.speed_v, state.accel_a);
-        let j = phase.jerk_j + phase.growth * v;
         let jet = if k == 0 {
             interval.start
         } else if k == places {
@@ -54,18 +55,51 @@ fn worst(
         } else {
             piece.jet((state.position_s - from_s).clamp(0.0, piece.length_s))
         };
-        let speed = jet.d1 * v;
-        let accel = jet.d2 * (v * v) + jet.d1 * a;
-        let jerk = jet.d3 * (v * v * v) + jet.d2 * (3.0 * v * a) + jet.d1 * j;
-        for (asked, limit, enough_r) in [
-            (speed, &limits.velocity, ENOUGH_R),
-            (accel, &limits.acceleration, ENOUGH_R),
-            (jerk, &limits.jerk, ENOUGH_JERK_R),
-        ] {
-            worst = worst.max(asked.abs().component_div(limit).max() / enough_r);
-        }
+        worst = worst.max(used(&jet, &state, phase, limits));
     }
     worst
+}
+
+/// The same on a span of a spline that begins at a path position, at places of its own parameter:
+/// none of them has to be sought.
+fn worst_of_span(
+    phase: &MotionPhase,
+    interval: &Interval,
+    (span, span_s, places): (&Cubic, f64, u32),
+    limits: &Limits,
+) -> f64 {
+    let ends_s = [interval.from_s, interval.from_s + interval.length_s];
+    let [from_u, to_u] = ends_s.map(|s| span.parameter_at(s - span_s));
+    let mut worst = 0.0_f64;
+    for k in 1..places {
+        let u = from_u + (to_u - from_u) * f64::from(k) / f64::from(places);
+        let jet = span.jet_at_parameter(u);
+        let state = phase.at_position(span_s + span.position_at(u));
+        worst = worst.max(used(&jet, &state, phase, limits));
+    }
+    for (jet, s) in [&interval.start, &interval.end].into_iter().zip(ends_s) {
+        worst = worst.max(used(jet, &phase.at_position(s), phase, limits));
+    }
+    worst
+}
+
+/// The largest share of what is enough of a limit of an axis that a state on a phase uses.
+#[inline]
+fn used(jet: &Jet, state: &PathState, phase: &MotionPhase, limits: &Limits) -> f64 {
+    let (v, a) = (state.speed_v, state.accel_a);
+    let j = phase.jerk_j + phase.growth * v;
+    let speed = jet.d1 * v;
+    let accel = jet.d2 * (v * v) + jet.d1 * a;
+    let jerk = jet.d3 * (v * v * v) + jet.d2 * (3.0 * v * a) + jet.d1 * j;
+    let mut used = 0.0_f64;
+    for (asked, limit, enough_r) in [
+        (speed, &limits.velocity, ENOUGH_R),
+        (accel, &limits.acceleration, ENOUGH_R),
+        (jerk, &limits.jerk, ENOUGH_JERK_R),
+    ] {
+        used = used.max(asked.abs().component_div(limit).max() / enough_r);
+    }
+    used
 }
 
 /// What is to be done where a time parametrisation exceeds limits between its knots.
@@ -86,7 +120,7 @@ pub(crate) fn lessen(
     firmness: f64,
     intervals: &[Interval],
     course: &Course<'_>,
-    limits: &Limits,
+    (limits, fineness): (&Limits, &Fineness),
 ) -> Remedy {
     let given = shares.to_vec();
     let mut remedy = Remedy {
@@ -102,7 +136,14 @@ pub(crate) fn lessen(
             .get(first + k + 1)
             .map(|next| next.from_t);
         let duration_t = next_t.unwrap_or(parametrisation.duration_t) - phase.from_t;
-        let ratio = worst(phase, duration_t, interval, course, limits);
+        let piece = &course.pieces[interval.piece];
+        let from_s = course.starts_s[interval.piece] - piece.from_s;
+        let ratio = match (&piece.shape, fineness.places_of_span) {
+            (Shape::Spline(span), Some(places)) => {
+                worst_of_span(phase, interval, (span, from_s, places), limits)
+            }
+            _ => worst(phase, duration_t, interval, course, limits),
+        };
         if ratio <= 1.0 {
             continue;
         }

@@ -29,6 +29,17 @@ impl Row {
     }
 }
 
+/// What of an interval a place is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Part {
+    /// Its start, where b and b′ depend on the first two of its three coefficients.
+    Start,
+    /// Between its ends, where only speed is limited.
+    Inside,
+    /// Its end, where b and b′ depend on the last two.
+    End,
+}
+
 /// A place where limits are kept.
 #[derive(Debug)]
 pub(crate) struct Place {
@@ -36,6 +47,7 @@ pub(crate) struct Place {
     pub(crate) first: usize,
     /// b, b′ and b″ over these.
     pub(crate) taylor: Taylor,
+    pub(crate) part: Part,
     /// The square of the top speed.
     pub(crate) cap_b: f64,
     /// The length that is driven as fast as this place, mm.
@@ -88,23 +100,30 @@ impl Problem {
             let (start, end) = (&interval.start, &interval.end);
             problem.axes((start, interval.start_v), limits, *share_r, true);
             problem.path(limits);
-            let start_v = share_r * interval.start_v;
+            // The speed of S-curves is within the top speed, or at it: there is no room to ask for.
+            let is_given = |is_end: bool, end: usize| is_end && knot_path.ends_r[end].is_some();
+            let (from_given, to_given) = (is_given(k == 0, 0), is_given(k + 1 == count, 1));
+            let start_v = if from_given {
+                f64::INFINITY
+            } else {
+                share_r * interval.start_v
+            };
             let share_s = half_s + 0.5 * knot_path.before_s(k);
-            problem.place(k, parabola.start, start_v, share_s);
+            problem.place((k, Part::Start), parabola.start, start_v, share_s);
 
             // Within a piece, only the jerk is another at the start of the next interval.
             let next = knot_path.intervals.get(k + 1);
             let is_inside = next.is_some_and(|next| next.piece == interval.piece);
             problem.axes((end, interval.end_v), limits, *share_r, !is_inside);
             problem.path(limits);
-            let end_v = if is_inside {
+            let end_v = if is_inside || to_given {
                 f64::INFINITY
             } else {
                 share_r * interval.end_v
             };
             let share_s = if next.is_none() { half_s } else { 0.0 };
-            problem.place(k, parabola.end, end_v, share_s);
-            problem.inside(k, &parabola, interval, *share_r);
+            problem.place((k, Part::End), parabola.end, end_v, share_s);
+            problem.inside(k, &parabola, interval, *share_r, from_given || to_given);
         }
         problem
     }
@@ -117,12 +136,13 @@ impl Problem {
     }
 
     /// A place with the rows put in since the one before.
-    fn place(&mut self, first: usize, taylor: Taylor, top_v: f64, share_s: f64) {
+    fn place(&mut self, (first, part): (usize, Part), taylor: Taylor, top_v: f64, share_s: f64) {
         let cap_b = top_v * top_v;
         self.count += usize::from(cap_b.is_finite());
         self.places.push(Place {
             first,
             taylor,
+            part,
             cap_b,
             share_s,
             rows_end: self.rows.len(),
@@ -131,8 +151,16 @@ impl Problem {
 
     /// The top speed between the ends of an interval. Its coefficient is the middle Bézier point of
     /// b there, so b is nowhere above the largest of it and the values at both ends; where the top
-    /// speed changes, b is kept below it in the middle, too.
-    fn inside(&mut self, first: usize, parabola: &Parabola, interval: &Interval, share_r: f64) {
+    /// speed changes, b is kept below it in the middle, too. At an end where the speed is given, the
+    /// coefficient is.
+    fn inside(
+        &mut self,
+        first: usize,
+        parabola: &Parabola,
+        interval: &Interval,
+        share_r: f64,
+        is_given: bool,
+    ) {
         let alone = |value: [f64; 3]| Taylor {
             value,
             slope: [0.0; 3],
@@ -145,9 +173,12 @@ impl Problem {
             ..
         } = *interval;
         let top_v = start_v.max(middle_v).max(end_v);
-        self.place(first, alone([0.0, 1.0, 0.0]), share_r * top_v, 0.0);
+        let place = (first, Part::Inside);
+        if !is_given {
+            self.place(place, alone([0.0, 1.0, 0.0]), share_r * top_v, 0.0);
+        }
         if middle_v < top_v {
-            self.place(first, alone(parabola.middle()), share_r * middle_v, 0.0);
+            self.place(place, alone(parabola.middle()), share_r * middle_v, 0.0);
         }
     }
 

@@ -3,26 +3,55 @@
 /// How closely the least time is sought, and how much work that is.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fineness {
-    /// The longest time from knot to knot on the S-curves, s.
+    /// The longest time from knot to knot on the S-curves, s, and that as a share of the time in
+    /// which the jerk of an axis makes up its acceleration.
     pub(crate) knot_t: f64,
+    pub(crate) knot_r: f64,
+    /// Knots nearer than this share of their distance to a place where pieces meet are left out.
+    pub(crate) nearest_r: f64,
     /// What is left to gain in the end, as a share of the time.
     pub(crate) gap_r: f64,
+    /// The square of a step for each knot, in the measure of the barrier, that counts as small: about
+    /// as much is still to be gained, where three times as much are left by the gap.
+    pub(crate) small_r: f64,
     /// How much more firmly limits are lessened each time that they were exceeded between knots.
     pub(crate) firmer_r: f64,
+    /// Spans of a spline are looked at between knots at so many places by their own parameter,
+    /// which is less work; not by time.
+    pub(crate) places_of_span: Option<u32>,
 }
 
 impl Fineness {
     /// For curves of the program.
     pub(crate) const CLOSE: Self = Self {
         knot_t: 0.002,
+        knot_r: 0.1,
+        nearest_r: 0.35,
         gap_r: 2e-5,
+        small_r: 0.0,
         firmer_r: 1.0,
+        places_of_span: None,
     };
-    /// For everything else, of which there may be much: within half a percent of the above, for a
+    /// For other curves, of which there may be much: within half a percent of the above, for a
     /// tenth of the work.
     pub(crate) const QUICK: Self = Self {
         knot_t: 0.005,
+        knot_r: 0.1,
+        nearest_r: 0.35,
         gap_r: 2e-3,
+        small_r: 0.0,
         firmer_r: 2.0,
+        places_of_span: None,
+    };
+    /// For dense blocks, where how many of them are planned in a second counts: within half a
+    /// percent of the above, for half of the work.
+    pub(crate) const COARSE: Self = Self {
+        knot_t: 0.008,
+        knot_r: 0.16,
+        nearest_r: 0.5,
+        gap_r: 5e-3,
+        small_r: 0.05,
+        firmer_r: 2.0,
+        places_of_span: Some(6),
     };
 }

@@ -7,23 +7,23 @@ use super::parabola::Parabola;
 use crate::on_path::pieces::{Piece, Shape};
 use crate::on_path::speed::{Course, Leg};
 use crate::scurve::PathState;
-use glidepath_geometry::{Jet, Segment};
+use glidepath_geometry::{AxisVector, Jet, Segment};
 use glidepath_program::Limits;
 
 /// Most knots. A piece that is driven for longer than these last, at a feed of micrometres, has
 /// them farther apart: its speed is the feed then, and memory does not grow with the time.
 const MOST_KNOTS: f64 = 30_000.0;
-/// Time from knot to knot on the S-curves: this share of that in which the jerk of an axis makes up
-/// its acceleration, and at least so long, s.
-const KNOT_R: f64 = 0.1;
+/// Time from knot to knot on the S-curves, at least, s.
 const LEAST_KNOT_T: f64 = 0.002;
 /// Time of the phase of constant jerk next to a rest, and its largest share of the S-curve's.
 const REST_T: f64 = 0.001;
 const REST_R: f64 = 0.25;
+/// The time in which a start goes over from the speed of the S-curves, squared, in speeds for the
+/// jerk of an axis; and that in speeds for its acceleration: a fifth of either is asked for.
+const RAMP_JERK: f64 = 4.3;
+const RAMP_ACCEL: f64 = 1.4;
 /// Next to a rest, the time to a knot grows by this factor from the one before.
 const REST_GROWTH: f64 = 1.2;
-/// Knots nearer than this share of their distance to a place where pieces meet are left out.
-const NEAREST_R: f64 = 0.35;
 
 /// A place on the S-curves: time and path position.
 #[derive(Debug, Clone, Copy)]
@@ -48,9 +48,15 @@ pub(crate) struct KnotPath {
     marks: Vec<Mark>,
     /// Time from knot to knot, s.
     knot_t: f64,
+    nearest_r: f64,
     /// At start and end; `None` where the motion does not rest.
     pub(crate) rests: [Option<RestPhase>; 2],
     pub(crate) ends_v: [f64; 2],
+    /// How fast the motion is at start and end, in speeds of the S-curves; `None` where it is as
+    /// fast as the start that the least time is sought from.
+    pub(crate) ends_r: [Option<f64>; 2],
+    /// Lengths on which that goes from the one to the other.
+    ramps_s: [f64; 2],
     pub(crate) length_s: f64,
 }
 
@@ -61,6 +67,7 @@ impl KnotPath {
         legs: &[Leg],
         limits: &Limits,
         fineness: &Fineness,
+        ends_r: [Option<f64>; 2],
     ) -> Option<Self> {
         let first = legs.first()?.profile;
         let last = legs.last()?.profile;
@@ -79,8 +86,11 @@ impl KnotPath {
             marks: marks(legs, knot_t),
             rests,
             ends_v: [first.entry_v(), last.exit_v()],
+            ends_r,
+            ramps_s: [first.entry_v(), last.exit_v()].map(|v| ramp_length(v, limits)),
             length_s: course.length_s(),
             knot_t,
+            nearest_r: fineness.nearest_r,
         };
         let knots = knot_path.knots(course);
         knot_path.lay(course, &knots, limits);
@@ -129,7 +139,7 @@ impl KnotPath {
         let mut next = junctions.iter().copied().peekable();
         for window in own.windows(3) {
             let [before_s, here_s, after_s] = [window[0], window[1], window[2]];
-            let near_s = NEAREST_R * (here_s - before_s).min(after_s - here_s);
+            let near_s = self.nearest_r * (here_s - before_s).min(after_s - here_s);
             while let Some(junction_s) = next.next_if(|s| *s <= here_s) {
                 knots.push(junction_s);
             }
@@ -212,7 +222,27 @@ impl KnotPath {
         }
     }
 
-    /// Coefficients of the S-curves, `rate_r` times as fast.
+    /// How fast the start is at a path position, in speeds of the S-curves; `rate_r` away from the
+    /// ends.
+    fn rate_at(&self, s: f64, rate_r: f64) -> f64 {
+        let sides_s = [s, self.length_s - s];
+        let mut at_r = rate_r;
+        for ((end_r, ramp_s), side_s) in self.ends_r.iter().zip(self.ramps_s).zip(sides_s) {
+            if let Some(end_r) = end_r {
+                let u = (side_s / ramp_s).clamp(0.0, 1.0);
+                let passed_r = u * u * u * (10.0 + u * (6.0 * u - 15.0));
+                at_r += (end_r - rate_r) * (1.0 - passed_r);
+            }
+        }
+        at_r
+    }
+
+    /// How fast the motion is at start and end, in speeds of the S-curves.
+    pub(crate) fn ends_at(&self, rate_r: f64) -> [f64; 2] {
+        self.ends_r.map(|end_r| end_r.unwrap_or(rate_r))
+    }
+
+    /// Coefficients of the S-curves, `rate_r` times as fast, but for the ends.
     pub(crate) fn start(&self, rate_r: f64) -> Vec<f64> {
         let square_r = rate_r * rate_r;
         let count = self.intervals.len();
@@ -236,8 +266,25 @@ impl KnotPath {
             x[1] = start_b + start_a * first.length_s;
             x[count] = end_b + end_a * last.length_s;
         }
-        for b in &mut x {
-            *b *= square_r;
+        if self.ends_r == [None; 2] {
+            for b in &mut x {
+                *b *= square_r;
+            }
+            return x;
+        }
+        let middle = |interval: &Interval| interval.from_s + 0.5 * interval.length_s;
+        for (b, interval) in x[1..=count].iter_mut().zip(&self.intervals) {
+            *b *= self.rate_at(middle(interval), rate_r).powi(2);
+        }
+        let [start_r, end_r] = self.ends_at(rate_r);
+        x[0] = start_b * start_r * start_r;
+        x[count + 1] = end_b * end_r * end_r;
+        // Nothing but the speed is given there.
+        if self.ends_r[0].is_some() {
+            x[1] = x[0];
+        }
+        if self.ends_r[1].is_some() {
+            x[count] = x[count + 1];
         }
         x
     }
@@ -256,13 +303,25 @@ fn caps(piece: &Piece) -> Caps {
     }
 }
 
+/// The length on which a motion can easily go from the speed of the S-curves to that of a start.
+fn ramp_length(speed_v: f64, limits: &Limits) -> f64 {
+    let least = |of: &AxisVector| of.iter().copied().fold(f64::INFINITY, f64::min);
+    let (jerk_j, accel_a) = (least(&limits.jerk), least(&limits.acceleration));
+    speed_v
+        * (RAMP_JERK * speed_v / jerk_j)
+            .sqrt()
+            .max(RAMP_ACCEL * speed_v / accel_a)
+}
+
 /// Time from knot to knot.
 fn knot_time(limits: &Limits, fineness: &Fineness) -> f64 {
     let axes = limits.acceleration.iter().zip(&limits.jerk);
     let limited = axes.filter(|(_, jerk_j)| **jerk_j < Limits::UNLIMITED);
     let rises_t = limited.map(|(accel_a, jerk_j)| accel_a / jerk_j);
     let least_t = rises_t.fold(f64::INFINITY, f64::min);
-    (KNOT_R * least_t).max(LEAST_KNOT_T).min(fineness.knot_t)
+    (fineness.knot_r * least_t)
+        .max(LEAST_KNOT_T)
+        .min(fineness.knot_t)
 }
 
 /// Times of knots from an end of the motion up to some time, without the end.

@@ -41,7 +41,7 @@ pub(crate) fn optimise(
             firmness,
             &knot_path.intervals,
             course,
-            limits,
+            (limits, fineness),
         );
         if remedy.is_none {
             return Some(parametrisation);
@@ -61,13 +61,14 @@ fn parametrisation_of(
     rate_r: f64,
     fineness: &Fineness,
 ) -> Option<Parametrisation> {
-    let x = solve(problem, knot_path.start(rate_r), fineness.gap_r)?;
+    let x = solve(problem, knot_path.start(rate_r), fineness)?;
     let mut builder = Builder::new();
     let zero = PathState {
         position_s: 0.0,
         speed_v: 0.0,
         accel_a: 0.0,
     };
+    // Ends at rest are as fast as the start.
     let slowed = |rest: RestPhase| (rest.jerk_j * rate_r.powi(3), rest.duration_t / rate_r);
     if let Some((jerk_j, duration_t)) = knot_path.rests[0].map(slowed) {
         builder.push_phase(zero, jerk_j, duration_t);
@@ -91,7 +92,7 @@ fn parametrisation_of(
     }
     Some(builder.finish(PathState {
         position_s: knot_path.length_s,
-        speed_v: knot_path.ends_v[1] * rate_r,
+        speed_v: knot_path.ends_v[1] * knot_path.ends_at(rate_r)[1],
         accel_a: 0.0,
     }))
 }

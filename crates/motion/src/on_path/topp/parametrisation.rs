@@ -65,6 +65,17 @@ impl MotionPhase {
             accel_a: accel_a * zeroth + self.growth * speed_v * first + jerk_j * t,
         }
     }
+
+    /// The state at a path position, on a phase on which v² is a parabola.
+    pub(crate) fn at_position(&self, position_s: f64) -> PathState {
+        let (passed_s, start) = (position_s - self.start.position_s, &self.start);
+        let gained = passed_s * (2.0 * start.accel_a + self.growth * passed_s);
+        PathState {
+            position_s,
+            speed_v: (start.speed_v * start.speed_v + gained).max(0.0).sqrt(),
+            accel_a: start.accel_a + self.growth * passed_s,
+        }
+    }
 }
 
 impl Parametrisation {
