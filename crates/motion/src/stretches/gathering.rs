@@ -12,7 +12,7 @@ use std::collections::VecDeque;
 /// The longest stretch that is planned as a whole: so many moves, and of so much time at their
 /// rates, s. All of it is planned before its first frame is known, and who sends moves through
 /// a pipe waits until it is sent.
-const MOST_MOVES: usize = 8192;
+const MOST_MOVES: usize = 32_768;
 const MOST_T: f64 = 1.25;
 
 /// What comes next.
