@@ -32,10 +32,11 @@ const LEAD_NS: u64 = 100_000_000;
 /// # Errors
 /// It cannot be read; an interpolator serves the instance, or the link cannot be used.
 pub(super) fn replay(args: &ReplayArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let file = File::open(&args.file).map_err(FileError::open(&args.file))?;
     let mut reader =
         Reader::new(BufReader::new(file)).map_err(|error| Failure::recording(&args.file, error))?;
+    // Behind that: a pipe into which nobody writes is left by a signal as ever.
+    let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let transport = session::join(&args.operator.instance, config)?;
     // This is the interpolator now: none can be beside it.
     let server = transport.command_server()?;

@@ -62,6 +62,30 @@ impl Drop for Machine {
     }
 }
 
+/// A pipe is waited for until somebody writes, or whoever waits is asked to end.
+#[test]
+fn nobody_is_kept_by_a_pipe_into_which_nobody_writes() {
+    let folder = tempfile::tempdir().unwrap();
+    let fifo = folder.path().join("fifo");
+    let made = Command::new("mkfifo").arg(&fifo).status().unwrap();
+    assert!(made.success());
+    for command in [
+        "replay", "audit", "check", "plan", "run", "planner", "feed", "live", "preview",
+    ] {
+        let mut asked = Command::new(env!("CARGO_BIN_EXE_glidepath"));
+        let asked = asked.arg(command).arg(&fifo);
+        let asked = asked.stdin(Stdio::null()).stdout(Stdio::piped());
+        let mut asked = asked.stderr(Stdio::piped()).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(500));
+        assert!(
+            asked.try_wait().unwrap().is_none(),
+            "{command} does not wait"
+        );
+        kill_process(Pid::from_child(&asked), Signal::TERM).unwrap();
+        finish(asked, PATIENCE);
+    }
+}
+
 fn refused(output: &Output, file: &Path) {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{}: {said}", file.display());

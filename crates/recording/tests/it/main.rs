@@ -60,7 +60,7 @@ impl std::io::Read for Frugal<'_> {
 fn a_length_is_believed_as_far_as_there_are_bytes() {
     let mut bytes = MAGIC.to_vec();
     bytes.push(1);
-    bytes.extend_from_slice(&((1u64 << 30) - 1).to_le_bytes());
+    bytes.extend_from_slice(&((1_u64 << 30) - 1).to_le_bytes());
     bytes.extend_from_slice(b"short");
     assert!(Reader::new(Frugal(&bytes)).is_err());
     let mut origin = origin();
