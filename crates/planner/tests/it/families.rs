@@ -146,9 +146,8 @@ fn circles_are_driven_near_the_steady_speed() {
             let turns = if radius_mm < 5.0 { 3 } else { 1 };
             let (steady_t, ramp_t) = steady_time(radius_mm, turns, limits);
             let mut programs = vec![("arcs", full_circles(radius_mm, turns))];
-            for chord_mm in [0.01, 0.05, 0.2] {
-                // Finer chords of larger circles are too many a second to be refined.
-                if chord_mm <= 0.5 * radius_mm && chord_mm >= 0.005 * radius_mm {
+            for chord_mm in [0.001, 0.01, 0.05, 0.2] {
+                if chord_mm <= 0.5 * radius_mm && chord_mm >= 0.0005 * radius_mm {
                     programs.push(("chords", circles_of_chords(radius_mm, turns, chord_mm)));
                 }
             }
@@ -164,6 +163,33 @@ fn circles_are_driven_near_the_steady_speed() {
                 }
             }
         }
+    }
+}
+
+/// A wave in chords of 0.05 mm, from a path position on.
+fn wave(from_x: f64) -> String {
+    let mut text = String::new();
+    for k in 1..=750 {
+        let x = 0.05 * f64::from(k);
+        writeln!(text, "G1 X{:.5} Y{:.5}", from_x + x, 1.0 - x.cos()).expect("a string");
+    }
+    text
+}
+
+/// S-curves are good enough on the straights, and not on the wave between them.
+#[test]
+fn a_curve_between_long_straights_takes_no_longer_than_between_stops() {
+    let straight = format!("{HEADER}G1 X300 Y0\n");
+    let all = format!("{straight}{}G1 X600 Y0\n", wave(300.0));
+    for (limits, period_t) in [(MILL, 0.004), (MILL, 0.001), (STIFF, 0.004)] {
+        let time = |text: &str| cycle_time("straight and wave", text, settings(limits, period_t));
+        let (straight_t, wave_t) = (time(&straight), time(&format!("{HEADER}{}", wave(0.0))));
+        let behind_t = time(&format!("{HEADER}G1 X262.5 Y0\n"));
+        let (all_t, apart_t) = (time(&all), straight_t + wave_t + behind_t);
+        assert!(
+            all_t <= apart_t,
+            "{limits:?}, {period_t} s: {all_t} s, apart {apart_t} s"
+        );
     }
 }
 

@@ -56,6 +56,21 @@ impl MotionChain {
         self.legs.first().map_or(0.0, |leg| leg.profile.entry_v())
     }
 
+    /// Takes away the last motion if it takes no longer than this, s; else nothing.
+    pub(super) fn split_last(&mut self, most_t: f64) -> Self {
+        let (before_t, before) = match self.ends.as_slice() {
+            [.., before, _] => (before.duration_t, Some(*before)),
+            _ => (0.0, None),
+        };
+        if self.duration_t - before_t > most_t {
+            return Self::default();
+        }
+        match before {
+            Some(before) => self.split_off(&before),
+            None => core::mem::take(self),
+        }
+    }
+
     /// How long the S-curves keep the speed at which they begin, and that at which they end, s.
     pub(super) fn cruises_t(&self) -> [f64; 2] {
         let (mut first_t, mut last_t) = (0.0, 0.0);

@@ -6,6 +6,8 @@
 //!
 //! A parametrisation can begin and end at the speed of the S-curves where these cruise: there is
 //! room to slow the start down and to speed it up. So it takes over from S-curves, and they from it.
+//! The last motion of a window that stays with S-curves is held back for that: mostly it is a line
+//! that leads up to the curve.
 //! Elsewhere it passes on slowed down to another parametrisation.
 
 use super::motion_chain::MotionChain;
@@ -30,6 +32,9 @@ pub(crate) const RATE_R: f64 = 0.85;
 /// Where no parametrisation is found, the window is parted in this share of it, so often at most.
 const MIDDLE_R: [f64; 2] = [0.2, 0.8];
 const HALVINGS: u32 = 6;
+/// The last motion of a window that stays with S-curves is held back if it takes no longer, s: a
+/// parametrisation of what follows can take over on it.
+const HELD_T: f64 = 4.0;
 /// Where S-curves cruise so long, s, a time parametrisation can take over from them at their speed.
 const CRUISE_T: f64 = 0.05;
 /// Where S-curves cannot be left at their own speed, they are left after this share of the time,
@@ -53,6 +58,8 @@ pub(crate) struct Refiner {
     /// The motion goes on at [`RATE_R`] of the speed that the S-curves have.
     is_slowed: bool,
     waiting: MotionChain,
+    /// Of what waits, pieces on which S-curves are good enough, and how long these take, s.
+    held: (usize, f64),
 }
 
 impl Refiner {
@@ -63,6 +70,7 @@ impl Refiner {
             is_fixed: false,
             is_slowed: false,
             waiting: MotionChain::default(),
+            held: (0, 0.0),
         }
     }
 
@@ -134,7 +142,8 @@ impl Refiner {
                 } else {
                     WINDOW_T
                 };
-                if self.waiting.duration_t >= window_t || self.waiting.pieces.len() >= MOST_PIECES {
+                let duration_t = self.waiting.duration_t - self.held.1;
+                if duration_t >= window_t || self.waiting.pieces.len() >= MOST_PIECES {
                     self.put_window(out);
                 }
             }
@@ -148,13 +157,16 @@ impl Refiner {
         }
     }
 
-    /// Gives on what waits up to the slowest end in its later part; all of it if the S-curves are
-    /// good enough.
+    /// Gives on what waits up to the slowest end in its later part; all but the last motion if the
+    /// S-curves are good enough.
     fn put_window(&mut self, out: &mut VecDeque<Settled>) {
         if self.is_good() {
-            out.extend(core::mem::take(&mut self.waiting).settled());
+            let last = self.waiting.split_last(HELD_T);
+            self.held = (last.pieces.len(), last.duration_t);
+            out.extend(core::mem::replace(&mut self.waiting, last).settled());
             return;
         }
+        self.held = (0, 0.0);
         let Some(end) = self.waiting.slowest([SHORTEST_R, 1.0]) else {
             return;
         };
@@ -167,7 +179,9 @@ impl Refiner {
 
     /// Gives on what waits.
     fn put(&mut self, out: &mut VecDeque<Settled>) {
-        if self.is_good() {
+        let is_good = self.is_good();
+        self.held = (0, 0.0);
+        if is_good {
             out.extend(core::mem::take(&mut self.waiting).settled());
         } else {
             self.refine(false, out);
@@ -176,7 +190,12 @@ impl Refiner {
 
     /// True if what waits may stay as it is, and is better left so.
     fn is_good(&self) -> bool {
-        !self.is_wanted && !self.is_slowed && !is_worthwhile(&self.waiting, &self.limits)
+        let (pieces, duration_t) = self.held;
+        let fresh = (
+            self.waiting.pieces.get(pieces..).unwrap_or_default(),
+            self.waiting.duration_t - duration_t,
+        );
+        !self.is_wanted && !self.is_slowed && !is_worthwhile(fresh, &self.limits)
     }
 
     /// A time parametrisation in place of the S-curves that wait. `at_speed`: they cruise at their

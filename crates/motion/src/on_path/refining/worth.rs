@@ -1,6 +1,5 @@
 //! Whether a time parametrisation is worth its work.
 
-use super::motion_chain::MotionChain;
 use crate::on_path::pieces::{Piece, Shape};
 use glidepath_geometry::Segment;
 use glidepath_program::Limits;
@@ -22,27 +21,27 @@ pub(super) fn is_dense(pieces: &[Piece], duration_t: f64) -> bool {
     duration_t < DENSE_BLOCK_T * blocks as f64
 }
 
-/// True if S-curves may lose time along a chain: there are curves on it, on which limits bind.
+/// True if S-curves that take so long may lose time along some pieces: there are curves on it, on which limits bind.
 ///
 /// Along lines an S-curve is the motion of least time; of lines and the transitions between them,
 /// S-curves are what the junctions were decided with.
-pub(super) fn is_worthwhile(chain: &MotionChain, limits: &Limits) -> bool {
+pub(super) fn is_worthwhile((pieces, duration_t): (&[Piece], f64), limits: &Limits) -> bool {
     let is_curve = |piece: &Piece| match piece.shape {
         Shape::Segment(Segment::Line(_)) | Shape::Transition(_) => false,
         Shape::Segment(Segment::Arc(_) | Segment::Curve(_)) | Shape::Spline(_) => true,
     };
-    if !chain.pieces.iter().any(is_curve) {
+    if !pieces.iter().any(is_curve) {
         return false;
     }
-    if chain.duration_t < LEAST_PIECE_T * chain.pieces.len() as f64 {
+    if duration_t < LEAST_PIECE_T * pieces.len() as f64 {
         return false;
     }
     // At the rate of the program already, as most of it is, nothing else has to be asked.
     let at_rate_t = |piece: &Piece| piece.length_s / piece.rule.rate_v(piece.planned);
-    if chain.duration_t <= GOOD_R * chain.pieces.iter().map(at_rate_t).sum::<f64>() {
+    if duration_t <= GOOD_R * pieces.iter().map(at_rate_t).sum::<f64>() {
         return false;
     }
     let steady_t = |piece: &Piece| piece.length_s / piece.rule.steady_v(piece.planned, limits);
-    let steady_t: f64 = chain.pieces.iter().map(steady_t).sum();
-    chain.duration_t > GOOD_R * steady_t
+    let steady_t: f64 = pieces.iter().map(steady_t).sum();
+    duration_t > GOOD_R * steady_t
 }
