@@ -4,9 +4,10 @@
 
 use std::process::Command;
 
-/// Some millions of lines between two moves, which make no frame.
-const THINKING: &str = "G21 G90 F3000\nG1 X5\n#1 = 0\no1 repeat [12]\no2 repeat [450000]\n\
-                        #1 = [#1 + 1]\no2 endrepeat\nG4 P0\no1 endrepeat\nG1 X0\nM2\n";
+/// Some millions of lines between two moves, which make no frame. The first move is long enough to be begun
+/// before the second one is known.
+const THINKING: &str = "G21 G90 F3000\nG1 X60\n#1 = 0\no1 repeat [12]\no2 repeat [450000]\n\
+                        #1 = [#1 + 1]\no2 endrepeat\nG4 P0\no1 endrepeat\nG1 X120\nM2\n";
 
 #[test]
 fn the_motion_goes_on_when_the_planner_has_thought() {
