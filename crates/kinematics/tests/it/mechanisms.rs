@@ -271,11 +271,10 @@ fn four_positions_are_judged_as_they_are_in_a_motion() {
         let [q, q1, q2, q3] = four.map(|place| mechanism.inverse(&place).unwrap());
         let differences = [q - q1, q - q1 * 2.0 + q2, q - q1 * 3.0 + q2 * 3.0 - q3];
         let limits = [20.0, 35.0, 90.0];
-        let used = (1..).zip(differences.iter().zip(limits));
-        let is_kept = used.map(|(order, (difference, limit))| {
+        let mut used = (1..).zip(differences.iter().zip(limits));
+        let is_kept = used.all(|(order, (difference, limit))| {
             difference.amax() <= limit * period_t.powi(order) * (1.0 + 1e-6)
         });
-        let is_kept = is_kept.fold(true, |all, one| all && one);
         assert_eq!(judged.is_ok(), is_kept, "{first}");
         *if judged.is_ok() {
             &mut kept

@@ -1,5 +1,7 @@
 //! Joints that are not the axes, imitated: what a window takes no notice of by itself.
 
+#![allow(clippy::expect_used, reason = "tests")]
+
 use super::support::{FREE, at, optimal};
 use glidepath_geometry::{AxisVector, Segment};
 use glidepath_motion::{Joints, Planner};

@@ -1,6 +1,6 @@
 //! What the mock servo receives, on its way through this process: counted, audited, recorded.
 
-use super::pipe::Pipe;
+use super::pipe::{Pipe, ReadAhead};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::play_time::{PlayTime, PlayedTime};
@@ -95,7 +95,7 @@ fn receive(
     seen: &Seen,
 ) -> Result<Received, Failure> {
     let period_t = config.period_t();
-    let pipe = Pipe(BufReader::new(from));
+    let pipe = Pipe(BufReader::new(ReadAhead::of(from)));
     // Only its counts are wanted: the servo process has played these setpoints in its own time.
     let mut servo = Servo::new(Box::new(pipe), ServoSettings::default());
     let mut play_time = PlayTime::new(period_t);
