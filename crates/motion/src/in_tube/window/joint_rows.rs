@@ -14,8 +14,15 @@ const JOINT_R: f64 = 0.99;
 /// Share of it from which on the last motion gets a row.
 const CLOSE_R: f64 = 0.5;
 
+/// Adds rows for every first difference that is not given.
+pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
+    for k in 2..problem.intervals {
+        add_at(problem, layout, k);
+    }
+}
+
 /// Rows for the first difference from control point `k` on: a site of its own.
-pub(super) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: usize) {
+fn add_at<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: usize) {
     let (points, h) = (layout.points, layout.style.grid.knot_t);
     let step: [f64; D] = core::array::from_fn(|a| points[k + 1][a] - points[k][a]);
     let middle: [f64; D] = core::array::from_fn(|a| points[k][a] + 0.5 * step[a]);

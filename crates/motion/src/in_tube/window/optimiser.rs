@@ -13,6 +13,7 @@ use super::budget;
 use super::cuts::Cuts;
 use super::damping;
 use super::guess::Guess;
+use super::joint_rows;
 use super::pins::Pins;
 use super::rounds::{BestMotion, ENOUGH_VIOLATION, RoundState};
 use super::samples::Samples;
@@ -323,6 +324,9 @@ impl<const D: usize> Optimiser<D> {
             style,
         };
         tube::build(&mut self.problem, &layout, extents);
+        if path.has_joints() {
+            joint_rows::add(&mut self.problem, &layout);
+        }
         if style.is_damped {
             damping::add(&mut self.problem, &layout);
         }

@@ -22,7 +22,6 @@ use super::cuts::{
     CLOSE_R, Cuts, HALF_WAY, Passing, Plane, WORTH_OF_FEED, nearest_to_corner, piece_at, pieces_at,
     slowest_feed, velocity_over_feed,
 };
-use super::joint_rows;
 use super::samples::Samples;
 use super::scaled_path::{SHARP, ScaledPath};
 use super::solver::{FAR, Problem, dot};
@@ -364,9 +363,6 @@ fn add_feeds<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
         for direction in last.iter().chain(cuts.of_feed(k)) {
             let normal = core::array::from_fn(|a| direction[a] * slowest[a] / h);
             problem.add_feed_row(normal, [-FAR, style.feed_r], style.is_feed_firm);
-        }
-        if path.has_joints() {
-            joint_rows::add(problem, layout, k);
         }
     }
 }

@@ -11,7 +11,7 @@
 //! Elsewhere it passes on slowed down to another parametrisation.
 
 use super::motion_chain::MotionChain;
-use super::worth::{is_dense, is_worthwhile};
+use super::worth::{blocks_on, is_dense, is_worthwhile};
 use crate::on_path::look_ahead::{Planned, Settled};
 use crate::on_path::pieces::{Element, Piece};
 use crate::on_path::speed::{Course, Leg};
@@ -24,6 +24,8 @@ use std::collections::VecDeque;
 const WINDOW_T: f64 = 2.0;
 const WINDOW_OF_NURBS_T: f64 = 12.0;
 const MOST_PIECES: usize = 4096;
+/// Blocks that wait at most where S-curves are good enough: there may be any number of them in a second.
+const MOST_BLOCKS: usize = 4096;
 /// A window ends where the S-curves are slowest, after this share of it: there little is lost.
 const SHORTEST_R: f64 = 0.4;
 /// How much slower than the S-curves a time parametrisation starts, and passes from one window to
@@ -60,6 +62,8 @@ pub(crate) struct Refiner {
     waiting: MotionChain,
     /// Of what waits, pieces on which S-curves are good enough, and how long these take, s.
     held: (usize, f64),
+    /// Blocks that wait beside those.
+    blocks: usize,
 }
 
 impl Refiner {
@@ -71,6 +75,7 @@ impl Refiner {
             is_slowed: false,
             waiting: MotionChain::default(),
             held: (0, 0.0),
+            blocks: 0,
         }
     }
 
@@ -136,6 +141,9 @@ impl Refiner {
     fn push_settled(&mut self, settled: Settled, out: &mut VecDeque<Settled>) {
         match settled {
             Settled::Motion { pieces, legs } if !self.is_fixed => {
+                let looks = self.blocks / MOST_BLOCKS;
+                self.blocks += blocks_on(&pieces);
+                let is_due = self.blocks / MOST_BLOCKS > looks;
                 self.waiting.push(pieces, &legs);
                 let window_t = if self.is_wanted {
                     WINDOW_OF_NURBS_T
@@ -143,7 +151,8 @@ impl Refiner {
                     WINDOW_T
                 };
                 let duration_t = self.waiting.duration_t - self.held.1;
-                if duration_t >= window_t || self.waiting.pieces.len() >= MOST_PIECES {
+                let pieces = self.waiting.pieces.len();
+                if duration_t >= window_t || pieces >= MOST_PIECES || (is_due && self.is_good()) {
                     self.put_window(out);
                 }
             }
@@ -161,12 +170,18 @@ impl Refiner {
     /// S-curves are good enough.
     fn put_window(&mut self, out: &mut VecDeque<Settled>) {
         if self.is_good() {
-            let last = self.waiting.split_last(HELD_T);
+            let last = if self.blocks >= MOST_BLOCKS {
+                MotionChain::default()
+            } else {
+                self.waiting.split_last(HELD_T)
+            };
+            self.blocks = 0;
             self.held = (last.pieces.len(), last.duration_t);
             out.extend(core::mem::replace(&mut self.waiting, last).settled());
             return;
         }
         self.held = (0, 0.0);
+        self.blocks = 0;
         let Some(end) = self.waiting.slowest([SHORTEST_R, 1.0]) else {
             return;
         };
@@ -181,6 +196,7 @@ impl Refiner {
     fn put(&mut self, out: &mut VecDeque<Settled>) {
         let is_good = self.is_good();
         self.held = (0, 0.0);
+        self.blocks = 0;
         if is_good {
             out.extend(core::mem::take(&mut self.waiting).settled());
         } else {

@@ -17,8 +17,12 @@ const DENSE_BLOCK_T: f64 = 0.2e-3;
 
 /// True if there are many blocks for the time that they take.
 pub(super) fn is_dense(pieces: &[Piece], duration_t: f64) -> bool {
-    let blocks: usize = pieces.iter().map(|piece| 1 + piece.lines.len()).sum();
-    duration_t < DENSE_BLOCK_T * blocks as f64
+    duration_t < DENSE_BLOCK_T * blocks_on(pieces) as f64
+}
+
+/// How many blocks some pieces are.
+pub(super) fn blocks_on(pieces: &[Piece]) -> usize {
+    pieces.iter().map(|piece| 1 + piece.lines.len()).sum()
 }
 
 /// True if S-curves that take so long may lose time along some pieces: there are curves on it, on which limits bind.
