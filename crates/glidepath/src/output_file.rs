@@ -2,7 +2,7 @@
 //!
 //! So an interrupted command leaves what was there before, and nobody reads half a file. What the
 //! command reads is never overwritten, nor, unless told, a file that is not of the kind that is
-//! written. Devices and pipes (`/dev/stdout`, a FIFO) are written as they are.
+//! written. Devices and pipes (`/dev/stdout`, a FIFO) are written as they are; `-` is standard output.
 
 use crate::file_error::FileError;
 use std::fs::{File, OpenOptions};
@@ -87,6 +87,11 @@ impl OutputFile {
     /// # Errors
     /// It may not be written, or cannot be.
     pub fn create(path: &Path, kind: OutputKind, guard: &Guard) -> Result<Self, FileError> {
+        let path = if path == Path::new("-") {
+            Path::new("/dev/stdout")
+        } else {
+            path
+        };
         let there = match path.metadata() {
             Ok(there) => Some(there),
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,

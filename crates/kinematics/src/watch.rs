@@ -78,12 +78,13 @@ impl JointWatch {
     pub fn take(&mut self, axes: &AxisVector) -> Result<(), JointFault> {
         let position = self.stand(axes)?;
         let zero = JointVector::zeros();
-        let last = self.last.unwrap_or(Last {
+        let mut last = self.last.unwrap_or(Last {
             position,
             velocity: zero,
             acceleration: zero,
         });
-        self.last = Some(self.follow(&last, position)?);
+        self.follow(&mut last, position)?;
+        self.last = Some(last);
         Ok(())
     }
 
@@ -100,16 +101,17 @@ impl JointWatch {
         }
         let [a, b, c] = before;
         let (velocity, earlier) = ((a - b) / self.period_t, (b - c) / self.period_t);
-        let last = Last {
+        let mut last = Last {
             position: a,
             velocity,
             acceleration: (velocity - earlier) / self.period_t,
         };
-        self.follow(&last, position).map(|_| ())
+        self.follow(&mut last, position)
     }
 
-    /// A position that follows another.
-    fn follow(&self, last: &Last, position: JointVector) -> Result<Last, JointFault> {
+    /// Takes a position that follows another.
+    #[inline]
+    fn follow(&self, last: &mut Last, position: JointVector) -> Result<(), JointFault> {
         let velocity = (position - last.position) / self.period_t;
         let acceleration = (velocity - last.velocity) / self.period_t;
         let jerk = (acceleration - last.acceleration) / self.period_t;
@@ -122,10 +124,11 @@ impl JointWatch {
         if let Some(violation) = broken.or_else(|| self.limits.jerk_broken_by(&jerk)) {
             return Err(JointFault::Limit(violation));
         }
-        Ok(Last {
+        *last = Last {
             position,
             velocity,
             acceleration,
-        })
+        };
+        Ok(())
     }
 }

@@ -18,6 +18,15 @@ pub struct ConfigDiagnostic {
     pub span: Option<Range<usize>>,
 }
 
+impl ConfigDiagnostic {
+    /// Whether it is about a key that is of no table's and stands for none: what else is in its table
+    /// can be judged all the same.
+    pub(super) fn is_superfluous_key(&self) -> bool {
+        let is_meant = |help: &String| help.starts_with("did you mean");
+        self.message.starts_with("unknown key") && !self.help.as_ref().is_some_and(is_meant)
+    }
+}
+
 /// Why a configuration was refused. Never empty of diagnostics.
 #[derive(Debug, Error)]
 pub enum ConfigError {

@@ -140,7 +140,8 @@ fn real(text: &str, mut diagnostics: Vec<ConfigDiagnostic>, early: usize) -> Vec
             .to_owned()
     };
     let mut late = diagnostics.split_off(early);
-    let broken: Vec<String> = diagnostics.iter().map(|d| table(&d.key)).collect();
+    let amiss = diagnostics.iter().filter(|d| !d.is_superfluous_key());
+    let broken: Vec<String> = amiss.map(|d| table(&d.key)).collect();
     // Values of such a table cannot be judged together; each by itself can.
     late.retain(|d| {
         let is_broken = broken.contains(&d.key) || broken.contains(&table(&d.key));

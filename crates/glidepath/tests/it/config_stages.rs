@@ -41,6 +41,23 @@ fn a_velocity_per_minute_is_told_beside_whatever_else_is_wrong() {
 }
 
 #[test]
+fn a_key_that_does_not_belong_there_hides_nothing_of_its_table() {
+    let grbl = AXIS.replace("max_velocity = 100", "max_velocity = 12000\nbacklash_ = 1");
+    let found = messages(&grbl);
+    let told = "axis.X.max_velocity = 12000 mm/s is 720 m/min";
+    assert!(
+        found.len() == 2 && found.iter().any(|message| message.starts_with(told)),
+        "{found:?}"
+    );
+    // One that is meant for a key that is then missing leaves nothing to judge by.
+    let found = messages(&AXIS.replace("max_jerk", "max_jrek"));
+    assert!(
+        found.len() == 1 && found[0].starts_with("unknown key"),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn a_horizon_that_is_too_short_is_told_beside_what_does_not_concern_it() {
     let short = format!("{AXIS}[interpolator]\nhorizon_s = 0.5\n");
     for wrong in WRONG.iter().filter(|wrong| wrong.starts_with("[pa")) {

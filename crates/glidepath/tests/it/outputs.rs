@@ -242,6 +242,10 @@ fn devices_and_pipes_are_written_as_they_are() {
     let piped = glidepath(here, &args);
     assert!(piped.status.success(), "{}", said(&piped).1);
     assert!(piped.stdout.starts_with(b"tick,time_s,"));
+    let dash = glidepath(here, &["plan", "part.ngc", "--setpoints", "-"]);
+    assert!(dash.status.success(), "{}", said(&dash).1);
+    assert!(dash.stdout.starts_with(b"tick,time_s,"));
+    assert_eq!(names(here), ["part.ngc"]);
     // Into a file, both the setpoints and the report.
     let status = Command::new(env!("CARGO_BIN_EXE_glidepath"))
         .current_dir(here)

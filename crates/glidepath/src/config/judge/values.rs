@@ -19,9 +19,10 @@ pub(crate) struct Judge {
 
 impl Judge {
     /// Whether anything is wrong with tables of these names, or in them. A finding without a name may
-    /// be about any.
+    /// be about any; a key that is not of the table leaves the others as they are.
     pub(super) fn has_found(&self, tables: &[&str]) -> bool {
-        self.diagnostics.iter().any(|found| {
+        let amiss = |found: &&ConfigDiagnostic| !found.is_superfluous_key();
+        self.diagnostics.iter().filter(amiss).any(|found| {
             let is_of = |table: &&str| {
                 let rest = found.key.strip_prefix(*table);
                 rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
