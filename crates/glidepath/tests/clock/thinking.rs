@@ -4,12 +4,16 @@
 
 use std::process::Command;
 
-/// A loop between two moves that takes seconds and makes no frame. The first move is begun before the second one is
-/// known, and over long before. A loop without a move may not have more than a million lines, so they are long ones.
+/// The time after which a planner that gives no sign of life is lost, s.
+const PATIENCE_T: f64 = 2.0;
+
+/// A loop between two moves that takes seconds and makes no frame. The motion rests in a dwell in front of it, so the
+/// first move is planned, and driven, before the second one is known. A loop without a move may not have more than a
+/// million lines, so they are long ones.
 fn thinking() -> String {
     let sum: String = (0..45).map(|k| format!(" + SIN[{k} + #1]")).collect();
     format!(
-        "G21 G90 F12000\nG1 X300\n#1 = 0\no1 repeat [300000]\n#1 = [#1{sum}]\no1 endrepeat\nG1 X0\nM2\n"
+        "G21 G90 F12000\nG1 X150\nG4 P0.3\n#1 = 0\no1 repeat [300000]\n#1 = [#1{sum}]\no1 endrepeat\nG1 X0\nM2\n"
     )
 }
 
@@ -22,9 +26,15 @@ fn the_motion_goes_on_when_the_planner_has_thought() {
         .args(["run", file.to_str().unwrap(), "--best-effort", "--json"])
         .output()
         .unwrap();
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
     let said = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
     assert_eq!(output.status.code(), Some(0), "{said}");
-    assert!(said.contains("\"final_position\""), "{said}");
+    // Without signs of life it would have been lost.
+    let waited_t = told["time_lost_s"]["starvation"].as_f64();
+    assert!(
+        waited_t.is_some_and(|waited_t| waited_t > PATIENCE_T),
+        "{said}"
+    );
     // Who judges the motion thinks as long.
     assert!(said.contains("\"lost_setpoints\": 0"), "{said}");
 }
