@@ -210,9 +210,20 @@ fn a_machine_is_held_and_aborted_with_no_free_page() {
         assert_eq!(output.status.code(), Some(5), "{process}: {output:?}");
         let text = stderr(&output);
         assert!(text.contains("/dev/shm/glidepath/default"), "{text}");
-        assert!(text.contains("no room"), "{text}");
+        assert!(text.contains("no room for 1048576 bytes"), "{text}");
         assert!(text.contains("df -h"), "{text}");
     }
+    // That is enough.
+    let free = ["-s", "-1M", "/dev/shm/filler.1M"];
+    assert!(
+        finish(host.start("truncate", &free), PATIENCE)
+            .status
+            .success()
+    );
+    let short = host.folder.path().join("short.ngc");
+    std::fs::write(&short, "G21 G90 F6000\nG1 X1\nM2\n").unwrap();
+    let output = host.run(&["planner", short.to_str().unwrap()]);
+    assert!(output.status.success(), "{output:?}");
     assert_eq!(host.status()["state"], "idle");
     assert!(host.run(&["abort", "--signal"]).status.success());
     assert_eq!(machine.ended()["state"], "idle");

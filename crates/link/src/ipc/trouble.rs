@@ -4,6 +4,9 @@ use crate::LinkError;
 use core::cell::RefCell;
 use std::path::Path;
 
+/// What the files of a process that joins take at most: a planner's are the most, 480 KiB.
+const JOINING_BYTES: u64 = 1 << 20;
+
 thread_local! {
     static NOTED: RefCell<Option<LinkError>> = const { RefCell::new(None) };
 }
@@ -23,7 +26,7 @@ pub(super) fn explained<T>(
     call().map_err(|error| match error {
         LinkError::Transport { .. } => NOTED
             .take()
-            .or_else(|| is_full(directory).then(|| LinkError::no_room(directory, 0)))
+            .or_else(|| is_full(directory).then(|| LinkError::no_room(directory, JOINING_BYTES)))
             .unwrap_or(error),
         other => other,
     })
