@@ -172,6 +172,37 @@ fn circles_are_round_however_they_are_written() {
     }
 }
 
+/// A hole milled by a helix and a circle at its bottom, slow enough for the feed to bind all the way:
+/// inside of it the way is up to 4 % shorter. The last window rests as early as it can, wherever it is
+/// in the tube.
+#[test]
+fn small_holes_keep_their_radius() {
+    for (radius_mm, feed) in [(0.5, 500), (0.8, 780), (1.5, 1100), (4.0, 2000)] {
+        let turn = format!("G2 X{radius_mm} Y0 I{} J0", -radius_mm);
+        let text = format!(
+            "G21 G90 G17 G64\nG0 X{radius_mm} Y0 Z0.2\nF{feed}\n{turn} Z0\n{turn} Z-0.2\n{turn} Z-0.4\n\
+             {turn}\n{turn}\nG0 Z2\nM2\n"
+        );
+        let (places, _) = planned(&text);
+        let on_line = |line: u32| places.iter().position(|place| place.0 >= line);
+        let first = on_line(4).expect("the first turn") + 2 * SETTLING;
+        let last = on_line(9).expect("the way out") - 4 * SETTLING;
+        let off_mm = |place: &Place| place.1[0].hypot(place.1[1]) - radius_mm;
+        let cut = &places[first..last];
+        let most_mm = cut
+            .iter()
+            .map(off_mm)
+            .fold(0.0, |most: f64, off| most.max(off.abs()));
+        #[expect(clippy::cast_precision_loss, reason = "thousands")]
+        let mean_mm = cut.iter().map(off_mm).sum::<f64>() / cut.len() as f64;
+        assert!(
+            mean_mm.abs() <= 1e-3,
+            "radius {radius_mm}: {mean_mm} mm off"
+        );
+        assert!(most_mm <= 4e-3, "radius {radius_mm}: {most_mm} mm off");
+    }
+}
+
 #[test]
 fn families_come_near_the_least_time_in_the_tube_and_do_not_tremble() {
     for (name, tube_t) in FAMILIES {

@@ -70,7 +70,7 @@ impl PlannerState {
         let work = self.optimisers.work();
         let stay_t = self.stay_gain_t(&grid);
         let mut seen = view.pieces.end;
-        let going_on = if self.is_at_feed(self.progress.0, self.history.velocity()) {
+        let going_on = if self.is_at_feed(self.progress.0, self.history.state()) {
             let far = self.view(&grid, FEED_INTERVALS)?;
             let window = self.go_on_at_feed(&grid, &far, stay_t);
             if window.is_some() {
@@ -241,7 +241,7 @@ impl PlannerState {
         let Some(piece) = self.reference_path.get(end - 1) else {
             return false;
         };
-        let velocity = self.history.velocity();
+        let velocity = &self.history.state().velocity;
         let speed_v = feed_length(velocity);
         if speed_v <= 0.0 {
             return true;

@@ -3,8 +3,8 @@
 use super::state::{ActiveMotion, PlannerState};
 use crate::in_tube::fallback::{TRUST_PERIODS, arrival_t};
 use crate::in_tube::period::State;
-use crate::in_tube::window::{AT_FEED_R, Grid, LEAST_INTERVALS, View, WindowMotion};
-use glidepath_geometry::AxisVector;
+use crate::in_tube::window::{Grid, LEAST_INTERVALS, View, WindowMotion, at_feed_r};
+use glidepath_geometry::feed_length;
 
 /// What goes on at the feed is handed out without another window, up to so long before it slows
 /// down, s.
@@ -60,7 +60,7 @@ impl PlannerState {
             let way = (&self.reference_path, &mut follower);
             history.follow(&self.limits, self.period_t, way, &next);
             let index = follower.reachable.last();
-            if period == feed_until + 1 && self.is_at_feed(index, &next.velocity) {
+            if period == feed_until + 1 && self.is_at_feed(index, &next) {
                 feed_until = period;
             }
             gains_t.push(self.state_gain_t(index, &next, period));
@@ -92,9 +92,12 @@ impl PlannerState {
     }
 
     /// True if a motion on a piece is as fast as it may be.
-    pub(super) fn is_at_feed(&self, index: usize, velocity: &AxisVector) -> bool {
-        let piece = self.reference_path.get(index);
-        piece.is_some_and(|piece| piece.path_v(velocity) >= AT_FEED_R * piece.top_v)
+    pub(super) fn is_at_feed(&self, index: usize, state: &State) -> bool {
+        let turned_v = feed_length(&state.acceleration) * self.period_t;
+        let turn = turned_v / feed_length(&state.velocity);
+        self.reference_path
+            .get(index)
+            .is_some_and(|piece| piece.path_v(&state.velocity) >= at_feed_r(turn) * piece.top_v)
     }
 
     /// Periods before a motion slows down in which it may be shaped by that.

@@ -45,8 +45,9 @@ impl History {
         &self.recent
     }
 
-    pub(crate) const fn velocity(&self) -> &AxisVector {
-        &self.state.velocity
+    /// The motion at the last position.
+    pub(crate) const fn state(&self) -> &State {
+        &self.state
     }
 
     /// True if no chord of a period begins before the present rest.

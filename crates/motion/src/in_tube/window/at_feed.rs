@@ -5,24 +5,31 @@
 //! once, with samples where the feed puts them. What comes out is taken if it passes and keeps the
 //! feed as far; else the window is searched for like any other.
 //!
-//! Inside a curve the way is shorter, so the motion keeps inside it by what that progress is worth
-//! against the pull to the path. Progress that is made early counts at every sample behind it: the
-//! motion would come nearer to the path from the start of a window to its end, and jump back at the
-//! next. So progress is counted only where the motion brakes, which is never handed out.
+//! Progress is counted at one sample alone, the last before the motion brakes. What counted at others
+//! before it would shape the start of a window otherwise than its end, which the next one begins with;
+//! those behind it are kept on their pieces, and what is behind them is not handed out. What a shorter
+//! way inside a curve gains is not counted at all ([`super::shortcuts`]).
 
 use super::budget;
 use super::optimiser::{Optimiser, Question, Solution};
 use super::rounds::RoundState;
-use super::samples::Samples;
+use super::samples::{Samples, sample};
 use super::scaled_path::ScaledPath;
+use super::solver::{combine, dot};
+use super::spline::Grid;
 use super::tube::Style;
 use super::window_start::WindowStart;
 
 /// Share of the feed that counts as all of it.
-pub(crate) const AT_FEED_R: f64 = 0.999;
+const AT_FEED_R: f64 = 0.999;
+/// What of the square of a turn within a period is missing of it. The speed between control points
+/// is bounded; that of the spline is less by ⅛ of the square, and between samples by another 1/24.
+const OF_TURN: f64 = 1.0 / 6.0;
+/// Largest turn in which that counts, rad.
+const MOST_TURN: f64 = 0.5;
 
 /// Weights of offset and jerk, relative to the usual ones: progress at the end has as much weight as
-/// the mean progress of the window has elsewhere, which gains half as much from a way that is shorter.
+/// the mean progress of the window has elsewhere, to which the way in it adds half as much.
 pub(super) const WEIGHT: f64 = 2.0;
 
 impl<const D: usize> Optimiser<D> {
@@ -35,9 +42,10 @@ impl<const D: usize> Optimiser<D> {
     ) -> Option<Solution<D>> {
         self.begin(path, window_start);
         let period_t = window_start.period_t;
-        let at_feed =
-            |samples: &Samples| at_feed_until(path, window_start.piece, samples, period_t);
-        let slowing_at = at_feed(&self.samples);
+        let grid = (&window_start.grid, period_t);
+        let tail = window_start.tail;
+        self.samples.give_out(path, window_start.piece);
+        let slowing_at = at_feed_until(path, tail, &self.samples, grid);
         if slowing_at == 0 {
             return None;
         }
@@ -45,7 +53,8 @@ impl<const D: usize> Optimiser<D> {
         let from = stop_at.min(slowing_at);
         let progress = &mut self.samples.progress;
         window_start.play_guess(path, &self.guess, progress, (from, 1.0));
-        let wanted = at_feed(&self.samples);
+        let from = (window_start.piece, from);
+        let wanted = progress_at_feed_until(path, from, progress, period_t);
         if wanted < 2 * window_start.commit {
             return None;
         }
@@ -58,28 +67,77 @@ impl<const D: usize> Optimiser<D> {
         self.cuts.clear(self.samples.count(), path.segments.len());
         self.interior.allow(budget::at_feed(D));
         let style = Style {
-            aims_beyond: braking_from,
+            aims_beyond: braking_from.saturating_sub(1),
+            aims_until: braking_from,
             ..window_start.smooth_style(WEIGHT)
         };
         let along = window_start.points_along(path, &self.samples.progress);
         let round_state = RoundState::polishing(&along);
         let (_, points, samples) =
             self.smooth_with(path, window_start, &style, round_state, judge)?;
-        let is_kept = at_feed(&samples) + window_start.commit >= wanted;
+        let kept = at_feed_until(path, &points, &samples, grid);
+        let is_kept = kept + window_start.commit >= wanted;
         let is_end = false;
         is_kept.then_some(Solution { points, is_end })
     }
 }
 
-/// Until which sample the motion is at the feed without a break.
+/// Until which sample a motion is at the feed without a break.
 pub(super) fn at_feed_until<const D: usize>(
     path: &ScaledPath<D>,
-    first: usize,
+    points: &[[f64; D]],
     samples: &Samples,
+    (grid, period_t): (&Grid, f64),
+) -> usize {
+    let is_at_feed = |k: &usize| {
+        let turn = turn_before(points, (*k, grid));
+        way_t(path, points, samples, (*k, grid)) >= at_feed_r(turn) * period_t
+    };
+    (1..=samples.count()).take_while(is_at_feed).count()
+}
+
+/// Share of the feed that counts as all of it where the motion turns so much in a period, rad.
+pub(crate) fn at_feed_r(turn: f64) -> f64 {
+    let turn = turn.min(MOST_TURN);
+    AT_FEED_R - OF_TURN * turn * turn
+}
+
+/// What the way in the period before sample `k` takes at the top speed, s. Progress says less: it
+/// gains inside a curve, loses on the way back from there, and on chords comes by fits and starts.
+pub(super) fn way_t<const D: usize>(
+    path: &ScaledPath<D>,
+    points: &[[f64; D]],
+    samples: &Samples,
+    (k, grid): (usize, &Grid),
+) -> f64 {
+    let [before, y] = [k - 1, k].map(|k| sample(points, grid, k));
+    let way: [f64; D] = core::array::from_fn(|a| y[a] - before[a]);
+    let segment = &path.segments[samples.piece[k - 1]];
+    let counted: [f64; D] = core::array::from_fn(|a| way[a] * segment.feed_axes[a]);
+    // Where it is not the feed that sets the top speed, but an axis, as in rapid moves.
+    let along_t = dot(&way, &segment.tangent) / segment.top;
+    dot(&counted, &counted).sqrt().max(along_t)
+}
+
+/// How much a motion turns in the period before sample `k`, rad; less than a full turn.
+pub(super) fn turn_before<const D: usize>(points: &[[f64; D]], (k, grid): (usize, &Grid)) -> f64 {
+    let [before, after] = [k - 1, k].map(|k| {
+        let (first, weights) = grid.velocity_site(k);
+        combine(points, first, &weights)
+    });
+    let both = dot(&before, &before) * dot(&after, &after);
+    let sin = (both - dot(&before, &after).powi(2)).max(0.0).sqrt();
+    sin.atan2(dot(&before, &after))
+}
+
+/// Until which sample progress from some sample on is that of the feed without a break.
+fn progress_at_feed_until<const D: usize>(
+    path: &ScaledPath<D>,
+    (mut piece, from): (usize, usize),
+    progress: &[f64],
     period_t: f64,
 ) -> usize {
-    let mut piece = first;
-    let steps = samples.progress.windows(2);
+    let steps = progress[from..].windows(2);
     let at_feed = steps.take_while(|step| {
         while path.segments[piece].s + path.segments[piece].length <= step[0]
             && piece + 1 < path.segments.len()
@@ -88,5 +146,5 @@ pub(super) fn at_feed_until<const D: usize>(
         }
         step[1] - step[0] >= AT_FEED_R * path.segments[piece].top * period_t
     });
-    at_feed.count()
+    from + at_feed.count()
 }

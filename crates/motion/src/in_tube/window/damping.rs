@@ -17,8 +17,10 @@
 //! none where pieces are shorter than a period's way, because their curves are as rough as the
 //! points they were laid through.
 
-use super::solver::Problem;
-use super::tube::Layout;
+use super::samples::Samples;
+use super::scaled_path::ScaledPath;
+use super::solver::{Problem, dot};
+use super::tube::{Layout, Style};
 
 /// Turn of the path, radians, from which there is a corner.
 const CORNER: f64 = 0.1;
@@ -27,24 +29,33 @@ const LEFT_OUT: usize = 4;
 
 /// Adds the prices that go with those of offset and jerk that the style has.
 pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
-    let margin = layout
-        .style
-        .settling_periods(layout.path)
-        .div_ceil(LEFT_OUT);
+    let margin = margin(layout.path, layout.style);
     let dearest_jerk = dearest_jerk(layout);
     for k in 1..layout.samples.count() {
-        if !is_near_corner(layout, k, margin) {
+        if !is_near_corner(layout.path, layout.samples, k, margin) {
             add_at(problem, layout, k, dearest_jerk);
         }
     }
 }
 
+/// Periods about a corner in which nothing is damped.
+pub(super) fn margin<const D: usize>(path: &ScaledPath<D>, style: &Style) -> usize {
+    style.settling_periods(path).div_ceil(LEFT_OUT)
+}
+
 /// True if the path turns sharply within some periods of a sample.
-fn is_near_corner<const D: usize>(layout: &Layout<'_, D>, k: usize, margin: usize) -> bool {
-    let samples = layout.samples;
+pub(super) fn is_near_corner<const D: usize>(
+    path: &ScaledPath<D>,
+    samples: &Samples,
+    k: usize,
+    margin: usize,
+) -> bool {
     let last = (k + margin).min(samples.count());
     let mut seen = samples.piece[k.saturating_sub(margin)]..samples.piece[last];
-    seen.any(|i| layout.path.turn(i, i + 1) > CORNER)
+    seen.any(|i| {
+        let corner = path.corner(i);
+        dot(&corner, &corner) > CORNER * CORNER
+    })
 }
 
 fn add_at<const D: usize>(

@@ -7,7 +7,7 @@
 //! fits into the tube: with jerk J a change of velocity takes the time τ, J·τ² = |Δt|·v, and strays
 //! by about J·τ³/4.
 
-use super::scaled_path::{ScaledPath, ScaledSegment};
+use super::scaled_path::ScaledPath;
 use super::solver::dot;
 use crate::scurve::{PathLimits, Profile, reachable_speed};
 
@@ -50,7 +50,7 @@ impl Guess {
         for i in 1..segments.len() {
             let (before, after) = (&segments[i - 1], &segments[i]);
             let mut cap = before.top.min(after.top);
-            let jumps = corner(before, after);
+            let jumps = path.corner(i - 1);
             for k in 0..D {
                 let jump = jumps[k].abs();
                 let (a, j) = (path.acceleration[k], path.jerk[k]);
@@ -148,16 +148,6 @@ impl Guess {
         }
         0.5 * (low + high)
     }
-}
-
-/// How the direction jumps from a piece to the next. Pieces that stand for a curve are chords of it:
-/// the turn between two of them is none of the curve.
-fn corner<const D: usize>(before: &ScaledSegment<D>, after: &ScaledSegment<D>) -> [f64; D] {
-    core::array::from_fn(|k| {
-        let leaving = before.tangent[k] - 4.0 * before.bow[k] / before.length;
-        let entering = after.tangent[k] + 4.0 * after.bow[k] / after.length;
-        entering - leaving
-    })
 }
 
 /// The time from rest to rest over a length, s.

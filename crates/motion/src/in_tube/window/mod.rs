@@ -30,13 +30,14 @@ mod pins;
 mod rounds;
 mod samples;
 mod scaled_path;
+mod shortcuts;
 mod smoothing;
 mod solver;
 mod spline;
 mod tube;
 mod window_start;
 
-pub(crate) use at_feed::AT_FEED_R;
+pub(crate) use at_feed::at_feed_r;
 pub(crate) use attempt::{
     FEED_INTERVALS, LEAST_INTERVALS, Optimisers, Search, View, WindowContext, WindowMotion,
 };

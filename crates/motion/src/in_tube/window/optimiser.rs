@@ -18,6 +18,7 @@ use super::pins::Pins;
 use super::rounds::{BestMotion, ENOUGH_VIOLATION, RoundState};
 use super::samples::Samples;
 use super::scaled_path::ScaledPath;
+use super::shortcuts;
 use super::solver::{Goal, Interior, Problem};
 use super::tube;
 use super::tube::{Extents, FEED_R, Layout, Style};
@@ -329,6 +330,9 @@ impl<const D: usize> Optimiser<D> {
         }
         if style.is_damped {
             damping::add(&mut self.problem, &layout);
+        }
+        if style.counts_way {
+            shortcuts::add(&mut self.problem, &layout);
         }
         let top = path
             .segments

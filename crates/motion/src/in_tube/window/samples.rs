@@ -196,21 +196,25 @@ impl Samples {
     /// Mean progress since the first sample, in the time that it takes at the top speeds: where the
     /// feed is slow, little way is much time.
     pub(crate) fn mean_t<const D: usize>(&self, path: &ScaledPath<D>) -> f64 {
+        let times = self.times(path);
+        let start_t = times.first().copied().unwrap_or(0.0);
+        let sum: f64 = times.iter().map(|t| t - start_t).sum();
+        #[expect(clippy::cast_precision_loss, reason = "thousands")]
+        let count = times.len() as f64;
+        sum / count
+    }
+
+    /// Progress of each sample, in the time that it takes at the top speeds from the start of the path.
+    pub(crate) fn times<const D: usize>(&self, path: &ScaledPath<D>) -> Vec<f64> {
         let segments = &path.segments;
-        let (mut i, mut start_t, mut sum) = (0, 0.0, 0.0);
-        for (k, &s) in self.progress.iter().enumerate() {
-            while i + 1 < segments.len() && segments[i].s + segments[i].length <= s {
+        let mut i = 0;
+        let time = |s: &f64| {
+            while i + 1 < segments.len() && segments[i].s + segments[i].length <= *s {
                 i += 1;
             }
-            let t = segments[i].t + (s - segments[i].s) / segments[i].top;
-            if k == 0 {
-                start_t = t;
-            }
-            sum += t - start_t;
-        }
-        #[expect(clippy::cast_precision_loss, reason = "thousands")]
-        let count = self.progress.len() as f64;
-        sum / count
+            segments[i].t + (s - segments[i].s) / segments[i].top
+        };
+        self.progress.iter().map(time).collect()
     }
 }
 

@@ -50,6 +50,15 @@ pub(crate) struct ScaledSegment<const D: usize> {
     pub(crate) normals: [[f64; D]; D],
 }
 
+impl<const D: usize> ScaledSegment<D> {
+    /// True if the feed counts every axis that moves along it: not where rotary axes move beside
+    /// linear ones.
+    pub(crate) fn is_all_counted(&self) -> bool {
+        let mut axes = self.tangent.iter().zip(self.feed_axes);
+        axes.all(|(tangent, counted)| counted > 0.0 || tangent.abs() <= 0.0)
+    }
+}
+
 /// The path of a window, measured in tolerances.
 #[derive(Debug, Clone)]
 pub(crate) struct ScaledPath<const D: usize> {
@@ -279,6 +288,24 @@ impl<const D: usize> ScaledPath<D> {
         let (a, b) = (&self.segments[i].tangent, &self.segments[j].tangent);
         let difference: [f64; D] = core::array::from_fn(|k| a[k] - b[k]);
         dot(&difference, &difference).sqrt()
+    }
+
+    /// How the direction of the program jumps from piece `i` to the next. Pieces that stand for a curve
+    /// are chords of it: the turn between two of them is none of the curve.
+    pub(crate) fn corner(&self, i: usize) -> [f64; D] {
+        let (before, after) = (&self.segments[i], &self.segments[i + 1]);
+        core::array::from_fn(|k| {
+            let leaving = before.tangent[k] - 4.0 * before.bow[k] / before.length;
+            let entering = after.tangent[k] + 4.0 * after.bow[k] / after.length;
+            entering - leaving
+        })
+    }
+
+    /// The direction of what piece `i` stands for at a progress on it.
+    pub(crate) fn heading(&self, i: usize, progress: f64) -> [f64; D] {
+        let segment = &self.segments[i];
+        let slope = 4.0 * (1.0 - 2.0 * self.share_of(i, progress)) / segment.length;
+        core::array::from_fn(|k| segment.tangent[k] + slope * segment.bow[k])
     }
 
     /// A position in the space of the window.

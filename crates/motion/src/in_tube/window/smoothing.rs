@@ -9,22 +9,25 @@
 //! ```
 //!
 //! Progress stays in the objective: to hold it fast would forbid an arc to be driven at its radius,
-//! because the inner one is shorter. What is accepted has passed the judge and has lost hardly any
-//! progress; else the weights are made smaller, and in the end the motion of the search stays.
+//! because the inner one is shorter. What that gains is taken out of it ([`super::shortcuts`]). What is
+//! accepted has passed the judge and has lost hardly any progress beside; else the weights are made
+//! smaller, and in the end the motion of the search stays.
 //!
 //! Where a window begins at the feed, progress counts from where it slows down on, as it does in windows
-//! that go on at the feed ([`super::at_feed`]): what one of them cuts a curve by does not depend on how
-//! long it is, so that the next one has nothing to jump to.
+//! that go on at the feed ([`super::at_feed`]).
 //!
-//! Samples stay with the pieces that the search gave them to. But a motion may have been found in a
-//! round in which it had no need to reach those; then they are given to the pieces that it is on,
-//! and whatever rows it stands out of there, what comes out is the judge's to refuse.
+//! Samples stay with the pieces that the search gave them to, but for those that were reached by a
+//! shorter way. A motion may have been found in a round in which it had no need to reach its pieces;
+//! then samples are given to those that it is on, and whatever rows it stands out of there, what comes
+//! out is the judge's to refuse.
 
 use super::at_feed::{WEIGHT, at_feed_until};
+use super::damping;
 use super::optimiser::{Optimiser, Question};
 use super::rounds::RoundState;
 use super::samples::Samples;
 use super::scaled_path::ScaledPath;
+use super::shortcuts;
 use super::tube::Style;
 use super::window_start::{SearchWeights, WindowStart};
 
@@ -52,6 +55,7 @@ impl<const D: usize> WindowStart<'_, D> {
             keep_r: KEEP_R,
             ridge: weight * PULL,
             jerk: weight * JERK,
+            counts_way: true,
             // Another look at a short stretch is for time alone.
             is_damped: self.weights == SearchWeights::USUAL,
             ..self.style(true)
@@ -68,9 +72,18 @@ impl<const D: usize> Optimiser<D> {
         (mean, points, samples): Found<D>,
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
     ) -> Vec<[f64; D]> {
-        let least = mean - MOST_LOSS * mean;
-        let (aims_beyond, scale) = aim(path, window_start, &samples);
-        let (mut samples, mut is_given_out) = (samples, false);
+        let corner_margin = damping::margin(path, &window_start.smooth_style(1.0));
+        let gained_t = |points: &[[f64; D]], samples: &Samples| {
+            let grid = (&window_start.grid, window_start.period_t, corner_margin);
+            shortcuts::gained_t(path, points, samples, grid)
+        };
+        let (aims_beyond, scale) = aim(path, window_start, &points, &samples);
+        let gained_by_best_t = gained_t(&points, &samples);
+        let mut samples = samples;
+        let least = (1.0 - MOST_LOSS) * mean - shortcuts::mean_t(&gained_by_best_t);
+        // Pieces that are reached by a shorter way would hold the motion there.
+        shortcuts::take_back(path, &mut samples, &gained_by_best_t);
+        let mut is_given_out = false;
         let mut weights = WEIGHTS.into_iter().peekable();
         while let Some(weight) = weights.peek() {
             self.samples.clone_from(&samples);
@@ -83,7 +96,11 @@ impl<const D: usize> Optimiser<D> {
                 round_state.most_violation = f64::INFINITY;
             }
             match self.smooth_with(path, window_start, &style, round_state, judge) {
-                Some((mean, points, _)) if mean >= least => return points,
+                Some((mean, points, samples))
+                    if mean - shortcuts::mean_t(&gained_t(&points, &samples)) >= least =>
+                {
+                    return points;
+                }
                 None if !is_given_out => {
                     samples.give_out(path, window_start.piece);
                     is_given_out = true;
@@ -141,9 +158,11 @@ impl<const D: usize> Optimiser<D> {
 fn aim<const D: usize>(
     path: &ScaledPath<D>,
     window_start: &WindowStart<'_, D>,
+    points: &[[f64; D]],
     samples: &Samples,
 ) -> (usize, f64) {
-    let slowing_at = at_feed_until(path, window_start.piece, samples, window_start.period_t);
+    let grid = (&window_start.grid, window_start.period_t);
+    let slowing_at = at_feed_until(path, points, samples, grid);
     if slowing_at >= window_start.commit {
         (slowing_at, WEIGHT)
     } else {

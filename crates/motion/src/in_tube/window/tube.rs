@@ -56,10 +56,13 @@ pub(crate) struct Style {
     pub(crate) jerk: f64,
     /// After a corner the motion comes to the path without swinging ([`super::damping`]).
     pub(crate) is_damped: bool,
+    /// On curves at the feed way counts, not progress ([`super::shortcuts`]).
+    pub(crate) counts_way: bool,
     /// Not as far as possible, but as much in the middle as possible.
     pub(crate) is_centred: bool,
-    /// The aim is the mean progress of the samples beyond this one.
+    /// The aim is the mean progress of the samples beyond this one, up to the other.
     pub(crate) aims_beyond: usize,
+    pub(crate) aims_until: usize,
     /// The points of the last motion are one, and not only a place to start from.
     pub(crate) has_motion: bool,
 }
@@ -179,6 +182,20 @@ pub(crate) struct Layout<'a, const D: usize> {
     pub(crate) style: &'a Style,
 }
 
+impl<const D: usize> Layout<'_, D> {
+    /// What the progress of sample `k` counts, per length.
+    pub(crate) fn aim(&self, k: usize) -> f64 {
+        let (beyond, until) = (self.style.aims_beyond, self.style.aims_until);
+        if self.style.is_centred || k <= beyond || k > until {
+            return 0.0;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+        let count = (self.samples.count().min(until) - beyond) as f64;
+        let top = self.path.segments[self.samples.piece[k]].top;
+        1.0 / count / (top * self.style.period_t)
+    }
+}
+
 /// Makes all rows and the objective.
 pub(crate) fn build<const D: usize>(
     problem: &mut Problem<D>,
@@ -191,8 +208,6 @@ pub(crate) fn build<const D: usize>(
         style,
         ..
     } = layout;
-    #[expect(clippy::cast_precision_loss, reason = "hundreds")]
-    let share = 1.0 / samples.count().saturating_sub(style.aims_beyond).max(1) as f64;
     for k in 1..=samples.count() {
         let i = samples.piece[k];
         let segment = &path.segments[i];
@@ -200,18 +215,7 @@ pub(crate) fn build<const D: usize>(
         problem.add_site(first, weights);
         let span = extents.of(path, i, style);
         add_tube(problem, layout, k, span);
-        let aim = if style.is_centred || k <= style.aims_beyond {
-            0.0
-        } else {
-            share / (segment.top * style.period_t)
-        };
-        for (offset, weight) in weights.into_iter().enumerate().take(4) {
-            if let Some(aims) = problem.aims.get_mut(first + offset) {
-                for a in 0..D {
-                    aims[a] += aim * weight * segment.tangent[a];
-                }
-            }
-        }
+        problem.add_aim((first, weights), layout.aim(k), &segment.tangent);
         if samples.piece[k - 1] < i {
             add_corners(problem, layout, k);
         }

@@ -95,6 +95,20 @@ impl<const D: usize> Problem<D> {
         self.rows.clear();
     }
 
+    /// Adds to the objective how far a weighted sum of control points is in a direction.
+    pub(in crate::in_tube::window) fn add_aim(
+        &mut self,
+        (first, weights): (usize, [f64; SPAN]),
+        aim: f64,
+        direction: &[f64; D],
+    ) {
+        for (aims, weight) in self.aims[first..].iter_mut().zip(weights) {
+            for (sum, part) in aims.iter_mut().zip(direction) {
+                *sum += aim * weight * part;
+            }
+        }
+    }
+
     /// A site without pull; rows added next belong to it.
     pub(in crate::in_tube::window) fn add_site(&mut self, first: usize, weights: [f64; SPAN]) {
         let at = self.rows.len();
