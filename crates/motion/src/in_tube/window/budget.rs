@@ -20,7 +20,7 @@ pub(crate) const FIRST_WORK: usize = 50_000_000;
 /// Work wanted for the search, for making it smooth, and for the end of a window of three axes; that
 /// of more grows with their square.
 const SEARCH_WORK: usize = 30_000_000;
-const SMOOTHING_WORK: usize = 16_000_000;
+const SMOOTHING_WORK: usize = 10_000_000;
 const FINISH_WORK: usize = 10_000_000;
 /// One part in so many of the most is kept for the end.
 const FINISH_PART: usize = 5;
