@@ -13,20 +13,10 @@
 use super::budget;
 use super::optimiser::{Optimiser, Question, Solution};
 use super::rounds::RoundState;
-use super::samples::{Samples, sample};
 use super::scaled_path::ScaledPath;
-use super::solver::{combine, dot};
-use super::spline::Grid;
 use super::tube::Style;
+use super::way::{at_feed_r, at_feed_until};
 use super::window_start::WindowStart;
-
-/// Share of the feed that counts as all of it.
-const AT_FEED_R: f64 = 0.999;
-/// What of the square of a turn within a period is missing of it. The speed between control points
-/// is bounded; that of the spline is less by ⅛ of the square, and between samples by another 1/24.
-const OF_TURN: f64 = 1.0 / 6.0;
-/// Largest turn in which that counts, rad.
-const MOST_TURN: f64 = 0.5;
 
 /// Weights of offset and jerk, relative to the usual ones: progress at the end has as much weight as
 /// the mean progress of the window has elsewhere, to which the way in it adds half as much.
@@ -82,54 +72,6 @@ impl<const D: usize> Optimiser<D> {
     }
 }
 
-/// Until which sample a motion is at the feed without a break.
-pub(super) fn at_feed_until<const D: usize>(
-    path: &ScaledPath<D>,
-    points: &[[f64; D]],
-    samples: &Samples,
-    (grid, period_t): (&Grid, f64),
-) -> usize {
-    let is_at_feed = |k: &usize| {
-        let turn = turn_before(points, (*k, grid));
-        way_t(path, points, samples, (*k, grid)) >= at_feed_r(turn) * period_t
-    };
-    (1..=samples.count()).take_while(is_at_feed).count()
-}
-
-/// Share of the feed that counts as all of it where the motion turns so much in a period, rad.
-pub(crate) fn at_feed_r(turn: f64) -> f64 {
-    let turn = turn.min(MOST_TURN);
-    AT_FEED_R - OF_TURN * turn * turn
-}
-
-/// What the way in the period before sample `k` takes at the top speed, s. Progress says less: it
-/// gains inside a curve, loses on the way back from there, and on chords comes by fits and starts.
-pub(super) fn way_t<const D: usize>(
-    path: &ScaledPath<D>,
-    points: &[[f64; D]],
-    samples: &Samples,
-    (k, grid): (usize, &Grid),
-) -> f64 {
-    let [before, y] = [k - 1, k].map(|k| sample(points, grid, k));
-    let way: [f64; D] = core::array::from_fn(|a| y[a] - before[a]);
-    let segment = &path.segments[samples.piece[k - 1]];
-    let counted: [f64; D] = core::array::from_fn(|a| way[a] * segment.feed_axes[a]);
-    // Where it is not the feed that sets the top speed, but an axis, as in rapid moves.
-    let along_t = dot(&way, &segment.tangent) / segment.top;
-    dot(&counted, &counted).sqrt().max(along_t)
-}
-
-/// How much a motion turns in the period before sample `k`, rad; less than a full turn.
-pub(super) fn turn_before<const D: usize>(points: &[[f64; D]], (k, grid): (usize, &Grid)) -> f64 {
-    let [before, after] = [k - 1, k].map(|k| {
-        let (first, weights) = grid.velocity_site(k);
-        combine(points, first, &weights)
-    });
-    let both = dot(&before, &before) * dot(&after, &after);
-    let sin = (both - dot(&before, &after).powi(2)).max(0.0).sqrt();
-    sin.atan2(dot(&before, &after))
-}
-
 /// Until which sample progress from some sample on is that of the feed without a break.
 fn progress_at_feed_until<const D: usize>(
     path: &ScaledPath<D>,
@@ -144,7 +86,7 @@ fn progress_at_feed_until<const D: usize>(
         {
             piece += 1;
         }
-        step[1] - step[0] >= AT_FEED_R * path.segments[piece].top * period_t
+        step[1] - step[0] >= at_feed_r(0.0) * path.segments[piece].top * period_t
     });
     from + at_feed.count()
 }

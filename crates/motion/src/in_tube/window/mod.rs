@@ -35,13 +35,14 @@ mod smoothing;
 mod solver;
 mod spline;
 mod tube;
+mod way;
 mod window_start;
 
-pub(crate) use at_feed::at_feed_r;
 pub(crate) use attempt::{
     FEED_INTERVALS, LEAST_INTERVALS, Optimisers, Search, View, WindowContext, WindowMotion,
 };
 pub(crate) use budget::FIRST_WORK;
 pub(crate) use budget::PLAN_WORK;
 pub(crate) use spline::Grid;
+pub(crate) use way::at_feed_r;
 pub(crate) use window_start::SearchWeights;

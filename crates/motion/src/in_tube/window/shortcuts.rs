@@ -21,13 +21,13 @@
 //!                                          progress     outwards, by how the program turns
 //! ```
 
-use super::at_feed::{at_feed_r, turn_before, way_t};
 use super::damping::{is_near_corner, margin};
 use super::samples::Samples;
 use super::scaled_path::ScaledPath;
 use super::solver::Problem;
 use super::spline::Grid;
 use super::tube::Layout;
+use super::way::{at_feed_r, turn_before, way_t};
 
 /// Share of what counts as the feed from which on it is what binds: rounds may plan with as little as
 /// 0.995 of it.

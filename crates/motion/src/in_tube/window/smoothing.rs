@@ -21,7 +21,7 @@
 //! then samples are given to those that it is on, and whatever rows it stands out of there, what comes
 //! out is the judge's to refuse.
 
-use super::at_feed::{WEIGHT, at_feed_until};
+use super::at_feed::WEIGHT;
 use super::damping;
 use super::optimiser::{Optimiser, Question};
 use super::rounds::RoundState;
@@ -29,6 +29,7 @@ use super::samples::Samples;
 use super::scaled_path::ScaledPath;
 use super::shortcuts;
 use super::tube::Style;
+use super::way::at_feed_until;
 use super::window_start::{SearchWeights, WindowStart};
 
 /// What an offset of the whole radius costs at one sample, and what jerk at its limit does.
