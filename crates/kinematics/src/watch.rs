@@ -109,7 +109,7 @@ impl JointWatch {
         self.follow(&mut last, position)
     }
 
-    /// Takes a position that follows another.
+    /// Takes a position that follows another, in place: a jog asks at every place of every stop.
     #[inline]
     fn follow(&self, last: &mut Last, position: JointVector) -> Result<(), JointFault> {
         let velocity = (position - last.position) / self.period_t;

@@ -19,8 +19,8 @@ pub struct ConfigDiagnostic {
 }
 
 impl ConfigDiagnostic {
-    /// Whether it is about a key that is of no table's and stands for none: what else is in its table
-    /// can be judged all the same.
+    /// Whether it is about a key that its table does not have, and that is none of its keys misspelt:
+    /// what else is in the table can be judged all the same.
     pub(super) fn is_superfluous_key(&self) -> bool {
         let is_meant = |help: &String| help.starts_with("did you mean");
         self.message.starts_with("unknown key") && !self.help.as_ref().is_some_and(is_meant)

@@ -11,7 +11,7 @@ const PATIENCE_T: f64 = 2.0;
 /// first move is planned, and driven, before the second one is known. A loop without a move may not have more than a
 /// million lines, so they are long ones.
 fn thinking() -> String {
-    let sum: String = (0..45).map(|k| format!(" + SIN[{k} + #1]")).collect();
+    let sum: String = (0..70).map(|k| format!(" + SIN[{k} + #1]")).collect();
     format!(
         "G21 G90 F12000\nG1 X150\nG4 P0.3\n#1 = 0\no1 repeat [300000]\n#1 = [#1{sum}]\no1 endrepeat\nG1 X0\nM2\n"
     )

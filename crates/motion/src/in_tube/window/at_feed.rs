@@ -5,10 +5,11 @@
 //! once, with samples where the feed puts them. What comes out is taken if it passes and keeps the
 //! feed as far; else the window is searched for like any other.
 //!
-//! Progress is counted at one sample alone, the last before the motion brakes. What counted at others
-//! before it would shape the start of a window otherwise than its end, which the next one begins with;
-//! those behind it are kept on their pieces, and what is behind them is not handed out. What a shorter
-//! way inside a curve gains is not counted at all ([`super::shortcuts`]).
+//! Progress is counted at one sample alone, the last before the motion brakes. If it counted at samples
+//! before, the start of a window would be shaped otherwise than its end, and the next one begins with
+//! that. Samples behind are held by their pieces, where the guess brakes: progress that gains nothing
+//! more does not ask for the feed. What a shorter way inside a curve gains is not counted at all
+//! ([`super::shortcuts`]).
 
 use super::budget;
 use super::optimiser::{Optimiser, Question, Solution};

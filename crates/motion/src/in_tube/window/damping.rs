@@ -22,7 +22,7 @@ use super::scaled_path::ScaledPath;
 use super::solver::{Problem, dot};
 use super::tube::{Layout, Style};
 
-/// Turn of the path, radians, from which there is a corner.
+/// Turn of the program, radians, from which there is a corner.
 const CORNER: f64 = 0.1;
 /// Nothing is damped in one part in so many of the time to settle, on both sides of a corner.
 const LEFT_OUT: usize = 4;
@@ -43,7 +43,7 @@ pub(super) fn margin<const D: usize>(path: &ScaledPath<D>, style: &Style) -> usi
     style.settling_periods(path).div_ceil(LEFT_OUT)
 }
 
-/// True if the path turns sharply within some periods of a sample.
+/// True if the program turns sharply within some periods of a sample: chords of a curve do not count.
 pub(super) fn is_near_corner<const D: usize>(
     path: &ScaledPath<D>,
     samples: &Samples,

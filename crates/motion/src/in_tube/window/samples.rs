@@ -198,10 +198,7 @@ impl Samples {
     pub(crate) fn mean_t<const D: usize>(&self, path: &ScaledPath<D>) -> f64 {
         let times = self.times(path);
         let start_t = times.first().copied().unwrap_or(0.0);
-        let sum: f64 = times.iter().map(|t| t - start_t).sum();
-        #[expect(clippy::cast_precision_loss, reason = "thousands")]
-        let count = times.len() as f64;
-        sum / count
+        mean(times.iter().map(|t| t - start_t))
     }
 
     /// Progress of each sample, in the time that it takes at the top speeds from the start of the path.
@@ -216,6 +213,13 @@ impl Samples {
         };
         self.progress.iter().map(time).collect()
     }
+}
+
+/// The mean of some values, of which there is one at least.
+pub(crate) fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "thousands")]
+    let count = values.len() as f64;
+    values.sum::<f64>() / count
 }
 
 /// The length of a vector across a piece.

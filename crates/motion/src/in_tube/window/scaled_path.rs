@@ -293,19 +293,19 @@ impl<const D: usize> ScaledPath<D> {
     /// How the direction of the program jumps from piece `i` to the next. Pieces that stand for a curve
     /// are chords of it: the turn between two of them is none of the curve.
     pub(crate) fn corner(&self, i: usize) -> [f64; D] {
-        let (before, after) = (&self.segments[i], &self.segments[i + 1]);
-        core::array::from_fn(|k| {
-            let leaving = before.tangent[k] - 4.0 * before.bow[k] / before.length;
-            let entering = after.tangent[k] + 4.0 * after.bow[k] / after.length;
-            entering - leaving
-        })
+        let (leaving, entering) = (self.heading_at(i, 1.0), self.heading_at(i + 1, 0.0));
+        core::array::from_fn(|k| entering[k] - leaving[k])
     }
 
     /// The direction of what piece `i` stands for at a progress on it.
     pub(crate) fn heading(&self, i: usize, progress: f64) -> [f64; D] {
+        self.heading_at(i, self.share_of(i, progress))
+    }
+
+    fn heading_at(&self, i: usize, u: f64) -> [f64; D] {
         let segment = &self.segments[i];
-        let slope = 4.0 * (1.0 - 2.0 * self.share_of(i, progress)) / segment.length;
-        core::array::from_fn(|k| segment.tangent[k] + slope * segment.bow[k])
+        let slope = 4.0 * (1.0 - 2.0 * u);
+        core::array::from_fn(|k| segment.tangent[k] + slope * segment.bow[k] / segment.length)
     }
 
     /// A position in the space of the window.

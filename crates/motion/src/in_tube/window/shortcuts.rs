@@ -94,13 +94,6 @@ pub(super) fn gained_t<const D: usize>(
     all
 }
 
-/// The mean of what was gained.
-pub(super) fn mean_t(gained_t: &[f64]) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "hundreds")]
-    let count = gained_t.len() as f64;
-    gained_t.iter().sum::<f64>() / count
-}
-
 /// Takes back from the progress of samples what was gained, and gives those that are before their
 /// pieces then to the pieces before.
 pub(super) fn take_back<const D: usize>(

@@ -25,7 +25,7 @@ use super::at_feed::WEIGHT;
 use super::damping;
 use super::optimiser::{Optimiser, Question};
 use super::rounds::RoundState;
-use super::samples::Samples;
+use super::samples::{Samples, mean};
 use super::scaled_path::ScaledPath;
 use super::shortcuts;
 use super::tube::Style;
@@ -70,7 +70,7 @@ impl<const D: usize> Optimiser<D> {
         &mut self,
         path: &ScaledPath<D>,
         window_start: &WindowStart<'_, D>,
-        (mean, points, samples): Found<D>,
+        (mean_t, points, samples): Found<D>,
         judge: &mut impl FnMut(&[[f64; D]], Question) -> bool,
     ) -> Vec<[f64; D]> {
         let corner_margin = damping::margin(path, &window_start.smooth_style(1.0));
@@ -81,7 +81,7 @@ impl<const D: usize> Optimiser<D> {
         let (aims_beyond, scale) = aim(path, window_start, &points, &samples);
         let gained_by_best_t = gained_t(&points, &samples);
         let mut samples = samples;
-        let least = (1.0 - MOST_LOSS) * mean - shortcuts::mean_t(&gained_by_best_t);
+        let least = (1.0 - MOST_LOSS) * mean_t - mean(gained_by_best_t.iter().copied());
         // Pieces that are reached by a shorter way would hold the motion there.
         shortcuts::take_back(path, &mut samples, &gained_by_best_t);
         let mut is_given_out = false;
@@ -97,8 +97,8 @@ impl<const D: usize> Optimiser<D> {
                 round_state.most_violation = f64::INFINITY;
             }
             match self.smooth_with(path, window_start, &style, round_state, judge) {
-                Some((mean, points, samples))
-                    if mean - shortcuts::mean_t(&gained_t(&points, &samples)) >= least =>
+                Some((mean_t, points, samples))
+                    if mean_t - mean(gained_t(&points, &samples).into_iter()) >= least =>
                 {
                     return points;
                 }
@@ -141,12 +141,12 @@ impl<const D: usize> Optimiser<D> {
                 break;
             }
             round_state.learn_feed(style.feed_r);
-            let mean = self.samples.mean_t(path);
-            let change = mean - round_state.mean_t;
-            round_state.mean_t = mean;
+            let mean_t = self.samples.mean_t(path);
+            let change = mean_t - round_state.mean_t;
+            round_state.mean_t = mean_t;
             if judge(&round_state.points, Question::IsValid) {
-                passed = Some((mean, round_state.points.clone(), self.samples.clone()));
-                if change.abs() < SETTLED * mean {
+                passed = Some((mean_t, round_state.points.clone(), self.samples.clone()));
+                if change.abs() < SETTLED * mean_t {
                     break;
                 }
             }
