@@ -87,8 +87,7 @@ fn off_mm(frame: &Frame, curve: &ParametricCurve, near_t: &mut f64) -> f64 {
     (curve.point(*near_t) - p).norm()
 }
 
-/// The laps' motion: within the tolerance of the true curve, and as good in the last lap as in the
-/// first.
+/// The laps' motion: within the tolerance of the true curve, and as good late as early.
 fn laps_keep_to(frames: &[Frame], curve: &ParametricCurve, start_t: f64, lap_t: f64) {
     let tolerance_mm = settings().tolerance_mm;
     let mut t = start_t;
@@ -108,9 +107,10 @@ fn laps_keep_to(frames: &[Frame], curve: &ParametricCurve, start_t: f64, lap_t: 
     let last = frames.last().unwrap().position;
     let start = curve.point(start_t);
     assert!((last.fixed_rows::<3>(0) - start).norm() < 1e-6);
-    // Chords repeat exactly; the motion differs by where its periods fall on them.
+    // Chords repeat exactly; the motion differs by where its periods fall on them. In the first lap and
+    // in the last one it swings in from a line, and out onto one.
     assert!(
-        worst[9] < 1.5 * worst[1] && worst[1] < 1.5 * worst[9],
+        worst[8] < 1.5 * worst[1] && worst[1] < 1.5 * worst[8],
         "{worst:?}"
     );
 }

@@ -26,6 +26,7 @@ impl<const D: usize> Window<D> {
             spacing_t,
             foot_t,
             weight: first_weight(spacing_t),
+            feed_v: self.feed_v,
             error_mm: 0.0,
         });
         if self.samples.len() > WINDOW || out.blocks_waiting() >= MOST_BLOCKS {

@@ -23,6 +23,8 @@ pub(super) struct Sample<const D: usize> {
     /// Parameter of the curve's point that it is matched with.
     pub(super) foot_t: f64,
     pub(super) weight: f64,
+    /// How fast it is passed at the feed, by `along_t`.
+    pub(super) feed_v: f64,
     /// Its distance from that point, mm.
     pub(super) error_mm: f64,
 }
@@ -162,7 +164,7 @@ impl<const D: usize> Spline<D> {
 
 /// The span of a parameter, not before another.
 #[inline]
-fn span_of(knots: &[f64], t: f64, not_before: usize) -> usize {
+pub(super) fn span_of(knots: &[f64], t: f64, not_before: usize) -> usize {
     let last = knots.len().saturating_sub(2 * DEGREE + 2);
     let mut span = not_before;
     while span < last && t > knots[span + 4] {

@@ -89,6 +89,27 @@ pub(super) fn third_derivative(knots: &[f64], span: usize) -> [f64; 4] {
     ]
 }
 
+/// The second derivative at a parameter of a span, `control` starting with the span's first point.
+#[inline]
+pub(super) fn curvature_vector<const D: usize>(
+    knots: &[f64],
+    control: &[[f64; D]],
+    (span, t): (usize, f64),
+) -> [f64; D] {
+    let (Some(k), [a, b, c, d, ..]) = (local(knots, span), control) else {
+        return [0.0; D];
+    };
+    let [ab, bc, cd] = [
+        (k[3] - k[0], a, b),
+        (k[4] - k[1], b, c),
+        (k[5] - k[2], c, d),
+    ]
+    .map(|(width_t, from, to)| minus(to, from).map(|x| 3.0 / width_t * x));
+    let start = minus(&bc, &ab).map(|x| 2.0 / (k[3] - k[1]) * x);
+    let end = minus(&cd, &bc).map(|x| 2.0 / (k[4] - k[2]) * x);
+    add_scaled(&start, (t - k[2]) / (k[3] - k[2]), &minus(&end, &start))
+}
+
 /// The mean of the three knots that a control point stands for.
 #[inline]
 pub(super) fn greville(knots: &[f64], control: usize) -> f64 {

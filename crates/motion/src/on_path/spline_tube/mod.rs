@@ -24,6 +24,7 @@ mod certificate;
 mod compressor;
 mod driver;
 mod fit;
+mod held_radius;
 mod knots;
 mod marks;
 mod output;

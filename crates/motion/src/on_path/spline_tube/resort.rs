@@ -47,6 +47,7 @@ impl<const D: usize> Window<D> {
             spacing_t,
             foot_t,
             weight: after.weight.max(first_weight(spacing_t)),
+            feed_v: after.feed_v,
             error_mm: 0.0,
         };
         self.samples[j].spacing_t -= spacing_t;

@@ -20,6 +20,7 @@ use super::shares::ToleranceShares;
 use super::thinning::MergedChord;
 use super::vector::{add_scaled, between, dot, minus};
 use super::window::{End, Window};
+use glidepath_program::Override;
 
 /// Turns, in rad, above which a vertex is a corner: in any case, if the path is straight on one
 /// side of it, and if it is on both sides. 100°, 30°, 15°.
@@ -59,6 +60,8 @@ pub(super) struct SampleLayout<const D: usize> {
     spacing_t: f64,
     /// Length of the chords before it.
     along_t: f64,
+    /// The feed of the chord at hand, mm/s.
+    feed_v: f64,
 }
 
 impl<const D: usize> SampleLayout<D> {
@@ -72,6 +75,7 @@ impl<const D: usize> SampleLayout<D> {
             bend: [0.0; D],
             spacing_t: 0.0,
             along_t: 0.0,
+            feed_v: 0.0,
         }
     }
 
@@ -139,6 +143,10 @@ impl<const D: usize> SampleLayout<D> {
         out: &mut Output,
     ) {
         let length_t = chord.length_t;
+        if let Some(change) = &change {
+            self.feed_v = change.rate.under(Override::NONE);
+        }
+        self.window.feed_v = self.feed_v * self.shares.per_feed(chord);
         self.mark(chord, change, out);
         let start_spacing_t = self
             .is_curved

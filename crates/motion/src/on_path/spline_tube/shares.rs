@@ -1,5 +1,8 @@
 //! What the tolerance is spent on: merging, the fit, and the chord error of one period.
 
+use super::held_radius::HeldRadius;
+use super::thinning::MergedChord;
+use super::vector::minus;
 use core::ops::Range;
 use glidepath_program::Settings;
 
@@ -26,6 +29,8 @@ pub(super) struct ToleranceShares {
     pub(super) allowed_mm: f64,
     pub(super) target_mm: f64,
     pub(super) longest_mm: f64,
+    /// How near their radius curves are kept.
+    pub(super) held_radius: HeldRadius,
     /// The axes that measure the feed.
     pub(super) feed_axes: Range<usize>,
 }
@@ -47,7 +52,16 @@ impl ToleranceShares {
             allowed_mm,
             target_mm: TARGET_R * allowed_mm,
             longest_mm: LONGEST_R * tolerance_mm,
+            held_radius: HeldRadius::new(tolerance_mm, &settings.limits, feed_axes.clone()),
             feed_axes,
         }
+    }
+
+    /// How much faster the way along a chord grows than the part of it that measures the feed.
+    pub(super) fn per_feed<const D: usize>(&self, chord: &MergedChord<D>) -> f64 {
+        let way = minus(&chord.end, &chord.start);
+        let axes = self.feed_axes.clone().filter(|&i| i < D);
+        let fed_square: f64 = axes.map(|i| way[i] * way[i]).sum();
+        chord.length_t / fed_square.sqrt()
     }
 }

@@ -45,6 +45,10 @@ fn change(feed_v: f64) -> Option<Change> {
 
 /// The parts of a path through points; block i ends at point i.
 fn compress(points: &[AxisVector], is_linear: bool) -> Vec<SplinePart> {
+    compress_at(100.0, points, is_linear)
+}
+
+fn compress_at(feed_v: f64, points: &[AxisVector], is_linear: bool) -> Vec<SplinePart> {
     let mut compressor =
         Compressor::new(points[0], LINEAR_XYZ, is_linear, TOLERANCE_MM, &settings());
     let mut parts = Vec::new();
@@ -52,7 +56,7 @@ fn compress(points: &[AxisVector], is_linear: bool) -> Vec<SplinePart> {
         if (pair[1] - pair[0]).amax() < 1e-6 {
             continue;
         }
-        let first = if i == 0 { change(100.0) } else { None };
+        let first = if i == 0 { change(feed_v) } else { None };
         let line = ProgramLine {
             number: i as u32 + 1,
             block: 0,
@@ -193,12 +197,12 @@ fn joints(parts: &[SplinePart]) {
     }
 }
 
-fn circle(chord_mm: f64, digits: Option<i32>) -> Vec<AxisVector> {
-    let count = (core::f64::consts::TAU * 10.0 / chord_mm).round();
+fn circle(radius_mm: f64, chord_mm: f64, digits: Option<i32>) -> Vec<AxisVector> {
+    let count = (core::f64::consts::TAU * radius_mm / chord_mm).round();
     (0..=count as u32)
         .map(|i| {
             let phi = f64::from(i) / count * core::f64::consts::TAU;
-            rounded(&at(10.0 * phi.cos(), 10.0 * phi.sin()), digits)
+            rounded(&at(radius_mm * phi.cos(), radius_mm * phi.sin()), digits)
         })
         .collect()
 }
@@ -213,7 +217,7 @@ fn rounded(point: &AxisVector, digits: Option<i32>) -> AxisVector {
 #[test]
 fn a_circle_becomes_a_smooth_circle() {
     for (chord_mm, digits) in [(0.1, None), (0.1, Some(3)), (0.01, None), (0.01, Some(3))] {
-        let points = circle(chord_mm, digits);
+        let points = circle(10.0, chord_mm, digits);
         let parts = compress(&points, true);
         let (spans, lines, stops) = judged(&points, &parts);
         assert_eq!((lines, stops), (2, 0), "{chord_mm} {digits:?}");
@@ -233,6 +237,28 @@ fn a_circle_becomes_a_smooth_circle() {
                 assert!(bounds.d3.norm() < 0.0125, "{} at {s}", bounds.d3);
             }
         }
+    }
+}
+
+/// Where the feed binds, nothing is gained inside a curve; where the curve binds, speed is.
+#[test]
+fn a_circle_keeps_its_radius_where_the_feed_binds() {
+    for (radius_mm, chord_mm, digits) in [(0.5, 0.01, None), (3.0, 0.1, Some(3)), (10.0, 0.1, None)]
+    {
+        let points = circle(radius_mm, chord_mm, digits);
+        let mean_mm = |feed_v| {
+            let places = sampled(&compress_at(feed_v, &points, true));
+            // Without what swings in and out of the lines that it starts and ends on.
+            let off = places.iter().filter(|place| place[0] < 0.0);
+            let off: Vec<f64> = off
+                .map(|place| place[0].hypot(place[1]) - radius_mm)
+                .collect();
+            off.iter().sum::<f64>() / off.len() as f64
+        };
+        let bound_v = 200.0 * radius_mm.sqrt();
+        let (held_mm, spent_mm) = (mean_mm(0.1 * bound_v), mean_mm(bound_v));
+        assert!(held_mm.abs() < 3e-4, "R {radius_mm}: {held_mm} mm off");
+        assert!(spent_mm < -2.5e-3, "R {radius_mm}: {spent_mm} mm off");
     }
 }
 
@@ -302,7 +328,7 @@ fn difficult_paths_stay_in_the_tube() {
 
 #[test]
 fn every_block_is_told_once_and_in_order() {
-    let points = circle(0.1, Some(3));
+    let points = circle(10.0, 0.1, Some(3));
     let mut lines = Vec::new();
     for part in compress(&points, true) {
         assert!(

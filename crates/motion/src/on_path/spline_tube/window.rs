@@ -15,7 +15,7 @@
 //! a few times before the certificate is asked for. Where that fails the weights near the worst
 //! place are raised more, and then [`super::resort`] is taken.
 
-use super::fit::{Sample, Spline};
+use super::fit::{Sample, Spline, span_of};
 use super::knots::{DEGREE, bezier, greville};
 use super::output::Output;
 use super::shares::ToleranceShares;
@@ -69,6 +69,8 @@ pub(super) struct Window<const D: usize> {
     /// The sample at the start of the chord that the spans put out end on.
     pub(super) chord: usize,
     pub(super) errors_mm: Vec<f64>,
+    /// How fast samples that are added are passed at the feed.
+    pub(super) feed_v: f64,
 }
 
 impl<const D: usize> Window<D> {
@@ -84,6 +86,7 @@ impl<const D: usize> Window<D> {
             passed_u: 0.0,
             chord: 0,
             errors_mm: Vec::new(),
+            feed_v: 0.0,
         }
     }
 
@@ -96,6 +99,7 @@ impl<const D: usize> Window<D> {
             spacing_t: 0.0,
             foot_t: 0.0,
             weight: 0.0,
+            feed_v: self.feed_v,
             error_mm: 0.0,
         });
         self.restart(start);
@@ -250,9 +254,12 @@ impl<const D: usize> Window<D> {
     fn weigh(&mut self, worst: Option<usize>) {
         let boost = if worst.is_some() { 3.0 } else { 1.0 };
         let longest = (TAU / self.shares.longest_mm).powi(6);
+        let mut span = 0;
         for sample in self.samples.iter_mut().skip(1) {
             let ratio = sample.error_mm / self.shares.target_mm;
             let wanted = ratio * ratio.sqrt();
+            let per_length6 = sample.spacing_t.powi(-6);
+            let mut least = longest.max(LEAST_WEIGHT.powi(6) * per_length6);
             let factor = if ratio > 1.0 {
                 (boost * wanted).min(MOST_FACTOR)
             } else if worst.is_some() {
@@ -260,8 +267,11 @@ impl<const D: usize> Window<D> {
             } else {
                 wanted.max(LEAST_FACTOR)
             };
-            let per_length6 = sample.spacing_t.powi(-6);
-            let least = longest.max(LEAST_WEIGHT.powi(6) * per_length6);
+            if factor < 1.0 {
+                span = span_of(&self.spline.knots, sample.foot_t, span);
+                let held_radius = &self.shares.held_radius;
+                least = least.max(held_radius.least_weight(&self.spline, span, sample));
+            }
             let most = MOST_WEIGHT.powi(6) * per_length6;
             sample.weight = (sample.weight * factor).max(least).min(most);
         }

@@ -1,0 +1,74 @@
+//! Curves that can be driven at the feed keep their radius.
+//!
+//! A spline of little jerk cuts a curve short on its inside, as far as the tube lets it: of the circle
+//! that the program goes round it makes a smaller one. Where the curve binds the speed, that is what the
+//! tolerance is for. Where the feed binds, it gains nothing but a shorter way, and a hole that is too
+//! small. So there the weight of a sample has a floor. On a circle of curvature κ the penalty and a
+//! weight w are in balance where
+//!
+//! ```text
+//!   κ⁵ = w · offset         (minimise ∫ |C‴|² + w |C − Q|² over circles about the same middle)
+//! ```
+//!
+//! so w is to be κ⁵ over the offset that is allowed. Besides, where a window ends the curve goes on
+//! without a third derivative. That is wrong by up to κ² ℓ³ there, with ℓ = w^(-1/6), and decays over
+//! 2 ℓ: so either κ² ℓ³ is within the offset, too, or ℓ is some samples at most. Both floors are
+//! hardly more than nothing where the path is straight, and still let noise of the program pass
+//! unheeded, which has shorter waves.
+
+use super::fit::{Sample, Spline};
+use super::knots::curvature_vector;
+use super::vector::norm;
+use core::ops::Range;
+use glidepath_program::Limits;
+
+/// How much of what the axes can do a curve may ask for at the feed for the feed to be what binds.
+const ASKED_R: f64 = 0.5;
+/// How far a circle may be off its radius, in tolerances.
+const OFFSET_R: f64 = 0.01;
+/// How far what is wrong at one place may reach, in samples: what a window puts out is half a window
+/// away from its open end, eight times as far.
+const REACH_R: f64 = 4.0;
+
+/// What a curve must not ask for at the feed, and how near its radius it is kept if it does not.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct HeldRadius {
+    acceleration_a: f64,
+    jerk_j: f64,
+    offset_mm: f64,
+}
+
+impl HeldRadius {
+    pub(super) fn new(tolerance_mm: f64, limits: &Limits, axes: Range<usize>) -> Self {
+        let least =
+            |limit: &dyn Fn(usize) -> f64| axes.clone().map(limit).fold(f64::INFINITY, f64::min);
+        Self {
+            acceleration_a: ASKED_R * least(&|i| limits.acceleration[i]),
+            jerk_j: ASKED_R * least(&|i| limits.jerk[i]),
+            offset_mm: OFFSET_R * tolerance_mm,
+        }
+    }
+
+    /// The least weight of a sample, whose foot is on a span.
+    pub(super) fn least_weight<const D: usize>(
+        &self,
+        spline: &Spline<D>,
+        span: usize,
+        sample: &Sample<D>,
+    ) -> f64 {
+        let control = &spline.control[span..];
+        let bend = norm(&curvature_vector(
+            &spline.knots,
+            control,
+            (span, sample.foot_t),
+        ));
+        let feed_v = sample.feed_v;
+        let normal_a = feed_v * feed_v * bend;
+        if normal_a > self.acceleration_a || feed_v * bend * normal_a > self.jerk_j {
+            return 0.0;
+        }
+        let of_radius = bend.powi(5) / self.offset_mm;
+        let of_window = (REACH_R * sample.spacing_t).powi(-6);
+        of_radius.max(of_window.min((bend * bend / self.offset_mm).powi(2)))
+    }
+}
