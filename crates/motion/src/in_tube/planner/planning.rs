@@ -139,6 +139,8 @@ impl PlannerState {
         }
         let left_work = PLAN_WORK.saturating_sub(self.optimisers.work() - work);
         let halt = self.try_halt(grid, view, tail, Search::Whole(left_work));
+        // While the last window leads by as much, from a little further on a better one may be found.
+        let halt = halt.filter(|halt| halt.gain_t >= stay_t);
         let mut all = [window, halt].into_iter().flatten();
         let first = all.next()?;
         let best = all.fold(first, |a, b| if b.gain_t > a.gain_t { b } else { a });

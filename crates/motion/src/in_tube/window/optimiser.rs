@@ -66,9 +66,9 @@ const ATTEMPTS: [Seed; 4] = [
     Seed::Guess(0.75),
     Seed::Stops,
 ];
-/// What a motion must gain of what the tail does: the search weighs smoothness too, and may end a
-/// little behind a tail that sees as far.
-const NO_LESS_R: f64 = 0.999;
+/// What a motion must gain of what the tail does: the search weighs smoothness too, and keeps a little
+/// below the feed, so that it may end a little behind a tail that sees as far.
+const NO_LESS_R: f64 = 0.995;
 /// Interior point iterations in one problem.
 const SOLVER_ITERATIONS: usize = 40;
 /// Lines may leave the path by this many radii while searching.
