@@ -3,16 +3,29 @@
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
-use std::io::{ErrorKind, IsTerminal as _, Write as _};
+use std::io::{ErrorKind, IsTerminal as _, Write};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Why a result was not written.
 static UNWRITTEN: OnceLock<String> = OnceLock::new();
+/// Whether a file is written to standard output.
+static IS_GIVEN_AWAY: AtomicBool = AtomicBool::new(false);
+
+/// Leaves standard output to a file: results go to standard error from now on. False if another file
+/// has it.
+pub fn give_away() -> bool {
+    !IS_GIVEN_AWAY.swap(true, Ordering::Relaxed)
+}
 
 /// Writes text to standard output. A reader that went away (`| head`) is no fault of ours; any
 /// other failure is kept for the end of the command ([`unwritten`]).
 pub fn result(text: &str) {
-    let mut out = std::io::stdout().lock();
+    let mut out: Box<dyn Write> = if IS_GIVEN_AWAY.load(Ordering::Relaxed) {
+        Box::new(std::io::stderr().lock())
+    } else {
+        Box::new(std::io::stdout().lock())
+    };
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
     if let Err(error) = written
         && error.kind() != ErrorKind::BrokenPipe

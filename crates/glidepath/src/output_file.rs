@@ -2,9 +2,11 @@
 //!
 //! So an interrupted command leaves what was there before, and nobody reads half a file. What the
 //! command reads is never overwritten, nor, unless told, a file that is not of the kind that is
-//! written. Devices and pipes (`/dev/stdout`, a FIFO) are written as they are; `-` is standard output.
+//! written. Devices and pipes (`/dev/stdout`, a FIFO) are written as they are; `-` is standard output,
+//! with nothing else on it.
 
 use crate::file_error::FileError;
+use crate::output;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Read as _, Write};
 use std::os::fd::AsFd as _;
@@ -88,7 +90,7 @@ impl OutputFile {
     /// It may not be written, or cannot be.
     pub fn create(path: &Path, kind: OutputKind, guard: &Guard) -> Result<Self, FileError> {
         let path = if path == Path::new("-") {
-            Path::new("/dev/stdout")
+            take_stdout(kind)?
         } else {
             path
         };
@@ -214,6 +216,20 @@ pub fn write(path: &Path, kind: OutputKind, guard: &Guard, text: &str) -> Result
     let written = file.write_all(text.as_bytes());
     written.map_err(FileError::file("write", path))?;
     file.finish()
+}
+
+/// Standard output for a file, which has it to itself.
+fn take_stdout(kind: OutputKind) -> Result<&'static Path, FileError> {
+    let refused = |reason: &str| FileError::guarded(Path::new("-"), reason.to_owned());
+    if kind == OutputKind::Recording {
+        return Err(refused("a recording needs a file; give its name"));
+    }
+    if !output::give_away() {
+        return Err(refused(
+            "only one file can go to standard output; give the other a name",
+        ));
+    }
+    Ok(Path::new("/dev/stdout"))
 }
 
 /// Whether a file begins as one of a kind, or is empty.

@@ -245,6 +245,18 @@ fn devices_and_pipes_are_written_as_they_are() {
     let dash = glidepath(here, &["plan", "part.ngc", "--setpoints", "-"]);
     assert!(dash.status.success(), "{}", said(&dash).1);
     assert!(dash.stdout.starts_with(b"tick,time_s,"));
+    let of = |bytes: &[u8]| String::from_utf8_lossy(bytes).contains("cycle time");
+    assert!(!of(&dash.stdout) && of(&dash.stderr), "{}", said(&dash).1);
+    for args in [
+        &["plan", "part.ngc", "--setpoints", "-", "--plot", "-"][..],
+        &["record", "-"],
+    ] {
+        let (code, text) = said(&glidepath(here, args));
+        assert!(
+            code != 0 && text.contains("- is not written"),
+            "{code} {text}"
+        );
+    }
     assert_eq!(names(here), ["part.ngc"]);
     // Into a file, both the setpoints and the report.
     let status = Command::new(env!("CARGO_BIN_EXE_glidepath"))
