@@ -3,14 +3,137 @@
 use super::optimiser::{Optimiser, Question, Solution};
 use super::rounds::{ENOUGH_VIOLATION, hurried};
 use super::scaled_path::ScaledPath;
+use super::spline::Grid;
 use super::tube::Style;
 use super::window_start::WindowStart;
 
 /// Lengths of the last window that are tried, and rounds for each.
 const FINISHES: usize = 16;
 const FINISH_ROUNDS: usize = 5;
+/// No motion rests at the end after so few intervals.
+const LEAST_INTERVALS: usize = 5;
 /// Pull towards the path where nothing else is aimed at.
 const CENTRED_PULL: f64 = 1e-2;
+
+/// A motion that rests at the end of the path after so many intervals.
+struct Finish<const D: usize> {
+    count: usize,
+    points: Vec<[f64; D]>,
+    progress: Vec<f64>,
+}
+
+/// Which lengths are tried, in intervals: longer ones until a motion is found, then shorter by more and
+/// more until one is missed, then half way between. What was missed from a motion far longer may be
+/// found from the shortest one after all: that is tried at last.
+struct Lengths {
+    count: usize,
+    hurry: Hurry,
+    multiple: usize,
+    shortest: Option<usize>,
+    /// What is missed, or too short to be tried.
+    too_few: usize,
+    /// The shortest motion when something was missed last.
+    missed_from: usize,
+    step: usize,
+}
+
+impl Lengths {
+    fn new(first: usize, multiple: usize) -> Self {
+        Self {
+            count: first,
+            hurry: Hurry::AtTheEnd,
+            multiple,
+            shortest: None,
+            too_few: LEAST_INTERVALS / multiple * multiple,
+            missed_from: 0,
+            step: multiple,
+        }
+    }
+
+    /// There is a motion of the length at hand.
+    fn found(&mut self) {
+        self.shortest = Some(self.count);
+        self.go_on_from(self.count);
+    }
+
+    /// There is none, or it was not found.
+    fn missed(&mut self) {
+        if let Some(shortest) = self.shortest {
+            (self.too_few, self.missed_from) = (self.count, shortest);
+            self.go_on_from(shortest);
+        } else {
+            self.count += self.multiple;
+        }
+    }
+
+    fn go_on_from(&mut self, shortest: usize) {
+        let least = LEAST_INTERVALS / self.multiple * self.multiple;
+        if shortest - self.too_few <= self.multiple && shortest < self.missed_from {
+            (self.too_few, self.missed_from) = (least, 0);
+            (self.step, self.hurry) = (self.multiple, Hurry::Everywhere);
+        }
+        let half = (shortest - self.too_few) / 2 / self.multiple * self.multiple;
+        self.count = if self.too_few > least || self.step > half {
+            self.too_few + half
+        } else {
+            shortest - self.step
+        };
+        self.step *= 2;
+    }
+}
+
+/// Where a motion is made shorter.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Hurry {
+    /// It does not wait where it has as good as arrived, and from where it is fastest on all of it is a
+    /// little faster.
+    AtTheEnd,
+    /// All of it is a little faster.
+    Everywhere,
+}
+
+impl<const D: usize> Finish<D> {
+    /// A guess of the motion with fewer intervals.
+    fn shortened(
+        &self,
+        path: &ScaledPath<D>,
+        count: usize,
+        grid: &Grid,
+        hurry: Hurry,
+    ) -> (Vec<[f64; D]>, Vec<f64>) {
+        let total = path.length();
+        let radius = path.segments.last().map_or(0.0, |last| last.radius);
+        let is_there = |s: &f64| *s >= total - radius;
+        let arrival = self.progress.iter().position(is_there);
+        let arrival = arrival.map_or(self.count, |period| period * grid.knots / grid.periods);
+        let left = match hurry {
+            Hurry::AtTheEnd => grid.whole_periods(arrival.max(count).min(self.count)),
+            Hurry::Everywhere => self.count,
+        };
+        let step = |k: &usize| self.progress[k + 1] - self.progress[*k];
+        let periods = grid.periods_in(left);
+        let fastest =
+            (periods / 2..periods.saturating_sub(1)).max_by(|a, b| step(a).total_cmp(&step(b)));
+        let from = match hurry {
+            Hurry::AtTheEnd => fastest.unwrap_or(0).min(grid.periods_in(count) / 2),
+            Hurry::Everywhere => 0,
+        };
+        let fewer = left - count;
+        let between = |a: &[f64; D], b: &[f64; D], share| {
+            core::array::from_fn(|k| a[k] + share * (b[k] - a[k]))
+        };
+        let from_point = from * grid.knots / grid.periods;
+        let (start, end) = self.points[..left + 3].split_at(from_point);
+        let mut points = start.to_vec();
+        points.extend(hurried(end, fewer, between));
+        let (start, end) = self.progress[..=periods].split_at(from);
+        let mut progress = start.to_vec();
+        progress.extend(hurried(end, grid.periods_in(fewer), |a, b, share| {
+            a + share * (b - a)
+        }));
+        (points, progress)
+    }
+}
 
 impl<const D: usize> Optimiser<D> {
     /// If the motion comes to rest at the end of the path: the shortest one that rests exactly
@@ -39,26 +162,15 @@ impl<const D: usize> Optimiser<D> {
             ..window_start.style(true)
         };
         let grid = &window_start.grid;
-        let mut shortest: Option<(usize, Vec<[f64; D]>, Vec<f64>)> = None;
-        let mut count = first;
-        let mut step = multiple;
+        let mut shortest: Option<Finish<D>> = None;
+        let mut lengths = Lengths::new(first, multiple);
         for _ in 0..FINISHES {
-            if count < 6 || count > intervals || self.interior.is_spent() {
+            let count = lengths.count;
+            if count <= lengths.too_few || count > intervals || self.interior.is_spent() {
                 break;
             }
             let (mut next, progress) = match &shortest {
-                // All of it a little faster.
-                Some((longer, points, progress)) => {
-                    let fewer = longer - count;
-                    let between = |a: &[f64; D], b: &[f64; D], share| {
-                        core::array::from_fn(|k| a[k] + share * (b[k] - a[k]))
-                    };
-                    let fewer_periods = grid.periods_in(fewer);
-                    (
-                        hurried(points, fewer, between),
-                        hurried(progress, fewer_periods, |a, b, share| a + share * (b - a)),
-                    )
-                }
+                Some(longer) => longer.shortened(path, count, grid, lengths.hurry),
                 None => (points[..count + 3].to_vec(), progress.to_vec()),
             };
             self.samples.progress = progress;
@@ -69,20 +181,17 @@ impl<const D: usize> Optimiser<D> {
             if self.finish_in(path, window_start, &style, &mut next, judge) {
                 self.samples
                     .project(path, &next, window_start.piece, grid, false);
-                shortest = Some((count, next, self.samples.progress.clone()));
-                count = count.saturating_sub(step);
-                step *= 2;
-            } else if let Some((longer, ..)) = &shortest {
-                if longer - count <= multiple {
-                    break;
-                }
-                step = multiple;
-                count = longer - multiple;
+                shortest = Some(Finish {
+                    count,
+                    points: next,
+                    progress: self.samples.progress.clone(),
+                });
+                lengths.found();
             } else {
-                count += multiple;
+                lengths.missed();
             }
         }
-        let (_, points, _) = shortest?;
+        let points = shortest?.points;
         let points = self.smooth_finish(path, window_start, points, judge);
         Some(Solution {
             points,

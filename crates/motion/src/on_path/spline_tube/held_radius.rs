@@ -49,12 +49,12 @@ impl HeldRadius {
         }
     }
 
-    /// The least weight of a sample, whose foot is on a span.
+    /// The least weight of a sample, whose foot is on a span; `per_length6` is its spacing to the power of -6.
     pub(super) fn least_weight<const D: usize>(
         &self,
         spline: &Spline<D>,
         span: usize,
-        sample: &Sample<D>,
+        (sample, per_length6): (&Sample<D>, f64),
     ) -> f64 {
         let control = &spline.control[span..];
         let bend = norm(&curvature_vector(
@@ -68,7 +68,7 @@ impl HeldRadius {
             return 0.0;
         }
         let of_radius = bend.powi(5) / self.offset_mm;
-        let of_window = (REACH_R * sample.spacing_t).powi(-6);
+        let of_window = REACH_R.powi(-6) * per_length6;
         of_radius.max(of_window.min((bend * bend / self.offset_mm).powi(2)))
     }
 }

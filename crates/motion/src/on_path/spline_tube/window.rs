@@ -270,7 +270,8 @@ impl<const D: usize> Window<D> {
             if factor < 1.0 {
                 span = span_of(&self.spline.knots, sample.foot_t, span);
                 let held_radius = &self.shares.held_radius;
-                least = least.max(held_radius.least_weight(&self.spline, span, sample));
+                least =
+                    least.max(held_radius.least_weight(&self.spline, span, (sample, per_length6)));
             }
             let most = MOST_WEIGHT.powi(6) * per_length6;
             sample.weight = (sample.weight * factor).max(least).min(most);
