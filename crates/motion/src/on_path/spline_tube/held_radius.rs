@@ -22,8 +22,9 @@ use super::vector::norm;
 use core::ops::Range;
 use glidepath_program::Limits;
 
-/// How much of what the axes can do a curve may ask for at the feed for the feed to be what binds.
-const ASKED_R: f64 = 0.5;
+/// How much of what the axes can do a curve may ask for at the feed for the feed to be what binds: from
+/// one curve to the next it takes several times as much.
+const ASKED_R: f64 = 0.2;
 /// How far a circle may be off its radius, in tolerances.
 const OFFSET_R: f64 = 0.01;
 /// How far what is wrong at one place may reach, in samples: what a window puts out is half a window
@@ -49,7 +50,8 @@ impl HeldRadius {
         }
     }
 
-    /// The least weight of a sample, whose foot is on a span; `per_length6` is its spacing to the power of -6.
+    /// The least weight of a sample, whose foot is on a span; `per_length6` is its spacing to the power
+    /// of -6.
     pub(super) fn least_weight<const D: usize>(
         &self,
         spline: &Spline<D>,
@@ -69,6 +71,8 @@ impl HeldRadius {
         }
         let of_radius = bend.powi(5) / self.offset_mm;
         let of_window = REACH_R.powi(-6) * per_length6;
-        of_radius.max(of_window.min((bend * bend / self.offset_mm).powi(2)))
+        let most = (self.jerk_j / (feed_v * normal_a)).powi(6);
+        let of_window = of_window.min((bend * bend / self.offset_mm).powi(2));
+        of_radius.max(of_window).min(most)
     }
 }
