@@ -1,7 +1,7 @@
 //! The end of a window that sees the end of its path: the shortest motion that rests exactly there.
 
 use super::optimiser::{Optimiser, Question, Solution};
-use super::rounds::{ENOUGH_VIOLATION, hurried};
+use super::rounds::ENOUGH_VIOLATION;
 use super::scaled_path::ScaledPath;
 use super::spline::Grid;
 use super::tube::Style;
@@ -15,9 +15,8 @@ const LEAST_INTERVALS: usize = 5;
 /// Pull towards the path where nothing else is aimed at.
 const CENTRED_PULL: f64 = 1e-2;
 
-/// A motion that rests at the end of the path after so many intervals.
+/// A motion that rests at the end of the path.
 struct Finish<const D: usize> {
-    count: usize,
     points: Vec<[f64; D]>,
     progress: Vec<f64>,
 }
@@ -44,7 +43,7 @@ impl Lengths {
             hurry: Hurry::AtTheEnd,
             multiple,
             shortest: None,
-            too_few: LEAST_INTERVALS / multiple * multiple,
+            too_few: least_of(multiple),
             missed_from: 0,
             step: multiple,
         }
@@ -67,7 +66,7 @@ impl Lengths {
     }
 
     fn go_on_from(&mut self, shortest: usize) {
-        let least = LEAST_INTERVALS / self.multiple * self.multiple;
+        let least = least_of(self.multiple);
         if shortest - self.too_few <= self.multiple && shortest < self.missed_from {
             (self.too_few, self.missed_from) = (least, 0);
             (self.step, self.hurry) = (self.multiple, Hurry::Everywhere);
@@ -80,6 +79,11 @@ impl Lengths {
         };
         self.step *= 2;
     }
+}
+
+/// The most intervals, of whole periods, after which no motion rests.
+const fn least_of(multiple: usize) -> usize {
+    LEAST_INTERVALS / multiple * multiple
 }
 
 /// Where a motion is made shorter.
@@ -101,14 +105,15 @@ impl<const D: usize> Finish<D> {
         grid: &Grid,
         hurry: Hurry,
     ) -> (Vec<[f64; D]>, Vec<f64>) {
+        let intervals = self.points.len() - 3;
         let total = path.length();
         let radius = path.segments.last().map_or(0.0, |last| last.radius);
         let is_there = |s: &f64| *s >= total - radius;
         let arrival = self.progress.iter().position(is_there);
-        let arrival = arrival.map_or(self.count, |period| period * grid.knots / grid.periods);
+        let arrival = arrival.map_or(intervals, |period| period * grid.knots / grid.periods);
         let left = match hurry {
-            Hurry::AtTheEnd => grid.whole_periods(arrival.max(count).min(self.count)),
-            Hurry::Everywhere => self.count,
+            Hurry::AtTheEnd => grid.whole_periods(arrival.max(count).min(intervals)),
+            Hurry::Everywhere => intervals,
         };
         let step = |k: &usize| self.progress[k + 1] - self.progress[*k];
         let periods = grid.periods_in(left);
@@ -182,7 +187,6 @@ impl<const D: usize> Optimiser<D> {
                 self.samples
                     .project(path, &next, window_start.piece, grid, false);
                 shortest = Some(Finish {
-                    count,
                     points: next,
                     progress: self.samples.progress.clone(),
                 });
@@ -249,4 +253,20 @@ impl<const D: usize> Optimiser<D> {
         }
         false
     }
+}
+
+/// The same way in fewer steps.
+fn hurried<T>(values: &[T], fewer: usize, between: impl Fn(&T, &T, f64) -> T) -> Vec<T> {
+    let count = values.len() - 1;
+    let less = count.saturating_sub(fewer).max(1);
+    (0..=less)
+        .map(|k| {
+            let at = k * count;
+            let (before, rest) = (at / less, at % less);
+            let after = (before + 1).min(count);
+            #[expect(clippy::cast_precision_loss, reason = "hundreds")]
+            let share = rest as f64 / less as f64;
+            between(&values[before], &values[after], share)
+        })
+        .collect()
 }

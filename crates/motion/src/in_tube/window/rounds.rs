@@ -97,19 +97,3 @@ impl<const D: usize> RoundState<D> {
         (mean_t - self.mean_t).abs() < LITTLE_GAIN * mean_t
     }
 }
-
-/// The same way in fewer steps.
-pub(crate) fn hurried<T>(values: &[T], fewer: usize, between: impl Fn(&T, &T, f64) -> T) -> Vec<T> {
-    let count = values.len() - 1;
-    let less = count.saturating_sub(fewer).max(1);
-    (0..=less)
-        .map(|k| {
-            let at = k * count;
-            let (before, rest) = (at / less, at % less);
-            let after = (before + 1).min(count);
-            #[expect(clippy::cast_precision_loss, reason = "hundreds")]
-            let share = rest as f64 / less as f64;
-            between(&values[before], &values[after], share)
-        })
-        .collect()
-}

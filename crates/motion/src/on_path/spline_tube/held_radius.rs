@@ -17,7 +17,7 @@
 //! unheeded, which has shorter waves.
 
 use super::fit::{Sample, Spline};
-use super::knots::curvature_vector;
+use super::knots::second_derivative;
 use super::vector::norm;
 use core::ops::Range;
 use glidepath_program::Limits;
@@ -59,7 +59,7 @@ impl HeldRadius {
         (sample, per_length6): (&Sample<D>, f64),
     ) -> f64 {
         let control = &spline.control[span..];
-        let bend = norm(&curvature_vector(
+        let bend = norm(&second_derivative(
             &spline.knots,
             control,
             (span, sample.foot_t),

@@ -91,7 +91,7 @@ pub(super) fn third_derivative(knots: &[f64], span: usize) -> [f64; 4] {
 
 /// The second derivative at a parameter of a span, `control` starting with the span's first point.
 #[inline]
-pub(super) fn curvature_vector<const D: usize>(
+pub(super) fn second_derivative<const D: usize>(
     knots: &[f64],
     control: &[[f64; D]],
     (span, t): (usize, f64),
