@@ -147,16 +147,12 @@ impl Bridge {
         }
         let due = now_ns / self.period_ns;
         let mut next = match self.next {
-            None => {
-                // As many periods as the FIFO is to hold, all of them at rest.
-                let at_rest = self.line_of(setpoint, None);
-                for _ in 0..self.prefill {
-                    self.put(due, at_rest, setpoint, out);
-                }
+            Some(next) if due <= next + GIVEN_UP => next,
+            // The FIFO is empty.
+            None | Some(_) => {
+                self.fill_up(due, setpoint, out);
                 due + 1
             }
-            Some(next) if due > next + GIVEN_UP => due,
-            Some(next) => next,
         };
         while next <= due {
             let line = self.line_of(setpoint, demand(next * self.period_ns));
@@ -173,6 +169,15 @@ impl Bridge {
             next += 1;
         }
         self.next = Some(next);
+    }
+
+    /// Writes as many lines as the FIFO is to hold, all of them at rest.
+    fn fill_up(&mut self, due: u64, setpoint: Option<&Setpoint>, out: &mut String) {
+        let at_rest = self.line_of(setpoint, None);
+        for _ in 0..self.prefill {
+            self.put(due, at_rest, setpoint, out);
+        }
+        (self.fill, self.owed) = ((0.0, 0), 0);
     }
 
     /// What a line says of the joints. Without a demand they stay where they are: with power, or

@@ -186,6 +186,34 @@ fn a_late_bridge_writes_every_line_and_an_empty_fifo_is_a_fault_until_power_is_a
 }
 
 #[test]
+fn a_bridge_that_was_away_for_long_fills_the_fifo_again() {
+    let (mut bridge, mut hal) = (bridge(), Fake::default());
+    run(&mut bridge, &mut hal, 1000..1050, None, |_| None);
+    run(&mut bridge, &mut hal, 1050..1400, Some(&on()), moving);
+    let away = GIVEN_UP + 10;
+    for _ in 0..away {
+        bridge.take(hal.period());
+    }
+    let back = 1400 + away;
+    run(&mut bridge, &mut hal, back..back + 2, None, |_| None);
+    assert_eq!(hal.fifo.len(), PREFILL as usize - 1);
+    // Power that is asked for now stays, though it comes late by what the FIFO holds.
+    let place = hal.place;
+    let mut said = run(
+        &mut bridge,
+        &mut hal,
+        back + 2..back + 20,
+        Some(&on()),
+        |_| None,
+    );
+    for _ in 0..PREFILL - 2 {
+        said = bridge.take(hal.period());
+    }
+    let said = said.unwrap();
+    assert_eq!((said.enabled, said.fault, said.position[0]), (1, 0, place));
+}
+
+#[test]
 fn the_fifo_is_brought_to_its_depth_at_rest_and_never_in_motion() {
     let (mut bridge, mut hal) = (bridge(), Fake::default());
     run(&mut bridge, &mut hal, 1000..1050, None, |_| None);
