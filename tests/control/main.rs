@@ -11,6 +11,7 @@
               for people"
 )]
 
+mod bursts;
 mod overrides;
 mod random;
 mod reaction;

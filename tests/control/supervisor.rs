@@ -78,6 +78,18 @@ impl Job {
         }
     }
 
+    /// A program for the mill, planned in the best way.
+    pub(crate) fn text(text: String) -> Self {
+        Self {
+            text,
+            settings: Settings {
+                effort: Effort::Optimal,
+                smoothing: Smoothing::Auto,
+                ..settings()
+            },
+        }
+    }
+
     fn pipeline(&self) -> Pipeline<ProgramSource<&[u8]>> {
         let start = AxisVector::zeros();
         let options = Options {
@@ -110,6 +122,7 @@ impl Job {
                 sent: 0,
                 items: Vec::new(),
                 setpoints: Vec::new(),
+                comes_every: 1,
                 wanted: Override::NONE,
                 news: None,
                 ended: false,
@@ -127,6 +140,8 @@ pub(crate) struct Supervisor<'s, 'i, 'p> {
     sent: usize,
     items: Vec<Item>,
     pub(crate) setpoints: Vec<Setpoint>,
+    /// Ticks from one time that frames come to the next: more than one where the planner is late.
+    pub(crate) comes_every: usize,
     wanted: Override,
     news: Option<usize>,
     ended: bool,
@@ -156,7 +171,9 @@ impl Supervisor<'_, '_, '_> {
             .setpoints
             .last()
             .map_or(0, |setpoint| setpoint.sequence);
-        self.publish(executed + HORIZON);
+        if self.setpoints.len().is_multiple_of(self.comes_every) {
+            self.publish(executed + HORIZON);
+        }
         let setpoint = self.stepped.tick();
         self.setpoints.push(setpoint);
         setpoint

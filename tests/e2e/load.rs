@@ -1,11 +1,10 @@
 //! A program beside others who take every core.
 
-use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use glidepath_tests::{Instance, Process, SetpointFile, Watchdog};
+use glidepath_tests::{Instance, Process, SetpointFile, Watchdog, pocket};
 
 use crate::programs::recorded;
 
@@ -17,21 +16,10 @@ fn number(name: &str, otherwise: u32) -> u32 {
     std::env::var(name).map_or(otherwise, |text| text.parse().unwrap())
 }
 
-/// Corners of every kind, which take long to plan: rows of a pocket, with waves on them, of another
-/// form in each program.
-fn pocket(seconds: u32, program: u32) -> String {
-    // Rests, which are planned at once, before motion that is not.
-    let mut text = "G21 G90 G64 P0.02 F2400\nT1 M6\nS1000 M3\n".to_owned();
+/// Rests, which are planned at once, before motion that is not.
+fn program(seconds: u32, form: u32) -> String {
     // About 40 mm a second.
-    for row in 0..seconds {
-        let y = 0.4 * f64::from(row);
-        for step in 0..=40_u32 {
-            let along = if row % 2 == 0 { step } else { 40 - step };
-            let wave = 0.15 * f64::from((step * (7 + program) + row * 3) % 5);
-            let _ = writeln!(text, "G1 X{along} Y{:.3}", y + wave);
-        }
-    }
-    text + "M2\n"
+    format!("T1 M6\nS1000 M3\n{}", pocket(seconds, form))
 }
 
 /// Spins on every core until it is dropped.
@@ -64,16 +52,16 @@ impl<F: Fn()> Drop for OnDrop<F> {
 #[test]
 fn a_run_beside_load_on_every_core_is_the_plan_and_does_not_starve() {
     let seconds = number("GLIDEPATH_LOAD", SHORT_S);
-    for program in 0..number("GLIDEPATH_LOAD_PROGRAMS", 1) {
-        play_beside_load(seconds, program);
+    for form in 0..number("GLIDEPATH_LOAD_PROGRAMS", 1) {
+        play_beside_load(seconds, form);
     }
 }
 
 #[allow(clippy::print_stderr, reason = "the figures of a long check")]
-fn play_beside_load(seconds: u32, program: u32) {
+fn play_beside_load(seconds: u32, form: u32) {
     let patience = Duration::from_secs(240 + 4 * u64::from(seconds));
     let (instance, _watchdog) = (Instance::alone(), Watchdog::new(patience));
-    let program = instance.file("program.ngc", &pocket(seconds, program));
+    let program = instance.file("program.ngc", &program(seconds, form));
     let csv = instance.path("run.csv");
     let run = recorded(&program, &csv);
     let output = beside_load(|| Process::start(&instance, &run).wait_for(patience));
@@ -98,5 +86,8 @@ fn play_beside_load(seconds: u32, program: u32) {
         .expect(0);
     let planned = SetpointFile::read(Path::new(&csv));
     assert!(!planned.is_still(), "an empty plan proves nothing");
-    assert_eq!(received.moving(), planned.moving());
+    let (received, planned) = (received.moving(), planned.moving());
+    let first_off = received.iter().zip(&planned).position(|(a, b)| a != b);
+    assert_eq!(first_off, None, "{report:#}");
+    assert_eq!(received.len(), planned.len());
 }

@@ -7,6 +7,7 @@
 //! * [`Services`]: an interpolator and a servo as processes;
 //! * [`Operated`]: the same with drives that answer, and what an operator types;
 //! * [`Browser`]: Chromium, to look at pages;
+//! * [`pocket`]: a program that is hard to plan and to stop on;
 //! * [`ServoStack`]: drives as a thread of the test, which upsets them, and [`Tape`]: every
 //!   setpoint, and what is wrong with them;
 //! * [`Machine`]: interpolator, recorder and planner as threads of the test, joined by the
@@ -24,6 +25,7 @@ mod browser;
 mod instance;
 mod machine;
 mod operated;
+mod pocket;
 mod process;
 mod seats;
 mod services;
@@ -37,6 +39,7 @@ pub use browser::Browser;
 pub use instance::Instance;
 pub use machine::{Machine, Recording, Watch, audit, plan, program, program_from, settings};
 pub use operated::Operated;
+pub use pocket::pocket;
 pub use process::{Output, Process};
 pub use services::{Services, planned};
 pub use setpoint_file::SetpointFile;

@@ -6,7 +6,7 @@ use crate::config::ConfigError;
 use crate::curve_file::{CurveDiagnostic, CurveFileError};
 use crate::exit::Exit;
 use crate::file_error::FileError;
-use crate::jitter::{CyclictestError, JitterError};
+use crate::jitter::JitterError;
 use crate::kept::error::StateError;
 use crate::program_text::UnknownEvent;
 use glidepath_ethercat as ethercat;
@@ -341,74 +341,6 @@ impl Failure {
             Self::NotStopped { command, source }
         } else {
             self
-        }
-    }
-
-    /// The exit code.
-    #[must_use]
-    pub(super) const fn exit(&self) -> Exit {
-        match self {
-            Self::NoFeedback
-            | Self::Stale { .. }
-            | Self::Configuration(_)
-            | Self::HalConfiguration { .. }
-            | Self::Hal(HalError::Joints { .. })
-            | Self::State(
-                StateError::Damaged(_) | StateError::OtherMachine { .. } | StateError::NoFolder,
-            ) => Exit::Configuration,
-            Self::Unchecked { .. }
-            | Self::Refused(Refusal::Unchecked { .. })
-            | Self::Planner(planner::RunError::Refused(Refusal::Unchecked { .. }))
-            | Self::Feed(FeedError::Refused(Refusal::Unchecked { .. })) => Exit::Unchecked,
-            Self::ResumePipe
-            | Self::File(FileError::Open { .. } | FileError::Guarded { .. })
-            | Self::Catalogue(_)
-            | Self::UnknownKey { .. }
-            | Self::Wire(_)
-            | Self::NotEmulated(_)
-            | Self::Word(..)
-            | Self::Var { .. }
-            | Self::Foreign { .. }
-            | Self::NoFeed
-            | Self::NotOneCurve { .. }
-            | Self::UnknownEvent(_)
-            | Self::Jitter(JitterError::Cyclictest(CyclictestError::Absent)) => Exit::Usage,
-            Self::Rejected { .. }
-            | Self::Curve(_)
-            | Self::Refused(_)
-            | Self::Planner(planner::RunError::Refused(_) | planner::RunError::Resume(_))
-            | Self::Feed(FeedError::Refused(_) | FeedError::RefusedByPlanner { .. }) => {
-                Exit::Rejected
-            }
-            Self::Bus(ethercat::RunError::NotRealTime(_))
-            | Self::Interpolator(interpolator::RunError::NotRealTime(_)) => Exit::NotRealTime,
-            Self::Planner(planner::RunError::Interrupted)
-            | Self::Feed(FeedError::Interrupted)
-            | Self::Interrupted
-            | Self::NoAnswer => Exit::Interrupted,
-            Self::File(_)
-            | Self::State(_)
-            | Self::Signals(_)
-            | Self::Terminal(_)
-            | Self::NoInterpolator { .. }
-            | Self::CommandRefused { .. }
-            | Self::NoService
-            | Self::Silent { .. }
-            | Self::NotStopped { .. }
-            | Self::DoesNotEnd { .. }
-            | Self::Interpolator(_)
-            | Self::Bus(_)
-            | Self::Planner(_)
-            | Self::Feed(_)
-            | Self::Link(_)
-            | Self::Hal(_)
-            | Self::Recording { .. }
-            | Self::Server(_)
-            | Self::Process(_)
-            | Self::Jitter(_)
-            | Self::Answers(_)
-            | Self::Thread(_) => Exit::Fault,
-            Self::ProcessEnded { exit, .. } | Self::Job { exit, .. } => *exit,
         }
     }
 }

@@ -10,6 +10,7 @@ mod differences;
 mod doctor;
 mod ethercat;
 mod failure;
+mod failure_exit;
 mod failure_report;
 mod feed;
 mod fit;

@@ -54,19 +54,17 @@ const REFINEMENTS: u32 = 16;
 /// The first guess of how much slower a ramp has to be, how fast that grows, and the most of it.
 const SLOWER: f64 = 1.25;
 const SLOWEST: f64 = 50.0;
-/// The highest rate that a ramp part of the way to the full rate ends at: nearer to it there is too
-/// little time left to lose to get back to the grid.
-const PARTIAL_MOST: f64 = 0.985;
 /// How near to the grid a ramp must end, periods.
 const ON_GRID: f64 = 1e-10;
 
-/// The rate at which a ramp ends that leads from `rate` a share of the way to a goal.
+/// The rate at which a ramp ends that leads from `rate` a share of the way to a goal. Beside the full
+/// rate it may take long to lose what leads back to the grid, but no more is lost by it than from a
+/// lower rate: a period in each turn.
 pub(super) fn partial_target(rate: f64, share: f64, goal: f64) -> f64 {
     if share >= 1.0 {
         return goal;
     }
-    let most = PARTIAL_MOST.max(rate.min(BESIDE_FULL));
-    (rate + share * (goal - rate)).min(most)
+    (rate + share * (goal - rate)).min(BESIDE_FULL)
 }
 
 /// A ramp from the present, if there is one of less than so many ticks; one to rate 1 ends on the

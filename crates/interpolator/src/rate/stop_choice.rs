@@ -16,8 +16,9 @@ const URGENT_BUDGET: u32 = 240;
 const TRIAL_BUDGET: u32 = 120;
 /// A reserve is replaced only by one that begins this much later, ticks.
 const GAIN: u32 = 3;
-/// Before a reserve begins, this many ticks are left to find a later one.
-const URGENT: u32 = 14;
+/// Before a reserve begins, this many ticks are left to find a later one. With half as many a plan that is
+/// at its limits everywhere was slowed down where frames came in bursts of a tenth of a second.
+const URGENT: u32 = 28;
 
 /// In the last ticks before a reserve begins it is tried to go slower instead.
 const SLOWER_IN_TICKS: u32 = 4;
