@@ -11,7 +11,7 @@ pub fn pocket(rows: u32, form: u32) -> String {
         let y = 0.4 * f64::from(row);
         for step in 0..=40_u32 {
             let along = if row % 2 == 0 { step } else { 40 - step };
-            let wave = 0.15 * f64::from((step * (7 + form) + row * 3) % 5);
+            let wave = 0.15 * f64::from((step * (7 + form) + row * 3) % (5 + form / 5));
             let _ = writeln!(text, "G1 X{along} Y{:.3}", y + wave);
         }
     }

@@ -81,11 +81,11 @@ const CASES: [Case; 9] = [
     case("operator", Operator::Busy, 4_600, 83_000),
     Case {
         is_hard: true,
-        ..case("hard", Operator::Once(None), 61_000, 185_000)
+        ..case("hard", Operator::Once(None), 65_500, 185_000)
     },
     Case {
         is_hard: true,
-        ..case("hard, operator", Operator::Busy, 31_000, 184_000)
+        ..case("hard, operator", Operator::Busy, 32_700, 184_000)
     },
     Case {
         has_joints: true,

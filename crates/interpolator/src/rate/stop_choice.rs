@@ -16,9 +16,12 @@ const URGENT_BUDGET: u32 = 240;
 const TRIAL_BUDGET: u32 = 120;
 /// A reserve is replaced only by one that begins this much later, ticks.
 const GAIN: u32 = 3;
-/// Before a reserve begins, this many ticks are left to find a later one. With half as many a plan that is
-/// at its limits everywhere was slowed down where frames came in bursts of a tenth of a second.
-const URGENT: u32 = 28;
+/// Before a reserve begins, this many ticks are left to find a later one.
+const URGENT: u32 = 14;
+/// With so many left only greedy descents are tried: on a plan that is at its limits everywhere they take
+/// a while, and where its frames came in bursts of a tenth of a second the motion was slowed down for want
+/// of time.
+const SHORT: u32 = 4 * URGENT;
 
 /// In the last ticks before a reserve begins it is tried to go slower instead.
 const SLOWER_IN_TICKS: u32 = 4;
@@ -113,7 +116,7 @@ impl Rate {
         budget: &mut u32,
     ) -> bool {
         let now = self.steady();
-        let is_short = self.reserve.kept.is_some() && at_least <= 2 * URGENT;
+        let is_short = self.reserve.kept.is_some() && at_least <= SHORT;
         let search = &mut self.reserve.search;
         match search.go_on(now, at_least, is_short, situation, budget) {
             ReserveOutcome::Found => true,
