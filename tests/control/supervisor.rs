@@ -52,6 +52,14 @@ pub(crate) fn jobs() -> impl Iterator<Item = (&'static str, Effort)> {
         .filter(move |(name, effort)| *effort == Effort::Fast || is_short(name) || times() > 1)
 }
 
+fn on_the_mill(effort: Effort) -> Settings {
+    Settings {
+        effort,
+        smoothing: Smoothing::Auto,
+        ..settings()
+    }
+}
+
 /// A program and the machine it is for.
 #[derive(Debug, Clone)]
 pub(crate) struct Job {
@@ -63,11 +71,7 @@ impl Job {
     pub(crate) fn bench(name: &str, effort: Effort) -> Self {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/bench");
         let file = Path::new(folder).join(format!("{name}.ngc"));
-        let mut settings = Settings {
-            effort,
-            smoothing: Smoothing::Auto,
-            ..settings()
-        };
+        let mut settings = on_the_mill(effort);
         if name.ends_with("_seed") {
             settings.limits = Limits::uniform(100.0, 10_000.0, 1e6);
             settings.tolerance_mm = 0.05;
@@ -78,15 +82,11 @@ impl Job {
         }
     }
 
-    /// A program for the mill, planned in the best way.
+    /// A program for the mill, with effort "optimal".
     pub(crate) fn text(text: String) -> Self {
         Self {
             text,
-            settings: Settings {
-                effort: Effort::Optimal,
-                smoothing: Smoothing::Auto,
-                ..settings()
-            },
+            settings: on_the_mill(Effort::Optimal),
         }
     }
 

@@ -18,8 +18,9 @@ pub fn give_away() -> bool {
     !IS_GIVEN_AWAY.swap(true, Ordering::Relaxed)
 }
 
-/// Writes text to standard output, or to standard error where a file has that. A reader that went away (`| head`) is no fault of ours; any
-/// other failure is kept for the end of the command ([`unwritten`]).
+/// Writes text to standard output, or to standard error where a file has that. A reader that went
+/// away (`| head`) is no fault of ours; any other failure is kept for the end of the command
+/// ([`unwritten`]).
 pub fn result(text: &str) {
     let mut out: Box<dyn Write> = if IS_GIVEN_AWAY.load(Ordering::Relaxed) {
         Box::new(std::io::stderr().lock())
