@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use glidepath_geometry::AxisVector;
+use glidepath_link::servo::JointState;
 
 /// The rows of a file, without what tells when: two executions of the same plan have the same, if
 /// rows at rest are counted once.
@@ -38,19 +39,32 @@ impl SetpointFile {
         rows
     }
 
+    /// The states of X, Y and Z in every row.
+    #[must_use]
+    pub fn states(&self) -> Vec<[JointState; 3]> {
+        let states = |row: &String| {
+            let numbers: Vec<f64> = row.split(',').map(|text| text.parse().unwrap()).collect();
+            // Position, velocity and acceleration of one axis after the other.
+            std::array::from_fn(|axis| JointState {
+                position: numbers[3 * axis],
+                velocity: numbers[3 * axis + 1],
+                acceleration: numbers[3 * axis + 2],
+            })
+        };
+        self.rows.iter().map(states).collect()
+    }
+
     /// The positions of X, Y and Z in every row.
     #[must_use]
     pub fn positions(&self) -> Vec<AxisVector> {
-        let position = |row: &String| {
-            let numbers: Vec<f64> = row.split(',').map(|text| text.parse().unwrap()).collect();
+        let position = |states: [JointState; 3]| {
             let mut position = AxisVector::zeros();
-            for axis in 0..3 {
-                // Position, velocity and acceleration of one axis after the other.
-                position[axis] = numbers[3 * axis];
+            for (axis, state) in states.iter().enumerate() {
+                position[axis] = state.position;
             }
             position
         };
-        self.rows.iter().map(position).collect()
+        self.states().into_iter().map(position).collect()
     }
 
     /// Whether nothing ever moved.

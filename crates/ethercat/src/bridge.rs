@@ -54,12 +54,16 @@ pub struct Bridge<S: Subscriber<Setpoint>> {
     boot_id: u64,
     number: u64,
     cycles: usize,
+    /// The time of the setpoints that were played last, ns.
+    played_ns: u64,
     /// The state of the setpoint before.
     state: Option<(u64, u32)>,
     resets: bool,
     /// No drive gets power before it was taken from all, and asked for anew.
     is_latched: bool,
     ends: bool,
+    /// No joint was told to move in the last cycle.
+    rests: bool,
     failed_ns: Option<u64>,
     stops_told: u64,
     restarts_told: u64,
@@ -86,10 +90,12 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             boot_id: 0,
             number: 0,
             cycles: 0,
+            played_ns: 0,
             state: None,
             resets: true,
             is_latched: true,
             ends: false,
+            rests: false,
             failed_ns: None,
             stops_told: 0,
             restarts_told: 0,
@@ -149,17 +155,15 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
 
     /// Nothing is known of the drives: if they hear, they stop by their own ramp, and lose their power.
     /// No setpoint is played until the position was taken over anew.
-    pub fn lose_bus(&mut self, now_ns: u64) {
-        self.servo.stop(now_ns);
+    pub fn lose_bus(&mut self) {
+        self.servo.stop(self.played_ns);
         self.is_latched = true;
     }
 
-    /// From here on the joints come to rest, and lose their power then.
-    pub fn end(&mut self, now_ns: u64) {
-        if !self.ends {
-            self.ends = true;
-            self.servo.stop(now_ns);
-        }
+    /// From here on the joints come to rest, and lose their power then: where the setpoints that have
+    /// come lead to a rest, there; else by the joints' own stop.
+    pub const fn end(&mut self) {
+        self.ends = true;
     }
 
     /// Whether no drive has power.
@@ -194,13 +198,18 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         while let Ok(Some(_)) = self.servo.receive(now_ns) {
             self.look_at_state();
         }
+        self.played_ns = meant_ns;
+        if self.ends && !self.servo.comes_to_rest() {
+            self.servo.stop(meant_ns);
+        }
         let demand = self.servo.demand(meant_ns);
         self.watch_motion(now_ns, demand.as_ref(), tell);
         self.tell_stops(tell);
         let (enable, home) = self.servo.last().map_or((0, 0), |s| (s.enable, s.home));
         self.is_latched &= enable & self.joints != 0;
-        let rests = demand.is_none_or(|joints| joints.iter().all(|joint| joint.velocity == 0.0));
-        let may_power = !(self.is_latched || self.ends && rests);
+        self.is_latched |= self.ends && self.rests;
+        // Told to the drives in this cycle, before any power is taken.
+        self.rests = demand.is_none_or(|joints| joints.iter().all(|joint| joint.velocity == 0.0));
         let are_all_ready = self
             .drives
             .iter()
@@ -223,7 +232,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             };
             let homing = drive.axis.settings.homing;
             let wish = Wish {
-                enable: may_power && enable & bit != 0,
+                enable: !self.is_latched && enable & bit != 0,
                 home: home & bit != 0,
                 may_home: homing.is_none_or(|homing| Some(homing.sequence) <= looks),
                 are_all_ready,
@@ -269,7 +278,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         }
         let since_ns = *self.failed_ns.get_or_insert(now_ns);
         if now_ns.saturating_sub(since_ns) > LED_NS {
-            self.servo.stop(now_ns);
+            self.servo.stop(self.played_ns);
             tell(Event::NobodyStops);
         }
     }

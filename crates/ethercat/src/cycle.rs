@@ -159,7 +159,7 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
         loop {
             if ends_ns.is_none() && stop.load(Ordering::Relaxed) {
                 let now_ns = self.op.wire().now_ns();
-                self.bridge.end(now_ns);
+                self.bridge.end();
                 ends_ns = Some(now_ns + FAREWELL_NS);
             }
             let now_ns = self.cycle(&mut clock);
@@ -168,7 +168,7 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
                 return End::Asked;
             }
             if self.lost == self.settings.bus.lost_frames {
-                self.bridge.lose_bus(now_ns);
+                self.bridge.lose_bus();
                 self.ends.tell(Event::BusLost);
             }
             let has_lost_drive = self.bridge.has_lost_drive() && off > LAST_CYCLES;

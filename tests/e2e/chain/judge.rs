@@ -75,7 +75,9 @@ pub(super) fn rows(text: &str) -> [Vec<Row>; JOINTS] {
 pub(super) struct Verdict {
     /// The largest parts of velocity, acceleration and jerk at the period of the bus.
     pub(super) ratios: [f64; 3],
-    /// What rounding may add to that of the jerk.
+    /// That of the jerk in the plan, at this period.
+    pub(super) planned: f64,
+    /// What rounding may add to it.
     pub(super) rounding: f64,
     /// The part of the SYNC0 that was judged.
     pub(super) judged: f64,
@@ -89,13 +91,23 @@ impl Verdict {
         self.judged >= ENOUGH
     }
 
-    /// Whether the limits are kept. Between setpoints the demand is a quintic, whose third difference
-    /// at any phase of the bus is up to 0.53 % above that of the setpoints.
+    /// Whether the limits are kept, as far as the plan keeps them between its setpoints. To velocity
+    /// and acceleration rounding adds up to a thousandth, at 1 ms.
     pub(super) fn keeps_limits(&self) -> bool {
-        let most = 1.0 + 5.3e-3;
+        let most = 1.0 + 2e-3;
         let [v, a, j] = self.ratios;
-        v <= most && a <= most && j <= most + self.rounding
+        v <= most && a <= most && j <= self.planned.max(1.0) + self.rounding
     }
+}
+
+/// Whether no frame came in time for so long that whoever leads the drives was not there: by then
+/// the joints have stopped by themselves, and the interpolator misses them.
+pub(super) fn was_left_alone(rows: &[Row]) -> bool {
+    let mut spans = rows.chunk_by(|before, after| before.came_in_time() == after.came_in_time());
+    spans.any(|span| {
+        let lasts_ns = span[span.len() - 1].sync_ns - span[0].sync_ns;
+        !span[0].came_in_time() && lasts_ns > BEFORE_NS
+    })
 }
 
 /// When setpoints were missing, with what is left out on both sides.
@@ -117,8 +129,9 @@ fn missing_spans(rows: &[Row]) -> Vec<Range<u64>> {
 
 /// Judges the rows of all joints. Not those at which no frame came in time, because it was lost or
 /// the host stood still: drives repeat what they had, and differences across them tell nothing of
-/// what was sent. And not those around missing setpoints.
-pub(super) fn judge(all: &[Vec<Row>; JOINTS], period_t: f64) -> Verdict {
+/// what was sent. And not those around missing setpoints. `planned` is the largest part of the limit of
+/// the jerk that the plan has at this period.
+pub(super) fn judge(all: &[Vec<Row>; JOINTS], period_t: f64, planned: f64) -> Verdict {
     let mut audit = Audit::new(&AuditSettings {
         limits: settings().limits,
         period_t,
@@ -159,6 +172,7 @@ pub(super) fn judge(all: &[Vec<Row>; JOINTS], period_t: f64) -> Verdict {
             report.max_acceleration_ratio.ratio,
             report.max_jerk_ratio.ratio,
         ],
+        planned,
         // To counts, and of the time to whole nanoseconds.
         rounding: (4.0 / COUNTS + 4e-9 * FASTEST_V) / period_t.powi(3) / limits.jerk[0],
         judged: f64::from(judged) / count as f64,
@@ -172,6 +186,7 @@ mod tests {
 
     const PERIOD_T: f64 = 0.002;
     const PERIOD_NS: u64 = 2_000_000;
+    const PLANNED: f64 = 1.0;
     const COUNT: usize = 5000;
 
     /// Ten seconds of a wave on every joint at 96 % of the limit of the jerk; it grows in the first of
@@ -207,7 +222,7 @@ mod tests {
 
     #[test]
     fn a_motion_inside_its_limits_is_judged_as_a_whole() {
-        let verdict = judge(&wave(), PERIOD_T);
+        let verdict = judge(&wave(), PERIOD_T, PLANNED);
         assert!(verdict.is_enough() && verdict.keeps_limits(), "{verdict:?}");
         assert!(verdict.ratios[2] > 0.95, "{verdict:?}");
         assert_eq!((verdict.judged, verdict.left_out), (1.0, 0.0));
@@ -232,7 +247,7 @@ mod tests {
             if let Some(from) = missing {
                 lose(&mut all, from);
             }
-            let verdict = judge(&all, PERIOD_T);
+            let verdict = judge(&all, PERIOD_T, PLANNED);
             assert!(verdict.is_enough(), "{verdict:?}");
             assert_eq!(
                 verdict.keeps_limits(),
@@ -249,12 +264,12 @@ mod tests {
             rows[3000].target += 1e-3;
             rows[3000..].iter_mut().for_each(|row| row.coasts = 1);
         }
-        let verdict = judge(&all, PERIOD_T);
+        let verdict = judge(&all, PERIOD_T, PLANNED);
         assert!(verdict.is_enough() && verdict.keeps_limits(), "{verdict:?}");
         // 20 ms, the row itself and 100 ms, without the last.
         assert_eq!((verdict.left_out * COUNT as f64).round() as usize, 60);
         all[2][3060].target += 1e-3;
-        assert!(!judge(&all, PERIOD_T).keeps_limits());
+        assert!(!judge(&all, PERIOD_T, PLANNED).keeps_limits());
     }
 
     #[test]
@@ -264,10 +279,21 @@ mod tests {
             rows[3000].target = rows[2999].target;
             rows[3000].meant_ns = rows[2999].meant_ns;
         }
-        let verdict = judge(&all, PERIOD_T);
+        let verdict = judge(&all, PERIOD_T, PLANNED);
         assert!(verdict.is_enough() && verdict.keeps_limits(), "{verdict:?}");
         all[0][3004].target += 1e-3;
-        assert!(!judge(&all, PERIOD_T).keeps_limits());
+        assert!(!judge(&all, PERIOD_T, PLANNED).keeps_limits());
+    }
+
+    #[test]
+    fn drives_are_left_alone_where_no_frame_comes_for_long() {
+        for (count, is_alone) in [(0, false), (5, false), (11, false), (12, true)] {
+            let [mut rows, ..] = wave();
+            for row in &mut rows[3000..3000 + count] {
+                row.meant_ns -= 4 * PERIOD_NS;
+            }
+            assert_eq!(was_left_alone(&rows), is_alone, "{count}");
+        }
     }
 
     #[test]
@@ -276,10 +302,10 @@ mod tests {
         for nth in 0..8 {
             lose(&mut all, 500 + nth * 500);
         }
-        let verdict = judge(&all, PERIOD_T);
+        let verdict = judge(&all, PERIOD_T, PLANNED);
         assert!(verdict.is_enough(), "{verdict:?}");
         lose(&mut all, 4700);
-        let verdict = judge(&all, PERIOD_T);
+        let verdict = judge(&all, PERIOD_T, PLANNED);
         assert!(!verdict.is_enough(), "{verdict:?}");
         assert!(verdict.judged + verdict.left_out > 0.999_9);
     }

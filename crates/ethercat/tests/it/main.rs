@@ -11,6 +11,7 @@
 )]
 
 mod bring_up;
+mod ending;
 mod judge;
 mod life;
 mod machine;

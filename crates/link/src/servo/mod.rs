@@ -131,6 +131,8 @@ pub struct Servo<S: Subscriber<Setpoint> = Box<dyn Subscriber<Setpoint>>> {
     /// Where it has to be handed it, if that was said.
     stand: Option<Stand>,
     stopped: Option<OwnStop>,
+    /// The time that was demanded for last: a stop goes on from there.
+    played_ns: Option<u64>,
 }
 
 /// Whether no joint is told to move.
@@ -168,12 +170,14 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
             waits: false,
             stand: None,
             stopped: None,
+            played_ns: None,
         }
     }
 
     /// The next new setpoint that has arrived, `None` if there is no more yet. Duplicates and
     /// records that fail their check are counted and left out. One that jumps is given out, but not
-    /// played: the joints stop. `now_ns` is of `CLOCK_MONOTONIC`.
+    /// played: the joints stop, from the time of the last demand on. `now_ns` is of
+    /// `CLOCK_MONOTONIC`, and decides what is counted as late.
     ///
     /// # Errors
     ///
@@ -196,7 +200,7 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
                 Sequel::Restart => self.armed &= self.last.is_none(),
             }
             self.last = Some(setpoint);
-            self.play(&setpoint, now_ns);
+            self.play(&setpoint, self.played_ns.unwrap_or(now_ns));
             return Ok(Some(setpoint));
         }
         Ok(None)
@@ -207,7 +211,7 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
         self.player.reset();
     }
 
-    fn play(&mut self, setpoint: &Setpoint, now_ns: u64) {
+    fn play(&mut self, setpoint: &Setpoint, played_ns: u64) {
         let is_off = setpoint.enable == 0 || setpoint.state == MachineState::Off.code();
         if is_off {
             self.wait();
@@ -220,7 +224,7 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
             && let Err(jump) = self.player.push(setpoint)
         {
             self.counts.jumps += 1;
-            self.begin_stop(now_ns, OwnStop::Jump(jump));
+            self.begin_stop(played_ns, OwnStop::Jump(jump));
         }
     }
 
@@ -249,15 +253,23 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
     /// whoever drives the joints ends. The interpolator does not know of it; tell it by feedback,
     /// or with an abort.
     ///
-    /// `now_ns` is of `CLOCK_MONOTONIC`, not before that of any call so far.
+    /// `now_ns` is a time as [`Servo::demand`] is asked for, and not before the last of them: a servo
+    /// that plays setpoints later than they say stops at the time it has come to.
     pub fn stop(&mut self, now_ns: u64) {
         self.begin_stop(now_ns, OwnStop::Asked);
+    }
+
+    /// Whether playing goes on to a rest: the newest setpoint is one, or there is none.
+    #[must_use]
+    pub fn comes_to_rest(&self) -> bool {
+        self.last.as_ref().is_none_or(is_at_rest)
     }
 
     /// What the joints are to do at a time; `None` before the first setpoint's, and while the drives
     /// are off, until the position was taken over from them. Times do not go back from call to
     /// call.
     pub fn demand(&mut self, now_ns: u64) -> Option<JointStates> {
+        self.played_ns = Some(now_ns);
         let was_stopping = self.player.is_stopping();
         let demand = self.player.demand(now_ns);
         self.note_stop(was_stopping, OwnStop::Silence);

@@ -1,7 +1,7 @@
 //! Stops that are asked for, setpoints that jump, and where a servo begins again.
 
 use super::references::standing;
-use super::{Bench, PERIOD_NS, assert_continuous, ns_of, setpoint, state, truth};
+use super::{Bench, PERIOD_NS, START_NS, assert_continuous, ns_of, setpoint, state, truth};
 use glidepath_link::servo::{JointState, JumpLimits, JumpOf, OwnStop, ServoSettings};
 use glidepath_link::{MachineState, Setpoint};
 
@@ -113,6 +113,37 @@ fn a_setpoint_that_jumps_is_not_played() {
             (0, of, off.joint_position[0])
         );
         assert!(jump.asked > jump.limit && jump.to_string().starts_with("joint 0: from "));
+    }
+}
+
+#[test]
+fn a_servo_that_plays_later_stops_from_where_it_has_come_to() {
+    const STEP_NS: u64 = 100_000;
+    for delay_ns in [0, 2_000_000, 12_500_000] {
+        for is_asked in [false, true] {
+            let (mut bench, mut joints) = (guarded(), Vec::new());
+            while bench.now_ns < ns_of(150) {
+                if bench.now_ns.is_multiple_of(PERIOD_NS) {
+                    let mut setpoint = setpoint((bench.now_ns - START_NS) / PERIOD_NS);
+                    if !is_asked && setpoint.number >= 50 {
+                        setpoint.joint_position[0] += 5.0;
+                    }
+                    bench.publish(&setpoint);
+                }
+                while bench.servo.receive(bench.now_ns).unwrap().is_some() {}
+                let played_ns = bench.now_ns - delay_ns;
+                if is_asked && bench.now_ns == ns_of(50) {
+                    bench.servo.stop(played_ns);
+                }
+                if let Some(demand) = bench.servo.demand(played_ns) {
+                    joints.push((played_ns, demand[0]));
+                }
+                bench.now_ns += STEP_NS;
+            }
+            assert_continuous(&joints, 2000.0 * 1.001);
+            assert!(is_at_rest(&joints), "{delay_ns} {is_asked}");
+            assert_eq!(bench.servo.counts().stops, 1, "{delay_ns} {is_asked}");
+        }
     }
 }
 

@@ -187,14 +187,17 @@ impl<S: Subscriber<Setpoint>> Stack<S> {
         std::thread::sleep(Duration::from_nanos(self.period_ns - into_ns));
     }
 
-    /// To rest, then no power, for as long as it takes HAL to hear of it.
+    /// To rest, then no power, for as long as it takes HAL to hear of it. What has come is played to
+    /// its end, if that is a rest.
     fn end(
         &mut self,
         off_for_ns: u64,
         mut send: impl FnMut(&Feedback) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let begun_ns = Monotonic.now_ns();
-        self.servo.stop(self.played_ns);
+        if !self.servo.comes_to_rest() {
+            self.servo.stop(self.played_ns);
+        }
         while !self.hal.is_at_rest() && Monotonic.now_ns() < begun_ns + REST_WITHIN_NS {
             self.turn(None, &mut send)?;
             self.sleep();
