@@ -46,7 +46,7 @@ impl Bound {
     /// be bound by, is the quiet one.
     pub(super) const fn colour(self) -> &'static str {
         match self {
-            Self::Feed => "#4d9de0",
+            Self::Feed => "#1c7ed6",
             Self::Velocity => "#1b4f72",
             Self::Acceleration => "#e69f00",
             Self::Jerk => "#c2255c",

@@ -6,7 +6,7 @@ pub(super) const GRID: &str = "#e6eaee";
 pub(super) const FRAME: &str = "#b8c1ca";
 pub(super) const LIMIT: &str = "#c0392b";
 /// The programmed path, under the motion.
-pub(super) const PROGRAM: &str = "#ffd8a8";
+pub(super) const PROGRAM: &str = "#ffe0b2";
 /// The curve of the deviation.
 pub(super) const DEVIATION: &str = "#0b8a5f";
 /// Where a motion may be.

@@ -157,7 +157,7 @@ pub(super) fn draw(
     for (colour, path) in shades.chain(bounds) {
         svg.path(
             path,
-            &format!("{style} stroke=\"{colour}\" stroke-width=\"1.5\""),
+            &format!("{style} stroke=\"{colour}\" stroke-width=\"2\""),
         );
     }
     if let Some(first) = track.points().first() {
