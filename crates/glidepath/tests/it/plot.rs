@@ -212,7 +212,7 @@ fn the_programmed_path_lies_under_the_motion() {
     let svg = line(300);
     assert!(is_well_formed(&svg));
     let programmed = svg.find("stroke-width=\"5\"").unwrap();
-    let motion = svg.find("stroke-width=\"1.5\"").unwrap();
+    let motion = svg.find("stroke-width=\"2\"").unwrap();
     assert!(programmed < motion, "what is drawn first is below");
     assert!(svg.contains(">programmed path<"));
     // From one margin of the view to the other: the line is all there is.
