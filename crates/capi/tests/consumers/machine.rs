@@ -11,12 +11,14 @@ use glidepath_realtime::{Clock as _, Monotonic};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 const BOOT: u64 = 0x1122_3344_5566_7788;
+/// How long the machine may take to listen once: a host may be busy.
+const PATIENCE: Duration = Duration::from_secs(30);
 
 fn now_ns() -> u64 {
     Monotonic.now_ns()
@@ -85,6 +87,8 @@ enum Order {
 
 #[derive(Debug, Default)]
 struct Heard {
+    /// How often all ports were emptied.
+    rounds: u64,
     received: u64,
     last: Option<Feedback>,
     jogs: Vec<JogDemand>,
@@ -261,19 +265,35 @@ impl Machine {
         thread
     }
 
+    /// What was sent until now, and has arrived: every port was emptied since.
+    fn heard(&self) -> MutexGuard<'_, Heard> {
+        let begun = Instant::now();
+        let rounds = self.heard.lock().unwrap().rounds;
+        loop {
+            let heard = self.heard.lock().unwrap();
+            // The round under way may have passed a port before.
+            if heard.rounds > rounds + 1 {
+                return heard;
+            }
+            drop(heard);
+            assert!(begun.elapsed() < PATIENCE, "the machine's thread stands");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
     /// The jogs that arrived.
     pub(crate) fn jogs(&self) -> Vec<JogDemand> {
-        self.heard.lock().unwrap().jogs.clone()
+        self.heard().jogs.clone()
     }
 
     /// The pieces of the last stream that were accepted.
     pub(crate) fn segments(&self) -> Vec<SegmentRequest> {
-        self.heard.lock().unwrap().stream.accepted.clone()
+        self.heard().stream.accepted.clone()
     }
 
     /// How much feedback was received, and the last of it.
     pub(crate) fn feedback(&self) -> (u64, Feedback) {
-        let heard = self.heard.lock().unwrap();
+        let heard = self.heard();
         (heard.received, heard.last.unwrap())
     }
 }
@@ -342,6 +362,7 @@ fn play(config: &LinkConfig, orders: &Receiver<Order>, heard: &Mutex<Heard>, rea
             heard.received += 1;
             heard.last = Some(record);
         }
+        heard.lock().unwrap().rounds += 1;
     }
 }
 
