@@ -1257,8 +1257,8 @@ int gp_servo_receive(gp_servo *servo, uint64_t now_ns, gp_setpoint *setpoint, si
 int gp_servo_demand(gp_servo *servo, uint64_t now_ns, gp_joint *joints, size_t size);
 
 /* Brings the joints to rest within their own limits, and plays no setpoint until the servo is
- * rearmed or the position is taken anew from the drives: for a drive or a bus that fails. now_ns is
- * a time as for gp_servo_demand: who plays setpoints later than they say stops later, too. The
+ * rearmed or the position is taken anew from the drives: for a drive or a bus that fails. They
+ * stop from the time of the last gp_servo_demand on; from now_ns where there was none. The
  * interpolator does not know of it: command GP_COMMAND_ABORT, or say it by feedback. */
 int gp_servo_stop(gp_servo *servo, uint64_t now_ns);
 

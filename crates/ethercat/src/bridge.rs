@@ -54,8 +54,6 @@ pub struct Bridge<S: Subscriber<Setpoint>> {
     boot_id: u64,
     number: u64,
     cycles: usize,
-    /// The time of the setpoints that were played last, ns.
-    played_ns: u64,
     /// The state of the setpoint before.
     state: Option<(u64, u32)>,
     resets: bool,
@@ -90,7 +88,6 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
             boot_id: 0,
             number: 0,
             cycles: 0,
-            played_ns: 0,
             state: None,
             resets: true,
             is_latched: true,
@@ -155,8 +152,8 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
 
     /// Nothing is known of the drives: if they hear, they stop by their own ramp, and lose their power.
     /// No setpoint is played until the position was taken over anew.
-    pub fn lose_bus(&mut self) {
-        self.servo.stop(self.played_ns);
+    pub fn lose_bus(&mut self, now_ns: u64) {
+        self.servo.stop(now_ns);
         self.is_latched = true;
     }
 
@@ -198,9 +195,8 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         while let Ok(Some(_)) = self.servo.receive(now_ns) {
             self.look_at_state();
         }
-        self.played_ns = meant_ns;
         if self.ends && !self.servo.comes_to_rest() {
-            self.servo.stop(meant_ns);
+            self.servo.stop(now_ns);
         }
         let demand = self.servo.demand(meant_ns);
         self.watch_motion(now_ns, demand.as_ref(), tell);
@@ -278,7 +274,7 @@ impl<S: Subscriber<Setpoint>> Bridge<S> {
         }
         let since_ns = *self.failed_ns.get_or_insert(now_ns);
         if now_ns.saturating_sub(since_ns) > LED_NS {
-            self.servo.stop(self.played_ns);
+            self.servo.stop(now_ns);
             tell(Event::NobodyStops);
         }
     }

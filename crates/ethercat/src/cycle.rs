@@ -168,7 +168,7 @@ impl<W: Wire, S: Subscriber<Setpoint>> Run<'_, '_, W, S> {
                 return End::Asked;
             }
             if self.lost == self.settings.bus.lost_frames {
-                self.bridge.lose_bus();
+                self.bridge.lose_bus(now_ns);
                 self.ends.tell(Event::BusLost);
             }
             let has_lost_drive = self.bridge.has_lost_drive() && off > LAST_CYCLES;

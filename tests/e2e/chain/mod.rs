@@ -97,8 +97,8 @@ fn chain(seconds: u32, period_us: u32) -> bool {
     let [v, a, j] = verdict.ratios;
     eprintln!(
         "bus {period_us} us: {} rows, phase error p50 {:.1} us, p99 {:.1} us, max {:.1} us; v {v:.4}, a \
-         {a:.4}, j {j:.4} of the limits (planned {:.4}, rounding {:.4}) at {:.2} % of the SYNC0, {:.2} % left out around \
-         missing setpoints; frames lost {}, cycles missed {}, coasted {}, ticks missed {}, round trip {}, \
+         {a:.4}, j {j:.4} of the limits (planned {:.4}, rounding {:.4}) at {:.2} % of the SYNC0, {:.2} % left \
+         out around missing setpoints; frames lost {}, cycles missed {}, coasted {}, ticks missed {}, round trip {}, \
          sent late {}",
         rows[0].len(),
         at(0.5),

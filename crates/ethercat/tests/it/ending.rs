@@ -63,7 +63,7 @@ fn ended(setup: &Setup, when: When) -> Outcome {
     outcome
 }
 
-/// Setpoints that are played at once, and later than they say by as much as a desk does.
+/// Setpoints that are played as soon as they can be, and as late as on a desk.
 fn setups() -> impl Iterator<Item = Setup> {
     [2_000_000, 4_000_000].into_iter().flat_map(|period_ns| {
         [0, 10_000_000].map(|more_ns| {

@@ -200,7 +200,7 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
                 Sequel::Restart => self.armed &= self.last.is_none(),
             }
             self.last = Some(setpoint);
-            self.play(&setpoint, self.played_ns.unwrap_or(now_ns));
+            self.play(&setpoint, now_ns);
             return Ok(Some(setpoint));
         }
         Ok(None)
@@ -211,7 +211,7 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
         self.player.reset();
     }
 
-    fn play(&mut self, setpoint: &Setpoint, played_ns: u64) {
+    fn play(&mut self, setpoint: &Setpoint, now_ns: u64) {
         let is_off = setpoint.enable == 0 || setpoint.state == MachineState::Off.code();
         if is_off {
             self.wait();
@@ -224,13 +224,13 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
             && let Err(jump) = self.player.push(setpoint)
         {
             self.counts.jumps += 1;
-            self.begin_stop(played_ns, OwnStop::Jump(jump));
+            self.begin_stop(now_ns, OwnStop::Jump(jump));
         }
     }
 
     fn begin_stop(&mut self, now_ns: u64, why: OwnStop) {
         let was_stopping = self.player.is_stopping();
-        self.player.stop(now_ns);
+        self.player.stop(self.played_ns.unwrap_or(now_ns));
         self.note_stop(was_stopping, why);
         self.armed = false;
         // The first cause is the one to know, if there was a motion to stop or none.
@@ -253,8 +253,8 @@ impl<S: Subscriber<Setpoint>> Servo<S> {
     /// whoever drives the joints ends. The interpolator does not know of it; tell it by feedback,
     /// or with an abort.
     ///
-    /// `now_ns` is a time as [`Servo::demand`] is asked for, and not before the last of them: a servo
-    /// that plays setpoints later than they say stops at the time it has come to.
+    /// They stop from the time of the last demand on, so that a servo that plays setpoints later than
+    /// they say stops where it has come to; from `now_ns`, of `CLOCK_MONOTONIC`, where there was none.
     pub fn stop(&mut self, now_ns: u64) {
         self.begin_stop(now_ns, OwnStop::Asked);
     }

@@ -133,7 +133,7 @@ fn a_servo_that_plays_later_stops_from_where_it_has_come_to() {
                 while bench.servo.receive(bench.now_ns).unwrap().is_some() {}
                 let played_ns = bench.now_ns - delay_ns;
                 if is_asked && bench.now_ns == ns_of(50) {
-                    bench.servo.stop(played_ns);
+                    bench.servo.stop(bench.now_ns);
                 }
                 if let Some(demand) = bench.servo.demand(played_ns) {
                     joints.push((played_ns, demand[0]));
