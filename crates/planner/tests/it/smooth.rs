@@ -51,16 +51,19 @@ const STANDING: usize = 27;
 /// A frame: line and position.
 type Place = (u32, AxisVector);
 
-fn planned(text: &str) -> (Vec<Place>, Report) {
-    let settings = Settings {
+fn settings() -> Settings {
+    Settings {
         limits: Limits::uniform(200.0, 2000.0, JERK_J),
         tolerance_mm: 0.02,
         smoothing: Smoothing::Auto,
         period_t: PERIOD_T,
         effort: Effort::Optimal,
-    };
+    }
+}
+
+fn planned(text: &str) -> (Vec<Place>, Report) {
     let mut places = Vec::new();
-    let report = audited("smooth", text, settings, |frame| {
+    let report = audited("smooth", text, settings(), |frame| {
         places.push((frame.line, frame.position));
     });
     (places, report)
@@ -212,4 +215,27 @@ fn families_come_near_the_least_time_in_the_tube_and_do_not_tremble() {
         assert!(cycle_t <= most_t, "{name}: {cycle_t} s of {tube_t} s");
         assert_eq!(report.tremor_count, 0, "{name}: {:#?}", report.tremors);
     }
+}
+
+/// A corner so sharp that the way out of it leads back beside the way in. Where periods may end
+/// elsewhere, a chord that misses it goes on beside the way in, and cannot be led on from there.
+#[test]
+fn a_corner_that_turns_back_is_come_out_of() {
+    let light = Settings {
+        limits: Limits::uniform(100.0, 10_000.0, 1e6),
+        tolerance_mm: 0.05,
+        ..settings()
+    };
+    let text = "G21 G90 G94 G17 F426\n\
+         G2 X4.050349 Y-1.656741 I-0.169241 J-6.193212\n\
+         G1 X-0.034673 Y0.601945\n\
+         G1 X1.369663 Y4.931059\n\
+         G2 X-10.707442 Y6.835121 I-5.532290 J4.163162\n\
+         G1 X-11.742487 Y9.312474\n\
+         G3 X-7.549277 Y4.300760 I10.213356 J4.285281\n\
+         G3 X-5.319186 Y4.800125 I0.127218 J4.661180\n\
+         G2 X-7.368016 Y12.873790 I-7.170897 J2.477058\n\
+         G2 X15.257087 Y8.628642 I9.317273 J-12.756684\n\
+         G3 X16.131652 Y8.952363 I-0.271594 J2.076961\nM2\n";
+    audited("a corner that turns back", text, light, |_| {});
 }

@@ -128,17 +128,20 @@ impl PlannerState {
         }
     }
 
-    /// True if a leg can be followed that has been begun in the next period.
+    /// True if a leg can be followed that has been begun in the next period: every chord comes to
+    /// its piece. One that has missed the vertex goes on beside the piece before, and where that
+    /// leads back beside this one, leaves it much later.
     fn can_go_on(&self, next: &LegProgress) -> bool {
         let mut history = self.history.clone();
         let mut follower = self.follower.to(next.leg.piece + 1);
         let mut next = next.clone();
-        (0..=AHEAD).all(|_| {
+        let is_followed = (0..=AHEAD).all(|_| {
             let state = State::from(&next.period());
             let way = (&self.reference_path, &mut follower);
             let is_kept = history.follow(&self.limits, self.period_t, way, &state);
             next = next.later(self.period_t);
             is_kept || history.last() == state.position
-        })
+        });
+        is_followed && follower.least_reach() >= next.leg.piece
     }
 }

@@ -161,6 +161,12 @@ impl Follower {
         phases.fold(self.reachable.first.min(self.curve.first), usize::min)
     }
 
+    /// The furthest piece that all walkers have a part of.
+    pub(crate) fn least_reach(&self) -> usize {
+        let phases = self.phases.iter().map(Reachable::last);
+        phases.fold(self.reachable.last().min(self.curve.last()), usize::min)
+    }
+
     /// Goes on by a period. False if that leaves the path; then the place is what it was.
     pub(crate) fn step(
         &mut self,

@@ -261,5 +261,8 @@ fn passes(context: &WindowContext<'_>, points: &[AxisVector], question: Question
             return false;
         }
     }
-    question == Question::IsValid || follower.reachable.is_at_end_of(context.end - 1)
+    // A chord that has missed a vertex could not be led on from the rest.
+    let may_set_out = follower.least_reach() >= follower.reachable.last();
+    may_set_out
+        && (question == Question::IsValid || follower.reachable.is_at_end_of(context.end - 1))
 }
