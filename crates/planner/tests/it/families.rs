@@ -207,6 +207,36 @@ fn sawtooth(teeth: u32, tolerance: &str) -> String {
     text
 }
 
+/// Flat arcs up and down that a machine may drive faster than its axes are along one of them.
+fn slanted_teeth(teeth: u32) -> String {
+    let mut text = "G21 G90 G94 G17 G64 P0.05 F7769\n".to_owned();
+    for k in 0..teeth {
+        let (x, y) = (18.334736 * f64::from(k), 8.116836 * f64::from(k));
+        writeln!(
+            text,
+            "G2 X{:.6} Y{y:.6} I5.482020 J-3.454908",
+            x + 10.964040
+        )
+        .expect("a string");
+        let (x, y) = (x + 18.334736, y + 8.116836);
+        writeln!(text, "G3 X{x:.6} Y{y:.6} I1.127630 J6.381018").expect("a string");
+    }
+    text
+}
+
+#[test]
+fn arcs_faster_than_an_axis_are_never_slower_than_stops() {
+    let light = Settings {
+        tolerance_mm: 0.05,
+        ..settings(SEED, 0.004)
+    };
+    beats_stopping("slanted teeth", &slanted_teeth(10), "G64 P0.05", light);
+    for radius_mm in [9.193_233, 11.972_934] {
+        let text = full_circles(radius_mm, 3).replace("F6000", "F9000");
+        beats_stopping("circles", &text, "G64 P0.02", light);
+    }
+}
+
 #[test]
 fn corners_between_arcs_are_never_slower_than_stops() {
     for tolerance in ["G64 P0.005", "G64 P0.01", "G64 P0.02", "G64 P0.05"] {

@@ -180,25 +180,26 @@ impl SpeedRule {
         }
     }
 
-    /// The highest constant speed, mm/s.
-    pub(crate) fn steady_v(&self, wanted: Override, limits: &Limits) -> f64 {
+    /// The highest constant speed if axes could be as fast as they liked, mm/s.
+    pub(crate) fn following_v(&self, wanted: Override, limits: &Limits) -> f64 {
+        let limits = Limits {
+            velocity: AxisVector::repeat(f64::INFINITY),
+            ..*limits
+        };
         let by_axes_v = match self {
-            Self::Straight { d1, rate } => straight_limit(d1, rate.under(wanted), limits).top_v,
+            Self::Straight { rate, .. } => rate.under(wanted),
             Self::Arc {
                 arc: curve,
                 rate,
                 chord_v,
-            } => {
-                let bounds = ArcBounds::new(curve, limits);
-                straight_limit(&bounds.straight_d1, rate.under(wanted), limits)
-                    .top_v
-                    .min(*chord_v)
-                    .min(bounds.following_v(1.0, 1.0))
-            }
+            } => ArcBounds::new(curve, &limits)
+                .following_v(1.0, 1.0)
+                .min(rate.under(wanted))
+                .min(*chord_v),
             Self::Curve { curve, rates } => {
                 let rate_v = rates[0].under(wanted).min(rates[1].under(wanted));
                 let rate_v = (rate_v / curve.stretch_r).min(curve.chord_v);
-                constant(&curve.bounds, rate_v, limits).top_v
+                constant(&curve.bounds, rate_v, &limits).top_v
             }
         };
         by_axes_v.min(limits.path.speed_v(self.curvature_k()))

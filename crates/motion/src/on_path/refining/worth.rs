@@ -1,7 +1,7 @@
 //! Whether a time parametrisation is worth its work.
 
 use crate::on_path::pieces::{Piece, Shape};
-use glidepath_geometry::Segment;
+use glidepath_geometry::{Segment, limit_along};
 use glidepath_program::Limits;
 
 /// S-curves that take no longer than this many times what the top speed of each piece allows are
@@ -14,6 +14,14 @@ const GOOD_R: f64 = 1.1;
 const LEAST_PIECE_T: f64 = 0.25e-3;
 /// Blocks that take less time than this on average, s, are dense.
 const DENSE_BLOCK_T: f64 = 0.2e-3;
+
+/// S-curves have one top speed along a piece. Where axes allow so many times more in the mean over
+/// its directions, they are not good enough.
+const FREE_R: f64 = 1.02;
+
+/// Places at which the direction of an arc or a NURBS is asked for: an odd number, so that they are
+/// not the same ones of every quarter.
+const SAMPLES: u32 = 9;
 
 /// True if there are many blocks for the time that they take.
 pub(super) fn is_dense(pieces: &[Piece], duration_t: f64) -> bool {
@@ -45,7 +53,30 @@ pub(super) fn is_worthwhile((pieces, duration_t): (&[Piece], f64), limits: &Limi
     if duration_t <= GOOD_R * pieces.iter().map(at_rate_t).sum::<f64>() {
         return false;
     }
-    let steady_t = |piece: &Piece| piece.length_s / piece.rule.steady_v(piece.planned, limits);
-    let steady_t: f64 = pieces.iter().map(steady_t).sum();
-    duration_t > GOOD_R * steady_t
+    let (mut steady_t, mut varying_t) = (0.0, 0.0);
+    for piece in pieces {
+        let (steady, varying) = top_speed_t(piece, limits);
+        steady_t += steady;
+        varying_t += varying;
+    }
+    duration_t > GOOD_R * steady_t || steady_t > FREE_R * varying_t
+}
+
+/// How long a piece takes at its top speed, s: at the one that holds all along it, and as fast as it
+/// goes where it goes. On an arc between two axes that is 1.4 times as fast as along one of them.
+fn top_speed_t(piece: &Piece, limits: &Limits) -> (f64, f64) {
+    let count = match piece.shape {
+        Shape::Segment(Segment::Arc(_) | Segment::Curve(_)) => SAMPLES,
+        Shape::Segment(Segment::Line(_)) | Shape::Transition(_) | Shape::Spline(_) => 1,
+    };
+    let following_v = piece.rule.following_v(piece.planned, limits);
+    let step_s = piece.length_s / f64::from(count);
+    let (mut steady_v, mut varying_t) = (following_v, 0.0);
+    for k in 0..count {
+        let direction = piece.jet(step_s * (f64::from(k) + 0.5)).d1;
+        let top_v = following_v.min(limit_along(&direction, &limits.velocity));
+        steady_v = steady_v.min(top_v);
+        varying_t += step_s / top_v;
+    }
+    (piece.length_s / steady_v, varying_t)
 }
