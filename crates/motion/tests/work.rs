@@ -45,7 +45,7 @@ struct Case {
     most: u64,
 }
 
-const CASES: [Case; 5] = [
+const CASES: [Case; 6] = [
     Case {
         name: "fast, dense lines",
         settings: mill,
@@ -88,6 +88,16 @@ const CASES: [Case; 5] = [
         most: 712_000,
     },
     Case {
+        name: "optimal, dense lines at the feed",
+        settings: optimal,
+        path: round,
+        feed_v: 100.0,
+        is_audited: false,
+        blocks: 40_000,
+        // Too long to be raced: planned as it comes, line by line.
+        most: 23_000,
+    },
+    Case {
         name: "optimal, corners",
         settings: optimal,
         path: zigzag,
@@ -102,6 +112,12 @@ const CASES: [Case; 5] = [
 fn dense(k: u32) -> AxisVector {
     let x = 0.01 * f64::from(k);
     at(x, (0.5 * x).sin())
+}
+
+/// Lines of a hundredth of a millimetre round a circle.
+fn round(k: u32) -> AxisVector {
+    let angle = 2e-4 * f64::from(k);
+    at(50.0 * angle.cos() - 50.0, 50.0 * angle.sin())
 }
 
 /// Lines of a millimetre along a wave.

@@ -67,19 +67,19 @@ impl PlannerState {
             *wait = usize::MAX;
             return Some(());
         }
-        let work = self.optimisers.work();
-        let stay_t = self.stay_gain_t(&grid);
-        let mut seen = view.pieces.end;
-        let going_on = if self.is_at_feed(self.progress.0, self.history.state()) {
-            let far = self.view(&grid, FEED_INTERVALS)?;
-            let window = self.go_on_at_feed(&grid, &far, stay_t);
-            if window.is_some() {
-                seen = far.pieces.end;
-            }
-            window
+        let far = if self.is_at_feed(self.progress.0, self.history.state()) {
+            Some(self.view(&grid, FEED_INTERVALS)?)
         } else {
             None
         };
+        let work = self.optimisers.work();
+        let stay_t = self.stay_gain_t(&grid);
+        let mut seen = view.pieces.end;
+        let going_on = far.and_then(|far| {
+            let window = self.go_on_at_feed(&grid, &far, stay_t)?;
+            seen = far.pieces.end;
+            Some(window)
+        });
         let best = going_on.or_else(|| self.best_window(&grid, &view, (stay_t, work)));
         // Never less than before: what is left of the last window may go as far as that one saw.
         self.follower.end = self.follower.end.max(seen);

@@ -13,6 +13,9 @@ use glidepath_program::Limits;
 #[derive(Debug, Clone)]
 pub(crate) struct TubePlanner {
     pub(crate) state: PlannerState,
+    /// More of the path is needed, and has not come yet: it comes line by line, and all that planning
+    /// finds out without it would be the same.
+    is_waiting: bool,
 }
 
 impl TubePlanner {
@@ -25,6 +28,7 @@ impl TubePlanner {
     ) -> Self {
         Self {
             state: PlannerState::new(limits, period_t, start, weights),
+            is_waiting: false,
         }
     }
 
@@ -41,11 +45,13 @@ impl TubePlanner {
     /// distance: then each vertex that was left out is within the full tolerance of the motion.
     pub(crate) fn push(&mut self, piece: Reference) {
         self.state.reference_path.push(piece);
+        self.is_waiting = false;
     }
 
     /// The path ends with what has been pushed, at rest.
     pub(crate) fn finish(&mut self) {
         self.state.reference_path.finish();
+        self.is_waiting = false;
     }
 
     /// True when the end of the path has been reached and handed out, or there is no path.
@@ -61,6 +67,7 @@ impl TubePlanner {
         if !self.state.reference_path.set_rates(rate_of) {
             return;
         }
+        self.is_waiting = false;
         self.state.history.overspeed_v = self.state.history.overspeed_v.max(before_v * FEED_SLACK);
         self.state.baseline = None;
         match (&mut self.state.active, &self.state.grid) {
@@ -85,9 +92,15 @@ impl TubePlanner {
     ///
     /// `None`: more of the path is needed, or the motion is at rest at its end ([`Self::is_over`]).
     pub(crate) fn next_period(&mut self) -> Option<Period> {
-        if self.state.is_over {
+        if self.state.is_over || self.is_waiting {
             return None;
         }
+        let period = self.plan_period();
+        self.is_waiting = period.is_none();
+        period
+    }
+
+    fn plan_period(&mut self) -> Option<Period> {
         let mut period = loop {
             match &self.state.active {
                 ActiveMotion::Window { done, commit, .. } if done < commit => {
