@@ -68,7 +68,8 @@ fn begin(path: &Path, effort: Effort) -> Result<[Duration; 3], Box<dyn Error>> {
     let mut pipeline = Pipeline::new(source, mill(effort), AxisVector::zeros());
     let first = pipeline.next_frame()?.ok_or("no frame")?;
     while pipeline.next_frame()?.ok_or("no motion")?.position == first.position {}
-    Ok([checked, publish(path, effort)?, start.elapsed()])
+    let moved = start.elapsed();
+    Ok([checked, publish(path, effort)?, moved])
 }
 
 /// From the start until the first frame is in the queue of an interpolator.

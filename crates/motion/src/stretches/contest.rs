@@ -1,15 +1,17 @@
-//! A short stretch, planned three ways: the fastest is driven.
+//! A short stretch, planned in several ways: the fastest is driven.
 //!
 //! Neither wing is the faster one for certain. In the tube corners are cut as far as the tolerance
 //! allows, but where the mode of the path changes the motion stops, and curves come in chords;
 //! along the path nothing stops that need not. And what is found in the tube is the best of its
 //! neighbourhood only, so it is searched twice, with heavier and with lighter weights beside time:
-//! on small things a few periods are some per cent. The plan from rest to rest with the fewest frames
+//! on small things a few periods are some per cent. What takes more than a second or so is searched
+//! again only if it is slower than along the path. The plan from rest to rest with the fewest frames
 //! is taken; where they are equal, the one in the tube with the heavier weights, which is smoother.
 //! With that no such stretch takes longer than with effort "fast", which in turn knows the way with
 //! a stop at every block.
 
-use super::way::{Manner, Outset, Way};
+use super::entry::{Entry, SuppliedWay};
+use super::way::{Manner, Way};
 use crate::PlanError;
 use crate::in_tube::SearchWeights;
 use glidepath_geometry::Segment;
@@ -18,23 +20,23 @@ use std::sync::Arc;
 
 /// The longest motion that is kept, s. Many short moves may take far longer than at their rates, and
 /// all of a stretch is planned before its first frame is given out.
-const MOST_T: f64 = 5.0;
-
-/// What a stretch is planned with, from its first item on.
-#[derive(Debug, Clone)]
-pub(crate) struct Entry {
-    pub(crate) outset: Outset,
-    pub(crate) items: Arc<[Item]>,
-}
+const MOST_T: f64 = 8.0;
+/// From one place to the next at which a way can be taken up again, s: about as much as is published
+/// ahead.
+const PLACE_T: f64 = 0.5;
+/// The longest stretch that is searched twice in any case, s at its rates: of longer ones a few
+/// periods are not much, and the work is.
+const MOST_TWICE_T: f64 = 1.25;
 
 /// A stretch whose motion is planned to its end.
 #[derive(Debug, Clone)]
 pub(crate) struct Planned {
-    entry: Entry,
-    manner: Manner,
     frames: Arc<[Frame]>,
     taken: usize,
     length_s: f64,
+    /// The way after some of the frames, ascending from none: whoever goes on differently does not
+    /// have to plan it from its start.
+    places: Arc<[(usize, SuppliedWay)]>,
 }
 
 impl Planned {
@@ -44,7 +46,11 @@ impl Planned {
         if is_settled(&entry.items) || matches!(on_path, Ok(None)) {
             return on_path;
         }
+        let is_searched_once = entry.at_rates_t > MOST_TWICE_T;
         let usual = Self::by(Manner::InTube(SearchWeights::USUAL), entry.clone());
+        if is_searched_once && is_as_fast(&usual, &on_path) {
+            return usual;
+        }
         let light = Self::by(Manner::InTube(SearchWeights::LIGHT), entry);
         Self::faster(Self::faster(usual, light), on_path)
     }
@@ -64,23 +70,29 @@ impl Planned {
     }
 
     fn by(manner: Manner, entry: Entry) -> Result<Option<Self>, PlanError> {
-        let mut way = entry.way(manner)?;
+        let period_t = entry.outset.settings.period_t;
+        let mut way = SuppliedWay::new(manner, entry);
+        let mut places = vec![(0, way.clone())];
         let mut frames = Vec::new();
-        let mut time_t = 0.0;
+        let (mut time_t, mut since_t) = (0.0, 0.0);
         while let Some(frame) = way.pop_frame()? {
-            time_t += entry.outset.settings.period_t;
+            time_t += period_t;
+            since_t += period_t;
             if time_t > MOST_T {
                 return Ok(None);
             }
             frames.push(frame);
+            if since_t >= PLACE_T {
+                since_t = 0.0;
+                places.push((frames.len(), way.clone()));
+            }
         }
-        let length_s = way.length_s().ok_or(entry.no_motion())?;
+        let length_s = way.length_s()?;
         Ok(Some(Self {
-            entry,
-            manner,
             frames: frames.into(),
             taken: 0,
             length_s,
+            places: places.into(),
         }))
     }
 
@@ -98,29 +110,22 @@ impl Planned {
 
     /// The same way under way after the frame given out last: to be gone on differently.
     pub(crate) fn resumed(&self) -> Result<Way, PlanError> {
-        let mut way = self.entry.way(self.manner)?;
-        for _ in 0..self.taken {
+        let passed = self.places.partition_point(|(at, _)| *at <= self.taken);
+        let (at, mut way) = self.places[passed - 1].clone();
+        for _ in at..self.taken {
             way.pop_frame()?;
         }
-        Ok(way)
+        way.whole()
     }
 }
 
-impl Entry {
-    /// The whole stretch, to be driven in some manner.
-    pub(crate) fn way(&self, manner: Manner) -> Result<Way, PlanError> {
-        let mut way = Way::new(manner, self.outset.clone());
-        for item in &*self.items {
-            way.push(item)?;
-        }
-        way.finish();
-        Ok(way)
-    }
-
-    fn no_motion(&self) -> PlanError {
-        let line = self.items.last().map_or(0, |item| item.line);
-        PlanError::NoMotion { line }
-    }
+/// True if the first of two plans takes no longer.
+fn is_as_fast(
+    first: &Result<Option<Planned>, PlanError>,
+    second: &Result<Option<Planned>, PlanError>,
+) -> bool {
+    matches!((first, second), (Ok(Some(first)), Ok(Some(second)))
+        if first.frames.len() <= second.frames.len())
 }
 
 /// True if nothing is left to choose: a single line, or a path to be passed exactly.
@@ -132,4 +137,71 @@ fn is_settled(items: &[Item]) -> bool {
     let is_line = |(segment, _)| matches!(segment, Segment::Line(_));
     let is_single = moves.clone().count() == 1 && moves.clone().all(is_line);
     is_single || moves.all(|(_, mode)| mode == PathMode::ExactPath)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stretches::way::Outset;
+    use glidepath_geometry::AxisVector;
+    use glidepath_program::{Effort, Limits, Override, ProgramLine, Rate, Settings, Smoothing};
+
+    /// Some seconds of teeth.
+    fn teeth() -> Entry {
+        let at = |k: u32| {
+            let mut position = AxisVector::zeros();
+            (position[0], position[1]) = (0.7 * f64::from(k), 3.0 * f64::from(k % 2));
+            position
+        };
+        let items = (0..40).map(|k| {
+            ProgramLine {
+                number: k + 1,
+                block: k + 1,
+            }
+            .item(ItemKind::Move {
+                segment: Segment::line(at(k), at(k + 1)),
+                rate: Rate::Feed(60.0),
+                mode: PathMode::Continuous { tolerance_mm: None },
+            })
+        });
+        Entry {
+            outset: Outset {
+                settings: Settings {
+                    limits: Limits::uniform(200.0, 2000.0, 40_000.0),
+                    tolerance_mm: 0.02,
+                    smoothing: Smoothing::Auto,
+                    period_t: 0.004,
+                    effort: Effort::Optimal,
+                },
+                joints: None,
+                start: at(0),
+                wanted: Override::NONE,
+            },
+            items: items.collect(),
+            at_rates_t: 2.0,
+        }
+    }
+
+    #[test]
+    fn a_way_that_is_taken_up_again_goes_on_as_it_was() {
+        for manner in [Manner::OnPath, Manner::InTube(SearchWeights::USUAL)] {
+            let mut planned = Planned::by(manner, teeth()).unwrap().unwrap();
+            let frames = planned.frames.clone();
+            assert!(planned.places.len() > 3, "{} places", planned.places.len());
+            for k in 0..frames.len() {
+                if k % 131 == 0 || planned.places.iter().any(|(at, _)| *at == k) {
+                    let mut way = planned.resumed().unwrap();
+                    for frame in &frames[k..] {
+                        assert_eq!(
+                            way.pop_frame().unwrap().as_ref(),
+                            Some(frame),
+                            "{manner:?}, {k}"
+                        );
+                    }
+                    assert_eq!(way.pop_frame().unwrap(), None);
+                }
+                planned.pop_frame();
+            }
+        }
+    }
 }

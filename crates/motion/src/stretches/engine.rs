@@ -1,6 +1,7 @@
 //! The engine: stretches and rests one after the other, on one grid of frames.
 
-use super::contest::{Entry, Planned};
+use super::contest::Planned;
+use super::entry::Entry;
 use super::gathering::{Gathering, Task};
 use super::way::{Manner, Outset, Way};
 use crate::grid::FrameGrid;
@@ -133,11 +134,16 @@ impl StretchEngine {
             return Ok(false);
         };
         match task {
-            Task::Whole { items, end } => {
+            Task::Whole {
+                items,
+                at_rates_t,
+                end,
+            } => {
                 self.end = end;
                 let entry = Entry {
                     outset: self.outset(),
                     items: items.into(),
+                    at_rates_t,
                 };
                 self.drive = match Planned::new(entry.clone())? {
                     Some(planned) => Drive::Planned(Box::new(planned)),

@@ -13,7 +13,7 @@ use std::collections::VecDeque;
 /// rates, s. All of it is planned before its first frame is known, and who sends moves through
 /// a pipe waits until it is sent.
 const MOST_MOVES: usize = 32_768;
-const MOST_T: f64 = 1.25;
+const MOST_T: f64 = 5.0;
 
 /// What comes next.
 #[derive(Debug, Clone)]
@@ -22,9 +22,11 @@ const MOST_T: f64 = 1.25;
     reason = "most of them are items, as large as they are"
 )]
 pub(crate) enum Task {
-    /// A stretch from rest to rest, and where the program is at its end.
+    /// A stretch from rest to rest, time of its moves at their rates, s, and where the program is at
+    /// its end.
     Whole {
         items: Vec<Item>,
+        at_rates_t: f64,
         end: AxisVector,
     },
     /// The next item of a stretch that is planned as it comes.
@@ -188,12 +190,16 @@ impl Gathering {
 
     fn end_stretch(&mut self, end: AxisVector) {
         self.exact = None;
-        self.gathered_t = 0.0;
+        let at_rates_t = core::mem::take(&mut self.gathered_t);
         if core::mem::replace(&mut self.is_long, false) {
             self.tasks.push_back(Task::End(end));
         } else if !self.gathered.is_empty() {
             let items = core::mem::take(&mut self.gathered);
-            self.tasks.push_back(Task::Whole { items, end });
+            self.tasks.push_back(Task::Whole {
+                items,
+                at_rates_t,
+                end,
+            });
         }
     }
 }

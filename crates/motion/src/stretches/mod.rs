@@ -16,6 +16,7 @@
 
 mod contest;
 mod engine;
+mod entry;
 mod gathering;
 mod way;
 
