@@ -101,3 +101,4 @@ mod wing;
 pub use error::PlanError;
 pub use joints::Joints;
 pub use planner::Planner;
+pub use stretches::MOST_MOVES_AT_ONCE;

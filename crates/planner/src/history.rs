@@ -13,6 +13,7 @@
 
 use std::collections::VecDeque;
 
+use glidepath_motion::MOST_MOVES_AT_ONCE;
 use glidepath_program::{Item, Override};
 
 use crate::planning::Planning;
@@ -25,9 +26,11 @@ const CHECKPOINT_T: f64 = 0.5;
 /// Items between two checkpoints.
 const CHECKPOINT_ITEMS: u64 = 4096;
 
-/// Items kept, beyond which planning ahead waits for the motion. Where so many and more make no
-/// frame, an override takes effect at a multiple of them, as the others are forgotten.
-const MOST_ITEMS: u64 = 4 * CHECKPOINT_ITEMS;
+/// Items kept, beyond which planning ahead waits for the motion: more than a stretch that is planned
+/// as a whole has, so that it is planned while what comes before it is driven. Where so many and more
+/// make no frame, an override takes effect at a multiple of them, as the others are forgotten.
+const MOST_ITEMS: u64 = 12 * CHECKPOINT_ITEMS;
+const _: () = assert!(MOST_ITEMS > MOST_MOVES_AT_ONCE as u64 + CHECKPOINT_ITEMS);
 
 /// A copy of the planning as it was.
 #[derive(Debug)]

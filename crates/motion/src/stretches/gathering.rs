@@ -9,10 +9,11 @@ use glidepath_geometry::{AxisVector, Segment};
 use glidepath_program::{Event, Item, ItemKind, Override, PathMode, ProgramLine, Settings};
 use std::collections::VecDeque;
 
-/// The longest stretch that is planned as a whole: so many moves, and of so much time at their
-/// rates, s. All of it is planned before its first frame is known, and who sends moves through
-/// a pipe waits until it is sent.
-const MOST_MOVES: usize = 32_768;
+/// The most moves of a stretch that is planned as a whole, with effort "optimal": so many may go in
+/// before its first frame comes out.
+pub const MOST_MOVES_AT_ONCE: usize = 32_768;
+/// The longest such stretch, s at its rates. All of it is planned before its first frame is known,
+/// and who sends moves through a pipe waits until it is sent.
 const MOST_T: f64 = 5.0;
 
 /// What comes next.
@@ -156,7 +157,7 @@ impl Gathering {
         }
         self.put(item);
         self.gathered_t += move_t;
-        if !self.is_long && (self.gathered.len() > MOST_MOVES || self.gathered_t > MOST_T) {
+        if !self.is_long && (self.gathered.len() > MOST_MOVES_AT_ONCE || self.gathered_t > MOST_T) {
             self.is_long = true;
             self.tasks.extend(self.gathered.drain(..).map(Task::Part));
         }

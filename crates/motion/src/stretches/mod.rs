@@ -21,3 +21,4 @@ mod gathering;
 mod way;
 
 pub(crate) use engine::StretchEngine;
+pub use gathering::MOST_MOVES_AT_ONCE;

@@ -6,17 +6,16 @@
     reason = "a test that fails may panic, and a skipped one says so"
 )]
 
+mod bounds;
 #[path = "../../tests/it/support/mill.rs"]
 mod mill;
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use glidepath_gcode::Options;
 use glidepath_geometry::{AxisVector, Segment};
-use glidepath_motion::PlanError;
 use glidepath_program::{Effort, Event, Frame, Item, ItemKind, Override, PathMode, Rate};
 use proptest::prelude::*;
 
@@ -203,87 +202,6 @@ fn an_override_that_is_taken_back_before_a_frame_leaves_no_trace() {
             |_, _| {},
         );
         assert!(expected == found, "{effort:?}");
-    }
-}
-
-/// Lines of a thousandth of a millimetre, without end, and how many were taken.
-struct Endless<'c> {
-    taken: &'c AtomicU64,
-    step_mm: f64,
-}
-
-impl ItemSource for Endless<'_> {
-    fn next_item(&mut self) -> Supply {
-        let number = self.taken.fetch_add(1, Ordering::Relaxed);
-        #[allow(clippy::cast_precision_loss, reason = "exact for any test")]
-        let at = |number: u64| {
-            let mut at = AxisVector::zeros();
-            let x = number as f64 * self.step_mm;
-            (at[0], at[1]) = (x, (0.1 * x).sin());
-            at
-        };
-        Supply::Item(Item {
-            block: 0,
-            line: 1,
-            kind: ItemKind::Move {
-                segment: Segment::line(at(number), at(number + 1)),
-                rate: Rate::Feed(50.0),
-                mode: PathMode::Continuous { tolerance_mm: None },
-            },
-        })
-    }
-
-    fn unplannable(&mut self, error: &PlanError) {
-        panic!("{error}");
-    }
-
-    fn lines_read(&self) -> u64 {
-        self.taken.load(Ordering::Relaxed)
-    }
-}
-
-/// What may be taken ahead: what the history keeps, and what the planner looks ahead by.
-const MOST_TAKEN: u64 = 16_384 + 2 * 4096 + 8192;
-
-#[test]
-fn what_is_planned_ahead_is_bounded_in_frames_and_in_items() {
-    // Very short moves, of which very many make a second; and long ones.
-    for (step_mm, capacity) in [(1e-3, 2500), (1.0, 2500)] {
-        let taken = AtomicU64::new(0);
-        let source = Endless {
-            taken: &taken,
-            step_mm,
-        };
-        let pipeline = Pipeline::new(source, mill(Effort::Fast), AxisVector::zeros());
-        let (mut fullest, mut most_taken) = (0, 0);
-        let planned = ahead(pipeline, &[], 4000, capacity, |queue, number| {
-            if !number.is_multiple_of(500) {
-                return;
-            }
-            // Until the planning thread is as far ahead as it gets.
-            let mut before = u64::MAX;
-            while taken.load(Ordering::Relaxed) != before {
-                before = taken.load(Ordering::Relaxed);
-                std::thread::sleep(Duration::from_millis(50));
-            }
-            fullest = fullest.max(queue.waiting());
-            #[allow(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                clippy::cast_precision_loss,
-                reason = "small numbers"
-            )]
-            let executed = (number as f64 * 0.004 * 50.0 / step_mm) as u64;
-            most_taken = most_taken.max(before.saturating_sub(executed));
-        });
-        assert_eq!(planned.frames.len(), 4000);
-        assert!(fullest <= capacity, "{fullest} frames wait");
-        if step_mm < 0.01 {
-            assert!(most_taken <= MOST_TAKEN, "{most_taken} items ahead");
-            assert!(most_taken > 16_384, "the test does not reach the bound");
-        } else {
-            assert_eq!(fullest, capacity, "the test does not reach the bound");
-        }
     }
 }
 
