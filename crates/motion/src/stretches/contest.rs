@@ -11,7 +11,7 @@
 //! a stop at every block.
 
 use super::entry::{Entry, SuppliedWay};
-use super::way::{Manner, Way};
+use super::way::{Manner, Outset, Way};
 use crate::PlanError;
 use crate::in_tube::SearchWeights;
 use glidepath_geometry::Segment;
@@ -46,6 +46,8 @@ impl Planned {
         if is_settled(&entry.items) || matches!(on_path, Ok(None)) {
             return on_path;
         }
+        // In the tube joints that are not the axes are heeded; along the path they are only judged.
+        let on_path = on_path.map(|way| way.filter(|way| way.is_allowed(&entry.outset)));
         let is_searched_once = entry.at_rates_t > MOST_TWICE_T;
         let usual = Self::by(Manner::InTube(SearchWeights::USUAL), entry.clone());
         if is_searched_once && is_as_fast(&usual, &on_path) {
@@ -96,6 +98,19 @@ impl Planned {
         }))
     }
 
+    /// True if joints that are not the axes can follow, as far as they are known.
+    fn is_allowed(&self, outset: &Outset) -> bool {
+        let Some(joints) = &outset.joints else {
+            return true;
+        };
+        let mut recent = [outset.start; 4];
+        self.frames.iter().all(|frame| {
+            recent.rotate_right(1);
+            recent[0] = frame.position;
+            joints.allow(&recent, outset.settings.period_t)
+        })
+    }
+
     /// The next frame on the way.
     pub(crate) fn pop_frame(&mut self) -> Option<Frame> {
         let frame = self.frames.get(self.taken)?;
@@ -142,7 +157,6 @@ fn is_settled(items: &[Item]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stretches::way::Outset;
     use glidepath_geometry::AxisVector;
     use glidepath_program::{Effort, Limits, Override, ProgramLine, Rate, Settings, Smoothing};
 

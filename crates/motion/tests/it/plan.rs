@@ -84,9 +84,10 @@ fn frames_come_before_the_program_ends_and_memory_stays_bounded() {
         "first moving frame only after {first_after} segments"
     );
     assert!(frames > 1000, "{frames} frames before the end");
-    let (first_after, frames) = first_frames(optimal(), 3000);
+    // Five seconds at their rate may be planned as a whole.
+    let (first_after, frames) = first_frames(optimal(), 7000);
     assert!(
-        first_after < 1500,
+        first_after < 5500,
         "first moving frame only after {first_after} segments"
     );
     assert!(frames > 200, "{frames} frames before the end");
