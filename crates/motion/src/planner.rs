@@ -62,6 +62,20 @@ impl Planner {
         self
     }
 
+    /// The same planner, before its first item, for moves that come while the motion waits for them,
+    /// as they do through a pipe.
+    ///
+    /// With [`glidepath_program::Effort::Optimal`] up to 5 s of moves at their rates are planned as
+    /// a whole, before the first frame of them; of a stream, 1.25 s. Longer stretches are planned as
+    /// they come, which may take some periods more.
+    #[must_use]
+    pub fn of_stream(mut self) -> Self {
+        if let Engine::Stretches(engine) = &mut self.engine {
+            engine.set_stream();
+        }
+        self
+    }
+
     /// Takes the next item.
     ///
     /// # Errors

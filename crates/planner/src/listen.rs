@@ -240,7 +240,8 @@ impl Listener<'_> {
             silent: Duration::ZERO,
         };
         let mut pipeline = Pipeline::new(StreamSource(&received), listening.settings, position)
-            .with_joints(listening.joints);
+            .with_joints(listening.joints)
+            .of_stream();
         let jobs = &mut self.jobs;
         let mut attend = |waited| {
             attendant.attend(waited);

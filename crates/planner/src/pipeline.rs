@@ -147,6 +147,16 @@ impl<S: ItemSource> Pipeline<S> {
         }
     }
 
+    /// The same pipeline for a source that gives its items while the motion waits for them: with
+    /// effort "optimal" it begins to move sooner ([`glidepath_motion::Planner::of_stream`]).
+    #[must_use]
+    pub fn of_stream(self) -> Self {
+        Self {
+            planning: self.planning.of_stream(),
+            ..self
+        }
+    }
+
     /// The same pipeline, with the time of its steps counted by a clock: time since any fixed
     /// instant.
     #[must_use]

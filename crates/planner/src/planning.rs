@@ -24,6 +24,7 @@ pub(crate) enum Stage {
 pub(crate) struct Planning {
     planner: Planner,
     joints: Option<Arc<dyn Joints>>,
+    is_stream: bool,
     blocks: Blocks,
     stage: Stage,
     wanted: Override,
@@ -41,6 +42,7 @@ impl Planning {
         Self {
             planner: Planner::new(settings, start),
             joints: None,
+            is_stream: false,
             blocks,
             stage: Stage::Open,
             wanted: Override::NONE,
@@ -64,9 +66,24 @@ impl Planning {
         }
     }
 
+    /// The same, before its first item, for items that come while the motion waits for them.
+    pub(crate) fn of_stream(self) -> Self {
+        Self {
+            planner: self.planner.of_stream(),
+            is_stream: true,
+            ..self
+        }
+    }
+
     /// The same program behind what was planned of it, from a machine at rest elsewhere.
     pub(crate) fn behind(&self, settings: Settings, start: AxisVector, start_s: f64) -> Self {
-        Self::new(settings, start, self.blocks.clone(), start_s).with_joints(self.joints.clone())
+        let planning = Self::new(settings, start, self.blocks.clone(), start_s)
+            .with_joints(self.joints.clone());
+        if self.is_stream {
+            planning.of_stream()
+        } else {
+            planning
+        }
     }
 
     /// Makes the next frame, if the motion is settled that far.

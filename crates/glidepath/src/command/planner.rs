@@ -138,6 +138,9 @@ impl Job<'_> {
         let mut pipeline = Pipeline::new(source, self.config.settings(), start)
             .with_joints(self.config.path_caps())
             .with_clock(clock::elapsed);
+        if is_pipe {
+            pipeline = pipeline.of_stream();
+        }
         let published = publisher.publish(&mut pipeline, control);
         let kept = self.attendant.end(&published, &publisher, self.config);
         let statistics = published.map_err(|error| match error {

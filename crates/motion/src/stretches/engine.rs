@@ -63,6 +63,11 @@ impl StretchEngine {
         self.joints = Some(joints);
     }
 
+    /// See [`crate::Planner::of_stream`].
+    pub(crate) const fn set_stream(&mut self) {
+        self.gathering.set_stream();
+    }
+
     /// Takes the next item; see [`crate::Planner::push`].
     pub(crate) fn push(&mut self, item: &Item) -> Result<(), PlanError> {
         self.gathering.push(item)

@@ -12,9 +12,10 @@ use std::collections::VecDeque;
 /// The most moves of a stretch that is planned as a whole, with effort "optimal": so many may go in
 /// before its first frame comes out.
 pub const MOST_MOVES_AT_ONCE: usize = 32_768;
-/// The longest such stretch, s at its rates. All of it is planned before its first frame is known,
-/// and who sends moves through a pipe waits until it is sent.
+/// The longest such stretch, s at its rates: all of it is planned before its first frame is known.
 const MOST_T: f64 = 5.0;
+/// The same where moves come while the motion waits for them.
+const MOST_OF_STREAM_T: f64 = 1.25;
 
 /// What comes next.
 #[derive(Debug, Clone)]
@@ -45,8 +46,9 @@ pub(crate) struct Gathering {
     tasks: VecDeque<Task>,
     /// The stretch at hand, as long as it is short.
     gathered: Vec<Item>,
-    /// Time of its moves at their rates, s.
+    /// Time of its moves at their rates, s, and the most.
     gathered_t: f64,
+    most_t: f64,
     /// The stretch at hand is given on as it comes.
     is_long: bool,
     /// Events that wait for the move they happen on.
@@ -65,12 +67,18 @@ impl Gathering {
             tasks: VecDeque::new(),
             gathered: Vec::new(),
             gathered_t: 0.0,
+            most_t: MOST_T,
             is_long: false,
             events: Vec::new(),
             exact: None,
             last: ProgramLine::NONE,
             finished: false,
         }
+    }
+
+    /// Moves come while the motion waits for them.
+    pub(crate) const fn set_stream(&mut self) {
+        self.most_t = MOST_OF_STREAM_T;
     }
 
     /// What comes next, if it is known.
@@ -157,7 +165,9 @@ impl Gathering {
         }
         self.put(item);
         self.gathered_t += move_t;
-        if !self.is_long && (self.gathered.len() > MOST_MOVES_AT_ONCE || self.gathered_t > MOST_T) {
+        if !self.is_long
+            && (self.gathered.len() > MOST_MOVES_AT_ONCE || self.gathered_t > self.most_t)
+        {
             self.is_long = true;
             self.tasks.extend(self.gathered.drain(..).map(Task::Part));
         }

@@ -3,20 +3,27 @@
 #![allow(clippy::expect_used, reason = "a test that fails may panic")]
 
 use crate::planned::{moves, numbered, plan};
-use crate::support::{FREE, at, cases, efforts};
+use crate::support::{FREE, at, cases, efforts, mill, optimal};
 use glidepath_geometry::AxisVector;
 use glidepath_motion::Planner;
 use glidepath_program::{Event, ItemKind, PathMode};
 use proptest::prelude::*;
 
-/// Who sends some seconds of moves through a pipe expects them to begin.
+/// Who sends a few moves through a pipe expects them to begin.
 #[test]
-fn moves_of_some_seconds_begin_without_waiting_for_more() {
+fn a_few_moves_begin_without_waiting_for_more() {
     let square = [at(0.0, 0.0), at(12.0, 0.0), at(12.0, 12.0), at(0.0, 12.0)];
-    // 1.5 s and 6 s at their rate.
-    for (settings, count) in efforts().into_iter().zip([5, 20]) {
+    for (settings, is_stream, count) in [
+        (mill(), false, 5),
+        (optimal(), true, 5),
+        // 6 s at their rate.
+        (optimal(), false, 20),
+    ] {
         let corners: Vec<_> = square.into_iter().cycle().take(count + 1).collect();
         let mut planner = Planner::new(settings, AxisVector::zeros());
+        if is_stream {
+            planner = planner.of_stream();
+        }
         for item in numbered(moves(&corners, 40.0, FREE)) {
             planner.push(&item).expect("valid item");
         }

@@ -78,24 +78,30 @@ fn frames_do_not_depend_on_when_they_are_taken() {
 
 #[test]
 fn frames_come_before_the_program_ends_and_memory_stays_bounded() {
-    let (first_after, frames) = first_frames(mill(), 60_000);
+    let whole = |settings| Planner::new(settings, at(0.0, 0.0));
+    let (first_after, frames) = first_frames(whole(mill()), 60_000);
     assert!(
         first_after < 10_000,
         "first moving frame only after {first_after} segments"
     );
     assert!(frames > 1000, "{frames} frames before the end");
     // Five seconds at their rate may be planned as a whole.
-    let (first_after, frames) = first_frames(optimal(), 7000);
+    let (first_after, frames) = first_frames(whole(optimal()), 7000);
     assert!(
         first_after < 5500,
+        "first moving frame only after {first_after} segments"
+    );
+    assert!(frames > 200, "{frames} frames before the end");
+    let (first_after, frames) = first_frames(whole(optimal()).of_stream(), 3000);
+    assert!(
+        first_after < 1500,
         "first moving frame only after {first_after} segments"
     );
     assert!(frames > 200, "{frames} frames before the end");
 }
 
 /// The segment after which the first moving frame comes, and how many come before the program ends.
-fn first_frames(settings: Settings, count: u32) -> (u32, u32) {
-    let mut planner = Planner::new(settings, AxisVector::zeros());
+fn first_frames(mut planner: Planner, count: u32) -> (u32, u32) {
     let mut first_after = None;
     let mut frames = 0_u32;
     let mut position = at(0.0, 0.0);
