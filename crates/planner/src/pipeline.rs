@@ -24,48 +24,8 @@ use crate::history::History;
 use crate::joint_bounds::JointBounds;
 use crate::joint_speed::JointSpeed;
 use crate::planning::{Planning, Stage};
+use crate::step::{Output, Statistics, Step};
 use crate::{ItemSource, Refusal, Remainder, Supply};
-
-/// One step of a pipeline.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Output {
-    /// The planner took this item. An auditor listens to these.
-    Item(Item),
-    /// The next frame.
-    Frame(Frame),
-    /// The source has nothing yet and the planner cannot go on without.
-    Pending,
-    /// All frames are out.
-    End,
-}
-
-/// What a step came to. What it made is shown by the pipeline: items and frames are large.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Step {
-    /// The planner took an item: [`Pipeline::item`].
-    Item,
-    /// A frame was made: [`Pipeline::frame`].
-    Frame,
-    /// See [`Output::Pending`].
-    Pending,
-    /// All frames are out.
-    End,
-}
-
-/// What a pipeline has done so far.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Statistics {
-    /// Lines of program text read (items, where there is no text).
-    pub lines: u64,
-    /// Segments planned.
-    pub segments: u64,
-    /// Dwells and events planned.
-    pub others: u64,
-    /// Frames given out.
-    pub frames: u64,
-    /// Time spent in reading and planning, if the pipeline was given a clock.
-    pub planning: Duration,
-}
 
 /// Source and planner, joined.
 #[derive(Debug)]

@@ -1,0 +1,46 @@
+//! What the steps of a pipeline come to, one by one and all together.
+
+use std::time::Duration;
+
+use glidepath_program::{Frame, Item};
+
+/// One step of a pipeline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Output {
+    /// The planner took this item. An auditor listens to these.
+    Item(Item),
+    /// The next frame.
+    Frame(Frame),
+    /// The source has nothing yet and the planner cannot go on without.
+    Pending,
+    /// All frames are out.
+    End,
+}
+
+/// What a step came to. What it made is shown by the pipeline: items and frames are large.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Step {
+    /// The planner took an item: [`crate::Pipeline::item`].
+    Item,
+    /// A frame was made: [`crate::Pipeline::frame`].
+    Frame,
+    /// See [`Output::Pending`].
+    Pending,
+    /// All frames are out.
+    End,
+}
+
+/// What a pipeline has done so far.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Statistics {
+    /// Lines of program text read (items, where there is no text).
+    pub lines: u64,
+    /// Segments planned.
+    pub segments: u64,
+    /// Dwells and events planned.
+    pub others: u64,
+    /// Frames given out.
+    pub frames: u64,
+    /// Time spent in reading and planning, if the pipeline was given a clock.
+    pub planning: Duration,
+}
