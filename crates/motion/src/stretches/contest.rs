@@ -8,7 +8,7 @@
 //! again only if it is slower than along the path. The plan from rest to rest with the fewest frames
 //! is taken; where they are equal, the one in the tube with the heavier weights, which is smoother.
 //! With that no such stretch takes longer than with effort "fast", which in turn knows the way with
-//! a stop at every block.
+//! a stop at every block; unless joints that are not the axes cannot follow along the path.
 
 use super::entry::{Entry, SuppliedWay};
 use super::way::{Manner, Outset, Way};
@@ -76,16 +76,14 @@ impl Planned {
         let mut way = SuppliedWay::new(manner, entry);
         let mut places = vec![(0, way.clone())];
         let mut frames = Vec::new();
-        let (mut time_t, mut since_t) = (0.0, 0.0);
+        let mut time_t = 0.0;
         while let Some(frame) = way.pop_frame()? {
             time_t += period_t;
-            since_t += period_t;
             if time_t > MOST_T {
                 return Ok(None);
             }
             frames.push(frame);
-            if since_t >= PLACE_T {
-                since_t = 0.0;
+            if time_t >= PLACE_T * places.len() as f64 {
                 places.push((frames.len(), way.clone()));
             }
         }

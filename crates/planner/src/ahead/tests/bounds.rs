@@ -28,6 +28,7 @@ impl ItemSource for Endless<'_> {
                 kind: ItemKind::Dwell(0.01),
             });
         }
+        let lines = number - number / self.rests_after;
         #[allow(clippy::cast_precision_loss, reason = "exact for any test")]
         let at = |number: u64| {
             let mut at = AxisVector::zeros();
@@ -39,10 +40,7 @@ impl ItemSource for Endless<'_> {
             block: 0,
             line: 1,
             kind: ItemKind::Move {
-                segment: Segment::line(
-                    at(number - number / self.rests_after),
-                    at(number + 1 - number / self.rests_after),
-                ),
+                segment: Segment::line(at(lines), at(lines + 1)),
                 rate: Rate::Feed(50.0),
                 mode: PathMode::Continuous { tolerance_mm: None },
             },
