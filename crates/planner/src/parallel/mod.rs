@@ -13,15 +13,17 @@
 //! * **The same steps.** Items and frames come in the order, and with the bits, that a
 //!   [`crate::Pipeline`] gives. How many threads there are does not show in them.
 //! * **Bounded memory.** What was planned and not taken is bounded for all parts together
-//!   ([`allowance`]), and so are the items between reader and workers. A part need not be in memory
-//!   as a whole: it flows from its worker to the caller like a program without rests.
+//!   ([`allowance`]), and so are the items between reader and workers ([`room`]). A part need not be
+//!   in memory as a whole: it flows from its worker to the caller like a program without rests.
 //! * **No standstill.** Parts are taken up in order, and the plan of the first one that is not
 //!   taken yet always has room of its own.
 
 mod allowance;
+mod bounds;
 mod message;
 mod pipeline;
 mod reader;
+mod room;
 mod threads;
 mod worker;
 

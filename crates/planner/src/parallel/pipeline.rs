@@ -10,7 +10,7 @@ use glidepath_kinematics::PathCaps;
 use glidepath_motion::parts::Joiner;
 use glidepath_program::{Frame, Item, ItemKind, Settings};
 
-use super::allowance::Allowance;
+use super::bounds::Bounds;
 use super::message::{PlanStep, Planned};
 use super::threads::Threads;
 use crate::blocks::Blocks;
@@ -35,7 +35,7 @@ pub struct ParallelPipeline {
     /// Why the program ended early, until that is told.
     refusal: Option<Refusal>,
     statistics: Statistics,
-    allowance: Arc<Allowance>,
+    bounds: Arc<Bounds>,
     threads: Threads,
 }
 
@@ -52,9 +52,9 @@ impl ParallelPipeline {
         joints: Option<PathCaps>,
         workers: NonZeroUsize,
     ) -> io::Result<Self> {
-        let allowance = Arc::new(Allowance::new());
+        let bounds = Arc::new(Bounds::new());
         let (threads, parts) =
-            Threads::start(source, (settings, start), joints, workers, &allowance)?;
+            Threads::start(source, (settings, start), joints, workers, &bounds)?;
         Ok(Self {
             joiner: Joiner::new(settings, start),
             blocks: Blocks::whole(),
@@ -68,7 +68,7 @@ impl ParallelPipeline {
             },
             refusal: None,
             statistics: Statistics::default(),
-            allowance,
+            bounds,
             threads,
         })
     }
@@ -162,13 +162,13 @@ impl ParallelPipeline {
                 weight,
                 lines,
             }) => {
-                self.allowance.take(weight);
+                self.bounds.plans.take(weight);
                 self.statistics.lines = lines;
                 self.steps = steps.into_iter();
             }
             Ok(Planned::End) => {
                 self.part = None;
-                self.allowance.go_on();
+                self.bounds.plans.go_on();
             }
             // A worker died; why is told by its panic.
             Err(_) => self.end(),
@@ -178,7 +178,7 @@ impl ParallelPipeline {
     /// All parts were taken.
     fn end(&mut self) {
         (self.parts, self.part) = (None, None);
-        self.allowance.close();
+        self.bounds.close();
         let end = self.threads.join().unwrap_or_default();
         self.refusal = end.refusal;
         self.statistics.lines = end.lines;
@@ -187,7 +187,7 @@ impl ParallelPipeline {
     /// Nothing more is wanted.
     fn stop(&mut self) {
         (self.parts, self.part) = (None, None);
-        self.allowance.close();
+        self.bounds.close();
         self.threads.end();
     }
 }

@@ -1,19 +1,20 @@
 //! The thread that reads a program and cuts it into parts.
 
-use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel};
 
 use glidepath_geometry::AxisVector;
 use glidepath_motion::parts::{Cutter, Placed};
 use glidepath_program::{Item, Settings};
 
+use super::bounds::Bounds;
 use super::message::{Batch, Gone, Part, Planned};
 use crate::blocks::Blocks;
 use crate::joint_speed::JointSpeed;
 use crate::{ItemSource, Refusal, Supply};
 
-/// Items that are handed over together, and so many times as many wait for a worker.
+/// Items that are handed over together.
 const BATCH: usize = 64;
-const BATCHES: usize = 2;
 
 /// What came of reading.
 #[derive(Debug, Default)]
@@ -28,9 +29,10 @@ pub(super) struct ReadEnd {
 #[derive(Debug)]
 pub(super) struct Outlets {
     /// To whoever has time.
-    pub(super) workers: SyncSender<Part>,
+    pub(super) workers: Sender<Part>,
     /// To the caller, in order.
     pub(super) plans: SyncSender<Receiver<Planned>>,
+    pub(super) bounds: Arc<Bounds>,
 }
 
 /// Items on their way to the workers.
@@ -39,7 +41,7 @@ struct Handing {
     /// Parts begun.
     parts: u64,
     /// The part at hand.
-    open: SyncSender<Batch>,
+    open: Sender<Batch>,
     batch: Vec<Item>,
 }
 
@@ -69,6 +71,9 @@ impl Handing {
 
     fn hand_over(&mut self, lines: u64) -> Result<(), Gone> {
         let items = std::mem::replace(&mut self.batch, Vec::with_capacity(BATCH));
+        if !self.outlets.bounds.items.add(items.len()) {
+            return Err(Gone);
+        }
         self.send(Batch::Items { items, lines })
     }
 
@@ -84,8 +89,8 @@ impl Handing {
 }
 
 /// Begins a part: whoever takes it gets its items by what is returned.
-fn begin(outlets: &Outlets, number: u64, start: AxisVector) -> Result<SyncSender<Batch>, Gone> {
-    let (open, items) = sync_channel(BATCHES);
+fn begin(outlets: &Outlets, number: u64, start: AxisVector) -> Result<Sender<Batch>, Gone> {
+    let (open, items) = channel();
     let (plan, planned) = channel();
     let part = Part {
         number,

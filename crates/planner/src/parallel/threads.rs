@@ -2,7 +2,7 @@
 
 use std::io;
 use std::num::NonZeroUsize;
-use std::sync::mpsc::{Receiver, sync_channel};
+use std::sync::mpsc::{Receiver, channel, sync_channel};
 use std::sync::{Arc, Mutex};
 use std::thread::{Builder, JoinHandle};
 
@@ -10,7 +10,7 @@ use glidepath_geometry::AxisVector;
 use glidepath_kinematics::PathCaps;
 use glidepath_program::Settings;
 
-use super::allowance::Allowance;
+use super::bounds::Bounds;
 use super::message::Planned;
 use super::reader::{Outlets, ReadEnd, read};
 use super::worker::work;
@@ -37,9 +37,9 @@ impl Threads {
         (settings, start): (Settings, AxisVector),
         joints: Option<PathCaps>,
         workers: NonZeroUsize,
-        allowance: &Arc<Allowance>,
+        bounds: &Arc<Bounds>,
     ) -> io::Result<(Self, Receiver<Receiver<Planned>>)> {
-        let (parts, waiting) = sync_channel(1);
+        let (parts, waiting) = channel();
         let (plans, planned) = sync_channel(PARTS_PER_WORKER * workers.get());
         let waiting = Arc::new(Mutex::new(waiting));
         let mut threads = Self {
@@ -47,14 +47,15 @@ impl Threads {
             workers: Vec::with_capacity(workers.get()),
         };
         for _ in 0..workers.get() {
-            let (waiting, allowance) = (Arc::clone(&waiting), Arc::clone(allowance));
+            let (waiting, bounds) = (Arc::clone(&waiting), Arc::clone(bounds));
             let worker = Builder::new().name("planning".to_owned());
-            let worker = worker.spawn(move || work(&waiting, (settings, joints), &allowance))?;
+            let worker = worker.spawn(move || work(&waiting, (settings, joints), &bounds))?;
             threads.workers.push(worker);
         }
         let outlets = Outlets {
             workers: parts,
             plans,
+            bounds: Arc::clone(bounds),
         };
         let joints = joints.map(|caps| JointSpeed::new(caps, settings));
         let reader = Builder::new().name("reading".to_owned());

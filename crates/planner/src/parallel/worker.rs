@@ -7,7 +7,7 @@ use glidepath_kinematics::PathCaps;
 use glidepath_motion::parts::PartPlanner;
 use glidepath_program::Settings;
 
-use super::allowance::Allowance;
+use super::bounds::Bounds;
 use super::message::{Batch, Gone, Part, PlanStep, Planned};
 use crate::joint_bounds::JointBounds;
 
@@ -18,11 +18,11 @@ type Machine = (Settings, Option<PathCaps>);
 const CHUNK: usize = 256;
 
 /// Plans parts as they come, until there are no more or nobody wants them.
-pub(super) fn work(parts: &Mutex<Receiver<Part>>, machine: Machine, allowance: &Allowance) {
+pub(super) fn work(parts: &Mutex<Receiver<Part>>, machine: Machine, bounds: &Bounds) {
     loop {
         let part = parts.lock().unwrap_or_else(PoisonError::into_inner).recv();
         let Ok(part) = part else { return };
-        if plan(part, machine, allowance).is_err() {
+        if plan(part, machine, bounds).is_err() {
             return;
         }
     }
@@ -32,7 +32,7 @@ pub(super) fn work(parts: &Mutex<Receiver<Part>>, machine: Machine, allowance: &
 struct Outlet<'a> {
     part: u64,
     plan: Sender<Planned>,
-    allowance: &'a Allowance,
+    bounds: &'a Bounds,
     steps: Vec<PlanStep>,
     weight: usize,
     lines: u64,
@@ -56,7 +56,7 @@ impl Outlet<'_> {
             return Ok(());
         }
         let weight = std::mem::take(&mut self.weight);
-        if !self.allowance.add(self.part, weight) {
+        if !self.bounds.plans.add(self.part, weight) {
             return Err(Gone);
         }
         let steps = std::mem::replace(&mut self.steps, Vec::with_capacity(CHUNK));
@@ -73,7 +73,7 @@ impl Outlet<'_> {
     }
 }
 
-fn plan(part: Part, (settings, joints): Machine, allowance: &Allowance) -> Result<(), Gone> {
+fn plan(part: Part, (settings, joints): Machine, bounds: &Bounds) -> Result<(), Gone> {
     let mut planner = PartPlanner::new(settings, part.start, part.number == 0);
     if let Some(caps) = joints {
         planner = planner.with_joints(JointBounds::shared(caps));
@@ -81,7 +81,7 @@ fn plan(part: Part, (settings, joints): Machine, allowance: &Allowance) -> Resul
     let mut outlet = Outlet {
         part: part.number,
         plan: part.plan,
-        allowance,
+        bounds,
         steps: Vec::with_capacity(CHUNK),
         weight: 0,
         lines: 0,
@@ -90,6 +90,7 @@ fn plan(part: Part, (settings, joints): Machine, allowance: &Allowance) -> Resul
     loop {
         match part.items.recv() {
             Ok(Batch::Items { items, lines }) => {
+                bounds.items.take(items.len());
                 outlet.lines = lines;
                 for item in items {
                     planner.push(&item);

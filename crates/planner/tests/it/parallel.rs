@@ -11,6 +11,8 @@
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
 use std::path::Path;
+use std::sync::mpsc::{Sender, channel};
+use std::time::Duration;
 
 use glidepath_gcode::Options;
 use glidepath_geometry::{AxisVector, Segment};
@@ -382,4 +384,42 @@ fn a_plan_that_nobody_takes_ends_its_threads() {
         // Returns when they have ended.
         drop(cores);
     }
+}
+
+/// Items, and where it is told that all of them were read.
+struct Told(Listed, Sender<()>);
+
+impl ItemSource for Told {
+    fn next_item(&mut self) -> Supply {
+        let supply = self.0.next_item();
+        if matches!(supply, Supply::End) {
+            self.1.send(()).expect("somebody waits");
+        }
+        supply
+    }
+
+    fn lines_read(&self) -> u64 {
+        self.0.lines_read()
+    }
+}
+
+/// Otherwise a second thread would have nothing to do until the first part is nearly planned.
+#[test]
+fn a_part_is_read_to_its_end_however_far_its_plan_is() {
+    // 33 minutes of motion without a rest: more frames than wait for their taker.
+    let mut items = listed(2000);
+    items.retain(|item| matches!(item.kind, ItemKind::Move { .. }));
+    for item in &mut items {
+        if let ItemKind::Move { rate, .. } = &mut item.kind {
+            *rate = Rate::Feed(0.5);
+        }
+    }
+    let (sender, read) = channel();
+    let source = Told(Listed(items.into_iter(), None), sender);
+    let workers = NonZeroUsize::new(2).expect("two");
+    let (settings, start) = (settings(Effort::Optimal), AxisVector::zeros());
+    let cores = ParallelPipeline::start(source, settings, start, None, workers).expect("threads");
+    read.recv_timeout(Duration::from_secs(60))
+        .expect("all of it is read while nothing is taken");
+    drop(cores);
 }
