@@ -5,7 +5,7 @@ use super::ledger::{Ledger, LedgerEntry};
 use super::path::Reference;
 use super::period::Period;
 use super::planner::TubePlanner;
-use super::window::SearchWeights;
+use super::window::SearchBias;
 use super::works::Works;
 use crate::PlanError;
 use crate::grid::{FrameGrid, Moving};
@@ -21,7 +21,7 @@ pub(crate) struct InTubeEngine {
     settings: Settings,
     joints: SharedJoints,
     wanted: Override,
-    weights: SearchWeights,
+    bias: SearchBias,
     works: Works,
     flattener: Flattener,
     grid: FrameGrid,
@@ -69,13 +69,13 @@ impl InTubeEngine {
         settings: Settings,
         start: AxisVector,
         wanted: Override,
-        weights: SearchWeights,
+        bias: SearchBias,
     ) -> Self {
         Self {
             settings,
             joints: None,
             wanted,
-            weights,
+            bias,
             works: Works::new(settings, start),
             flattener: Flattener::new(settings),
             grid: FrameGrid::new(settings.period_t, start),
@@ -184,7 +184,7 @@ impl InTubeEngine {
                 limits, period_t, ..
             } = &self.settings;
             self.drive = Drive::Window(Stretch {
-                planner: TubePlanner::new(limits, *period_t, self.position, self.weights)
+                planner: TubePlanner::new(limits, *period_t, self.position, self.bias)
                     .with_joints(self.joints.clone()),
                 ledger: Ledger::new(self.wanted),
                 length_s: 0.0,

@@ -52,4 +52,4 @@ mod window;
 mod works;
 
 pub(crate) use engine::InTubeEngine;
-pub(crate) use window::SearchWeights;
+pub(crate) use window::SearchBias;

@@ -5,7 +5,7 @@ use super::entry::Entry;
 use super::gathering::{Gathering, Task};
 use super::way::{Manner, Outset, Way};
 use crate::grid::FrameGrid;
-use crate::in_tube::SearchWeights;
+use crate::in_tube::SearchBias;
 use crate::joints::SharedJoints;
 use crate::{Joints, PlanError};
 use glidepath_geometry::AxisVector;
@@ -13,7 +13,7 @@ use glidepath_program::{Frame, Item, Override, Settings};
 use std::sync::Arc;
 
 /// How a stretch is driven that is planned as it comes.
-const ALONE: Manner = Manner::InTube(SearchWeights::USUAL);
+const ALONE: Manner = Manner::InTube(SearchBias::USUAL);
 
 /// Plans stretch by stretch, as [`crate::Planner`] uses it.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! A way to drive one stretch: an engine that is given the items of it, and no others.
 
 use crate::PlanError;
-use crate::in_tube::{InTubeEngine, SearchWeights};
+use crate::in_tube::{InTubeEngine, SearchBias};
 use crate::joints::SharedJoints;
 use crate::on_path::OnPathEngine;
 use glidepath_geometry::AxisVector;
@@ -29,7 +29,7 @@ pub(crate) struct Outset {
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Manner {
     OnPath,
-    InTube(SearchWeights),
+    InTube(SearchBias),
 }
 
 #[derive(Debug, Clone)]
@@ -49,8 +49,8 @@ impl Way {
         } = outset;
         let engine = match manner {
             Manner::OnPath => Engine::OnPath(Box::new(OnPathEngine::new(settings, start, wanted))),
-            Manner::InTube(weights) => {
-                let engine = InTubeEngine::new(settings, start, wanted, weights);
+            Manner::InTube(bias) => {
+                let engine = InTubeEngine::new(settings, start, wanted, bias);
                 Engine::InTube(Box::new(engine.with_joints(joints)))
             }
         };

@@ -53,8 +53,7 @@ impl ParallelPipeline {
         workers: NonZeroUsize,
     ) -> io::Result<Self> {
         let bounds = Arc::new(Bounds::new());
-        let (threads, parts) =
-            Threads::start(source, (settings, start), joints, workers, &bounds)?;
+        let (threads, parts) = Threads::start(source, (settings, start), joints, workers, &bounds)?;
         Ok(Self {
             joiner: Joiner::new(settings, start),
             blocks: Blocks::whole(),

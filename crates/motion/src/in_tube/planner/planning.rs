@@ -212,7 +212,7 @@ impl PlannerState {
             commit: commit(grid, view),
             keeps_rates: !matches!(self.active, ActiveMotion::Legs { is_stale: true, .. }),
             search,
-            weights: self.weights,
+            bias: self.bias,
         };
         let motion = self.optimisers.attempt(&setting, view, tail)?;
         Some(self.judge(grid, view, motion))

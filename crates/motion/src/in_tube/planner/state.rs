@@ -3,7 +3,7 @@
 use crate::in_tube::fallback::{Baseline, StopLeg};
 use crate::in_tube::path::ReferencePath;
 use crate::in_tube::verify::{Follower, History, Reachable};
-use crate::in_tube::window::{Grid, Optimisers, SearchWeights};
+use crate::in_tube::window::{Grid, Optimisers, SearchBias};
 use crate::joints::SharedJoints;
 use glidepath_geometry::AxisVector;
 use glidepath_program::Limits;
@@ -47,7 +47,7 @@ pub(crate) struct PlannerState {
     pub(crate) active: ActiveMotion,
     pub(crate) grid: Option<Grid>,
     pub(crate) optimisers: Optimisers,
-    pub(crate) weights: SearchWeights,
+    pub(crate) bias: SearchBias,
     /// Legs to run when the next window is refused: the more, the more have been.
     pub(crate) legs: usize,
     /// Stopping at every vertex; `None` after rates have changed, until the next rest.
@@ -59,12 +59,7 @@ pub(crate) struct PlannerState {
 
 impl PlannerState {
     /// At rest at `start`, nothing known of the path; period in seconds.
-    pub(crate) fn new(
-        limits: &Limits,
-        period_t: f64,
-        start: AxisVector,
-        weights: SearchWeights,
-    ) -> Self {
+    pub(crate) fn new(limits: &Limits, period_t: f64, start: AxisVector, bias: SearchBias) -> Self {
         Self {
             limits: *limits,
             period_t,
@@ -76,7 +71,7 @@ impl PlannerState {
             active: ActiveMotion::Nothing,
             grid: None,
             optimisers: Optimisers::default(),
-            weights,
+            bias,
             legs: 1,
             baseline: None,
             clock: 0,

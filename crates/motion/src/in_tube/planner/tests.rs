@@ -12,7 +12,7 @@ mod extremes;
 
 use super::state::ActiveMotion;
 use super::*;
-use crate::in_tube::SearchWeights;
+use crate::in_tube::SearchBias;
 use crate::in_tube::path::Reference;
 use crate::in_tube::period::Period;
 use crate::in_tube::window::PLAN_WORK;
@@ -64,7 +64,7 @@ impl Case {
             &self.limits,
             self.period_t,
             self.points[0],
-            SearchWeights::USUAL,
+            SearchBias::USUAL,
         )
     }
 

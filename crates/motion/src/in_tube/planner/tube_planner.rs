@@ -4,7 +4,7 @@ use super::state::{ActiveMotion, PlannerState};
 use crate::in_tube::path::Reference;
 use crate::in_tube::period::Period;
 use crate::in_tube::verify::FEED_SLACK;
-use crate::in_tube::window::SearchWeights;
+use crate::in_tube::window::SearchBias;
 use crate::joints::SharedJoints;
 use glidepath_geometry::AxisVector;
 use glidepath_program::Limits;
@@ -20,14 +20,9 @@ pub(crate) struct TubePlanner {
 
 impl TubePlanner {
     /// A planner for a machine at rest at `start`, period in seconds.
-    pub(crate) fn new(
-        limits: &Limits,
-        period_t: f64,
-        start: AxisVector,
-        weights: SearchWeights,
-    ) -> Self {
+    pub(crate) fn new(limits: &Limits, period_t: f64, start: AxisVector, bias: SearchBias) -> Self {
         Self {
-            state: PlannerState::new(limits, period_t, start, weights),
+            state: PlannerState::new(limits, period_t, start, bias),
             is_waiting: false,
         }
     }

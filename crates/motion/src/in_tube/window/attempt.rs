@@ -2,8 +2,9 @@
 
 use super::optimiser::{Optimiser, Question};
 use super::scaled_path::{ScaledPath, moving_axes};
+use super::search_bias::SearchBias;
 use super::spline::Grid;
-use super::window_start::{SearchWeights, WindowStart};
+use super::window_start::WindowStart;
 use crate::in_tube::path::{ReferencePath, directional};
 use crate::in_tube::verify::{Follower, History};
 use crate::joints::SharedJoints;
@@ -102,7 +103,7 @@ pub(crate) struct WindowContext<'a> {
     /// What goes on without a window keeps the rates, which may have changed.
     pub(crate) keeps_rates: bool,
     pub(crate) search: Search,
-    pub(crate) weights: SearchWeights,
+    pub(crate) bias: SearchBias,
 }
 
 /// What is looked for.
@@ -204,7 +205,7 @@ fn attempt<const D: usize>(
         grid: *context.grid,
         period_t: context.period_t,
         commit: context.commit,
-        weights: context.weights,
+        bias: context.bias,
     };
     let mut judge = |points: &[[f64; D]], question| {
         let points: Vec<_> = points.iter().map(|point| path.outside(point)).collect();

@@ -30,6 +30,7 @@ mod pins;
 mod rounds;
 mod samples;
 mod scaled_path;
+mod search_bias;
 mod shortcuts;
 mod smoothing;
 mod solver;
@@ -43,6 +44,6 @@ pub(crate) use attempt::{
 };
 pub(crate) use budget::FIRST_WORK;
 pub(crate) use budget::PLAN_WORK;
+pub(crate) use search_bias::SearchBias;
 pub(crate) use spline::Grid;
 pub(crate) use way::at_feed_r;
-pub(crate) use window_start::SearchWeights;

@@ -142,7 +142,7 @@ impl<const D: usize> Optimiser<D> {
             let progress = &mut self.samples.progress;
             match seed {
                 Seed::Guess(share) => {
-                    let from = (stop_at, share * self.pace);
+                    let from = (stop_at, share * self.pace * window_start.bias.hurry);
                     window_start.play_guess(path, &self.guess, progress, from);
                 }
                 Seed::Stops => window_start.play_stops(path, progress, rest_at),

@@ -27,10 +27,11 @@ use super::optimiser::{Optimiser, Question};
 use super::rounds::RoundState;
 use super::samples::{Samples, mean};
 use super::scaled_path::ScaledPath;
+use super::search_bias::SearchBias;
 use super::shortcuts;
 use super::tube::Style;
 use super::way::at_feed_until;
-use super::window_start::{SearchWeights, WindowStart};
+use super::window_start::WindowStart;
 
 /// What an offset of the whole radius costs at one sample, and what jerk at its limit does.
 const PULL: f64 = 0.1;
@@ -58,7 +59,7 @@ impl<const D: usize> WindowStart<'_, D> {
             jerk: weight * JERK,
             counts_way: true,
             // Another look at a short stretch is for time alone.
-            is_damped: self.weights == SearchWeights::USUAL,
+            is_damped: self.bias == SearchBias::USUAL,
             ..self.style(true)
         }
     }

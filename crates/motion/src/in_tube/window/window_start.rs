@@ -2,34 +2,9 @@
 
 use super::guess::{Guess, rest_to_rest_t};
 use super::scaled_path::ScaledPath;
+use super::search_bias::SearchBias;
 use super::spline::Grid;
 use super::tube::{FEED_R, Style};
-
-/// What counts beside time while the search goes on: far less than the time that can be gained by
-/// them, and enough to be the only thing that counts where none can.
-///
-/// Convex problems in turn find one of many local best motions, and which one depends on such
-/// weights: heavy ones lead there with less work, light ones a little further.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct SearchWeights {
-    /// What an offset of the whole radius costs at one sample.
-    pub(crate) pull: f64,
-    /// What jerk at its limit costs.
-    pub(crate) jerk: f64,
-}
-
-impl SearchWeights {
-    /// For whatever is planned once.
-    pub(crate) const USUAL: Self = Self {
-        pull: 0.03,
-        jerk: 0.01,
-    };
-    /// For another look at the same stretch.
-    pub(crate) const LIGHT: Self = Self {
-        pull: 0.001,
-        jerk: 0.001,
-    };
-}
 
 /// Speed falls along a cubic when a guess brakes: what its time to stop is, squared in the second,
 /// in times to reach the speed at the limits of acceleration and of jerk. Exactly 1.5 and 6; some
@@ -54,7 +29,7 @@ pub(crate) struct WindowStart<'a, const D: usize> {
     pub(crate) period_t: f64,
     /// Periods after which the next window will start.
     pub(crate) commit: usize,
-    pub(crate) weights: SearchWeights,
+    pub(crate) bias: SearchBias,
 }
 
 impl<const D: usize> WindowStart<'_, D> {
@@ -73,8 +48,8 @@ impl<const D: usize> WindowStart<'_, D> {
             aims_beyond: 0,
             aims_until: usize::MAX,
             keep_r: 0.995,
-            ridge: self.weights.pull,
-            jerk: self.weights.jerk,
+            ridge: self.bias.pull,
+            jerk: self.bias.jerk,
             has_motion,
         }
     }

@@ -1,0 +1,39 @@
+//! What decides which of many local best motions a search finds.
+//!
+//! Convex problems in turn go downhill from where samples are first thought to be. There are many
+//! valleys, on small things some per cent apart, and no one bias leads to the deepest: whoever has
+//! the time looks again with another.
+
+/// What a search is given beside the path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SearchBias {
+    /// What an offset of the whole radius costs at one sample. This and the next count far less
+    /// than the time that can be gained by them, and enough to be the only thing that counts where
+    /// none can. Heavy ones lead to a motion with less work, light ones a little further.
+    pub(crate) pull: f64,
+    /// What jerk at its limit costs.
+    pub(crate) jerk: f64,
+    /// How much further than expected samples are first thought to be: those that are on a piece too
+    /// early are corrected at once, but take others with them.
+    pub(crate) hurry: f64,
+}
+
+impl SearchBias {
+    /// For whatever is planned once.
+    pub(crate) const USUAL: Self = Self {
+        pull: 0.03,
+        jerk: 0.01,
+        hurry: 1.0,
+    };
+    /// For another look at the same stretch.
+    pub(crate) const LIGHT: Self = Self {
+        pull: 0.001,
+        jerk: 0.001,
+        hurry: 1.0,
+    };
+    /// For a third one: on curves it often finds what the others do not.
+    pub(crate) const HURRIED: Self = Self {
+        hurry: 1.3,
+        ..Self::LIGHT
+    };
+}
