@@ -11,7 +11,7 @@
 use core::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use crate::support::family::{audited, family};
+use crate::support::family::{HEADER, audited, circles_of_chords, family};
 use glidepath_program::{Effort, Limits, Settings, Smoothing};
 
 const PERIODS_T: [f64; 2] = [0.004, 0.001];
@@ -98,26 +98,12 @@ fn families_are_never_slower_than_with_stops() {
     }
 }
 
-const HEADER: &str = "G21 G90 G94 G17 G64 P0.02 F6000\n";
 const FEED_V: f64 = 100.0;
 
 fn full_circles(radius_mm: f64, turns: u32) -> String {
     let mut text = HEADER.to_owned();
     for _ in 0..turns {
         writeln!(text, "G2 X0 Y0 I{} J0", -radius_mm).expect("a string");
-    }
-    text
-}
-
-fn circles_of_chords(radius_mm: f64, turns: u32, chord_mm: f64) -> String {
-    let mut text = HEADER.to_owned();
-    let chords = (TAU * radius_mm / chord_mm).round();
-    let mut k = 1.0;
-    while k <= chords * f64::from(turns) {
-        let (sin, cos) = (TAU * k / chords).sin_cos();
-        let (x, y) = (radius_mm * (cos - 1.0), radius_mm * sin);
-        writeln!(text, "G1 X{x:.5} Y{y:.5}").expect("a string");
-        k += 1.0;
     }
     text
 }

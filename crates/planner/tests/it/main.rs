@@ -1,6 +1,7 @@
 //! The planner as a library. One binary: it links once.
 
 mod called_files;
+mod chords;
 mod curves;
 mod curves_on_machines;
 mod families;
