@@ -26,6 +26,8 @@ pub(crate) struct InTubeEngine {
     flattener: Flattener,
     grid: FrameGrid,
     drive: Drive,
+    /// Multiplications of the solvers for what was driven before the drive at hand.
+    work: usize,
     /// Where the last stretch ended.
     position: AxisVector,
     path_s: f64,
@@ -42,6 +44,15 @@ enum Drive {
     None,
     Window(Stretch),
     Exact(ExactPath),
+}
+
+impl Drive {
+    fn work(&self) -> usize {
+        match self {
+            Self::Window(stretch) => stretch.planner.work(),
+            Self::None | Self::Exact(_) => 0,
+        }
+    }
 }
 
 /// What is driven in the tube, from a rest to the next.
@@ -80,6 +91,7 @@ impl InTubeEngine {
             flattener: Flattener::new(settings),
             grid: FrameGrid::new(settings.period_t, start),
             drive: Drive::None,
+            work: 0,
             position: start,
             path_s: 0.0,
         }
@@ -98,6 +110,11 @@ impl InTubeEngine {
     /// The stretch ends with what has been pushed.
     pub(crate) fn finish(&mut self) {
         self.works.finish();
+    }
+
+    /// Multiplications of the solvers so far.
+    pub(crate) fn work(&self) -> usize {
+        self.work + self.drive.work()
     }
 
     /// Plans what follows with another override, from the state given out last.
@@ -248,6 +265,7 @@ impl InTubeEngine {
         self.position = end;
         self.path_s = end_s;
         self.grid.leave(end, end_s);
+        self.work += self.drive.work();
         self.drive = Drive::None;
         if let Some(rest) = then {
             self.grid.enter_rest(rest);

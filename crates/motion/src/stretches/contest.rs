@@ -31,6 +31,9 @@ const PLACE_T: f64 = 0.5;
 /// .2 % at 1 s; two take .4, .15 and .05 %, three .05, .03 and .02 %.
 const MOST_TWICE_T: f64 = 1.25;
 const MOST_THRICE_T: f64 = 0.4;
+/// Most work of the first two searches, multiplications for a second of motion, with which a third
+/// one is begun: many small stretches in a row are planned faster than they are driven.
+const EASY_WORK_PER_S: f64 = 2e8;
 
 /// A stretch whose motion is planned to its end.
 #[derive(Debug, Clone)]
@@ -38,6 +41,8 @@ pub(crate) struct Planned {
     frames: Arc<[Frame]>,
     taken: usize,
     length_s: f64,
+    /// Multiplications of the solvers.
+    work: usize,
     /// The way after some of the frames, ascending from none: whoever goes on differently does not
     /// have to plan it from its start.
     places: Arc<[(usize, SuppliedWay)]>,
@@ -57,8 +62,11 @@ impl Planned {
         if entry.at_rates_t > MOST_TWICE_T && is_as_fast(&usual, &on_path) {
             return usual;
         }
-        let mut fastest = Self::faster(usual, in_tube(SearchBias::LIGHT));
-        if entry.at_rates_t <= MOST_THRICE_T {
+        let light = in_tube(SearchBias::LIGHT);
+        let may_go_on = entry.at_rates_t <= MOST_THRICE_T
+            && is_easy(&[&usual, &light], entry.outset.settings.period_t);
+        let mut fastest = Self::faster(usual, light);
+        if may_go_on {
             fastest = Self::faster(fastest, in_tube(SearchBias::HURRIED));
         }
         Self::faster(fastest, on_path)
@@ -99,6 +107,7 @@ impl Planned {
             frames: frames.into(),
             taken: 0,
             length_s,
+            work: way.work(),
             places: places.into(),
         }))
     }
@@ -137,6 +146,16 @@ impl Planned {
         }
         way.whole()
     }
+}
+
+/// True if searches have taken little work for the motion they found.
+fn is_easy(searches: &[&Result<Option<Planned>, PlanError>], period_t: f64) -> bool {
+    let found = searches
+        .iter()
+        .filter_map(|search| search.as_ref().ok()?.as_ref());
+    let work: usize = found.clone().map(|planned| planned.work).sum();
+    let least = found.map(|planned| planned.frames.len()).min().unwrap_or(0);
+    work as f64 <= EASY_WORK_PER_S * least as f64 * period_t
 }
 
 /// True if the first of two plans takes no longer.

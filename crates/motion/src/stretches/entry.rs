@@ -56,6 +56,11 @@ impl SuppliedWay {
         self.way.length_s().ok_or(PlanError::NoMotion { line })
     }
 
+    /// Multiplications of the solvers so far.
+    pub(crate) fn work(&self) -> usize {
+        self.way.work()
+    }
+
     /// The way, given all the rest.
     pub(crate) fn whole(mut self) -> Result<Way, PlanError> {
         while !self.way.is_finished() {

@@ -112,6 +112,14 @@ impl Way {
         self.length_s
     }
 
+    /// Multiplications of the solvers so far; closed forms take none.
+    pub(crate) fn work(&self) -> usize {
+        match &self.engine {
+            Engine::OnPath(_) => 0,
+            Engine::InTube(engine) => engine.work(),
+        }
+    }
+
     /// True if the whole stretch is known.
     pub(crate) const fn is_finished(&self) -> bool {
         self.is_finished

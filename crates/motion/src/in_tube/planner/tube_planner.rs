@@ -54,6 +54,11 @@ impl TubePlanner {
         self.state.is_over || self.state.reference_path.is_empty_and_finished()
     }
 
+    /// Multiplications of the solvers so far.
+    pub(crate) fn work(&self) -> usize {
+        self.state.optimisers.work()
+    }
+
     /// Other speeds for the path from here on, by tag; the motion is planned again from the state
     /// handed out last. Where no speed is another one it stays: a thread cut under another override
     /// is the same to the bit.
