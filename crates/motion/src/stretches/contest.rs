@@ -33,7 +33,7 @@ const MOST_TWICE_T: f64 = 1.25;
 const MOST_THRICE_T: f64 = 0.4;
 /// Most work of the first two searches, multiplications for a second of motion, with which a third
 /// one is begun: many small stretches in a row are planned faster than they are driven.
-const EASY_WORK_PER_S: f64 = 2e8;
+const EASY_WORK_PER_S: f64 = 3e8;
 
 /// A stretch whose motion is planned to its end.
 #[derive(Debug, Clone)]
