@@ -83,7 +83,9 @@ fn chain(seconds: u32, period_us: u32) -> bool {
         eprintln!("SKIPPED: {}", output.stdout);
         return false;
     }
-    let rows = rows(&std::fs::read_to_string(&csv).unwrap());
+    let recorded = std::fs::read_to_string(&csv);
+    let recorded = recorded.unwrap_or_else(|error| panic!("{csv}: {error}; {output:?}"));
+    let rows = rows(&recorded);
     if output.stdout.contains("FollowingError") && was_left_alone(&rows[0]) {
         eprintln!("the host stood still: {}", output.stdout);
         return false;

@@ -5,8 +5,8 @@
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Items, about 10 MB.
-const MOST: usize = 32 * 1024;
+/// Items, about 2.5 MB.
+const MOST: usize = 8 * 1024;
 
 /// The books of the items that wait.
 #[derive(Debug, Default)]
