@@ -84,8 +84,8 @@ fn chain(seconds: u32, period_us: u32) -> bool {
         return false;
     }
     let recorded = std::fs::read_to_string(&csv);
-    let recorded = recorded.unwrap_or_else(|error| panic!("{csv}: {error}; {output:?}"));
-    let rows = rows(&recorded);
+    assert!(recorded.is_ok(), "{csv}: {recorded:?}; {output:?}");
+    let rows = rows(&recorded.unwrap());
     if output.stdout.contains("FollowingError") && was_left_alone(&rows[0]) {
         eprintln!("the host stood still: {}", output.stdout);
         return false;
