@@ -1,17 +1,14 @@
-//! How much may be planned and not be taken yet.
+//! How much may wait between two threads that hand over the parts of a program.
 
 use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Frames, or what takes as much memory: 9 minutes of motion at 4 ms, about 40 MB.
-const MOST: usize = 128 * 1024;
-
-/// What the part that is being taken may add to that.
-const MOST_OF_FIRST: usize = 4 * 1024;
-
 /// The books of what waits.
 #[derive(Debug)]
 pub(super) struct Allowance {
+    /// What may wait of all parts together, and what the part that is being taken may add to that.
+    most: usize,
+    most_of_first: usize,
     state: Mutex<State>,
     change: Condvar,
 }
@@ -35,16 +32,13 @@ impl State {
         }
         self.waiting.get_mut(index)
     }
-
-    fn is_full_for(&mut self, part: u64) -> bool {
-        let has_room = part == self.first && self.of(part).is_some_and(|own| *own < MOST_OF_FIRST);
-        self.sum >= MOST && !has_room
-    }
 }
 
 impl Allowance {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(most: usize, most_of_first: usize) -> Self {
         Self {
+            most,
+            most_of_first,
             state: Mutex::default(),
             change: Condvar::new(),
         }
@@ -55,12 +49,18 @@ impl Allowance {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    fn is_full_for(&self, part: u64, state: &mut State) -> bool {
+        let has_room =
+            part == state.first && state.of(part).is_some_and(|own| *own < self.most_of_first);
+        state.sum >= self.most && !has_room
+    }
+
     /// Adds to what waits of a part, once there is room; false if nobody takes it any more.
     pub(super) fn add(&self, part: u64, weight: usize) -> bool {
         let state = self.lock();
-        let waited = self
-            .change
-            .wait_while(state, |state| !state.is_closed && state.is_full_for(part));
+        let waited = self.change.wait_while(state, |state| {
+            !state.is_closed && self.is_full_for(part, state)
+        });
         let mut state = waited.unwrap_or_else(PoisonError::into_inner);
         if let Some(own) = state.of(part) {
             *own += weight;
@@ -100,9 +100,12 @@ mod tests {
     use super::*;
     use std::sync::mpsc::channel;
 
+    const MOST: usize = 1000;
+    const MOST_OF_FIRST: usize = 10;
+
     #[test]
     fn parts_ahead_wait_for_room_and_the_first_never_for_theirs() {
-        let allowance = Allowance::new();
+        let allowance = Allowance::new(MOST, MOST_OF_FIRST);
         assert!(allowance.add(1, MOST), "there is room for all of it");
         assert!(allowance.add(0, MOST_OF_FIRST), "a room of its own");
         let (sender, added) = channel();
@@ -126,5 +129,25 @@ mod tests {
         });
         allowance.close();
         assert!(!allowance.add(9, 1));
+    }
+
+    #[test]
+    fn whoever_waits_for_room_is_woken_when_nobody_takes_any_more() {
+        let allowance = Allowance::new(MOST, 0);
+        assert!(allowance.add(0, MOST), "there is room for all of it");
+        let (sender, added) = channel();
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                for _ in 0..2 {
+                    let _ = sender.send(allowance.add(0, MOST));
+                }
+            });
+            assert!(added.try_recv().is_err(), "it waits");
+            allowance.take(1);
+            assert_eq!(added.recv(), Ok(true), "there was room for a batch");
+            assert!(added.try_recv().is_err(), "it waits again");
+            allowance.close();
+            assert_eq!(added.recv(), Ok(false));
+        });
     }
 }

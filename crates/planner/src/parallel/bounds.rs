@@ -1,23 +1,44 @@
-//! What keeps the memory of a plan bounded.
+//! What keeps the memory of a plan bounded, and its workers busy.
 
 use super::allowance::Allowance;
-use super::room::Room;
+
+/// Items that wait for workers, about 2.5 MB. The reader must be far ahead: a part is known to end
+/// only where the next one begins, so no second worker has anything to do before all of the first
+/// part was read.
+const MOST_ITEMS: usize = 8 * 1024;
+
+/// Frames that wait for the caller, or what takes as much memory: 9 minutes of motion at 4 ms,
+/// about 40 MB.
+const MOST_FRAMES: usize = 128 * 1024;
+/// What the part that is being taken may add to that.
+const MOST_FRAMES_OF_FIRST: usize = 4 * 1024;
 
 /// Both ends of the workers.
 #[derive(Debug)]
 pub(super) struct Bounds {
-    /// For items, between the reader and the workers.
-    pub(super) items: Room,
-    /// For plans, between the workers and the caller.
+    /// Between the reader and the workers. Whose items they are does not count: of those that wait
+    /// the first are being planned, or are the only ones.
+    items: Allowance,
+    /// Between the workers and the caller.
     pub(super) plans: Allowance,
 }
 
 impl Bounds {
     pub(super) fn new() -> Self {
         Self {
-            items: Room::default(),
-            plans: Allowance::new(),
+            items: Allowance::new(MOST_ITEMS, 0),
+            plans: Allowance::new(MOST_FRAMES, MOST_FRAMES_OF_FIRST),
         }
+    }
+
+    /// Adds items, once there is room; false if nobody takes them any more.
+    pub(super) fn add_items(&self, items: usize) -> bool {
+        self.items.add(0, items)
+    }
+
+    /// Items were taken up by a worker.
+    pub(super) fn take_items(&self, items: usize) {
+        self.items.take(items);
     }
 
     /// Nothing more is taken.

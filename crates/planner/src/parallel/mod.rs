@@ -13,7 +13,7 @@
 //! * **The same steps.** Items and frames come in the order, and with the bits, that a
 //!   [`crate::Pipeline`] gives. How many threads there are does not show in them.
 //! * **Bounded memory.** What was planned and not taken is bounded for all parts together
-//!   ([`allowance`]), and so are the items between reader and workers ([`room`]). A part need not be
+//!   ([`bounds`]), and so are the items between reader and workers. A part need not be
 //!   in memory as a whole: it flows from its worker to the caller like a program without rests.
 //! * **No standstill.** Parts are taken up in order, and the plan of the first one that is not
 //!   taken yet always has room of its own.
@@ -23,7 +23,6 @@ mod bounds;
 mod message;
 mod pipeline;
 mod reader;
-mod room;
 mod threads;
 mod worker;
 

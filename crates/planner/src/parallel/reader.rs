@@ -71,7 +71,7 @@ impl Handing {
 
     fn hand_over(&mut self, lines: u64) -> Result<(), Gone> {
         let items = std::mem::replace(&mut self.batch, Vec::with_capacity(BATCH));
-        if !self.outlets.bounds.items.add(items.len()) {
+        if !self.outlets.bounds.add_items(items.len()) {
             return Err(Gone);
         }
         self.send(Batch::Items { items, lines })

@@ -90,7 +90,7 @@ fn plan(part: Part, (settings, joints): Machine, bounds: &Bounds) -> Result<(), 
     loop {
         match part.items.recv() {
             Ok(Batch::Items { items, lines }) => {
-                bounds.items.take(items.len());
+                bounds.take_items(items.len());
                 outlet.lines = lines;
                 for item in items {
                     planner.push(&item);

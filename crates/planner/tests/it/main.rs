@@ -10,6 +10,7 @@ mod joints;
 mod listen;
 mod nurbs;
 mod parallel;
+mod parallel_threads;
 mod pipeline;
 mod programs;
 mod publish;
