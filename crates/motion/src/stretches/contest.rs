@@ -24,15 +24,16 @@ const MOST_T: f64 = 8.0;
 /// From one place to the next at which a way can be taken up again, s: about as much as is published
 /// ahead.
 const PLACE_T: f64 = 0.5;
-/// The longest stretches that are searched twice and thrice in any case, s at their rates: of longer
-/// ones a few periods are not much, and the work is.
+/// The longest stretch that is searched twice in any case, s at its rates: of longer ones a few
+/// periods are not much, and the work is.
 ///
 /// On random programs one search takes 1.8 % longer than the best of many below .1 s, .4 % at .3 s,
 /// .2 % at 1 s; two take .4, .15 and .05 %, three .05, .03 and .02 %.
 const MOST_TWICE_T: f64 = 1.25;
+/// The longest stretch that is searched a third time, s at its rates.
 const MOST_THRICE_T: f64 = 0.4;
 /// Most work of the first two searches, multiplications for a second of motion, with which a third
-/// one is begun: many small stretches in a row are planned faster than they are driven.
+/// one is begun: with more of it, small stretches in a row would be driven faster than planned.
 const EASY_WORK_PER_S: f64 = 3e8;
 
 /// A stretch whose motion is planned to its end.

@@ -16,8 +16,7 @@ const MOST_FRAMES_OF_FIRST: usize = 4 * 1024;
 /// Both ends of the workers.
 #[derive(Debug)]
 pub(super) struct Bounds {
-    /// Between the reader and the workers. Whose items they are does not count: of those that wait
-    /// the first are being planned, or are the only ones.
+    /// Between the reader and the workers. Of which part they are does not count.
     items: Allowance,
     /// Between the workers and the caller.
     pub(super) plans: Allowance,

@@ -16,7 +16,8 @@
 //!   ([`bounds`]), and so are the items between reader and workers. A part need not be
 //!   in memory as a whole: it flows from its worker to the caller like a program without rests.
 //! * **No standstill.** Parts are taken up in order, and the plan of the first one that is not
-//!   taken yet always has room of its own.
+//!   taken yet always has room of its own. Items wait for nothing but their worker: those of the
+//!   first part are all with it, or it is the part that is being read.
 
 mod allowance;
 mod bounds;

@@ -13,8 +13,8 @@ pub(crate) struct SearchBias {
     pub(crate) pull: f64,
     /// What jerk at its limit costs.
     pub(crate) jerk: f64,
-    /// How much further than expected samples are first thought to be: those that are on a piece too
-    /// early are corrected at once, but take others with them.
+    /// How many times as fast as expected the motion is first thought to be: samples that are on a
+    /// piece too early for that are corrected at once, but take others with them.
     pub(crate) hurry: f64,
 }
 
