@@ -15,5 +15,6 @@ mod pipeline;
 mod programs;
 mod publish;
 mod resume;
+mod slow_feed;
 mod smooth;
 mod support;

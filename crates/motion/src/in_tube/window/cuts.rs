@@ -303,10 +303,25 @@ pub(crate) fn pieces_at(
     piece_at(samples, grid, 2 * k - 4)..=piece_at(samples, grid, 2 * k + 2 + grid.knots)
 }
 
+/// The first differences up to a sample that it has a part in: those that may be no faster than what
+/// it is given to ([`pieces_at`]).
+pub(crate) fn differences_of(grid: &Grid, sample: usize) -> core::ops::RangeInclusive<usize> {
+    let intervals_2 = 2 * grid.knots * sample;
+    let reach_2 = (2 + grid.knots) * grid.periods;
+    let first = intervals_2
+        .saturating_sub(reach_2)
+        .div_ceil(2 * grid.periods);
+    first..=grid.knots * sample / grid.periods
+}
+
 /// The piece at a number of half intervals.
 pub(crate) fn piece_at(samples: &Samples, grid: &Grid, halves: usize) -> usize {
-    let period = halves * grid.periods / (2 * grid.knots);
-    samples.piece[period.min(samples.count())]
+    samples.piece[sample_at(samples, grid, halves)]
+}
+
+/// The sample at a number of half intervals.
+pub(crate) fn sample_at(samples: &Samples, grid: &Grid, halves: usize) -> usize {
+    (halves * grid.periods / (2 * grid.knots)).min(samples.count())
 }
 
 /// Per axis, one over the feed of the slowest of some pieces, where the feed counts the axis.

@@ -21,7 +21,7 @@ use super::scaled_path::ScaledPath;
 use super::shortcuts;
 use super::solver::{Goal, Interior, Problem};
 use super::tube;
-use super::tube::{Extents, FEED_R, Layout, Style};
+use super::tube::{Extents, FEED_R, Layout, SEARCH_STEERING, STEERING, Style};
 use super::window_start::WindowStart;
 
 /// Rounds in which samples change pieces, and rounds in which they do not; what of the radius is
@@ -221,6 +221,7 @@ impl<const D: usize> Optimiser<D> {
                 let usual = window_start.style(round_state.has_motion);
                 let style = Style {
                     stray_r: if is_wide { SEARCH_STRAY_R } else { 1.0 },
+                    steering: if is_wide { SEARCH_STEERING } else { STEERING },
                     is_feed_firm: is_polish || round_state.is_exceeding,
                     keep_r: phase.keep_r,
                     feed_r: if is_polish {

@@ -6,6 +6,7 @@
 //! in the overlap of two tubes goes to the later one at once: the motion it has keeps the new rows
 //! too, and the next solution can use the room.
 
+use super::hold_back::{hold_back, is_too_fast};
 use super::scaled_path::ScaledPath;
 use super::solver::{combine, dot};
 use super::spline::Grid;
@@ -45,6 +46,8 @@ pub(crate) struct Samples {
     bounds_middles: bool,
     /// Whether the middle of that period has come near the edge of the tube.
     is_middle_near: Vec<bool>,
+    /// Whether the motion at a sample is too fast for the piece after the one it is on.
+    is_too_fast: Vec<bool>,
     /// Largest distance from the path, in radii, found by the last projection.
     pub(crate) worst_r: f64,
 }
@@ -74,6 +77,8 @@ impl Samples {
         self.bulge.resize(count, 0.0);
         self.is_middle_near.clear();
         self.is_middle_near.resize(count, false);
+        self.is_too_fast.clear();
+        self.is_too_fast.resize(count, false);
     }
 
     pub(crate) fn count(&self) -> usize {
@@ -131,7 +136,7 @@ impl Samples {
         for k in 1..self.progress.len() {
             while i + 1 < segments.len() {
                 let segment = &segments[i];
-                let hop = if path.slows_after(i) {
+                let hop = if path.slows_after(i) || self.is_too_fast[k] {
                     -AT_END_R * segment.radius
                 } else {
                     HOP_R * segment.radius.min(segment.length)
@@ -156,16 +161,22 @@ impl Samples {
         grid: &Grid,
         may_lead: bool,
     ) {
-        let mut at = (first, self.progress[0]);
+        let mut at = Place {
+            piece: first,
+            s: self.progress[0],
+            distance: 0.0,
+        };
         self.worst_r = 0.0;
         self.bounds_middles = grid.knots > 1;
         let mut bend_before = 0.0;
         let mut before = sample(points, grid, 0);
         for k in 1..=self.count() {
             let y = sample(points, grid, k);
-            let (piece, s, distance) = nearest(path, &y, at, ahead(path, at.0, &before, &y));
+            let next = nearest(path, &y, at, ahead(path, at.piece, &before, &y));
             before = y;
-            at = (piece, s);
+            at = hold_back(path, points, (k, &y), (at, next), grid);
+            let Place { piece, s, distance } = at;
+            self.is_too_fast[k] = is_too_fast(path, points, (piece, k), grid);
             self.progress[k] = s;
             self.at_least[k] = 0;
             let (site, weights) = grid.bend_site(k);
@@ -176,7 +187,7 @@ impl Samples {
                 self.bounds_middles && middle_r(path, piece, points, grid, k) > WORTH_R;
             let distance_r = distance / path.segments[piece].radius;
             self.worst_r = self.worst_r.max(distance_r);
-            if may_lead && leads(path, &y, piece, s) {
+            if may_lead && !self.is_too_fast[k] && leads(path, &y, piece, s) {
                 self.at_least[k] = piece + 1;
             }
             if distance_r > 0.9995 && distance_r < 1.5 {
@@ -263,34 +274,58 @@ fn ahead<const D: usize>(
     MOST_DETOUR * dot(&moved, &moved).sqrt() + 2.0 * path.segments[piece].radius
 }
 
-/// The nearest place from `at` on, at most so far ahead, that a sample can be at: piece, progress,
-/// distance.
-fn nearest<const D: usize>(
-    path: &ScaledPath<D>,
-    y: &[f64; D],
-    at: (usize, f64),
-    ahead: f64,
-) -> (usize, f64, f64) {
-    let segments = &path.segments;
-    let mut best = (at.0, at.1, f64::INFINITY);
-    let mut i = at.0;
-    while i < segments.len() && segments[i].s <= at.1 + ahead {
-        let segment = &segments[i];
+/// Where on the path a sample is taken to be.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    pub(crate) piece: usize,
+    /// Progress.
+    pub(crate) s: f64,
+    /// How far off the sample is.
+    pub(crate) distance: f64,
+}
+
+impl Place {
+    /// The place on piece `i` nearest to `y`, at progress `from_s` at least.
+    pub(crate) fn on<const D: usize>(
+        path: &ScaledPath<D>,
+        i: usize,
+        from_s: f64,
+        y: &[f64; D],
+    ) -> Self {
+        let segment = &path.segments[i];
         let offset: [f64; D] = core::array::from_fn(|k| y[k] - segment.start[k]);
-        let low = (at.1 - segment.s).clamp(0.0, segment.length);
+        let low = (from_s - segment.s).clamp(0.0, segment.length);
         let x = dot(&offset, &segment.tangent).clamp(low, segment.length);
         let across: [f64; D] = core::array::from_fn(|k| offset[k] - x * segment.tangent[k]);
-        let distance = dot(&across, &across).sqrt();
-        if distance < best.2 - 1e-7 * segment.radius {
-            best = (i, segment.s + x, distance);
+        Self {
+            piece: i,
+            s: segment.s + x,
+            distance: dot(&across, &across).sqrt(),
+        }
+    }
+}
+
+/// The nearest place from `at` on, at most so far ahead, that a sample can be at.
+fn nearest<const D: usize>(path: &ScaledPath<D>, y: &[f64; D], at: Place, ahead: f64) -> Place {
+    let segments = &path.segments;
+    let mut best = Place {
+        distance: f64::INFINITY,
+        ..at
+    };
+    let mut i = at.piece;
+    while i < segments.len() && segments[i].s <= at.s + ahead {
+        let segment = &segments[i];
+        let place = Place::on(path, i, at.s, y);
+        if place.distance < best.distance - 1e-7 * segment.radius {
+            best = place;
         }
         // A path that folds back is not jumped over while the motion can still be before the fold.
         let folds = segments
             .get(i + 1)
             .is_some_and(|next| dot(&segment.tangent, &next.tangent) < FOLD_COS);
         if folds
-            && best.2 <= segment.radius
-            && best.1 < segment.s + segment.length - 0.5 * segment.radius
+            && best.distance <= segment.radius
+            && best.s < segment.s + segment.length - 0.5 * segment.radius
         {
             break;
         }

@@ -283,6 +283,15 @@ impl<const D: usize> ScaledPath<D> {
             && self.turn(i, i + 1) <= SHARP
     }
 
+    /// True if some axis is to move slower after piece `i`, by the programmed feed.
+    pub(crate) fn feed_falls_after(&self, i: usize) -> bool {
+        let Some(next) = self.segments.get(i + 1) else {
+            return false;
+        };
+        let mut axes = self.segments[i].feed_axes.iter().zip(&next.feed_axes);
+        axes.any(|(now, then)| *now < SLOWER * then)
+    }
+
     /// How much the direction changes between two pieces: 2·sin(turn/2).
     pub(crate) fn turn(&self, i: usize, j: usize) -> f64 {
         let (a, b) = (&self.segments[i].tangent, &self.segments[j].tangent);

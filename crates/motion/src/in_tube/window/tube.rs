@@ -18,10 +18,8 @@
 //!
 //! The round parts are bounded by planes ([`super::cuts`]).
 
-use super::cuts::{
-    CLOSE_R, Cuts, HALF_WAY, Passing, Plane, WORTH_OF_FEED, nearest_to_corner, piece_at, pieces_at,
-    slowest_feed, velocity_over_feed,
-};
+use super::cuts::{CLOSE_R, Cuts, HALF_WAY, Passing, Plane, nearest_to_corner};
+use super::feed_rows;
 use super::samples::Samples;
 use super::scaled_path::{SHARP, ScaledPath};
 use super::solver::{FAR, Problem, dot};
@@ -33,6 +31,10 @@ const MOST_SAGITTA_R: f64 = 0.5;
 const MOST_CORNERS: usize = 4;
 /// Share of the feed that is planned with at most.
 pub(crate) const FEED_R: f64 = 0.999_95;
+/// Price of velocity across the path ([`Style::steering`]): at corners it is paid in time, so it is
+/// low as long as samples find their places.
+pub(crate) const STEERING: f64 = 0.5;
+pub(crate) const SEARCH_STEERING: f64 = 0.1;
 /// How the rows are to be made.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Style {
@@ -54,6 +56,9 @@ pub(crate) struct Style {
     pub(crate) ridge: f64,
     /// What jerk at its limit costs, in the same measure.
     pub(crate) jerk: f64,
+    /// What a velocity across the path as large as the feed costs where the feed is slow, in the same
+    /// measure ([`super::feed_rows`]).
+    pub(crate) steering: f64,
     /// After a corner the motion comes to the path without swinging ([`super::damping`]).
     pub(crate) is_damped: bool,
     /// On curves at the feed way counts, not progress ([`super::shortcuts`]).
@@ -76,6 +81,13 @@ impl Style {
     /// can be seen in a period.
     pub(crate) fn priced_jerk<const D: usize>(&self, path: &ScaledPath<D>) -> [f64; D] {
         path.jerk.map(|jerk| jerk.min(self.period_t.powi(-3)))
+    }
+
+    /// The time in which jerk strays by a tolerance, or a period if that is longer, s.
+    pub(crate) fn stray_t<const D: usize>(&self, path: &ScaledPath<D>) -> f64 {
+        let jerk = self.priced_jerk(path);
+        let slowest_j = jerk.into_iter().fold(f64::INFINITY, f64::min);
+        slowest_j.recip().cbrt()
     }
 
     /// Periods in which the motion settles on the path after a corner.
@@ -112,7 +124,7 @@ impl Extents {
         }
         let segment = &path.segments[i];
         let stray = 0.5 * style.stray_r * segment.radius;
-        let cap = 4.0 * segment.top * style.grid.knot_t;
+        let cap = (4.0 * segment.top * style.grid.knot_t).max(segment.radius);
         let last = path.segments.len() - 1;
         let over = if path.slows_after(i) {
             0.0
@@ -220,7 +232,7 @@ pub(crate) fn build<const D: usize>(
             add_corners(problem, layout, k);
         }
     }
-    add_feeds(problem, layout);
+    feed_rows::add(problem, layout);
 }
 
 /// Rows of the last site, which is sample `k`.
@@ -334,39 +346,4 @@ fn add_corners<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>,
 /// The part that is used of the tolerance of the corner at the end of piece `i`.
 fn corner_radius<const D: usize>(path: &ScaledPath<D>, i: usize, style: &Style) -> f64 {
     path.segments[i].radius.min(path.segments[i + 1].radius) * style.keep_r
-}
-
-/// Feed, and no running back, for every first difference that is not given.
-fn add_feeds<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
-    let Layout {
-        path,
-        samples,
-        points,
-        style,
-        cuts,
-    } = layout;
-    let (grid, h) = (&style.grid, style.grid.knot_t);
-    for k in 2..problem.intervals {
-        let middle = piece_at(samples, grid, 2 * k - 1);
-        let bends_here = (piece_at(samples, grid, 2 * k - 3)
-            ..piece_at(samples, grid, 2 * k + 1 + grid.knots))
-            .any(|i| path.turn(i, i + 1) > SHARP);
-        let scale = path.segments[middle].feed_axes;
-        let slowest = slowest_feed(path, pieces_at(samples, grid, k));
-        let factor = (0..D)
-            .filter(|&a| scale[a] > 0.0)
-            .fold(1.0_f64, |most, a| most.max(slowest[a] / scale[a]));
-        problem.add_site(k, [-1.0, 1.0, 0.0, 0.0, 0.0]);
-        let normal = path.segments[middle].feed.map(|f| f * factor / h);
-        let low = if bends_here { -FAR } else { 0.0 };
-        problem.add_feed_row(normal, [low, style.feed_r], style.is_feed_firm);
-        // The feed bounds a ball of velocities: a plane touches it where the last motion was, and
-        // more where earlier ones were beyond it.
-        let (size, direction) = velocity_over_feed(points, &slowest, k, grid);
-        let last = Some(direction).filter(|_| size > 0.2 && size <= WORTH_OF_FEED);
-        for direction in last.iter().chain(cuts.of_feed(k)) {
-            let normal = core::array::from_fn(|a| direction[a] * slowest[a] / h);
-            problem.add_feed_row(normal, [-FAR, style.feed_r], style.is_feed_firm);
-        }
-    }
 }

@@ -4,7 +4,7 @@ use super::guess::{Guess, rest_to_rest_t};
 use super::scaled_path::ScaledPath;
 use super::search_bias::SearchBias;
 use super::spline::Grid;
-use super::tube::{FEED_R, Style};
+use super::tube::{FEED_R, STEERING, Style};
 
 /// Speed falls along a cubic when a guess brakes: what its time to stop is, squared in the second,
 /// in times to reach the speed at the limits of acceleration and of jerk. Exactly 1.5 and 6; some
@@ -50,6 +50,7 @@ impl<const D: usize> WindowStart<'_, D> {
             keep_r: 0.995,
             ridge: self.bias.pull,
             jerk: self.bias.jerk,
+            steering: STEERING,
             has_motion,
         }
     }

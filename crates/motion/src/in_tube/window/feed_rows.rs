@@ -1,0 +1,93 @@
+//! The rows of a window that keep the feed, and what keeps a slow motion on its way.
+//!
+//! The feed bounds a ball of velocities. Planes touch it along the path, and where earlier solutions
+//! were beyond it. That does where the feed is large: in the time that jerk takes to get across the
+//! tube, the motion goes far along it, and velocities point along the path with little between.
+//! Where the feed is slow the whole ball is in reach within the tube, a solution finds its way out
+//! between the planes in another direction each time, and no motion passes. There velocity across
+//! the path has a price:
+//!
+//! ```text
+//!                     feed large                          feed slow
+//!     tube    ───────────────────────────        ─────────────────────────
+//!               ●─────────▶ ●─────────▶             ●▶ ▲
+//!             ───────────────────────────            ──┴●▶────────────────
+//! ```
+
+use super::cuts::{
+    WORTH_OF_FEED, piece_at, pieces_at, sample_at, slowest_feed, velocity_over_feed,
+};
+use super::scaled_path::SHARP;
+use super::solver::{FAR, Problem};
+use super::tube::Layout;
+
+/// How many radii the feed goes along the path while jerk strays by one, where it is no longer slow.
+const NOT_SLOW: f64 = 3.0;
+
+/// Feed, and no running back, for every first difference that is not given.
+pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>) {
+    let Layout {
+        path,
+        samples,
+        points,
+        style,
+        cuts,
+    } = layout;
+    let (grid, h) = (&style.grid, style.grid.knot_t);
+    let stray_t = style.stray_t(path);
+    for k in 2..problem.intervals {
+        let middle = piece_at(samples, grid, 2 * k - 1);
+        let bends_here = (piece_at(samples, grid, 2 * k - 3)
+            ..piece_at(samples, grid, 2 * k + 1 + grid.knots))
+            .any(|i| path.turn(i, i + 1) > SHARP);
+        let scale = path.segments[middle].feed_axes;
+        let slowest = slowest_feed(path, pieces_at(samples, grid, k));
+        let factor = (0..D)
+            .filter(|&a| scale[a] > 0.0)
+            .fold(1.0_f64, |most, a| most.max(slowest[a] / scale[a]));
+        problem.add_site(k, [-1.0, 1.0, 0.0, 0.0, 0.0]);
+        steer(problem, layout, (k, middle), stray_t);
+        let normal = path.segments[middle].feed.map(|f| f * factor / h);
+        let low = if bends_here { -FAR } else { 0.0 };
+        problem.add_feed_row(normal, [low, style.feed_r], style.is_feed_firm);
+        // The feed bounds a ball of velocities: a plane touches it where the last motion was, and
+        // more where earlier ones were beyond it.
+        let (size, direction) = velocity_over_feed(points, &slowest, k, grid);
+        let last = Some(direction).filter(|_| size > 0.2 && size <= WORTH_OF_FEED);
+        for direction in last.iter().chain(cuts.of_feed(k)) {
+            let normal = core::array::from_fn(|a| direction[a] * slowest[a] / h);
+            problem.add_feed_row(normal, [-FAR, style.feed_r], style.is_feed_firm);
+        }
+    }
+}
+
+/// The price of velocity across the path for first difference `k`, the last site, where the feed is
+/// slow. Samples are given to a piece a little before its start: the path there is the one before.
+fn steer<const D: usize>(
+    problem: &mut Problem<D>,
+    layout: &Layout<'_, D>,
+    (k, middle): (usize, usize),
+    stray_t: f64,
+) {
+    let Layout {
+        path,
+        samples,
+        style,
+        ..
+    } = layout;
+    let grid = &style.grid;
+    let pieces = path.segments[pieces_at(samples, grid, k)].iter();
+    let top = pieces.map(|piece| piece.top).fold(f64::INFINITY, f64::min);
+    let slowness = 1.0 - (top * stray_t / (NOT_SLOW * path.segments[middle].radius)).powi(2);
+    if slowness <= 0.0 {
+        return;
+    }
+    let progress = samples.progress[sample_at(samples, grid, 2 * k - 1)];
+    let here = path.segments[..=middle]
+        .iter()
+        .rfind(|piece| piece.s <= progress);
+    if let (Some(site), Some(here)) = (problem.sites.last_mut(), here) {
+        site.ridge = style.steering * slowness / (top * grid.knot_t).powi(2);
+        site.tangent = here.tangent;
+    }
+}
