@@ -41,6 +41,8 @@ pub(crate) struct RoundState<const D: usize> {
     pub(crate) is_exceeding: bool,
     /// Mean progress in the last round ([`Samples::mean_t`]).
     pub(crate) mean_t: f64,
+    /// With less of it a motion that passes is of no use, and none of the next will be.
+    pub(crate) least_t: f64,
     /// Largest speed over the feed in the last solution.
     pub(crate) speed_r: f64,
     /// Share of the feed to plan with in rounds in which samples stay where they are.
@@ -65,6 +67,7 @@ impl<const D: usize> RoundState<D> {
             has_motion: true,
             is_exceeding: false,
             mean_t: f64::NEG_INFINITY,
+            least_t: f64::NEG_INFINITY,
             speed_r: 0.0,
             feed_r: FEED_R,
             most_violation: ENOUGH_VIOLATION,

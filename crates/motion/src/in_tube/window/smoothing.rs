@@ -40,10 +40,15 @@ const JERK: f64 = 0.03;
 const WEIGHTS: [f64; 3] = [1.0, 0.1, 0.01];
 /// Rounds for each: on curves the planes that bound the feed are learnt in them.
 const ROUNDS: usize = 3;
-/// Share of its progress that a window may lose.
+/// Share of its progress that a window may lose; the same where another look at a short stretch is for
+/// time alone.
 const MOST_LOSS: f64 = 0.003;
+const MOST_LOSS_AGAIN: f64 = 0.001;
 /// Change of progress, relative to that of the window, below which rounds change nothing.
 const SETTLED: f64 = 1e-5;
+/// Share of the progress that later rounds may bring back at most: one that has lost more than may be
+/// lost by that much is the last with its weights.
+const BROUGHT_BACK: f64 = 5e-4;
 /// What of the radius is used.
 const KEEP_R: f64 = 0.99;
 
@@ -51,6 +56,11 @@ const KEEP_R: f64 = 0.99;
 pub(super) type Found<const D: usize> = (f64, Vec<[f64; D]>, Samples);
 
 impl<const D: usize> WindowStart<'_, D> {
+    /// False for another look at a short stretch, which is for time alone.
+    fn is_first_look(&self) -> bool {
+        self.bias == SearchBias::USUAL
+    }
+
     /// How rows are made for a second solve, with so much of the weights.
     pub(super) fn smooth_style(&self, weight: f64) -> Style {
         Style {
@@ -58,8 +68,7 @@ impl<const D: usize> WindowStart<'_, D> {
             ridge: weight * PULL,
             jerk: weight * JERK,
             counts_way: true,
-            // Another look at a short stretch is for time alone.
-            is_damped: self.bias == SearchBias::USUAL,
+            is_damped: self.is_first_look(),
             ..self.style(true)
         }
     }
@@ -82,7 +91,12 @@ impl<const D: usize> Optimiser<D> {
         let (aims_beyond, scale) = aim(path, window_start, &points, &samples);
         let gained_by_best_t = gained_t(&points, &samples);
         let mut samples = samples;
-        let least = (1.0 - MOST_LOSS) * mean_t - mean(gained_by_best_t.iter().copied());
+        let most_loss = if window_start.is_first_look() {
+            MOST_LOSS
+        } else {
+            MOST_LOSS_AGAIN
+        };
+        let least = (1.0 - most_loss) * mean_t - mean(gained_by_best_t.iter().copied());
         // Pieces that are reached by a shorter way would hold the motion there.
         shortcuts::take_back(path, &mut samples, &gained_by_best_t);
         let mut is_given_out = false;
@@ -94,6 +108,7 @@ impl<const D: usize> Optimiser<D> {
                 ..window_start.smooth_style(scale * *weight)
             };
             let mut round_state = RoundState::polishing(&points);
+            round_state.least_t = (1.0 - BROUGHT_BACK) * least;
             if is_given_out {
                 round_state.most_violation = f64::INFINITY;
             }
@@ -118,7 +133,8 @@ impl<const D: usize> Optimiser<D> {
         points
     }
 
-    /// The last motion that passes of some rounds with a style.
+    /// The last motion that passes of some rounds with a style; one that passes and is too slow ends
+    /// them.
     pub(super) fn smooth_with(
         &mut self,
         path: &ScaledPath<D>,
@@ -147,7 +163,7 @@ impl<const D: usize> Optimiser<D> {
             round_state.mean_t = mean_t;
             if judge(&round_state.points, Question::IsValid) {
                 passed = Some((mean_t, round_state.points.clone(), self.samples.clone()));
-                if change.abs() < SETTLED * mean_t {
+                if change.abs() < SETTLED * mean_t || mean_t < round_state.least_t {
                     break;
                 }
             }
