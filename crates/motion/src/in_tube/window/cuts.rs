@@ -350,3 +350,31 @@ pub(crate) fn velocity_over_feed<const D: usize>(
     let size = dot(&weighted, &weighted).sqrt();
     (size, weighted.map(|w| w / size))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Grid, Samples, differences_of, pieces_at};
+
+    /// A piece for each sample: what a difference has a part in are samples, then.
+    #[test]
+    fn differences_of_a_sample_are_those_that_have_a_part_in_it() {
+        let mut samples = Samples::default();
+        samples.reset(100);
+        samples.piece = (0..=100).collect();
+        for (knots, periods) in [(1, 1), (2, 1), (3, 1), (4, 1), (1, 2), (1, 4), (1, 7)] {
+            let grid = Grid {
+                knot_t: 0.001,
+                knots,
+                periods,
+            };
+            for sample in 10..60 {
+                let ends_at = knots * sample / periods;
+                let of_sample: Vec<_> = (2..=ends_at)
+                    .filter(|m| pieces_at(&samples, &grid, *m).contains(&sample))
+                    .collect();
+                let found: Vec<_> = differences_of(&grid, sample).filter(|m| *m >= 2).collect();
+                assert_eq!(found, of_sample, "{grid:?}, sample {sample}");
+            }
+        }
+    }
+}

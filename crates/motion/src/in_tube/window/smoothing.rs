@@ -29,7 +29,7 @@ use super::samples::{Samples, mean};
 use super::scaled_path::ScaledPath;
 use super::search_bias::SearchBias;
 use super::shortcuts;
-use super::tube::Style;
+use super::tube::{STEERING, Style};
 use super::way::at_feed_until;
 use super::window_start::WindowStart;
 
@@ -61,12 +61,14 @@ impl<const D: usize> WindowStart<'_, D> {
         self.bias == SearchBias::USUAL
     }
 
-    /// How rows are made for a second solve, with so much of the weights.
+    /// How rows are made for a second solve, with so much of the weights. Where the pull to the path is
+    /// weak, a dear way across would keep the motion off it.
     pub(super) fn smooth_style(&self, weight: f64) -> Style {
         Style {
             keep_r: KEEP_R,
             ridge: weight * PULL,
             jerk: weight * JERK,
+            steering: weight.min(1.0) * STEERING,
             counts_way: true,
             is_damped: self.is_first_look(),
             ..self.style(true)
