@@ -1,6 +1,11 @@
 //! Effort "optimal" where the feed is slow beside the tolerance: engraving, plunges from rapid
 //! moves.
 
+#![allow(
+    clippy::expect_used,
+    reason = "test code, which clippy does not see as such"
+)]
+
 use crate::support::family::audited;
 use glidepath_program::{Effort, Limits, Settings, Smoothing};
 use std::fmt::Write as _;

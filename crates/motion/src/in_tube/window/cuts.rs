@@ -8,6 +8,7 @@
 use super::samples::{Samples, WORTH_R, sample};
 use super::scaled_path::{SHARP, ScaledPath};
 use super::solver::{combine, dot};
+use super::speed::velocity_over_feed;
 use super::spline::Grid;
 
 /// Part of the radius from which a gentle corner gets rows.
@@ -303,17 +304,6 @@ pub(crate) fn pieces_at(
     piece_at(samples, grid, 2 * k - 4)..=piece_at(samples, grid, 2 * k + 2 + grid.knots)
 }
 
-/// The first differences up to a sample that it has a part in: those that may be no faster than what
-/// it is given to ([`pieces_at`]).
-pub(crate) fn differences_of(grid: &Grid, sample: usize) -> core::ops::RangeInclusive<usize> {
-    let intervals_2 = 2 * grid.knots * sample;
-    let reach_2 = (2 + grid.knots) * grid.periods;
-    let first = intervals_2
-        .saturating_sub(reach_2)
-        .div_ceil(2 * grid.periods);
-    first..=grid.knots * sample / grid.periods
-}
-
 /// The piece at a number of half intervals.
 pub(crate) fn piece_at(samples: &Samples, grid: &Grid, halves: usize) -> usize {
     samples.piece[sample_at(samples, grid, halves)]
@@ -336,45 +326,4 @@ pub(crate) fn slowest_feed<const D: usize>(
         }
     }
     slowest
-}
-
-/// The velocity at a first difference over the feed, and its direction in that measure.
-pub(crate) fn velocity_over_feed<const D: usize>(
-    points: &[[f64; D]],
-    slowest: &[f64; D],
-    k: usize,
-    grid: &Grid,
-) -> (f64, [f64; D]) {
-    let weighted: [f64; D] =
-        core::array::from_fn(|a| (points[k + 1][a] - points[k][a]) * slowest[a] / grid.knot_t);
-    let size = dot(&weighted, &weighted).sqrt();
-    (size, weighted.map(|w| w / size))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Grid, Samples, differences_of, pieces_at};
-
-    /// A piece for each sample: what a difference has a part in are samples, then.
-    #[test]
-    fn differences_of_a_sample_are_those_that_have_a_part_in_it() {
-        let mut samples = Samples::default();
-        samples.reset(100);
-        samples.piece = (0..=100).collect();
-        for (knots, periods) in [(1, 1), (2, 1), (3, 1), (4, 1), (1, 2), (1, 4), (1, 7)] {
-            let grid = Grid {
-                knot_t: 0.001,
-                knots,
-                periods,
-            };
-            for sample in 10..60 {
-                let ends_at = knots * sample / periods;
-                let of_sample: Vec<_> = (2..=ends_at)
-                    .filter(|m| pieces_at(&samples, &grid, *m).contains(&sample))
-                    .collect();
-                let found: Vec<_> = differences_of(&grid, sample).filter(|m| *m >= 2).collect();
-                assert_eq!(found, of_sample, "{grid:?}, sample {sample}");
-            }
-        }
-    }
 }

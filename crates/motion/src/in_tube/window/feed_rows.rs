@@ -14,11 +14,10 @@
 //!             ───────────────────────────            ──┴●▶────────────────
 //! ```
 
-use super::cuts::{
-    WORTH_OF_FEED, piece_at, pieces_at, sample_at, slowest_feed, velocity_over_feed,
-};
+use super::cuts::{WORTH_OF_FEED, piece_at, pieces_at, sample_at, slowest_feed};
 use super::scaled_path::SHARP;
 use super::solver::{FAR, Problem};
+use super::speed::velocity_over_feed;
 use super::tube::Layout;
 
 /// How many radii the feed goes along the path while jerk strays by one, where it is no longer slow.

@@ -12,9 +12,9 @@
 //! On the faster piece the sample asks for nothing that the motion cannot do, and moves on as soon
 //! as the motion has slowed down.
 
-use super::cuts::{differences_of, velocity_over_feed};
-use super::samples::Place;
+use super::place::Place;
 use super::scaled_path::ScaledPath;
+use super::speed::{differences_of, velocity_over_feed};
 use super::spline::Grid;
 
 /// Speed over the feed from which a motion is too fast: solutions may be a little above it.

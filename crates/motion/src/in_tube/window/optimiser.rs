@@ -12,6 +12,7 @@
 use super::budget;
 use super::cuts::Cuts;
 use super::damping;
+use super::feed_rows;
 use super::guess::Guess;
 use super::joint_rows;
 use super::pins::Pins;
@@ -326,6 +327,7 @@ impl<const D: usize> Optimiser<D> {
             style,
         };
         tube::build(&mut self.problem, &layout, extents);
+        feed_rows::add(&mut self.problem, &layout);
         if path.has_joints() {
             joint_rows::add(&mut self.problem, &layout);
         }

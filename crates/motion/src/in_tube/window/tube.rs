@@ -1,4 +1,5 @@
-//! The rows of a window: stay in the tube of the piece, come near the corners, keep the feed.
+//! The rows of a window: stay in the tube of the piece, come near the corners. Those of the feed are in
+//! [`super::feed_rows`].
 //!
 //! ```text
 //!          ┊ over                     A sample of a piece stays within the radius of its line, and
@@ -19,7 +20,6 @@
 //! The round parts are bounded by planes ([`super::cuts`]).
 
 use super::cuts::{CLOSE_R, Cuts, HALF_WAY, Passing, Plane, nearest_to_corner};
-use super::feed_rows;
 use super::samples::Samples;
 use super::scaled_path::{SHARP, ScaledPath};
 use super::solver::{FAR, Problem, dot};
@@ -208,7 +208,7 @@ impl<const D: usize> Layout<'_, D> {
     }
 }
 
-/// Makes all rows and the objective.
+/// Makes the rows of the tube and of its corners, and the objective.
 pub(crate) fn build<const D: usize>(
     problem: &mut Problem<D>,
     layout: &Layout<'_, D>,
@@ -232,7 +232,6 @@ pub(crate) fn build<const D: usize>(
             add_corners(problem, layout, k);
         }
     }
-    feed_rows::add(problem, layout);
 }
 
 /// Rows of the last site, which is sample `k`.
