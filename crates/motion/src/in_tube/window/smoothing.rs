@@ -40,9 +40,9 @@ const JERK: f64 = 0.03;
 const WEIGHTS: [f64; 3] = [1.0, 0.1, 0.01];
 /// Rounds for each: on curves the planes that bound the feed are learnt in them.
 const ROUNDS: usize = 3;
-/// Share of its progress that a window may lose; the same where another look at a short stretch is for
-/// time alone.
+/// Share of its progress that a window may lose.
 const MOST_LOSS: f64 = 0.003;
+/// The same for another look at a short stretch, which is for time alone.
 const MOST_LOSS_AGAIN: f64 = 0.001;
 /// Change of progress, relative to that of the window, below which rounds change nothing.
 const SETTLED: f64 = 1e-5;

@@ -31,9 +31,9 @@ const MOST_SAGITTA_R: f64 = 0.5;
 const MOST_CORNERS: usize = 4;
 /// Share of the feed that is planned with at most.
 pub(crate) const FEED_R: f64 = 0.999_95;
-/// Price of velocity across the path ([`Style::steering`]): at corners it is paid in time, so it is
-/// low as long as samples find their places.
+/// Price of velocity across the path ([`Style::steering`]).
 pub(crate) const STEERING: f64 = 0.5;
+/// The same as long as samples find their places: at corners it is paid in time.
 pub(crate) const SEARCH_STEERING: f64 = 0.1;
 /// How the rows are to be made.
 #[derive(Debug, Clone, Copy)]
