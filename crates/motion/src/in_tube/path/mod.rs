@@ -8,4 +8,4 @@ mod reference_path;
 pub(crate) use direction::{Bounds, directional};
 pub(crate) use feed::{counted_length, top_v};
 pub(crate) use reference::Reference;
-pub(crate) use reference_path::{ReferencePath, TubePiece};
+pub(crate) use reference_path::{Displacement, ReferencePath, TubePiece};

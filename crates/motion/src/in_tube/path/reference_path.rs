@@ -41,19 +41,46 @@ pub(crate) struct TubePiece {
     pub(crate) tag: u64,
 }
 
+/// How far a point is from another, by groups of axes with a tolerance together: the largest of each
+/// kind.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Displacement {
+    /// XYZ, or UVW.
+    linear_mm: f64,
+    /// A rotary axis.
+    rotary_deg: f64,
+}
+
+impl Displacement {
+    /// That of a vector.
+    pub(crate) fn of(vector: &AxisVector) -> Self {
+        let norm =
+            |axes: core::ops::Range<usize>| axes.map(|i| vector[i] * vector[i]).sum::<f64>().sqrt();
+        Self {
+            linear_mm: norm(LINEAR_XYZ).max(norm(UVW)),
+            rotary_deg: ROTARY_ABC.map(|i| vector[i].abs()).fold(0.0, f64::max),
+        }
+    }
+
+    /// The larger one of each kind.
+    pub(crate) const fn max(self, other: Self) -> Self {
+        Self {
+            linear_mm: self.linear_mm.max(other.linear_mm),
+            rotary_deg: self.rotary_deg.max(other.rotary_deg),
+        }
+    }
+}
+
 impl TubePiece {
     /// How far a point is from another in tolerances of this piece: the largest over the groups.
     pub(crate) fn distance_r(&self, displacement: &AxisVector) -> f64 {
-        let norm = |axes: core::ops::Range<usize>| {
-            axes.map(|i| displacement[i] * displacement[i])
-                .sum::<f64>()
-                .sqrt()
-        };
-        let linear = norm(LINEAR_XYZ).max(norm(UVW)) / self.tolerance_mm;
-        let rotary = ROTARY_ABC
-            .map(|i| displacement[i].abs())
-            .fold(0.0, f64::max);
-        linear.max(rotary / self.tolerance_deg)
+        self.in_tolerances(Displacement::of(displacement))
+    }
+
+    /// The same, of what is known of a displacement.
+    pub(crate) const fn in_tolerances(&self, displacement: Displacement) -> f64 {
+        let linear = displacement.linear_mm / self.tolerance_mm;
+        linear.max(displacement.rotary_deg / self.tolerance_deg)
     }
 }
 

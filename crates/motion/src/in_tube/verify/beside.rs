@@ -37,72 +37,103 @@ struct AxisGroup {
     foot: f64,
 }
 
+/// The part of the chord between two places that is within the tolerances of a piece of a point.
+#[inline]
+pub(crate) fn near(
+    piece: &TubePiece,
+    ends: [&AxisVector; 2],
+    point: &AxisVector,
+) -> ParameterRange {
+    let mut range = Some(ParameterRange::WHOLE);
+    for_each_group(piece, ends, point, |group| {
+        range = range.and_then(|range| group.cut(range, 1.0));
+    });
+    range.unwrap_or(ParameterRange::EMPTY)
+}
+
+/// Goes through the groups of axes that have an extent.
+#[inline]
+fn for_each_group(
+    piece: &TubePiece,
+    [a, b]: [&AxisVector; 2],
+    point: &AxisVector,
+    mut take: impl FnMut(AxisGroup),
+) {
+    let (along, offset) = (b - a, point - a);
+    let (linear, rotary) = (piece.tolerance_mm, piece.tolerance_deg);
+    let vectors = (&along, &offset);
+    AxisGroup::of::<3>(linear, LINEAR_XYZ.start, vectors).map(&mut take);
+    AxisGroup::of::<3>(linear, UVW.start, vectors).map(&mut take);
+    for axis in ROTARY_ABC {
+        AxisGroup::of::<1>(rotary, axis, vectors).map(&mut take);
+    }
+}
+
 impl Beside {
     /// The chord between two places and a point, with the tolerances of a piece.
-    pub(crate) fn new(piece: &TubePiece, [a, b]: [&AxisVector; 2], point: &AxisVector) -> Self {
-        let (along, offset) = (b - a, point - a);
+    pub(crate) fn new(piece: &TubePiece, ends: [&AxisVector; 2], point: &AxisVector) -> Self {
         let mut beside = Self {
             groups: [AxisGroup::default(); GROUPS],
             count: 0,
         };
-        let (linear, rotary) = (piece.tolerance_mm, piece.tolerance_deg);
-        beside.add::<3>(linear, LINEAR_XYZ.start, &along, &offset);
-        beside.add::<3>(linear, UVW.start, &along, &offset);
-        for axis in ROTARY_ABC {
-            beside.add::<1>(rotary, axis, &along, &offset);
-        }
+        for_each_group(piece, ends, point, |group| {
+            if let Some(next) = beside.groups.get_mut(beside.count) {
+                *next = group;
+                beside.count += 1;
+            }
+        });
         beside
-    }
-
-    /// Adds a group of `N` axes, if it has an extent.
-    #[inline]
-    fn add<const N: usize>(
-        &mut self,
-        tolerance: f64,
-        first: usize,
-        along: &AxisVector,
-        offset: &AxisVector,
-    ) {
-        let of = |vector: &AxisVector| -> [f64; N] { core::array::from_fn(|i| vector[first + i]) };
-        let (along, offset) = (of(along), of(offset));
-        if (0..N).all(|i| along[i] == 0.0 && offset[i] == 0.0) {
-            return;
-        }
-        if let Some(next) = self.groups.get_mut(self.count) {
-            *next = AxisGroup::new(tolerance, &along, &offset);
-            self.count += 1;
-        }
     }
 
     /// The part of the chord within `share_r` tolerances of the point.
     pub(crate) fn within(&self, share_r: f64) -> ParameterRange {
-        let mut range = ParameterRange::WHOLE;
-        for group in self.groups.iter().take(self.count) {
-            let threshold = group.tolerance * share_r;
-            let threshold_2 = threshold * threshold;
-            // A chord too short to have a direction is a point.
-            let has_direction = group.along_2 > 1e-20 * threshold * threshold;
-            let room_2 = if has_direction {
-                threshold_2 - group.across_2
-            } else {
-                threshold_2 - group.offset_2
-            };
-            if room_2.is_nan() || room_2 < 0.0 {
-                return ParameterRange::EMPTY;
-            }
-            if has_direction {
-                let half = (room_2 / group.along_2).sqrt();
-                range = range.cut(ParameterRange {
-                    from: group.foot - half,
-                    to: group.foot + half,
-                });
-            }
-        }
-        range
+        let mut groups = self.groups.iter().take(self.count);
+        let range = groups.try_fold(ParameterRange::WHOLE, |range, group| {
+            group.cut(range, share_r)
+        });
+        range.unwrap_or(ParameterRange::EMPTY)
     }
 }
 
 impl AxisGroup {
+    /// `N` axes, if they have an extent.
+    #[inline]
+    fn of<const N: usize>(
+        tolerance: f64,
+        first: usize,
+        (along, offset): (&AxisVector, &AxisVector),
+    ) -> Option<Self> {
+        let of = |vector: &AxisVector| -> [f64; N] { core::array::from_fn(|i| vector[first + i]) };
+        let (along, offset) = (of(along), of(offset));
+        let has_extent = (0..N).any(|i| along[i] != 0.0 || offset[i] != 0.0);
+        has_extent.then(|| Self::new(tolerance, &along, &offset))
+    }
+
+    /// Of a part of the chord, what is within `share_r` tolerances of the point.
+    #[inline]
+    fn cut(&self, range: ParameterRange, share_r: f64) -> Option<ParameterRange> {
+        let threshold = self.tolerance * share_r;
+        let threshold_2 = threshold * threshold;
+        // A chord too short to have a direction is a point.
+        let has_direction = self.along_2 > 1e-20 * threshold * threshold;
+        let room_2 = if has_direction {
+            threshold_2 - self.across_2
+        } else {
+            threshold_2 - self.offset_2
+        };
+        if room_2.is_nan() || room_2 < 0.0 {
+            return None;
+        }
+        if !has_direction {
+            return Some(range);
+        }
+        let half = (room_2 / self.along_2).sqrt();
+        Some(range.cut(ParameterRange {
+            from: self.foot - half,
+            to: self.foot + half,
+        }))
+    }
+
     #[inline]
     fn new<const N: usize>(tolerance: f64, along: &[f64; N], offset: &[f64; N]) -> Self {
         let (mut along_2, mut dot, mut offset_2) = (0.0, 0.0, 0.0);

@@ -21,10 +21,10 @@
 //! each piece as its threshold. Distances are taken by groups of axes: XYZ together, UVW together,
 //! each rotary axis by itself.
 
-use super::beside::Beside;
+use super::beside::{Beside, near};
 use super::between_periods::BetweenPeriods;
 use super::parameter_range::ParameterRange;
-use crate::in_tube::path::{ReferencePath, TubePiece};
+use crate::in_tube::path::{Displacement, ReferencePath, TubePiece};
 use glidepath_geometry::AxisVector;
 
 /// The places on the path the motion may be at: a range of each of some consecutive pieces.
@@ -175,10 +175,7 @@ impl Follower {
     ) -> bool {
         let (from, to) = (&bend.from.position, &bend.to.position);
         let sagittas = bend.sagittas();
-        let shift = Shift {
-            before: self.sagittas,
-            now: sagittas,
-        };
+        let shift = Shift::of([self.sagittas, sagittas]);
         let Some(piece) = reference_path.get(self.reachable.first) else {
             return false;
         };
@@ -272,9 +269,9 @@ fn walk(
 /// A change of acceleration adds, to first order in δ, jT³/6·δ/2.
 #[derive(Debug)]
 struct Shift {
-    /// [`BetweenPeriods::sagittas`] of the two periods that a chord has a part of.
-    before: [AxisVector; 2],
-    now: [AxisVector; 2],
+    /// The largest of aT²/8, and of its changes.
+    sagitta: Displacement,
+    change: Displacement,
 }
 
 /// Half a step of [`PHASES`].
@@ -283,16 +280,22 @@ const HALF_STEP: f64 = 0.0625;
 const MIDDLES: [f64; 3] = [0.5, 0.25, 0.0625];
 
 impl Shift {
+    /// From [`BetweenPeriods::sagittas`] of the two periods that a chord has a part of.
+    fn of(periods: [[AxisVector; 2]; 2]) -> Self {
+        let all = periods.iter().flatten().map(Displacement::of);
+        let changes = periods.iter().map(|[a, b]| Displacement::of(&(b - a)));
+        Self {
+            sagitta: all.fold(Displacement::default(), Displacement::max),
+            change: changes.fold(Displacement::default(), Displacement::max),
+        }
+    }
+
     /// The part of a chord from which the vertex at the end of a piece, beside it, is within
     /// `corner_r` tolerances, less what holds there. Distance and loss are convex, so it is a
     /// range, and the parts of it found are joined.
     fn near_vertex(&self, piece: &TubePiece, corner_r: f64, beside: &Beside) -> ParameterRange {
-        let all = self.before.iter().chain(&self.now);
-        let sagitta_r = all.fold(0.0_f64, |most, s| most.max(piece.distance_r(s)));
-        let change_r = [self.before, self.now]
-            .map(|[a, b]| piece.distance_r(&(b - a)))
-            .into_iter()
-            .fold(0.0, f64::max);
+        let sagitta_r = piece.in_tolerances(self.sagitta);
+        let change_r = piece.in_tolerances(self.change);
         let mut joined = ParameterRange::EMPTY;
         for half in MIDDLES {
             let loss_r = 4.0 * HALF_STEP * (2.0 * half + HALF_STEP) * sagitta_r
@@ -368,7 +371,7 @@ fn cell(
         return (ParameterRange::EMPTY, ParameterRange::EMPTY);
     }
     let [from, to] = chord.ends;
-    let mut right = Beside::new(piece, [&piece.start, &piece.end], to).within(1.0);
+    let mut right = near(piece, [&piece.start, &piece.end], to);
     if bottom.is_empty() {
         right = right.not_before(left.from);
     }

@@ -179,17 +179,27 @@ fn attempt<const D: usize>(
     (context, view, tail, moves): Way<'_>,
 ) -> Option<WindowMotion> {
     let optimiser = optimiser.get_or_insert_with(|| Box::new(Optimiser::new()));
-    let origin = context.history.last();
-    let is_path_end = context.reference_path.is_last(context.end - 1);
     let mut path: ScaledPath<D> = ScaledPath::new(
         context.limits,
         context.reference_path,
         view.pieces.clone(),
-        origin,
-        moves,
+        (context.history.last(), moves),
+        core::mem::take(&mut optimiser.segments),
     )
     .with_joints(context.joints);
     path.is_final |= view.is_halt;
+    let motion = attempt_along(optimiser, &path, (context, view, tail));
+    optimiser.segments = path.segments;
+    optimiser.segments.clear();
+    motion
+}
+
+fn attempt_along<const D: usize>(
+    optimiser: &mut Optimiser<D>,
+    path: &ScaledPath<D>,
+    (context, view, tail): (&WindowContext<'_>, &View, &[AxisVector]),
+) -> Option<WindowMotion> {
+    let is_path_end = context.reference_path.is_last(context.end - 1);
     let tail: Vec<_> = (0..view.intervals.max(tail.len() - 3) + 3)
         .filter_map(|k| tail.get(k).or(tail.last()))
         .map(|point| path.inside(point))
@@ -213,15 +223,12 @@ fn attempt<const D: usize>(
     };
     let solution = match context.search {
         Search::Whole(most_work) => {
-            optimiser.optimise(&path, &window_start, most_work, &mut judge)?
+            optimiser.optimise(path, &window_start, most_work, &mut judge)?
         }
-        Search::AtFeed => optimiser.go_on_at_feed(&path, &window_start, &mut judge)?,
+        Search::AtFeed => optimiser.go_on_at_feed(path, &window_start, &mut judge)?,
     };
-    let mut points: Vec<_> = solution
-        .points
-        .iter()
-        .map(|point| path.outside(point))
-        .collect();
+    let points = solution.points.iter();
+    let mut points: Vec<_> = points.map(|point| path.outside(point)).collect();
     if solution.is_end {
         end_exactly(context, &mut points);
     }

@@ -230,52 +230,74 @@ pub(crate) fn nearest_to_corner<const D: usize>(
     (i, k, count): (usize, usize, usize),
     grid: &Grid,
 ) -> Passing<D> {
-    let mut best = passing(path, points, (i, k), grid);
-    for k in k.saturating_sub(NEAR_PERIODS).max(1)..=(k + NEAR_PERIODS).min(count) {
-        let other = passing(path, points, (i, k), grid);
-        if dot(&other.off, &other.off) < dot(&best.off, &best.off) {
-            best = other;
+    let vertex = &path.segments[i + 1].start;
+    let mut best = Nearest::of(vertex, points, k, grid);
+    for other in k.saturating_sub(NEAR_PERIODS).max(1)..=(k + NEAR_PERIODS).min(count) {
+        if other != k {
+            let other = Nearest::of(vertex, points, other, grid);
+            if dot(&other.off, &other.off) < dot(&best.off, &best.off) {
+                best = other;
+            }
         }
     }
-    best
+    best.passing(points, grid, path.turn(i, i + 1))
 }
 
-fn passing<const D: usize>(
-    path: &ScaledPath<D>,
-    points: &[[f64; D]],
-    (i, k): (usize, usize),
-    grid: &Grid,
-) -> Passing<D> {
-    let vertex = &path.segments[i + 1].start;
-    let at = |lambda: f64, part: f64| -> [f64; D] {
-        let (first, weights) = grid.inner_site(k - 1, lambda, part);
-        combine(points, first, &weights)
-    };
-    let (from, to) = (at(0.0, HALF_WAY), at(1.0, HALF_WAY));
-    let along: [f64; D] = core::array::from_fn(|a| to[a] - from[a]);
-    let offset: [f64; D] = core::array::from_fn(|a| vertex[a] - from[a]);
-    let lambda = dot(&along, &offset) / dot(&along, &along);
-    let lambda = if lambda.is_finite() {
-        lambda.clamp(0.0, 1.0)
-    } else {
-        0.5
-    };
-    let (nearest, motion) = (at(lambda, HALF_WAY), at(lambda, 0.0));
-    let mut half: [f64; D] = core::array::from_fn(|a| nearest[a] - motion[a]);
-    let part = dot(&half, &along) / dot(&along, &along);
-    if part.is_finite() {
-        let share = if path.turn(i, i + 1) <= SHARP {
-            1.0
-        } else {
-            straightness(points, grid, k)
+/// Where half-way from the motion of a period to its chords is nearest to a vertex.
+struct Nearest<const D: usize> {
+    /// The sample at the end of the period.
+    sample: usize,
+    lambda: f64,
+    along: [f64; D],
+    place: [f64; D],
+    off: [f64; D],
+}
+
+impl<const D: usize> Nearest<D> {
+    fn of(vertex: &[f64; D], points: &[[f64; D]], sample: usize, grid: &Grid) -> Self {
+        let at = |lambda: f64| -> [f64; D] {
+            let (first, weights) = grid.inner_site(sample - 1, lambda, HALF_WAY);
+            combine(points, first, &weights)
         };
-        half = core::array::from_fn(|a| half[a] - share * part * along[a]);
+        let (from, to) = (at(0.0), at(1.0));
+        let along: [f64; D] = core::array::from_fn(|a| to[a] - from[a]);
+        let offset: [f64; D] = core::array::from_fn(|a| vertex[a] - from[a]);
+        let lambda = dot(&along, &offset) / dot(&along, &along);
+        let lambda = if lambda.is_finite() {
+            lambda.clamp(0.0, 1.0)
+        } else {
+            0.5
+        };
+        let place = at(lambda);
+        Self {
+            sample,
+            lambda,
+            along,
+            place,
+            off: core::array::from_fn(|a| place[a] - vertex[a]),
+        }
     }
-    Passing {
-        sample: k,
-        lambda,
-        off: core::array::from_fn(|a| nearest[a] - vertex[a]),
-        half,
+
+    /// How a motion passes there that turns so much.
+    fn passing(&self, points: &[[f64; D]], grid: &Grid, turn: f64) -> Passing<D> {
+        let (first, weights) = grid.inner_site(self.sample - 1, self.lambda, 0.0);
+        let (motion, along) = (combine(points, first, &weights), &self.along);
+        let mut half: [f64; D] = core::array::from_fn(|a| self.place[a] - motion[a]);
+        let part = dot(&half, along) / dot(along, along);
+        if part.is_finite() {
+            let share = if turn <= SHARP {
+                1.0
+            } else {
+                straightness(points, grid, self.sample)
+            };
+            half = core::array::from_fn(|a| half[a] - share * part * along[a]);
+        }
+        Passing {
+            sample: self.sample,
+            lambda: self.lambda,
+            off: self.off,
+            half,
+        }
     }
 }
 

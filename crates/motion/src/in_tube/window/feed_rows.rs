@@ -44,7 +44,7 @@ pub(crate) fn add<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, 
         let factor = (0..D)
             .filter(|&a| scale[a] > 0.0)
             .fold(1.0_f64, |most, a| most.max(slowest[a] / scale[a]));
-        problem.add_site(k, [-1.0, 1.0, 0.0, 0.0, 0.0]);
+        problem.add_site(k, [-1.0, 1.0, 0.0, 0.0]);
         steer(problem, layout, (k, middle), stray_t);
         let normal = path.segments[middle].feed.map(|f| f * factor / h);
         let low = if bends_here { -FAR } else { 0.0 };

@@ -32,7 +32,7 @@ fn add_at<const D: usize>(problem: &mut Problem<D>, layout: &Layout<'_, D>, k: u
         .filter(|row| dot(row, &step).abs() > CLOSE_R)
         .peekable();
     if close.peek().is_some() {
-        problem.add_site(k, [-1.0, 1.0, 0.0, 0.0, 0.0]);
+        problem.add_site(k, [-1.0, 1.0, 0.0, 0.0]);
         for row in close {
             problem.add_feed_row(row, [-JOINT_R, JOINT_R], layout.style.is_feed_firm);
         }

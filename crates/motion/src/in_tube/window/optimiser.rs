@@ -18,7 +18,7 @@ use super::joint_rows;
 use super::pins::Pins;
 use super::rounds::{BestMotion, ENOUGH_VIOLATION, RoundState};
 use super::samples::Samples;
-use super::scaled_path::ScaledPath;
+use super::scaled_path::{ScaledPath, ScaledSegment};
 use super::shortcuts;
 use super::solver::{Goal, Interior, Problem};
 use super::tube;
@@ -96,6 +96,8 @@ pub(crate) enum Question {
 #[derive(Debug, Clone)]
 pub(crate) struct Optimiser<const D: usize> {
     pub(crate) interior: Interior<D>,
+    /// Memory for the pieces of the next window, empty.
+    pub(super) segments: Vec<ScaledSegment<D>>,
     problem: Problem<D>,
     pub(super) guess: Guess,
     pub(super) samples: Samples,
@@ -110,6 +112,7 @@ impl<const D: usize> Optimiser<D> {
     pub(crate) fn new() -> Self {
         Self {
             interior: Interior::new(),
+            segments: Vec::new(),
             problem: Problem::new(),
             guess: Guess::default(),
             samples: Samples::default(),

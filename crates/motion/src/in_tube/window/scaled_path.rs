@@ -96,20 +96,23 @@ pub(crate) fn moving_axes<'a>(
 }
 
 impl<const D: usize> ScaledPath<D> {
-    /// The pieces `range` as seen from `origin`; `moves` has at most `D` axes.
+    /// The pieces `range` as seen from `origin`, in memory of an earlier path; `moves` has at most `D`
+    /// axes.
     pub(crate) fn new(
         limits: &Limits,
         reference_path: &ReferencePath,
         range: core::ops::Range<usize>,
-        origin: AxisVector,
-        moves: [bool; AXES],
+        (origin, moves): (AxisVector, [bool; AXES]),
+        mut segments: Vec<ScaledSegment<D>>,
     ) -> Self {
+        segments.clear();
+        segments.reserve(range.len());
         let tolerances = reference_path
             .get(range.start)
             .map_or([1.0; 2], |piece| [piece.tolerance_mm, piece.tolerance_deg]);
         let mut path = Self {
             first: range.start,
-            segments: Vec::with_capacity(range.len()),
+            segments,
             is_final: range.end > 0 && reference_path.is_last(range.end - 1),
             axes: [0; D],
             moving: 0,

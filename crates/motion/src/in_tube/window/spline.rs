@@ -31,15 +31,6 @@ fn basis_2(u: f64) -> [f64; 4] {
     [1.0 - u, 3.0 * u - 2.0, 1.0 - 3.0 * u, u]
 }
 
-/// Weights of four control points, the first `offset` after the first of the site.
-fn widen(weights: [f64; 4], offset: usize) -> [f64; SPAN] {
-    let mut wide = [0.0; SPAN];
-    for (place, weight) in wide.iter_mut().skip(offset).zip(weights) {
-        *place = weight;
-    }
-    wide
-}
-
 /// Steps in which acceleration goes to its limit, at least: jerk changes at knots only, so the
 /// fewer there are, the later the changes come.
 const RAMP_STEPS: f64 = 10.0;
@@ -95,7 +86,7 @@ impl Grid {
     /// First control point and weights of the end of a period.
     pub(crate) fn site(&self, period: usize) -> (usize, [f64; SPAN]) {
         let (first, u) = self.interval_of(period);
-        (first, widen(basis(u), 0))
+        (first, basis(u))
     }
 
     /// First control point and weights of a point within the period that follows `period`, at
@@ -117,7 +108,7 @@ impl Grid {
         let part = part * self.ratio() * self.ratio();
         let (place, bend) = (basis(u), basis_2(u));
         let weights = core::array::from_fn(|i| place[i] + part * bend[i]);
-        (first, widen(weights, 0))
+        (first, weights)
     }
 
     /// Knots in a period, whole or not.
@@ -131,7 +122,7 @@ impl Grid {
     pub(crate) fn velocity_site(&self, period: usize) -> (usize, [f64; SPAN]) {
         let (first, u) = self.interval_of(period);
         let ratio = self.ratio();
-        (first, widen(basis_1(u).map(|w| w * ratio), 0))
+        (first, basis_1(u).map(|w| w * ratio))
     }
 
     /// First control point and weights of the acceleration at the end of a period, times the square
@@ -139,7 +130,7 @@ impl Grid {
     pub(crate) fn bend_site(&self, period: usize) -> (usize, [f64; SPAN]) {
         let (first, u) = self.interval_of(period);
         let ratio = self.ratio();
-        (first, widen(basis_2(u).map(|w| w * ratio * ratio), 0))
+        (first, basis_2(u).map(|w| w * ratio * ratio))
     }
 
     /// Periods in a number of knot intervals; intervals may be cut off.

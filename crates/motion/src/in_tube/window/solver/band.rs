@@ -1,16 +1,19 @@
-//! Symmetric positive matrices of blocks, four blocks to either side of the diagonal: Cholesky.
+//! Symmetric positive matrices of blocks, three blocks to either side of the diagonal: L·D·Lᵀ.
 //!
-//! A row that acts on at most five consecutive control points couples only those, so the matrix of
+//! A row that acts on at most four consecutive control points couples only those, so the matrix of
 //! the normal equations has this shape, and factoring it costs time linear in the number of points.
+
+use super::problem::{SPAN, dot};
 
 /// A block: one control point against another.
 pub(super) type Block<const D: usize> = [[f64; D]; D];
 
 /// Blocks on and left of the diagonal.
-const WIDTH: usize = 5;
+const WIDTH: usize = SPAN;
 
 /// The lower half: `rows[i][d]` is the block of points `i` and `i − d`. After [`Band::factor`] it
-/// is that of the factor, with the inverse on the diagonal of diagonal blocks.
+/// is that of L, whose diagonal is one, and there is 1/D instead. Roots would be as safe, but each
+/// number of the diagonal waits for the one before it, and a root takes as long as ten products.
 #[derive(Debug, Clone)]
 pub(super) struct Band<const D: usize> {
     rows: Vec<[Block<D>; WIDTH]>,
@@ -21,16 +24,18 @@ impl<const D: usize> Band<D> {
         Self { rows: Vec::new() }
     }
 
-    /// All zero, for some number of points.
-    pub(super) fn clear(&mut self, points: usize) {
+    /// Starts from couplings of each axis with itself, by point and points before it.
+    pub(super) fn start(&mut self, of_axes: &[[[f64; D]; WIDTH]]) {
         self.rows.clear();
-        self.rows.resize(points, [[[0.0; D]; D]; WIDTH]);
-    }
-
-    /// Adds to the coupling of one axis of point `i` and point `i − d`.
-    #[inline]
-    pub(super) fn add_axis(&mut self, i: usize, d: usize, axis: usize, value: f64) {
-        self.rows[i][d][axis][axis] += value;
+        self.rows.extend(of_axes.iter().map(|of_point| {
+            let mut row = [[[0.0; D]; D]; WIDTH];
+            for (block, values) in row.iter_mut().zip(of_point) {
+                for a in 0..D {
+                    block[a][a] = values[a];
+                }
+            }
+            row
+        }));
     }
 
     /// Adds a multiple of a symmetric block.
@@ -63,6 +68,7 @@ impl<const D: usize> Band<D> {
             let first = range.start.max(i.saturating_sub(WIDTH - 1));
             let (done, rest) = self.rows.split_at_mut(i);
             let Some(row) = rest.first_mut() else { return };
+            // First those of L·D, then those of L.
             for j in first..i {
                 let mut block = row[i - j];
                 for k in first.max(j.saturating_sub(WIDTH - 1))..j {
@@ -71,12 +77,20 @@ impl<const D: usize> Band<D> {
                 divide(&mut block, &done[j][0]);
                 row[i - j] = block;
             }
-            let mut block = row[0];
+            let mut diagonal = row[0];
             for k in first..i {
-                subtract_product(&mut block, &row[i - k], &row[i - k]);
+                let (product, per_d) = (row[i - k], &done[k][0]);
+                let mut block = product;
+                for values in &mut block {
+                    for a in 0..D {
+                        values[a] *= per_d[a][a];
+                    }
+                }
+                subtract_product(&mut diagonal, &product, &block);
+                row[i - k] = block;
             }
-            root(&mut block);
-            row[0] = block;
+            factor(&mut diagonal);
+            row[0] = diagonal;
         }
     }
 
@@ -87,36 +101,35 @@ impl<const D: usize> Band<D> {
             let mut value = x[i];
             for j in range.start.max(i.saturating_sub(WIDTH - 1))..i {
                 for a in 0..D {
-                    for b in 0..D {
-                        value[a] -= row[i - j][a][b] * x[j][b];
-                    }
+                    value[a] -= dot(&row[i - j][a], &x[j]);
                 }
             }
-            for a in 0..D {
+            for a in 1..D {
                 for b in 0..a {
                     value[a] -= row[0][a][b] * value[b];
                 }
-                value[a] *= row[0][a][a];
             }
             x[i] = value;
         }
         for i in range.clone().rev() {
             let row = &self.rows[i];
             let mut value = x[i];
+            for a in 0..D {
+                value[a] *= row[0][a][a];
+            }
+            for j in i + 1..range.end.min(i + WIDTH) {
+                for (values, x) in self.rows[j][j - i].iter().zip(x[j]) {
+                    for a in 0..D {
+                        value[a] -= values[a] * x;
+                    }
+                }
+            }
             for a in (0..D).rev() {
                 for b in a + 1..D {
                     value[a] -= row[0][b][a] * value[b];
                 }
-                value[a] *= row[0][a][a];
             }
             x[i] = value;
-            for j in range.start.max(i.saturating_sub(WIDTH - 1))..i {
-                for a in 0..D {
-                    for b in 0..D {
-                        x[j][b] -= row[i - j][a][b] * value[a];
-                    }
-                }
-            }
         }
     }
 }
@@ -126,46 +139,37 @@ impl<const D: usize> Band<D> {
 fn subtract_product<const D: usize>(a: &mut Block<D>, b: &Block<D>, c: &Block<D>) {
     for (a_row, b_row) in a.iter_mut().zip(b) {
         for (value, c_row) in a_row.iter_mut().zip(c) {
-            let mut sum = 0.0;
-            for k in 0..D {
-                sum += b_row[k] * c_row[k];
-            }
-            *value -= sum;
+            *value -= dot(b_row, c_row);
         }
     }
 }
 
-/// `a`·`l`⁻ᵀ for a triangular `l` with inverse diagonal.
+/// `a`·`l`⁻ᵀ for a triangular `l` whose diagonal is one.
 #[inline]
 fn divide<const D: usize>(a: &mut Block<D>, l: &Block<D>) {
     for row in a {
-        for k in 0..D {
-            let mut value = row[k];
+        for k in 1..D {
             for m in 0..k {
-                value -= row[m] * l[k][m];
+                row[k] -= row[m] * l[k][m];
             }
-            row[k] = value * l[k][k];
         }
     }
 }
 
-/// The triangular root of a block, with inverse diagonal. A direction in which rounding has left
-/// nothing is frozen.
+/// Factors a block, with 1/D on the diagonal. A direction in which rounding has left nothing is
+/// frozen.
 #[inline]
-fn root<const D: usize>(a: &mut Block<D>) {
+fn factor<const D: usize>(a: &mut Block<D>) {
     for r in 0..D {
-        for c in 0..=r {
-            let mut value = a[r][c];
+        let mut product = a[r];
+        let mut rest = a[r][r];
+        for c in 0..r {
             for k in 0..c {
-                value -= a[r][k] * a[c][k];
+                product[c] -= product[k] * a[c][k];
             }
-            a[r][c] = if c < r {
-                value * a[c][c]
-            } else if value > 0.0 {
-                1.0 / value.sqrt()
-            } else {
-                0.0
-            };
+            a[r][c] = product[c] * a[c][c];
+            rest -= product[c] * a[r][c];
         }
+        a[r][r] = if rest > 0.0 { 1.0 / rest } else { 0.0 };
     }
 }

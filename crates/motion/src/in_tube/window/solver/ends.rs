@@ -2,11 +2,6 @@
 
 use super::problem::Problem;
 
-/// The first control point of the first difference that is not given by the start alone.
-pub(super) const fn first_difference(order: usize) -> usize {
-    2 - order
-}
-
 /// Takes a pull on a weighted sum of consecutive points from their steps.
 #[inline]
 pub(super) fn take_away<const D: usize, const N: usize>(

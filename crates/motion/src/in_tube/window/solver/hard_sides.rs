@@ -1,8 +1,7 @@
 //! The sides of a row that must hold: no excess, and less to do than for an elastic one
-//! ([`super::sides`]), with the same values to the bit. Most rows are such.
+//! ([`super::elastic_sides`]). Most rows are such.
 
-/// A value of the upper side of a row, and of the lower one.
-pub(super) type Pair = [f64; 2];
+use super::ahead::{Ahead, Aim, Pair, larger};
 
 /// μ to start from.
 pub(super) const START_MU: f64 = 0.05;
@@ -15,6 +14,9 @@ pub(super) struct HardSides {
     g: Pair,
     slack: Pair,
     multiplier: Pair,
+    /// One over them: a division takes as long as eight multiplications.
+    per_slack: Pair,
+    per_multiplier: Pair,
     d_slack: Pair,
     d_multiplier: Pair,
     /// What s·l is to become.
@@ -25,12 +27,6 @@ pub(super) struct HardSides {
 }
 
 impl HardSides {
-    /// Takes the value of the row.
-    #[inline]
-    pub(super) const fn set(&mut self, value: f64) {
-        self.g = [value - 1.0, -1.0 - value];
-    }
-
     /// Weight in the normal equations.
     #[inline]
     pub(super) const fn weight(&self) -> f64 {
@@ -43,94 +39,74 @@ impl HardSides {
         self.force[0] - self.force[1]
     }
 
-    pub(super) fn start(&mut self) {
+    /// Sets out from the value of the row; complementarity and residual of each side.
+    #[inline]
+    pub(super) fn start(&mut self, value: f64) -> (Pair, Pair) {
+        let g = [value - 1.0, -1.0 - value];
         for k in 0..2 {
-            self.slack[k] = (-self.g[k]).max(START_SLACK);
+            self.slack[k] = (-g[k]).max(START_SLACK);
             self.multiplier[k] = START_MU / self.slack[k];
         }
+        self.stand(g)
     }
 
-    /// Complementarity and residual of each side.
+    /// Goes a share of the step, which has brought the row to a value; complementarity and residual
+    /// of each side.
     #[inline]
-    pub(super) fn state(&self) -> (Pair, Pair) {
-        let (mut product, mut rest) = ([0.0; 2], [0.0; 2]);
+    pub(super) fn advance(&mut self, step: f64, value: f64) -> (Pair, Pair) {
         for k in 0..2 {
-            product[k] = self.slack[k] * self.multiplier[k];
-            rest[k] = (self.g[k] + self.slack[k]).abs();
+            self.slack[k] += step * self.d_slack[k];
+            self.multiplier[k] += step * self.d_multiplier[k];
         }
-        (product, rest)
+        self.stand([value - 1.0, -1.0 - value])
     }
 
     /// Weight, and aim and force of the predictor.
     #[inline]
-    pub(super) fn aim_at_zero(&mut self) {
+    fn stand(&mut self, g: Pair) -> (Pair, Pair) {
+        let (mut product, mut rest) = ([0.0; 2], [0.0; 2]);
         for k in 0..2 {
-            let l = self.multiplier[k];
-            let weight = 1.0 / (self.slack[k] / l);
+            let (s, l) = (self.slack[k], self.multiplier[k]);
+            product[k] = s * l;
+            rest[k] = (g[k] + s).abs();
+            let per_product = 1.0 / product[k];
+            self.per_slack[k] = per_product * l;
+            self.per_multiplier[k] = per_product * s;
+            self.weight[k] = l * self.per_slack[k];
+            self.force[k] = l + self.weight[k] * g[k];
             self.aim[k] = 0.0;
-            self.weight[k] = weight;
-            self.force[k] = l + weight * self.g[k];
+        }
+        self.g = g;
+        (product, rest)
+    }
+
+    /// Aim and force of the corrector.
+    #[inline]
+    pub(super) fn aim_at(&mut self, Aim { target, bound }: Aim) {
+        for k in 0..2 {
+            let aim = target - (self.d_slack[k] * self.d_multiplier[k]).clamp(-bound, bound);
+            self.aim[k] = aim;
+            let rest = self.g[k] + aim * self.per_multiplier[k];
+            self.force[k] = self.multiplier[k] + self.weight[k] * rest;
         }
     }
 
     /// The step that goes with a change of the row.
     #[inline]
-    pub(super) fn follow(&mut self, change: f64) {
+    pub(super) fn follow(&mut self, change: f64, ahead: &mut Ahead) {
         let change = [change, -change];
+        let (mut d_slack, mut d_multiplier) = ([0.0; 2], [0.0; 2]);
         for k in 0..2 {
             let (s, l) = (self.slack[k], self.multiplier[k]);
             let d_l = self.force[k] - l + self.weight[k] * change[k];
-            self.d_multiplier[k] = d_l;
-            self.d_slack[k] = (self.aim[k] - s * d_l) / l - s;
+            let d_s = (self.aim[k] - s * d_l) * self.per_multiplier[k] - s;
+            let of_slack = -d_s * self.per_slack[k];
+            let of_multiplier = -d_l * self.per_multiplier[k];
+            ahead.shrink[k] = larger(ahead.shrink[k], larger(of_slack, of_multiplier));
+            ahead.product[k] += d_s * d_l;
+            (d_slack[k], d_multiplier[k]) = (d_s, d_l);
         }
+        self.d_slack = d_slack;
+        self.d_multiplier = d_multiplier;
     }
-
-    /// One over the largest step that keeps each side positive.
-    #[inline]
-    pub(super) fn shrink(&self) -> Pair {
-        let mut shrink = [0.0; 2];
-        for k in 0..2 {
-            let of_slack = -self.d_slack[k] / self.slack[k];
-            let of_multiplier = -self.d_multiplier[k] / self.multiplier[k];
-            shrink[k] = larger(of_slack, of_multiplier);
-        }
-        shrink
-    }
-
-    /// Complementarity of each side after a step.
-    #[inline]
-    pub(super) fn state_after(&self, step: f64) -> Pair {
-        let mut product = [0.0; 2];
-        for k in 0..2 {
-            let l = self.multiplier[k] + step * self.d_multiplier[k];
-            product[k] = (self.slack[k] + step * self.d_slack[k]) * l;
-        }
-        product
-    }
-
-    /// Aim and force of the corrector.
-    #[inline]
-    pub(super) fn aim_at(&mut self, target: f64, bound: f64) {
-        for k in 0..2 {
-            let l = self.multiplier[k];
-            let aim = target - (self.d_slack[k] * self.d_multiplier[k]).clamp(-bound, bound);
-            let rest = self.g[k] + aim / l;
-            self.aim[k] = aim;
-            self.force[k] = l + self.weight[k] * rest;
-        }
-    }
-
-    #[inline]
-    pub(super) fn advance(&mut self, step: f64) {
-        for k in 0..2 {
-            self.slack[k] += step * self.d_slack[k];
-            self.multiplier[k] += step * self.d_multiplier[k];
-        }
-    }
-}
-
-/// The larger of two values; the first one if the second is not a number.
-#[inline]
-pub(super) const fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
 }

@@ -2,10 +2,13 @@
 //! the linear algebra. Everything is linear in the number of knot intervals, and allocates nothing
 //! once it has been used at full size.
 
+mod ahead;
 mod band;
+mod elastic_sides;
 mod ends;
 mod hard_sides;
 mod interior;
+mod normal;
 mod problem;
 mod sides;
 #[cfg(test)]

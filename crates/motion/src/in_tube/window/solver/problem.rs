@@ -24,7 +24,7 @@ pub(in crate::in_tube::window) const FIRM_PRICE: f64 = 1000.0;
 pub(in crate::in_tube::window) const FAR: f64 = 1e3;
 
 /// Most control points in a row.
-pub(in crate::in_tube::window) const SPAN: usize = 5;
+pub(in crate::in_tube::window) const SPAN: usize = 4;
 
 /// A weighted sum of up to [`SPAN`] consecutive control points, and rows on it.
 #[derive(Debug, Clone)]
@@ -48,6 +48,14 @@ pub(in crate::in_tube::window) struct Row<const D: usize> {
     pub(in crate::in_tube::window) high: f64,
     /// Price of violating it by one.
     pub(in crate::in_tube::window) price: f64,
+}
+
+impl<const D: usize> Row<D> {
+    /// Values of its sides, none of them above zero where it is kept.
+    #[inline]
+    pub(super) fn sides(&self, value: f64) -> [f64; 2] {
+        [value - self.high, self.low - value]
+    }
 }
 
 /// What is to be solved.
@@ -154,14 +162,29 @@ impl<const D: usize> Problem<D> {
         }
     }
 
+    /// How many differences of an order the start alone does not give, if any has a bound.
+    pub(in crate::in_tube::window) fn differences(&self, order: usize) -> usize {
+        let is_bounded = self.bounds[order].iter().any(|bound| bound.is_finite());
+        if is_bounded {
+            self.intervals - first_difference(order)
+        } else {
+            0
+        }
+    }
+
     /// Control points that are unknown.
     pub(in crate::in_tube::window) fn free(&self) -> core::ops::Range<usize> {
         3..self.intervals + usize::from(!self.is_end_fixed)
     }
 }
 
+/// The first control point of the first difference that is not given by the start alone.
+pub(super) const fn first_difference(order: usize) -> usize {
+    2 - order
+}
+
 /// Coefficients of differences of order 1, 2, 3.
-pub(in crate::in_tube::window) const DIFFERENCES: [[f64; 4]; 3] = [
+pub(in crate::in_tube::window) const DIFFERENCES: [[f64; SPAN]; 3] = [
     [-1.0, 1.0, 0.0, 0.0],
     [1.0, -2.0, 1.0, 0.0],
     [-1.0, 3.0, -3.0, 1.0],

@@ -1,247 +1,155 @@
-//! The sides of all rows: slacks, multipliers and excesses, and their steps.
-//!
-//! What they are is told in [`super::interior`]. Both sides of a row lie together and take the same
-//! way through every loop, so that one instruction does for both.
+//! The sides of all rows, and one way past them with the value that each row has.
 
-use super::hard_sides::{HardSides, Pair, START_MU, START_SLACK, larger};
+use super::ahead::{Ahead, Pair, larger};
+use super::elastic_sides::ElasticSides;
+use super::hard_sides::HardSides;
+use super::problem::{DIFFERENCES, Problem, Row, combine, dot, first_difference};
 
-/// Both sides of an elastic row.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct TwoSides {
-    /// Values of the sides.
-    pub(super) g: Pair,
-    slack: Pair,
-    multiplier: Pair,
-    excess: Pair,
-    price: Pair,
-    d_slack: Pair,
-    d_multiplier: Pair,
-    d_excess: Pair,
-    /// What s·l and e·(p − l) are to become.
-    aim_slack: Pair,
-    aim_excess: Pair,
-    /// Weight in the normal equations, and the multiplier that goes with no change of the row.
-    weight: Pair,
-    force: Pair,
-}
-
-impl TwoSides {
-    /// The sides of a row that may be violated at a price.
-    pub(super) fn of(price: f64) -> Self {
-        Self {
-            price: [price; 2],
-            ..Self::default()
-        }
-    }
-
-    /// Weight in the normal equations.
-    #[inline]
-    pub(super) const fn weight(&self) -> f64 {
-        self.weight[0] + self.weight[1]
-    }
-
-    /// Force that goes with no change of the row.
-    #[inline]
-    pub(super) const fn force(&self) -> f64 {
-        self.force[0] - self.force[1]
-    }
-
-    /// How much it is violated, below zero if it is not.
-    pub(super) const fn violation(&self) -> f64 {
-        self.g[0].max(self.g[1])
-    }
-
-    fn start(&mut self) {
-        for k in 0..2 {
-            let g = self.g[k];
-            self.slack[k] = (-g).max(START_SLACK);
-            self.excess[k] = (g + self.slack[k]).max(START_MU / (0.9 * self.price[k]));
-            self.multiplier[k] = (START_MU / self.slack[k]).min(0.5 * self.price[k]);
-        }
-    }
-
-    /// Complementarity and residual of each side.
-    #[inline]
-    fn state(&self) -> (Pair, Pair) {
-        let (mut product, mut rest) = ([0.0; 2], [0.0; 2]);
-        for k in 0..2 {
-            let l = self.multiplier[k];
-            product[k] = self.slack[k] * l + self.excess[k] * (self.price[k] - l);
-            rest[k] = (self.g[k] + self.slack[k] - self.excess[k]).abs();
-        }
-        (product, rest)
-    }
-
-    /// Weight, and aims and force of the predictor.
-    #[inline]
-    fn aim_at_zero(&mut self) {
-        for k in 0..2 {
-            let (l, nu) = (self.multiplier[k], self.price[k] - self.multiplier[k]);
-            let weight = 1.0 / (self.slack[k] / l + self.excess[k] / nu);
-            self.aim_slack[k] = 0.0;
-            self.aim_excess[k] = 0.0;
-            self.weight[k] = weight;
-            self.force[k] = l + weight * self.g[k];
-        }
-    }
-
-    /// One over the largest step that keeps each side positive.
-    #[inline]
-    fn shrink(&self) -> Pair {
-        let mut shrink = [0.0; 2];
-        for k in 0..2 {
-            let nu = self.price[k] - self.multiplier[k];
-            let of_excess = -self.d_excess[k] / self.excess[k];
-            let of_excess = if self.excess[k] > 0.0 { of_excess } else { 0.0 };
-            let of_slack = -self.d_slack[k] / self.slack[k];
-            let of_multiplier = larger(
-                -self.d_multiplier[k] / self.multiplier[k],
-                self.d_multiplier[k] / nu,
-            );
-            shrink[k] = larger(larger(of_slack, of_multiplier), of_excess);
-        }
-        shrink
-    }
-
-    /// Complementarity of each side after a step.
-    #[inline]
-    fn state_after(&self, step: f64) -> Pair {
-        let mut product = [0.0; 2];
-        for k in 0..2 {
-            let l = self.multiplier[k] + step * self.d_multiplier[k];
-            product[k] = (self.slack[k] + step * self.d_slack[k]) * l
-                + (self.excess[k] + step * self.d_excess[k]) * (self.price[k] - l);
-        }
-        product
-    }
-
-    /// Aims and force of the corrector.
-    #[inline]
-    fn aim_at(&mut self, target: f64, bound: f64) {
-        for k in 0..2 {
-            let (l, nu) = (self.multiplier[k], self.price[k] - self.multiplier[k]);
-            let d_l = self.d_multiplier[k];
-            let aim_slack = target - (self.d_slack[k] * d_l).clamp(-bound, bound);
-            let aim_excess = target + (self.d_excess[k] * d_l).clamp(-bound, bound);
-            let rest = self.g[k] + aim_slack / l - aim_excess / nu;
-            self.aim_slack[k] = aim_slack;
-            self.aim_excess[k] = aim_excess;
-            self.force[k] = l + self.weight[k] * rest;
-        }
-    }
-
-    #[inline]
-    fn advance(&mut self, step: f64) {
-        for k in 0..2 {
-            self.slack[k] += step * self.d_slack[k];
-            self.multiplier[k] += step * self.d_multiplier[k];
-            self.excess[k] += step * self.d_excess[k];
-        }
-    }
-
-    /// The step of the sides that goes with a change of the row.
-    #[inline]
-    pub(super) fn follow(&mut self, change: f64) {
-        let change = [change, -change];
-        let (mut d_multiplier, mut d_slack, mut d_excess) = ([0.0; 2], [0.0; 2], [0.0; 2]);
-        for k in 0..2 {
-            let (s, l, e) = (self.slack[k], self.multiplier[k], self.excess[k]);
-            let nu = self.price[k] - l;
-            let d_l = self.force[k] - l + self.weight[k] * change[k];
-            d_multiplier[k] = d_l;
-            d_slack[k] = (self.aim_slack[k] - s * d_l) / l - s;
-            d_excess[k] = (self.aim_excess[k] + e * d_l) / nu - e;
-        }
-        self.d_multiplier = d_multiplier;
-        self.d_slack = d_slack;
-        self.d_excess = d_excess;
-    }
-}
-
-/// The sides of all rows: first those that must hold, then the elastic ones.
+/// The sides of all rows: first those that must hold, by order, control point and axis, then the
+/// elastic ones.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sides {
     pub(super) hard: Vec<HardSides>,
-    pub(super) rows: Vec<TwoSides>,
+    pub(super) elastic: Vec<ElasticSides>,
+}
+
+/// How far from a solution the sides are.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Standing {
+    sums: Pair,
+    residuals: Pair,
+}
+
+impl Standing {
+    fn add(&mut self, (product, rest): (Pair, Pair)) {
+        for k in 0..2 {
+            self.sums[k] += product[k];
+            self.residuals[k] = larger(self.residuals[k], rest[k]);
+        }
+    }
+
+    /// Sum of all products.
+    pub(super) fn sum(&self) -> f64 {
+        self.sums[0] + self.sums[1]
+    }
+
+    /// Largest residual.
+    pub(super) const fn residual(&self) -> f64 {
+        larger(self.residuals[0], self.residuals[1])
+    }
 }
 
 impl Sides {
-    pub(super) fn start(&mut self) {
-        self.hard.iter_mut().for_each(HardSides::start);
-        self.rows.iter_mut().for_each(TwoSides::start);
+    /// Sizes everything; the number of complementary pairs.
+    pub(super) fn resize<const D: usize>(&mut self, problem: &Problem<D>) -> usize {
+        let counts = (0..3).map(|order| D * problem.differences(order));
+        self.hard.resize(counts.sum(), HardSides::default());
+        let count = problem.rows.len();
+        self.elastic.resize(count, ElasticSides::default());
+        2 * self.hard.len() + 4 * self.elastic.len()
     }
 
-    /// Mean complementarity and largest residual.
-    pub(super) fn state(&self, pairs: f64) -> (f64, f64) {
-        let (mut sum, mut residual) = (0.0, [0.0; 2]);
-        let hard = self.hard.iter().map(HardSides::state);
-        let rows = self.rows.iter().map(TwoSides::state);
-        let mut add = |(product, rest): (Pair, Pair)| {
-            for k in 0..2 {
-                sum += product[k];
-                residual[k] = larger(residual[k], rest[k]);
+    /// Those that must hold, by order.
+    pub(super) fn by_order<const D: usize>(&self, problem: &Problem<D>) -> [&[HardSides]; 3] {
+        let (velocity, rest) = self.hard.split_at(D * problem.differences(0));
+        let (acceleration, jerk) = rest.split_at(D * problem.differences(1));
+        [velocity, acceleration, jerk]
+    }
+
+    /// The same, to be changed.
+    pub(super) fn by_order_mut<const D: usize>(
+        &mut self,
+        problem: &Problem<D>,
+    ) -> [&mut [HardSides]; 3] {
+        let (velocity, rest) = self.hard.split_at_mut(D * problem.differences(0));
+        let (acceleration, jerk) = rest.split_at_mut(D * problem.differences(1));
+        [velocity, acceleration, jerk]
+    }
+
+    /// Sets out from control points.
+    pub(super) fn start<const D: usize>(
+        &mut self,
+        problem: &Problem<D>,
+        x: &[[f64; D]],
+    ) -> Standing {
+        self.pass(
+            (problem, x),
+            |side, value, standing: &mut Standing| standing.add(side.start(value)),
+            |side, value, row, standing| standing.add(side.start(row.sides(value), row.price)),
+        )
+    }
+
+    /// Goes a share of the step, which has brought the control points to where they are.
+    pub(super) fn advance<const D: usize>(
+        &mut self,
+        problem: &Problem<D>,
+        x: &[[f64; D]],
+        step: f64,
+    ) -> Standing {
+        self.pass(
+            (problem, x),
+            |side, value, standing: &mut Standing| standing.add(side.advance(step, value)),
+            |side, value, row, standing| standing.add(side.advance(step, row.sides(value))),
+        )
+    }
+
+    /// The step that goes with one of the control points.
+    pub(super) fn follow<const D: usize>(
+        &mut self,
+        problem: &Problem<D>,
+        step: &[[f64; D]],
+    ) -> Ahead {
+        self.pass(
+            (problem, step),
+            |side, change, ahead: &mut Ahead| side.follow(change, ahead),
+            |side, change, _, ahead| side.follow(change, ahead),
+        )
+    }
+
+    /// Passes all rows with their values at some control points, or those of a step.
+    #[inline]
+    fn pass<const D: usize, T: Default>(
+        &mut self,
+        (problem, x): (&Problem<D>, &[[f64; D]]),
+        hard: impl Fn(&mut HardSides, f64, &mut T),
+        elastic: impl Fn(&mut ElasticSides, f64, &Row<D>, &mut T),
+    ) -> T {
+        let mut all = T::default();
+        let [velocity, acceleration, jerk] = self.by_order_mut(problem);
+        pass_differences::<D, 2, T>((problem, x), velocity, &mut all, &hard);
+        pass_differences::<D, 3, T>((problem, x), acceleration, &mut all, &hard);
+        pass_differences::<D, 4, T>((problem, x), jerk, &mut all, &hard);
+        for site in &problem.sites {
+            let y = combine(x, site.first, &site.weights);
+            let sides = &mut self.elastic[site.rows.clone()];
+            for (row, side) in problem.rows[site.rows.clone()].iter().zip(sides) {
+                elastic(side, dot(&row.normal, &y), row, &mut all);
             }
-        };
-        hard.for_each(&mut add);
-        rows.for_each(&mut add);
-        (sum / pairs, larger(residual[0], residual[1]))
+        }
+        all
     }
+}
 
-    /// Weights, and aims and forces of the predictor.
-    pub(super) fn aim_at_zero(&mut self) {
-        self.hard.iter_mut().for_each(HardSides::aim_at_zero);
-        self.rows.iter_mut().for_each(TwoSides::aim_at_zero);
-    }
-
-    /// The largest step that keeps all positive.
-    pub(super) fn room(&self) -> f64 {
-        let mut shrink = [0.0; 2];
-        let mut add = |most: Pair| {
-            for k in 0..2 {
-                shrink[k] = larger(shrink[k], most[k]);
+/// Passes the rows on differences of `N` points.
+#[inline]
+fn pass_differences<const D: usize, const N: usize, T>(
+    (problem, x): (&Problem<D>, &[[f64; D]]),
+    sides: &mut [HardSides],
+    all: &mut T,
+    go: &impl Fn(&mut HardSides, f64, &mut T),
+) {
+    let order = N - 2;
+    let per_bound = problem.bounds[order].map(|bound| 1.0 / bound);
+    let points = x[first_difference(order)..].windows(N);
+    for (sides, points) in sides.chunks_exact_mut(D).zip(points) {
+        let mut y = [0.0; D];
+        for (point, weight) in points.iter().zip(&DIFFERENCES[order]) {
+            for a in 0..D {
+                y[a] += weight * point[a];
             }
-        };
-        self.hard.iter().map(HardSides::shrink).for_each(&mut add);
-        self.rows.iter().map(TwoSides::shrink).for_each(&mut add);
-        1.0 / larger(shrink[0], shrink[1])
-    }
-
-    /// Aims and forces of the corrector, from what the predictor has found.
-    pub(super) fn aim_at(&mut self, mu: f64, pairs: f64) {
-        let step = self.room().min(1.0);
-        let mut sum = 0.0;
-        for row in &self.hard {
-            let product = row.state_after(step);
-            sum += product[0];
-            sum += product[1];
         }
-        for row in &self.rows {
-            let product = row.state_after(step);
-            sum += product[0];
-            sum += product[1];
-        }
-        let ratio = (sum / pairs / mu).powi(3);
-        let target = mu
-            * if ratio.is_finite() {
-                ratio.clamp(1e-4, 1.0)
-            } else {
-                1.0
-            };
-        let bound = 5.0 * mu;
-        for row in &mut self.hard {
-            row.aim_at(target, bound);
-        }
-        for row in &mut self.rows {
-            row.aim_at(target, bound);
-        }
-    }
-
-    pub(super) fn advance(&mut self, step: f64) {
-        for row in &mut self.hard {
-            row.advance(step);
-        }
-        for row in &mut self.rows {
-            row.advance(step);
+        for a in 0..D {
+            go(&mut sides[a], y[a] * per_bound[a], all);
         }
     }
 }

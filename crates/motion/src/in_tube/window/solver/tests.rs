@@ -108,7 +108,7 @@ fn the_best_vertex_is_found() {
             }
             best += best_vertex(&bounds, &aims[axis]);
         }
-        problem.add_site(3, [0.0, 1.0, 0.0, 0.0, 0.0]);
+        problem.add_site(3, [0.0, 1.0, 0.0, 0.0]);
         problem.add_row([1.0, 0.0], &[0.0; 2], [-FAR, limit]);
         let mut points = vec![[0.0; 2]; INTERVALS + 3];
         let goal = Goal {

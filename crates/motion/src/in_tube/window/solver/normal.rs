@@ -1,0 +1,237 @@
+//! The normal equations: their matrix, and the step of the control points that they give.
+
+use super::ahead::Aim;
+use super::band::{Band, Block};
+use super::elastic_sides::ElasticSides;
+use super::ends::{fold, take_away};
+use super::hard_sides::HardSides;
+use super::problem::{DIFFERENCES, Problem, Row, SPAN, Site, combine, dot, first_difference};
+use super::sides::Sides;
+
+/// The equations, with their memory.
+#[derive(Debug, Clone)]
+pub(super) struct NormalEquations<const D: usize> {
+    band: Band<D>,
+    /// What the rows of axes add to the matrix, by point, points before it and axis: they do not
+    /// couple axes.
+    of_axes: Vec<[[f64; D]; SPAN]>,
+    /// Step of the control points.
+    pub(super) step: Vec<[f64; D]>,
+    /// Coefficients of the differences, by order and first control point, folded at the end.
+    stencils: [Vec<[f64; SPAN]>; 3],
+    /// Those of the sites.
+    of_sites: Vec<[f64; SPAN]>,
+}
+
+impl<const D: usize> NormalEquations<D> {
+    pub(super) const fn new() -> Self {
+        Self {
+            band: Band::new(),
+            of_axes: Vec::new(),
+            step: Vec::new(),
+            stencils: [Vec::new(), Vec::new(), Vec::new()],
+            of_sites: Vec::new(),
+        }
+    }
+
+    /// Sizes everything.
+    pub(super) fn resize(&mut self, problem: &Problem<D>) {
+        for (order, stencils) in self.stencils.iter_mut().enumerate() {
+            let start = first_difference(order);
+            let firsts = start..start + problem.differences(order);
+            stencils.clear();
+            stencils.extend(firsts.map(|first| fold(first, DIFFERENCES[order], problem)));
+        }
+        self.of_sites.clear();
+        let sites = problem.sites.iter();
+        let folded = sites.map(|site| fold(site.first, site.weights, problem));
+        self.of_sites.extend(folded);
+    }
+
+    /// Makes the matrix from the weights of the sides, and factors it.
+    pub(super) fn factor(&mut self, problem: &Problem<D>, sides: &Sides, damping: f64) {
+        let none = [0.0; D];
+        self.of_axes.clear();
+        self.of_axes
+            .resize(problem.intervals + 3, [[damping; D], none, none, none]);
+        let [velocity, acceleration, jerk] = sides.by_order(problem);
+        self.add_differences::<2>(problem, velocity);
+        self.add_differences::<3>(problem, acceleration);
+        self.add_differences::<4>(problem, jerk);
+        self.band.start(&self.of_axes);
+        for (site, weights) in problem.sites.iter().zip(&self.of_sites) {
+            let of_rows = (
+                &problem.rows[site.rows.clone()],
+                &sides.elastic[site.rows.clone()],
+            );
+            let block = block_of(site, of_rows);
+            for i in 0..SPAN {
+                for j in 0..=i {
+                    let factor = weights[i] * weights[j];
+                    if factor != 0.0 {
+                        self.band.add_block(site.first + i, i - j, &block, factor);
+                    }
+                }
+            }
+        }
+        for (k, pins) in problem.pins.iter().enumerate() {
+            for a in (0..D).filter(|&a| pins[a]) {
+                self.band.pin(k, a);
+            }
+        }
+        self.band.factor(problem.free());
+    }
+
+    /// Adds the rows on differences of `N` points.
+    fn add_differences<const N: usize>(&mut self, problem: &Problem<D>, sides: &[HardSides]) {
+        let order = N - 2;
+        let per_square = problem.bounds[order].map(|bound| 1.0 / (bound * bound));
+        let price = if order == 2 { problem.jerk } else { [0.0; D] };
+        let start = first_difference(order);
+        let stencils = self.stencils[order].iter().enumerate();
+        for ((k, stencil), sides) in stencils.zip(sides.chunks_exact(D)) {
+            let mut weights = [0.0; D];
+            for a in 0..D {
+                weights[a] = sides[a].weight() * per_square[a] + price[a];
+            }
+            let points = &mut self.of_axes[start + k..start + k + N];
+            for i in 0..N {
+                for j in 0..=i {
+                    let factor = stencil[i] * stencil[j];
+                    for a in 0..D {
+                        points[i][i - j][a] += factor * weights[a];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Solves for the step of the control points, towards the aims of the sides.
+    pub(super) fn solve(
+        &mut self,
+        problem: &Problem<D>,
+        x: &[[f64; D]],
+        sides: &mut Sides,
+        aim: Option<Aim>,
+    ) {
+        let last = problem.intervals;
+        self.step.clear();
+        self.step.extend_from_slice(&problem.aims);
+        for k in last + 1..last + 3 {
+            let aim = core::mem::replace(&mut self.step[k], [0.0; D]);
+            for a in 0..D {
+                self.step[last][a] += aim[a];
+            }
+        }
+        let [velocity, acceleration, jerk] = sides.by_order_mut(problem);
+        self.pull_differences::<2>((problem, x), velocity, aim);
+        self.pull_differences::<3>((problem, x), acceleration, aim);
+        self.pull_differences::<4>((problem, x), jerk, aim);
+        for (site, weights) in problem.sites.iter().zip(&self.of_sites) {
+            let mut pull = pull_of_ridge(site, x);
+            let rows = problem.rows[site.rows.clone()].iter();
+            for (row, side) in rows.zip(&mut sides.elastic[site.rows.clone()]) {
+                if let Some(aim) = aim {
+                    side.aim_at(aim);
+                }
+                let force = side.force();
+                for a in 0..D {
+                    pull[a] += force * row.normal[a];
+                }
+            }
+            take_away(&mut self.step, site.first, weights, &pull);
+        }
+        for (step, pins) in self.step.iter_mut().zip(&problem.pins) {
+            for a in (0..D).filter(|&a| pins[a]) {
+                step[a] = 0.0;
+            }
+        }
+        self.band.solve(problem.free(), &mut self.step);
+        self.step[..3].fill([0.0; D]);
+        let end = if problem.is_end_fixed {
+            [0.0; D]
+        } else {
+            self.step[last]
+        };
+        self.step[last..].fill(end);
+    }
+
+    /// Takes away the pulls of the rows on differences of `N` points.
+    fn pull_differences<const N: usize>(
+        &mut self,
+        (problem, x): (&Problem<D>, &[[f64; D]]),
+        sides: &mut [HardSides],
+        aim: Option<Aim>,
+    ) {
+        let order = N - 2;
+        let per_bound = problem.bounds[order].map(|bound| 1.0 / bound);
+        let start = first_difference(order);
+        let stencils = self.stencils[order].iter().enumerate();
+        for ((k, stencil), sides) in stencils.zip(sides.chunks_exact_mut(D)) {
+            let mut pull = [0.0; D];
+            for a in 0..D {
+                if let Some(aim) = aim {
+                    sides[a].aim_at(aim);
+                }
+                pull[a] = sides[a].force() * per_bound[a];
+            }
+            if order == 2 {
+                let third = combine(x, start + k, &DIFFERENCES[2]);
+                for a in 0..D {
+                    pull[a] += problem.jerk[a] * third[a];
+                }
+            }
+            let points = &mut self.step[start + k..start + k + N];
+            for i in 0..N {
+                for a in 0..D {
+                    points[i][a] -= stencil[i] * pull[a];
+                }
+            }
+        }
+    }
+}
+
+/// What the rows of a site and its ridge add to the matrix, where its weights are one.
+#[inline]
+fn block_of<const D: usize>(
+    site: &Site<D>,
+    (rows, sides): (&[Row<D>], &[ElasticSides]),
+) -> Block<D> {
+    let mut block: Block<D> = [[0.0; D]; D];
+    for (row, side) in rows.iter().zip(sides) {
+        let weight = side.weight();
+        for a in 0..D {
+            let scaled = weight * row.normal[a];
+            for b in 0..D {
+                block[a][b] += scaled * row.normal[b];
+            }
+        }
+    }
+    if site.ridge > 0.0 {
+        for a in 0..D {
+            block[a][a] += site.ridge;
+            for b in 0..D {
+                block[a][b] -= site.ridge * site.tangent[a] * site.tangent[b];
+            }
+        }
+    }
+    block
+}
+
+/// How the ridge of a site pulls.
+#[inline]
+fn pull_of_ridge<const D: usize>(site: &Site<D>, x: &[[f64; D]]) -> [f64; D] {
+    let mut pull = [0.0; D];
+    if site.ridge > 0.0 {
+        let y = combine(x, site.first, &site.weights);
+        let mut offset = [0.0; D];
+        for a in 0..D {
+            offset[a] = y[a] - site.center[a];
+        }
+        let along = dot(&offset, &site.tangent);
+        for a in 0..D {
+            pull[a] = site.ridge * (offset[a] - along * site.tangent[a]);
+        }
+    }
+    pull
+}
