@@ -217,6 +217,14 @@ fn families_come_near_the_least_time_in_the_tube_and_do_not_tremble() {
     }
 }
 
+/// Three axes, arcs, pockets and dense curves, at several feeds.
+#[test]
+fn the_example_does_not_tremble() {
+    let (_, report) = planned(include_str!("../../../glidepath/examples/part.ngc"));
+    assert!(report.cycle_time_s <= 27.23, "{} s", report.cycle_time_s);
+    assert_eq!(report.tremor_count, 0, "{:#?}", report.tremors);
+}
+
 /// A corner so sharp that the way out of it leads back beside the way in. Where periods may end
 /// elsewhere, a chord that misses it goes on beside the way in, and cannot be led on from there.
 #[test]

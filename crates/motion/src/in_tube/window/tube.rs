@@ -29,8 +29,9 @@ use super::spline::Grid;
 const MOST_SAGITTA_R: f64 = 0.5;
 /// Most corners between two samples that get rows.
 const MOST_CORNERS: usize = 4;
-/// Share of the feed that is planned with at most.
-pub(crate) const FEED_R: f64 = 1.0 - 2e-6;
+/// Share of the feed that is planned with at most. It is a period in 80 s; with all of the feed the
+/// motion trembles here and there behind corners.
+pub(crate) const FEED_R: f64 = 0.999_95;
 /// Price of velocity across the path ([`Style::steering`]).
 pub(crate) const STEERING: f64 = 0.5;
 /// The same as long as samples find their places: at corners it is paid in time.
