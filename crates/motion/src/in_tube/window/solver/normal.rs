@@ -156,7 +156,7 @@ impl<const D: usize> NormalEquations<D> {
         self.step[last..].fill(end);
     }
 
-    /// Takes away the pulls of the rows on differences of `N` points.
+    /// Takes away the pulls of the rows on differences of `N` points; coefficients behind these are zero.
     fn pull_differences<const N: usize>(
         &mut self,
         (problem, x): (&Problem<D>, &[[f64; D]]),
@@ -181,12 +181,7 @@ impl<const D: usize> NormalEquations<D> {
                     pull[a] += problem.jerk[a] * third[a];
                 }
             }
-            let points = &mut self.step[start + k..start + k + N];
-            for i in 0..N {
-                for a in 0..D {
-                    points[i][a] -= stencil[i] * pull[a];
-                }
-            }
+            take_away(&mut self.step, start + k, stencil, &pull);
         }
     }
 }
