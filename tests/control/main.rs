@@ -16,6 +16,7 @@ mod overrides;
 mod random;
 mod reaction;
 mod supervisor;
+mod untouched;
 
 /// How many times as much as by default the tests do.
 fn times() -> usize {

@@ -75,21 +75,21 @@ const fn case(name: &'static str, operator: Operator, average: u64, most: u64) -
 }
 
 const CASES: [Case; 9] = [
-    case("rate 1", Operator::Once(None), 3_950, 25_500),
+    case("rate 1", Operator::Once(None), 3_660, 24_200),
     case("rate 0.5", HALF, 2_760, 24_600),
     case("held", Operator::Once(Some(Command::Hold)), 2_450, 2_450),
-    case("operator", Operator::Busy, 4_600, 83_000),
+    case("operator", Operator::Busy, 4_940, 83_000),
     Case {
         is_hard: true,
-        ..case("hard", Operator::Once(None), 65_500, 185_000)
+        ..case("hard", Operator::Once(None), 19_800, 101_000)
     },
     Case {
         is_hard: true,
-        ..case("hard, operator", Operator::Busy, 32_700, 184_000)
+        ..case("hard, operator", Operator::Busy, 32_800, 157_000)
     },
     Case {
         has_joints: true,
-        ..case("hexapod", Operator::Once(None), 5_550, 27_000)
+        ..case("hexapod", Operator::Once(None), 5_300, 25_800)
     },
     Case {
         is_jogged: true,
@@ -99,7 +99,7 @@ const CASES: [Case; 9] = [
         is_jogged: true,
         has_joints: true,
         // Every tick plays the stop through, with what the build of the mechanism forbids.
-        ..case("jog, hexapod", Operator::Once(None), 98_000, 165_000)
+        ..case("jog, hexapod", Operator::Once(None), 98_500, 166_000)
     },
 ];
 const HALF: Operator = Operator::Once(Some(Command::FeedOverride(0.5)));

@@ -1,11 +1,12 @@
 //! A stop as it is kept: a greedy descent, then ramps; mostly one of the two is empty.
 
 use crate::ramp::Ramp;
+use crate::track::TRACK_CAPACITY;
 
 /// Most ramps of a stop.
 const RAMPS: usize = 8;
-/// Most ticks of a greedy descent.
-const TICKS: usize = 48;
+/// Most ticks of a greedy descent: the frames at hand.
+pub(super) const TICKS: usize = TRACK_CAPACITY;
 
 /// A ramp that begins some ticks from now, or from the end of the one before.
 #[derive(Debug, Clone, Copy)]
@@ -14,47 +15,86 @@ pub(super) struct DelayedRamp {
     pub(super) ramp: Ramp,
 }
 
-/// A greedy descent: the slope after each of its ticks (see [`super::greedy_descent`]). In single
-/// precision, so that a stop stays small; what is tried is what is kept.
+/// A greedy descent (see [`super::greedy_descent`]) that begins some ticks from now: where its slopes
+/// are.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct DescentSlopes {
-    pub(super) in_ticks: u32,
-    taken: u8,
-    len: u8,
-    values: [f32; TICKS],
+pub(super) struct KeptDescent {
+    in_ticks: u32,
+    taken: u16,
+    len: u16,
+    /// Which of the two in [`DescentSlopes`].
+    side: u8,
 }
 
-impl DescentSlopes {
-    /// A descent that begins so many ticks from now, without a tick so far.
-    pub(super) const fn new(in_ticks: u32) -> Self {
-        Self {
-            in_ticks,
-            taken: 0,
-            len: 0,
-            values: [0.0; TICKS],
-        }
-    }
-
-    /// Appends a tick; `None` if there are too many.
-    pub(super) fn then(mut self, slope: f32) -> Option<Self> {
-        *self.values.get_mut(usize::from(self.len))? = slope;
-        self.len += 1;
-        Some(self)
-    }
-
-    const fn clear(&mut self) {
-        (self.in_ticks, self.taken, self.len) = (0, 0, 0);
-    }
+impl KeptDescent {
+    const NONE: Self = Self {
+        in_ticks: 0,
+        taken: 0,
+        len: 0,
+        side: 0,
+    };
 
     const fn is_left(&self) -> bool {
         self.taken < self.len
     }
 }
 
+/// The slopes after each of their ticks of two greedy descents: of the stop in reserve, and of one that
+/// may replace it. They stay where they are, so that a stop is small. In single precision; what is tried
+/// is what is kept.
+#[derive(Debug)]
+pub(super) struct DescentSlopes {
+    sides: Box<[[f32; TICKS]; 2]>,
+    /// The side that is not that of the stop in reserve.
+    spare: u8,
+}
+
+impl DescentSlopes {
+    /// Room for both. Allocates all it will ever use.
+    pub(super) fn new() -> Self {
+        Self {
+            sides: Box::new([[0.0; TICKS]; 2]),
+            spare: 0,
+        }
+    }
+
+    /// Writes a descent of so many ticks down, the last one first, that begins some ticks from now.
+    pub(super) fn write_back(
+        &mut self,
+        in_ticks: u32,
+        len: u16,
+        slopes: impl Iterator<Item = f32>,
+    ) -> KeptDescent {
+        let side = self.spare;
+        if let Some(values) = self.sides.get_mut(usize::from(side)) {
+            let values = values.iter_mut().take(usize::from(len)).rev();
+            for (value, slope) in values.zip(slopes) {
+                *value = slope;
+            }
+        }
+        KeptDescent {
+            in_ticks,
+            taken: 0,
+            len,
+            side,
+        }
+    }
+
+    /// The descent that was written last is that of the stop in reserve from now on.
+    pub(super) const fn keep(&mut self) {
+        self.spare ^= 1;
+    }
+
+    fn slope(&self, descent: &KeptDescent) -> Option<f32> {
+        let values = self.sides.get(usize::from(descent.side))?;
+        values.get(usize::from(descent.taken)).copied()
+    }
+}
+
 /// A stop: how the rate gets to 0, played through and within the limits.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct KeptStop {
-    descent: DescentSlopes,
+    descent: KeptDescent,
     ramps: [DelayedRamp; RAMPS],
     /// How many of the ramps have begun, and how many there are.
     begun: usize,
@@ -64,11 +104,11 @@ pub(super) struct KeptStop {
 impl KeptStop {
     /// A stop with nothing in it.
     pub(super) const fn new() -> Self {
-        Self::after(DescentSlopes::new(0))
+        Self::after(KeptDescent::NONE)
     }
 
     /// A stop that begins with a descent, without ramps so far.
-    pub(super) const fn after(descent: DescentSlopes) -> Self {
+    pub(super) const fn after(descent: KeptDescent) -> Self {
         let none = DelayedRamp {
             in_ticks: 0,
             ramp: Ramp::NONE,
@@ -83,16 +123,13 @@ impl KeptStop {
 
     /// Leaves nothing in it.
     pub(super) const fn clear(&mut self) {
-        self.descent.clear();
+        self.descent = KeptDescent::NONE;
         (self.begun, self.len) = (0, 0);
     }
 
     /// Becomes another stop. Copies what there is of it, mostly a small part of its room.
     pub(super) fn copy(&mut self, other: &Self) {
-        self.descent.clear();
-        if other.descent.is_left() {
-            self.descent = other.descent;
-        }
+        self.descent = other.descent;
         (self.begun, self.len) = (other.begun, other.len);
         for (slot, delayed) in self.ramps.iter_mut().zip(&other.ramps).take(other.len) {
             *slot = *delayed;
@@ -107,6 +144,11 @@ impl KeptStop {
         *free = delayed;
         self.len += 1;
         true
+    }
+
+    /// Whether a descent is left of it.
+    pub(super) const fn descends(&self) -> bool {
+        self.descent.is_left()
     }
 
     /// Whether there is nothing in it.
@@ -139,13 +181,18 @@ impl KeptStop {
     }
 
     /// One tick has passed, at a rate with a slope: the ramp that begins now, if one does.
-    pub(super) fn count_down(&mut self, rate: f64, slope: f64) -> Option<Ramp> {
+    pub(super) fn count_down(
+        &mut self,
+        rate: f64,
+        slope: f64,
+        slopes: &DescentSlopes,
+    ) -> Option<Ramp> {
         if self.descent.is_left() {
             if self.descent.in_ticks > 0 {
                 self.descent.in_ticks -= 1;
                 return None;
             }
-            let to = *self.descent.values.get(usize::from(self.descent.taken))?;
+            let to = slopes.slope(&self.descent)?;
             self.descent.taken += 1;
             return Ramp::tick_to(rate, slope, f64::from(to));
         }

@@ -136,7 +136,7 @@ impl RampTrial {
                     is_held: false,
                     ..end
                 });
-                self.stage = Stage::Stop(StopSearch::new(at, rate, false));
+                self.stage = Stage::Stop(StopSearch::new(at, rate));
             }
         }
         self.search_rest(situation, budget)

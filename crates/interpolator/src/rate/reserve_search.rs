@@ -19,13 +19,14 @@
 //! How a stop is found is told in [`super::stop_search`] and [`super::greedy_descent`]. The first
 //! costs less, the second finds more: it is begun when no start is left for the first, or when
 //! there is little time. A plan can be at its limits on so many axes, for so long, that no later
-//! stop is found. Then the motion goes a little slower, where there is more room; and if that
-//! cannot be, the stop in reserve is taken, however many frames there are: it is what is known to
-//! keep the limits. A way back is found soon. Where the motion stands and no stop is found from the
-//! full rate, it sets out at a lower one. With a horizon of 0.6 s this is rare, with near-optimal
-//! plans too: they can be at their limits for a third of a second.
+//! stop is found, or that there is none. Then the motion goes a little slower, where there is more
+//! room; and if that cannot be, the stop in reserve is taken, however many frames there are: it is
+//! what is known to keep the limits. A way back is found soon. Where the motion stands and no stop
+//! is found from the full rate, it sets out at a lower one. With a horizon of 0.6 s this is rare,
+//! with near-optimal plans too.
 
-use super::kept_stop::KeptStop;
+use super::greedy_descent::{DescentOutcome, GreedyDescent};
+use super::kept_stop::{DelayedRamp, DescentSlopes, KeptStop};
 use super::play::Cue;
 use super::situation::Situation;
 use super::steady_rate::{SteadyRate, whole};
@@ -33,10 +34,11 @@ use super::stop_search::{StopOutcome, StopSearch};
 use crate::program_time::ProgramTime;
 use crate::ramp::Ramp;
 
-/// Ticks between the latest possible and the earliest useful start of a stop are divided into so
-/// many parts. Each start is tried twice: without a greedy descent, and later with one, the latest
-/// first again.
-const STARTS: u32 = 8;
+/// The starts of a stop that are tried: which share of the ticks between the latest possible and the
+/// earliest useful it is before the latest. The last ones with a greedy descent, which finds later
+/// starts, too.
+const STARTS: [f64; 6] = [0.0, 0.2, 0.4, 0.8, 0.95, 1.0];
+const DESCENTS: usize = 3;
 
 /// What a search for a later stop has come to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +52,7 @@ pub(super) enum ReserveOutcome {
 }
 
 /// A search for a later stop in reserve that takes several ticks.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub(super) struct ReserveSearch {
     /// There is one. It stays where it is: a kilobyte that is moved is sixteen cache lines, twice.
     is_under_way: bool,
@@ -58,14 +60,17 @@ pub(super) struct ReserveSearch {
     from: SteadyRate,
     /// Ticks from there to the start of the stop.
     begins: u32,
-    /// Which start that is: of the first [`STARTS`] without a greedy descent, or those with one.
-    turn: u32,
+    /// The index of that start in [`STARTS`].
+    turn: usize,
     stop: StopSearch,
+    descent: GreedyDescent,
+    slopes: DescentSlopes,
+    found: KeptStop,
 }
 
 impl ReserveSearch {
     /// No search so far.
-    pub(super) const fn none() -> Self {
+    pub(super) fn new() -> Self {
         Self {
             is_under_way: false,
             from: SteadyRate {
@@ -74,7 +79,10 @@ impl ReserveSearch {
             },
             begins: 0,
             turn: 0,
-            stop: StopSearch::new(Cue::NONE, 0.0, false),
+            stop: StopSearch::new(Cue::NONE, 0.0),
+            descent: GreedyDescent::new(),
+            slopes: DescentSlopes::new(),
+            found: KeptStop::new(),
         }
     }
 
@@ -83,14 +91,18 @@ impl ReserveSearch {
         self.is_under_way = false;
     }
 
-    /// The stop that was found, from where it begins.
-    pub(super) const fn found(&self) -> &KeptStop {
-        self.stop.stop()
+    /// The stop that was found becomes the one in reserve.
+    pub(super) fn take_found(&mut self, kept: &mut KeptStop) {
+        kept.copy(&self.found);
+        kept.delay(self.begins);
+        if kept.descends() {
+            self.slopes.keep();
+        }
     }
 
-    /// Ticks until the stop that was found begins.
-    pub(super) const fn begins(&self) -> u32 {
-        self.begins
+    /// The slopes of the stop in reserve.
+    pub(super) const fn slopes(&self) -> &DescentSlopes {
+        &self.slopes
     }
 
     /// Goes on with the search for a stop that begins `at_least` so many ticks from now, or begins
@@ -106,54 +118,67 @@ impl ReserveSearch {
         situation: &Situation<'_>,
         budget: &mut u32,
     ) -> ReserveOutcome {
-        // Ramps cost less, but the time to look for them ends.
-        let first = if is_short { STARTS } else { 0 };
+        let first = if is_short { DESCENTS } else { 0 };
         let goes_on = self.is_under_way && self.follow(now) && self.turn >= first;
         if !goes_on {
             self.begin(first, now, at_least, situation);
         }
         while self.is_under_way {
-            match self.stop.go_on(situation, budget) {
+            match self.go_on_from_start(situation, budget) {
                 StopOutcome::Rest => {
                     self.is_under_way = false;
                     return ReserveOutcome::Found;
                 }
                 StopOutcome::Open => return ReserveOutcome::Open,
-                StopOutcome::Lost => {
-                    let next = self.turn + 1;
-                    self.begin(next, now, at_least, situation);
-                    if !self.is_under_way && next < STARTS {
-                        // No earlier start for ramps: greedy descents from the latest on.
-                        self.begin(STARTS, now, at_least, situation);
-                    }
-                }
+                StopOutcome::Lost => self.begin(self.turn + 1, now, at_least, situation),
             }
         }
         ReserveOutcome::NoneLeft
     }
 
+    fn go_on_from_start(&mut self, situation: &Situation<'_>, budget: &mut u32) -> StopOutcome {
+        if self.turn < DESCENTS {
+            let outcome = self.stop.go_on(situation, budget);
+            if matches!(outcome, StopOutcome::Rest) {
+                self.found.copy(self.stop.stop());
+            }
+            return outcome;
+        }
+        match self.descent.go_on(situation, budget) {
+            DescentOutcome::Rest(ramp) => {
+                self.found = KeptStop::after(self.descent.write(&mut self.slopes));
+                self.found.push(DelayedRamp { in_ticks: 0, ramp });
+                StopOutcome::Rest
+            }
+            DescentOutcome::Open => StopOutcome::Open,
+            DescentOutcome::Lost => StopOutcome::Lost,
+        }
+    }
+
     /// Begins with a start, if it is not too early.
-    fn begin(&mut self, turn: u32, from: SteadyRate, at_least: u32, situation: &Situation<'_>) {
+    fn begin(&mut self, turn: usize, from: SteadyRate, at_least: u32, situation: &Situation<'_>) {
         self.is_under_way = self.try_begin(turn, from, at_least, situation).is_some();
     }
 
     fn try_begin(
         &mut self,
-        turn: u32,
+        turn: usize,
         from: SteadyRate,
         at_least: u32,
         situation: &Situation<'_>,
     ) -> Option<()> {
         let earliest = f64::from(at_least.max(3));
         let latest = latest(from, situation)?;
-        let step = ((latest - earliest) / f64::from(STARTS)).max(1.0);
-        let begins = (latest - f64::from(turn % STARTS) * step).floor();
-        if begins < earliest || turn >= 2 * STARTS {
+        let begins = (latest - STARTS.get(turn)? * (latest - earliest)).floor();
+        if begins < earliest {
             return None;
         }
-        let may_descend = turn >= STARTS;
-        self.stop
-            .begin(from.cue(begins, situation.track)?, from.rate, may_descend);
+        let cue = from.cue(begins, situation.track)?;
+        if turn < DESCENTS {
+            self.stop.begin(cue, from.rate);
+        } else {
+            self.descent.begin(cue, from.rate);
+        }
         (self.from, self.begins, self.turn) = (from, whole(begins), turn);
         Some(())
     }

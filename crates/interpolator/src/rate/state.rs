@@ -130,7 +130,7 @@ impl CandidateSearch {
 
 impl Rate {
     /// Standing at a frame with a steady rate.
-    pub(crate) const fn new(time: ProgramTime, rate: f64) -> Self {
+    pub(crate) fn new(time: ProgramTime, rate: f64) -> Self {
         Self {
             now: Progress {
                 time,
@@ -141,7 +141,7 @@ impl Rate {
             course: Course::Chosen,
             reserve: LaterStops {
                 kept: None,
-                search: ReserveSearch::none(),
+                search: ReserveSearch::new(),
                 found_none: false,
                 slower_tried: 0,
             },
@@ -328,7 +328,11 @@ impl Rate {
         let Some(reserve) = &mut self.reserve.kept else {
             return false;
         };
-        let Some(ramp) = reserve.stop.count_down(self.now.rate, self.now.slope) else {
+        let Some(ramp) =
+            reserve
+                .stop
+                .count_down(self.now.rate, self.now.slope, self.reserve.search.slopes())
+        else {
             return false;
         };
         let rest = Some(*reserve).filter(|rest| !rest.stop.is_empty());

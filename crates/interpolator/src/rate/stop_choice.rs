@@ -18,10 +18,9 @@ const TRIAL_BUDGET: u32 = 120;
 const GAIN: u32 = 3;
 /// Before a reserve begins, this many ticks are left to find a later one.
 const URGENT: u32 = 14;
-/// With so many left only greedy descents are tried: on a plan that is at its limits everywhere they take
-/// a while, and where its frames came in bursts of a tenth of a second the motion was slowed down for want
-/// of time.
-const SHORT: u32 = 4 * URGENT;
+/// With so many left, and no more than two stops take, only greedy descents are tried: while ramps are
+/// tried in vain it becomes too late.
+const SHORT: u32 = 2 * URGENT;
 
 /// In the last ticks before a reserve begins it is tried to go slower instead.
 const SLOWER_IN_TICKS: u32 = 4;
@@ -116,7 +115,9 @@ impl Rate {
         budget: &mut u32,
     ) -> bool {
         let now = self.steady();
-        let is_short = self.reserve.kept.is_some() && at_least <= SHORT;
+        let short = u64::from(SHORT).min(2 * situation.reach);
+        let is_short =
+            self.reserve.kept.is_some() && u64::from(at_least) <= short + u64::from(GAIN);
         let search = &mut self.reserve.search;
         match search.go_on(now, at_least, is_short, situation, budget) {
             ReserveOutcome::Found => true,
@@ -133,8 +134,7 @@ impl Rate {
     fn keep_found(&mut self) {
         let reserve = self.reserve.kept.get_or_insert(Reserve::empty());
         reserve.arrives_at = None;
-        reserve.stop.copy(self.reserve.search.found());
-        reserve.stop.delay(self.reserve.search.begins());
+        self.reserve.search.take_found(&mut reserve.stop);
     }
 
     /// Goes a little slower, as little as possible, so that the stop in reserve need not begin:

@@ -20,7 +20,6 @@
 //! is found keeps the limits as it stands. The search can pause between any two samples, and go on
 //! in the next tick: it depends on the position along the path, not on when that is looked at.
 
-use super::greedy_descent::{DescentOutcome, GreedyDescent};
 use super::kept_stop::{DelayedRamp, KeptStop};
 use super::play::{Cue, Playthrough, PlaythroughOutcome};
 use super::situation::{SET_UP, Situation};
@@ -73,10 +72,6 @@ pub(super) struct StopSearch {
     /// The end of what is known so far, where the rate is steady.
     at: Cue,
     rate: f64,
-    /// Whether a greedy descent is begun where no step passes; else the rate stays for a tick.
-    may_descend: bool,
-    /// The descent to a lower rate that is under way.
-    descent: Option<GreedyDescent>,
     /// Ticks since the last step.
     waited: u32,
     /// The steps so far.
@@ -92,14 +87,11 @@ pub(super) struct StopSearch {
 }
 
 impl StopSearch {
-    /// A search that begins where the rate is steady. Where no step passes there, it begins a
-    /// greedy descent if it may, or waits.
-    pub(super) const fn new(at: Cue, rate: f64, may_descend: bool) -> Self {
+    /// A search that begins where the rate is steady.
+    pub(super) const fn new(at: Cue, rate: f64) -> Self {
         Self {
             at,
             rate,
-            may_descend,
-            descent: None,
             waited: 0,
             stop: KeptStop::new(),
             turn: 0,
@@ -110,9 +102,9 @@ impl StopSearch {
     }
 
     /// Begins anew. What is not in use is not written.
-    pub(super) const fn begin(&mut self, at: Cue, rate: f64, may_descend: bool) {
-        (self.at, self.rate, self.may_descend) = (at, rate, may_descend);
-        (self.descent, self.playthrough, self.bounds) = (None, None, None);
+    pub(super) const fn begin(&mut self, at: Cue, rate: f64) {
+        (self.at, self.rate) = (at, rate);
+        (self.playthrough, self.bounds) = (None, None);
         (self.waited, self.turn, self.tries_all) = (0, 0, true);
         self.stop.clear();
     }
@@ -125,16 +117,6 @@ impl StopSearch {
     /// Goes on until rest, or until the budget is used up.
     pub(super) fn go_on(&mut self, situation: &Situation<'_>, budget: &mut u32) -> StopOutcome {
         while *budget > SET_UP {
-            if let Some(descent) = &mut self.descent {
-                match descent.go_on(situation, budget) {
-                    DescentOutcome::Lower(at, rate, slopes) => {
-                        self.begin(at, rate, false);
-                        self.stop = KeptStop::after(slopes);
-                    }
-                    DescentOutcome::Open => return StopOutcome::Open,
-                    DescentOutcome::Lost => return StopOutcome::Lost,
-                }
-            }
             *budget = budget.saturating_sub(SET_UP);
             let sequence = self.at.time.sequence;
             let bounds = *self
@@ -145,10 +127,6 @@ impl StopSearch {
                     StepOutcome::Rest => return StopOutcome::Rest,
                     StepOutcome::Lower => break,
                     StepOutcome::Failed if self.turn_to_next() => {}
-                    StepOutcome::Failed if self.may_descend => {
-                        self.descent = Some(GreedyDescent::new(self.at, self.rate, bounds.alpha));
-                        break;
-                    }
                     StepOutcome::Failed => {
                         if !self.wait(situation, budget) {
                             return StopOutcome::Lost;
@@ -208,7 +186,7 @@ impl StopSearch {
             return StepOutcome::Full;
         }
         (self.at, self.rate, self.waited, self.turn) = (end, target, 0, 0);
-        (self.bounds, self.may_descend) = (None, false);
+        self.bounds = None;
         if target > 0.0 {
             StepOutcome::Lower
         } else {
