@@ -3,7 +3,7 @@
 
 use glidepath_tests::pocket;
 
-use crate::supervisor::{Job, Supervisor, jobs};
+use crate::supervisor::{Job, Supervisor, assert_limits, jobs};
 use crate::times;
 
 /// Near-optimal plans at the limits of several axes for longer than a stop takes.
@@ -47,6 +47,29 @@ fn nobody_slows_down_what_is_hard_to_stop_on() {
     let pockets = (0..if times() > 1 { 10 } else { 0 }).map(|form| Job::text(pocket(60, form)));
     for (job, n) in hard.into_iter().chain(pockets).zip(0..) {
         job.supervised(|supervisor| assert_as_planned(supervisor, &format!("program {n}")));
+    }
+}
+
+/// The planner pauses, sooner or later: the motion comes to rest within the limits on what is at hand, and
+/// goes on.
+#[test]
+fn what_is_hard_to_stop_on_is_stopped() {
+    for (text, program) in HARD.iter().zip(0..) {
+        let job = Job::text((*text).to_owned());
+        for ticks in (100..500).step_by(if times() > 1 { 1 } else { 57 }) {
+            job.supervised(|supervisor| {
+                supervisor.play(ticks);
+                supervisor.comes_every = usize::MAX;
+                supervisor.play(400);
+                let last = supervisor.setpoints.last().unwrap();
+                let stands = last.velocity.iter().all(|v| v.abs() < 1e-9);
+                assert!(stands, "program {program}, {ticks} ticks: {last:?}");
+                supervisor.comes_every = 1;
+                supervisor.play(2_000);
+                assert!(supervisor.is_over(), "program {program}, {ticks} ticks");
+                assert_limits(&supervisor.audit(&job.settings, 1.0));
+            });
+        }
     }
 }
 
