@@ -144,8 +144,9 @@ impl Rate {
         let fastest = situation.fastest_from(self.now.time.sequence);
         let mut budget = situation.budget(TRIAL_BUDGET);
         for _ in 0..SLOWER.len() {
+            let turn = self.reserve.slower_tried % SLOWER.len();
             self.reserve.slower_tried += 1;
-            let Some((share, pace)) = SLOWER.get(self.reserve.slower_tried % SLOWER.len()) else {
+            let Some((share, pace)) = SLOWER.get(turn) else {
                 continue;
             };
             let target = self.now.rate * (1.0 - share);
