@@ -306,27 +306,15 @@ impl Branch {
 
     /// A tick later, at a steady rate; `None` beyond the frames at hand.
     fn wait(mut self, situation: &Situation<'_>) -> Option<Self> {
-        let Cue {
-            time, published, ..
-        } = &mut self.at;
-        *time = time.after(self.rate);
-        situation
-            .track
-            .append_to(published, *time, situation.allowed)
-            .then_some(self)
+        let Situation { track, allowed, .. } = situation;
+        self.at.go_on(self.rate, track, allowed).then_some(self)
     }
 
     /// A tick later.
     fn after(&self, ramp: &Ramp, situation: &Situation<'_>) -> Option<Self> {
         let mut at = self.at;
-        at.time = at.time.after(ramp.elapsed_at(1.0));
-        if !situation
-            .track
-            .append_to(&mut at.published, at.time, situation.allowed)
-        {
-            return None;
-        }
-        Some(Self {
+        let passes = at.go_on(ramp.elapsed_at(1.0), situation.track, situation.allowed);
+        passes.then_some(Self {
             at,
             rate: ramp.target(),
             slope: ramp.end_slope(),

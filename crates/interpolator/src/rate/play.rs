@@ -38,6 +38,13 @@ impl Cue {
         published: Differences::NONE,
         is_held: false,
     };
+
+    /// Goes on by so much of program time, in a tick; returns whether that is within the limits, and
+    /// within the frames at hand.
+    pub(super) fn go_on(&mut self, by: f64, track: &Track, allowed: &Allowed) -> bool {
+        self.time = self.time.after(by);
+        track.append_to(&mut self.published, self.time, allowed)
+    }
 }
 
 /// A ramp that is being played through, to three ticks past its end. It can pause between any two

@@ -21,7 +21,7 @@
 //! there is little time. A plan can be at its limits on so many axes, for so long, that no later
 //! stop is found, or that there is none. Then the motion goes a little slower, where there is more
 //! room; and if that cannot be, the stop in reserve is taken, however many frames there are: it is
-//! what is known to keep the limits. A way back is found soon. Where the motion stands and no stop
+//! what is known to keep the limits. A way back is mostly found soon. Where the motion stands and no stop
 //! is found from the full rate, it sets out at a lower one. With a horizon of 0.6 s this is rare,
 //! with near-optimal plans too.
 
@@ -35,9 +35,9 @@ use crate::program_time::ProgramTime;
 use crate::ramp::Ramp;
 
 /// The starts of a stop that are tried: which share of the ticks between the latest possible and the
-/// earliest useful it is before the latest. The last ones with a greedy descent, which finds later
-/// starts, too.
+/// earliest useful it is before the latest.
 const STARTS: [f64; 6] = [0.0, 0.2, 0.4, 0.8, 0.95, 1.0];
+/// From this one on with a greedy descent, which finds later starts, too.
 const DESCENTS: usize = 3;
 
 /// What a search for a later stop has come to.

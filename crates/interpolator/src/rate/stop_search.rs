@@ -205,19 +205,14 @@ impl StopSearch {
     /// Stays at the rate for a tick; false if that cannot be.
     fn wait(&mut self, situation: &Situation<'_>, budget: &mut u32) -> bool {
         *budget = budget.saturating_sub(1);
-        self.at.time = self.at.time.after(self.rate);
         self.waited += 1;
         self.turn = 0;
         self.tries_all = self.waited.is_multiple_of(THOROUGH);
         if self.tries_all {
             self.bounds = None;
         }
-        let Cue {
-            time, published, ..
-        } = &mut self.at;
-        situation
-            .track
-            .append_to(published, *time, situation.allowed)
+        let Situation { track, allowed, .. } = situation;
+        self.at.go_on(self.rate, track, allowed)
     }
 }
 
