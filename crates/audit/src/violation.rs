@@ -123,6 +123,17 @@ pub enum Inconsistency {
     Acceleration,
 }
 
+impl Inconsistency {
+    /// What does not fit.
+    const fn text(self) -> &'static str {
+        match self {
+            Self::Position => "its position does not follow",
+            Self::Velocity => "its velocity does not follow",
+            Self::Acceleration => "its acceleration steps",
+        }
+    }
+}
+
 /// A broken rule, and where.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Violation {
@@ -160,7 +171,8 @@ impl fmt::Display for Violation {
             ViolationKind::Inconsistent { axis, what } => {
                 write!(
                     f,
-                    "{axis}: reported state does not fit the positions ({what:?})"
+                    "{axis}: the reported state does not fit the positions ({})",
+                    what.text()
                 )
             }
             ViolationKind::Gap { after } => write!(f, "no samples since tick {after}"),

@@ -50,6 +50,7 @@ pub mod interrupt;
 pub mod jitter;
 mod joints;
 mod kept;
+pub mod machine_options;
 pub mod output;
 pub mod output_file;
 pub mod page;

@@ -1,6 +1,7 @@
 //! Everything the process prints: results to standard output, diagnostics and progress to standard
 //! error, so that a result can be piped.
 
+use crate::machine_options::complete;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 use serde::Serialize;
 use std::io::{ErrorKind, IsTerminal as _, Write};
@@ -51,7 +52,7 @@ pub fn object<T: Serialize>(object: &T) {
 
 /// Writes a line to standard error.
 pub fn note(text: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+    let _ = writeln!(std::io::stderr().lock(), "{}", complete(text));
 }
 
 /// A diagnostic as text with the source line and a caret: in colour if `colour`.

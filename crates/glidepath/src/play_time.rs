@@ -236,7 +236,14 @@ const fn cause_of(state: MachineState, has_moved: bool) -> Option<Cause> {
                 Cause::StartUp
             })
         }
-        _ => None,
+        MachineState::Idle
+        | MachineState::Running
+        | MachineState::Faulted
+        | MachineState::Awaiting
+        | MachineState::Jogging
+        | MachineState::Homing
+        | MachineState::Off
+        | MachineState::NotHomed => None,
     }
 }
 

@@ -4,7 +4,7 @@ use crate::config::MachineConfig;
 use crate::file_error::FileError;
 use crate::output_file::{Guard, OutputFile, OutputKind};
 use crate::picture::Picture;
-use crate::report::{MotionReport, state_name};
+use crate::report::MotionReport;
 use crate::sample::Sample;
 use crate::setpoints::CsvWriter;
 use glidepath_link::MachineState;
@@ -91,7 +91,7 @@ impl Recording {
             written.map_err(FileError::file("write", &self.csv_path))?;
         }
         // Waiting before and after the program is no part of the picture.
-        let shown = sample.state != state_name(MachineState::Idle);
+        let shown = sample.state != MachineState::Idle.name();
         if let Some((_, plot)) = self.plot.as_mut().filter(|_| shown) {
             plot.push(sample);
         }

@@ -1,10 +1,9 @@
 //! One setpoint as reports and plots see it, whether it was planned or received.
 
-use crate::report::state_name;
 use glidepath_audit::diagnosis::{Binding, Deviation, Diagnosis};
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::JointVector;
-use glidepath_link::Setpoint;
+use glidepath_link::{MachineState, Setpoint};
 use glidepath_program::{Frame, FrameFlags};
 
 /// The machine at one tick.
@@ -89,7 +88,7 @@ impl Sample {
             )]
             time_t: setpoint.tick as f64 * period_t,
             line: setpoint.line,
-            state: setpoint.state().map_or("unknown", state_name),
+            state: setpoint.state().map_or("unknown", MachineState::name),
             rapid: setpoint.has(FrameFlags::RAPID),
             binding: None,
             deviation: None,

@@ -3,7 +3,7 @@
 
 use crate::gates::{Answer, Gates};
 use crate::message::Report;
-use glidepath_link::{EndOfEpoch, EventId};
+use glidepath_link::{EndOfEpoch, EventId, Objection};
 
 /// Most events that are told and not yet awaited. Of more the oldest is answered at its gate alone.
 pub(crate) const MOST_TOLD: usize = 4;
@@ -77,12 +77,12 @@ impl Acknowledgements {
         event: EventId,
         done: bool,
         report: &Report,
-    ) -> Result<(), &'static str> {
+    ) -> Result<(), Objection> {
         if event.boot_id != self.boot_id {
-            return Err("that event is of another life of the interpolator");
+            return Err(Objection::OtherLife);
         }
         if self.answered.contains(&Some(event)) {
-            return Err("that event was answered already");
+            return Err(Objection::Answered);
         }
         let is_open =
             event.epoch == report.setpoint.epoch && report.end_of_epoch == EndOfEpoch::Open;
@@ -94,20 +94,18 @@ impl Acknowledgements {
             .or(told.map(|told| told.by_feedback));
         match by_feedback {
             Some(true) if done => {
-                return Err("the drives' feedback answers that event, and nobody else");
+                return Err(Objection::ByFeedback);
             }
             Some(_) => return Ok(()),
             None => {}
         }
         Err(match report.awaited {
-            None if is_open && event.sequence > report.setpoint.sequence => {
-                "too early: the machine has not come to that event yet"
-            }
-            None => "no event is awaited",
+            None if is_open && event.sequence > report.setpoint.sequence => Objection::TooEarly,
+            None => Objection::NoEvent,
             Some(awaited) if (event.epoch, event.sequence) > (awaited.epoch, awaited.sequence) => {
-                "too early: the machine waits for another event before that one"
+                Objection::EarlierEvent
             }
-            Some(_) => "another event is awaited",
+            Some(_) => Objection::AnotherEvent,
         })
     }
 }

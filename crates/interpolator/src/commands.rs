@@ -4,7 +4,7 @@ use crate::acknowledgements::Acknowledgements;
 use crate::feedback::DriveBook;
 use crate::message::{Order, PortsEnds, Report};
 use glidepath_link::{
-    Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, MachineState,
+    Command, CommandOutcome, CommandRefusal, CommandReply, CommandRequest, MachineState, Objection,
 };
 
 /// Answers a command: passes it on to the real-time thread, or says why not.
@@ -24,7 +24,7 @@ pub(crate) fn answer(
         Ok(Command::Ping | Command::Tell) => (Ok(()), String::new()),
         Ok(Command::Acknowledge { event, done }) => {
             match acknowledgements.judge(event, done, report) {
-                Err(why) => (Err(CommandRefusal::WrongState), why.to_owned()),
+                Err(why) => objected(why),
                 Ok(()) => {
                     let command = Command::Acknowledge { event, done };
                     let (outcome, message) = pass_on(command, report.state, ends);
@@ -36,12 +36,16 @@ pub(crate) fn answer(
             }
         }
         Ok(command) => match judge(command, report, drives) {
-            Err(why) => (Err(CommandRefusal::WrongState), why),
+            Err(why) => objected(why),
             Ok(false) => (Ok(()), String::new()),
             Ok(true) => pass_on(command, report.state, ends),
         },
     };
     CommandReply::new(boot_id, request.number, outcome, report.state, &message)
+}
+
+fn objected(why: Objection) -> (CommandOutcome, String) {
+    (Err(CommandRefusal::WrongState), why.text().to_owned())
 }
 
 /// Whether the real-time thread has to know of a command.
@@ -52,12 +56,12 @@ fn judge(
     command: Command,
     report: &Report,
     drives: Option<(&mut DriveBook, u64)>,
-) -> Result<bool, String> {
+) -> Result<bool, Objection> {
     // Joints that were just told to come home are not yet seen to move.
     let sets_out = drives.as_ref().is_some_and(|(book, _)| book.is_homing());
     let is_stop = command == Command::Abort && sets_out;
     if !is_stop && let Some(why) = objection(command, report, drives.is_some()) {
-        return Err(why.to_owned());
+        return Err(why);
     }
     drives.map_or(Ok(true), |(book, now_ns)| {
         book.command(command, report, now_ns)
@@ -80,18 +84,17 @@ fn pass_on(
         Ok(()) => (Ok(()), String::new()),
         Err(_) => (
             Err(CommandRefusal::Busy),
-            "too many commands at once; ask again".to_owned(),
+            CommandRefusal::Busy.text().to_owned(),
         ),
     }
 }
 
 /// Why a command is not possible as things are, if it is not.
-fn objection(command: Command, report: &Report, has_drives: bool) -> Option<&'static str> {
+fn objection(command: Command, report: &Report, has_drives: bool) -> Option<Objection> {
     use MachineState::{
         Awaiting, Faulted, Held, Holding, Homing, Idle, Jogging, NotHomed, Off, ProgramStop,
         Stopping,
     };
-    const AWAY: &str = "the axes are away from the path: return first";
     let (state, is_away) = (report.state, report.is_away);
     let (is_possible, why) = match command {
         Command::Ping
@@ -103,51 +106,42 @@ fn objection(command: Command, report: &Report, has_drives: bool) -> Option<&'st
         Command::FeedOverride(ratio) if ratio >= 0.0 => return None,
         Command::FeedOverride(_) | Command::Reverse => (
             !matches!(state, Idle | Faulted | Off | NotHomed | Homing),
-            "no program runs: there is no path to go back along",
+            Objection::NoPathBack,
         ),
         Command::Hold => (
             !matches!(state, Idle | Faulted | Off | NotHomed | Homing),
-            "no program runs: there is nothing to hold",
+            Objection::NothingToHold,
         ),
-        Command::Resume | Command::Step if is_away => (false, AWAY),
+        Command::Resume | Command::Step if is_away => (false, Objection::Away),
         Command::Resume => (
             matches!(state, Holding | Held | ProgramStop),
-            "nothing is held: resume goes on after a hold or a program stop",
+            Objection::NothingHeld,
         ),
         Command::Abort => (
             !matches!(state, Idle | Off | NotHomed),
-            "no program runs: there is nothing to abort",
+            Objection::NothingToAbort,
         ),
-        Command::Reset => (
-            state == Faulted,
-            "no fault is latched, or the motion has not yet come to rest",
-        ),
+        Command::Reset => (state == Faulted, Objection::NoFault),
         Command::StopAtEndOfBlock => (
             !matches!(
                 state,
                 Idle | Faulted | Stopping | Jogging | Off | NotHomed | Homing
             ),
-            "no program runs: there is no block to stop at the end of",
+            Objection::NoBlock,
         ),
         Command::Step => (
             matches!(state, Holding | Held | ProgramStop),
-            "nothing is held: a step goes on after a hold, a program stop or the end of a block",
+            Objection::NoStep,
         ),
         Command::Enable
         | Command::Disable
         | Command::SetPosition { .. }
         | Command::Home(_)
-        | Command::Unhome(_) => (
-            has_drives,
-            "no feedback is configured: the drives are simulated, and always on and homed",
-        ),
-        Command::Return if !is_away => (
-            false,
-            "the axes are on the path: there is nowhere to return to",
-        ),
+        | Command::Unhome(_) => (has_drives, Objection::Simulated),
+        Command::Return if !is_away => (false, Objection::OnPath),
         Command::Return => (
             matches!(state, Held | ProgramStop | Awaiting),
-            "the axes are moving: return when they are at rest",
+            Objection::Moving,
         ),
         // It is judged by itself.
         Command::Acknowledge { .. } => return None,

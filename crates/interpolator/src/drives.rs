@@ -190,7 +190,26 @@ impl Drives {
                     ..Homing::default()
                 };
             }
-            _ => {}
+            Command::Enable
+            | Command::Disable
+            | Command::Home(_)
+            | Command::Ping
+            | Command::Hold
+            | Command::Resume
+            | Command::FeedOverride(_)
+            | Command::RapidOverride(_)
+            | Command::StopAtEndOfBlock
+            | Command::SingleBlock(_)
+            | Command::Reset
+            | Command::Step
+            | Command::SetPosition { .. }
+            | Command::Unhome(_)
+            | Command::Return
+            | Command::Acknowledge { .. }
+            | Command::JogOverride(_)
+            | Command::Reverse
+            | Command::Forward
+            | Command::Tell => {}
         }
     }
 

@@ -10,7 +10,9 @@ use crate::feedback::Observation;
 use crate::homing::{JointsOrder, Moved};
 use crate::jog::Demand;
 use core::fmt;
-use glidepath_link::{Command, EndOfEpoch, EventId, MachineState, Power, Setpoint, SetpointFrame};
+use glidepath_link::{
+    Command, EndOfEpoch, EventId, MachineState, Power, Setpoint, SetpointFrame, StateChange,
+};
 use heapless::spsc::{Consumer, Producer, Queue};
 
 /// Frames under way between the threads, one less.
@@ -229,8 +231,10 @@ impl fmt::Display for Happening {
                 to,
                 line,
             } => {
-                write!(f, "tick {tick}: {from:?} -> {to:?}, line {line}")
+                let (from, to, line) = (*from, *to, *line);
+                write!(f, "tick {tick}: {}", StateChange { from, to, line })
             }
+            Self::Missed { tick, count: 1 } => write!(f, "tick {tick}: 1 tick missed"),
             Self::Missed { tick, count } => write!(f, "tick {tick}: {count} ticks missed"),
             Self::Excess { tick, part } => {
                 write!(f, "tick {tick}: a limit exceeded by {:.4} %", part * 100.0)

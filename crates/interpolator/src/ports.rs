@@ -203,7 +203,14 @@ impl<'a> Ports<'a> {
                     .drives
                     .as_mut()
                     .and_then(|drives| drives.explain(&fault));
-                self.tell(&why.unwrap_or_else(|| fault.to_string()));
+                match why {
+                    None => self.tell(&fault.to_string()),
+                    // The fault itself is in the status.
+                    Some(why) => {
+                        (self.log)(&format!("{fault}: {why}"));
+                        self.book.last_error(&why);
+                    }
+                }
             }
             self.report = Some(report);
         }
@@ -275,18 +282,14 @@ impl<'a> Ports<'a> {
                     answer(request, &report, *boot_id, drives, acknowledgements, ends)
                 };
                 let text = request.text.as_str();
-                match request.command() {
-                    Ok(Command::Tell) => {
-                        log(text);
-                        book.message(text);
-                    }
-                    Ok(Command::Acknowledge { done: false, .. })
-                        if !is_refusal(&reply) && !text.is_empty() =>
-                    {
-                        log(text);
-                        book.last_error(text);
-                    }
-                    _ => {}
+                let command = request.command().ok();
+                let has_failed = matches!(command, Some(Command::Acknowledge { done: false, .. }));
+                if command == Some(Command::Tell) {
+                    log(text);
+                    book.message(text);
+                } else if has_failed && !is_refusal(&reply) && !text.is_empty() {
+                    log(text);
+                    book.last_error(text);
                 }
                 book.status.commands_served += 1;
                 book.status.commands_refused += u64::from(is_refusal(&reply));

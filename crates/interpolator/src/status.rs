@@ -182,9 +182,27 @@ fn mode(report: &Report) -> MotionMode {
         MachineState::Jogging if report.is_returning => MotionMode::Return,
         MachineState::Jogging => MotionMode::Jog,
         MachineState::Homing => MotionMode::Homing,
-        _ if report.end_of_epoch != EndOfEpoch::Open => MotionMode::None,
-        _ if report.feed_override.is_sign_negative() => MotionMode::Backwards,
-        _ => MotionMode::Program,
+        MachineState::Idle
+        | MachineState::Running
+        | MachineState::Holding
+        | MachineState::Held
+        | MachineState::Starving
+        | MachineState::Starved
+        | MachineState::ProgramStop
+        | MachineState::Stopping
+        | MachineState::Faulted
+        | MachineState::Waiting
+        | MachineState::Awaiting
+        | MachineState::Off
+        | MachineState::NotHomed => match report.end_of_epoch {
+            EndOfEpoch::Open if report.feed_override.is_sign_negative() => MotionMode::Backwards,
+            EndOfEpoch::Open => MotionMode::Program,
+            EndOfEpoch::None
+            | EndOfEpoch::Completed
+            | EndOfEpoch::Aborted
+            | EndOfEpoch::Faulted
+            | EndOfEpoch::Tripped => MotionMode::None,
+        },
     }
 }
 

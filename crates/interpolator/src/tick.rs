@@ -124,7 +124,19 @@ impl Interpolator<'_> {
             {
                 MachineState::Held
             }
-            _ => of_program,
+            MachineState::Running
+            | MachineState::Holding
+            | MachineState::Held
+            | MachineState::Starving
+            | MachineState::Starved
+            | MachineState::ProgramStop
+            | MachineState::Faulted
+            | MachineState::Waiting
+            | MachineState::Awaiting
+            | MachineState::Jogging
+            | MachineState::Homing
+            | MachineState::Off
+            | MachineState::NotHomed => of_program,
         };
         self.has_moved = is_open && (self.has_moved || !stands);
         // Before the motion begins, frames are few by nature, and rests that the program begins with

@@ -43,7 +43,7 @@ pub enum LinkError {
     },
     /// A name in the configuration has characters or a length that file names cannot have.
     #[error(
-        "{what} {name:?}: only letters, digits, '-' and '_' are allowed, 1 to {longest} of them"
+        "{what} \"{name}\": only letters, digits, '-' and '_' are allowed, 1 to {longest} of them"
     )]
     Name {
         /// What it names.

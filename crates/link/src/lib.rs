@@ -19,7 +19,9 @@
 //!   its frames), [`Client`] and [`Server`];
 //! * the records: [`SetpointFrame`], [`Setpoint`], [`Status`], [`CommandRequest`],
 //!   [`SegmentRequest`] and their replies;
-//! * [`servo`] is what a drive does with setpoints.
+//! * [`servo`] is what a drive does with setpoints;
+//! * what people are told of states, faults and refusals: [`MachineState::text`], [`FaultReport`],
+//!   [`Objection`], [`refused`].
 //!
 //! Invariants:
 //!
@@ -55,6 +57,7 @@ mod ipc;
 mod port;
 mod record;
 mod service;
+mod wording;
 
 pub use error::{BoxedError, LinkError};
 pub use in_process::InProcess;
@@ -73,3 +76,4 @@ pub use record::{
     StreamItem, Text, decode,
 };
 pub use service::Capacity;
+pub use wording::{FaultReport, Objection, StateChange, refused};

@@ -17,15 +17,16 @@ function cause() {
   if (S.state === 'none') return `Nothing runs as “${INFO.machine.instance}”: glidepath interpolator starts it.`;
   if (S.state === 'stale') return S.heard ? `Last heard ${Math.round((performance.now() - S.heard) / 1000)} s ago. All below is old; the machine may be moving.` : 'The page has not heard anything yet.';
   const program = s.program ? `${stem(s.program)}, ` : '';
-  return {
-    idle: 'At rest. No program is under way.', running: `${program}${line(s)}. Nothing to do.`, holding: 'Slowing down on the path, for a feed hold.',
-    held: `At rest on the path, ${line(s)}. Resume goes on from here.`, starving: 'Slowing down on the path: the plan does not come fast enough.',
-    starved: 'At rest on the path until the planner sends more motion. It goes on by itself.', 'program-stop': `At rest at ${line(s)}, as the program asks. Resume goes on.`,
-    stopping: 'Coming to rest on the path. The rest of the program is dropped.', faulted: `${s.fault || 'A fault'}.`, waiting: 'At rest at the end of the motion known so far.',
-    awaiting: s.awaited ? `${s.awaited.event} at line ${s.awaited.line}, for ${span(s.awaited.waited_s)}: glidepath acknowledge` : 'An answer of the machine is awaited.',
-    jogging: 'The axes are moved by hand.', homing: 'Joints are on their way home.', off: 'The drives have no power. Enabling is done at the machine, never here.', 'not-homed': 'A joint does not know where it is. Homing is done at the machine.',
-  }[S.state] || S.state;
+  if (S.state === 'faulted') return `${sentence(s.fault || 'a fault')}.`;
+  if (S.state === 'awaiting' && s.awaited) return `${program}${line(s)}: ${s.awaited.event} of line ${s.awaited.line} is awaited, for ${span(s.awaited.waited_s)}.`;
+  // In these nothing of a program is under way.
+  const alone = ['idle', 'off', 'not-homed', 'homing', 'jogging'].includes(S.state);
+  return `${sentence(`${alone ? '' : `${program}${line(s)}: `}${plain(s.state_text || S.state)}`)}.`;
 }
+/* Texts come from the machine: commands in backticks, no capital, no full stop. */
+const plain = text => text.replaceAll('`', '');
+const sentence = text => text.charAt(0).toUpperCase() + text.slice(1);
+const marked = text => safe(text).replace(/`([^`]*)`/g, '<code>$1</code>');
 function fileWords() {
   const r = INFO.report;
   if (!r) return '';
@@ -36,8 +37,8 @@ function fileWords() {
 /* What stands in place of the text of the program when a person is needed. */
 function attention() {
   const s = S.status;
-  if (S.state === 'faulted') return `<h2>${safe(s.fault || 'A fault')}</h2><p>The machine rests, and stays at rest until someone takes note of the fault.</p><ol><li><span>Look at the tool and the part.</span></li><li><span>Mend the cause. The log is in Health, the whole of it in <code>glidepath status</code>.</span></li><li><span>At the machine: <code>glidepath reset</code>, then go on with <code>glidepath planner ${INFO.program ? safe(stem(INFO.program.name)) : 'part.ngc'} --resume</code></span></li></ol>`;
-  if (S.state === 'awaiting' && s.awaited) return `<h2>${safe(s.awaited.event)} at line ${s.awaited.line}</h2><p>The program waits until what it asked for is done${s.tool ? `; tool T${s.tool} is selected` : ''}. When it is:</p><ol><li><span><code>glidepath acknowledge</code></span></li><li><span>or, if it cannot be done: <code>glidepath acknowledge --fail "the reason"</code></span></li></ol>`;
+  if (S.state === 'faulted') return `<h2>${safe(sentence(s.fault || 'a fault'))}</h2><p>${marked(sentence(s.state_text || ''))}.</p><ol><li><span>Look at the tool and the part.</span></li><li><span>At the machine: ${marked(s.fault_remedy || '`glidepath reset`')}.</span></li></ol>`;
+  if (S.state === 'awaiting' && s.awaited) return `<h2>${safe(sentence(s.awaited.event))} of line ${s.awaited.line}</h2><p>The program waits until what it asked for is done${s.tool ? `; tool T${s.tool} is selected` : ''}. When it is:</p><ol><li><span>${marked(s.awaited.done_by)}</span></li><li><span>or, if it cannot be done: ${marked(s.awaited.failed_by)}</span></li></ol>`;
   if (S.state === 'program-stop') return `<h2>The program stopped at ${line(s)}</h2><p>${safe(s.last_event || '')}</p><ol><li><span>Do what the program stopped for.</span></li><li><span>Press Resume, here or at the machine.</span></li></ol>`;
   return '';
 }

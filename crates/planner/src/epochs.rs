@@ -88,7 +88,16 @@ impl Publisher<'_> {
                 MachineState::Idle | MachineState::Off | MachineState::NotHomed => {
                     return Err(RunError::Aborted);
                 }
-                _ => self.machine.pause(POLL, control),
+                MachineState::Running
+                | MachineState::Holding
+                | MachineState::Held
+                | MachineState::Starving
+                | MachineState::Starved
+                | MachineState::ProgramStop
+                | MachineState::Stopping
+                | MachineState::Awaiting
+                | MachineState::Jogging
+                | MachineState::Homing => self.machine.pause(POLL, control),
             }
         }
     }

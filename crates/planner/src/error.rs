@@ -1,7 +1,7 @@
 //! Why a run ended before its end.
 
 use glidepath_geometry::Axis;
-use glidepath_link::{CommandKind, CommandRefusal, FaultCause, FrameRefusal, LinkError, Status};
+use glidepath_link::{CommandKind, FaultCause, LinkError, Status, refused};
 use thiserror::Error;
 
 use crate::{Refusal, ResumeError};
@@ -20,23 +20,22 @@ pub enum RunError {
     Aborted,
     /// The interpolator stopped by a fault and latched its cause.
     #[error(
-        "the interpolator stopped by a fault: {0}; `glidepath status` tells more, and `glidepath reset` \
-         clears it"
+        "the machine stopped by a fault: {0}; {remedy}", remedy = .0.cause.remedy()
     )]
     Fault(Fault),
     /// The interpolator stopped by a fault, and somebody has reset it before its cause was read.
-    #[error("the interpolator stopped by a fault that was reset meanwhile{}", after_colon(.message))]
+    #[error("the machine stopped by a fault that was reset meanwhile{}", after_colon(.message))]
     FaultReset {
         /// What the interpolator said last.
         message: String,
     },
     /// The interpolator gave no sign of life, or was started anew.
-    #[error("the interpolator is gone; it is restarted by `glidepath interpolator`")]
+    #[error("the interpolator is gone; start it again: `glidepath interpolator`")]
     InterpolatorLost,
     /// Planner and interpolator are configured differently.
     #[error(
-        "the interpolator runs with a period of {interpolator_ns} ns, the planner was configured for \
-         {planner_ns} ns; give both the same configuration"
+        "the interpolator runs with a period of {} µs, the planner was configured for {} µs; give both \
+         the same configuration", micro(*.interpolator_ns), micro(*.planner_ns)
     )]
     PeriodMismatch {
         /// The planner's, ns.
@@ -45,17 +44,15 @@ pub enum RunError {
         interpolator_ns: u64,
     },
     /// The interpolator would not do what the planner needs.
-    #[error("the interpolator refused the command {command:?}: {refusal:?} {message}")]
+    #[error("{}", refused(.command.name(), .why))]
     CommandRefused {
         /// The command.
         command: CommandKind,
         /// Why.
-        refusal: CommandRefusal,
-        /// More, for people.
-        message: String,
+        why: String,
     },
     /// The interpolator did not answer.
-    #[error("the interpolator did not answer the command {command:?}")]
+    #[error("the interpolator did not answer the command {}", .command.name())]
     CommandUnanswered {
         /// The command.
         command: CommandKind,
@@ -80,27 +77,20 @@ pub struct Fault {
     pub line: u32,
     /// Axis, if the fault has one.
     pub axis: Option<Axis>,
-    /// What the interpolator says about it.
-    pub message: String,
+    /// What is known of it, as everybody tells it.
+    pub text: String,
 }
 
 impl std::fmt::Display for Fault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self.cause {
-            FaultCause::Frame(FrameRefusal::Elsewhere) => {
-                write!(f, "the program does not start where the machine stands")?;
-            }
-            FaultCause::Frame(refusal) => write!(f, "a frame was refused ({refusal:?})")?,
-            cause => write!(f, "{cause:?}")?,
-        }
-        if let Some(axis) = self.axis {
-            write!(f, ", axis {axis}")?;
-        }
-        if self.line > 0 {
-            write!(f, ", line {}", self.line)?;
-        }
-        f.write_str(&after_colon(&self.message))
+        f.write_str(&self.text)
     }
+}
+
+/// Nanoseconds as microseconds, which are whole but for odd periods.
+#[allow(clippy::cast_precision_loss, reason = "a period is far below 2^53 ns")]
+fn micro(time_ns: u64) -> f64 {
+    time_ns as f64 / 1e3
 }
 
 /// A message that may be missing.
@@ -114,15 +104,16 @@ fn after_colon(message: &str) -> String {
 impl RunError {
     /// The fault a status tells of.
     pub(crate) fn fault(status: &Status) -> Self {
-        let message = status.last_error.as_str().to_owned();
         match status.fault() {
             Ok(Some(cause)) => Self::Fault(Fault {
                 cause,
                 line: status.fault_line,
                 axis: status.fault_axis(),
-                message,
+                text: status.fault_text().unwrap_or_default(),
             }),
-            Ok(None) => Self::FaultReset { message },
+            Ok(None) => Self::FaultReset {
+                message: status.last_error.as_str().to_owned(),
+            },
             Err(error) => Self::Link(error.into()),
         }
     }

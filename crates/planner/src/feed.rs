@@ -35,20 +35,20 @@ pub enum FeedError {
     #[error(transparent)]
     Refused(#[from] Refusal),
     /// The planner refused a request.
-    #[error("the planner refused the stream{}: {refusal:?} {message}", AtLine(*.line))]
+    #[error("stream refused{}: {message}", AtLine(*.line))]
     RefusedByPlanner {
         /// Source line of what was refused, 0 if it has none.
         line: u32,
         /// Why.
         refusal: SegmentRefusal,
-        /// More, for people.
+        /// The same in words.
         message: String,
     },
     /// The planner did not answer.
-    #[error("the planner does not answer")]
+    #[error("the planner does not answer; `glidepath planner --listen` starts it")]
     PlannerLost,
     /// No interpolator tells where the machine stands.
-    #[error("no interpolator runs: nobody tells where the machine stands")]
+    #[error("no interpolator tells where the machine stands; `glidepath interpolator` starts one")]
     MachineLost,
     /// The machine moved between the reading of the program and the start.
     #[error("the machine moved while the program was read; start again")]
@@ -317,9 +317,13 @@ const fn line_of(item: &StreamItem) -> u32 {
 }
 
 fn refused(line: u32, refusal: SegmentRefusal, reply: &SegmentReply) -> FeedError {
+    let message = match reply.message.as_str() {
+        "" => refusal.text(),
+        message => message,
+    };
     FeedError::RefusedByPlanner {
         line,
         refusal,
-        message: reply.message.as_str().to_owned(),
+        message: message.to_owned(),
     }
 }

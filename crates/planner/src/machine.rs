@@ -233,8 +233,7 @@ impl Machine {
                         Ok(()) => Ok(()),
                         Err(refusal) => Err(RunError::CommandRefused {
                             command: command.kind(),
-                            refusal,
-                            message: reply.message.as_str().to_owned(),
+                            why: reply.why(refusal),
                         }),
                     };
                 }

@@ -87,13 +87,8 @@ impl Publisher<'_> {
         let state = self.machine.status().and_then(|status| status.state().ok());
         let why = match state {
             None => "no interpolator runs",
-            Some(MachineState::Off) => "its drives are off",
-            Some(MachineState::NotHomed) => "it is not homed",
-            Some(MachineState::Homing) => "its joints are on their way home",
-            Some(MachineState::Jogging) => "it is moved by hand",
-            Some(MachineState::Faulted) => "a fault was not taken note of",
-            Some(MachineState::Idle) => "it became ready just now",
-            Some(_) => "it executes something",
+            Some(MachineState::Idle) => "it became ready just now; ask again",
+            Some(state) => state.text(),
         };
         format!("the machine is not ready for a program: {why}")
     }

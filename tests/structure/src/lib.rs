@@ -7,6 +7,7 @@
 //!   the imports). The few circles that stand are named there, each with its reason.
 //! * `links`: links between pages lead to what is there.
 //! * `readmes`: the pages of crates on a registry say what their documentation says.
+//! * `told`: people are not told names of variants, and no state or command is forgotten.
 
 #![allow(
     clippy::expect_used,
@@ -24,6 +25,8 @@ mod links;
 mod modules;
 #[cfg(test)]
 mod readmes;
+#[cfg(test)]
+mod told;
 
 #[cfg(test)]
 use std::path::{Path, PathBuf};

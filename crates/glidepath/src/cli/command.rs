@@ -254,6 +254,55 @@ impl Command {
         })
     }
 
+    /// Which instance it was told to take part in; `None` for the default, and for those that take
+    /// part in none.
+    #[must_use]
+    pub fn instance(&self) -> Option<&str> {
+        let args = match self {
+            Self::Run(args) => &args.instance,
+            Self::Interpolator(args) => &args.instance,
+            Self::Planner(args) => &args.instance,
+            Self::RunFile(args) => &args.instance,
+            Self::Mdi(args) => &args.instance,
+            Self::Servo(args) => &args.instance,
+            Self::Ethercat(args) => &args.instance,
+            Self::Feed(args) => &args.instance,
+            Self::Telemetry(args) => &args.instance,
+            Self::Status(args) => &args.operator.instance,
+            Self::Live(args) => &args.operator.instance,
+            Self::Record(args) => &args.operator.instance,
+            Self::Replay(args) => &args.operator.instance,
+            Self::Hold(args)
+            | Self::Resume(args)
+            | Self::Step(args)
+            | Self::StopAtBlockEnd(args)
+            | Self::Reverse(args)
+            | Self::Forward(args)
+            | Self::Return(args)
+            | Self::Enable(args)
+            | Self::Disable(args)
+            | Self::Reset(args) => &args.instance,
+            Self::Home(args) | Self::Unhome(args) => &args.operator.instance,
+            Self::SetPosition(args) => &args.operator.instance,
+            Self::Abort(args) => &args.operator.instance,
+            Self::Acknowledge(args) => &args.operator.instance,
+            Self::SingleBlock(args) => &args.operator.instance,
+            Self::Override(args) => &args.operator.instance,
+            Self::Jog(args) => &args.operator.instance,
+            Self::Plan(_)
+            | Self::Check(_)
+            | Self::Audit(_)
+            | Self::Offsets(_)
+            | Self::Config(_)
+            | Self::Fit(_)
+            | Self::Preview(_)
+            | Self::Bench(_)
+            | Self::Doctor(_)
+            | Self::Jitter(_) => return None,
+        };
+        args.instance.as_deref()
+    }
+
     /// What the command line says about how a path is followed.
     #[must_use]
     pub const fn path(&self) -> Option<&PathArgs> {

@@ -1,13 +1,12 @@
 //! `glidepath acknowledge`: what an M code asked for is done, or has failed.
 
-use super::operator::{PATIENCE, reach, refusal_text, send_saying, silent};
+use super::operator::{PATIENCE, reach, send_saying, silent};
 use super::session;
 use crate::cli::AcknowledgeArgs;
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::output;
-use crate::report::state_name;
 use glidepath_link::{Command, EventId, LinkError};
 use serde_json::json;
 
@@ -35,12 +34,12 @@ pub(super) fn acknowledge(args: &AcknowledgeArgs, config: &MachineConfig) -> Res
     let reason = args.fail.as_deref().unwrap_or_default();
     let reply = send_saying(&operator, &link, command, reason)
         .map_err(|failure| failure.of_command(NAME))?;
-    let state = state_name(reply.state().map_err(LinkError::from)?);
+    let state = reply.state().map_err(LinkError::from)?.name();
     if let Err(refusal) = reply.outcome().map_err(LinkError::from)? {
         return Err(Failure::CommandRefused {
             command: NAME,
             state,
-            reason: refusal_text(refusal, reply.message.as_str()),
+            reason: reply.why(refusal),
         });
     }
     if args.operator.basic.json {

@@ -6,7 +6,7 @@ use crate::config::MachineConfig;
 use crate::kept::answers::Journal;
 use crate::kept::keeper::Keeper;
 use crate::output;
-use crate::report::{grouped, state_name};
+use crate::report::counted;
 use glidepath_gcode::Connections;
 use glidepath_geometry::AxisVector;
 use glidepath_planner::{
@@ -219,13 +219,13 @@ pub(super) fn tell(notice: &Notice<'_>, quiet: bool) {
     let words = match notice {
         Notice::NoInterpolator => "waiting for an interpolator".to_owned(),
         Notice::NotReady(state) => {
-            format!("waiting: the machine is {}", state_name(*state))
+            format!("the machine is not ready for a program: {}", state.text())
         }
         Notice::FaultReset => "reset the fault of a planner that died".to_owned(),
         Notice::Listening => "waiting for a client".to_owned(),
         Notice::StreamOpened { session } => format!("stream {session} opened"),
         Notice::StreamExecuted(statistics) => {
-            format!("executed: {} segments", grouped(statistics.segments))
+            format!("executed; {}", counted(statistics.segments, "segment"))
         }
         Notice::StreamBroken(error) => format!("the stream broke off: {error}"),
         Notice::Started { epoch } => format!("epoch {epoch} starts"),

@@ -11,7 +11,7 @@ use crate::joints;
 use crate::output;
 use crate::program_file::ProgramFile;
 use crate::progress::Progress;
-use crate::report::{diagnostic_object, grouped};
+use crate::report::{counted, diagnostic_object};
 use glidepath_gcode::{Diagnostic, Report};
 use glidepath_geometry::Axis;
 use glidepath_planner::{check_file, find_in_file};
@@ -154,12 +154,11 @@ fn print(name: &str, report: &Report) {
         count => format!("{count} findings"),
     };
     output::result(&format!(
-        "{name}: {verdict}; {} lines, {} straight moves, {} arcs, {} rapids, {:.3} mm at feed, \
-         {:.3} mm rapid\n",
-        grouped(totals.lines.into()),
-        grouped(totals.straight_feeds.into()),
-        grouped(totals.arcs.into()),
-        grouped(totals.rapids.into()),
+        "{name}: {verdict}; {}, {}, {}, {}, {:.3} mm at feed, {:.3} mm rapid\n",
+        counted(totals.lines.into(), "line"),
+        counted(totals.straight_feeds.into(), "straight move"),
+        counted(totals.arcs.into(), "arc"),
+        counted(totals.rapids.into(), "rapid"),
         totals.feed_length_mm,
         totals.rapid_length_mm
     ));

@@ -63,7 +63,7 @@ pub(super) fn agreement<S: glidepath_planner::ItemSource>(
     differs("coolant", coolant_words(now), coolant_words(then));
     let outputs = |record: &Auxiliary| format!("{:#x}", record.digital_out);
     differs("digital outputs", outputs(now), outputs(then));
-    let analog = |record: &Auxiliary| format!("{:?}", record.analog_out);
+    let analog = |record: &Auxiliary| record.analog_out.map(f64::to_bits);
     if analog(now) != analog(then) {
         text.push_str("\nanalog outputs differ");
     }

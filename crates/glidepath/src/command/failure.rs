@@ -14,7 +14,7 @@ use glidepath_gcode::Diagnostic;
 use glidepath_hal::HalError;
 use glidepath_interpolator as interpolator;
 use glidepath_kept::var::VarError;
-use glidepath_link::LinkError;
+use glidepath_link::{LinkError, refused};
 use glidepath_live::ServerError;
 use glidepath_migration::ReadError;
 use glidepath_planner::{self as planner, FeedError, Refusal};
@@ -173,7 +173,7 @@ pub(super) enum Failure {
         waited_s: u64,
     },
     /// The interpolator refused a command.
-    #[error("{command}: refused, the machine is {state}: {reason}")]
+    #[error("{}", refused(.command, .reason))]
     CommandRefused {
         /// The command.
         command: &'static str,

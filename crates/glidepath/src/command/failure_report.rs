@@ -4,6 +4,7 @@ use super::failure::Failure;
 use super::program_diagnostics::print_diagnostics;
 use crate::config::ConfigError;
 use crate::exit::Exit;
+use crate::machine_options::complete;
 use crate::output;
 use crate::report::diagnostic_object;
 use miette::Diagnostic;
@@ -50,11 +51,15 @@ fn failure_object(failure: &Failure) -> Value {
         Failure::Curve(error) => vec![error.object()],
         _ => Vec::new(),
     };
-    json!({
-        "error": failure.to_string(),
+    let mut object = json!({
+        "error": complete(&failure.to_string()),
         "exit_code": failure.exit() as u8,
         "findings": found,
-    })
+    });
+    if let Failure::CommandRefused { state, .. } = failure {
+        object["state"] = (*state).into();
+    }
+    object
 }
 
 fn configuration_objects(error: &ConfigError) -> Vec<Value> {

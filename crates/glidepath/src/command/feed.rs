@@ -8,7 +8,7 @@ use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::report::grouped;
+use crate::report::counted;
 use glidepath_planner::{Control, FeedError, FileSource, Notice, feed as stream};
 use serde_json::json;
 
@@ -42,9 +42,9 @@ pub(super) fn feed(args: &FeedArgs, config: &MachineConfig) -> Result<Exit, Fail
         output::object(&json!({ "program": name, "lines": fed.lines, "items": fed.items }));
     } else {
         output::result(&format!(
-            "{name}: executed; {} lines, {} items\n",
-            grouped(fed.lines),
-            grouped(fed.items)
+            "{name}: executed; {}, {}\n",
+            counted(fed.lines, "line"),
+            counted(fed.items, "item")
         ));
     }
     Ok(Exit::Done)

@@ -42,7 +42,9 @@ mod workshop;
 use crate::cli::{Cli, Command, Switch};
 use crate::config::{self, MachineConfig};
 use crate::exit::Exit;
+use crate::machine_options::{self, MachineOptions};
 use crate::output;
+use crate::program_file::ProgramFile;
 use failure::Failure;
 use glidepath_link as link;
 use serde_json::json;
@@ -50,6 +52,10 @@ use serde_json::json;
 /// Does what the command line asks for, and prints its result.
 #[must_use]
 pub fn main(cli: &Cli) -> Exit {
+    let basic = cli.command.basic();
+    let config = basic.and_then(|basic| basic.config.as_ref());
+    let config = config.map(ProgramFile::name);
+    machine_options::keep(MachineOptions::new(config, cli.command.instance()));
     let done = dispatch(&cli.command);
     let exit = done.unwrap_or_else(|failure| failure_report::report(&failure, cli.command.json()));
     match output::unwritten() {

@@ -10,10 +10,10 @@ use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::output;
-use crate::report::{state_name, status_object, status_text};
+use crate::report::{status_object, status_text};
 use glidepath_link::{
-    Command, CommandRefusal, CommandReply, CommandRequest, EndOfEpoch, InterpolatorProcess,
-    LinkConfig, LinkError, Operator, Power, Status,
+    Command, CommandReply, CommandRequest, EndOfEpoch, InterpolatorProcess, LinkConfig, LinkError,
+    Operator, Power, Status,
 };
 use serde_json::json;
 use std::time::{Duration, Instant};
@@ -56,7 +56,7 @@ fn wait_for_power(operator: &Operator, link: &LinkConfig) -> Result<(), Failure>
             Power::Off if has_begun || started.elapsed() > PATIENCE => {
                 return Err(Failure::CommandRefused {
                     command: "enable",
-                    state: state_name(status.state().map_err(LinkError::from)?),
+                    state: status.state().map_err(LinkError::from)?.name(),
                     reason: "the drives did not get power, or lost it again; `glidepath status` \
                              tells what is known of them"
                         .to_owned(),
@@ -111,9 +111,9 @@ fn commands(
     let mut state = "";
     for command in commands {
         let reply = send(&operator, &link, *command).map_err(|failure| failure.of_command(name))?;
-        state = state_name(reply.state().map_err(LinkError::from)?);
+        state = reply.state().map_err(LinkError::from)?.name();
         if let Err(refusal) = reply.outcome().map_err(LinkError::from)? {
-            let reason = refusal_text(refusal, reply.message.as_str());
+            let reason = reply.why(refusal);
             return Err(Failure::CommandRefused {
                 command: name,
                 state,
@@ -242,21 +242,6 @@ fn abort_and_lift(args: &AbortArgs, config: &MachineConfig) -> Result<Exit, Fail
         lift(&link, config)?;
     }
     Ok(exit)
-}
-
-pub(super) fn refusal_text(refusal: CommandRefusal, message: &str) -> String {
-    let reason = match refusal {
-        CommandRefusal::Malformed => "the command is malformed",
-        CommandRefusal::Unsupported => "this version cannot do that",
-        CommandRefusal::WrongState => "not possible in this state",
-        CommandRefusal::Busy => "too many commands at once; try again",
-        CommandRefusal::ShuttingDown => "the interpolator is ending",
-    };
-    if message.is_empty() {
-        reason.to_owned()
-    } else {
-        format!("{reason}: {message}")
-    }
 }
 
 /// Shows the state of the interpolator.

@@ -13,7 +13,7 @@ use crate::interrupt::{Interrupt, end_with};
 use crate::joints;
 use crate::output;
 use crate::program_file::ProgramFile;
-use crate::report::{grouped, peak_rss_bytes, seconds};
+use crate::report::{counted, peak_rss_bytes, seconds};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{Ipc, Transport};
 use glidepath_planner::{
@@ -213,10 +213,10 @@ fn object(program: &str, statistics: &Statistics) -> Value {
 
 fn text(program: &str, statistics: &Statistics) -> String {
     format!(
-        "{program}: executed; {} lines, {} segments, {} frames, planned in {}\n",
-        grouped(statistics.lines),
-        grouped(statistics.segments),
-        grouped(statistics.frames),
+        "{program}: executed; {}, {}, {}, planned in {}\n",
+        counted(statistics.lines, "line"),
+        counted(statistics.segments, "segment"),
+        counted(statistics.frames, "frame"),
         seconds(statistics.planning.as_secs_f64())
     )
 }

@@ -10,7 +10,7 @@ use crate::file_error::FileError;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::output_file::{OutputFile, OutputKind};
-use crate::report::{fault_text, grouped};
+use crate::report::grouped;
 use crate::text_file;
 use glidepath_link::{
     Ipc, MachineState, Record as _, Setpoint, Status, Subscriber, Transport as _,
@@ -307,7 +307,7 @@ fn black_box(
         while let Some(status) = source.statuses.take()? {
             let is_faulted = status.state() == Ok(MachineState::Faulted);
             if is_faulted && !was_faulted {
-                let words = fault_text(&status).unwrap_or_else(|| "a fault".to_owned());
+                let words = status.fault_text().unwrap_or_else(|| "a fault".to_owned());
                 fault = Some((Instant::now(), words));
             }
             was_faulted = is_faulted;

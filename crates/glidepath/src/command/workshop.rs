@@ -9,9 +9,10 @@ use crate::config::MachineConfig;
 use crate::joints;
 use crate::output;
 use crate::program_file::ProgramFile;
-use crate::report::grouped;
+use crate::report::counted;
 use glidepath_gcode::{InForce, Program};
 use glidepath_geometry::AxisVector;
+use glidepath_link::refused;
 use glidepath_planner::{
     Control, FileSource, ItemSource, Job, JobEnd, JobRunner, LineStart, Notice, Pipeline,
     ProgramSource, Publisher, Refusal, RunError, StartLine, Statistics, Supply,
@@ -84,7 +85,10 @@ impl<'c> Workshop<'c> {
             Ok(Some(source().attended(recalling(&config, 0))))
         });
         let statistics = run?;
-        Ok(format!("executed: {} segments", statistics.segments))
+        Ok(format!(
+            "executed; {}",
+            counted(statistics.segments, "segment")
+        ))
     }
 
     /// A file, from its beginning or from a line.
@@ -136,10 +140,10 @@ impl<'c> Workshop<'c> {
         });
         let statistics = run?;
         Ok(format!(
-            "{}: executed; {} lines, {} segments",
+            "{}: executed; {}, {}",
             path.display(),
-            grouped(statistics.lines),
-            grouped(statistics.segments)
+            counted(statistics.lines, "line"),
+            counted(statistics.segments, "segment")
         ))
     }
 
@@ -248,13 +252,16 @@ impl JobRunner for Workshop<'_> {
                 confirmed,
             } => self.file(path, *from, *confirmed, start, &mut bench),
         };
-        let end = match end {
-            Ok(text) => JobEnd::Done(text),
-            Err(Stop::Refused(text)) => JobEnd::Refused(text),
-            Err(Stop::Failed(text)) => JobEnd::Failed(text),
-            Err(Stop::ToConfirm(text)) => JobEnd::ToConfirm(text),
+        let (told, end) = match end {
+            Ok(text) => (text.clone(), JobEnd::Done(text)),
+            Err(Stop::Refused(text)) => (refused("job", &text), JobEnd::Refused(text)),
+            Err(Stop::Failed(text)) => (text.clone(), JobEnd::Failed(text)),
+            Err(Stop::ToConfirm(text)) => (
+                "job waits to be agreed to".to_owned(),
+                JobEnd::ToConfirm(text),
+            ),
         };
-        output::note(&format!("planner: {end:?}"));
+        output::note(&format!("planner: {told}"));
         end
     }
 }

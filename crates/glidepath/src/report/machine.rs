@@ -1,33 +1,12 @@
 //! The drives and joints of a status, as text and as JSON.
 
 use super::quantity::microseconds;
+use crate::machine_options::complete;
 use core::fmt::Write as _;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{MotionMode, Power, Status};
 use glidepath_program::{CodeWord, Event};
 use serde_json::{Map, Value, json};
-
-/// Whether the drives have power, in one word.
-const fn power_name(power: Power) -> &'static str {
-    match power {
-        Power::Simulated => "simulated",
-        Power::Off => "off",
-        Power::Enabling => "enabling",
-        Power::On => "on",
-    }
-}
-
-/// What moves the axes, in one word.
-const fn mode_name(mode: MotionMode) -> &'static str {
-    match mode {
-        MotionMode::None => "none",
-        MotionMode::Program => "program",
-        MotionMode::Jog => "jog",
-        MotionMode::Homing => "homing",
-        MotionMode::Return => "return",
-        MotionMode::Backwards => "backwards",
-    }
-}
 
 /// One value by axis.
 pub(super) fn by_axis(values: &[f64; AXES]) -> Map<String, Value> {
@@ -71,6 +50,8 @@ fn awaited(status: &Status) -> Option<Value> {
             "epoch": status.epoch,
             "sequence": status.awaited_sequence,
             "waited_s": microseconds(waited_ns) / 1e6,
+            "done_by": complete("`glidepath acknowledge`"),
+            "failed_by": complete("`glidepath acknowledge --fail \"the reason\"`"),
         })
     })
 }
@@ -109,9 +90,10 @@ pub(super) fn awaited_text(status: &Status) -> Option<String> {
             );
         }
         format!(
-            "the answer to {}{} of line {line}, for {waited_s:.1} s (glidepath acknowledge)",
+            "the answer to {}{} of line {line}, for {waited_s:.1} s ({})",
             awaited_name(status),
             awaited_words(status),
+            complete("`glidepath acknowledge`"),
         )
     })
 }
@@ -120,8 +102,8 @@ pub(super) fn awaited_text(status: &Status) -> Option<String> {
 pub(super) fn machine_object(status: &Status) -> Map<String, Value> {
     let object = json!({
         "away": by_axis(&status.away),
-        "power": status.power().map_or("unknown", power_name),
-        "mode": status.mode().map_or("unknown", mode_name),
+        "power": status.power().map_or("unknown", Power::name),
+        "mode": status.mode().map_or("unknown", MotionMode::name),
         "homed": joints_of(status.homed),
         "not_homed": joints_of(status.joints & !status.homed),
         "enabled": joints_of(status.enabled),
@@ -145,7 +127,7 @@ pub(super) fn power_text(status: &Status) -> String {
     if power == Power::Simulated {
         return "simulated: no feedback is configured".to_owned();
     }
-    let mut text = power_name(power).to_owned();
+    let mut text = power.name().to_owned();
     let not_homed = joints_of(status.joints & !status.homed);
     if not_homed.is_empty() {
         text.push_str(", homed");

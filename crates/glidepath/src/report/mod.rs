@@ -19,11 +19,11 @@ pub use diagnostic::{ProgramDiagnostic, diagnostic_object};
 pub use fit::{FitReport, FittedRun};
 pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};
-pub use quantity::{grouped, seconds};
+pub use quantity::{counted, grouped, seconds};
 pub use run::RunReport;
 pub use smoothness::{AxisFigures, SmoothnessFigures};
 pub use status::{
-    fault_text, quantiles_object, quantiles_text, realtime_object, realtime_text, state_name,
-    status_object, status_text, timing_text,
+    quantiles_object, quantiles_text, realtime_object, realtime_text, status_object, status_text,
+    timing_text,
 };
-pub use view::{Place, View, WorkOffset, doing, view_object, view_text};
+pub use view::{Place, View, WorkOffset, view_object, view_text};

@@ -14,6 +14,13 @@ pub fn grouped(number: u64) -> String {
     text
 }
 
+/// So many of something: `1 line`, `1 200 lines`.
+#[must_use]
+pub fn counted(number: u64, one: &str) -> String {
+    let ending = if number == 1 { "" } else { "s" };
+    format!("{} {one}{ending}", grouped(number))
+}
+
 /// A duration: milliseconds below a second, minutes from two minutes on.
 #[must_use]
 pub fn seconds(t: f64) -> String {
@@ -41,6 +48,8 @@ mod tests {
     fn numbers_read_well() {
         let texts = [0, 999, 1000, 1_234_567].map(grouped);
         assert_eq!(texts, ["0", "999", "1 000", "1 234 567"]);
+        let texts = [0, 1, 1200].map(|count| counted(count, "line"));
+        assert_eq!(texts, ["0 lines", "1 line", "1 200 lines"]);
         let texts = [0.0, 0.0314, 12.0, 3725.25].map(seconds);
         assert_eq!(texts, ["0.0 ms", "31.4 ms", "12.000 s", "62 min 5.2 s"]);
     }

@@ -2,35 +2,14 @@
 
 use super::machine::{awaited_text, by_axis, machine_object, power_text};
 use super::quantity::{grouped, microseconds};
+use crate::machine_options::complete;
 use core::fmt::Write as _;
 use glidepath_geometry::Axis;
 use glidepath_link::{EndOfEpoch, FaultCause, Grants, MachineState, MotionMode, Quantiles, Status};
 use serde_json::{Map, Value, json};
 
-/// What a machine does, in one word.
-#[must_use]
-pub const fn state_name(state: MachineState) -> &'static str {
-    match state {
-        MachineState::Idle => "idle",
-        MachineState::Running => "running",
-        MachineState::Holding => "holding",
-        MachineState::Held => "held",
-        MachineState::Starving => "starving",
-        MachineState::Starved => "starved",
-        MachineState::ProgramStop => "program-stop",
-        MachineState::Stopping => "stopping",
-        MachineState::Faulted => "faulted",
-        MachineState::Waiting => "waiting",
-        MachineState::Awaiting => "awaiting",
-        MachineState::Jogging => "jogging",
-        MachineState::Homing => "homing",
-        MachineState::Off => "off",
-        MachineState::NotHomed => "not-homed",
-    }
-}
-
-/// How any fault is cleared.
-const HOW_TO_CLEAR: &str = "glidepath reset";
+/// How any fault is cleared, in the marks that commands stand in.
+const HOW_TO_CLEAR: &str = "`glidepath reset`";
 
 /// Names of the grants, for the keys of JSON and for people.
 const GRANTS: [(Grants, &str, &str); 5] = [
@@ -96,75 +75,13 @@ pub fn quantiles_text(quantiles: &Quantiles) -> String {
     )
 }
 
-/// The latched fault in words, `None` if there is none.
-#[must_use]
-pub fn fault_text(status: &Status) -> Option<String> {
-    let cause = status.fault().ok().flatten()?;
-    let mut text = match cause {
-        FaultCause::Frame(refusal) => format!("a frame was refused ({refusal:?})"),
-        FaultCause::PlannerLost => "no more frames came: the planner died or hangs".to_owned(),
-        FaultCause::MissedTicks => "too many ticks were missed".to_owned(),
-        FaultCause::Output => "a computed setpoint broke a limit".to_owned(),
-        FaultCause::Ports => "the thread that serves the ports died or hangs".to_owned(),
-        FaultCause::RealTime => "the real-time thread died".to_owned(),
-        FaultCause::FeedbackLost => "the drives no longer say where they are".to_owned(),
-        FaultCause::FollowingError => "a joint is too far from where it is to be".to_owned(),
-        FaultCause::Drive => "a drive reports a fault".to_owned(),
-        FaultCause::EnableLost => "a drive lost its power".to_owned(),
-        FaultCause::AuxTimeout => "an event was not acknowledged in time".to_owned(),
-        FaultCause::ProbeContact => "the probe touched outside of a probing move".to_owned(),
-        FaultCause::AuxFailed => "what an event asked for has failed".to_owned(),
-        FaultCause::SpindleSpeed => {
-            "in a thread the spindle left 50 to 109 % of its speed: the thread is not finished"
-                .to_owned()
-        }
-        FaultCause::SpindleAngle => {
-            "in a thread the spindle's angle was not told, or made no sense: look at its encoder"
-                .to_owned()
-        }
-        FaultCause::ThreadLost => {
-            "in a thread the axes could not follow the spindle, or frames ran out".to_owned()
-        }
-        FaultCause::TapOvertravel => {
-            "a tap went on into its hole for spindle.overtravel revolutions, and the spindle did not \
-             turn back: it was told to stop, and the tap stands in the hole"
-                .to_owned()
-        }
-        FaultCause::LimitSwitch => "a joint stands at its limit switch".to_owned(),
-        FaultCause::Homing => "a joint did not find its home".to_owned(),
-    };
-    if let Some(joint) = status.fault_joint() {
-        let _ = write!(text, ", joint J{joint}");
-    }
-    if status.drive_fault != 0 {
-        let _ = write!(text, ", the drive's number {}", status.drive_fault);
-    }
-    if let Some(axis) = status.fault_axis() {
-        let _ = write!(text, ", axis {axis}");
-    }
-    if status.fault_line > 0 {
-        let _ = write!(text, ", line {}", status.fault_line);
-    }
-    if status.fault_limit != 0.0 {
-        let _ = write!(
-            text,
-            ", {} where {} is allowed",
-            status.fault_value, status.fault_limit
-        );
-    }
-    Some(text)
+fn end_name(status: &Status) -> &'static str {
+    status.end_of_epoch().map_or("unknown", EndOfEpoch::name)
 }
 
-fn end_name(status: &Status) -> &'static str {
-    match status.end_of_epoch() {
-        Ok(EndOfEpoch::None) => "none",
-        Ok(EndOfEpoch::Open) => "open",
-        Ok(EndOfEpoch::Completed) => "completed",
-        Ok(EndOfEpoch::Aborted) => "aborted",
-        Ok(EndOfEpoch::Faulted) => "faulted",
-        Ok(EndOfEpoch::Tripped) => "tripped",
-        Err(_) => "unknown",
-    }
+/// What is to be done about the latched fault.
+pub(super) fn remedy(status: &Status) -> Option<&'static str> {
+    status.fault().ok().flatten().map(FaultCause::remedy)
 }
 
 /// A status as an object.
@@ -174,9 +91,11 @@ pub fn status_object(instance: &str, status: &Status) -> Value {
     let mut object = json!({
         "instance": instance,
         "pid": status.pid,
-        "state": status.state().map_or("unknown", state_name),
-        "fault": fault_text(status),
-        "fault_is_cleared_by": fault_text(status).map(|_| HOW_TO_CLEAR),
+        "state": status.state().map_or("unknown", MachineState::name),
+        "state_text": status.state().map(|state| complete(state.text())).ok(),
+        "fault": status.fault_text(),
+        "fault_is_cleared_by": remedy(status).map(|_| complete(HOW_TO_CLEAR).replace('`', "")),
+        "fault_remedy": remedy(status).map(complete),
         "epoch": status.epoch,
         "end_of_epoch": end_name(status),
         "line": status.line,
@@ -248,7 +167,7 @@ pub(super) fn manner_text(status: &Status) -> String {
 #[must_use]
 pub fn status_text(instance: &str, status: &Status) -> String {
     let mut text = String::new();
-    let state = status.state().map_or("unknown", state_name);
+    let state = status.state().map_or("unknown", MachineState::name);
     let position: Vec<String> = Axis::ALL
         .into_iter()
         .map(|axis| (axis, status.position[axis.index()]))
@@ -256,10 +175,13 @@ pub fn status_text(instance: &str, status: &Status) -> String {
         .map(|(axis, value)| format!("{axis} {value:.4}"))
         .collect();
     // Writing to a String does not fail.
+    let doing = status.state().map_or("", MachineState::text);
     let _ = writeln!(text, "{instance}: {state}, process {}", status.pid);
-    if let Some(fault) = fault_text(status) {
+    let _ = writeln!(text, "  this is       {}", complete(doing));
+    if let Some(fault) = status.fault_text() {
         let _ = writeln!(text, "  fault         {fault}");
-        let _ = writeln!(text, "  to clear it   {HOW_TO_CLEAR}");
+        let remedy = complete(remedy(status).unwrap_or(HOW_TO_CLEAR));
+        let _ = writeln!(text, "  to clear it   {remedy}");
     }
     if let Some(awaited) = awaited_text(status) {
         let _ = writeln!(text, "  awaits        {awaited}");

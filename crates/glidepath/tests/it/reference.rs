@@ -8,7 +8,9 @@ use clap::{Arg, Command, CommandFactory as _};
 use clap_complete::Shell;
 use glidepath::cli::Cli;
 use glidepath::config::keys;
-use std::collections::BTreeMap;
+use glidepath::machine_options::MachineOptions;
+use glidepath_link::{CommandRefusal, FaultCause, MachineState, Objection};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -259,4 +261,82 @@ fn messages_that_the_manual_explains_are_those_of_the_program() {
         }
     }
     assert!(count > 30, "the page has lost its tables: {count}");
+}
+
+/// The cells of a table below a heading, row by row, without the two lines of its head.
+fn table(page: &str, heading: &str) -> Vec<Vec<String>> {
+    let (_, below) = page.split_once(heading).expect("the heading");
+    let rows = below
+        .lines()
+        .take_while(|line| !line.starts_with("## "))
+        .filter(|line| line.starts_with('|'))
+        .skip(2);
+    let cells = |row: &str| {
+        let cells = row.trim_matches('|').split('|');
+        cells.map(|cell| cell.trim().to_owned()).collect()
+    };
+    rows.map(cells).collect()
+}
+
+#[test]
+fn states_faults_and_refusals_are_told_as_the_manual_has_them() {
+    let page = std::fs::read_to_string(root().join("crates/glidepath/docs/troubleshooting.md"));
+    let page = page.expect("the page");
+    let columns = |heading: &str, which: &[usize]| -> BTreeSet<Vec<String>> {
+        let rows = table(&page, heading);
+        assert!(!rows.is_empty(), "{heading}");
+        let of = |row: &Vec<String>| which.iter().map(|at| row[*at].clone()).collect();
+        let set: BTreeSet<Vec<String>> = rows.iter().map(of).collect();
+        assert_eq!(set.len(), rows.len(), "{heading}: a row stands twice");
+        set
+    };
+    let states = MachineState::ALL
+        .iter()
+        .map(|state| vec![format!("`{}`", state.name()), state.text().to_owned()]);
+    assert_eq!(columns("\n## States\n", &[0, 1]), states.collect());
+    let faults =
+        FaultCause::all().map(|cause| vec![cause.text().to_owned(), cause.remedy().to_owned()]);
+    assert_eq!(
+        columns("\n## The machine stopped\n", &[0, 2]),
+        faults.collect()
+    );
+    let objections = Objection::ALL.iter().map(|why| vec![why.text().to_owned()]);
+    assert_eq!(
+        columns("\n## What is refused\n", &[0]),
+        objections.collect()
+    );
+    // The one that is no objection.
+    assert!(page.contains(CommandRefusal::Busy.text()));
+}
+
+#[test]
+fn commands_that_are_told_are_commands() {
+    let texts = MachineState::ALL.iter().map(|state| state.text());
+    let texts = texts.chain(FaultCause::all().flat_map(|cause| [cause.text(), cause.remedy()]));
+    let texts = texts.chain(Objection::ALL.iter().map(|why| why.text()));
+    let options = MachineOptions::new(Some(Path::new("a b.toml")), Some("mill"));
+    let mut count = 0;
+    for text in texts.map(|text| options.put_into(text)) {
+        for command in text
+            .split('`')
+            .filter(|part| part.starts_with("glidepath "))
+        {
+            let words = shlex(command);
+            let parsed = Cli::command().try_get_matches_from(&words);
+            assert!(parsed.is_ok(), "{command}: {parsed:?}");
+            count += 1;
+        }
+    }
+    assert!(count > 30, "{count}");
+}
+
+/// Words as a shell takes them, with quotes around those that have a space.
+fn shlex(command: &str) -> Vec<String> {
+    let mut parts = command.split('\'');
+    let mut words: Vec<String> = Vec::new();
+    while let Some(plain) = parts.next() {
+        words.extend(plain.split_whitespace().map(str::to_owned));
+        words.extend(parts.next().map(str::to_owned));
+    }
+    words
 }

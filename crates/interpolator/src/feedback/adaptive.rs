@@ -140,7 +140,8 @@ pub(super) fn turned_round(mode: u32) -> u32 {
     match MotionMode::from_code(mode) {
         Some(MotionMode::Program) => MotionMode::Backwards.code(),
         Some(MotionMode::Backwards) => MotionMode::Program.code(),
-        _ => mode,
+        Some(MotionMode::None | MotionMode::Jog | MotionMode::Homing | MotionMode::Return)
+        | None => mode,
     }
 }
 

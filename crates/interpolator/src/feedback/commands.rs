@@ -4,7 +4,7 @@ use super::book::DriveBook;
 use super::claims::FARTHEST;
 use crate::message::Report;
 use glidepath_kinematics::JOINTS;
-use glidepath_link::{Command, MachineState, Power};
+use glidepath_link::{Command, MachineState, Objection, Power};
 
 impl DriveBook {
     /// Judges a command about drives and joints, and carries out what concerns their count. Returns
@@ -17,7 +17,7 @@ impl DriveBook {
         command: Command,
         report: &Report,
         now_ns: u64,
-    ) -> Result<bool, String> {
+    ) -> Result<bool, Objection> {
         match command {
             Command::Enable => self.enable(report, now_ns).map(|()| true),
             Command::SetPosition { joint, position } => self
@@ -25,7 +25,7 @@ impl DriveBook {
                 .map(|()| false),
             Command::Home(mask) => self.home(mask, report, now_ns),
             Command::Unhome(mask) => {
-                refuse(rests(report), AT_REST)?;
+                refuse(rests(report), Objection::NotAtRest)?;
                 self.unhomed |= mask & self.all;
                 self.found &= !mask;
                 Ok(false)
@@ -34,7 +34,22 @@ impl DriveBook {
                 self.conductor.drop_job();
                 Ok(true)
             }
-            _ => Ok(true),
+            Command::Ping
+            | Command::Hold
+            | Command::Resume
+            | Command::FeedOverride(_)
+            | Command::RapidOverride(_)
+            | Command::StopAtEndOfBlock
+            | Command::SingleBlock(_)
+            | Command::Reset
+            | Command::Step
+            | Command::Disable
+            | Command::Return
+            | Command::Acknowledge { .. }
+            | Command::JogOverride(_)
+            | Command::Reverse
+            | Command::Forward
+            | Command::Tell => Ok(true),
         }
     }
 
@@ -43,36 +58,35 @@ impl DriveBook {
         self.conductor.is_busy()
     }
 
-    fn enable(&self, report: &Report, now_ns: u64) -> Result<(), String> {
+    fn enable(&self, report: &Report, now_ns: u64) -> Result<(), Objection> {
         let joints = self.claims.joints();
         let is_clear = report.state != MachineState::Faulted;
-        refuse(is_clear, "a fault is latched: reset it first")?;
+        refuse(is_clear, Objection::FaultLatched)?;
         let is_off = report.state == MachineState::Off && report.power == Power::Off;
-        refuse(is_off, "the drives are on, or were asked to be")?;
+        refuse(is_off, Objection::PowerAsked)?;
         let stale_ns = self.settings.stale_after.as_nanos();
         let is_fresh = u128::from(self.age_ns(&joints, now_ns)) <= stale_ns;
-        refuse(is_fresh, "the drives do not say where they are")?;
-        refuse(joints.fault == 0, "a drive reports a fault")
+        refuse(is_fresh, Objection::NoPosition)?;
+        refuse(joints.fault == 0, Objection::DriveFault)
     }
 
-    fn set_position(&mut self, joint: usize, position: f64, report: &Report) -> Result<(), String> {
-        refuse(rests(report), AT_REST)?;
-        refuse(position.abs() <= FARTHEST, "that is no position of a joint")?;
+    fn set_position(
+        &mut self,
+        joint: usize,
+        position: f64,
+        report: &Report,
+    ) -> Result<(), Objection> {
+        refuse(rests(report), Objection::NotAtRest)?;
+        refuse(position.abs() <= FARTHEST, Objection::NoSuchPosition)?;
         let is_own = joint < JOINTS && self.all & (1 << joint) != 0;
-        refuse(is_own, "the machine has no such joint")?;
+        refuse(is_own, Objection::NoSuchJoint)?;
         let is_second = self.pairs.iter().any(|pair| pair.joints.1 == joint);
-        refuse(
-            !is_second,
-            "it is the second joint of its axis, and goes with the first",
-        )?;
+        refuse(!is_second, Objection::SecondJoint)?;
         let counted = if report.power == Power::On {
             report.setpoint.joint_position[joint]
         } else {
             let joints = self.claims.joints();
-            refuse(
-                joints.claimed & (1 << joint) != 0,
-                "nobody says where it is",
-            )?;
+            refuse(joints.claimed & (1 << joint) != 0, Objection::Unreported)?;
             joints.position[joint]
         };
         let shift = position - counted - self.offset[joint];
@@ -87,17 +101,17 @@ impl DriveBook {
         Ok(())
     }
 
-    fn home(&mut self, mask: u32, report: &Report, now_ns: u64) -> Result<bool, String> {
+    fn home(&mut self, mask: u32, report: &Report, now_ns: u64) -> Result<bool, Objection> {
         refuse(
             matches!(report.state, MachineState::NotHomed | MachineState::Idle),
-            "the drives have to be on and at rest, without a program",
+            Objection::NeedsPower,
         )?;
         let can = mask != 0 && mask & !self.homes == 0;
-        refuse(can, "not all of these joints have a home to find")?;
+        refuse(can, Objection::NoHome)?;
         let here = mask & self.conductor.joints();
         if here != 0 {
             let is_free = report.power == Power::On && !self.conductor.is_busy();
-            refuse(is_free, "joints are on their way home already")?;
+            refuse(is_free, Objection::HomingAlready)?;
             let begun = self.conductor.begin(here, now_ns);
             self.found &= !begun;
             return Ok(false);
@@ -110,14 +124,8 @@ impl DriveBook {
     }
 }
 
-const AT_REST: &str = "the machine has to be at rest, without a program";
-
-fn refuse(is_possible: bool, why: &str) -> Result<(), String> {
-    if is_possible {
-        Ok(())
-    } else {
-        Err(why.to_owned())
-    }
+const fn refuse(is_possible: bool, why: Objection) -> Result<(), Objection> {
+    if is_possible { Ok(()) } else { Err(why) }
 }
 
 fn rests(report: &Report) -> bool {

@@ -65,7 +65,7 @@ impl DriveBook {
                 None => {}
                 Some(Finding::Warn(error, limit)) => {
                     told = Some(format!(
-                        "joint J{joint} follows with an error of {error:.4} (allowed {limit:.4})"
+                        "joint J{joint} follows with an error of {error:.4} mm or °, where {limit:.4} is allowed"
                     ));
                 }
                 Some(Finding::Stop(error, limit)) => {
@@ -155,8 +155,7 @@ impl DriveBook {
                     joint: Some(joint),
                     ..Fault::new(FaultCause::Homing, 0, 0)
                 };
-                let why = format!("joint J{joint} did not find its home: {why}");
-                self.why = Some((FaultCause::Homing, why));
+                self.why = Some((FaultCause::Homing, why.to_string()));
                 Some(Order::Fault(fault))
             }
             Outcome::Apart {
@@ -165,11 +164,8 @@ impl DriveBook {
                 allowed,
             } => {
                 let fault = apart_fault(joint, difference, allowed, report);
-                let why = format!(
-                    "joint J{joint} and the other one of its axis went apart on their way home by \
-                     {difference:.3} (allowed {allowed})"
-                );
-                self.why = Some((FaultCause::FollowingError, why));
+                let why = "it and the other joint of its axis went apart on their way home";
+                self.why = Some((FaultCause::FollowingError, why.to_owned()));
                 Some(Order::Fault(fault))
             }
         }

@@ -62,7 +62,19 @@ impl Interpolator<'_> {
             }
             // The path begins where the axes are not.
             Command::Resume | Command::Step => return !self.jog.owns_axes(),
-            _ => {}
+            Command::Ping
+            | Command::FeedOverride(_)
+            | Command::RapidOverride(_)
+            | Command::StopAtEndOfBlock
+            | Command::SingleBlock(_)
+            | Command::Reset
+            | Command::Enable
+            | Command::SetPosition { .. }
+            | Command::Home(_)
+            | Command::Unhome(_)
+            | Command::Reverse
+            | Command::Forward
+            | Command::Tell => {}
         }
         true
     }

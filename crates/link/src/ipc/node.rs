@@ -176,11 +176,15 @@ pub(super) struct TopicSettings {
 }
 
 fn service_name(service: &'static str) -> Result<ServiceName, LinkError> {
-    service.try_into().map_err(|error| LinkError::Transport {
-        service,
-        action: "naming it",
-        detail: format!("{error:?}").into(),
-    })
+    service
+        .try_into()
+        .map_err(
+            |error: iceoryx2::service::service_name::ServiceNameError| LinkError::Transport {
+                service,
+                action: "naming it",
+                detail: error.to_string().into(),
+            },
+        )
 }
 
 /// Tries again for a while if another process is just making or removing the same thing.

@@ -1,9 +1,9 @@
 //! The settings of the transport for an instance.
 
 use super::config::LinkConfig;
-use crate::{BoxedError, LinkError};
+use crate::LinkError;
 use core::time::Duration;
-use iceoryx2::prelude::{Config, FileName, Path, SemanticString as _};
+use iceoryx2::prelude::{Config, FileName, Path, SemanticString as _, SemanticStringError};
 
 /// How long one side of a connection waits for the other to finish making it. Longer waits belong
 /// to the retries of a session, which the ports' callers never pay.
@@ -15,16 +15,14 @@ const PREFIX: &[u8] = b"gp_";
 /// The settings of the transport for an instance; never those of the user or the machine.
 pub(super) fn settings(config: &LinkConfig) -> Result<Config, LinkError> {
     let directory = config.directory();
-    let failed = |detail: BoxedError| LinkError::Transport {
+    let failed = |error: SemanticStringError| LinkError::Transport {
         service: "instance",
         action: "naming its files",
-        detail,
+        detail: error.to_string().into(),
     };
     let mut settings = Config::default();
-    settings.global.prefix =
-        FileName::new(PREFIX).map_err(|error| failed(format!("{error:?}").into()))?;
-    let root = Path::new(directory.as_os_str().as_encoded_bytes())
-        .map_err(|error| failed(format!("{error:?}").into()))?;
+    settings.global.prefix = FileName::new(PREFIX).map_err(failed)?;
+    let root = Path::new(directory.as_os_str().as_encoded_bytes()).map_err(failed)?;
     settings.global.set_root_path(&root);
     settings.global.creation_timeout = CREATION_TIMEOUT;
     settings.global.node.cleanup_dead_nodes_on_creation = true;

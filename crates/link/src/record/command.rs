@@ -297,7 +297,27 @@ impl CommandRequest {
             Some(CommandKind::Home | CommandKind::Unhome) => {
                 fields.flags("joints", self.joints, ALL_JOINTS)
             }
-            _ => fields.zero("joints", self.joints),
+            Some(
+                CommandKind::Ping
+                | CommandKind::Hold
+                | CommandKind::Resume
+                | CommandKind::FeedOverride
+                | CommandKind::RapidOverride
+                | CommandKind::Abort
+                | CommandKind::StopAtEndOfBlock
+                | CommandKind::SingleBlock
+                | CommandKind::Reset
+                | CommandKind::Step
+                | CommandKind::Enable
+                | CommandKind::Disable
+                | CommandKind::Return
+                | CommandKind::Acknowledge
+                | CommandKind::JogOverride
+                | CommandKind::Tell
+                | CommandKind::Reverse
+                | CommandKind::Forward,
+            )
+            | None => fields.zero("joints", self.joints),
         }
     }
 }

@@ -17,7 +17,6 @@ use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::report::state_name;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{JogMode, MachineState};
@@ -77,7 +76,7 @@ pub(super) fn jog(
     if !std::io::stdin().is_terminal() || args.operator.basic.json {
         return Err(Failure::CommandRefused {
             command: "jog",
-            state: state_name(panel.state()?),
+            state: panel.state()?.name(),
             reason: "keys need a terminal; without one give steps, such as `glidepath jog X10`"
                 .to_owned(),
         });
@@ -266,7 +265,7 @@ impl<'m> Hand<'m> {
         let (part, selected) = (self.part * 100.0, self.selected);
         let line = format!(
             "{}  {}  {part:.0} %  {step}  (+ - {selected})",
-            state_name(state),
+            state.name(),
             position.join("  ")
         );
         // Over the line before, to its end.

@@ -7,10 +7,9 @@ use crate::config::MachineConfig;
 use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::report::state_name;
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
-use glidepath_link::{JogMode, MachineState};
+use glidepath_link::{JogMode, MachineState, Objection};
 use serde_json::{Map, Value, json};
 use std::time::Instant;
 
@@ -35,7 +34,7 @@ pub(super) fn jog(
     for step in &args.steps {
         if !config.axis_names().contains(&step.axis) {
             return Err(refused(
-                state_name(state),
+                state.name(),
                 format!("the machine has no axis {}", step.axis),
             ));
         }
@@ -44,8 +43,8 @@ pub(super) fn jog(
         }
     }
     if !Panel::can_jog(state) {
-        let reason = "axes are jogged when the machine is idle, or a program is held".to_owned();
-        return Err(refused(state_name(state), reason));
+        let reason = Objection::NoJogNow.text().to_owned();
+        return Err(refused(state.name(), reason));
     }
     let start = panel.position();
     let most_v = args.feed.map_or(0.0, |feed| feed / 60.0);
@@ -84,7 +83,7 @@ pub(super) fn set_out(
     while panel.state()? != MachineState::Jogging && panel.position() == start {
         if interrupt.is_set() || started.elapsed() > PATIENCE {
             panel.demands.let_go()?;
-            let state = state_name(panel.state()?);
+            let state = panel.state()?.name();
             let reason = match panel.last_error() {
                 "" => {
                     "nothing moved: it is at the end of its travel or reach, somebody else jogs, \
@@ -115,7 +114,7 @@ fn report(
     panel: &mut Panel,
     start: &[(Axis, f64)],
 ) -> Result<(), Failure> {
-    let state = state_name(panel.state()?);
+    let state = panel.state()?.name();
     let end = panel.position();
     if args.operator.basic.json {
         output::object(&json!({

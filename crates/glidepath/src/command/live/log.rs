@@ -1,7 +1,6 @@
 //! What happened since the page is served, in plain words.
 
-use crate::report::doing;
-use glidepath_link::{MachineState, Status};
+use glidepath_link::{MachineState, StateChange, Status};
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -44,10 +43,21 @@ impl Log {
             let kind = match state {
                 MachineState::Faulted => "bad",
                 MachineState::Starving | MachineState::Starved => "warn",
-                _ => "state",
+                MachineState::Idle
+                | MachineState::Running
+                | MachineState::Holding
+                | MachineState::Held
+                | MachineState::ProgramStop
+                | MachineState::Stopping
+                | MachineState::Waiting
+                | MachineState::Awaiting
+                | MachineState::Jogging
+                | MachineState::Homing
+                | MachineState::Off
+                | MachineState::NotHomed => "state",
             };
             // How one goes on is said where the machine is shown, not where its past is.
-            let words = doing(state).split(": `").next().unwrap_or_default();
+            let words = state.text().split("; ").next().unwrap_or_default();
             self.add(kind, format!("{words}{line}"));
         }
         self.count(status, is_first);
@@ -75,7 +85,7 @@ impl Log {
             if text != known {
                 text.clone_into(known);
                 // Changes of the state are told in plain words, and missed ticks are counted.
-                let is_told = text.contains(" -> ") || text.ends_with("ticks missed");
+                let is_told = StateChange::is_told_in(text) || text.ends_with("missed");
                 if !text.is_empty() && !is_told {
                     self.add(kind, text.to_owned());
                 }

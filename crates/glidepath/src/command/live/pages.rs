@@ -1,9 +1,9 @@
 //! What pages ask for, and what they command.
 
 use super::shown::Shown;
-use crate::command::operator::{PATIENCE, refusal_text};
-use crate::report::state_name;
-use glidepath_link::{Command, CommandRequest, LinkConfig, LinkError, Operator};
+use crate::command::operator::PATIENCE;
+use crate::machine_options::complete;
+use glidepath_link::{Command, CommandRequest, LinkConfig, LinkError, Operator, refused};
 use glidepath_live::{Answer, ContentType, Site, Status};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -78,15 +78,12 @@ impl Pages {
         };
         let reply = reply.ok_or_else(silent)?;
         let broken = |error| unavailable(LinkError::from(error));
-        let state = state_name(reply.state().map_err(broken)?);
+        let state = reply.state().map_err(broken)?.name();
         match reply.outcome().map_err(broken)? {
             Ok(()) => Ok(state),
             Err(refusal) => {
-                let reason = refusal_text(refusal, reply.message.as_str());
-                Err((
-                    Status::Conflict,
-                    format!("the machine is {state}: {reason}"),
-                ))
+                let told = refused(command.kind().name(), &reply.why(refusal));
+                Err((Status::Conflict, complete(&told)))
             }
         }
     }

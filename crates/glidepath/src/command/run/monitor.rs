@@ -61,11 +61,16 @@ impl<'t> Monitor<'t> {
         let Some(status) = self.status else {
             return Ok(false);
         };
-        let command = match (self.state(), status.power()) {
-            (Some(MachineState::Idle), _) => return Ok(true),
-            (Some(MachineState::Off), Ok(Power::Off)) => Command::Enable,
-            (Some(MachineState::NotHomed), _) => Command::Home(status.joints),
-            _ => return Ok(false),
+        let state = self.state();
+        if state == Some(MachineState::Idle) {
+            return Ok(true);
+        }
+        let command = if state == Some(MachineState::Off) && status.power() == Ok(Power::Off) {
+            Command::Enable
+        } else if state == Some(MachineState::NotHomed) {
+            Command::Home(status.joints)
+        } else {
+            return Ok(false);
         };
         // Refused while the drives have not yet said where they are: then the next one tells.
         operator::send(&operator::reach(self.link)?, self.link, command)?;

@@ -1,9 +1,8 @@
 //! What happens, from setpoint to setpoint.
 
 use super::message::unix_ms;
-use crate::report::state_name;
 use glidepath_link::{MachineState, Setpoint};
-use glidepath_program::Event;
+use glidepath_program::{CodeWord, Event};
 use serde_json::json;
 
 /// Events in a second that are told; more are counted by the next.
@@ -46,8 +45,8 @@ impl Events {
             "boot": format!("{:x}", setpoint.boot_id),
             "number": setpoint.number,
             "line": setpoint.line,
-            "from": from.map(state_name),
-            "to": state_name(state),
+            "from": from.map(MachineState::name),
+            "to": state.name(),
             "event": of_program.map(word),
             "left_out": left_out,
         });
@@ -64,7 +63,10 @@ fn word(event: Event) -> String {
         Event::OptionalStop => "M1".to_owned(),
         Event::Probe { release: false } => "G38.2".to_owned(),
         Event::Probe { release: true } => "G38.4".to_owned(),
-        Event::CodeWord { word, value } => format!("{word:?}{value}"),
+        Event::CodeWord { word, value } => match word {
+            CodeWord::P => format!("P{value}"),
+            CodeWord::Q => format!("Q{value}"),
+        },
         Event::Await(code) => format!("the answer to M{code}"),
         Event::Synchronise { pitch_mm, .. } => format!("G33 K{pitch_mm}"),
         Event::Tap { pitch_mm, .. } => format!("G33.1 K{}", pitch_mm.abs()),

@@ -1,8 +1,7 @@
 //! What is published, as JSON.
 
 use crate::config::MachineConfig;
-use crate::report::{fault_text, state_name};
-use glidepath_link::{Power, Status};
+use glidepath_link::{MachineState, Power, Status};
 use serde_json::{Map, Value, json};
 use std::time::{SystemTime, UNIX_EPOCH};
 use twox_hash::XxHash64;
@@ -47,7 +46,7 @@ pub(super) fn status(status: Option<&Status>, now_ns: u64, config: &MachineConfi
         "unix_ms": unix_ms(),
         "t_ns": status.updated_ns,
         "boot": format!("{:x}", status.boot_id),
-        "state": status.state().map_or("unknown", state_name),
+        "state": status.state().map_or("unknown", MachineState::name),
         "power": status.power() == Ok(Power::On),
         "line": status.line,
         "position": position,
@@ -55,7 +54,7 @@ pub(super) fn status(status: Option<&Status>, now_ns: u64, config: &MachineConfi
         "override": rounded(status.effective_override),
         "buffer_s": rounded(f64::from(status.queue_depth) * config.period_t()),
         "missed_ticks": status.missed_ticks,
-        "fault": fault_text(status),
+        "fault": status.fault_text(),
     })
     .to_string()
 }

@@ -1,6 +1,5 @@
 //! What happened lately, in plain words.
 
-use crate::report::doing;
 use glidepath_link::{MachineState, Status};
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
@@ -30,7 +29,10 @@ impl History {
             } else {
                 String::new()
             };
-            self.add(format!("{}{line}", doing(state)));
+            self.add(format!(
+                "{}{line}",
+                state.text().split("; ").next().unwrap_or_default()
+            ));
         }
         let missed = status.missed_ticks.saturating_sub(self.missed);
         self.missed = status.missed_ticks;

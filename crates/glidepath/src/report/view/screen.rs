@@ -1,13 +1,14 @@
 //! The view for people: one screen of 80 columns.
 
-use super::seen::{View, clock, doing};
+use super::seen::{View, clock};
+use crate::machine_options::complete;
 use crate::report::auxiliary::auxiliary_words;
 use crate::report::machine::{awaited_text, power_text};
 use crate::report::quantity::grouped;
-use crate::report::status::{adaptive_text, fault_text, manner_text, state_name};
+use crate::report::status::{adaptive_text, manner_text, remedy};
 use core::fmt::Write as _;
 use glidepath_geometry::AXES;
-use glidepath_link::Status;
+use glidepath_link::{MachineState, Status};
 
 /// Columns.
 const WIDTH: usize = 80;
@@ -22,11 +23,13 @@ pub fn view_text(view: &View<'_>) -> String {
     let status = view.status;
     let state = status.state().ok();
     let mut lines = Vec::new();
-    let name = state.map_or("unknown", state_name).to_uppercase();
-    let words = state.map_or("", doing);
+    let name = state.map_or("unknown", MachineState::name).to_uppercase();
+    let words = complete(state.map_or("", MachineState::text));
     lines.push(format!("{}   {name}   {words}", view.instance));
-    if let Some(fault) = fault_text(status) {
+    if let Some(fault) = status.fault_text() {
         lines.push(format!("  FAULT     {fault}"));
+        let remedy = complete(remedy(status).unwrap_or_default());
+        lines.push(format!("  clears it {remedy}"));
     }
     lines.push(String::new());
     program_lines(view, &mut lines);
@@ -207,7 +210,7 @@ mod tests {
     use crate::report::view::seen::{Place, WorkOffset};
     use core::time::Duration;
     use glidepath_geometry::Axis;
-    use glidepath_link::{Auxiliary, MachineState};
+    use glidepath_link::Auxiliary;
     use glidepath_program::Event;
     use serde_json::Value;
 

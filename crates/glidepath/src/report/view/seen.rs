@@ -2,7 +2,7 @@
 
 use core::time::Duration;
 use glidepath_geometry::{AXES, Axis};
-use glidepath_link::{Auxiliary, MachineState, Status};
+use glidepath_link::{Auxiliary, Status};
 
 /// Where the machine is in a program that is known.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,28 +63,6 @@ pub struct View<'a> {
     pub offsets: Option<WorkOffset>,
     /// What happened lately, the newest first, and how long ago.
     pub events: Vec<(Duration, String)>,
-}
-
-/// What the machine does, as one says it.
-#[must_use]
-pub const fn doing(state: MachineState) -> &'static str {
-    match state {
-        MachineState::Idle => "ready: at rest, no program",
-        MachineState::Running => "the program runs",
-        MachineState::Holding => "slowing down for a hold",
-        MachineState::Held => "held: `glidepath resume` goes on",
-        MachineState::Starving => "slowing down for want of a plan",
-        MachineState::Starved => "waits for the planner",
-        MachineState::ProgramStop => "stopped by the program: `glidepath resume` goes on",
-        MachineState::Stopping => "stopping",
-        MachineState::Faulted => "a fault: `glidepath reset` takes note of it",
-        MachineState::Waiting => "waits for more of the program",
-        MachineState::Awaiting => "waits for an answer of the machine",
-        MachineState::Jogging => "moved by hand",
-        MachineState::Homing => "joints are on their way home",
-        MachineState::Off => "off: `glidepath enable` switches on",
-        MachineState::NotHomed => "not homed: `glidepath home`",
-    }
 }
 
 /// A time as people read it: 1:02:03, 2:03 or 3.4 s.

@@ -1,0 +1,318 @@
+//! Faults: what happened, where, and what clears it.
+
+use super::amount::apart;
+use crate::record::{FaultCause, FrameRefusal, RecordError, Status};
+use core::fmt;
+use glidepath_geometry::Axis;
+
+impl FaultCause {
+    /// Every cause.
+    pub fn all() -> impl Iterator<Item = Self> {
+        (1..0x200).filter_map(Self::from_code)
+    }
+
+    /// What happened.
+    #[must_use]
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::Frame(refusal) => refusal.text(),
+            Self::PlannerLost => "no more frames came: the planner died or hangs",
+            Self::MissedTicks => "too many ticks were missed",
+            Self::Output => "a computed setpoint broke a limit",
+            Self::Ports => "the thread that serves the ports died or hangs",
+            Self::RealTime => "the real-time thread died",
+            Self::FeedbackLost => "the drives no longer say where they are",
+            Self::FollowingError => "a joint is too far from where it is to be",
+            Self::Drive => "a drive reports a fault",
+            Self::EnableLost => "a drive lost its power",
+            Self::AuxTimeout => "an event was not acknowledged in time",
+            Self::AuxFailed => "what an event asked for has failed",
+            Self::ProbeContact => "the probe touched outside of a probing move",
+            Self::SpindleSpeed => {
+                "in a thread the spindle left 50 to 109 % of its speed, and the thread is not finished"
+            }
+            Self::SpindleAngle => "in a thread the spindle's angle was not told, or made no sense",
+            Self::ThreadLost => {
+                "in a thread the axes could not follow the spindle, or frames ran out"
+            }
+            Self::TapOvertravel => {
+                "a tap went on into its hole for spindle.overtravel revolutions, and stands in it: \
+                 the spindle did not turn back"
+            }
+            Self::LimitSwitch => "a joint stands at its limit switch",
+            Self::Homing => "a joint did not find its home",
+        }
+    }
+
+    /// What to do about it. It ends in what clears the fault.
+    #[must_use]
+    pub const fn remedy(self) -> &'static str {
+        match self {
+            Self::Frame(FrameRefusal::Elsewhere) => {
+                "`glidepath reset`, then start the program again"
+            }
+            Self::Frame(_) => {
+                "keep the recording and report it, unless two planners ran; `glidepath reset`"
+            }
+            Self::PlannerLost => {
+                "read in the planner's log why; `glidepath reset`, then start the program again, or \
+                 go on with it by --resume"
+            }
+            Self::MissedTicks => {
+                "`glidepath doctor` says what keeps this host from being in time; `glidepath reset`"
+            }
+            Self::Output => "keep the recording and report it; `glidepath reset`",
+            Self::Ports => "read in the interpolator's log what failed; `glidepath reset`",
+            Self::RealTime => {
+                "read in the interpolator's log why; start it again: `glidepath interpolator`"
+            }
+            Self::FeedbackLost => {
+                "start the servo stack; `glidepath reset`, `glidepath enable`, `glidepath home`"
+            }
+            Self::FollowingError => {
+                "look what keeps the joint back; `glidepath disable`, `glidepath reset`, \
+                 `glidepath enable`"
+            }
+            Self::Drive => "mend what the drive reports; `glidepath reset`, `glidepath enable`",
+            Self::EnableLost => {
+                "release the emergency stop, or mend what took the power; `glidepath reset`, \
+                 `glidepath enable`"
+            }
+            Self::AuxTimeout => {
+                "answer in time, or give timeout_s of the M code more; `glidepath reset`"
+            }
+            Self::AuxFailed => "mend what failed; `glidepath reset`",
+            Self::ProbeContact => {
+                "look what the probe touched; `glidepath reset`, then jog it free"
+            }
+            Self::SpindleSpeed | Self::ThreadLost => {
+                "free the tool by hand, and begin the thread again with a slower spindle; \
+                 `glidepath reset`"
+            }
+            Self::SpindleAngle => {
+                "free the tool by hand, and look at the spindle's encoder; `glidepath reset`"
+            }
+            Self::TapOvertravel => {
+                "free the tap by hand, and look why the spindle did not turn back; `glidepath reset`"
+            }
+            Self::LimitSwitch => {
+                "`glidepath reset`, jog the joint off the switch, and compare the soft limits with it"
+            }
+            Self::Homing => {
+                "look at the joint's switch, and at the direction of its search; `glidepath reset`, \
+                 `glidepath home`"
+            }
+        }
+    }
+
+    /// What its numbers are: of which power of the time.
+    const fn per_time(self) -> &'static str {
+        match self {
+            Self::Frame(FrameRefusal::Velocity) => "/s",
+            Self::Frame(FrameRefusal::Acceleration) => "/s²",
+            Self::Frame(FrameRefusal::Jerk) => "/s³",
+            Self::Frame(
+                FrameRefusal::NotFinite
+                | FrameRefusal::Malformed
+                | FrameRefusal::Period
+                | FrameRefusal::Epoch
+                | FrameRefusal::Sequence
+                | FrameRefusal::Discontinuous
+                | FrameRefusal::SoftLimit
+                | FrameRefusal::NotAtRest
+                | FrameRefusal::Elsewhere,
+            )
+            | Self::PlannerLost
+            | Self::MissedTicks
+            | Self::Output
+            | Self::Ports
+            | Self::RealTime
+            | Self::FeedbackLost
+            | Self::FollowingError
+            | Self::Drive
+            | Self::EnableLost
+            | Self::AuxTimeout
+            | Self::LimitSwitch
+            | Self::Homing
+            | Self::AuxFailed
+            | Self::SpindleSpeed
+            | Self::SpindleAngle
+            | Self::ThreadLost
+            | Self::ProbeContact
+            | Self::TapOvertravel => "",
+        }
+    }
+
+    /// Whether whoever found it has said more in the status' last error.
+    const fn is_explained(self) -> bool {
+        matches!(self, Self::AuxFailed | Self::Homing)
+    }
+}
+
+impl FrameRefusal {
+    /// What is wrong with the frame.
+    #[must_use]
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::NotFinite => "a frame was refused: a number in it is not finite",
+            Self::Malformed => "a frame was refused: it is malformed",
+            Self::Period => "a frame was refused: it was planned with another period",
+            Self::Epoch => "a frame was refused: it is of an epoch that cannot run now",
+            Self::Sequence => "a frame was refused: one before it is missing",
+            Self::Discontinuous => "a frame was refused: it does not follow from the one before",
+            Self::Velocity => "a frame was refused: it is above the velocity limit",
+            Self::Acceleration => "a frame was refused: it is above the acceleration limit",
+            Self::Jerk => "a frame was refused: it is above the jerk limit",
+            Self::SoftLimit => "a frame was refused: it is outside the soft limits",
+            Self::NotAtRest => "a frame was refused: it is not at rest where it must be",
+            Self::Elsewhere => "a frame was refused: it does not start where the machine stands",
+        }
+    }
+}
+
+/// A fault with what is known of its place, in one clause.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FaultReport {
+    /// What happened.
+    pub cause: FaultCause,
+    /// The axis, if it has one.
+    pub axis: Option<Axis>,
+    /// The joint, by its index, if it has one.
+    pub joint: Option<usize>,
+    /// What the drive of the joint says about it, 0 for nothing.
+    pub drive_fault: u32,
+    /// What was found, in the unit of the limit.
+    pub value: f64,
+    /// What is allowed, mm or degrees by the time that the cause has, 0 for nothing.
+    pub limit: f64,
+    /// Source line, 0 for none.
+    pub line: u32,
+}
+
+impl fmt::Display for FaultReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.cause.text())?;
+        if let Some(joint) = self.joint {
+            write!(f, ", joint J{joint}")?;
+        }
+        if self.drive_fault != 0 {
+            write!(f, ", the drive's number {}", self.drive_fault)?;
+        }
+        if let Some(axis) = self.axis {
+            write!(f, ", axis {axis}")?;
+        }
+        if self.limit != 0.0 {
+            let (value, limit) = apart(self.value, self.limit);
+            // Which joints turn is known to the mechanism alone.
+            let (unit, per_time) = (self.axis.map(unit), self.cause.per_time());
+            let unit = unit.map_or_else(
+                || format!("mm{per_time} or °{per_time}"),
+                |unit| format!("{unit}{per_time}"),
+            );
+            write!(f, ", {value} where {limit} {unit} is allowed")?;
+        }
+        if self.line > 0 {
+            write!(f, ", line {}", self.line)?;
+        }
+        Ok(())
+    }
+}
+
+const fn unit(axis: Axis) -> &'static str {
+    if axis.is_rotary() { "°" } else { "mm" }
+}
+
+impl Status {
+    /// The latched fault, if there is one.
+    ///
+    /// # Errors
+    ///
+    /// A cause that this version does not know.
+    pub fn fault_report(&self) -> Result<Option<FaultReport>, RecordError> {
+        Ok(self.fault()?.map(|cause| FaultReport {
+            cause,
+            axis: self.fault_axis(),
+            joint: self.fault_joint(),
+            drive_fault: self.drive_fault,
+            value: self.fault_value,
+            limit: self.fault_limit,
+            line: self.fault_line,
+        }))
+    }
+
+    /// The latched fault in words, if there is one, with what whoever found it says.
+    #[must_use]
+    pub fn fault_text(&self) -> Option<String> {
+        let report = self.fault_report().ok().flatten()?;
+        let (mut text, said) = (report.to_string(), self.last_error.as_str());
+        if report.cause.is_explained() && !said.is_empty() && !text.contains(said) {
+            text.push_str(": ");
+            text.push_str(said);
+        }
+        Some(text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Text;
+
+    #[test]
+    fn faults_have_texts_of_their_own_and_say_what_clears_them() {
+        let all: Vec<FaultCause> = FaultCause::all().collect();
+        assert_eq!(all.len(), 18 + FrameRefusal::ALL.len());
+        for (i, cause) in all.iter().enumerate() {
+            assert!(all[..i].iter().all(|other| other.text() != cause.text()));
+            assert!(cause.remedy().contains("`glidepath "), "{cause:?}");
+        }
+    }
+
+    #[test]
+    fn a_fault_is_one_clause_with_its_place_and_rounded_numbers_with_units() {
+        let mut report = FaultReport {
+            cause: FaultCause::Frame(FrameRefusal::Velocity),
+            axis: Some(Axis::X),
+            joint: None,
+            drive_fault: 0,
+            value: 210.345_678_901_234_5,
+            limit: 200.0,
+            line: 12,
+        };
+        assert_eq!(
+            report.to_string(),
+            "a frame was refused: it is above the velocity limit, axis X, 210 where 200 mm/s is \
+             allowed, line 12"
+        );
+        (report.cause, report.axis, report.joint) = (FaultCause::FollowingError, None, Some(1));
+        (report.value, report.limit, report.line) = (3.214_159_265_358_979, 0.5, 0);
+        assert_eq!(
+            report.to_string(),
+            "a joint is too far from where it is to be, joint J1, 3.21 where 0.5 mm or ° is allowed"
+        );
+    }
+
+    #[test]
+    fn what_somebody_said_of_a_fault_is_told_with_it_and_nothing_is_told_twice() {
+        let mut status: Status = bytemuck::Zeroable::zeroed();
+        assert_eq!(status.fault_text(), None);
+        status.fault = FaultCause::AuxFailed.code();
+        status.last_error = Text::new("no tool 7 in the magazine");
+        assert_eq!(
+            status.fault_text().as_deref(),
+            Some("what an event asked for has failed: no tool 7 in the magazine")
+        );
+        status.last_error = Text::new(FaultCause::AuxFailed.text());
+        assert_eq!(
+            status.fault_text().as_deref(),
+            Some(FaultCause::AuxFailed.text())
+        );
+        // What was said last may be of something else.
+        status.fault = FaultCause::Drive.code();
+        status.last_error = Text::new("joint J0 follows with an error of 0.1");
+        assert_eq!(
+            status.fault_text().as_deref(),
+            Some(FaultCause::Drive.text())
+        );
+    }
+}

@@ -1,0 +1,17 @@
+//! What people are told of a machine: one text for each state, fault and refusal.
+//!
+//! Whoever shows one of them (status, log, page, planner, consumers in other languages) takes its
+//! words from here, so that one thing is never told in two ways. A text is a clause that stands in a
+//! sentence: no capital, no full stop; what is to be done follows behind a semicolon. Commands stand
+//! in backticks without instance and configuration, which only the process that shows them knows.
+
+mod amount;
+mod fault;
+mod objection;
+mod refusal;
+mod state;
+
+pub use fault::FaultReport;
+pub use objection::Objection;
+pub use refusal::refused;
+pub use state::StateChange;

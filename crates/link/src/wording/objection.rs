@@ -1,0 +1,176 @@
+//! Why a command is not possible as things are.
+
+/// Why a command is not possible as things are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Objection {
+    /// A hold without a program.
+    NothingToHold,
+    /// An abort without a program.
+    NothingToAbort,
+    /// The way back without a program.
+    NoPathBack,
+    /// A resume of what is not held.
+    NothingHeld,
+    /// A step of what is not held.
+    NoStep,
+    /// A stop at the end of a block without one.
+    NoBlock,
+    /// The axes were jogged away from a held path.
+    Away,
+    /// A reset without a fault.
+    NoFault,
+    /// A command to drives that are not there.
+    Simulated,
+    /// A return to a path on which the axes are.
+    OnPath,
+    /// A return while the axes move.
+    Moving,
+    /// Power while a fault is latched.
+    FaultLatched,
+    /// Power where it is there, or asked for.
+    PowerAsked,
+    /// Power of drives that do not say where they are.
+    NoPosition,
+    /// Power of a drive with a fault.
+    DriveFault,
+    /// What changes where joints are, while something moves or may.
+    NotAtRest,
+    /// A number that is no position of a joint.
+    NoSuchPosition,
+    /// A joint that the machine does not have.
+    NoSuchJoint,
+    /// The second joint of an axis.
+    SecondJoint,
+    /// A joint that nobody reports.
+    Unreported,
+    /// A search for home without power, or while something moves.
+    NeedsPower,
+    /// A search for home of a joint that has none.
+    NoHome,
+    /// A search for home while there is one.
+    HomingAlready,
+    /// A jog while the machine does something else.
+    NoJogNow,
+    /// An answer to an event of an interpolator that has ended.
+    OtherLife,
+    /// A second answer.
+    Answered,
+    /// An answer to what the drives answer.
+    ByFeedback,
+    /// An answer before the event.
+    TooEarly,
+    /// An answer to an event behind the one that is awaited.
+    EarlierEvent,
+    /// An answer where nothing is asked.
+    NoEvent,
+    /// An answer to something else.
+    AnotherEvent,
+}
+
+impl Objection {
+    /// Every objection.
+    pub const ALL: &'static [Self] = &[
+        Self::NothingToHold,
+        Self::NothingToAbort,
+        Self::NoPathBack,
+        Self::NothingHeld,
+        Self::NoStep,
+        Self::NoBlock,
+        Self::Away,
+        Self::NoFault,
+        Self::Simulated,
+        Self::OnPath,
+        Self::Moving,
+        Self::FaultLatched,
+        Self::PowerAsked,
+        Self::NoPosition,
+        Self::DriveFault,
+        Self::NotAtRest,
+        Self::NoSuchPosition,
+        Self::NoSuchJoint,
+        Self::SecondJoint,
+        Self::Unreported,
+        Self::NeedsPower,
+        Self::NoHome,
+        Self::HomingAlready,
+        Self::NoJogNow,
+        Self::OtherLife,
+        Self::Answered,
+        Self::ByFeedback,
+        Self::TooEarly,
+        Self::EarlierEvent,
+        Self::NoEvent,
+        Self::AnotherEvent,
+    ];
+
+    /// Why, and behind a semicolon what to do; short enough for a record.
+    #[must_use]
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::NothingToHold => "no program runs, so there is nothing to hold",
+            Self::NothingToAbort => "no program runs, so there is nothing to abort",
+            Self::NoPathBack => "no program runs, so there is no path to go back along",
+            Self::NothingHeld => "nothing is held; `glidepath status` says what the machine does",
+            Self::NoStep => {
+                "nothing is held; a step goes on after a hold, a program stop or the end of a block"
+            }
+            Self::NoBlock => "no program runs, so there is no block to stop at the end of",
+            Self::Away => "the axes are away from the path; return first with `glidepath return`",
+            Self::NoFault => {
+                "no fault is latched, or the motion has not come to rest yet; `glidepath status` says \
+                 which"
+            }
+            Self::Simulated => {
+                "no feedback is configured, so the drives are simulated, always on and homed"
+            }
+            Self::OnPath => "the axes are on the path, so there is nowhere to return to",
+            Self::Moving => "the axes are moving; return when they are at rest",
+            Self::FaultLatched => "a fault is latched; clear it first with `glidepath reset`",
+            Self::PowerAsked => "the drives are on, or were asked to be",
+            Self::NoPosition => "the drives do not say where they are; start the servo stack",
+            Self::DriveFault => "a drive reports a fault; mend that first",
+            Self::NotAtRest => {
+                "the machine has to be at rest without a program; `glidepath abort` ends one"
+            }
+            Self::NoSuchPosition => "that is no position of a joint",
+            Self::NoSuchJoint => "the machine has no such joint",
+            Self::SecondJoint => "it is the second joint of its axis, and goes with the first",
+            Self::Unreported => "nobody says where the joint is; start the servo stack",
+            Self::NeedsPower => "the drives have to be on and at rest, without a program",
+            Self::NoHome => "not all of these joints have a home to find",
+            Self::HomingAlready => "joints are on their way home already",
+            Self::NoJogNow => "axes are jogged when the machine is idle, or a program is held",
+            Self::OtherLife => "that event is of another life of the interpolator",
+            Self::Answered => "that event was answered already",
+            Self::ByFeedback => "the drives' feedback answers that event, and nobody else",
+            Self::TooEarly => {
+                "it is too early; answer when `glidepath status` says that the machine is awaiting"
+            }
+            Self::EarlierEvent => {
+                "it is too early; the machine waits for another event before that one"
+            }
+            Self::NoEvent => "no event is awaited",
+            Self::AnotherEvent => "another event is awaited; `glidepath status` says which",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Text;
+
+    #[test]
+    fn objections_have_texts_of_their_own_that_fit_into_a_reply() {
+        for (i, objection) in Objection::ALL.iter().enumerate() {
+            let text = objection.text();
+            assert_eq!(Text::new(text).as_str(), text);
+            // One sentence: what to do is behind the only stop in it.
+            assert!(text.matches([';', ':']).count() <= 1, "{text}");
+            for other in &Objection::ALL[..i] {
+                assert_ne!(text, other.text());
+                assert_ne!(objection, other);
+            }
+        }
+    }
+}

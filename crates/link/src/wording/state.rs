@@ -1,0 +1,164 @@
+//! States: their names, which scripts compare, and what the machine does in them.
+
+use crate::record::{EndOfEpoch, MachineState, MotionMode, Power};
+use core::fmt;
+
+impl MachineState {
+    /// The name, as `status` and recordings have it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Idle => "idle",
+            Self::Running => "running",
+            Self::Holding => "holding",
+            Self::Held => "held",
+            Self::Starving => "starving",
+            Self::Starved => "starved",
+            Self::ProgramStop => "program-stop",
+            Self::Stopping => "stopping",
+            Self::Faulted => "faulted",
+            Self::Waiting => "waiting",
+            Self::Awaiting => "awaiting",
+            Self::Jogging => "jogging",
+            Self::Homing => "homing",
+            Self::Off => "off",
+            Self::NotHomed => "not-homed",
+        }
+    }
+
+    /// What the machine does, and what goes on from there where somebody has to do it.
+    #[must_use]
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::Idle => "at rest, ready for a program",
+            Self::Running => "the program runs",
+            Self::Holding => "slowing down on the path for a hold",
+            Self::Held => "held at rest on the path; `glidepath resume` goes on",
+            Self::Starving => {
+                "slowing down on the path, because the plan does not come fast enough"
+            }
+            Self::Starved => {
+                "at rest on the path until the planner sends more; it goes on by itself"
+            }
+            Self::ProgramStop => {
+                "at rest where the program stopped the machine; `glidepath resume` goes on"
+            }
+            Self::Stopping => "coming to rest on the path; the rest of the program is dropped",
+            Self::Faulted => "at rest by a fault, which stays until `glidepath reset`",
+            Self::Waiting => {
+                "at rest where the program known so far ends; it goes on by itself when more comes"
+            }
+            Self::Awaiting => {
+                "at rest until what the program asked for is done; `glidepath status` says what"
+            }
+            Self::Jogging => "moved by hand",
+            Self::Homing => "joints are on their way home",
+            Self::Off => "the drives have no power; `glidepath enable` gives it",
+            Self::NotHomed => "joints are not homed; `glidepath home` has them find where they are",
+        }
+    }
+}
+
+impl Power {
+    /// The name, as `status` has it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Simulated => "simulated",
+            Self::Off => "off",
+            Self::Enabling => "enabling",
+            Self::On => "on",
+        }
+    }
+}
+
+impl MotionMode {
+    /// The name, as `status` has it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Program => "program",
+            Self::Jog => "jog",
+            Self::Homing => "homing",
+            Self::Return => "return",
+            Self::Backwards => "backwards",
+        }
+    }
+}
+
+impl EndOfEpoch {
+    /// The name, as `status` has it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Open => "open",
+            Self::Completed => "completed",
+            Self::Aborted => "aborted",
+            Self::Faulted => "faulted",
+            Self::Tripped => "tripped",
+        }
+    }
+}
+
+/// A change of state, as the log tells it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StateChange {
+    /// The state before.
+    pub from: MachineState,
+    /// The state since then.
+    pub to: MachineState,
+    /// Source line that was executed, 0 if there was none.
+    pub line: u32,
+}
+
+impl StateChange {
+    /// Whether a line of the log tells a change of state.
+    #[must_use]
+    pub fn is_told_in(text: &str) -> bool {
+        text.contains(BEFORE)
+    }
+}
+
+/// Between the state and the one before.
+const BEFORE: &str = ", before that ";
+
+impl fmt::Display for StateChange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{BEFORE}{}", self.to.name(), self.from.name())?;
+        if self.line > 0 {
+            write!(f, ", line {}", self.line)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn states_have_names_and_texts_of_their_own() {
+        for (i, state) in MachineState::ALL.iter().enumerate() {
+            for other in &MachineState::ALL[..i] {
+                assert_ne!(state.name(), other.name());
+                assert_ne!(state.text(), other.text());
+            }
+        }
+    }
+
+    #[test]
+    fn a_change_of_state_is_told_with_names_and_known_again() {
+        let mut change = StateChange {
+            from: MachineState::Starved,
+            to: MachineState::Faulted,
+            line: 12,
+        };
+        assert_eq!(change.to_string(), "faulted, before that starved, line 12");
+        assert!(StateChange::is_told_in(&change.to_string()));
+        change.line = 0;
+        assert_eq!(change.to_string(), "faulted, before that starved");
+        assert!(!StateChange::is_told_in("2 ticks were missed"));
+    }
+}
