@@ -1,48 +1,92 @@
 //! Setpoints through a pipe, from the servo process to this one: as they are in memory, one after
 //! the other. Both ends are the same program.
 //!
-//! Who judges setpoints reads the program too, which may take it seconds between two moves. The servo
+//! Who judges setpoints reads the program too, which may take it minutes between two moves. The servo
 //! must not be held up by that, or it loses setpoints. So a thread of its own takes what comes through
-//! the pipe, and keeps minutes of it.
+//! the pipe, and keeps it until it is asked for.
 
 use glidepath_link::{LinkError, Setpoint, Subscriber};
 use std::io::{self, Cursor, ErrorKind, Read};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Bytes that are handed over together, at most, and how many such pieces are kept.
+/// Bytes that are read at a time.
 const PIECE: usize = 1 << 15;
-const PIECES: usize = 1 << 11;
+/// Bytes that are kept before whoever writes is held up after all: a quarter of an hour of setpoints every
+/// 4 ms, a minute of those every 250 µs. The memory is taken as it is needed.
+const MOST: usize = 1 << 28;
 
 /// Reads ahead of whoever reads it.
 #[derive(Debug)]
 pub(super) struct ReadAhead {
-    pieces: Receiver<io::Result<Vec<u8>>>,
-    piece: Cursor<Vec<u8>>,
+    shared: Arc<Shared>,
+    taken: Cursor<Vec<u8>>,
+}
+
+#[derive(Debug, Default)]
+struct Shared {
+    kept: Mutex<Kept>,
+    came: Condvar,
+    went: Condvar,
+}
+
+/// What was read and not yet asked for.
+#[derive(Debug, Default)]
+struct Kept {
+    bytes: Vec<u8>,
+    /// How it ended, behind the bytes.
+    end: Option<io::Result<()>>,
+    /// Nobody will ask any more.
+    is_dropped: bool,
+}
+
+impl Shared {
+    fn kept(&self) -> MutexGuard<'_, Kept> {
+        // Bytes are there or not, whoever panicked.
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 impl ReadAhead {
     /// Begins to read, until the end, an error, or until nobody reads this any more.
     pub(super) fn of(from: impl Read + Send + 'static) -> Self {
-        let (sender, pieces) = sync_channel(PIECES);
-        std::thread::spawn(move || hand_over(from, &sender));
+        Self::keeping(from, MOST)
+    }
+
+    fn keeping(from: impl Read + Send + 'static, most: usize) -> Self {
+        let shared = Arc::<Shared>::default();
+        let keeping = Arc::clone(&shared);
+        std::thread::spawn(move || keep(from, &keeping, most));
         Self {
-            pieces,
-            piece: Cursor::default(),
+            shared,
+            taken: Cursor::default(),
         }
     }
 }
 
-fn hand_over(mut from: impl Read, pieces: &SyncSender<io::Result<Vec<u8>>>) {
+impl Drop for ReadAhead {
+    fn drop(&mut self) {
+        self.shared.kept().is_dropped = true;
+        self.shared.went.notify_one();
+    }
+}
+
+fn keep(mut from: impl Read, shared: &Shared, most: usize) {
     let mut piece = vec![0; PIECE];
     loop {
         let read = match from.read(&mut piece) {
-            Ok(0) => return,
-            Ok(length) => Ok(piece[..length].to_vec()),
             Err(error) if error.kind() == ErrorKind::Interrupted => continue,
-            Err(error) => Err(error),
+            read => read,
         };
-        let is_over = read.is_err();
-        if pieces.send(read).is_err() || is_over {
+        let is_full = |kept: &mut Kept| kept.bytes.len() >= most && !kept.is_dropped;
+        let kept = shared.went.wait_while(shared.kept(), is_full);
+        let mut kept = kept.unwrap_or_else(PoisonError::into_inner);
+        match read {
+            Ok(0) => kept.end = Some(Ok(())),
+            Ok(length) => kept.bytes.extend_from_slice(&piece[..length]),
+            Err(error) => kept.end = Some(Err(error)),
+        }
+        shared.came.notify_one();
+        if kept.is_dropped || kept.end.is_some() {
             return;
         }
     }
@@ -50,16 +94,22 @@ fn hand_over(mut from: impl Read, pieces: &SyncSender<io::Result<Vec<u8>>>) {
 
 impl Read for ReadAhead {
     fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
-        loop {
-            let length = self.piece.read(into)?;
-            if length > 0 || into.is_empty() {
-                return Ok(length);
-            }
-            let Ok(piece) = self.pieces.recv() else {
-                return Ok(0);
-            };
-            self.piece = Cursor::new(piece?);
+        let length = self.taken.read(into)?;
+        if length > 0 || into.is_empty() {
+            return Ok(length);
         }
+        let is_awaited = |kept: &mut Kept| kept.bytes.is_empty() && kept.end.is_none();
+        let kept = self.shared.came.wait_while(self.shared.kept(), is_awaited);
+        let mut kept = kept.unwrap_or_else(PoisonError::into_inner);
+        if kept.bytes.is_empty() {
+            // An error is told once; behind it there is the end.
+            let end = kept.end.replace(Ok(()));
+            return end.unwrap_or(Ok(())).map(|()| 0);
+        }
+        self.taken = Cursor::new(std::mem::take(&mut kept.bytes));
+        self.shared.went.notify_one();
+        drop(kept);
+        self.taken.read(into)
     }
 }
 
@@ -87,6 +137,8 @@ impl<R: Read> Subscriber<Setpoint> for Pipe<R> {
 mod tests {
     use super::*;
     use std::io::Write as _;
+    use std::sync::mpsc;
+    use std::time::Duration;
 
     #[test]
     fn setpoints_come_through_to_the_bit_and_parts_of_one_do_not() {
@@ -110,6 +162,54 @@ mod tests {
         let mut got = Vec::new();
         ahead.read_to_end(&mut got).unwrap();
         assert!(got == bytes);
+    }
+
+    /// Setpoints come through the pipe one by one, so that what is kept must not be counted in reads.
+    #[test]
+    fn minutes_of_setpoints_that_come_one_by_one_are_kept() {
+        const COUNT: usize = 60_000;
+        struct Drips(mpsc::Sender<()>, usize);
+        impl Read for Drips {
+            fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+                if self.1 == COUNT {
+                    self.0.send(()).unwrap();
+                    return Ok(0);
+                }
+                self.1 += 1;
+                into[..size_of::<Setpoint>()].fill(7);
+                Ok(size_of::<Setpoint>())
+            }
+        }
+        let (sender, all_read) = mpsc::channel();
+        let mut ahead = ReadAhead::of(Drips(sender, 0));
+        all_read.recv_timeout(Duration::from_secs(120)).unwrap();
+        let mut got = Vec::new();
+        ahead.read_to_end(&mut got).unwrap();
+        assert_eq!(got.len(), COUNT * size_of::<Setpoint>());
+        assert!(got.iter().all(|byte| *byte == 7));
+    }
+
+    #[test]
+    fn whoever_writes_is_held_up_when_too_much_is_kept_until_it_is_asked_for() {
+        struct Flood;
+        impl Read for Flood {
+            fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+                Ok(into.len())
+            }
+        }
+        const FEW: usize = 3 * PIECE;
+        let mut ahead = ReadAhead::keeping(Flood, FEW);
+        while ahead.shared.kept().bytes.len() < FEW {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        std::thread::sleep(Duration::from_millis(20));
+        assert_eq!(ahead.shared.kept().bytes.len(), FEW);
+        let mut byte = [1];
+        ahead.read_exact(&mut byte).unwrap();
+        assert_eq!(byte, [0]);
+        while ahead.shared.kept().bytes.len() < FEW {
+            std::thread::sleep(Duration::from_millis(1));
+        }
     }
 
     #[test]
