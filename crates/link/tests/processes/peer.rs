@@ -52,7 +52,7 @@ impl Peer {
 
     fn spawn(mut program: std::process::Command, role: &str, config: &LinkConfig) -> Self {
         let mut process = program
-            .args(["peer::child", "--exact", "--ignored", "--nocapture"])
+            .args(["peer::child", "--exact", "--nocapture"])
             .env(ROLE, role)
             .env(ROOT, &config.root)
             .stdout(Stdio::piped())
@@ -96,7 +96,6 @@ fn sleep_until_killed() {
 }
 
 #[test]
-#[ignore = "run by the other tests, in a process of its own"]
 fn child() {
     let Ok(role) = std::env::var(ROLE) else {
         return;
