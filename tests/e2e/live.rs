@@ -3,6 +3,8 @@
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use glidepath_link::MachineState;
@@ -136,6 +138,49 @@ fn commands_take_the_token_and_leave() {
     assert_eq!(status, 409, "{said}");
     assert!(said.contains("nothing is held"), "{said}");
     drop((showing, live, planner.wait()));
+    drop(services.end());
+}
+
+/// Opens connections, gives a byte of each now and then, and opens anew what is closed, until `over`.
+fn flood(port: u16, over: &AtomicBool) {
+    let mut streams: Vec<TcpStream> = Vec::new();
+    while !over.load(Ordering::Relaxed) {
+        let missing = 40 - streams.len();
+        streams.extend((0..missing).map(|_| TcpStream::connect(("127.0.0.1", port)).unwrap()));
+        streams.retain_mut(|stream| stream.write_all(b"G").is_ok());
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+#[test]
+fn a_page_holds_and_aborts_while_others_keep_connections_open() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let program = instance.file("program.ngc", &long_program());
+    let services = Services::start(&instance);
+    let planner = Process::join(&instance, &["planner", &program]);
+    let _moving = services.wait_for(MachineState::Running);
+    let live = Live::start(&instance, &["--commands"]);
+    let (port, over) = (live.port, Arc::<AtomicBool>::default());
+    let flooding = {
+        let over = Arc::clone(&over);
+        std::thread::spawn(move || flood(port, &over))
+    };
+    // All of them are there.
+    std::thread::sleep(Duration::from_millis(500));
+    for (command, state) in [
+        ("hold", MachineState::Held),
+        ("resume", MachineState::Running),
+        ("hold", MachineState::Held),
+        ("abort", MachineState::Idle),
+    ] {
+        let body = format!("{{\"kind\":\"{command}\"}}");
+        let (status, said) = live.command(&live.token(), &body);
+        assert_eq!(status, 200, "{command}: {said}");
+        let _there = services.wait_for(state);
+    }
+    over.store(true, Ordering::Relaxed);
+    flooding.join().unwrap();
+    drop((live, planner.wait()));
     drop(services.end());
 }
 

@@ -19,6 +19,7 @@ pub mod guard;
 mod asset;
 mod feed;
 mod motion;
+mod places;
 mod request;
 mod response;
 mod server;

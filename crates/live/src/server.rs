@@ -3,20 +3,25 @@
 use crate::asset;
 use crate::feed::{Feed, Message};
 use crate::guard::{API, Guard};
+use crate::places::Places;
 use crate::request::Request;
 use crate::response::{Answer, ContentType, Status, begin_stream};
 use crate::token::Token;
 use core::time::Duration;
-use std::io::{self, Write as _};
+use std::io::{self, Read, Write};
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
+use std::time::Instant;
 
-/// Requests that are answered at a time, open pages among them.
-const MOST_CONNECTIONS: usize = 32;
-/// How long a browser may take to send a request, or to take a part of an answer.
+/// How long a request may take to come, from its first byte to its last, and how long an answer to one
+/// without the token may take to go.
 const PATIENCE: Duration = Duration::from_secs(5);
+/// How long whoever has shown the token may take to receive a part of an answer.
+const PATIENCE_WITH_PAGE: Duration = Duration::from_secs(5);
+/// How long to wait where the system has nothing left for a connection.
+const BREATH: Duration = Duration::from_millis(20);
 /// How long a page hears nothing at most, when nothing happens.
 const SILENCE: Duration = Duration::from_secs(1);
 /// Where a page hears what happens.
@@ -101,7 +106,7 @@ impl Server {
             site,
             feed: feed.clone(),
             over: Arc::clone(&over),
-            open: AtomicUsize::new(0),
+            places: Places::default(),
         };
         let listener = self.listener;
         let accepting = std::thread::Builder::new()
@@ -130,9 +135,15 @@ impl Drop for Running {
     fn drop(&mut self) {
         self.over.store(true, Ordering::Relaxed);
         self.feed.end();
-        // Wakes the thread that waits for requests.
-        let _woken = TcpStream::connect_timeout(&self.address, PATIENCE);
-        let _ended = self.accepting.take().map(JoinHandle::join);
+        let Some(accepting) = self.accepting.take() else {
+            return;
+        };
+        // The thread waits for a connection, and the system may have none to give just now.
+        while !accepting.is_finished() {
+            let _woken = TcpStream::connect_timeout(&self.address, PATIENCE);
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let _ended = accepting.join();
     }
 }
 
@@ -142,62 +153,124 @@ struct Work {
     site: Arc<dyn Site>,
     feed: Feed,
     over: Arc<AtomicBool>,
-    open: AtomicUsize,
+    places: Places,
 }
 
 fn accept(listener: &TcpListener, work: &Arc<Work>) {
-    while let Ok((stream, _)) = listener.accept() {
-        if work.over.load(Ordering::Relaxed) {
-            return;
-        }
-        if work.open.fetch_add(1, Ordering::Relaxed) >= MOST_CONNECTIONS {
-            work.open.fetch_sub(1, Ordering::Relaxed);
+    while !work.over.load(Ordering::Relaxed) {
+        let Ok((stream, _)) = listener.accept() else {
+            // The connection has gone, or there is no descriptor for it yet.
+            std::thread::sleep(BREATH);
             continue;
-        }
-        let shared = Arc::clone(work);
+        };
+        let stream = Arc::new(stream);
+        work.places.enter(&stream);
+        let (shared, own) = (Arc::clone(work), Arc::clone(&stream));
         let thread = std::thread::Builder::new().name("live-request".to_owned());
         let started = thread.spawn(move || {
             // A browser that goes away is its own business.
-            let _answered = answer(stream, &shared);
-            shared.open.fetch_sub(1, Ordering::Relaxed);
+            let _answered = answer(&own, &shared);
+            shared.places.leave(&own);
         });
         if started.is_err() {
-            work.open.fetch_sub(1, Ordering::Relaxed);
+            work.places.leave(&stream);
         }
     }
 }
 
-fn answer(mut stream: TcpStream, work: &Work) -> io::Result<()> {
-    stream.set_read_timeout(Some(PATIENCE))?;
-    stream.set_write_timeout(Some(PATIENCE))?;
+/// A connection that has until a time.
+struct Hurried<'a> {
+    stream: &'a TcpStream,
+    until: Instant,
+}
+
+impl Hurried<'_> {
+    fn left(&self) -> io::Result<Option<Duration>> {
+        let left = self.until.checked_duration_since(Instant::now());
+        match left.filter(|left| !left.is_zero()) {
+            Some(left) => Ok(Some(left)),
+            None => Err(io::ErrorKind::TimedOut.into()),
+        }
+    }
+}
+
+impl Read for Hurried<'_> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        self.stream.set_read_timeout(self.left()?)?;
+        self.stream.read(into)
+    }
+}
+
+impl Write for Hurried<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.stream.set_write_timeout(self.left()?)?;
+        self.stream.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.stream.flush()
+    }
+}
+
+fn hurried(stream: &TcpStream) -> Hurried<'_> {
+    let until = Instant::now() + PATIENCE;
+    Hurried { stream, until }
+}
+
+fn answer(stream: &Arc<TcpStream>, work: &Work) -> io::Result<()> {
     stream.set_nodelay(true)?;
-    let request = match Request::read(&mut stream) {
+    let request = match Request::read(&mut hurried(stream)) {
         Ok(request) => request,
         Err(error) if error.kind() == io::ErrorKind::InvalidData => {
-            return text(Status::BadRequest, &error.to_string()).write(&mut stream);
+            return text(Status::BadRequest, &error.to_string()).write(&mut hurried(stream));
         }
         Err(error) => return Err(error),
     };
     if let Err(refusal) = work.guard.judge(&request) {
         let status = Status::Other(refusal.code());
-        return text(status, &refusal.to_string()).write(&mut stream);
+        return text(status, &refusal.to_string()).write(&mut hurried(stream));
     }
+    let (path, _) = request.path();
+    if path.starts_with(API) {
+        // The guard has seen the token.
+        work.places.leave(stream);
+        stream.set_write_timeout(Some(PATIENCE_WITH_PAGE))?;
+        return answer_page(stream, &request, work);
+    }
+    let found = match request.method.as_str() {
+        "GET" => asset::find(path),
+        _ => None,
+    };
+    found.unwrap_or_else(not_found).write(&mut hurried(stream))
+}
+
+/// Answers one who has shown the token.
+fn answer_page(mut stream: &TcpStream, request: &Request, work: &Work) -> io::Result<()> {
     let (path, query) = request.path();
+    let is_stream = (request.method.as_str(), path) == ("GET", STREAM);
+    let place = if is_stream {
+        work.places.page()
+    } else {
+        work.places.request()
+    };
+    let Some(_place) = place else {
+        let words = "too many pages are open: close one";
+        return text(Status::Unavailable, words).write(&mut stream);
+    };
     let answer = match (request.method.as_str(), path) {
         ("GET", STREAM) => return tell(stream, work),
         ("POST", COMMAND) => work.site.command(&request.body),
-        ("GET", path) if path.starts_with(API) => {
+        ("GET", path) => {
             let found = work.site.document(path, query);
             found.unwrap_or_else(not_found)
         }
-        ("GET", path) => asset::find(path).unwrap_or_else(not_found),
         _ => not_found(),
     };
     answer.write(&mut stream)
 }
 
 /// Tells a page what happens, until it goes away.
-fn tell(mut stream: TcpStream, work: &Work) -> io::Result<()> {
+fn tell(mut stream: &TcpStream, work: &Work) -> io::Result<()> {
     begin_stream(&mut stream)?;
     let mut heard = 0;
     while let Some((messages, next)) = work.feed.after(heard, SILENCE) {

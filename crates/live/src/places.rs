@@ -1,0 +1,120 @@
+//! Who is being answered at a time. Any user of the host can open connections, and leave them open: so
+//! whoever has not shown the token gives way to whoever comes later, and takes no place from those who have.
+
+use std::collections::VecDeque;
+use std::net::{Shutdown, TcpStream};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Connections that have not shown the token.
+const STRANGERS: usize = 64;
+/// Open pages that have shown it.
+const PAGES: usize = 24;
+/// Other requests that have shown it.
+const REQUESTS: usize = 32;
+
+/// The places of a server.
+#[derive(Debug, Default)]
+pub(crate) struct Places {
+    /// The one that came first is in front.
+    strangers: Mutex<VecDeque<Arc<TcpStream>>>,
+    pages: AtomicUsize,
+    requests: AtomicUsize,
+}
+
+/// The place of one who has shown the token, until it is dropped.
+#[derive(Debug)]
+pub(crate) struct Place<'a>(&'a AtomicUsize);
+
+impl Drop for Place<'_> {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+impl Places {
+    /// Lets in one who has shown nothing yet. Where there is no room, the one that came first has to go.
+    pub(crate) fn enter(&self, stream: &Arc<TcpStream>) {
+        let mut strangers = self.strangers();
+        while strangers.len() >= STRANGERS {
+            show_out(strangers.pop_front());
+        }
+        strangers.push_back(Arc::clone(stream));
+    }
+
+    /// It is no stranger any more, or has gone.
+    pub(crate) fn leave(&self, stream: &Arc<TcpStream>) {
+        self.strangers().retain(|other| !Arc::ptr_eq(other, stream));
+    }
+
+    /// A place for a page that stays; `None` if all are taken.
+    pub(crate) fn page(&self) -> Option<Place<'_>> {
+        take(&self.pages, PAGES)
+    }
+
+    /// A place for any other request; `None` if all are taken.
+    pub(crate) fn request(&self) -> Option<Place<'_>> {
+        take(&self.requests, REQUESTS)
+    }
+
+    fn strangers(&self) -> MutexGuard<'_, VecDeque<Arc<TcpStream>>> {
+        // The list is whole, whoever panicked.
+        self.strangers
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn take(taken: &AtomicUsize, most: usize) -> Option<Place<'_>> {
+    // Given back where there was none.
+    let place = Place(taken);
+    (taken.fetch_add(1, Ordering::Relaxed) < most).then_some(place)
+}
+
+/// Its thread, which waits for it, is told that it has ended.
+fn show_out(stranger: Option<Arc<TcpStream>>) {
+    // One that has gone by itself need not be shown out.
+    let _gone = stranger.map(|stream| stream.shutdown(Shutdown::Both));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Read as _;
+    use std::net::TcpListener;
+
+    #[test]
+    fn the_stranger_that_came_first_gives_way_and_nobody_else() {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let address = listener.local_addr().unwrap();
+        let places = Places::default();
+        let come = || {
+            let guest = TcpStream::connect(address).unwrap();
+            let stream = Arc::new(listener.accept().unwrap().0);
+            places.enter(&stream);
+            (guest, stream)
+        };
+        let mut guests: Vec<_> = (0..STRANGERS).map(|_| come()).collect();
+        // The second has shown the token.
+        places.leave(&guests[1].1);
+        guests.extend((0..3).map(|_| come()));
+        let is_out = |nth: usize| {
+            let (guest, _) = &guests[nth];
+            guest.set_nonblocking(true).unwrap();
+            let mut guest = guest;
+            guest.read(&mut [0]).is_ok_and(|length| length == 0)
+        };
+        let out: Vec<usize> = (0..guests.len()).filter(|nth| is_out(*nth)).collect();
+        assert_eq!(out, [0, 2]);
+    }
+
+    #[test]
+    fn places_are_given_back() {
+        let places = Places::default();
+        let pages: Vec<_> = (0..PAGES).map(|_| places.page().unwrap()).collect();
+        assert!(places.page().is_none() && places.page().is_none());
+        assert!(places.request().is_some());
+        drop(pages);
+        assert!(places.page().is_some());
+    }
+}

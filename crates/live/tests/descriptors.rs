@@ -1,0 +1,55 @@
+//! A server whose process has no descriptor left for a connection: it answers again as soon as it has one. A
+//! program of its own, because the limit is that of the whole process.
+
+#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
+
+use glidepath_live::{Answer, Feed, Server, Site};
+use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
+use std::fs::File;
+use std::io::{Read as _, Write as _};
+use std::net::TcpStream;
+use std::sync::Arc;
+use std::time::Duration;
+
+struct Nothing;
+
+impl Site for Nothing {
+    fn document(&self, _path: &str, _query: &str) -> Option<Answer> {
+        None
+    }
+
+    fn command(&self, _body: &[u8]) -> Answer {
+        unreachable!()
+    }
+}
+
+#[test]
+fn a_server_without_descriptors_answers_when_it_has_some() {
+    let server = Server::bind(0).unwrap();
+    let port = server.port();
+    let running = server.start(Arc::new(Nothing), &Feed::default()).unwrap();
+    let before = getrlimit(Resource::Nofile);
+    let few = Rlimit {
+        current: Some(40),
+        ..before
+    };
+    setrlimit(Resource::Nofile, few).unwrap();
+    let mut files: Vec<File> = std::iter::from_fn(|| File::open("/dev/null").ok()).collect();
+    // For the client's ends of the connections. Who waits for a connection has a descriptor for it already, so
+    // it is the second one that there is none for.
+    files.truncate(files.len() - 2);
+    let connect = || TcpStream::connect(("127.0.0.1", port)).unwrap();
+    let (_first, mut asked) = (connect(), connect());
+    std::thread::sleep(Duration::from_millis(200));
+    files.clear();
+    asked
+        .set_read_timeout(Some(Duration::from_secs(60)))
+        .unwrap();
+    let request = format!("GET / HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n");
+    asked.write_all(request.as_bytes()).unwrap();
+    let mut answer = String::new();
+    asked.read_to_string(&mut answer).unwrap();
+    assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
+    setrlimit(Resource::Nofile, before).unwrap();
+    drop(running);
+}
