@@ -45,13 +45,16 @@ impl<T> Room<T> {
 impl Room<c_char> {
     /// Puts down a text and a zero, cut to the bytes that there are.
     ///
-    /// `size` is what the caller says of the room: it is that of so many bytes.
+    /// `size` is what the caller says of the room: it is that of so many bytes. Who knows that there is room enough
+    /// may say more than an object can have, and no more of it is looked at than the text takes.
     pub(super) fn put_text(&self, text: &[u8], size: usize) {
-        let Some(longest) = size.checked_sub(1).filter(|_| !self.is_null()) else {
+        let taken = size;
+        let Some(longest) = taken.checked_sub(1).filter(|_| !self.is_null()) else {
             return;
         };
-        // SAFETY: it is not null, and room for `size` bytes, which need not have been written to.
-        let room = unsafe { slice::from_raw_parts_mut(self.0.cast::<MaybeUninit<u8>>(), size) };
+        // SAFETY: it is not null, and room for `size` bytes, which are at least `taken`, and need not have been
+        // written to. `taken` is no more than a text that is there is long, and one.
+        let room = unsafe { slice::from_raw_parts_mut(self.0.cast::<MaybeUninit<u8>>(), taken) };
         for (to, byte) in room.iter_mut().zip(text.iter().take(longest).chain(&[0])) {
             to.write(*byte);
         }
@@ -112,4 +115,34 @@ pub(super) const fn check_size<T>(structure: &'static str, caller: usize) -> Res
         caller,
         here,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is in eight bytes after a text was put there, with what is said of their size.
+    fn put(text: &[u8], size: usize) -> [u8; 8] {
+        let mut room = [b'-'; 8];
+        Room(room.as_mut_ptr().cast::<c_char>()).put_text(text, size);
+        room
+    }
+
+    #[test]
+    fn a_text_is_cut_to_the_room_and_ended() {
+        assert_eq!(&put(b"text", 8), b"text\0---");
+        assert_eq!(&put(b"text", 5), b"text\0---");
+        assert_eq!(&put(b"text", 3), b"te\0-----");
+        assert_eq!(&put(b"text", 1), b"\0-------");
+        assert_eq!(&put(b"text", 0), b"--------");
+        assert_eq!(&put(b"", 8), b"\0-------");
+        Room(core::ptr::null_mut::<c_char>()).put_text(b"text", 8);
+    }
+
+    #[test]
+    fn more_room_than_there_can_be_is_no_more_than_the_text_takes() {
+        for size in [isize::MAX as usize, isize::MAX as usize + 1, usize::MAX] {
+            assert_eq!(&put(b"text", size), b"text\0---");
+        }
+    }
 }
