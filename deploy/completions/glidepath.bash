@@ -1822,7 +1822,7 @@ _glidepath() {
             return 0
             ;;
         glidepath__subcmd__jitter)
-            opts="-c -h --config --json --period-us --seconds --cpu --priority --full-tick --against-cyclictest --plot --force --help"
+            opts="-c -h --config --json --period-us --seconds --cpu --priority --best-effort --full-tick --against-cyclictest --plot --force --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0

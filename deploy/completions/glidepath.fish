@@ -409,6 +409,7 @@ complete -c glidepath -n "__fish_glidepath_using_subcommand jitter" -l cpu -d 'C
 complete -c glidepath -n "__fish_glidepath_using_subcommand jitter" -l priority -d 'SCHED_FIFO priority, 1 to 99' -r
 complete -c glidepath -n "__fish_glidepath_using_subcommand jitter" -l plot -d 'Write a plot of the latency (SVG)' -r -F
 complete -c glidepath -n "__fish_glidepath_using_subcommand jitter" -l json -d 'Print one JSON object instead of text'
+complete -c glidepath -n "__fish_glidepath_using_subcommand jitter" -l best-effort -d 'Measure without real-time privileges too'
 complete -c glidepath -n "__fish_glidepath_using_subcommand jitter" -l full-tick -d 'Do the interpolator\'s work in every period, on a synthetic motion'
 complete -c glidepath -n "__fish_glidepath_using_subcommand jitter" -l against-cyclictest -d 'Run cyclictest in the same time on the same CPU, half a period apart, and compare'
 complete -c glidepath -n "__fish_glidepath_using_subcommand jitter" -l force -d 'Overwrite files that are not of the kind that is written; never one that is read'

@@ -49,6 +49,9 @@ pub struct JitterArgs {
     /// SCHED_FIFO priority, 1 to 99
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=99))]
     pub priority: Option<u8>,
+    /// Measure without real-time privileges too
+    #[arg(long)]
+    pub best_effort: bool,
     /// Do the interpolator's work in every period, on a synthetic motion
     #[arg(long)]
     pub full_tick: bool,

@@ -48,6 +48,7 @@ impl Failure {
                 Exit::Rejected
             }
             Self::Bus(ethercat::RunError::NotRealTime(_))
+            | Self::Jitter(JitterError::NotRealTime(_))
             | Self::Interpolator(interpolator::RunError::NotRealTime(_)) => Exit::NotRealTime,
             Self::Planner(planner::RunError::Interrupted)
             | Self::Feed(FeedError::Interrupted)

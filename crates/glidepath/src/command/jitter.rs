@@ -10,12 +10,12 @@ use crate::jitter::{JitterReport, Motion, Setup, measure};
 use crate::output;
 use crate::output_file::{self, OutputKind};
 use crate::progress::Progress;
-use glidepath_realtime::Item;
+use glidepath_realtime::{Item, Mode};
 
 /// Measures, reports and draws. An interrupted measurement is reported as far as it went.
 ///
 /// # Errors
-/// cyclictest does not run, a thread cannot be started, or the plot cannot be written.
+/// The host refuses real time, cyclictest does not run, a thread cannot be started, or the plot cannot be written.
 pub(super) fn jitter(args: &JitterArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let setup = setup(args, config)?;
@@ -51,15 +51,22 @@ fn setup(args: &JitterArgs, config: &MachineConfig) -> Result<Setup, Failure> {
     interpolator.period_us = args.period_us.unwrap_or(interpolator.period_us);
     interpolator.priority = args.priority.unwrap_or(interpolator.priority);
     interpolator.cpu = args.cpu.or(interpolator.cpu);
+    // What the thread does in a period does not depend on what it is granted.
     let settings = interpolator::settings(&config, true);
     let motion = args
         .full_tick
         .then(|| Motion::plan(&config, settings))
         .transpose()?;
+    let mode = if args.best_effort {
+        Mode::BestEffort
+    } else {
+        Mode::Strict
+    };
     Ok(Setup {
         period_ns: config.period_ns(),
         seconds: args.seconds,
         request: settings.real_time.request,
+        mode,
         motion,
         against_cyclictest: args.against_cyclictest,
     })

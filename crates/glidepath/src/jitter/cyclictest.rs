@@ -200,7 +200,7 @@ impl Latencies {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glidepath_realtime::Request;
+    use glidepath_realtime::{Mode, Request};
 
     const OUTPUT: &str = "# /dev/cpu_dma_latency set to 0us\n# Histogram\n000015 000000\n\
         000016 000090\n000017 000008\n000300 000001\n# Total: 000000099\n# Min Latencies: 00016\n\
@@ -248,6 +248,7 @@ mod tests {
                 cpu: Some(1),
                 ..Request::default()
             },
+            mode: Mode::BestEffort,
             motion: None,
             against_cyclictest: true,
         };

@@ -1,6 +1,7 @@
 //! Why the timing of a host cannot be measured.
 
 use super::cyclictest::CyclictestError;
+use glidepath_realtime::NotRealTime;
 use thiserror::Error;
 
 /// Why there is no measurement.
@@ -12,6 +13,9 @@ pub enum JitterError {
     /// The real-time thread cannot be started.
     #[error("cannot start or end a process: {0}")]
     Start(std::io::Error),
+    /// The host refuses what the thread asks for.
+    #[error(transparent)]
+    NotRealTime(#[from] NotRealTime),
     /// The real-time thread ended before it said what it was granted.
     #[error("the real-time thread failed")]
     Ended,

@@ -10,8 +10,8 @@ use crate::progress::Progress;
 use core::sync::atomic::{AtomicBool, Ordering};
 use glidepath_interpolator::{lead_ns, stepped};
 use glidepath_realtime::{
-    Clock as _, DeadlineTimer, EventReader, EventWriter, Events, Grants, Host, Item, Mode,
-    Monotonic, ProcessorTime, enter, event_ring,
+    Clock as _, DeadlineTimer, EventReader, EventWriter, Events, Grants, Host, Item, Monotonic,
+    NotRealTime, ProcessorTime, enter, event_ring,
 };
 use std::sync::mpsc;
 use std::thread;
@@ -41,7 +41,7 @@ pub struct Measurement {
 /// Measures until the time is over or `interrupt` is set; then cyclictest's figures are missing.
 ///
 /// # Errors
-/// The thread cannot be started, or cyclictest does not run.
+/// The host refuses real time, the thread cannot be started, or cyclictest does not run.
 pub fn measure(
     setup: &Setup,
     progress: &Progress,
@@ -95,6 +95,7 @@ impl SectionRun<'_> {
             let observed = told
                 .recv()
                 .map_err(|_| JitterError::Ended)
+                .and_then(|granted| Ok(granted?))
                 .and_then(|grants| {
                     measured.grants = grants;
                     self.observe(measured, &mut reader)
@@ -168,18 +169,23 @@ fn real_time(
     setup: &Setup,
     section: &Section,
     mut writer: EventWriter<'_, Beat>,
-    tell: &mpsc::Sender<Grants>,
+    tell: &mpsc::Sender<Result<Grants, NotRealTime>>,
     stop: &AtomicBool,
 ) {
-    // In best effort mode this never fails; the guard keeps the processors awake.
-    let Ok(entered) = enter(&setup.request, Mode::BestEffort) else {
-        return;
+    // As long as it is there it keeps the processors awake.
+    let entered = match enter(&setup.request, setup.mode) {
+        Ok(entered) => entered,
+        Err(refused) => {
+            // Whoever asked has an error of its own.
+            let _told = tell.send(Err(refused));
+            return;
+        }
     };
     let mut run = |load: &mut dyn Load| {
         let (period_ns, lead_ns) = (setup.period_ns, lead_ns(setup.period_ns));
         let origin_ns = section.origin_ns(Monotonic.now_ns() + PREPARED_NS, period_ns, lead_ns);
         let mut timer = DeadlineTimer::new(Monotonic, origin_ns, period_ns).with_lead(lead_ns);
-        if tell.send(entered.grants).is_ok() {
+        if tell.send(Ok(entered.grants)).is_ok() {
             beat(&mut timer, &mut writer, stop, load);
         }
     };

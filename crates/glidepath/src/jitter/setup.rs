@@ -1,7 +1,7 @@
 //! What to measure.
 
 use super::motion::Motion;
-use glidepath_realtime::Request;
+use glidepath_realtime::{Mode, Request};
 
 /// What to measure.
 #[derive(Debug)]
@@ -10,8 +10,10 @@ pub struct Setup {
     pub period_ns: u64,
     /// How long.
     pub seconds: u32,
-    /// What the thread asks for; it goes on without what it is not granted.
+    /// What the thread asks for.
     pub request: Request,
+    /// Whether it measures without what it is not granted.
+    pub mode: Mode,
     /// The motion whose ticks are the work of each period; nothing without.
     pub motion: Option<Motion>,
     /// Run cyclictest beside.

@@ -34,8 +34,16 @@ fn jitter_measures_the_tick_and_draws() {
     let folder = tempfile::tempdir().unwrap();
     let plot = folder.path().join("jitter.svg");
     let path = plot.to_str().unwrap();
-    let args = ["jitter", "--seconds", "1", "--period-us", "2000"];
-    let output = glidepath(&[&args[..], &["--full-tick", "--json", "--plot", path]].concat());
+    let args = ["jitter", "--best-effort", "--seconds", "1"];
+    let more = [
+        "--period-us",
+        "2000",
+        "--full-tick",
+        "--json",
+        "--plot",
+        path,
+    ];
+    let output = glidepath(&[&args[..], &more].concat());
     assert_eq!(output.status.code(), Some(0));
     let object = object(&output);
     assert_eq!(object["period_us"], 2000.0);
@@ -54,10 +62,30 @@ fn jitter_measures_the_tick_and_draws() {
     assert!(std::fs::read_to_string(plot).unwrap().starts_with("<svg"));
 }
 
+/// No host has so many processors.
+const NO_CPU: [&str; 5] = ["jitter", "--seconds", "1", "--cpu", "1000"];
+
+#[test]
+fn jitter_goes_on_without_what_is_refused_only_if_it_may() {
+    let refused = glidepath(&NO_CPU);
+    assert_eq!(refused.status.code(), Some(4), "{refused:?}");
+    assert!(refused.stdout.is_empty(), "{refused:?}");
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert!(said.contains("CPU"), "{said}");
+    let object = object(&glidepath(&[&NO_CPU[..], &["--json"]].concat()));
+    assert_eq!(object["exit_code"], 4);
+
+    let measured = glidepath(&[&NO_CPU[..], &["--best-effort"]].concat());
+    assert_eq!(measured.status.code(), Some(0), "{measured:?}");
+    let said = String::from_utf8(measured.stderr).unwrap();
+    assert!(said.contains("not granted"), "{said}");
+}
+
 #[test]
 fn without_cyclictest_jitter_says_how_to_get_it() {
     let output = Command::new(env!("CARGO_BIN_EXE_glidepath"))
-        .args(["jitter", "--seconds", "1", "--against-cyclictest"])
+        .args(["jitter", "--best-effort", "--seconds", "1"])
+        .arg("--against-cyclictest")
         .env("PATH", "/nonexistent")
         .output()
         .unwrap();

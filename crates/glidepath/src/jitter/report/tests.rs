@@ -3,7 +3,7 @@
 use super::*;
 
 use crate::jitter::{Beat, Windows};
-use glidepath_realtime::Request;
+use glidepath_realtime::{Mode, Request};
 
 fn setup() -> Setup {
     Setup {
@@ -14,6 +14,7 @@ fn setup() -> Setup {
             cpu: Some(1),
             ..Request::default()
         },
+        mode: Mode::BestEffort,
         motion: None,
         against_cyclictest: true,
     }
