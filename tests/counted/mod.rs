@@ -1,17 +1,24 @@
 //! Instructions of a test that runs itself under callgrind, as another process: a figure that
 //! other load on the host does not change.
 
+use glidepath_testing::skip;
 use std::process::Command;
+
+/// What is skipped where they cannot be counted.
+const COUNTS: &str = "counts of instructions";
 
 /// True, and says why, where instructions of optimised code cannot be counted.
 pub(crate) fn cannot_count() -> bool {
     if cfg!(debug_assertions) {
-        println!("skipped: counts optimised code, use cargo test --release");
+        skip(
+            COUNTS,
+            "they are of optimised code, as of cargo test --release",
+        );
         return true;
     }
     let is_missing = Command::new("valgrind").arg("--version").output().is_err();
     if is_missing {
-        println!("skipped: valgrind is not installed");
+        skip(COUNTS, "valgrind is not installed");
     }
     is_missing
 }

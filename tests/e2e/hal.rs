@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 use glidepath_link::servo::{JointState, quintic};
 use glidepath_link::{MachineState, Power, Setpoint, Status, Transport};
 use glidepath_realtime::{Clock as _, Monotonic};
+use glidepath_testing::skip;
 use glidepath_tests::{Instance, Process, Watchdog};
 use rustix::process::Signal;
 
@@ -134,7 +135,7 @@ impl Hal {
         // It ends at once as long as HAL is not there.
         while started.sampler.try_wait().unwrap().is_some() {
             assert!(
-                since.elapsed() < Duration::from_secs(30),
+                since.elapsed() < PATIENCE / 4,
                 "{}",
                 std::fs::read_to_string(instance.path("halrun.log")).unwrap()
             );
@@ -343,7 +344,10 @@ impl Machine<'_> {
 #[test]
 fn hal_plays_what_is_recorded_and_opens_its_enable_chain_when_lines_stay_away() {
     if !is_there() {
-        eprintln!("SKIPPED: HAL; halrun is not installed (Debian's package linuxcnc-uspace)");
+        skip(
+            "LinuxCNC's HAL",
+            "halrun is not installed (Debian's package linuxcnc-uspace)",
+        );
         return;
     }
     let (instance, _watchdog) = (Instance::alone(), Watchdog::new(PATIENCE));

@@ -3,6 +3,7 @@
 use std::io::{Read as _, Write as _};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
+use glidepath_testing::skip;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -29,7 +30,7 @@ impl Browser {
             told.is_ok_and(|output| output.status.success())
         };
         let Some(name) = names.iter().find(runs) else {
-            eprintln!("SKIPPED: there is no Chromium here, so no page was opened");
+            skip("a page in a browser", "Chromium is not installed");
             return None;
         };
         let profile = tempfile::tempdir().unwrap();

@@ -17,9 +17,12 @@ mod judge;
 use std::fmt::Write as _;
 use std::time::Duration;
 
+use glidepath_testing::leave_out;
 use glidepath_tests::{Instance, Process, Watchdog, planned};
 use judge::{COUNTS, Row, judge, rows, was_left_alone};
 
+/// What is left out where the host was not in time.
+const LIMITS: &str = "limits of the chain over emulated drives";
 /// Time constant of their lag, s.
 const LAG_T: f64 = 0.002;
 
@@ -80,14 +83,14 @@ fn chain(seconds: u32, period_us: u32) -> bool {
     ];
     let output = Process::join(&instance, &arguments).wait_for(patience);
     if output.stdout.contains("cannot emulate drives on this host") {
-        eprintln!("SKIPPED: {}", output.stdout);
+        leave_out("emulated drives", &output.stdout);
         return false;
     }
     let recorded = std::fs::read_to_string(&csv);
     assert!(recorded.is_ok(), "{csv}: {recorded:?}; {output:?}");
     let rows = rows(&recorded.unwrap());
     if output.stdout.contains("FollowingError") && was_left_alone(&rows[0]) {
-        eprintln!("the host stood still: {}", output.stdout);
+        leave_out(LIMITS, "the host stood still, and nobody led the drives");
         return false;
     }
     let report = output.expect(0).json();
@@ -125,10 +128,9 @@ fn chain(seconds: u32, period_us: u32) -> bool {
     }
     // Where frames run out, setpoints keep the limits at their own period only.
     if !verdict.is_enough() || report["starved_ticks"] != 0 {
-        eprintln!(
-            "the host stood still for too long: the limits are not judged; frames ran out for {} ticks",
-            report["starved_ticks"]
-        );
+        let ticks = &report["starved_ticks"];
+        let why = format!("the host stood still for too long; frames ran out for {ticks} ticks");
+        leave_out(LIMITS, &why);
         return false;
     }
     assert!(verdict.keeps_limits(), "{verdict:?} {report:#}");

@@ -37,9 +37,9 @@ fn measured(is_wanted: impl Fn(&str) -> bool) -> Arrows {
         name.strip_prefix("glidepath-").unwrap_or(name).to_owned()
     };
     let packages = metadata["packages"].as_array().expect("packages");
-    let packages = packages
-        .iter()
-        .filter(|package| !["tests", "structure"].contains(&short(&package["name"]).as_str()));
+    let packages = packages.iter().filter(|package| {
+        !["tests", "structure", "testing"].contains(&short(&package["name"]).as_str())
+    });
     let arrows = packages.map(|package| {
         let uses = package["dependencies"].as_array().expect("dependencies");
         let uses = uses.iter().filter(|dependency| {

@@ -8,7 +8,9 @@
 
 use crate::build::{self, Language, Linked, Place};
 use crate::process::{self, Consumer};
+use crate::{IN_PYTHON, NO_COMPILER, NO_PYTHON};
 use glidepath_link::{MachineState, Setpoint};
+use glidepath_testing::leave_out;
 use glidepath_tests::{Instance, Machine, Watchdog, program_from};
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -41,7 +43,7 @@ fn programs(place: Place<'_>) -> Vec<Program> {
         let name = format!("{language:?}-{linked:?}");
         match build::example(place, "follow", language, linked) {
             Some(program) => programs.push((name, program, None)),
-            None => println!("skipped: {name}: no compiler"),
+            None => leave_out(&format!("programs in {language:?}"), NO_COMPILER),
         }
     }
     match process::python() {
@@ -49,7 +51,7 @@ fn programs(place: Place<'_>) -> Vec<Program> {
             let script = build::source("examples/follow.py");
             programs.push(("Python".to_owned(), python, Some(script)));
         }
-        None => println!("skipped: Python is not installed"),
+        None => leave_out(IN_PYTHON, NO_PYTHON),
     }
     programs
 }

@@ -8,7 +8,7 @@
     clippy::unwrap_used,
     clippy::panic,
     clippy::print_stdout,
-    reason = "a test that cannot go on fails; what is skipped is said"
+    reason = "a test that cannot go on fails; a long one tells its figures"
 )]
 
 mod build;
@@ -19,11 +19,16 @@ mod process;
 
 use build::{Language, Linked, library};
 use glidepath_link::servo::{JointState, ServoSettings, Stop};
+use glidepath_testing::{leave_out, skip};
 use machine::{Machine, from_rest, setpoint};
 use process::Consumer;
 use std::time::Duration;
 
 const COUNT: u64 = 300;
+
+const NO_COMPILER: &str = "no compiler is installed";
+const IN_PYTHON: &str = "programs in Python";
+const NO_PYTHON: &str = "it is not installed";
 
 #[test]
 fn every_language_reads_the_same_bytes() {
@@ -39,7 +44,7 @@ fn every_language_reads_the_same_bytes() {
         let name = format!("{language:?}, {linked:?}");
         match build::example(place, "follow", language, linked) {
             Some(program) => programs.push((name, program, None)),
-            None => println!("skipped: {name}: no compiler"),
+            None => leave_out(&format!("programs in {language:?}"), NO_COMPILER),
         }
     }
     match process::python() {
@@ -47,7 +52,7 @@ fn every_language_reads_the_same_bytes() {
             let script = build::source("examples/follow.py");
             programs.push(("Python".to_owned(), python, Some(script)));
         }
-        None => println!("skipped: Python is not installed"),
+        None => leave_out(IN_PYTHON, NO_PYTHON),
     }
     // Started when all are compiled: they do not wait for ever.
     let start = |(name, program, script): &(String, String, Option<String>)| {
@@ -77,7 +82,7 @@ fn a_servo_in_c_follows_and_stops_by_itself() {
     let machine = Machine::start();
     let Some(program) = build::example(machine.place(), "servo", Language::C, Linked::Shared)
     else {
-        println!("skipped: no C compiler");
+        skip("programs in C", NO_COMPILER);
         return;
     };
     // A busy host may not run this process for longer than a servo would bear.
@@ -120,7 +125,7 @@ fn a_servo_in_c_follows_and_stops_by_itself() {
 fn the_python_package_commands_reads_status_and_fails_as_it_should() {
     let machine = Machine::start();
     let Some(python) = process::python() else {
-        println!("skipped: Python is not installed");
+        skip(IN_PYTHON, NO_PYTHON);
         return;
     };
     let _ticking = machine.keep_publishing();
@@ -136,7 +141,7 @@ fn a_header_that_is_off_by_a_byte_does_not_compile() {
     let source = "#include <glidepath.h>\nint main(void) { return GP_ABI == 0; }\n";
     for language in [Language::C, Language::Cpp] {
         let Some(result) = build::compiles(machine.place(), &header, source, language) else {
-            println!("skipped: no compiler for {language:?}");
+            leave_out(&format!("programs in {language:?}"), NO_COMPILER);
             continue;
         };
         assert_eq!(result, Ok(()), "as it is");

@@ -7,7 +7,9 @@
 use crate::build::{self, Language, Linked};
 use crate::machine::{FARTHEST, Machine, STANDS};
 use crate::process::{self, Consumer};
+use crate::{IN_PYTHON, NO_COMPILER, NO_PYTHON};
 use glidepath_link::{JogDemand, JogMode, RequestKind, SegmentRequest};
+use glidepath_testing::skip;
 
 /// What was demanded: mode, number, mask and first value.
 fn demanded(jogs: &[JogDemand]) -> Vec<(JogMode, u64, u32, f64)> {
@@ -36,7 +38,7 @@ fn a_program_in_c_moves_by_hand_and_streams_segments() {
     let machine = Machine::start();
     let example = |name| build::example(machine.place(), name, Language::C, Linked::Shared);
     let (Some(jog), Some(stream)) = (example("jog"), example("segments")) else {
-        println!("skipped: no C compiler");
+        skip("programs in C", NO_COMPILER);
         return;
     };
     Consumer::start(machine.place(), "jog", &jog, &["0", "-5", "0.3"]).finish();
@@ -73,7 +75,7 @@ fn a_program_in_c_moves_by_hand_and_streams_segments() {
 fn a_program_in_python_moves_by_hand_and_streams_segments() {
     let machine = Machine::start();
     let Some(python) = process::python() else {
-        println!("skipped: Python is not installed");
+        skip(IN_PYTHON, NO_PYTHON);
         return;
     };
     let script = build::source("python/tests/test_moving.py");
@@ -113,7 +115,7 @@ fn a_program_in_python_moves_by_hand_and_streams_segments() {
 fn a_wheel_has_the_library_inside() {
     let machine = Machine::start();
     let Some(python) = process::python().filter(|python| process::has_pip(python)) else {
-        println!("skipped: Python or pip is not installed");
+        skip(IN_PYTHON, "it is not installed, or its pip is not");
         return;
     };
     let wheel = process::wheel(machine.place(), &python);

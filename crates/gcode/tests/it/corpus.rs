@@ -4,14 +4,13 @@
 //! their `EXPECTED.json`; says so and passes where it does not. With `--nocapture` it lists every
 //! difference and how much agrees.
 
-#![expect(clippy::print_stderr, reason = "a skipped test says so")]
-
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use glidepath_gcode::{Connections, Options, Report, Threading, Tool, ToolTable, check};
 use glidepath_program::Limits;
+use glidepath_testing::corpus;
 use serde_json::Value;
 
 /// Programs judged otherwise than by the reference, each with the reason.
@@ -139,14 +138,6 @@ const OTHER_FIGURES: [(&str, &str, &str); 11] = [
         "as in machinekit-412",
     ),
 ];
-
-fn corpus() -> Option<PathBuf> {
-    let directory = std::env::var_os("GLIDEPATH_CORPUS").map(PathBuf::from);
-    if directory.is_none() {
-        eprintln!("skipped: GLIDEPATH_CORPUS is not set");
-    }
-    directory
-}
 
 /// As the reference was made: tools 1 to 99 without length, of that diameter; inputs, outputs and
 /// the probe simulated.

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glidepath_gcode::{Connections, Dialect, Options, Threading, Tool, ToolTable, check};
 use glidepath_geometry::Axis;
 use glidepath_program::Limits;
+use glidepath_testing::corpus;
 
 /// The table: program, line and code of the first finding, reason.
 const TABLE: &str = include_str!("../../../planner/examples/corpus.md");
@@ -67,8 +68,7 @@ fn rows() -> Vec<String> {
 
 #[test]
 fn every_program_that_is_refused_is_in_the_table_with_its_reason() {
-    let Some(directory) = std::env::var_os("GLIDEPATH_CORPUS").map(PathBuf::from) else {
-        eprintln!("skipped: GLIDEPATH_CORPUS is not set");
+    let Some(directory) = corpus() else {
         return;
     };
     let (mut accepted, mut damaged, mut refused) = (0, 0, Vec::new());

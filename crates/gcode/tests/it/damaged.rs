@@ -4,20 +4,11 @@
 //! so and passes where it does not.
 
 #![allow(clippy::expect_used, reason = "a test")]
-#![expect(clippy::print_stderr, reason = "a skipped test says so")]
 
 use std::fs;
-use std::path::PathBuf;
 
 use glidepath_gcode::{MAX_LINE_BYTES, Options, check};
-
-fn corpus() -> Option<PathBuf> {
-    let directory = std::env::var_os("GLIDEPATH_CORPUS").map(PathBuf::from);
-    if directory.is_none() {
-        eprintln!("skipped: GLIDEPATH_CORPUS is not set");
-    }
-    directory
-}
+use glidepath_testing::corpus;
 
 /// A diagnostic: its line, its kind, and the text it points at, as the n-th such text of the line.
 type Diagnostic = (u32, &'static str, &'static str, usize);

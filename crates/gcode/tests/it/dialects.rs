@@ -9,13 +9,13 @@
 )]
 
 use std::fs;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::support::listed;
 use glidepath_gcode::{Connections, Dialect, MCodes, Options, Program, Report, check};
 use glidepath_geometry::Axis;
 use glidepath_program::{Event, ItemKind, PathMode, Rate};
+use glidepath_testing::corpus;
 
 fn options(dialect: Dialect) -> Options {
     Options {
@@ -214,10 +214,6 @@ fn r_parameters_and_tolerances() {
         "TRAORI\nG1 X=5/0",
         &["1:1 not-supported", "2:7 arithmetic"],
     );
-}
-
-fn corpus() -> Option<PathBuf> {
-    std::env::var_os("GLIDEPATH_CORPUS").map(PathBuf::from)
 }
 
 fn judge(directory: &std::path::Path, name: &str) -> (Dialect, Report) {

@@ -10,6 +10,7 @@ use glidepath_gcode::{
 };
 use glidepath_geometry::Axis;
 use glidepath_program::Item;
+use glidepath_testing::corpus;
 use proptest::prelude::*;
 
 /// A machine with some axes, some of them limited.
@@ -208,12 +209,11 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
 /// Reads the folder of programs that `GLIDEPATH_CORPUS` names, and is skipped without.
 #[test]
 fn programs_of_others_are_the_same_with_and_without_plain_lines() {
-    let Some(corpus) = std::env::var_os("GLIDEPATH_CORPUS") else {
-        println!("skipped: GLIDEPATH_CORPUS is not set");
+    let Some(corpus) = corpus() else {
         return;
     };
     let mut found = Vec::new();
-    files(Path::new(&corpus), &mut found);
+    files(&corpus, &mut found);
     found.sort();
     let mut compared = 0;
     for path in found {

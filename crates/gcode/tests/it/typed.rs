@@ -4,7 +4,7 @@
 //! Runs where the environment variable `GLIDEPATH_CORPUS` names the directory of the programs, and
 //! says so where it does not.
 
-#![expect(clippy::print_stderr, reason = "a skipped test says so")]
+#![expect(clippy::print_stderr, reason = "how much was tried")]
 
 use std::fs;
 use std::path::PathBuf;
@@ -13,6 +13,7 @@ use std::sync::Arc;
 use glidepath_gcode::{Connections, Modal, Options, Program, Tool, ToolTable, WorkOffsets};
 use glidepath_geometry::AxisVector;
 use glidepath_program::ItemKind;
+use glidepath_testing::corpus;
 
 /// Moves of a picometre are merged with those that follow: those of another line, in a file.
 const MERGED: &str = "malformed/tiny-moves.nc";
@@ -127,8 +128,7 @@ fn independent_lines(text: &str) -> Option<String> {
 
 /// Programs of the corpus, or of one of its folders; none where there is no corpus.
 fn programs(folder: Option<&str>) -> Vec<(PathBuf, String)> {
-    let Some(corpus) = std::env::var_os("GLIDEPATH_CORPUS").map(PathBuf::from) else {
-        eprintln!("skipped: GLIDEPATH_CORPUS is not set");
+    let Some(corpus) = corpus() else {
         return Vec::new();
     };
     let folders: Vec<PathBuf> = match folder {

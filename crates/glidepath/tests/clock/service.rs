@@ -2,11 +2,7 @@
 //! talk to it.
 //!
 //! What takes another user is skipped, and says so, unless root runs it.
-#![allow(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test; failures are panics"
-)]
+#![allow(clippy::unwrap_used, reason = "a test; failures are panics")]
 
 use serde_json::Value;
 use std::os::unix::fs::PermissionsExt as _;
@@ -105,12 +101,14 @@ fn until_success(mut command: impl FnMut() -> Command) -> Output {
 }
 
 fn can_be_nobody() -> bool {
-    let can = rustix::process::geteuid().is_root()
-        && Command::new("setpriv").arg("--version").output().is_ok();
-    if !can {
-        println!("skipped: takes root and setpriv");
+    if !glidepath_testing::can_be_another_user() {
+        return false;
     }
-    can
+    let has_setpriv = Command::new("setpriv").arg("--version").output().is_ok();
+    if !has_setpriv {
+        glidepath_testing::skip("another user of the host", "setpriv is not installed");
+    }
+    has_setpriv
 }
 
 #[test]

@@ -6,6 +6,7 @@ use crate::instance::{Instance, frame, take, wait_for};
 use crate::peer::{CAPACITY, Peer, say};
 use core::time::Duration;
 use glidepath_link::{Delivery, Ipc, LinkConfig, LinkError, Transport};
+use glidepath_testing::{can_be_another_user, leave_out};
 use std::fs::{File, Permissions};
 use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _, symlink};
 use std::path::{Path, PathBuf};
@@ -14,14 +15,6 @@ use std::time::Instant;
 
 /// User and group `nobody`.
 const NOBODY: u32 = 65_534;
-
-fn is_root() -> bool {
-    let root = rustix::process::geteuid().is_root();
-    if !root {
-        println!("skipped: only root can be another user");
-    }
-    root
-}
 
 fn open_to_all(path: &Path) {
     std::fs::set_permissions(path, Permissions::from_mode(0o755)).unwrap();
@@ -97,7 +90,7 @@ fn with_own_memory(program: &Path, arguments: &[&str]) -> Command {
 
 #[test]
 fn nothing_of_an_instance_is_ever_in_the_hands_of_another_user() {
-    if !is_root() {
+    if !can_be_another_user() {
         return;
     }
     if std::env::var_os(OWN_MEMORY).is_some() {
@@ -105,7 +98,10 @@ fn nothing_of_an_instance_is_ever_in_the_hands_of_another_user() {
     }
     let nothing = with_own_memory(Path::new("true"), &[]).output();
     if !nothing.is_ok_and(|output| output.status.success()) {
-        println!("skipped: a file system cannot be mounted in a namespace here");
+        leave_out(
+            "shared memory outside of an instance",
+            "a file system cannot be mounted in a namespace here",
+        );
         return come_and_go_before_an_intruder();
     }
     let this = std::env::current_exe().unwrap();
@@ -149,7 +145,7 @@ fn come_and_go_before_an_intruder() {
 
 #[test]
 fn a_place_that_is_taken_is_named_and_not_touched() {
-    if !is_root() {
+    if !can_be_another_user() {
         return;
     }
     let folder = tempfile::tempdir_in("/dev/shm").unwrap();

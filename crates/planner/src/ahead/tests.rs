@@ -118,8 +118,8 @@ fn programs() -> Vec<PathBuf> {
         .iter()
         .map(|name| bench.join(name).with_extension("ngc"))
         .collect();
-    match std::env::var_os("GLIDEPATH_CORPUS").map(PathBuf::from) {
-        Some(corpus) => programs.extend(
+    if let Some(corpus) = glidepath_testing::corpus_beside_others() {
+        programs.extend(
             [
                 "dense/trochoidal.ngc",
                 "dense/random-lines-0.001in.ngc",
@@ -130,8 +130,7 @@ fn programs() -> Vec<PathBuf> {
                 "tp-regress/rgh.ngc",
             ]
             .map(|name| corpus.join(name)),
-        ),
-        None => eprintln!("GLIDEPATH_CORPUS is not set: no programs of other origin"),
+        );
     }
     programs
 }

@@ -130,15 +130,14 @@ fn programs(directory: &Path, found: &mut Vec<PathBuf>) {
 
 #[test]
 fn a_program_that_is_begun_in_its_middle_goes_on_as_the_whole_one() {
-    let Some(corpus) = std::env::var_os("GLIDEPATH_CORPUS") else {
-        println!("skipped: GLIDEPATH_CORPUS is not set");
+    let Some(corpus) = glidepath_testing::corpus() else {
         return;
     };
     let lines = std::env::var("GLIDEPATH_FROM_LINES").ok();
     let lines = lines.map(|lines| lines.parse::<usize>().unwrap());
     let most = lines.map_or(MOST_ITEMS, |_| usize::MAX);
     let mut paths = Vec::new();
-    programs(Path::new(&corpus), &mut paths);
+    programs(&corpus, &mut paths);
     let (mut begun, mut read, mut all_wrong) = (0, 0, Vec::new());
     for path in paths {
         let text = fs::read(&path).unwrap();

@@ -287,8 +287,7 @@ const LONG: [&str; 3] = [
 
 #[test]
 fn corpus_programs_keep_limits_and_tolerance() {
-    let Some(corpus) = std::env::var_os("GLIDEPATH_CORPUS").map(PathBuf::from) else {
-        eprintln!("skipped: GLIDEPATH_CORPUS is not set");
+    let Some(corpus) = glidepath_testing::corpus() else {
         return;
     };
     let long = std::env::var_os("GLIDEPATH_LONG").is_some();

@@ -230,7 +230,10 @@ fn python_reads_the_same_bits() {
         .stderr(Stdio::null())
         .status();
     if !there.is_ok_and(|status| status.success()) {
-        eprintln!("SKIPPED: Python's mcap and mcap-protobuf-support are not here");
+        glidepath_testing::skip(
+            "recordings read by Python",
+            "its mcap and mcap-protobuf-support are not installed",
+        );
         return;
     }
     let output = Command::new("python3")

@@ -8,6 +8,9 @@ use super::*;
 use crate::in_tube::fallback::StopLeg;
 use crate::in_tube::path::ReferencePath;
 
+/// What is skipped unless somebody asks for it.
+const LONG_CHECK: &str = "long checks of planning";
+
 /// Six axes with limits of their own, which take all the work that is allowed, and would take more.
 #[test]
 fn no_period_takes_more_work_than_is_allowed() {
@@ -136,7 +139,7 @@ fn merge(points: &[AxisVector], allowed_mm: f64) -> Vec<AxisVector> {
 #[test]
 fn bench() {
     let Some(folder) = std::env::var_os("GLIDEPATH_BENCH") else {
-        println!("skipped: GLIDEPATH_BENCH is not set");
+        glidepath_testing::skip(LONG_CHECK, "GLIDEPATH_BENCH is not set");
         return;
     };
     let only = std::env::var("GLIDEPATH_BENCH_ONLY").unwrap_or_default();
@@ -220,7 +223,7 @@ fn seeds(text: &str) -> Option<core::ops::Range<u64>> {
 fn random_paths() {
     let chosen = std::env::var("GLIDEPATH_RANDOM_PATHS").ok();
     let Some(seeds) = chosen.as_deref().and_then(seeds) else {
-        return println!("skipped: GLIDEPATH_RANDOM_PATHS is not set");
+        return glidepath_testing::skip(LONG_CHECK, "GLIDEPATH_RANDOM_PATHS is not set");
     };
     let profile = std::env::var("GLIDEPATH_RANDOM_PROFILE").unwrap_or_default();
     let prints_each = std::env::var_os("GLIDEPATH_RANDOM_EACH").is_some();

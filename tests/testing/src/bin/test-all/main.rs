@@ -1,0 +1,107 @@
+//! `cargo test-all`: all tests, whatever fails, and one summary of them at the end. Its last line is
+//! `N passed, N failed, N skipped`.
+//!
+//! ```text
+//! cargo test-all [--allowed-skips FILE] [arguments of cargo test]
+//! ```
+//!
+//! With a list of allowed skips, one that is not in it is a failure. Skips are collected in the file that
+//! `GLIDEPATH_SKIPPED` names, with those that are there already; without it in one that is made for them.
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a command for developers"
+)]
+
+mod allowed;
+mod summary;
+
+use std::ffi::OsString;
+use std::io::{self, BufRead as _, BufReader, Write as _};
+use std::path::PathBuf;
+use std::process::{Command, ExitCode};
+
+use allowed::Allowed;
+use glidepath_testing::{SKIPPED, is_root};
+use summary::Summary;
+
+fn main() -> ExitCode {
+    match run(std::env::args().skip(1).collect()) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("cargo test-all: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(mut arguments: Vec<String>) -> Result<bool, String> {
+    let allowed = allowed(&mut arguments)?;
+    let (skips, is_own) = match std::env::var_os(SKIPPED) {
+        Some(path) => (PathBuf::from(path), false),
+        None => {
+            let name = format!("glidepath-skipped.{}", std::process::id());
+            (std::env::temp_dir().join(name), true)
+        }
+    };
+    let mut summary = Summary::default();
+    let is_success = test(&arguments, &skips, &mut summary).map_err(|error| error.to_string())?;
+    let told = std::fs::read_to_string(&skips).unwrap_or_default();
+    if is_own {
+        // There is none where nothing was skipped.
+        let _removed = std::fs::remove_file(&skips);
+    }
+    summary.take_skips(&told);
+    summary.end(is_success);
+    if let Some(allowed) = allowed {
+        let is_root = is_root();
+        let strange = summary.skips().filter(|skip| !allowed.has(skip, is_root));
+        let strange: Vec<String> = strange.map(str::to_owned).collect();
+        for skip in strange {
+            summary.fail(format!("skipped, and not to be skipped here: {skip}"));
+        }
+    }
+    print!("\n{summary}");
+    Ok(summary.is_good())
+}
+
+/// The list of allowed skips that is asked for.
+fn allowed(arguments: &mut Vec<String>) -> Result<Option<Allowed>, String> {
+    if arguments.first().map(String::as_str) != Some("--allowed-skips") {
+        return Ok(None);
+    }
+    let path = arguments.get(1).ok_or("--allowed-skips takes a file")?;
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{path}: {error}"))?;
+    let allowed = Allowed::parse(&text).map_err(|error| format!("{path}: {error}"))?;
+    arguments.drain(..2);
+    Ok(Some(allowed))
+}
+
+/// Runs them, and shows what they say. Both outputs of cargo are one: what a program says follows its name.
+fn test(arguments: &[String], skips: &PathBuf, summary: &mut Summary) -> io::Result<bool> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo"));
+    let (said, says) = io::pipe()?;
+    let mut command = Command::new(cargo);
+    command.args(["test", "--no-fail-fast"]);
+    let has_package = |word: &String| word == "-p" || word.starts_with("--package");
+    if !arguments.iter().any(has_package) {
+        command.arg("--workspace");
+    }
+    command
+        .args(arguments)
+        .env(SKIPPED, skips)
+        .stdout(says.try_clone()?)
+        .stderr(says);
+    let mut child = command.spawn()?;
+    // This process has the writing end no longer: then the reading one has an end.
+    drop(command);
+    let (mut said, mut line) = (BufReader::new(said), Vec::new());
+    let mut out = io::stdout().lock();
+    while said.read_until(b'\n', &mut line)? > 0 {
+        out.write_all(&line)?;
+        summary.take(&String::from_utf8_lossy(&line));
+        line.clear();
+    }
+    Ok(child.wait()?.success())
+}
