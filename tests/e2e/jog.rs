@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use glidepath_geometry::AxisVector;
 use glidepath_link::{JogDemand, JogMode, MachineState, Setpoint, Transport};
 use glidepath_realtime::{Clock as _, Monotonic};
+use glidepath_testing::{Pulse, leave_out};
 use glidepath_tests::{Instance, Process, Services, Watchdog};
 use rustix::process::Signal;
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
@@ -17,6 +18,8 @@ use crate::programs::PROGRAM;
 const PATIENCE: Duration = Duration::from_secs(240);
 const PERIOD_T: f64 = 0.004;
 const RIGHT: &[u8] = b"\x1b[C";
+/// A host that is not later than this lets everybody run within a tick.
+const IN_TIME: Duration = Duration::from_millis(1);
 /// Of the built-in machine.
 const LIMITS: [f64; 3] = [200.0, 2_000.0, 40_000.0];
 
@@ -113,6 +116,7 @@ fn steps_move_the_axes_and_a_program_goes_on_from_there() {
 fn keys_move_while_they_repeat_and_a_killed_client_stops_the_jog() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let services = Services::start(&instance);
+    let pulse = Pulse::start();
     for is_killed in [false, true] {
         let (mut keys, terminal) = terminal();
         let client = Process::join_with(&instance, &["jog"], Stdio::from(terminal));
@@ -122,12 +126,10 @@ fn keys_move_while_they_repeat_and_a_killed_client_stops_the_jog() {
         while services.wait(|_| true).position[0] <= begun {
             keys.write_all(RIGHT).unwrap();
             std::thread::sleep(Duration::from_millis(30));
-            assert!(
-                set_out.elapsed() < Duration::from_secs(20),
-                "no key moved anything"
-            );
+            assert!(set_out.elapsed() < PATIENCE / 4, "no key moved anything");
         }
         hold_down(&mut keys, Duration::from_millis(600));
+        let _before = pulse.worst();
         let moving = services.wait(|_| true);
         if is_killed {
             client.signal(Signal::KILL);
@@ -136,7 +138,11 @@ fn keys_move_while_they_repeat_and_a_killed_client_stops_the_jog() {
         // A quarter of 50 mm/s, for as long as a press lasts, then the dead-man, and what the host
         // adds to both.
         let way = rest.position[0] - moving.position[0];
-        assert!(way < 12.5 * 1.0, "{way} mm after the last key");
+        let held_up_t = pulse.worst().as_secs_f64();
+        assert!(
+            way < 12.5 * (1.0 + 4.0 * held_up_t),
+            "{way} mm after the last key, on a host that stood still for {held_up_t} s"
+        );
         if is_killed {
             let _killed = client.wait();
         } else {
@@ -180,11 +186,14 @@ fn a_demand_is_seen_in_the_setpoints_within_two_ticks() {
         port.publish(&demand).unwrap();
         std::thread::sleep(Duration::from_millis(10));
     }
-    let mut reactions = Vec::new();
-    for _ in 0..15 {
+    let (mut reactions, mut tries) = (Vec::new(), 0);
+    let pulse = Pulse::start();
+    while reactions.len() < 15 && tries < 100 {
+        tries += 1;
         let _idle = services.wait_for(MachineState::Idle);
         while setpoints.take().unwrap().is_some() {}
         let before = services.wait(|_| true).position[0];
+        let _before = pulse.worst();
         (demand.mode, demand.number) = (JogMode::Continuous.code(), demand.number + 1);
         demand.sent_ns = Monotonic.now_ns();
         port.publish(&demand).unwrap();
@@ -197,15 +206,19 @@ fn a_demand_is_seen_in_the_setpoints_within_two_ticks() {
             std::thread::sleep(Duration::from_millis(1));
         };
         let after_ns = first.scheduled_ns.saturating_sub(demand.sent_ns);
-        reactions.push(after_ns.div_ceil(4_000_000));
+        if pulse.worst() < IN_TIME {
+            reactions.push(after_ns.div_ceil(4_000_000));
+        }
         (demand.mode, demand.number) = (JogMode::None.code(), demand.number + 1);
         port.publish(&demand).unwrap();
     }
-    // A busy host may keep the ports waiting now and then, but not every other time.
+    // The ports may be kept waiting where the pulse was not, but not every other time.
     reactions.sort_unstable();
-    assert!(
-        reactions[7] <= 2,
-        "ticks from demand to motion: {reactions:?}"
-    );
+    match reactions.get(reactions.len() / 2) {
+        Some(median) if reactions.len() == 15 => {
+            assert!(*median <= 2, "ticks from demand to motion: {reactions:?}");
+        }
+        _ => leave_out("a jog within two ticks", "the host was in time too seldom"),
+    }
     let _end = services.end();
 }

@@ -101,8 +101,12 @@ impl<'a> Life<'a> {
 
     /// Nothing moves, neither what is commanded nor the machine.
     fn still(&self, millis: u64) {
-        // What was measured is of the setpoint before the last.
-        std::thread::sleep(Duration::from_millis(30));
+        // What is measured is of a setpoint some time ago: of one from now on.
+        let told = self.tape.since(self.tape.length().saturating_sub(1));
+        let from = told.first().map_or(0, |setpoint| setpoint.number + 2);
+        let _measured = self
+            .operated
+            .wait(|_| self.stack.measured().setpoint_number >= from);
         let (begun, stands) = (self.tape.length(), self.stands());
         std::thread::sleep(Duration::from_millis(millis));
         assert!(is_there(&self.stands(), &stands));

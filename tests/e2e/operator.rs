@@ -17,8 +17,13 @@ fn a_machine_is_watched_until_somebody_has_seen_enough() {
     let services = Services::start(&instance);
     let planner = Process::join(&instance, &["planner", &program]);
     let _moving = services.wait(|status| status.frames_executed > 60);
+    // Until somebody watches.
+    operate(&instance, &["hold"]);
     let arguments = ["status", "--watch", &program, "--json", "--every", "0.05"];
     let watch = Process::join(&instance, &arguments);
+    // Which is known when the program has been planned.
+    watch.wait_until_it_says("\"progress\":0.");
+    operate(&instance, &["resume"]);
     let _planner = planner.wait().expect(0);
     let _rests = services.wait_for(MachineState::Idle);
     watch.signal(rustix::process::Signal::INT);

@@ -2,6 +2,7 @@
 
 use std::io::{Read, Write};
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
@@ -46,8 +47,8 @@ impl Output {
 #[derive(Debug)]
 pub struct Process {
     child: Child,
-    stdout: Option<JoinHandle<String>>,
-    stderr: Option<JoinHandle<String>>,
+    stdout: Stream,
+    stderr: Stream,
 }
 
 impl Process {
@@ -70,8 +71,8 @@ impl Process {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        let stdout = child.stdout.take().map(collect);
-        let stderr = child.stderr.take().map(collect);
+        let stdout = Stream::of(child.stdout.take().unwrap());
+        let stderr = Stream::of(child.stderr.take().unwrap());
         Self {
             child,
             stdout,
@@ -148,15 +149,15 @@ impl Process {
             }
             if begun.elapsed() > patience {
                 self.child.kill().unwrap();
-                let (_, stdout, stderr) = (self.child.wait(), self.stdout(), self.stderr());
+                let (_, stdout, stderr) = (self.child.wait(), self.stdout.end(), self.stderr.end());
                 panic!("no end after {patience:?}:\n{stdout}\n{stderr}");
             }
             std::thread::sleep(POLL);
         };
         Output {
             status,
-            stdout: self.stdout(),
-            stderr: self.stderr(),
+            stdout: self.stdout.end(),
+            stderr: self.stderr.end(),
         }
     }
 
@@ -167,12 +168,14 @@ impl Process {
         self.wait()
     }
 
-    fn stdout(&mut self) -> String {
-        self.stdout.take().unwrap().join().unwrap()
-    }
-
-    fn stderr(&mut self) -> String {
-        self.stderr.take().unwrap().join().unwrap()
+    /// Waits until it has written some words to standard output.
+    pub fn wait_until_it_says(&self, words: &str) {
+        let begun = Instant::now();
+        while !self.stdout.text().contains(words) {
+            let said = self.stdout.text();
+            assert!(begun.elapsed() < PATIENCE, "not {words:?}: {said}");
+            std::thread::sleep(POLL);
+        }
     }
 }
 
@@ -184,11 +187,37 @@ impl Drop for Process {
     }
 }
 
-fn collect<R: Read + Send + 'static>(mut pipe: R) -> JoinHandle<String> {
-    std::thread::spawn(move || {
-        let mut bytes = Vec::new();
-        // Cut short, it is shown as far as it came.
-        let _end = pipe.read_to_end(&mut bytes);
-        String::from_utf8_lossy(&bytes).into_owned()
-    })
+/// What a process writes, as far as it came.
+#[derive(Debug)]
+struct Stream {
+    bytes: Arc<Mutex<Vec<u8>>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Stream {
+    fn of<R: Read + Send + 'static>(mut pipe: R) -> Self {
+        let bytes = Arc::<Mutex<Vec<u8>>>::default();
+        let into = Arc::clone(&bytes);
+        let thread = std::thread::spawn(move || {
+            let mut piece = [0; 4096];
+            // Cut short, it is shown as far as it came.
+            while let Ok(length @ 1..) = pipe.read(&mut piece) {
+                into.lock().unwrap().extend_from_slice(&piece[..length]);
+            }
+        });
+        Self {
+            bytes,
+            thread: Some(thread),
+        }
+    }
+
+    fn text(&self) -> String {
+        String::from_utf8_lossy(&self.bytes.lock().unwrap()).into_owned()
+    }
+
+    /// All of it, once there is no more.
+    fn end(&mut self) -> String {
+        self.thread.take().unwrap().join().unwrap();
+        self.text()
+    }
 }

@@ -29,7 +29,9 @@ fn count() -> usize {
 }
 
 fn open(nth: usize) -> File {
-    let path = std::env::temp_dir().join(format!("glidepath-e2e.{nth}.lock"));
+    // Of this user: that of another could not be opened.
+    let user = rustix::process::geteuid().as_raw();
+    let path = std::env::temp_dir().join(format!("glidepath-e2e-{user}.{nth}.lock"));
     File::options()
         .create(true)
         .append(true)

@@ -12,9 +12,9 @@ use glidepath_tests::{Instance, Process};
 use rustix::process::Signal;
 
 /// Longer than anything here ever takes.
-const PATIENCE: Duration = Duration::from_secs(30);
+const PATIENCE: Duration = Duration::from_secs(60);
 /// The interpolator cleans up after the dead several times a second.
-const CLEAN_UP_PATIENCE: Duration = Duration::from_secs(5);
+const CLEAN_UP_PATIENCE: Duration = Duration::from_secs(60);
 /// Longer than a process takes to join.
 const SETTLED: Duration = Duration::from_millis(1500);
 const PERIOD: Duration = Duration::from_millis(4);
@@ -87,9 +87,12 @@ impl<'a> Bench<'a> {
             config: configured(instance),
             files: Vec::new(),
         };
-        bench.start_servo();
         bench.start_interpolator();
-        bench.files = settled(instance);
+        let idle = bench.until("the interpolator", |heard| heard.is(MachineState::Idle));
+        assert_eq!(idle, Ok(()));
+        let without_servo = settled(instance, 0);
+        bench.start_servo();
+        bench.files = settled(instance, without_servo.len());
         bench
     }
 
@@ -228,10 +231,10 @@ fn kill(process: &mut Option<Process>) {
     }
 }
 
-/// What lies in shared memory when that has not changed for a while.
-fn settled(instance: &Instance) -> Vec<String> {
+/// What lies in shared memory when that is more than so many files, and has not changed for a while.
+fn settled(instance: &Instance, more_than: usize) -> Vec<String> {
     let (mut files, mut since) = (Vec::new(), Instant::now());
-    while files.is_empty() || since.elapsed() < SETTLED {
+    while files.len() <= more_than || since.elapsed() < SETTLED {
         std::thread::sleep(20 * POLL);
         let now = instance.shared_memory();
         if now.len() != files.len() {

@@ -69,6 +69,10 @@ impl<'a> Machine<'a> {
 
     /// Types a line; tells what went wrong.
     pub(super) fn type_line(&mut self, line: &str) -> Result<(), String> {
+        // The port of the page may be another's on this host.
+        let is_page = line.starts_with("glidepath live") && !line.contains("--port");
+        let with_port = line.replacen("glidepath live", "glidepath live --port 0", 1);
+        let line = if is_page { &with_port } else { line };
         let command = line.split(" #").next().unwrap_or(line).trim();
         if ELSEWHERE.iter().any(|(other, _)| *other == command) {
             return Ok(());

@@ -4,8 +4,6 @@
 //! Runs where the environment variable `GLIDEPATH_CORPUS` names the directory of the programs, and
 //! says so where it does not.
 
-#![expect(clippy::print_stderr, reason = "how much was tried")]
-
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -92,6 +92,15 @@ fn refused(output: &Output, file: &Path) {
     assert!(said.contains("no ordinary file"), "{said}");
 }
 
+/// Whether a process has a handler for SIGTERM.
+fn minds_signals(child: &Child) -> bool {
+    let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+    let mut lines = status.lines();
+    let caught = lines.find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
+    let caught = u64::from_str_radix(caught.trim(), 16).unwrap();
+    caught & 1 << (Signal::TERM.as_raw() - 1) != 0
+}
+
 #[test]
 fn no_job_takes_the_service_away() {
     let machine = Machine::start();
@@ -108,6 +117,11 @@ fn no_job_takes_the_service_away() {
     let planner = Pid::from_child(&machine.planner);
     kill_process(planner, Signal::STOP).unwrap();
     let asked = machine.begin(&["mdi", "G0 X2"]);
+    let begun = Instant::now();
+    while !minds_signals(&asked) {
+        assert!(begun.elapsed() < PATIENCE, "it minds no signal");
+        std::thread::sleep(Duration::from_millis(5));
+    }
     std::thread::sleep(Duration::from_millis(500));
     kill_process(Pid::from_child(&asked), Signal::TERM).unwrap();
     let output = finish(asked, PATIENCE);

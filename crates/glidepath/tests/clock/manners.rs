@@ -41,7 +41,7 @@ fn first_line_with(words: &str, args: &[&str]) -> String {
             .try_for_each(|line| sender.send(line))
     });
     let mut all = String::new();
-    while let Ok(line) = said.recv_timeout(Duration::from_secs(20)) {
+    while let Ok(line) = said.recv_timeout(Duration::from_secs(60)) {
         if line.contains(words) {
             return line;
         }

@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 /// About a second of motion, with a stop on the way.
 const SHORT: &str = "G21 G90\nG0 X1\nG1 X11 F3000\nY10\nM0\nX1\nG4 P0.1\nY0\nM2\n";
 /// Minutes of motion.
-const LONG: &str = "G21 G90 F600\nG1 X100\nX0\nX100\nX0\nX100\nX0\nX100\nX0\nX100\nX0\nM2\n";
+const LONG: &str = "G21 G90 F600\no1 repeat [100]\nG1 X100\nX0\no1 endrepeat\nM2\n";
 /// A watchdog, not a measurement: the longest any of these may take on a loaded machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 

@@ -35,7 +35,7 @@ const OTHERS: [(&str, &str); 3] = [
 ];
 
 /// Far longer than any of them takes.
-const PATIENCE: Duration = Duration::from_secs(20);
+const PATIENCE: Duration = Duration::from_secs(120);
 
 fn shipped(name: &str) -> String {
     let path = format!("{}/../../config/{name}.toml", env!("CARGO_MANIFEST_DIR"));
