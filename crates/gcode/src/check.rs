@@ -74,8 +74,8 @@ pub struct Diagnostics {
 
 /// Checks a program.
 ///
-/// A block with a diagnostic is left out, and reading goes on behind it, so a later diagnostic may
-/// be a consequence of an earlier one. A diagnostic in an O word, a subroutine or a loop ends the
+/// A block with a diagnostic is left out but for its modes, and reading goes on behind it. What is
+/// a consequence of an earlier diagnostic is not told. A diagnostic in an O word, a subroutine or a loop ends the
 /// check, as does one that leaves nothing to understand (the input cannot be read).
 pub fn check<R: BufRead>(reader: R, options: Options) -> Report {
     let mut survey = Survey::default();
@@ -103,6 +103,7 @@ fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> Dia
     let most = program.interpreter.options.loops.checked_lines;
     let mut found = Diagnostics::default();
     let mut without_tools = WithoutTools::default();
+    let mut bred = Bred::default();
     loop {
         if program.kept_lines() >= most {
             found.given_up_at = Some(program.line_of_program());
@@ -110,12 +111,17 @@ fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> Dia
         }
         match program.next_line() {
             Some(Ok(())) => program.items().iter().for_each(&mut see),
-            Some(Err(diagnostic))
-                if without_tools.is_told(&diagnostic, found.diagnostics.len()) => {}
-            Some(Err(diagnostic)) if found.diagnostics.len() < MAX_DIAGNOSTICS => {
-                found.diagnostics.push(diagnostic);
+            Some(Err(diagnostic)) => {
+                let is_bred = bred.is_bred(&diagnostic, Program::position(program));
+                program.read_on(&diagnostic);
+                let listed = found.diagnostics.len();
+                if is_bred || without_tools.is_told(&diagnostic, listed) {
+                } else if listed < MAX_DIAGNOSTICS {
+                    found.diagnostics.push(diagnostic);
+                } else {
+                    found.more = found.more.saturating_add(1);
+                }
             }
-            Some(Err(_)) => found.more = found.more.saturating_add(1),
             None => break,
         }
     }
@@ -125,6 +131,36 @@ fn read<R: BufRead>(program: &mut Program<R>, mut see: impl FnMut(&Item)) -> Dia
     found.lacks_end = program.ran_out && !may_just_end;
     found.lines = program.totals().lines;
     found
+}
+
+/// Diagnostics that are consequences of one before: a block whose words were not understood may have
+/// had a motion mode, a feedrate, and a place to go to.
+#[derive(Debug, Default)]
+struct Bred {
+    /// A block was not understood.
+    is_in_doubt: bool,
+    /// Where the machine was taken to be in front of the last of them.
+    place: Option<AxisVector>,
+}
+
+impl Bred {
+    /// True for a consequence of a diagnostic that was told; `place` is where the machine is taken
+    /// to be.
+    fn is_bred(&mut self, diagnostic: &Diagnostic, place: &AxisVector) -> bool {
+        let is_bred = match diagnostic.code {
+            DiagnosticCode::NoMotionMode | DiagnosticCode::MissingFeed => self.is_in_doubt,
+            DiagnosticCode::ArcRadiusMismatch
+            | DiagnosticCode::ArcRadiusTooSmall
+            | DiagnosticCode::ArcZeroRadius
+            | DiagnosticCode::ArcFullCircleWithRadius => self.place == Some(*place),
+            _ => false,
+        };
+        if diagnostic.code.is_of_reading() {
+            self.is_in_doubt = true;
+            self.place = Some(*place);
+        }
+        is_bred
+    }
 }
 
 /// Blocks that need the tool table of a program that has none: one thing to mend, not many.

@@ -134,6 +134,10 @@ pub enum DiagnosticCode {
     Checksum,
     /// A spline that cannot be made, or is not complete.
     Spline,
+    /// An alarm that the program raises by itself.
+    Alarm,
+    /// A text in the language of a control that is not read, or no program at all.
+    ForeignLanguage,
 }
 
 impl DiagnosticCode {
@@ -205,7 +209,35 @@ impl DiagnosticCode {
             Self::Spindle => "spindle",
             Self::Checksum => "checksum",
             Self::Spline => "spline",
+            Self::Alarm => "alarm",
+            Self::ForeignLanguage => "foreign-language",
         }
+    }
+
+    /// True if it is about a word or a code, and not about what a block does.
+    pub(crate) const fn is_of_reading(self) -> bool {
+        matches!(
+            self,
+            Self::LineTooLong
+                | Self::NulByte
+                | Self::NonAsciiCharacter
+                | Self::BadCharacter
+                | Self::UnclosedComment
+                | Self::NestedComment
+                | Self::MalformedNumber
+                | Self::MissingNumber
+                | Self::NumberOutOfRange
+                | Self::Expression
+                | Self::Arithmetic
+                | Self::Parameter
+                | Self::NotSupported
+                | Self::UnknownGCode
+                | Self::UnknownMCode
+                | Self::UnknownWord
+                | Self::DuplicateWord
+                | Self::ModalGroupConflict
+                | Self::AmbiguousWord
+        )
     }
 
     /// True if nothing after the diagnostic can be understood, so that reading ends there.
@@ -213,7 +245,7 @@ impl DiagnosticCode {
     pub const fn is_fatal(self) -> bool {
         matches!(
             self,
-            Self::ReadFailed | Self::WrongEncoding | Self::EndlessLine
+            Self::ReadFailed | Self::WrongEncoding | Self::EndlessLine | Self::ForeignLanguage
         )
     }
 }

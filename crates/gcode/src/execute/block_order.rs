@@ -9,12 +9,13 @@
 
 use std::sync::Arc;
 
-use glidepath_program::{Event, Item, ItemKind};
+use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use crate::diagnostic::fault::Outcome;
 use crate::execute::block_words::{check_words, path_mode};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
+use crate::execute::state::fanuc_offsets::FanucFrames;
 use crate::execute::state::frame::Frame;
 use crate::execute::state::open_spline::{OpenSpline, goes_on, interrupted};
 use crate::execute::state::sticky_words::CycleSeries;
@@ -53,7 +54,9 @@ impl Interpreter {
         let changes_offsets = codes.non_modal.is_some()
             || codes.system.is_some()
             || codes.tool_length.is_some()
-            || codes.saved_state.is_some();
+            || codes.saved_state.is_some()
+            || codes.frame.is_some()
+            || codes.extended_system.is_some();
         let ends = matches!(
             codes.stop,
             Some(Coded {
@@ -104,6 +107,7 @@ impl Interpreter {
             self.open_spline = None;
             return Err(fault);
         }
+        self.settle_corner(block, motion, out)?;
         check_words(block, motion)?;
         self.check_axes(block)?;
         self.check_compensated(block)?;
@@ -111,6 +115,9 @@ impl Interpreter {
         if !block.is_plain() || block.has_any(Letters::of(b"ST")) {
             self.auxiliary(block, out)?;
             self.modes(block, out)?;
+            if block.dialect != Dialect::LinuxCnc {
+                self.modes_of_dialects(block)?;
+            }
         }
         if let Some(non_modal) = block.codes.non_modal {
             self.act_non_modal(block, non_modal, motion, out)?;
@@ -118,7 +125,7 @@ impl Interpreter {
         if let Some(Coded { code, .. }) = block.codes.motion
             && !block.codes.is_once
         {
-            self.state.modal.motion = code;
+            self.state.modal.motion = self.mode_behind(block, code);
             if !matches!(code, Some(Motion::Cycle(_))) {
                 self.state.cycles = CycleSeries::default();
             }
@@ -127,7 +134,13 @@ impl Interpreter {
             self.state.cubic_tail = None;
         }
         if let Some(motion) = motion {
+            self.take_polar_words(block);
+            let mode = self.state.modal.path_mode;
+            if block.codes.exact_stop.is_some() {
+                self.state.modal.path_mode = PathMode::ExactStop;
+            }
             self.motion(block, motion, out)?;
+            self.state.modal.path_mode = mode;
         }
         let stop = block.codes.stop.map(|stop| stop.code);
         Ok(match stop {
@@ -136,6 +149,8 @@ impl Interpreter {
                 // As LinuxCNC does: the next program begins in G54.
                 self.offsets.active = 0;
                 self.offsets.frame = Frame::default();
+                self.offsets.fanuc.active = None;
+                self.offsets.fanuc.frames = FanucFrames::default();
                 AfterBlock::End
             }
             Some(Stop::Program(number)) => {
@@ -192,6 +207,37 @@ impl Interpreter {
         Ok(())
     }
 
+    /// Modes that LinuxCNC's language does not have.
+    fn modes_of_dialects(&mut self, block: &Block) -> Outcome<()> {
+        if let Some(coded) = block.codes.tip
+            && block.dialect == Dialect::Siemens
+        {
+            self.follow_tip(coded)?;
+        }
+        if block.dialect == Dialect::Fanuc {
+            self.fanuc_modes(block)?;
+        }
+        Ok(())
+    }
+
+    /// The motion mode that a code leaves. FANUC's cycles are a group of their own: behind G80 the
+    /// code from before them is in force.
+    fn mode_behind(&mut self, block: &Block, code: Option<Motion>) -> Option<Motion> {
+        if block.dialect != Dialect::Fanuc {
+            return code;
+        }
+        match code {
+            Some(Motion::Cycle(_)) => {}
+            Some(motion) => self.state.fanuc.before_cycles = motion,
+            None => return Some(self.state.fanuc.before_cycles),
+        }
+        code
+    }
+
+    const fn has_corners(&self, block: &Block) -> bool {
+        self.state.corner.is_some() || block.corner.is_some() || self.state.rounds_mm > 0.0
+    }
+
     /// Makes the motion of a block.
     pub(crate) fn motion(
         &mut self,
@@ -212,7 +258,11 @@ impl Interpreter {
                 } else {
                     Pace::Feed
                 };
-                self.straight(block, target, pace, out)?;
+                if self.has_corners(block) && motion == Motion::Linear {
+                    self.straight_between_corners(block, target, out)?;
+                } else {
+                    self.straight(block, target, pace, out)?;
+                }
             }
             Motion::ArcClockwise | Motion::ArcCounterclockwise => self.arc(block, motion, out)?,
             Motion::Cycle(cycle) => self.cycle(block, cycle, out)?,

@@ -6,6 +6,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::block::Block;
+use crate::syntax::codes::FrameCode;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::{AXIS_WORDS, Letters};
 use crate::syntax::modes::{
@@ -14,7 +15,7 @@ use crate::syntax::modes::{
 use crate::syntax::word_check::{missing, negative, unused};
 
 /// The words each code of a block takes besides F, S and T.
-fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 11] {
+fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 13] {
     let codes = &block.codes;
     let none = Letters::of(b"");
     let non_modal = codes.non_modal.map(|non_modal| non_modal.code);
@@ -22,7 +23,7 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 11] {
     [
         taken_by_motion(block, motion),
         match codes.tool_length.map(|length| length.code) {
-            Some(ToolLength::FromTable) => Letters::of(b"H"),
+            Some(ToolLength::FromTable | ToolLength::Subtract) => Letters::of(b"H"),
             Some(ToolLength::Add) => Letters::of(b"H").and(AXIS_WORDS),
             Some(ToolLength::FromWords) => AXIS_WORDS,
             _ => none,
@@ -33,8 +34,12 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 11] {
             _ => none,
         },
         match non_modal {
-            Some(NonModal::Dwell) if block.dialect == Dialect::Fanuc => Letters::of(b"PX"),
+            Some(NonModal::Dwell) if block.dialect == Dialect::Fanuc => Letters::of(b"PXU"),
             Some(NonModal::Dwell) => Letters::of(b"P"),
+            Some(NonModal::GoToReference(1)) if block.dialect == Dialect::Fanuc => {
+                Letters::of(b"P")
+            }
+            Some(NonModal::SetData) if block.dialect == Dialect::Fanuc => Letters::of(b"LPR"),
             Some(NonModal::SetData) => match block.get(b'L') {
                 Some(2.0 | 20.0) => Letters::of(b"LPR"),
                 _ => Letters::of(b"LPRQIJ"),
@@ -42,11 +47,15 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 11] {
             _ => none,
         },
         match codes.path_mode.map(|mode| mode.code) {
-            Some(PathMode::Continuous { .. }) => Letters::of(b"PQ"),
+            Some(PathMode::Continuous { .. }) if block.dialect != Dialect::Fanuc => {
+                Letters::of(b"PQ")
+            }
             _ => none,
         },
         match codes.spindle_mode.map(|mode| mode.code) {
-            Some(SpindleMode::SurfaceSpeed) => Letters::of(b"D"),
+            Some(SpindleMode::SurfaceSpeed) if block.dialect == Dialect::LinuxCnc => {
+                Letters::of(b"D")
+            }
             _ => none,
         },
         match codes.input_output.map(|code| code.code) {
@@ -68,6 +77,11 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 11] {
             Some(_) => Letters::of(b"PQ"),
             None => none,
         },
+        taken_by_fanuc_modes(block),
+        match codes.extended_system {
+            Some(_) => Letters::of(b"P"),
+            None => none,
+        },
         if motion.is_some() || axes_non_modal {
             match block.dialect {
                 Dialect::Marlin => AXIS_WORDS.and(Letters::of(b"E")),
@@ -79,10 +93,25 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 11] {
     ]
 }
 
+/// The words of FANUC's frames, and of codes that are read over.
+fn taken_by_fanuc_modes(block: &Block) -> Letters {
+    let codes = &block.codes;
+    match (codes.read_over, codes.frame.map(|frame| frame.code)) {
+        (Some(_), _) => Letters::of(b"PQRE"),
+        (_, Some(FrameCode::Scale(true))) => AXIS_WORDS.and(Letters::of(b"PIJK")),
+        (_, Some(FrameCode::Turn(true))) => AXIS_WORDS.and(Letters::of(b"R")),
+        (_, Some(FrameCode::Mirror(_))) => AXIS_WORDS,
+        _ => Letters::of(b""),
+    }
+}
+
 /// The words that the motion of a block takes, besides those of axes.
 fn taken_by_motion(block: &Block, motion: Option<Motion>) -> Letters {
     match motion {
-        Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Letters::of(b"IJKRP"),
+        Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => match block.dialect {
+            Dialect::Fanuc => Letters::of(b"IJKR"),
+            _ => Letters::of(b"IJKRP"),
+        },
         Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQK"),
         Some(Motion::Thread) => Letters::of(b"KQ"),
         Some(Motion::RigidTap) => Letters::of(b"KIPQR"),
@@ -121,12 +150,16 @@ pub(crate) fn radius_word(block: &Block) -> Letters {
 
 /// Words of a block whose only code is a motion, or which has none: as [`taken`], for straight
 /// moves and arcs.
-const fn taken_by_move(motion: Option<Motion>) -> Option<Letters> {
+const fn taken_by_move(motion: Option<Motion>, dialect: Dialect) -> Option<Letters> {
     const STRAIGHT: Letters = AXIS_WORDS.and(Letters::of(b"FST"));
-    const ARC: Letters = STRAIGHT.and(Letters::of(b"IJKRP"));
+    const ARC: Letters = STRAIGHT.and(Letters::of(b"IJKR"));
+    const TURNS: Letters = ARC.and(Letters::of(b"P"));
     match motion {
         Some(Motion::Rapid | Motion::Linear) => Some(STRAIGHT),
-        Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Some(ARC),
+        Some(Motion::ArcClockwise | Motion::ArcCounterclockwise) => Some(match dialect {
+            Dialect::Fanuc => ARC,
+            _ => TURNS,
+        }),
         _ => None,
     }
 }
@@ -134,7 +167,7 @@ const fn taken_by_move(motion: Option<Motion>) -> Option<Letters> {
 /// Refuses words that nothing in the block uses, and words that two codes want.
 pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> {
     if block.is_plain()
-        && let Some(taken) = taken_by_move(motion)
+        && let Some(taken) = taken_by_move(motion, block.dialect)
         && block.unused(taken).is_none()
     {
         return Ok(());

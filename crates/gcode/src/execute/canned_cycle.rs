@@ -36,6 +36,7 @@ use glidepath_program::{Event, Item, ItemKind, PathMode};
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::auxiliary::order::fanuc_dwell;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::sticky_words::{CycleSeries, StickyWords};
@@ -75,6 +76,8 @@ impl Interpreter {
         self.check_cycle(block, &sticky)?;
         let repeats = whole(block, b'K', MAX_HOLES)?.or(whole(block, b'L', MAX_HOLES)?);
         let holes = match repeats {
+            // FANUC keeps the words for the blocks that follow.
+            Some(0) if block.dialect == Dialect::Fanuc => 0,
             Some(0) => {
                 let message = "a cycle without holes";
                 return Err(
@@ -109,6 +112,9 @@ impl Interpreter {
             initial: Some(initial),
             last: Some(sticky),
         };
+        if holes == 0 {
+            return Ok(());
+        }
         let clear = match self.state.modal.retract {
             Retract::Initial => initial.max(r),
             Retract::RPlane => r,
@@ -208,7 +214,11 @@ impl Interpreter {
         let last_dwell = last.map(|l| l.dwell_s);
         match cycle {
             CannedCycle::DrillDwell | CannedCycle::BoreStop | CannedCycle::BoreDwell => {
-                sticky.dwell_s = get(b'P', 1.0, last_dwell, "seconds at the bottom")?;
+                sticky.dwell_s = if block.dialect == Dialect::Fanuc {
+                    0.0
+                } else {
+                    get(b'P', 1.0, last_dwell, "seconds at the bottom")?
+                };
             }
             CannedCycle::TapLeft | CannedCycle::TapRight => {
                 sticky.dwell_s = block.get(b'P').or(last_dwell).unwrap_or(0.0);
@@ -234,8 +244,8 @@ impl Interpreter {
             CannedCycle::Drill | CannedCycle::Bore => {}
         }
         if block.dialect == Dialect::Fanuc {
-            // Milliseconds, in every cycle.
-            let word = block.get(b'P').map(|p| 1e-3 * p);
+            // In every cycle.
+            let word = fanuc_dwell(block);
             sticky.dwell_s = word.or(last_dwell).unwrap_or(0.0);
         }
         if sticky.dwell_s < 0.0 {

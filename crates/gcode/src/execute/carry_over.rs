@@ -7,6 +7,7 @@ use glidepath_geometry::Plane;
 
 use crate::execute::program::Program;
 use crate::execute::state::coolant::Coolant;
+use crate::execute::state::fanuc_modal::FanucModal;
 use crate::execute::state::in_force::{InForce, InForceParts};
 use crate::execute::state::spindle::Spindle;
 use crate::syntax::modes::{Distance, FeedMode, Motion};
@@ -57,12 +58,29 @@ impl<R: BufRead> Program<R> {
         let interpreter = &mut self.interpreter;
         let start = interpreter.options.start;
         interpreter.state = *state;
+        interpreter.state.fanuc = FanucModal::default();
+        interpreter.state.tip_follows = false;
+        (interpreter.state.corner, interpreter.state.rounds_mm) = (None, 0.0);
         (interpreter.state.position, interpreter.state.path_end) = (start, start);
         interpreter.offsets.tool = offsets.tool;
         interpreter.offsets.active = offsets.active;
         interpreter.offsets.shift = offsets.shift;
         interpreter.offsets.saved_shift = offsets.saved_shift;
+        interpreter.offsets.fanuc.external = offsets.fanuc.external;
+        interpreter
+            .offsets
+            .fanuc
+            .extended
+            .clone_from(&offsets.fanuc.extended);
+        interpreter
+            .offsets
+            .fanuc
+            .wear
+            .clone_from(&offsets.fanuc.wear);
         interpreter.tools = interpreter.tools.take().or_else(|| tools.clone());
-        self.parameters = parameters.clone();
+        // Those of another language mean something else.
+        if parameters.is_like(&self.parameters) {
+            self.parameters = parameters.clone();
+        }
     }
 }

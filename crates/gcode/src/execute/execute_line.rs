@@ -7,7 +7,9 @@ use crate::diagnostic::fault::Outcome;
 use crate::execute::block_order::AfterBlock;
 use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
-use crate::syntax::block::LineKind;
+use crate::syntax::block::{Assignment, LineKind};
+use crate::syntax::dialect::Dialect;
+use crate::syntax::expression::scope::Parameter;
 
 impl<R: BufRead> Program<R> {
     /// Executes a text as a block.
@@ -37,9 +39,16 @@ impl<R: BufRead> Program<R> {
                 return Ok(true);
             }
         }
+        let is_fanuc = self.block.dialect == Dialect::Fanuc;
         for assignment in &self.block.assignments {
-            self.parameters
-                .check_assignable(&assignment.parameter, assignment.span)?;
+            match assignment.parameter {
+                Parameter::Numbered(variable) if is_fanuc => {
+                    self.check_fanuc_assignable(variable, assignment.value, assignment.span)?;
+                }
+                _ => self
+                    .parameters
+                    .check_assignable(&assignment.parameter, assignment.span)?,
+            }
         }
         let asked = self.asked_lathe_cycle(&self.block)?;
         let flow = if self.lathe_cycle.is_some() {
@@ -49,9 +58,23 @@ impl<R: BufRead> Program<R> {
             self.interpreter
                 .execute(&self.block, number, &mut self.items)?
         };
-        for assignment in &self.block.assignments {
-            self.parameters
-                .assign(&assignment.parameter, assignment.value);
+        if is_fanuc {
+            for index in 0..self.block.assignments.len() {
+                let assigned = self.block.assignments.get(index);
+                if let Some(&Assignment {
+                    parameter: Parameter::Numbered(variable),
+                    value,
+                    ..
+                }) = assigned
+                {
+                    self.assign_fanuc(variable, value, number);
+                }
+            }
+        } else {
+            for assignment in &self.block.assignments {
+                self.parameters
+                    .assign(&assignment.parameter, assignment.value);
+            }
         }
         if let Some(asked) = asked {
             self.open_lathe_cycle(&asked)?;

@@ -9,6 +9,7 @@ use crate::execute::compensation::path::Compensation;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::coolant::Coolant;
 use crate::execute::state::course::Course;
+use crate::execute::state::fanuc_modal::FanucModal;
 use crate::execute::state::modal::Modal;
 use crate::execute::state::offsets::Offsets;
 use crate::execute::state::open_spline::OpenSpline;
@@ -94,6 +95,10 @@ impl Interpreter {
                 leaving_contour: false,
                 cubic_tail: None,
                 thread_end: None,
+                corner: None,
+                rounds_mm: 0.0,
+                fanuc: FanucModal::default(),
+                tip_follows: false,
                 thread_setup: None,
             },
             open_spline: None,

@@ -33,6 +33,7 @@ pub(crate) mod parameters;
 mod probing;
 pub(crate) mod program;
 mod reading;
+mod refused_block;
 mod remark;
 pub(crate) mod scope;
 pub(crate) mod state;

@@ -6,7 +6,6 @@
 //! | `#31` … `#5000` | global, zero at first |
 //! | `#5021` … `#5029` | machine coordinates of the position, in the units in force |
 //! | `#5061` … `#5070` | program coordinates of the last probing move's end; 1: contact was made |
-//! | `#5081` … `#5089` | in FANUC's language: the tool's offsets in force |
 //! | `#5161` …, `#5181` … | positions of G28 and G30, machine coordinates |
 //! | `#5210`, `#5211` … | is G92 in force, and its offsets |
 //! | `#5220` | active coordinate system, 1 for G54 |
@@ -19,6 +18,9 @@
 //! | `#<name>` | local to a subroutine call |
 //! | `#<_name>` | global |
 //!
+//! FANUC's variables are others ([`crate::execute::dialect::fanuc::variables`]): 33 locals, and nothing is in
+//! one that nothing was assigned to.
+//!
 //! What describes the machine (from `#5001` on, and the names in [`READ_ONLY`]) cannot be assigned.
 
 use std::collections::BTreeMap;
@@ -27,6 +29,7 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::expression::scope::{LOCALS, Parameter, no_parameter};
+use crate::syntax::expression::vacant::VACANT;
 
 /// Largest number that can be assigned.
 pub(crate) const MAX_ASSIGNED: u32 = 5000;
@@ -34,14 +37,25 @@ pub(crate) const MAX_ASSIGNED: u32 = 5000;
 pub(crate) const MAX_NUMBERED: u32 = 5601;
 /// Whether `(DEBUG, …)` says anything.
 pub(crate) const DEBUG: u32 = 5599;
+/// Variables local to a macro of FANUC.
+pub(crate) const FANUC_LOCALS: usize = 33;
 /// Most named parameters at a time.
 const MAX_NAMES: usize = 10_000;
 
 /// What a subroutine call has for itself.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 struct Locals {
-    numbered: [f64; LOCALS],
+    numbered: [f64; FANUC_LOCALS],
     named: BTreeMap<String, f64>,
+}
+
+impl Locals {
+    const fn of(unassigned: f64) -> Self {
+        Self {
+            numbered: [unassigned; FANUC_LOCALS],
+            named: BTreeMap::new(),
+        }
+    }
 }
 
 /// All parameters a program can assign.
@@ -55,6 +69,10 @@ pub(crate) struct Parameters {
     names: usize,
     /// `(DEBUG, …)` says nothing.
     silent: bool,
+    /// How many of the first numbers are local to a call.
+    locals: usize,
+    /// What is in a parameter that nothing was assigned to.
+    unassigned: f64,
 }
 
 impl Parameters {
@@ -65,10 +83,27 @@ impl Parameters {
             named: ["_value", "_value_returned"]
                 .map(|name| (name.to_owned(), 0.0))
                 .into(),
-            levels: vec![Locals::default()],
+            levels: vec![Locals::of(0.0)],
             names: 0,
             silent: false,
+            locals: LOCALS,
+            unassigned: 0.0,
         }
+    }
+
+    /// FANUC's variables.
+    pub(crate) fn of_fanuc() -> Self {
+        Self {
+            levels: vec![Locals::of(VACANT)],
+            locals: FANUC_LOCALS,
+            unassigned: VACANT,
+            ..Self::new()
+        }
+    }
+
+    /// True if both are of the same language.
+    pub(crate) const fn is_like(&self, other: &Self) -> bool {
+        self.locals == other.locals
     }
 
     /// Subroutine calls in progress.
@@ -78,12 +113,12 @@ impl Parameters {
 
     /// Ends all calls, and forgets what the program had for itself.
     pub(crate) fn leave_all(&mut self) {
-        self.levels = vec![Locals::default()];
+        self.levels = vec![Locals::of(self.unassigned)];
     }
 
     /// Starts a call with these arguments.
     pub(crate) fn enter(&mut self, arguments: &[f64]) {
-        let mut locals = Locals::default();
+        let mut locals = Locals::of(self.unassigned);
         for (slot, value) in locals.numbered.iter_mut().zip(arguments) {
             *slot = *value;
         }
@@ -107,7 +142,7 @@ impl Parameters {
     /// Refuses an assignment that is not possible.
     pub(crate) fn check_assignable(&self, parameter: &Parameter, span: SourceSpan) -> Outcome<()> {
         match parameter {
-            Parameter::Numbered(number) if *number > MAX_NUMBERED => {
+            Parameter::Numbered(number) if *number == 0 || *number > MAX_NUMBERED => {
                 Err(no_parameter(span, f64::from(*number)))
             }
             Parameter::Numbered(DEBUG) => Ok(()),
@@ -128,7 +163,7 @@ impl Parameters {
         match parameter {
             Parameter::Numbered(number) => {
                 let index = usize::try_from(*number).unwrap_or(usize::MAX);
-                if (1..=LOCALS).contains(&index) {
+                if (1..=self.locals).contains(&index) {
                     if let Some(locals) = self.levels.last_mut() {
                         locals.numbered[index - 1] = value;
                     }
@@ -136,7 +171,7 @@ impl Parameters {
                     self.silent = value == 0.0;
                 } else if *number <= MAX_ASSIGNED {
                     if self.global.len() <= index {
-                        self.global.resize(index + 1, 0.0);
+                        self.global.resize(index + 1, self.unassigned);
                     }
                     self.global[index] = value;
                 }
@@ -161,13 +196,13 @@ impl Parameters {
             return f64::from(u8::from(!self.silent));
         }
         let index = usize::try_from(number).unwrap_or(usize::MAX);
-        if (1..=LOCALS).contains(&index) {
+        if (1..=self.locals).contains(&index) {
             return self
                 .levels
                 .last()
-                .map_or(0.0, |locals| locals.numbered[index - 1]);
+                .map_or(self.unassigned, |locals| locals.numbered[index - 1]);
         }
-        self.global.get(index).copied().unwrap_or(0.0)
+        self.global.get(index).copied().unwrap_or(self.unassigned)
     }
 
     pub(crate) fn named(&self, name: &str) -> Option<f64> {

@@ -11,6 +11,7 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::auxiliary::input_wait::InputWait;
 use crate::execute::awaited_codes::AwaitedCodes;
+use crate::execute::dialect::macro_call::ModalMacro;
 use crate::execute::dialect::siemens::steps::SiemensState;
 use crate::execute::dialect::tape::Tape;
 use crate::execute::flow::activation::Flow;
@@ -27,7 +28,9 @@ use crate::summary::remark::Remark;
 use crate::summary::totals::Totals;
 use crate::syntax::block::Block;
 use crate::syntax::cursor::Cursor;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::line_source::LineSource;
+use crate::syntax::modes::Motion;
 use crate::syntax::straight_line::StraightLine;
 
 /// A program being read: an iterator of [`Item`]s in constant memory.
@@ -42,6 +45,8 @@ pub struct Program<R> {
     pub(crate) flow: Flow,
     /// Lines of a program in a dialect whose flow is not that of O words.
     pub(crate) tape: Tape,
+    /// The macro that a FANUC program calls behind every move.
+    pub(crate) modal_macro: Option<ModalMacro>,
     /// What a SINUMERIK program has besides.
     pub(crate) siemens: SiemensState,
     pub(crate) origin: LineOrigin,
@@ -77,15 +82,20 @@ pub struct Program<R> {
 impl<R: BufRead> Program<R> {
     /// Starts to read a program. Nothing is read before the first item is asked for.
     pub fn new(reader: R, options: Options) -> Self {
-        let block = Block::of(options.dialect, &options.m_codes);
+        let block = Block::of(options.dialect, &options.m_codes).with_point(options.fanuc.point);
+        let parameters = match options.dialect {
+            Dialect::Fanuc => Parameters::of_fanuc(),
+            _ => Parameters::new(),
+        };
         let awaited = AwaitedCodes::new(&options.m_codes);
         let in_force = options.in_force.clone();
         let mut program = Self {
             source: LineSource::new(reader),
             interpreter: Interpreter::new(options),
-            parameters: Parameters::new(),
+            parameters,
             flow: Flow::default(),
             tape: Tape::default(),
+            modal_macro: None,
             siemens: SiemensState::default(),
             origin: LineOrigin::Stream,
             block,
@@ -105,6 +115,10 @@ impl<R: BufRead> Program<R> {
             keeps_remarks: false,
             remarks: Vec::new(),
         };
+        if program.block.dialect == Dialect::Fanuc {
+            // Parameter 3402#0: G0 at power on.
+            program.interpreter.state.modal.motion = Some(Motion::Rapid);
+        }
         if let Some(in_force) = in_force {
             program.begin_with(&in_force);
         }
@@ -274,6 +288,7 @@ impl<R: BufRead> Program<R> {
         match self.flow.recorder.take() {
             None => {
                 self.interpreter.check_spline_complete()?;
+                self.interpreter.end_corner(&self.block, &mut self.items)?;
                 self.interpreter.end_compensation(&mut self.items)?;
                 self.count();
                 Ok(false)

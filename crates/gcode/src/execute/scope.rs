@@ -5,6 +5,7 @@ use glidepath_geometry::{AXES, AxisVector, Plane};
 use crate::execute::interpreter::Interpreter;
 use crate::execute::parameters::{DEBUG, MAX_ASSIGNED, MAX_NUMBERED, Parameters, READ_ONLY};
 use crate::execute::state::spindle::SpindleDirection;
+use crate::setup::fanuc::Arctangent;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::expression::scope::Scope;
 use crate::syntax::letters::AXIS_LETTERS;
@@ -21,6 +22,9 @@ pub(crate) struct ProgramScope<'a> {
 
 impl Scope for ProgramScope<'_> {
     fn numbered(&self, number: u32) -> Option<f64> {
+        if self.dialect() == Dialect::Fanuc {
+            return Some(self.fanuc_variable(number));
+        }
         match number {
             0 => None,
             1..=MAX_ASSIGNED | DEBUG => Some(self.parameters.numbered(number)),
@@ -32,16 +36,43 @@ impl Scope for ProgramScope<'_> {
         let value = self.parameters.named(name);
         value.or_else(|| state(self.interpreter, self.parameters, name))
     }
+
+    fn refuses(&self, number: u32) -> Option<&'static str> {
+        match self.dialect() {
+            Dialect::Fanuc => self.refused_variable(number),
+            _ => None,
+        }
+    }
+
+    fn dialect(&self) -> Dialect {
+        self.interpreter.options.dialect
+    }
+
+    fn declares_m(&self, number: u32) -> bool {
+        self.interpreter.options.m_codes.is_own(number)
+    }
+
+    fn least_increment(&self) -> f64 {
+        match self.interpreter.state.modal.units {
+            Units::Millimetre => 0.001,
+            Units::Inch => 0.0001,
+        }
+    }
+
+    fn has_full_arctangent(&self) -> bool {
+        self.dialect() == Dialect::Fanuc
+            && self.interpreter.options.fanuc.arctangent == Arctangent::Full
+    }
 }
 
 /// Program coordinate of an axis in the units in force.
-fn coordinate(interpreter: &Interpreter, axis: usize) -> f64 {
+pub(super) fn coordinate(interpreter: &Interpreter, axis: usize) -> f64 {
     let program = interpreter.offsets.to_program(interpreter.state.position);
     in_units(interpreter, program, axis)
 }
 
 /// One axis of a vector in the units in force.
-fn in_units(interpreter: &Interpreter, vector: AxisVector, axis: usize) -> f64 {
+pub(super) fn in_units(interpreter: &Interpreter, vector: AxisVector, axis: usize) -> f64 {
     let rotary = (3..6).contains(&axis);
     let scale = if rotary {
         1.0
@@ -64,9 +95,6 @@ fn machine(interpreter: &Interpreter, number: u32) -> f64 {
             index_from(5061),
         ),
         5070 => f64::from(u8::from(interpreter.state.probe.made)),
-        5081..=5089 if interpreter.options.dialect == Dialect::Fanuc => {
-            in_units(interpreter, offsets.tool, index_from(5081))
-        }
         5161..=5169 => offsets.reference[0][index_from(5161)],
         5181..=5189 => offsets.reference[1][index_from(5181)],
         5210 => f64::from(u8::from(offsets.shift.iter().any(|v| *v != 0.0))),

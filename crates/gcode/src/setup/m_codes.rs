@@ -47,12 +47,15 @@ impl MCodes {
             .any(|(first, last, _)| (*first..=*last).contains(&code))
     }
 
-    /// Whether a code may be declared: it has no meaning of its own in programs.
+    /// Whether a code was declared and has no meaning that every control gives it.
+    pub(crate) fn is_own(&self, code: u32) -> bool {
+        !matches!(code, 0..=9 | 19 | 30 | 98 | 99) && self.contains(code)
+    }
+
+    /// Whether a code may be declared: it has no meaning of its own in the programs of some control.
+    /// M48 and the like are the builder's on a FANUC, and what they are in LinuxCNC's language.
     #[must_use]
     pub const fn is_free(code: u32) -> bool {
-        !matches!(
-            code,
-            0..=9 | 19 | 30 | 48..=53 | 60..=68 | 70..=73 | 82 | 83 | 98 | 99
-        )
+        !matches!(code, 0..=9 | 19 | 30 | 61 | 66 | 82 | 83 | 98 | 99)
     }
 }

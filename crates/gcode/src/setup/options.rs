@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glidepath_geometry::{Axis, AxisVector};
 
 use crate::execute::state::in_force::InForce;
+use crate::setup::fanuc::FanucParameters;
 use crate::setup::m_codes::MCodes;
 use crate::setup::machine::Machine;
 use crate::setup::spindle_axis::SpindleAxis;
@@ -34,6 +35,12 @@ pub struct Options {
     pub subroutines: Option<Subroutines>,
     /// The language of the program.
     pub dialect: Dialect,
+    /// What the parameters of a FANUC control say, for [`Dialect::Fanuc`].
+    pub fanuc: FanucParameters,
+    /// The kinematics keep the tip of the tool where the program says while rotary axes turn: a
+    /// machine with five axes. Other controls than LinuxCNC do so between G43.4 and G49, or behind
+    /// TRAORI, and elsewhere their programs are refused where that makes a difference.
+    pub keeps_tip: bool,
     /// The axis that E words of [`Dialect::Marlin`] move. `None`: they are errors.
     pub extruder: Option<Axis>,
     /// What inputs, outputs and the probe are.
@@ -124,6 +131,8 @@ impl Default for Options {
             tools: None,
             subroutines: None,
             dialect: Dialect::LinuxCnc,
+            fanuc: FanucParameters::default(),
+            keeps_tip: false,
             extruder: None,
             connections: Connections::None,
             probing_v: None,

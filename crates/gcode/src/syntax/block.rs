@@ -8,6 +8,7 @@ use std::sync::Arc;
 use glidepath_geometry::Axis;
 
 use crate::diagnostic::span::SourceSpan;
+use crate::setup::fanuc::PointInput;
 use crate::setup::m_codes::MCodes;
 use crate::syntax::codes::{Coded, Codes};
 use crate::syntax::dialect::Dialect;
@@ -38,6 +39,10 @@ pub(crate) struct Block {
     /// Nothing but what [`Block::parse_plain`] reads was put into it since it was cleared: its
     /// codes have a motion at most.
     pub(super) is_plain: bool,
+    /// Letters of FANUC's words whose numbers have no decimal point.
+    pub(crate) pointless: Letters,
+    /// `,C` and `,R` of FANUC.
+    pub(crate) corner: Option<CornerWord>,
     /// `@` and `^`.
     pub(crate) polar: [Option<PolarWord>; 2],
     /// Parameters to assign after the block, in order.
@@ -48,6 +53,29 @@ pub(crate) struct Block {
     pub(crate) comment: Vec<u8>,
     /// M codes that the machine's builder declared.
     pub(super) declared: Arc<MCodes>,
+    /// What coordinates without a point are in a FANUC program.
+    pub(crate) point: PointInput,
+}
+
+/// How the corner between two moves is broken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CornerKind {
+    /// By a straight line whose ends are as far from the corner.
+    Chamfer,
+    /// By a straight line of that length (SINUMERIK's CHF).
+    ChamferLength,
+    /// By an arc that touches both moves.
+    Round,
+    /// The same at every corner from here on (SINUMERIK's RNDM).
+    RoundAll,
+}
+
+/// A word that breaks the corner behind a move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CornerWord {
+    pub(crate) kind: CornerKind,
+    pub(crate) value: f64,
+    pub(crate) span: SourceSpan,
 }
 
 /// A polar word: distance or angle.
@@ -90,6 +118,11 @@ impl Block {
         } else {
             self.spans[Slot::of(letter).index()]
         }
+    }
+
+    /// True if the word of a FANUC program was written without a decimal point.
+    pub(crate) const fn has_no_point(&self, letter: u8) -> bool {
+        self.pointless.has(letter)
     }
 
     /// True if the block has an axis word or a polar one.
@@ -155,6 +188,8 @@ impl Block {
             self.assignments.clear();
             self.comment.clear();
             self.polar = [None, None];
+            self.corner = None;
+            self.pointless = Letters::default();
             self.codes = Codes::default();
             self.kind = LineKind::Block;
             self.is_plain = true;
@@ -164,6 +199,12 @@ impl Block {
     /// True if the block is of a plain line: words with values, and of codes a motion at most.
     pub(crate) const fn is_plain(&self) -> bool {
         self.is_plain
+    }
+
+    /// A block for lines of a FANUC control that reads coordinates so.
+    pub(crate) const fn with_point(mut self, point: PointInput) -> Self {
+        self.point = point;
+        self
     }
 
     /// Fills the block from a plain line, of which `text` has all and may have more: where the line

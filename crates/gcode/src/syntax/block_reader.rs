@@ -5,18 +5,25 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::block::{Assignment, Block, LineKind, PolarWord};
+use crate::syntax::block_reader_of_dialects::skip_brackets;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::marlin::{reads_words, shows_text};
 use crate::syntax::expression::scope::Scope;
+use crate::syntax::expression::vacant::is_vacant;
 use crate::syntax::expression::value::{open_expression, parameter, value};
 use crate::syntax::letters::{Letters, Slot};
 use crate::syntax::plain_line::WordSink;
+use crate::syntax::word_check::duplicate;
 
 impl Block {
     /// Fills the block from the text of a line.
     pub(crate) fn parse(&mut self, text: &[u8], scope: &dyn Scope) -> Outcome<()> {
-        if self.parse_plain(text) == Some(text.len()) {
+        let is_plain = match self.dialect {
+            Dialect::Fanuc => self.parse_plain_fanuc(text),
+            _ => self.parse_plain(text) == Some(text.len()),
+        };
+        if is_plain {
             return Ok(());
         }
         self.parse_any(text, scope)
@@ -29,7 +36,10 @@ impl Block {
         let mut cursor = Cursor::new(text);
         match cursor.next_visible() {
             Some(b'%') => return self.percent(cursor),
-            Some(b'/') => cursor.advance(),
+            Some(b'/') => {
+                cursor.advance();
+                self.skip_switch(&mut cursor);
+            }
             _ => {}
         }
         let (mut start_of_block, mut spindle) = (true, None);
@@ -37,7 +47,10 @@ impl Block {
             match byte {
                 b'(' => {
                     let start = cursor.at() + 1;
-                    cursor.skip_comment()?;
+                    match self.dialect {
+                        Dialect::Fanuc => skip_brackets(&mut cursor)?,
+                        _ => cursor.skip_comment()?,
+                    }
                     let said = text.get(start..cursor.at() - 1);
                     self.comment.clear();
                     self.comment.extend_from_slice(said.unwrap_or_default());
@@ -59,11 +72,18 @@ impl Block {
                         None => {}
                     }
                 }
-                b'@' | b'^' => {
+                b',' if matches!(self.dialect, Dialect::Fanuc | Dialect::Siemens) => {
+                    self.corner_word(&mut cursor, scope)?;
+                }
+                b'/' if self.dialect == Dialect::Fanuc => {
+                    cursor.advance();
+                    self.skip_switch(&mut cursor);
+                }
+                b'@' | b'^' if self.has_linuxcnc_words() => {
                     self.polar_word(&mut cursor, usize::from(byte == b'^'), scope)?;
                     start_of_block = false;
                 }
-                b'#' => {
+                b'#' if self.dialect != Dialect::Marlin => {
                     self.assignment(&mut cursor, scope)?;
                     start_of_block = false;
                 }
@@ -199,17 +219,32 @@ impl Block {
             }
             _ => {}
         }
-        let value = value(cursor, start, scope)?;
+        if self.names_an_axis(*cursor, letter) {
+            return self.flag(letter, SourceSpan::new(start, start + 1));
+        }
+        let value = match self.dialect {
+            Dialect::Fanuc => self.fanuc_value(cursor, start, letter, scope)?,
+            _ => value(cursor, start, scope)?,
+        };
         let span = SourceSpan::new(start, cursor.end_of_word());
+        if is_vacant(value) {
+            // The word counts as not written.
+            return Ok(());
+        }
         self.any = true;
         match letter {
             b'G' if self.dialect == Dialect::Fanuc => self.codes.add_fanuc_g(value, span),
+            b'G' if self.dialect == Dialect::Marlin => self.codes.add_printer_g(value, span),
+            b'G' if self.dialect == Dialect::Siemens => self.codes.add_rewritten_g(value, span),
             b'G' => self.codes.add_g(value, span),
             b'M' if self.dialect == Dialect::Marlin => {
                 self.codes.add_printer_m(value, span, &self.declared)
             }
             b'M' if self.dialect == Dialect::Fanuc => {
                 self.codes.add_fanuc_m(value, span, &self.declared)
+            }
+            b'M' if self.dialect == Dialect::Siemens => {
+                self.codes.add_rewritten_m(value, span, &self.declared)
             }
             b'M' => self.codes.add_m(value, span, &self.declared),
             _ => self
@@ -234,17 +269,6 @@ fn unused_spindle(span: SourceSpan) -> Box<Fault> {
     Fault::new(DiagnosticCode::UnusedWord, span, message)
         .because("it belongs to S, M3, M4, M5, M19, G96 and G97")
         .help("remove it, or add the code it belongs to")
-}
-
-#[cold]
-fn duplicate(letter: char, span: SourceSpan) -> Box<Fault> {
-    Fault::new(
-        DiagnosticCode::DuplicateWord,
-        span,
-        format!("a second {letter} in the block"),
-    )
-    .because("a block has each word once")
-    .help("remove one of them, or write two blocks")
 }
 
 fn block_number(cursor: &mut Cursor<'_>, start: usize, first: bool) -> Outcome<()> {

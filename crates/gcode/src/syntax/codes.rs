@@ -9,18 +9,28 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
-use crate::syntax::dialect::marlin::is_function;
 use crate::syntax::modes::{
     CannedCycle, CutterRadius, Distance, FeedMode, LatheCycle, Motion, NonModal, Pockets, Probe,
     Retract, Side, SpindleMode, Spline, Stop, ToolLength, Units,
 };
-use crate::syntax::refused::{home_offset, refused_g, refused_m, unknown_g, unknown_m};
+use crate::syntax::refused::{refused_g, refused_m, unknown_g, unknown_m};
 
 /// A code and where it stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Coded<T> {
     pub(crate) code: T,
     pub(crate) span: SourceSpan,
+}
+
+/// What FANUC makes of the coordinates of a program; true where it begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FrameCode {
+    /// G51, G50.
+    Scale(bool),
+    /// G51.1, G50.1.
+    Mirror(bool),
+    /// G68, G69.
+    Turn(bool),
 }
 
 /// The codes of one block, by modal group.
@@ -63,8 +73,20 @@ pub(crate) struct Codes {
     pub(crate) function: Option<Coded<u32>>,
     /// M29 of FANUC.
     pub(crate) rigid_tapping: Option<Coded<u32>>,
-    /// The motion is that of this block alone: what was the mode stays it (G31, G76 of FANUC).
+    /// The motion is that of this block alone: what was the mode stays it (G31, G60, G76 of FANUC).
     pub(crate) is_once: bool,
+    /// The motion of this block ends at rest (G9 of FANUC and SINUMERIK).
+    pub(crate) exact_stop: Option<Coded<()>>,
+    /// A code that moves nothing and gives no place another name, ten times its number.
+    pub(crate) read_over: Option<Coded<u32>>,
+    /// G16 and G15 of FANUC: true where a radius and an angle are meant.
+    pub(crate) polar_mode: Option<Coded<bool>>,
+    /// G50, G51, G50.1, G51.1, G68 and G69 of FANUC.
+    pub(crate) frame: Option<Coded<FrameCode>>,
+    /// True for G43.4 of FANUC and TRAORI: the axes follow the tip of the tool; false for TRAFOOF.
+    pub(crate) tip: Option<Coded<bool>>,
+    /// G54.1 of FANUC, G154 of Haas.
+    pub(crate) extended_system: Option<Coded<()>>,
 }
 
 impl Codes {
@@ -132,21 +154,6 @@ impl Codes {
         }
     }
 
-    /// Adds a G word of a FANUC program. G31 is a move that a contact ends, and no error without;
-    /// like G76 it is of its block alone.
-    pub(crate) fn add_fanuc_g(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
-        let motion = match code_number(value) {
-            Some(31) => Motion::Probe(Probe {
-                toward: true,
-                must: false,
-            }),
-            Some(76) => Motion::ThreadCycle,
-            _ => return self.add_g(value, span),
-        };
-        self.is_once = true;
-        self.set_motion(Some(motion), span)
-    }
-
     /// True if the block has any code.
     pub(crate) const fn any(&self) -> bool {
         self.non_modal.is_some()
@@ -173,11 +180,17 @@ impl Codes {
             || self.saved_state.is_some()
             || self.user.is_some()
             || self.rigid_tapping.is_some()
+            || self.exact_stop.is_some()
+            || self.read_over.is_some()
+            || self.polar_mode.is_some()
+            || self.frame.is_some()
+            || self.tip.is_some()
+            || self.extended_system.is_some()
     }
 
     /// G80 may stand beside another motion code, as in the first line of many programs; that
     /// code then is the mode.
-    fn set_motion(&mut self, motion: Option<Motion>, span: SourceSpan) -> Outcome<()> {
+    pub(super) fn set_motion(&mut self, motion: Option<Motion>, span: SourceSpan) -> Outcome<()> {
         match (self.motion, motion) {
             (Some(Coded { code: Some(_), .. }), None) => Ok(()),
             (Some(Coded { code: None, .. }), Some(_)) => {
@@ -185,34 +198,6 @@ impl Codes {
                 Ok(())
             }
             _ => set(&mut self.motion, motion, span),
-        }
-    }
-
-    /// Adds an M word of a printer's program.
-    pub(crate) fn add_printer_m(
-        &mut self,
-        value: f64,
-        span: SourceSpan,
-        declared: &MCodes,
-    ) -> Outcome<()> {
-        match code_number(value) {
-            Some(number @ (82 | 83)) => set(&mut self.extruder, number == 83, span),
-            Some(number) if is_function(number) => set(&mut self.function, number, span),
-            Some(206) => Err(home_offset(span)),
-            _ => self.add_m(value, span, declared),
-        }
-    }
-
-    /// Adds an M word of a FANUC program: M29 taps rigidly, unless it is the machine's own.
-    pub(crate) fn add_fanuc_m(
-        &mut self,
-        value: f64,
-        span: SourceSpan,
-        declared: &MCodes,
-    ) -> Outcome<()> {
-        match code_number(value) {
-            Some(29) if !declared.contains(29) => set(&mut self.rigid_tapping, 29, span),
-            _ => self.add_m(value, span, declared),
         }
     }
 
@@ -325,7 +310,7 @@ const fn system_index(tenths: u32) -> usize {
 }
 
 /// The whole number a code's value stands for; a computed value may be off by rounding.
-fn code_number(value: f64) -> Option<u32> {
+pub(super) fn code_number(value: f64) -> Option<u32> {
     let nearest = value.round();
     let whole = (value - nearest).abs() < 1e-4 && (0.0..10_000.0).contains(&nearest);
     #[expect(
@@ -336,7 +321,7 @@ fn code_number(value: f64) -> Option<u32> {
     whole.then_some(nearest as u32)
 }
 
-fn set<T>(slot: &mut Option<Coded<T>>, code: T, span: SourceSpan) -> Outcome<()> {
+pub(super) fn set<T>(slot: &mut Option<Coded<T>>, code: T, span: SourceSpan) -> Outcome<()> {
     if let Some(first) = slot {
         let column = first.span.start + 1;
         let message = format!("a second code of the modal group of the one at column {column}");

@@ -27,11 +27,17 @@ pub(crate) const POWERS: [f64; 23] = [
 pub(crate) struct Cursor<'a> {
     text: &'a [u8],
     at: usize,
+    /// Between the arguments of a function a comma ends a number.
+    is_in_list: bool,
 }
 
 impl<'a> Cursor<'a> {
     pub(crate) const fn new(text: &'a [u8]) -> Self {
-        Self { text, at: 0 }
+        Self {
+            text,
+            at: 0,
+            is_in_list: false,
+        }
     }
 
     /// Byte offset of what comes next.
@@ -52,6 +58,11 @@ impl<'a> Cursor<'a> {
     /// Goes to a byte offset.
     pub(crate) const fn seek(&mut self, at: usize) {
         self.at = at;
+    }
+
+    /// Says whether commas stand between values; what was so before.
+    pub(crate) const fn set_list(&mut self, is_in_list: bool) -> bool {
+        core::mem::replace(&mut self.is_in_list, is_in_list)
     }
 
     pub(crate) const fn advance(&mut self) {
@@ -172,7 +183,7 @@ impl<'a> Cursor<'a> {
             return Err(self.no_number(word, start));
         }
         let exponent = self.at == end && matches!(self.peek(), Some(b'e' | b'E'));
-        if exponent || matches!(self.peek(), Some(b'.' | b',')) {
+        if exponent || self.peek() == Some(b'.') || self.has_decimal_comma() {
             self.refuse_tail(start)?;
         }
         let value = match POWERS.get(decimals) {
@@ -190,6 +201,17 @@ impl<'a> Cursor<'a> {
             .help("check the program that wrote it"));
         }
         Ok(if negative { -value } else { value })
+    }
+
+    /// True for a comma with no letter behind it: `X1,5`, but not `X20,R5`.
+    fn has_decimal_comma(&self) -> bool {
+        let mut behind = *self;
+        behind.advance();
+        self.peek() == Some(b',')
+            && !self.is_in_list
+            && !behind
+                .next_visible()
+                .is_some_and(|byte| byte.is_ascii_alphabetic())
     }
 
     /// Value of digits that do not fit the short way; the sign is not looked at.

@@ -43,7 +43,7 @@ impl Slot {
 }
 
 /// A set of word letters, by their slots.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Letters(pub(crate) u32);
 
 impl Letters {
@@ -55,6 +55,11 @@ impl Letters {
             i += 1;
         }
         Self(bits)
+    }
+
+    /// The set of one letter.
+    pub(crate) const fn one(letter: u8) -> Self {
+        Self(Slot::of(letter).bit())
     }
 
     /// The words of some axes.
@@ -108,6 +113,19 @@ impl WordValues {
     /// True if there is any of these words.
     pub(crate) const fn has_any(&self, letters: Letters) -> bool {
         self.present & letters.0 != 0
+    }
+
+    /// True if a value of one of these letters is above `most`, or below it with a sign.
+    pub(crate) fn exceeds(&self, letters: Letters, most: f64) -> bool {
+        let mut left = self.present & letters.0;
+        while left != 0 {
+            let slot = left.trailing_zeros() as usize;
+            if self.values[slot].abs() > most {
+                return true;
+            }
+            left &= left - 1;
+        }
+        false
     }
 
     /// The letters that are not among `used`.

@@ -17,6 +17,7 @@ use memchr::memchr2;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::syntax::foreign::foreign;
 
 /// Longest line accepted, bytes without the line end.
 pub const MAX_LINE_BYTES: usize = 64 * 1024;
@@ -183,7 +184,7 @@ impl<R: BufRead> LineSource<R> {
         }
     }
 
-    /// Drops a UTF-8 byte order mark; refuses UTF-16.
+    /// Drops a UTF-8 byte order mark; refuses UTF-16, and what is of another kind altogether.
     fn start_of_text(&mut self) -> Outcome<()> {
         if self.text().starts_with(UTF8_MARK) {
             self.line.start += UTF8_MARK.len();
@@ -202,7 +203,10 @@ impl<R: BufRead> LineSource<R> {
             .because("a program is read as ASCII or UTF-8; here every second byte is no text")
             .help("save the file as plain text (ASCII or UTF-8)"));
         }
-        Ok(())
+        match foreign(self.text(), self.ahead()) {
+            None => Ok(()),
+            Some(fault) => Err(fault),
+        }
     }
 }
 

@@ -15,10 +15,12 @@
 pub(crate) mod bad_byte;
 pub(crate) mod block;
 mod block_reader;
+mod block_reader_of_dialects;
 pub(crate) mod codes;
 pub(crate) mod cursor;
 pub(crate) mod dialect;
 pub(crate) mod expression;
+mod foreign;
 pub(crate) mod letters;
 pub(crate) mod line_source;
 pub(crate) mod modes;

@@ -192,6 +192,8 @@ pub(crate) enum ToolLength {
     FromWords,
     /// G43.2: one more tool of the table on top.
     Add,
+    /// G44 of FANUC: the length is taken away.
+    Subtract,
     /// G49.
     Cancel,
 }

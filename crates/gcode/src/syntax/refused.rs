@@ -38,10 +38,6 @@ pub(crate) fn refused_g(tenths: u32, value: f64, span: SourceSpan) -> Box<Fault>
             "boring with retraction by hand",
             "use G86 or G89, which retract by themselves",
         ),
-        434 | 435 => (
-            "tool centre point control",
-            "let the CAM system write the positions of the axes",
-        ),
         _ => return unknown_g(value, span),
     };
     Fault::new(
@@ -74,13 +70,4 @@ pub(crate) fn refused_m(number: u32, value: f64, span: SourceSpan) -> Box<Fault>
     )
     .because("skipping it could change what the machine does")
     .help(help)
-}
-
-/// M206 of printers.
-#[cold]
-pub(crate) fn home_offset(span: SourceSpan) -> Box<Fault> {
-    let message = "M206 (offsets of home positions) is not supported";
-    Fault::new(DiagnosticCode::NotSupported, span, message)
-        .because("skipping it would make another motion than the program's")
-        .help("write G92, or set the work offset of the machine")
 }

@@ -133,11 +133,8 @@ const FINDINGS: [(&str, &[Diagnostic]); 30] = [
         "nurbs-bad.ngc",
         &[
             (6, "spline", "P0", 1),
-            // As the block above was refused, G5.2 is not in force in those below.
-            (7, "no-motion-mode", "X2", 1),
-            (8, "no-motion-mode", "X3", 1),
-            (9, "no-motion-mode", "X4", 1),
-            (10, "spline", "G5.3", 1),
+            // G5.2 is in force below, though the block above was refused.
+            (7, "spline", "P-1", 1),
         ],
     ),
     ("o-infinite-loop.ngc", &[(3, "endless-loop", "#1", 1)]),

@@ -179,11 +179,12 @@ fn a_machine_outside_its_limits_may_come_back() {
 }
 
 #[test]
-fn a_refused_block_has_no_effect() {
+fn of_a_refused_block_the_modes_count_for_what_follows() {
     let report = report("G0 X1\nG91 G20 G1 X5 F10 Q1\nX2\n");
     assert_eq!(listed(&report), ["2:19 unused-word"]);
-    assert!((report.final_position[0] - 2.0).abs() < 1e-12);
-    assert_eq!(report.totals.rapids, 2);
+    // Two inches from where the refused block began.
+    assert!((report.final_position[0] - 51.8).abs() < 1e-12);
+    assert_eq!((report.totals.rapids, report.totals.straight_feeds), (1, 1));
 }
 
 #[test]

@@ -94,7 +94,7 @@ fn printers_have_checksums_functions_and_slow_rapids() {
         .iter()
         .map(|d| (d.line, d.code.as_str()))
         .collect();
-    assert_eq!(found, [(1, "not-connected"), (4, "unknown-g-code")]);
+    assert_eq!(found, [(1, "not-connected"), (4, "not-supported")]);
     // With an extruder they are events, but for those that wait: somebody has to say for what.
     let printer = Options {
         extruder: Some(Axis::U),
@@ -241,7 +241,7 @@ fn programs_of_other_controls_are_read_or_refused_by_name() {
     }
     let mut others = Vec::new();
     for (name, dialect, line, code) in [
-        ("fanuc/haas-macro.nc", Dialect::Fanuc, 8, "unknown-m-code"),
+        ("fanuc/haas-macro.nc", Dialect::Fanuc, 7, "parameter"),
         ("fanuc/fanuc0m-comp.nc", Dialect::Fanuc, 7, "unknown-tool"),
         (
             "dialect-authored/fanuc-5axis-g051.nc",

@@ -310,6 +310,8 @@ impl MachineConfig {
             tools: self.program.tools.clone(),
             subroutines: self.program.subroutines.clone(),
             dialect: self.program.dialect.unwrap_or_default(),
+            fanuc: self.program.fanuc,
+            keeps_tip: matches!(self.mechanism, Mechanism::FiveAxis(_)),
             extruder: self.program.extruder,
             connections: self.program.connections,
             probing_v: self.probing_v(),

@@ -1,6 +1,8 @@
 //! How programs are read.
 
-use glidepath_gcode::{Connections, Dialect, InForce, Subroutines, ToolTable, WorkOffsets};
+use glidepath_gcode::{
+    Connections, Dialect, FanucParameters, InForce, Subroutines, ToolTable, WorkOffsets,
+};
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -10,6 +12,8 @@ use std::sync::Arc;
 pub struct ProgramConfig {
     /// The language of programs; `None`: told by their beginning.
     pub dialect: Option<Dialect>,
+    /// What the parameters of a FANUC control say.
+    pub fanuc: FanucParameters,
     /// The tool table's file.
     pub tool_table: Option<PathBuf>,
     /// What the machine is set up with, once it has been read.

@@ -63,6 +63,10 @@ pub(super) struct RawMCode {
 #[serde(deny_unknown_fields, default)]
 pub(super) struct RawProgram {
     pub(super) dialect: Optional<String>,
+    pub(super) fanuc: Optional<String>,
+    pub(super) point: Optional<String>,
+    pub(super) offset_memory: Optional<String>,
+    pub(super) arctangent: Optional<String>,
     pub(super) tool_table: Optional<String>,
     pub(super) subroutine_path: Vec<String>,
     pub(super) inputs_outputs: Optional<String>,

@@ -5,7 +5,7 @@ mod feed;
 mod input_output;
 pub(crate) mod input_wait;
 mod non_modal;
-mod order;
+pub(crate) mod order;
 mod overrides;
 mod saved_state;
 mod spindle;

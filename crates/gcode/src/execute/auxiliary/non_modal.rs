@@ -11,6 +11,7 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::state::offsets::overlay;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{Distance, Motion, NonModal};
 use crate::syntax::word_check::{missing, unused, whole};
 
@@ -23,15 +24,24 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let position = self.state.position;
-        self.check_frame(non_modal)?;
+        let keeps_frame = block.dialect == Dialect::Fanuc && non_modal.code == NonModal::SetData;
+        if !keeps_frame {
+            self.check_frame(non_modal)?;
+        }
         match non_modal.code {
             // The dwell comes earlier, the machine coordinates with the motion.
             NonModal::Dwell => {}
             NonModal::MachineCoordinates => {
                 self.check_machine_coordinates(non_modal.span, motion)?;
             }
+            NonModal::SetData if block.dialect == Dialect::Fanuc => {
+                self.set_fanuc_data(block, non_modal.span)?;
+            }
             NonModal::SetData => self.set_data(block, non_modal.span)?,
-            NonModal::GoToReference(index) => self.go_to_reference(block, index, out)?,
+            NonModal::GoToReference(index) => {
+                check_second_reference(block, index)?;
+                self.go_to_reference(block, index, out)?;
+            }
             NonModal::SetReference(index) => {
                 if let Some(reference) = self.offsets.reference.get_mut(index) {
                     *reference = position;
@@ -75,8 +85,10 @@ impl Interpreter {
         let message = "an offset that is set within a frame";
         Err(
             Fault::new(DiagnosticCode::NotSupported, non_modal.span, message)
-                .because("its words would count in the coordinates of TRANS, ROT, MIRROR or SCALE")
-                .help("write TRANS alone in a line before it, which ends the frame"),
+                .because("its words would count in coordinates that are turned, mirrored or scaled")
+                .help(
+                    "end the frame in a line before it: by TRANS alone, or by G69, G50 and G50.1",
+                ),
         )
     }
 
@@ -133,4 +145,20 @@ impl Interpreter {
         }
         Ok(())
     }
+}
+
+/// FANUC's G30 goes to the second, third or fourth reference position: P2, P3, P4.
+fn check_second_reference(block: &Block, index: usize) -> Outcome<()> {
+    let Some(which) = whole(block, b'P', 4)? else {
+        return Ok(());
+    };
+    if index == 1 && which == 2 {
+        return Ok(());
+    }
+    let message = format!("G30 P{which} is not supported");
+    Err(
+        Fault::new(DiagnosticCode::NotSupported, block.span(b'P'), message)
+            .because("the machine has two reference positions, that of G28 and that of G30")
+            .help("write G30, or G53 and the place"),
+    )
 }

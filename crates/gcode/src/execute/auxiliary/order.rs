@@ -58,12 +58,22 @@ impl Interpreter {
     }
 }
 
-/// Seconds of a G4: milliseconds in the P word of printers and FANUC, seconds in their S and X.
+/// Seconds of a G4: milliseconds in the P word of printers and FANUC, seconds in their S, X and U,
+/// and in a P with a decimal point, which is Haas'.
 fn dwell_seconds(block: &Block) -> Option<f64> {
     let milliseconds = || block.get(b'P').map(|p| 1e-3 * p);
     match block.dialect {
         Dialect::LinuxCnc | Dialect::Siemens => block.get(b'P'),
         Dialect::Marlin => block.get(b'S').or_else(milliseconds),
-        Dialect::Fanuc => block.get(b'X').or_else(milliseconds),
+        Dialect::Fanuc => {
+            let seconds = block.get(b'X').or_else(|| block.get(b'U'));
+            seconds.or_else(|| fanuc_dwell(block))
+        }
     }
+}
+
+/// Seconds of a P word of FANUC and Haas.
+pub(crate) fn fanuc_dwell(block: &Block) -> Option<f64> {
+    let unit = if block.has_no_point(b'P') { 1e-3 } else { 1.0 };
+    block.get(b'P').map(|p| unit * p)
 }

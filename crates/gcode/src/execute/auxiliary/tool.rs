@@ -13,6 +13,7 @@ use crate::execute::state::offsets::overlay;
 use crate::setup::tool_table::{MAX_TOOL, Tool};
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::AXIS_WORDS;
 use crate::syntax::modes::ToolLength;
 use crate::syntax::word_check::{missing, whole};
@@ -77,9 +78,14 @@ impl Interpreter {
     /// G43, G43.1, G43.2, G49.
     pub(crate) fn tool_length(&mut self, block: &Block, coded: Coded<ToolLength>) -> Outcome<()> {
         let span = coded.span;
+        if block.dialect == Dialect::Fanuc {
+            return self.fanuc_tool_length(block, coded);
+        }
         self.offsets.tool = match coded.code {
             ToolLength::Cancel => AxisVector::zeros(),
-            ToolLength::FromTable => self.named_tool(block, b'H', span)?.offset,
+            ToolLength::FromTable | ToolLength::Subtract => {
+                self.named_tool(block, b'H', span)?.offset
+            }
             ToolLength::FromWords => overlay(self.offsets.tool, &self.axis_values(block)?),
             ToolLength::Add if block.get(b'H').is_some() => {
                 self.offsets.tool + self.named_tool(block, b'H', span)?.offset

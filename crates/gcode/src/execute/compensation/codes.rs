@@ -9,8 +9,10 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::block_words::radius_word;
 use crate::execute::compensation::path::{Compensated, Compensation, MAX_HELD};
 use crate::execute::interpreter::Interpreter;
+use crate::setup::tool_table::MAX_TOOL;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{CutterRadius, LatheCycle, Motion, NonModal, Side};
 use crate::syntax::word_check::{missing, whole};
 
@@ -35,6 +37,10 @@ impl Interpreter {
                 } else {
                     b'D'
                 };
+                if block.dialect == Dialect::Fanuc {
+                    let (diameter, orientation) = self.fanuc_radius(block, letter, span)?;
+                    return self.begin_compensation(block, span, side, 0.5 * diameter, orientation);
+                }
                 let tool = self.named_tool(block, letter, span)?;
                 (side, tool.diameter_mm, tool.orientation)
             }
@@ -48,6 +54,19 @@ impl Interpreter {
             }
         };
         self.begin_compensation(block, span, side, 0.5 * diameter, orientation)
+    }
+
+    /// Diameter with its wear, and orientation, of the tool that D or H names; without a word that
+    /// of the last D.
+    fn fanuc_radius(&self, block: &Block, letter: u8, span: SourceSpan) -> Outcome<(f64, u8)> {
+        let last = Some(self.state.fanuc.radius_offset).filter(|number| *number > 0);
+        let number = whole(block, letter, MAX_TOOL)?
+            .or(last)
+            .ok_or_else(|| missing(span, "G41 or G42", "D", "whose radius"))?;
+        let named = block.get(letter).map(|_| block.span(letter));
+        let tool = self.tool_of(number, named.unwrap_or(span))?;
+        let wear_mm = 2.0 * self.offsets.fanuc.wear(number).radius_mm;
+        Ok((tool.diameter_mm + wear_mm, tool.orientation))
     }
 
     fn begin_compensation(

@@ -1,8 +1,8 @@
 //! The lines of each dialect, and in which order they are executed.
 
-mod fanuc;
-mod fanuc_call;
+pub(crate) mod fanuc;
 mod linuxcnc;
+pub(crate) mod macro_call;
 mod marlin;
 pub(crate) mod siemens;
 pub(crate) mod tape;

@@ -22,6 +22,7 @@ use crate::execute::motion::speed::Pace;
 use crate::execute::state::frame::PlaneImage;
 use crate::execute::state::offsets::Offsets;
 use crate::syntax::block::Block;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::Letters;
 use crate::syntax::modes::{Distance, Motion};
 use crate::syntax::word_check::whole;
@@ -72,7 +73,7 @@ impl Interpreter {
             }
             None => self.center_from_words(block, named, plane, ends)?,
         };
-        let turns = turns(block)?;
+        let turns = turns(block, ends.is_closed())?;
         let sweep_rad = sweep(ends, center, counterclockwise, turns);
         let arc = Arc {
             start,
@@ -179,8 +180,18 @@ impl Interpreter {
 }
 
 /// Turns of an arc: P.
-fn turns(block: &Block) -> Outcome<f64> {
+fn turns(block: &Block, is_closed: bool) -> Outcome<f64> {
     match whole(block, b'P', MAX_TURNS)? {
+        // Marlin counts the circles in front of the arc; where that goes nowhere they are all.
+        turns if block.dialect == Dialect::Marlin => {
+            let circles = turns.unwrap_or(0);
+            let all = if is_closed {
+                circles.max(1)
+            } else {
+                circles + 1
+            };
+            Ok(f64::from(all))
+        }
         Some(0) => {
             let message = "an arc of no turns";
             Err(
@@ -227,7 +238,7 @@ const fn center_letter(axis: Axis) -> u8 {
 
 fn check_center_words(block: &Block, plane: Plane) -> Outcome<()> {
     let normal = center_letter(plane.normal());
-    if block.get(normal).is_some() {
+    if block.get(normal).is_some_and(|value| value != 0.0) {
         let message = format!("{} is not in the plane of the arc", char::from(normal));
         return Err(Fault::new(
             DiagnosticCode::ArcOffsetOutsidePlane,

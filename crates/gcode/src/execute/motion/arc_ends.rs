@@ -26,6 +26,13 @@ pub(crate) struct Ends {
     pub(crate) end: [f64; 2],
 }
 
+impl Ends {
+    /// True where an arc ends where it begins.
+    pub(crate) fn is_closed(self) -> bool {
+        distance(self.start, self.end) <= SAME_POINT_MM
+    }
+}
+
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }

@@ -7,7 +7,7 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::execute::interpreter::Interpreter;
 use crate::syntax::block::Block;
-use crate::syntax::codes::Coded;
+use crate::syntax::codes::{Coded, FrameCode};
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::Letters;
 use crate::syntax::modes::{Distance, Motion, NonModal, ToolLength};
@@ -33,6 +33,16 @@ impl Interpreter {
         if fanuc && matches!(code, Some(NonModal::Dwell | NonModal::GoToReference(_))) {
             return Ok(None);
         }
+        // Their axes say about what coordinates are turned, scaled or mirrored.
+        if matches!(
+            block.codes.frame.map(|frame| frame.code),
+            Some(FrameCode::Scale(true) | FrameCode::Turn(true) | FrameCode::Mirror(_))
+        ) {
+            return Ok(None);
+        }
+        if let Some(read_over) = block.codes.read_over.filter(|_| block.has_axes()) {
+            return Err(conflict(read_over.span));
+        }
         let taken = non_modal.is_some() || length.is_some();
         let has_axes = block.has_axes();
         if let (Some(_), Some(Coded { span, .. })) = (non_modal, length) {
@@ -46,6 +56,9 @@ impl Interpreter {
                 }),
                 true,
             ) => Err(conflict(span)),
+            (Some(Coded { code: None, .. }), false) if has_axes && fanuc => {
+                Ok(Some(self.state.fanuc.before_cycles))
+            }
             (Some(Coded { code: None, span }), false) if has_axes => Err(Fault::new(
                 DiagnosticCode::NoMotionMode,
                 span,
@@ -147,6 +160,7 @@ impl Interpreter {
             values[0] = values[0].map(|x| 0.5 * x);
         }
         self.resolve_polar(block, &mut values)?;
+        self.resolve_fanuc_polar(block, &mut values)?;
         if block.dialect == Dialect::Marlin {
             self.extruder_value(block, &mut values)?;
         }

@@ -18,6 +18,7 @@ impl Interpreter {
         what: &str,
     ) -> Outcome<()> {
         self.check_spindle_axis(block, low, high)?;
+        self.check_tip(block, low, high)?;
         for axis in Axis::ALL {
             let i = axis.index();
             let Some(travel) = self.options.machine.travel(axis) else {

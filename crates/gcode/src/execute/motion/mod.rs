@@ -2,7 +2,8 @@
 
 mod arc;
 pub(crate) mod arc_ends;
-mod axis_words;
+pub(crate) mod axis_words;
+mod corner;
 mod curve;
 mod feedrate;
 mod limits;

@@ -137,6 +137,8 @@ impl Interpreter {
         let is_plain = modal.distance == Distance::Absolute
             && modal.feed_mode == FeedMode::PerMinute
             && !modal.diameter
+            && !self.is_tip_in_doubt()
+            && state.fanuc.polar.is_none()
             && self.options.dialect != Dialect::Marlin
             && !self.offsets.is_turned()
             && self.compensation.is_none()

@@ -8,6 +8,7 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::settled::settled;
 use crate::execute::motion::speed::{Pace, Speed};
 use crate::syntax::block::Block;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::AXIS_WORDS;
 
 impl Interpreter {
@@ -59,7 +60,8 @@ impl Interpreter {
         out: &mut Vec<Item>,
     ) -> Outcome<()> {
         let all = !block.has_any(AXIS_WORDS);
-        if !all {
+        // The letters of a printer's G28 say which axes go; their numbers mean nothing.
+        if !all && block.dialect != Dialect::Marlin {
             let target = self.target(block)?;
             self.straight(block, target, Pace::Rapid, out)?;
         }

@@ -2,10 +2,13 @@
 
 pub(crate) mod coolant;
 pub(crate) mod course;
+pub(crate) mod fanuc_modal;
+pub(crate) mod fanuc_offsets;
 pub(crate) mod frame;
 pub(crate) mod in_force;
 pub(crate) mod modal;
 pub(crate) mod offsets;
+pub(crate) mod open_corner;
 pub(crate) mod open_spline;
 pub(crate) mod probe_result;
 pub(crate) mod program_state;

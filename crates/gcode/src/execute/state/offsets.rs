@@ -11,6 +11,7 @@
 
 use glidepath_geometry::{AXES, AxisVector, Plane};
 
+use crate::execute::state::fanuc_offsets::FanucOffsets;
 use crate::execute::state::frame::{Frame, PlaneImage};
 use crate::setup::work_offsets::{CoordinateSystem, SYSTEMS, WorkOffsets};
 
@@ -30,6 +31,8 @@ pub(crate) struct Offsets {
     pub(crate) reference: [AxisVector; 2],
     /// What the program has made of its coordinates.
     pub(crate) frame: Frame,
+    /// What FANUC's offsets have besides.
+    pub(crate) fanuc: FanucOffsets,
 }
 
 impl Offsets {
@@ -50,6 +53,7 @@ impl Offsets {
             saved_shift,
             reference,
             frame: Frame::default(),
+            fanuc: FanucOffsets::default(),
         }
     }
 
@@ -65,7 +69,10 @@ impl Offsets {
     }
 
     /// The coordinate system in force.
-    pub(crate) const fn system(&self) -> &CoordinateSystem {
+    pub(crate) fn system(&self) -> &CoordinateSystem {
+        if let Some(extended) = self.fanuc.system() {
+            return extended;
+        }
         // `active` is set from a G5x code; what an operator set up may be anything.
         &self.systems[if self.active < SYSTEMS {
             self.active
@@ -113,12 +120,17 @@ impl Offsets {
 
     /// Machine coordinate of the program's zero on an axis, where nothing is turned.
     pub(crate) fn origin(&self, axis: usize) -> f64 {
-        self.shift[axis] + self.system().origin[axis] + self.tool[axis] + self.frame.shift[axis]
+        self.shift[axis]
+            + self.system().origin[axis]
+            + self.fanuc.external[axis]
+            + self.tool[axis]
+            + self.frame.shift[axis]
     }
 
     pub(crate) fn to_machine(&self, program: AxisVector) -> AxisVector {
         let system = self.system();
-        system.rotate(self.frame.apply(program) + self.shift, 1.0) + (system.origin + self.tool)
+        system.rotate(self.frame.apply(program) + self.shift, 1.0)
+            + (system.origin + self.fanuc.external + self.tool)
     }
 
     pub(crate) fn to_program(&self, machine: AxisVector) -> AxisVector {
@@ -132,7 +144,8 @@ impl Offsets {
     }
 
     fn to_program_in(&self, system: &CoordinateSystem, machine: AxisVector) -> AxisVector {
-        let place = system.rotate(machine - (system.origin + self.tool), -1.0) - self.shift;
+        let origin = system.origin + self.fanuc.external + self.tool;
+        let place = system.rotate(machine - origin, -1.0) - self.shift;
         self.frame.undo(place)
     }
 

@@ -9,18 +9,43 @@ pub(crate) enum Statement {
     Block,
     /// A program number, with the number.
     Label(u32),
+    /// A program with a name: `O<PART>`, `<PART>`.
+    Name,
     If,
     Goto,
     While,
     End,
+    /// A block with a code that calls, or returns.
+    Call(Call),
+    /// DPRNT, BPRNT, POPEN, PCLOS, SETVN: what is printed, and names of variables.
+    Print,
+}
+
+/// Codes that call, or return.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CallCode {
     /// G65.
     Macro,
+    /// G66: a macro behind every move.
+    ModalMacro,
+    /// G66.1: a macro behind every block.
+    MacroOfEachBlock,
+    /// G67.
+    EndModalMacro,
     /// M98.
     Subprogram,
+    /// M97 of Haas: blocks of the same program.
+    Local,
     /// M99.
     Return,
-    /// Look-ahead: always on.
-    LookAhead,
+}
+
+/// A code that calls, and where its word stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Call {
+    pub(crate) code: CallCode,
+    pub(crate) start: usize,
+    pub(crate) end: usize,
 }
 
 /// True if a line, without blanks and in upper case, is of a FANUC program.
@@ -48,10 +73,17 @@ fn digits(text: &[u8]) -> Option<(u32, usize)> {
 pub(crate) fn statement(text: &[u8]) -> (Statement, usize) {
     let at = body(text);
     let rest = text.get(at..).unwrap_or_default();
-    if let [b'O' | b'o' | b':', tail @ ..] = rest
-        && let Some((number, length)) = digits(tail)
-    {
-        return (Statement::Label(number), at + 1 + length);
+    match rest {
+        [b'O' | b'o' | b':', tail @ ..] => {
+            if let Some((number, length)) = digits(tail) {
+                return (Statement::Label(number), at + 1 + length);
+            }
+            if tail.first() == Some(&b'<') {
+                return (Statement::Name, at + 1 + name_length(tail));
+            }
+        }
+        [b'<', ..] => return (Statement::Name, at + name_length(rest)),
+        _ => {}
     }
     for (word, statement) in [
         (&b"IF"[..], Statement::If),
@@ -59,40 +91,76 @@ pub(crate) fn statement(text: &[u8]) -> (Statement, usize) {
         (b"WHILE", Statement::While),
         (b"END", Statement::End),
         (b"DO", Statement::While),
+        (b"DPRNT", Statement::Print),
+        (b"BPRNT", Statement::Print),
+        (b"POPEN", Statement::Print),
+        (b"PCLOS", Statement::Print),
+        (b"SETVN", Statement::Print),
     ] {
         if starts_with_word(rest, word) {
             return (statement, at + word.len());
         }
     }
-    let mut cursor = Cursor::new(text);
-    cursor.seek(at);
-    // The code may stand behind others, as in `G0 G90 G65 P1`: only at the start it is looked for.
-    let letter = cursor.next_visible().map(|byte| byte.to_ascii_uppercase());
-    cursor.advance();
-    let word = matches!(letter, Some(b'G' | b'M'));
-    let number = word.then(|| cursor.literal(at).ok()).flatten();
-    let is = |value: f64| number.is_some_and(|number| (number - value).abs() < 1e-6);
-    let followed_by = |letters: &[u8]| {
-        let mut ahead = cursor;
-        let next = ahead.next_visible().map(|byte| byte.to_ascii_uppercase());
-        next.is_some_and(|next| letters.contains(&next))
-    };
-    let end = cursor.at();
-    match letter {
-        Some(b'G') if is(65.0) => (Statement::Macro, end),
-        Some(b'G') if is(5.1) && followed_by(b"QR") => (Statement::LookAhead, end),
-        Some(b'G') if (is(5.0) || is(8.0)) && followed_by(b"P") => (Statement::LookAhead, end),
-        Some(b'M') if is(98.0) => (Statement::Subprogram, end),
-        Some(b'M') if is(99.0) => (Statement::Return, end),
-        _ => (Statement::Block, at),
+    match call_in(text, at) {
+        Some(call) => (Statement::Call(call), call.end),
+        None => (Statement::Block, at),
     }
+}
+
+/// Bytes of a name in `< >`, the brackets included.
+fn name_length(text: &[u8]) -> usize {
+    let end = text.iter().position(|byte| *byte == b'>');
+    end.map_or(text.len(), |end| end + 1)
+}
+
+/// The first code of a line that calls, outside of comments and brackets.
+fn call_in(text: &[u8], from: usize) -> Option<Call> {
+    let (mut at, mut depth) = (from, 0_u32);
+    while let Some(byte) = text.get(at) {
+        match byte {
+            b'(' | b'[' => depth += 1,
+            b')' | b']' => depth = depth.saturating_sub(1),
+            b';' if depth == 0 => return None,
+            b'G' | b'g' | b'M' | b'm' if depth == 0 => {
+                let mut cursor = Cursor::new(text);
+                cursor.seek(at + 1);
+                if matches!(cursor.next_visible(), Some(b'0'..=b'9'))
+                    && let Ok(number) = cursor.literal(at)
+                    && let Some(code) = call_code(byte.to_ascii_uppercase(), number)
+                {
+                    return Some(Call {
+                        code,
+                        start: at,
+                        end: cursor.at(),
+                    });
+                }
+            }
+            _ => {}
+        }
+        at += 1;
+    }
+    None
+}
+
+fn call_code(letter: u8, number: f64) -> Option<CallCode> {
+    let is = |value: f64| (number - value).abs() < 1e-6;
+    Some(match letter {
+        b'G' if is(65.0) => CallCode::Macro,
+        b'G' if is(66.0) => CallCode::ModalMacro,
+        b'G' if is(66.1) => CallCode::MacroOfEachBlock,
+        b'G' if is(67.0) => CallCode::EndModalMacro,
+        b'M' if is(98.0) => CallCode::Subprogram,
+        b'M' if is(97.0) => CallCode::Local,
+        b'M' if is(99.0) => CallCode::Return,
+        _ => return None,
+    })
 }
 
 /// True if the line has that block number.
 pub(crate) fn is_numbered(text: &[u8], wanted: u32) -> bool {
     let start = text
         .iter()
-        .position(|byte| !matches!(byte, b' ' | b'\t' | b'/'));
+        .position(|byte| !matches!(byte, b' ' | b'\t' | b'/' | b'1'..=b'9'));
     let text = text.get(start.unwrap_or(0)..).unwrap_or_default();
     match text {
         [b'N' | b'n', tail @ ..] => {
@@ -103,7 +171,7 @@ pub(crate) fn is_numbered(text: &[u8], wanted: u32) -> bool {
 }
 
 pub(crate) fn is_label(text: &[u8]) -> bool {
-    matches!(statement(text).0, Statement::Label(_))
+    matches!(statement(text).0, Statement::Label(_) | Statement::Name)
 }
 
 /// True for `DO m` or `END m` of that number; `DO` may stand behind a condition.

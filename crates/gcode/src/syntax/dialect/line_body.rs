@@ -18,7 +18,9 @@ pub(crate) fn body(text: &[u8]) -> usize {
     };
     let mut at = blank(0);
     if text.get(at) == Some(&b'/') {
-        at = blank(at + 1);
+        // FANUC has switches with numbers: `/2`.
+        let switch = usize::from(matches!(text.get(at + 1), Some(b'1'..=b'9')));
+        at = blank(at + 1 + switch);
     }
     let digits = |at: usize| {
         let rest = text.get(at..).unwrap_or_default();

@@ -1,10 +1,12 @@
 //! What the languages of other controls have in the place of RS274/NGC's words.
 
+mod codes;
 pub(crate) mod detect;
 pub(crate) mod fanuc;
 pub(crate) mod line_body;
 pub(crate) mod marlin;
 pub(crate) mod siemens;
+pub(crate) mod words;
 
 /// The language a program is written in.
 ///

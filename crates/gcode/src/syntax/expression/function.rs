@@ -3,7 +3,9 @@
 use crate::diagnostic::fault::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::cursor::Cursor;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::expression::finite::finite;
+use crate::syntax::expression::vacant::or_zero;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Function {
@@ -17,13 +19,19 @@ pub(crate) enum Function {
     Fix,
     Fup,
     Ln,
+    Pow,
     Round,
+    /// Towards zero.
+    Truncate,
+    /// Away from zero.
+    AwayFromZero,
+    Same,
     Sin,
     Sqrt,
     Tan,
 }
 
-pub(crate) const FUNCTIONS: [(&[u8], Function); 14] = [
+const FUNCTIONS: [(&[u8], Function); 14] = [
     (b"ABS", Function::Abs),
     (b"ACOS", Function::Acos),
     (b"ASIN", Function::Asin),
@@ -40,13 +48,37 @@ pub(crate) const FUNCTIONS: [(&[u8], Function); 14] = [
     (b"TAN", Function::Tan),
 ];
 
-/// Value of a function; `second` is the second argument of ATAN. EXISTS is not computed here.
+/// FANUC's functions, longer names before their beginnings.
+const FANUC: [(&[u8], Function); 17] = [
+    (b"ABS", Function::Abs),
+    (b"ACOS", Function::Acos),
+    (b"ADP", Function::Same),
+    (b"ASIN", Function::Asin),
+    (b"ATAN", Function::Atan),
+    (b"COS", Function::Cos),
+    (b"EXP", Function::Exp),
+    (b"FIX", Function::Truncate),
+    (b"FUP", Function::AwayFromZero),
+    (b"LN", Function::Ln),
+    (b"POW", Function::Pow),
+    (b"ROUND", Function::Round),
+    (b"RND", Function::Round),
+    (b"SIN", Function::Sin),
+    (b"SQRT", Function::Sqrt),
+    (b"SQR", Function::Sqrt),
+    (b"TAN", Function::Tan),
+];
+
+/// Value of a function; `second` is the second argument of ATAN and POW, and ROUND rounds to whole
+/// `steps`. EXISTS is not computed here.
 pub(crate) fn evaluate(
     function: Function,
     x: f64,
     second: Option<f64>,
+    steps: f64,
     span: SourceSpan,
 ) -> Outcome<f64> {
+    let (x, second) = (or_zero(x), second.map(or_zero));
     let value = match function {
         Function::Abs => x.abs(),
         Function::Acos => x.acos().to_degrees(),
@@ -58,7 +90,12 @@ pub(crate) fn evaluate(
         Function::Fix => x.floor(),
         Function::Fup => x.ceil(),
         Function::Ln => x.ln(),
+        Function::Pow => x.powf(second.unwrap_or(1.0)),
+        Function::Round if steps < 1.0 => (x / steps).round() * steps,
         Function::Round => x.round(),
+        Function::Truncate => x.trunc(),
+        Function::AwayFromZero => x.abs().ceil().copysign(x),
+        Function::Same => x,
         Function::Sin => x.to_radians().sin(),
         Function::Sqrt => x.sqrt(),
         Function::Tan => x.to_radians().tan(),
@@ -67,8 +104,12 @@ pub(crate) fn evaluate(
 }
 
 /// Skips a function name, if its bracket follows.
-pub(crate) fn function(cursor: &mut Cursor<'_>) -> Option<Function> {
-    FUNCTIONS.into_iter().find_map(|(name, function)| {
+pub(crate) fn function(cursor: &mut Cursor<'_>, dialect: Dialect) -> Option<Function> {
+    let functions: &[(&[u8], Function)] = match dialect {
+        Dialect::Fanuc => &FANUC,
+        _ => &FUNCTIONS,
+    };
+    functions.iter().find_map(|&(name, function)| {
         let mut ahead = *cursor;
         (ahead.eat_word(name) && ahead.next_visible() == Some(b'[')).then(|| {
             *cursor = ahead;

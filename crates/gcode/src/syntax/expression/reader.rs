@@ -4,9 +4,10 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::cursor::Cursor;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::expression::function::{Function, evaluate, function};
 use crate::syntax::expression::name::name;
-use crate::syntax::expression::operator::{OPERATORS, apply};
+use crate::syntax::expression::operator::{apply, operators};
 use crate::syntax::expression::scope::{Parameter, Scope, no_parameter};
 
 /// Deepest nesting of brackets and of `#` of `#`.
@@ -16,6 +17,8 @@ pub(crate) struct Reader<'c, 't, 's> {
     pub(super) cursor: &'c mut Cursor<'t>,
     pub(super) scope: &'s dyn Scope,
     pub(super) depth: u32,
+    /// What FANUC's ROUND rounds to.
+    pub(super) rounds_to: f64,
 }
 
 impl Reader<'_, '_, '_> {
@@ -45,7 +48,7 @@ impl Reader<'_, '_, '_> {
             }
             Some(letter) if letter.is_ascii_alphabetic() => {
                 let start = self.cursor.at();
-                match function(self.cursor) {
+                match function(self.cursor, self.scope.dialect()) {
                     Some(function) => self.call(function, start),
                     None => self.cursor.literal(word),
                 }
@@ -61,12 +64,17 @@ impl Reader<'_, '_, '_> {
         if self.cursor.next_visible() == Some(b'<') {
             let name = name(self.cursor)?;
             self.depth -= 1;
+            if self.scope.dialect() == Dialect::Fanuc {
+                return Err(no_name(SourceSpan::new(start, self.cursor.at())));
+            }
             return Ok(Parameter::Named(name));
         }
         let number = self.primary(start)?;
         self.depth -= 1;
         let nearest = number.round();
-        if (number - nearest).abs() > 1e-4 || !(1.0..=f64::from(u32::MAX)).contains(&nearest) {
+        // FANUC's #0 is the null.
+        let least = f64::from(u8::from(self.scope.dialect() != Dialect::Fanuc));
+        if (number - nearest).abs() > 1e-4 || !(least..=f64::from(u32::MAX)).contains(&nearest) {
             return Err(no_parameter(
                 SourceSpan::new(start, self.cursor.end_of_word()),
                 number,
@@ -85,10 +93,19 @@ impl Reader<'_, '_, '_> {
         let parameter = self.parameter()?;
         let span = SourceSpan::new(start, self.cursor.end_of_word());
         match parameter {
-            Parameter::Numbered(number) => self
-                .scope
-                .numbered(number)
-                .ok_or_else(|| no_parameter(span, f64::from(number))),
+            Parameter::Numbered(number) => match self.scope.refuses(number) {
+                Some(why) => Err(Fault::new(
+                    DiagnosticCode::Parameter,
+                    span,
+                    format!("#{number} cannot be read"),
+                )
+                .because(why)
+                .help("compute what it is for without it")),
+                None => self
+                    .scope
+                    .numbered(number)
+                    .ok_or_else(|| no_parameter(span, f64::from(number))),
+            },
             Parameter::Named(name) => self.scope.named(&name).ok_or_else(|| {
                 Fault::new(
                     DiagnosticCode::Parameter,
@@ -130,10 +147,10 @@ impl Reader<'_, '_, '_> {
             self.cursor.next_visible();
             let start = self.cursor.at();
             let mut ahead = *self.cursor;
-            let found = OPERATORS
-                .into_iter()
+            let found = operators(self.scope.dialect())
+                .iter()
                 .find(|(name, _, _)| ahead.eat_word(name));
-            let Some((_, operator, own)) = found.filter(|(_, _, own)| *own >= strength) else {
+            let Some(&(_, operator, own)) = found.filter(|(_, _, own)| *own >= strength) else {
                 return Ok(left);
             };
             *self.cursor = ahead;
@@ -158,11 +175,15 @@ impl Reader<'_, '_, '_> {
         if function == Function::Exists {
             return self.exists(start);
         }
-        let x = self.bracket()?;
-        let mut second = None;
-        if function == Function::Atan {
+        let (x, mut second) = self.arguments(function)?;
+        let divides = function == Function::Atan && second.is_none();
+        if divides {
             self.cursor.next_visible();
-            if !self.cursor.eat_word(b"/") || self.cursor.next_visible() != Some(b'[') {
+            let mut ahead = *self.cursor;
+            if ahead.eat_word(b"/") && ahead.next_visible() == Some(b'[') {
+                *self.cursor = ahead;
+                second = Some(self.bracket()?);
+            } else if self.scope.dialect() != Dialect::Fanuc {
                 let span = SourceSpan::new(start, self.cursor.at());
                 return Err(
                     Fault::new(DiagnosticCode::Expression, span, "ATAN with one argument")
@@ -170,14 +191,49 @@ impl Reader<'_, '_, '_> {
                         .help("write ATAN[y]/[x]"),
                 );
             }
-            second = Some(self.bracket()?);
         }
-        evaluate(
-            function,
-            x,
-            second,
-            SourceSpan::new(start, self.cursor.at()),
+        let span = SourceSpan::new(start, self.cursor.at());
+        let value = evaluate(function, x, second, self.rounds_to, span)?;
+        let is_full = function == Function::Atan
+            && second.is_some()
+            && self.scope.has_full_arctangent()
+            && value < 0.0;
+        Ok(if is_full { value + 360.0 } else { value })
+    }
+
+    /// The arguments in the brackets of a function: one, or two with a comma between them.
+    fn arguments(&mut self, function: Function) -> Outcome<(f64, Option<f64>)> {
+        let takes_two = self.scope.dialect() == Dialect::Fanuc
+            && matches!(function, Function::Atan | Function::Pow);
+        if !takes_two {
+            return Ok((self.bracket()?, None));
+        }
+        let start = self.cursor.at();
+        self.deeper()?;
+        self.cursor.next_visible();
+        self.cursor.advance();
+        let outer = self.cursor.set_list(true);
+        let x = self.level(1)?;
+        let mut second = None;
+        if self.cursor.next_visible() == Some(b',') {
+            self.cursor.advance();
+            second = Some(self.level(1)?);
+        }
+        self.cursor.set_list(outer);
+        self.depth -= 1;
+        let is_closed = self.cursor.next_visible() == Some(b']');
+        if is_closed && (second.is_some() || function == Function::Atan) {
+            self.cursor.advance();
+            return Ok((x, second));
+        }
+        let span = SourceSpan::new(start, self.cursor.at().max(start + 1));
+        Err(Fault::new(
+            DiagnosticCode::Expression,
+            span,
+            "the arguments of the function are not complete",
         )
+        .because("POW takes two, with a comma between them, and their bracket is closed")
+        .help("write POW[a,b]"))
     }
 
     fn exists(&mut self, start: usize) -> Outcome<f64> {
@@ -199,4 +255,15 @@ impl Reader<'_, '_, '_> {
         .because("only a named parameter can be without a value")
         .help("write EXISTS[#<name>]"))
     }
+}
+
+#[cold]
+fn no_name(span: SourceSpan) -> Box<Fault> {
+    Fault::new(
+        DiagnosticCode::Parameter,
+        span,
+        "a variable with a name in < >",
+    )
+    .because("FANUC's variables have numbers; names in < > are LinuxCNC's")
+    .help("use #100 to #199, or #500 to #999")
 }

@@ -3,6 +3,7 @@
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
+use crate::syntax::dialect::Dialect;
 
 /// Parameters local to a subroutine call, `#1` to `#30`: its arguments at first.
 pub(crate) const LOCALS: usize = 30;
@@ -13,6 +14,27 @@ pub(crate) trait Scope {
     fn numbered(&self, number: u32) -> Option<f64>;
     /// Value of a named parameter; `None`: it has none.
     fn named(&self, name: &str) -> Option<f64>;
+    /// Why the program may not read a numbered parameter, if it may not.
+    fn refuses(&self, _number: u32) -> Option<&'static str> {
+        None
+    }
+    /// Whether the machine's builder declared an M code.
+    fn declares_m(&self, _number: u32) -> bool {
+        false
+    }
+    /// The language whose operators and functions there are.
+    fn dialect(&self) -> Dialect {
+        Dialect::LinuxCnc
+    }
+    /// The least increment of coordinates in the units in force: what FANUC's ROUND in an address
+    /// rounds to.
+    fn least_increment(&self) -> f64 {
+        0.001
+    }
+    /// True where `ATAN[a]/[b]` is from 0 to 360 degrees.
+    fn has_full_arctangent(&self) -> bool {
+        false
+    }
 }
 
 /// The parameter that is meant.

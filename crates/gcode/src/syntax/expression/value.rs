@@ -4,16 +4,27 @@ use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::cursor::{Cursor, MAX_NUMBER};
+use crate::syntax::dialect::Dialect;
 use crate::syntax::expression::function::function;
 use crate::syntax::expression::reader::Reader;
 use crate::syntax::expression::scope::{Parameter, Scope};
 
 /// Reads the value of the word whose letter is at `word`.
 pub(crate) fn value(cursor: &mut Cursor<'_>, word: usize, scope: &dyn Scope) -> Outcome<f64> {
+    word_value(cursor, word, false, scope)
+}
+
+/// As [`value`], of a word that may be a length: ROUND then rounds to the least increment.
+pub(crate) fn word_value(
+    cursor: &mut Cursor<'_>,
+    word: usize,
+    is_length: bool,
+    scope: &dyn Scope,
+) -> Outcome<f64> {
     if matches!(cursor.next_visible(), Some(b'0'..=b'9' | b'.')) {
         return cursor.number(word);
     }
-    if !starts_computed(*cursor) {
+    if !starts_computed(*cursor, scope.dialect()) {
         return cursor.number(word);
     }
     let start = cursor.at();
@@ -21,6 +32,11 @@ pub(crate) fn value(cursor: &mut Cursor<'_>, word: usize, scope: &dyn Scope) -> 
         cursor,
         scope,
         depth: 0,
+        rounds_to: if is_length {
+            scope.least_increment()
+        } else {
+            1.0
+        },
     }
     .primary(word)?;
     in_range(value, start, cursor)
@@ -34,6 +50,7 @@ pub(crate) fn open_expression(cursor: &mut Cursor<'_>, scope: &dyn Scope) -> Out
         cursor,
         scope,
         depth: 0,
+        rounds_to: 1.0,
     }
     .level(1)?;
     in_range(value, start, cursor)
@@ -54,13 +71,13 @@ fn in_range(value: f64, start: usize, cursor: &Cursor<'_>) -> Outcome<f64> {
 }
 
 /// True if what comes next, a sign apart, is a parameter, a bracket or a function.
-fn starts_computed(mut cursor: Cursor<'_>) -> bool {
+fn starts_computed(mut cursor: Cursor<'_>, dialect: Dialect) -> bool {
     while matches!(cursor.next_visible(), Some(b'+' | b'-')) {
         cursor.advance();
     }
     match cursor.next_visible() {
         Some(b'#' | b'[') => true,
-        Some(letter) if letter.is_ascii_alphabetic() => function(&mut cursor).is_some(),
+        Some(letter) if letter.is_ascii_alphabetic() => function(&mut cursor, dialect).is_some(),
         _ => false,
     }
 }
@@ -71,6 +88,7 @@ pub(crate) fn parameter(cursor: &mut Cursor<'_>, scope: &dyn Scope) -> Outcome<P
         cursor,
         scope,
         depth: 0,
+        rounds_to: 1.0,
     }
     .parameter()
 }

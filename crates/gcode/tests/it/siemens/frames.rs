@@ -118,6 +118,37 @@ fn frames_that_are_wrong_are_refused() {
     finds("TRANS RPL=3", &["1:7 not-supported"]);
     finds("ROT A5", &["1:5 not-supported"]);
     finds("TRANS X", &["1:7 missing-number"]);
-    finds("TRANS X5\nG92 X0", &["2:1 not-supported"]);
+    finds("TRANS X5\nG92 X0", &["2:1 unknown-g-code"]);
     finds("LOOP\nASCALE X10\nENDLOOP", &["2:1 invalid-value"; 20]);
+}
+
+#[test]
+fn corners_are_broken_by_their_words() {
+    // An arc of radius 5 behind 15 mm; chamfers by their legs and by their own length.
+    assert_eq!(
+        ends("G1 X20 F100 RND=5\nY20")[..2],
+        [[15.0, 0.0, 0.0], [20.0, 5.0, 0.0]]
+    );
+    assert_eq!(
+        ends("G1 X20 F100 CHR=2\nY20")[..2],
+        [[18.0, 0.0, 0.0], [20.0, 2.0, 0.0]]
+    );
+    let own = ends("G1 X20 F100 CHF=2\nY20");
+    assert!(
+        (own[0][0] - (20.0 - 2.0_f64.sqrt())).abs() < 1e-6,
+        "{own:?}"
+    );
+    // RNDM rounds where two moves meet, and leaves the others.
+    let all = ends("G1 X20 F100 RNDM=4\nY20\nX0\nM8\nG1 X-5 RNDM=0\nX-9");
+    let corner = [
+        [16.0, 0.0, 0.0],
+        [20.0, 4.0, 0.0],
+        [20.0, 16.0, 0.0],
+        [16.0, 20.0, 0.0],
+    ];
+    assert_eq!(all[..4], corner);
+    assert_eq!(
+        all[4..],
+        [[0.0, 20.0, 0.0], [-5.0, 20.0, 0.0], [-9.0, 20.0, 0.0]]
+    );
 }

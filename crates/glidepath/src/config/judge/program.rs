@@ -4,7 +4,10 @@ use super::values::Judge;
 use crate::config::diagnostic::ConfigDiagnostic;
 use crate::config::program::ProgramConfig;
 use crate::config::raw::RawProgram;
-use glidepath_gcode::{Connections, Dialect, WorkOffsets};
+use glidepath_gcode::{
+    Arctangent, Connections, Dialect, FanucControl, FanucParameters, OffsetMemory, PointInput,
+    WorkOffsets,
+};
 use glidepath_geometry::Axis;
 use std::path::PathBuf;
 use toml::Spanned;
@@ -39,7 +42,43 @@ impl Judge {
             ("V", Some(Axis::V)),
             ("W", Some(Axis::W)),
         ];
+        let fanuc = FanucParameters {
+            control: self.choice(
+                "program.fanuc",
+                raw.fanuc,
+                &[
+                    ("auto", None),
+                    ("mill", Some(FanucControl::Mill)),
+                    ("lathe-a", Some(FanucControl::LatheA)),
+                ],
+            ),
+            point: self.choice(
+                "program.point",
+                raw.point,
+                &[
+                    ("unsaid", PointInput::Unsaid),
+                    ("calculator", PointInput::Calculator),
+                    ("increment", PointInput::Increment),
+                ],
+            ),
+            offset_memory: self.choice(
+                "program.offset_memory",
+                raw.offset_memory,
+                &[
+                    ("unsaid", OffsetMemory::Unsaid),
+                    ("A", OffsetMemory::A),
+                    ("C", OffsetMemory::C),
+                    ("haas", OffsetMemory::Haas),
+                ],
+            ),
+            arctangent: self.choice(
+                "program.arctangent",
+                raw.arctangent,
+                &[("0-360", Arctangent::Full), ("signed", Arctangent::Signed)],
+            ),
+        };
         ProgramConfig {
+            fanuc,
             dialect: self.choice("program.dialect", raw.dialect, &dialects),
             tool_table: raw.tool_table.map(|path| path.into_inner().into()),
             tools: None,

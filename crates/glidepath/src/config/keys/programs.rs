@@ -21,6 +21,43 @@ pub(super) const PROGRAM: &[Key] = &[
         "the language of programs; \"auto\": told by a program's beginning",
     ),
     key(
+        "program.fanuc",
+        Takes::Choice {
+            of: &["auto", "mill", "lathe-a"],
+        },
+        LeftOut::Value("\"auto\""),
+        "what a FANUC or Haas control is made for; \"auto\": a lathe (system A) on a machine with X and Z \
+         and without Y, else a mill (parameter 3401#6)",
+    ),
+    key(
+        "program.point",
+        Takes::Choice {
+            of: &["unsaid", "calculator", "increment"],
+        },
+        LeftOut::Value("\"unsaid\""),
+        "what a coordinate without a decimal point is on a FANUC control (parameter 3401#0): \
+         \"calculator\": X1000 is 1000 mm; \"increment\": it is 1 mm; \"unsaid\": up to 999 it is \
+         read as mm, above it is refused",
+    ),
+    key(
+        "program.offset_memory",
+        Takes::Choice {
+            of: &["unsaid", "A", "C", "haas"],
+        },
+        LeftOut::Value("\"unsaid\""),
+        "how a FANUC control divides the memory of tool offsets (parameter 6000#3), which says what \
+         #2001 to #2800 are; \"unsaid\": they are refused",
+    ),
+    key(
+        "program.arctangent",
+        Takes::Choice {
+            of: &["0-360", "signed"],
+        },
+        LeftOut::Value("\"0-360\""),
+        "the range of ATAN[a]/[b] on a FANUC control (parameter 6004#0): 0 to 360 degrees, or \
+         -180 to 180",
+    ),
+    key(
         "program.tool_table",
         Takes::Text {
             rule: "a file, beside the configuration or with its full path",

@@ -6,6 +6,8 @@
 //! | `X=AC(…)`, `X=IC(…)`, `I=AC(…)` | the same place by `X` or `I` in the mode in force |
 //! | `R5=expression`, `NAME=expression` | `#1005=[value]`, `#<def.name>=[value]` |
 //! | `CR=`, `TURN=n` | `R`, `P` of n + 1 |
+//! | `RND=`, `CHR=`, `CHF=`, `RNDM=` | `,R`, `,C`, `,L`, `,M` |
+//! | `TRAORI`, `TRAFOOF` | `G43.4`, `G43.5` |
 //! | `CYCLE832(tolerance, …)` | `G64 P` of the tolerance |
 //! | `G641 ADIS=d`, `G642` … `G645` | `G64 P` of d, `G64` |
 //! | `G60` | `G61.1` |

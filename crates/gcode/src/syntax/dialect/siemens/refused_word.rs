@@ -5,12 +5,7 @@ use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 
 /// What is known of the language, and not read here.
-const REFUSED: [(&[u8], &str, &str); 25] = [
-    (
-        b"TRAORI",
-        "tool orientation",
-        "let the CAM system write the positions of the axes",
-    ),
+const REFUSED: [(&[u8], &str, &str); 24] = [
     (
         b"CYCLE840",
         "tapping with a compensating chuck",

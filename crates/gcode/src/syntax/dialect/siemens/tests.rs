@@ -159,7 +159,7 @@ fn what_has_no_value_is_refused() {
 fn what_is_not_read_is_refused_with_the_word() {
     for (text, start, length) in [
         ("G1 X=DC(5)", 5, 2),
-        ("N10 TRAORI", 4, 6),
+        ("N10 TRACYL", 4, 6),
         ("G1 X1 G500", 6, 4),
         ("N5 HOLES2(1,2)", 3, 6),
         ("OTHER=5", 0, 5),
@@ -182,12 +182,12 @@ fn what_is_not_read_is_refused_with_the_word() {
 
 #[test]
 fn places_lead_back_to_the_line() {
-    let rewritten = rewritten("G1 X=R1+5 Q7").expect("it can be read");
+    let rewritten = rewritten("G1 X=R1+5 H7").expect("it can be read");
     let at = rewritten
         .text
         .iter()
-        .position(|byte| *byte == b'Q')
-        .expect("Q");
+        .position(|byte| *byte == b'H')
+        .expect("H");
     assert_eq!(
         rewritten.origin(SourceSpan::new(at, at + 2)),
         SourceSpan::new(10, 12)

@@ -3,11 +3,14 @@
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::line_body::body;
 use crate::syntax::dialect::siemens::expression::{Evaluator, Names};
 use crate::syntax::dialect::siemens::refused_word::unknown;
 use crate::syntax::dialect::siemens::rewritten::Rewritten;
 use crate::syntax::dialect::siemens::variables::Kind;
+use crate::syntax::dialect::words::siemens::{self as words, ADDRESSES};
+use crate::syntax::dialect::words::{Meaning, no_g, no_m, refused};
 use crate::syntax::expression::scope::Parameter;
 use crate::syntax::letters::AXIS_LETTERS;
 use crate::syntax::word_check::missing;
@@ -15,7 +18,7 @@ use crate::syntax::word_check::missing;
 /// Words without effect on where and how fast the tool goes here: look-ahead and feed forward are
 /// always on, every acceleration is limited in jerk, and dense chords are merged within the
 /// tolerance.
-const NO_EFFECT: [&[u8]; 15] = [
+const NO_EFFECT: [&[u8]; 12] = [
     b"SOFT",
     b"FFWON",
     b"FFWOF",
@@ -27,9 +30,6 @@ const NO_EFFECT: [&[u8]; 15] = [
     b"UPATH",
     b"SPATH",
     b"STOPRE",
-    b"G601",
-    b"G602",
-    b"G603",
     b"FIFOCTRL",
 ];
 
@@ -48,6 +48,38 @@ pub(crate) fn rewrite(text: &[u8], names: Names<'_>) -> Outcome<Rewritten> {
     }
     writer.line()?;
     Ok(writer.out)
+}
+
+/// The number that digits write.
+fn number_of(digits: &[u8]) -> Option<u32> {
+    core::str::from_utf8(digits).ok()?.parse().ok()
+}
+
+#[cold]
+fn foreign(byte: u8, at: usize) -> Box<Fault> {
+    let (span, shown) = (SourceSpan::new(at, at + 1), char::from(byte));
+    let message = format!("`{shown}` has no meaning here");
+    let (why, help) = match byte {
+        b'(' => (
+            "a comment begins with `;` in SINUMERIK's language",
+            "write the comment behind `;`",
+        ),
+        _ => (
+            "variables are R parameters, and those that DEF declares",
+            "read the program in the language it is from: --dialect",
+        ),
+    };
+    Fault::new(DiagnosticCode::BadCharacter, span, message)
+        .because(why)
+        .help(help)
+}
+
+#[cold]
+fn no_address(letter: char, span: SourceSpan) -> Box<Fault> {
+    let message = format!("{letter} is no address of SINUMERIK's language");
+    Fault::new(DiagnosticCode::UnknownWord, span, message)
+        .because("on other controls it has several meanings, and here none")
+        .help("remove it; a radius is CR=, a dwell G4 F")
 }
 
 struct Writer<'a> {
@@ -75,6 +107,9 @@ impl Writer<'_> {
             match byte {
                 b';' => break,
                 b'A'..=b'Z' | b'_' | b'$' => self.word(dwell)?,
+                b'#' | b'@' | b'^' | b'(' | b'<' | b'[' => {
+                    return Err(foreign(byte, self.input.at));
+                }
                 _ => self.copy(),
             }
         }
@@ -131,10 +166,19 @@ impl Writer<'_> {
                 self.input.at = self.input.text.len();
                 Ok(())
             }
+            (b"TRAORI", false) => self.orientation(start, length),
+            (b"TRAFOOF", false) => {
+                self.replace(start, length, b"G43.5");
+                Ok(())
+            }
             (b"RET", false) => {
                 self.replace(start, length, b"M2");
                 Ok(())
             }
+            (b"RND", true) => self.value_of(start, length, b",R", 0.0),
+            (b"RNDM", true) => self.value_of(start, length, b",M", 0.0),
+            (b"CHR", true) => self.value_of(start, length, b",C", 0.0),
+            (b"CHF", true) => self.value_of(start, length, b",L", 0.0),
             (b"ADIS", true) => self.value_of(start, length, b"P", 0.0),
             (b"CR", true) => self.value_of(start, length, b"R", 0.0),
             (b"TURN", true) => self.value_of(start, length, b"P", 1.0),
@@ -142,6 +186,28 @@ impl Writer<'_> {
             ([_], false) => self.address(start, length, &name, dwell),
             _ => Err(unknown(&name, SourceSpan::new(start, start + length))),
         }
+    }
+
+    /// `TRAORI`, `TRAORI(1)`.
+    fn orientation(&mut self, start: usize, length: usize) -> Outcome<()> {
+        self.replace(start, length, b"G43.4");
+        if self.input.peek(0) == Some(b'(') {
+            let arguments = self.input.arguments()?;
+            let is_first = arguments
+                .iter()
+                .flatten()
+                .all(|number| (number - 1.0).abs() < 1e-9);
+            if !is_first {
+                let span = SourceSpan::new(start, self.input.at);
+                return Err(refused(
+                    "TRAORI",
+                    "another transformation than the first",
+                    "write TRAORI(1)",
+                    span,
+                ));
+            }
+        }
+        Ok(())
     }
 
     /// True if an equals sign stands behind the name of that length.
@@ -179,45 +245,82 @@ impl Writer<'_> {
         self.input.at = start + length;
     }
 
-    /// A letter and its number, as in RS274/NGC, but for some codes.
+    /// A letter and its number: a code of the tables, or an address that this language has.
     fn address(&mut self, start: usize, length: usize, name: &[u8], dwell: bool) -> Outcome<()> {
-        let with: &[u8] = match name {
-            b"G641" | b"G642" | b"G643" | b"G644" | b"G645" => b"G64",
-            b"G60" => b"G61.1",
-            b"G71" | b"G710" => b"G21",
-            b"G700" => b"G20",
-            b"M17" => b"M2",
-            b"G70" | b"G9" | b"G500" | [b'L', _, ..] => {
-                let (what, help) = match name {
-                    [b'L', ..] => ("a subprogram", "copy its blocks to where it is called"),
-                    b"G70" => ("inches for lengths, millimetres for feeds", "write G700"),
-                    b"G9" => ("exact stop in one block", "write G60, and G64 behind it"),
-                    _ => ("no coordinate system", "write G54 to G57"),
-                };
-                let shown = String::from_utf8_lossy(name).into_owned();
-                let span = SourceSpan::new(start, start + length);
-                return Err(Fault::new(
-                    DiagnosticCode::NotSupported,
+        let span = SourceSpan::new(start, start + length);
+        let number = name.get(1..).and_then(number_of);
+        match (name, number) {
+            ([b'G', ..], Some(number)) => return self.g_code(span, number),
+            ([b'M', ..], Some(number)) => return self.m_code(span, number),
+            ([b'F', ..], _) if dwell => self.replace(start, 1, b"P"),
+            ([b'L', _, ..], _) => {
+                return Err(refused(
+                    &String::from_utf8_lossy(name),
+                    "a subprogram",
+                    "copy its blocks to where it is called",
                     span,
-                    format!("{shown} ({what}) is not supported"),
-                )
-                .because("skipping it would make another motion than the program's")
-                .help(help));
+                ));
             }
-            [b'F', ..] if dwell => {
-                self.replace(start, 1, b"P");
+            ([letter, ..], _) if !ADDRESSES.contains(letter) => {
+                return Err(no_address(char::from(*letter), span));
+            }
+            _ => self.copy(),
+        }
+        // The number is copied as it is: it may go on with a point.
+        while matches!(self.input.peek(0), Some(b'0'..=b'9' | b'.' | b'-' | b'+')) {
+            self.copy();
+        }
+        Ok(())
+    }
+
+    fn g_code(&mut self, span: SourceSpan, number: u32) -> Outcome<()> {
+        let length = span.length;
+        let has_point = self.input.peek(length) == Some(b'.');
+        let meaning = words::g(number).filter(|_| !has_point);
+        let with: &[u8] = match (meaning, number) {
+            (Some(Meaning::Own), 641..=645) => b"G64",
+            (Some(Meaning::Own), 9) => b"G9",
+            (Some(Meaning::Own), 60) => b"G61.1",
+            (Some(Meaning::Own), 71 | 710) => b"G21",
+            (Some(Meaning::Own), 700) => b"G20",
+            (Some(Meaning::Own), _) => {
+                let what = "inches for lengths, millimetres for feeds";
+                return Err(refused(&format!("G{number}"), what, "write G700", span));
+            }
+            (Some(Meaning::ReadOver), _) => b"",
+            (Some(Meaning::Shared), _) => {
+                self.replace(span.start, 0, format!("G{number}").as_bytes());
+                self.input.at = span.start + length;
                 return Ok(());
+            }
+            (Some(Meaning::Refused(what, help)), _) => {
+                return Err(refused(&format!("G{number}"), what, help, span));
+            }
+            (None, _) => return Err(no_g(Dialect::Siemens, f64::from(number), span)),
+        };
+        self.replace(span.start, length, with);
+        Ok(())
+    }
+
+    fn m_code(&mut self, span: SourceSpan, number: u32) -> Outcome<()> {
+        let meaning = words::m(number);
+        let is_declared = self.names.scope.declares_m(number);
+        match meaning {
+            Some(Meaning::Own) => self.replace(span.start, span.length, b"M2"),
+            Some(Meaning::ReadOver) if !is_declared => {
+                self.replace(span.start, span.length, b"");
+            }
+            Some(Meaning::Refused(what, help)) if !is_declared => {
+                return Err(refused(&format!("M{number}"), what, help, span));
+            }
+            None if !is_declared => {
+                return Err(no_m(Dialect::Siemens, f64::from(number), span));
             }
             _ => {
-                // The number is copied as it is: it may go on with a point.
-                self.copy();
-                while matches!(self.input.peek(0), Some(b'0'..=b'9' | b'.' | b'-' | b'+')) {
-                    self.copy();
-                }
-                return Ok(());
+                self.replace(span.start, 0, format!("M{number}").as_bytes());
+                self.input.at = span.start + span.length;
             }
-        };
-        self.replace(start, length, with);
+        }
         Ok(())
     }
 

@@ -1,4 +1,4 @@
-//! FANUC's subprograms: G65, M98 and M99.
+//! FANUC's subprograms: G65, G66, M97, M98 and M99.
 //!
 //! A subprogram is looked for in the text of its caller, from its O number to M99 or M30, then in
 //! the program itself, then in a file: program 20 in `O0020`, `O20` or `20`, as it is or with `.nc`
@@ -12,25 +12,19 @@ use std::sync::Arc;
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::fanuc::arguments::CallWords;
+use crate::execute::dialect::macro_call::Arguments;
 use crate::execute::dialect::tape::{SubprogramCall, TapeLine, TapePlace};
 use crate::execute::flow::activation::MAX_CALLS;
 use crate::execute::flow::load::unusable;
 use crate::execute::line_origin::{LineOrigin, SourceLine};
 use crate::execute::program::{Program, is_percent};
 use crate::setup::subroutine_file::{NoSubroutineFile, NotTaken, SubroutineFile, Subroutines};
-use crate::syntax::bad_byte::bad_byte;
 use crate::syntax::cursor::Cursor;
-use crate::syntax::dialect::fanuc::{Statement, statement};
-use crate::syntax::dialect::line_body::body;
-use crate::syntax::expression::scope::LOCALS;
+use crate::syntax::dialect::fanuc::{Call, CallCode, Statement, is_numbered, statement};
 use crate::syntax::expression::value::value;
 use crate::syntax::line_source::LineSource;
-use crate::syntax::word_check::{missing, unused};
-
-/// Parameters of the letters of G65, by letter from A; zero: not an argument.
-const ARGUMENTS: [usize; 26] = [
-    1, 2, 3, 7, 8, 9, 0, 11, 4, 5, 6, 0, 13, 0, 0, 0, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26,
-];
+use crate::syntax::word_check::missing;
 
 /// The files that program may be in, in the order in which they are looked for.
 fn file_names(program: u32) -> impl Iterator<Item = String> {
@@ -70,45 +64,55 @@ fn find(subroutines: &Subroutines, program: u32) -> Result<SubroutineFile, NotTa
 }
 
 impl<R: BufRead> Program<R> {
-    /// G65 and M98.
-    pub(super) fn fanuc_call(&mut self, text: &[u8], at: usize, is_macro: bool) -> Outcome<()> {
-        let span = SourceSpan::new(body(text), at);
-        let mut arguments = [0.0; LOCALS];
-        let (mut program, mut turns) = (None, 1);
-        let mut cursor = Cursor::new(text);
-        cursor.seek(at);
-        while let Some(byte) = cursor.next_visible() {
-            let start = cursor.at();
-            let letter = byte.to_ascii_uppercase();
-            match letter {
-                b';' => break,
-                b'(' => {
-                    cursor.skip_comment()?;
-                    continue;
-                }
-                b'A'..=b'Z' => cursor.advance(),
-                _ => return Err(bad_byte(text, start)),
+    /// The codes that call, and M99.
+    pub(super) fn fanuc_call(&mut self, text: &[u8], call: Call) -> Outcome<bool> {
+        let span = SourceSpan::new(call.start, call.end);
+        match call.code {
+            CallCode::Return => return self.fanuc_return(text, call),
+            CallCode::EndModalMacro => {
+                self.end_modal_macro();
+                return self.nothing_behind(text, call.end).map(|()| true);
             }
-            let argument = value(&mut cursor, start, &self.scope())?;
-            let slot = ARGUMENTS[usize::from(letter - b'A')];
-            match letter {
-                b'P' => program = Some(self.fanuc_number(text, start + 1, false)?),
-                b'L' | b'K' if !is_macro || letter == b'L' => {
-                    turns = self.fanuc_number(text, start + 1, false)?;
-                }
-                _ if is_macro && slot > 0 => arguments[slot - 1] = argument,
-                _ => {
-                    let span = SourceSpan::new(start, cursor.end_of_word());
-                    return Err(unused(char::from(letter), span));
-                }
+            CallCode::MacroOfEachBlock => {
+                let message = "G66.1 (a macro behind every block) is not supported";
+                return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                    .because("its blocks are arguments, and not words")
+                    .help("write G65 in their place"));
             }
+            CallCode::Macro | CallCode::ModalMacro | CallCode::Subprogram | CallCode::Local => {}
         }
-        let Some(program) = program else {
+        let is_macro = matches!(call.code, CallCode::Macro | CallCode::ModalMacro);
+        let words = self.call_words(text, call.end, is_macro)?;
+        let Some(program) = words.program else {
             return Err(missing(span, "the call", "P", "the program's number"));
         };
-        let first = self.fanuc_program(program, span)?;
+        if call.code == CallCode::Local {
+            let first = self.fanuc_block_numbered(program, span)?;
+            return self
+                .enter_subprogram(first, words.turns, None)
+                .map(|()| true);
+        }
+        let (first, turns) = self.fanuc_program_and_turns(program, &words, span)?;
+        if call.code == CallCode::ModalMacro {
+            return self
+                .begin_modal_macro(first, turns, words.arguments, span)
+                .map(|()| true);
+        }
+        let arguments = is_macro.then_some(&words.arguments);
+        self.enter_subprogram(first, turns, arguments)
+            .map(|()| true)
+    }
+
+    /// Goes to a subprogram, with arguments of its own or with the parameters of its caller.
+    pub(super) fn enter_subprogram(
+        &mut self,
+        first: TapePlace,
+        turns: u32,
+        arguments: Option<&Arguments>,
+    ) -> Outcome<()> {
         if self.tape.calls.len() >= MAX_CALLS {
             let message = format!("more than {MAX_CALLS} calls in each other");
+            let span = SourceSpan::default();
             return Err(Fault::new(DiagnosticCode::CallDepth, span, message)
                 .because("the depth of calls is bounded")
                 .help("check what should end the recursion"));
@@ -121,13 +125,45 @@ impl<R: BufRead> Program<R> {
             back: self.tape.place(),
             called_from: self.line_of_program(),
             again: turns - 1,
-            own_parameters: is_macro,
+            own_parameters: arguments.is_some(),
         });
         self.tape.go_to(first);
-        if is_macro {
-            self.parameters.enter(&arguments);
+        if let Some(arguments) = arguments {
+            self.parameters.enter(arguments);
         }
         Ok(())
+    }
+
+    /// The block of that number in the text that is executed: M97.
+    fn fanuc_block_numbered(&mut self, number: u32, span: SourceSpan) -> Outcome<TapePlace> {
+        let text = self.tape.place().text;
+        let wanted = |line: &[u8]| is_numbered(line, number);
+        let line = self.tape.search(0, &mut self.source, wanted, |_| false)?;
+        line.map(|line| TapePlace { text, line }).ok_or_else(|| {
+            let message = format!("there is no block N{number} in the program");
+            Fault::new(DiagnosticCode::UnknownSubroutine, span, message)
+                .because("M97 calls blocks of the same program, from that number to M99")
+                .help("add the block number, or write M98 for another program")
+        })
+    }
+
+    /// Where a program begins, and how often it runs: of a number with more than four digits the
+    /// first ones count repetitions where there is no such program.
+    fn fanuc_program_and_turns(
+        &mut self,
+        program: u32,
+        words: &CallWords,
+        span: SourceSpan,
+    ) -> Outcome<(TapePlace, u32)> {
+        let found = self.fanuc_program(program, span);
+        let (turns, number) = (program / 10_000, program % 10_000);
+        if found.is_ok() || turns == 0 || number == 0 || words.says_turns || words.is_macro {
+            return found.map(|place| (place, words.turns));
+        }
+        match self.fanuc_program(number, span) {
+            Ok(place) => Ok((place, turns)),
+            Err(_) => found.map(|place| (place, words.turns)),
+        }
     }
 
     /// Where that program begins: its first line.
@@ -221,20 +257,43 @@ impl<R: BufRead> Program<R> {
         Err(fault)
     }
 
-    /// M99: back to the caller, or the end of the program.
-    pub(super) fn fanuc_return(&mut self, text: &[u8], at: usize) -> Outcome<bool> {
+    /// Refuses words behind a statement.
+    fn nothing_behind(&self, text: &[u8], at: usize) -> Outcome<()> {
         let mut cursor = Cursor::new(text);
         cursor.seek(at);
-        if !matches!(cursor.next_visible(), None | Some(b'(' | b';' | b'%')) {
-            let span = SourceSpan::new(cursor.at(), text.len());
-            return Err(Fault::new(DiagnosticCode::NotSupported, span, "words behind M99")
-                .because("a return leads to behind the call, and a program that repeats itself never ends")
-                .help("write M99 alone; use GOTO inside the caller"));
+        if matches!(cursor.next_visible(), None | Some(b'(' | b';' | b'%')) {
+            return Ok(());
         }
+        let span = SourceSpan::new(cursor.at(), text.len());
+        Err(Fault::new(
+            DiagnosticCode::NotSupported,
+            span,
+            "words behind M99 or G67",
+        )
+        .because("they end a subprogram or a macro, and take no words but P")
+        .help("write them into a block of their own"))
+    }
+
+    /// M99: back to the caller, to behind the call or to the block that P names.
+    fn fanuc_return(&mut self, text: &[u8], code: Call) -> Outcome<bool> {
+        let mut cursor = Cursor::new(text);
+        cursor.seek(code.end);
+        let mut target = None;
+        if matches!(cursor.next_visible(), Some(b'P' | b'p')) {
+            let start = cursor.at();
+            cursor.advance();
+            target = Some((self.fanuc_number(text, start + 1, false)?, start));
+            value(&mut cursor, start, &self.scope())?;
+        }
+        self.nothing_behind(text, cursor.at())?;
         let Some(call) = self.tape.calls.last_mut() else {
-            return self.end_of_input();
+            let span = SourceSpan::new(code.start, code.end);
+            let message = "M99 in the program itself, which would begin it again";
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("a program that repeats itself never ends")
+                .help("write M30; start the program again for the next part"));
         };
-        if call.again > 0 {
+        if call.again > 0 && target.is_none() {
             call.again -= 1;
             let first = call.first;
             self.tape.go_to(first);
@@ -245,6 +304,9 @@ impl<R: BufRead> Program<R> {
         self.tape.go_to(call.back);
         if call.own_parameters {
             self.parameters.leave(None);
+        }
+        if let Some((target, at)) = target {
+            self.fanuc_go_to(call.back.line.saturating_sub(1), target, at)?;
         }
         Ok(true)
     }

@@ -1,23 +1,20 @@
-//! FANUC: macro B statements, subprograms, and the words that are read otherwise.
-//!
-//! ```text
-//! IF [cond] GOTO n · IF [cond] THEN #i = value · GOTO n · WHILE [cond] DO m … END m
-//! G65 P n arguments · M98 P n L k · M99
-//! ```
+//! Lines of a FANUC program: macro statements and jumps.
 //!
 //! A jump looks for its block number from the next line to the end of the program, then from its
-//! beginning. Where subprograms are is in [`super::fanuc_call`].
+//! beginning. Where subprograms are is in [`super::call`].
 
 use std::io::BufRead;
 
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
-use crate::execute::dialect::fanuc_call::not_returned;
-use crate::execute::program::Program;
+use crate::execute::dialect::fanuc::call::not_returned;
+use crate::execute::program::{Program, is_percent};
+use crate::execute::scope::ProgramScope;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::fanuc::{Statement, is_label, is_loop, is_numbered, statement};
 use crate::syntax::dialect::line_body::{body, starts_with_word};
+use crate::syntax::expression::vacant::or_zero;
 use crate::syntax::expression::value::value;
 
 /// The text with blanks in the place of its first bytes, which keeps the columns of the rest.
@@ -25,6 +22,46 @@ fn without_head(text: &[u8], length: usize) -> Vec<u8> {
     let mut rest = vec![b' '; length];
     rest.extend_from_slice(text.get(length..).unwrap_or_default());
     rest
+}
+
+/// Most lines in front of the first percent sign.
+const MOST_LEADER: usize = 200;
+
+/// True for a line that begins as a block or a statement does, or with a comment.
+fn is_block(text: &[u8]) -> bool {
+    match text.trim_ascii() {
+        [b'(' | b'/' | b'#' | b':' | b'<', ..] => true,
+        [letter, rest @ ..] if letter.is_ascii_alphabetic() => {
+            let next = rest.iter().find(|byte| !byte.is_ascii_whitespace());
+            let is_word =
+                next.is_some_and(|byte| byte.is_ascii_digit() || b"+-.#[<".contains(byte));
+            is_word || !matches!(statement(text).0, Statement::Block)
+        }
+        _ => false,
+    }
+}
+
+/// The text up to the first `/` that is in no brackets.
+fn without_deleted(text: &[u8]) -> &[u8] {
+    let mut depth = 0_u32;
+    let deleted = text.iter().position(|byte| {
+        match byte {
+            b'(' | b'[' => depth += 1,
+            b')' | b']' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        *byte == b'/' && depth == 0
+    });
+    // What is divided without brackets is no switch.
+    let is_assignment = text.contains(&b'=');
+    match deleted {
+        Some(at)
+            if !is_assignment || text.get(..at).unwrap_or_default().trim_ascii().is_empty() =>
+        {
+            text.get(..at).unwrap_or_default()
+        }
+        _ => text,
+    }
 }
 
 fn fault(span: SourceSpan, message: impl Into<String>) -> Box<Fault> {
@@ -35,6 +72,9 @@ fn fault(span: SourceSpan, message: impl Into<String>) -> Box<Fault> {
 impl<R: BufRead> Program<R> {
     /// Reads and executes the next line; false at the end.
     pub(crate) fn read_fanuc(&mut self) -> Outcome<bool> {
+        if self.source.number() == 0 {
+            self.skip_leader()?;
+        }
         if !self.tape.advance(&mut self.source)? {
             return self.fanuc_end();
         }
@@ -47,22 +87,42 @@ impl<R: BufRead> Program<R> {
         if self.tape.is_again() {
             self.count_idle().inspect_err(|_| self.end())?;
         }
-        if self.interpreter.options.block_delete && text.trim_ascii_start().starts_with(b"/") {
-            return Ok(true);
+        // Nearly all lines of a long program are plain.
+        if self.block.parse_plain_fanuc(&text) {
+            return self.fanuc_block(number, Ok(()));
         }
+        let text = if self.interpreter.options.block_delete {
+            match without_deleted(&text) {
+                [] => return Ok(true),
+                text => text.into(),
+            }
+        } else {
+            text
+        };
         let (statement, at) = statement(&text);
         match statement {
-            Statement::Block => return self.execute_text(number, &text),
-            Statement::Label(_) if !self.tape.calls.is_empty() => {
+            Statement::Block => return self.fanuc_text(number, &text),
+            Statement::Label(_) | Statement::Name if !self.tape.calls.is_empty() => {
                 self.end();
                 return Err(not_returned(&text));
             }
-            Statement::Label(_) => return self.execute_text(number, &without_head(&text, at)),
+            Statement::Label(_) | Statement::Name => {
+                return self.fanuc_text(number, &without_head(&text, at));
+            }
             Statement::If => {
                 if let Some(then) = self.fanuc_if(&text, at).inspect_err(|_| self.end())? {
-                    return self.execute_text(number, &without_head(&text, then));
+                    return self.fanuc_text(number, &without_head(&text, then));
                 }
             }
+            // Other words of the block come first.
+            Statement::Call(call) => {
+                let head = text.get(..call.start).unwrap_or_default();
+                if body(head) < head.trim_ascii_end().len() {
+                    self.execute_text(number, head)?;
+                }
+                return self.fanuc_call(&text, call).inspect_err(|_| self.end());
+            }
+            Statement::Print => {}
             // What follows depends on it, so a diagnostic ends the program.
             _ => {
                 return self
@@ -71,6 +131,45 @@ impl<R: BufRead> Program<R> {
             }
         }
         Ok(true)
+    }
+
+    /// Passes over the text in front of the first percent sign, which is no part of the program:
+    /// lines of which none begins as a block does, and behind the sign there are more.
+    fn skip_leader(&mut self) -> Outcome<()> {
+        let mut index = 0;
+        while index < MOST_LEADER && self.tape.reach(index, &mut self.source)? {
+            let text = self.tape.get(index).map_or(&[][..], |(_, text)| text);
+            if is_percent(text) {
+                if index > 0 && self.tape.reach(index + 1, &mut self.source)? {
+                    self.tape.next = index;
+                }
+                return Ok(());
+            }
+            if is_block(text) {
+                return Ok(());
+            }
+            index += 1;
+        }
+        Ok(())
+    }
+
+    /// Executes a text as a block, and the macro that is called behind it.
+    fn fanuc_text(&mut self, number: u32, text: &[u8]) -> Outcome<bool> {
+        self.interpreter.line = number;
+        let scope = ProgramScope {
+            parameters: &self.parameters,
+            interpreter: &self.interpreter,
+        };
+        let parsed = self.block.parse(text, &scope);
+        self.fanuc_block(number, parsed)
+    }
+
+    fn fanuc_block(&mut self, number: u32, parsed: Outcome<()>) -> Outcome<bool> {
+        let goes_on = self.execute_parsed(number, parsed)?;
+        if goes_on && self.modal_macro.is_some() && !self.ended {
+            self.call_modal_macro()?;
+        }
+        Ok(goes_on)
     }
 
     /// Executes a statement other than IF.
@@ -102,11 +201,7 @@ impl<R: BufRead> Program<R> {
                 })?;
                 self.tape.jump(index, number, start);
             }
-            Statement::Macro | Statement::Subprogram => {
-                self.fanuc_call(text, at, statement == Statement::Macro)?;
-            }
-            Statement::Return => return self.fanuc_return(text, at),
-            Statement::Block | Statement::Label(_) | Statement::If | Statement::LookAhead => {}
+            _ => {}
         }
         Ok(true)
     }
@@ -145,7 +240,7 @@ impl<R: BufRead> Program<R> {
             )
             .help("write it in brackets: [#1 EQ 2]"));
         }
-        let holds = value(&mut cursor, at, &self.scope())? != 0.0;
+        let holds = or_zero(value(&mut cursor, at, &self.scope())?) != 0.0;
         cursor.next_visible();
         Ok((holds, cursor.at()))
     }
@@ -208,7 +303,7 @@ impl<R: BufRead> Program<R> {
         Ok(())
     }
 
-    fn fanuc_go_to(&mut self, index: usize, number: u32, at: usize) -> Outcome<()> {
+    pub(super) fn fanuc_go_to(&mut self, index: usize, number: u32, at: usize) -> Outcome<()> {
         if let Some(block) = self.tape.known_jump(index, number) {
             self.tape.next = block;
             return Ok(());

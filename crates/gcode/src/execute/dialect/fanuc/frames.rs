@@ -1,0 +1,172 @@
+//! G51, G51.1 and G68: scale, mirror image and turn of the program's coordinates.
+//!
+//! The machine stays where it is; the next block gives places in the new coordinates.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::execute::interpreter::Interpreter;
+use crate::execute::state::fanuc_offsets::{Scale, Turn};
+use crate::syntax::block::Block;
+use crate::syntax::codes::{Coded, FrameCode};
+use crate::syntax::modes::Distance;
+use crate::syntax::word_check::missing;
+
+/// Factors beyond this, or below one over it, are refused.
+const MAX_SCALE: f64 = 1000.0;
+/// What a P without a point counts.
+const STEP: f64 = 0.001;
+
+impl Interpreter {
+    /// G50, G51, G50.1, G51.1, G68, G69.
+    pub(super) fn fanuc_frame(&mut self, block: &Block) -> Outcome<()> {
+        let Some(coded) = block.codes.frame else {
+            return Ok(());
+        };
+        let state = &self.state;
+        let before = self.offsets.fanuc.frames;
+        let frames = self.offsets.fanuc.frames;
+        let ends = !matches!(
+            coded.code,
+            FrameCode::Scale(true) | FrameCode::Mirror(true) | FrameCode::Turn(true)
+        );
+        let mut frames = frames;
+        match coded.code {
+            FrameCode::Scale(true) => frames.scale = Some(self.scale_words(block, coded)?),
+            FrameCode::Scale(false) => frames.scale = None,
+            FrameCode::Mirror(begins) => {
+                self.mirror_words(block, coded, begins, &mut frames.mirror)?;
+            }
+            FrameCode::Turn(true) => frames.turn = Some(self.turn_words(block, coded)?),
+            FrameCode::Turn(false) => frames.turn = None,
+        }
+        if frames == before && ends {
+            return Ok(());
+        }
+        if state.on_contour || state.leaving_contour {
+            let message = "coordinates that change with cutter radius compensation on";
+            return Err(Fault::new(DiagnosticCode::CutterRadius, coded.span, message)
+                .because("the tool stands beside the programmed point, at a place that depends on the next move")
+                .help("write G40 and a move before it"));
+        }
+        self.offsets.fanuc.frames = frames;
+        self.offsets.frame = frames.frame();
+        Ok(())
+    }
+
+    /// X, Y and Z of the block in mm, or where the tool is.
+    fn centre(&self, block: &Block) -> Outcome<[f64; 3]> {
+        let words = self.axis_values(block)?;
+        let here = self.offsets.to_program(self.state.position);
+        Ok([0, 1, 2].map(|axis| words[axis].unwrap_or(here[axis])))
+    }
+
+    /// P is the factor of all axes, I, J and K those of X, Y and Z. Without a point they count
+    /// thousandths.
+    fn scale_words(&self, block: &Block, coded: Coded<FrameCode>) -> Outcome<Scale> {
+        let word = |letter: u8| {
+            let value = block.get(letter)?;
+            Some(if block.has_no_point(letter) {
+                value * STEP
+            } else {
+                value
+            })
+        };
+        let each = [b'I', b'J', b'K'];
+        let factors = match (word(b'P'), each.map(word)) {
+            (None, [None, None, None]) => {
+                return Err(missing(coded.span, "G51", "P", "the factor"));
+            }
+            (Some(factor), [None, None, None]) => [factor; 3],
+            (None, factors) => factors.map(|factor| factor.unwrap_or(1.0)),
+            (Some(_), _) => {
+                let message = "both P and I, J, K in G51";
+                return Err(
+                    Fault::new(DiagnosticCode::AmbiguousWord, block.span(b'P'), message)
+                        .because("P is the factor of all axes, I, J and K are those of each")
+                        .help("write one or the other"),
+                );
+            }
+        };
+        let wrong = factors
+            .iter()
+            .find(|factor| !(1.0 / MAX_SCALE..=MAX_SCALE).contains(&factor.abs()));
+        if let Some(factor) = wrong {
+            let message = format!("a scale of {factor}");
+            return Err(
+                Fault::new(DiagnosticCode::InvalidValue, coded.span, message)
+                    .because(format!(
+                        "factors are from {} to {MAX_SCALE}",
+                        1.0 / MAX_SCALE
+                    ))
+                    .help("write the factor with its point: P2. doubles, and so does P2000"),
+            );
+        }
+        Ok(Scale {
+            about: self.centre(block)?,
+            factors,
+        })
+    }
+
+    fn mirror_words(
+        &self,
+        block: &Block,
+        coded: Coded<FrameCode>,
+        begins: bool,
+        mirror: &mut [Option<f64>; 3],
+    ) -> Outcome<()> {
+        let words = self.axis_values(block)?;
+        if words[3..].iter().any(Option::is_some) {
+            let message = "a mirror image of an axis other than X, Y or Z";
+            return Err(
+                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                    .because("rotary and parallel axes keep their coordinates")
+                    .help("write X, Y or Z"),
+            );
+        }
+        if words.iter().all(Option::is_none) {
+            if begins {
+                return Err(missing(
+                    coded.span,
+                    "G51.1",
+                    "an axis",
+                    "where it is mirrored",
+                ));
+            }
+            *mirror = [None; 3];
+        }
+        for (slot, word) in mirror.iter_mut().zip(words) {
+            if word.is_some() {
+                *slot = word.filter(|_| begins);
+            }
+        }
+        Ok(())
+    }
+
+    /// R in degrees, about the two axes of the plane; in G91 it is added.
+    fn turn_words(&self, block: &Block, coded: Coded<FrameCode>) -> Outcome<Turn> {
+        let plane = self.state.modal.plane;
+        if plane.normal().index() >= 3 {
+            let message = "G68 in a plane of U, V, W";
+            return Err(
+                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                    .because("X, Y and Z are turned")
+                    .help("write G17, G18 or G19"),
+            );
+        }
+        let degrees = block
+            .get(b'R')
+            .ok_or_else(|| missing(coded.span, "G68", "R", "the angle"))?;
+        let before = self.offsets.fanuc.frames.turn;
+        let adds = self.state.modal.distance == Distance::Incremental;
+        let base = before.filter(|_| adds).map_or(0.0, |turn| turn.degrees);
+        let about = match before {
+            Some(turn) if !block.has_axes() => turn.about,
+            _ => self.centre(block)?,
+        };
+        Ok(Turn {
+            plane,
+            about,
+            degrees: base + degrees,
+        })
+    }
+}

@@ -1,0 +1,67 @@
+//! FANUC: macro B, subprograms, and the words that are read otherwise.
+//!
+//! ```text
+//! IF [cond] GOTO n · IF [cond] THEN #i = value · GOTO n · WHILE [cond] DO m … END m
+//! G65 P n arguments · G66 P n arguments · M98 P n L k · M97 P n · M99 · M99 P n
+//! #3000=n(TEXT) · #5221=… · G10 L2, L20, L10 to L13 · G43, G44, G43.4 · G51, G51.1, G68 · G16
+//! ```
+
+mod arguments;
+mod assign;
+mod call;
+mod frames;
+mod modal_macro;
+mod offsets;
+mod polar;
+mod statement;
+mod tip;
+mod tool_length;
+pub(crate) mod variables;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::execute::interpreter::Interpreter;
+use crate::setup::tool_table::MAX_TOOL;
+use crate::syntax::block::Block;
+use crate::syntax::word_check::whole;
+
+impl Interpreter {
+    /// The modes that are FANUC's alone.
+    pub(crate) fn fanuc_modes(&mut self, block: &Block) -> Outcome<()> {
+        if block.codes.cutter_radius.is_some()
+            && let Some(number) = whole(block, b'D', MAX_TOOL)?
+        {
+            self.state.fanuc.radius_offset = number;
+        }
+        self.check_look_ahead(block)?;
+        self.extended_system(block)?;
+        self.fanuc_frame(block)?;
+        self.fanuc_polar(block);
+        Ok(())
+    }
+
+    /// Look-ahead is switched by a word: without it the code is another one.
+    fn check_look_ahead(&self, block: &Block) -> Outcome<()> {
+        let Some(coded) = block.codes.read_over else {
+            return Ok(());
+        };
+        let word = match coded.code {
+            50 | 80 | 1030 => b'P',
+            51 => b'Q',
+            _ => return Ok(()),
+        };
+        if block.get(word).is_some() {
+            return Ok(());
+        }
+        let message = format!("look-ahead without {}", char::from(word));
+        Err(
+            Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                .because("the code has other meanings with other words, which are not made")
+                .help(format!(
+                    "write {}0 or {}1 behind it",
+                    char::from(word),
+                    char::from(word)
+                )),
+        )
+    }
+}

@@ -1,0 +1,66 @@
+//! G66: a macro that is called behind every block that moves, until G67.
+
+use std::io::BufRead;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::macro_call::{Arguments, ModalMacro};
+use crate::execute::dialect::tape::TapePlace;
+use crate::execute::program::Program;
+use crate::syntax::modes::NonModal;
+
+impl<R: BufRead> Program<R> {
+    pub(super) fn begin_modal_macro(
+        &mut self,
+        first: TapePlace,
+        turns: u32,
+        arguments: Arguments,
+        span: SourceSpan,
+    ) -> Outcome<()> {
+        if self.modal_macro.is_some() {
+            let message = "a second G66 before G67";
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("macros that call each other behind their moves are not made")
+                .help("write G67 before it"));
+        }
+        self.modal_macro = Some(ModalMacro {
+            first,
+            turns,
+            arguments,
+            level: self.tape.calls.len(),
+        });
+        self.interpreter.state.fanuc.calls_macro = true;
+        Ok(())
+    }
+
+    pub(super) fn end_modal_macro(&mut self) {
+        self.modal_macro = None;
+        self.interpreter.state.fanuc.calls_macro = false;
+    }
+
+    /// Calls the macro behind a block that moved.
+    pub(super) fn call_modal_macro(&mut self) -> Outcome<()> {
+        let codes = &self.block.codes;
+        let moves = self.block.has_axes()
+            && codes
+                .non_modal
+                .is_none_or(|code| code.code == NonModal::MachineCoordinates)
+            && codes.frame.is_none();
+        let Some(called) = self
+            .modal_macro
+            .as_ref()
+            .filter(|called| moves && called.level == self.tape.calls.len())
+        else {
+            return Ok(());
+        };
+        let ModalMacro {
+            first,
+            turns,
+            arguments,
+            ..
+        } = called.clone();
+        self.enter_subprogram(first, turns, Some(&arguments))
+            .inspect_err(|_| self.end())
+    }
+}

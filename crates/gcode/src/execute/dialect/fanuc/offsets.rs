@@ -1,0 +1,154 @@
+//! G10 of FANUC and Haas, and G54.1.
+//!
+//! | | |
+//! |---|---|
+//! | G10 L2 P0, P1 to P6 | the external offset, G54 to G59; in G91 the words are added |
+//! | G10 L20 P1 and on | G54.1 P1 and on; no other system changes, and nothing moves |
+//! | G10 L10, L11 P R | length of a tool, its wear; in G91 R is added |
+//! | G10 L12, L13 P R | radius of a tool, its wear |
+
+use std::sync::Arc;
+
+use glidepath_geometry::{AXES, AxisVector};
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::block_words::require_axes;
+use crate::execute::interpreter::Interpreter;
+use crate::setup::tool_table::{MAX_TOOL, Tool, ToolTable};
+use crate::syntax::block::Block;
+use crate::syntax::letters::AXIS_WORDS;
+use crate::syntax::modes::Distance;
+use crate::syntax::word_check::{missing, unused, whole};
+
+/// Most systems of G54.1.
+const MOST_EXTENDED: u32 = 300;
+
+/// `base` with the words written over it, or added to it.
+fn with_words(base: AxisVector, words: &[Option<f64>; AXES], adds: bool) -> AxisVector {
+    AxisVector::from_fn(|axis, _| match words[axis] {
+        None => base[axis],
+        Some(value) if adds => base[axis] + value,
+        Some(value) => value,
+    })
+}
+
+impl Interpreter {
+    /// G10.
+    pub(crate) fn set_fanuc_data(&mut self, block: &Block, span: SourceSpan) -> Outcome<()> {
+        let kind = whole(block, b'L', 99)?.ok_or_else(|| {
+            let meaning = "2 or 20 for a work offset, 10 to 13 for a tool";
+            missing(span, "G10", "L", meaning)
+        })?;
+        match kind {
+            2 | 20 => self.set_fanuc_system(block, kind, span),
+            10..=13 => self.set_fanuc_tool(block, kind, span),
+            _ => {
+                let message = format!("G10 L{kind} is not supported");
+                Err(
+                    Fault::new(DiagnosticCode::NotSupported, block.span(b'L'), message)
+                        .because(
+                            "work offsets (L2, L20) and tools (L10 to L13) can be set; what others \
+                             set differs from control to control",
+                        )
+                        .help("write one of these, or set it at the control"),
+                )
+            }
+        }
+    }
+
+    fn set_fanuc_system(&mut self, block: &Block, kind: u32, span: SourceSpan) -> Outcome<()> {
+        if block.get(b'R').is_some() {
+            return Err(unused('R', block.span(b'R')));
+        }
+        require_axes(block, span, "G10")?;
+        let words = self.axis_values(block)?;
+        let adds = self.state.modal.distance == Distance::Incremental;
+        let least = u32::from(kind == 20);
+        let most = if kind == 20 { MOST_EXTENDED } else { 6 };
+        let number = whole(block, b'P', most)?
+            .filter(|number| *number >= least)
+            .ok_or_else(|| missing(span, "G10", "P", "which work offset, 1 for the first"))?;
+        let fanuc = &mut self.offsets.fanuc;
+        if kind == 20 {
+            let system = fanuc.extended.entry(number).or_default();
+            system.origin = with_words(system.origin, &words, adds);
+            return Ok(());
+        }
+        let index = usize::try_from(number).unwrap_or_default();
+        match index.checked_sub(1) {
+            None => fanuc.external = with_words(fanuc.external, &words, adds),
+            Some(index) => {
+                if let Some(system) = self.offsets.systems.get_mut(index) {
+                    system.origin = with_words(system.origin, &words, adds);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn set_fanuc_tool(&mut self, block: &Block, kind: u32, span: SourceSpan) -> Outcome<()> {
+        if let Some((axis, _)) = block.axes().next() {
+            return Err(unused(axis.letter(), block.axis_span(axis)));
+        }
+        debug_assert!(
+            !block.has_any(AXIS_WORDS),
+            "an axis word would have been refused"
+        );
+        let number = whole(block, b'P', MAX_TOOL)?
+            .filter(|number| *number > 0)
+            .ok_or_else(|| missing(span, "G10", "P", "the number of the offset"))?;
+        let value = block
+            .get(b'R')
+            .ok_or_else(|| missing(span, "G10", "R", "the offset"))?
+            * self.state.modal.units.mm();
+        let adds = self.state.modal.distance == Distance::Incremental;
+        let set = |slot: &mut f64| *slot = if adds { *slot + value } else { value };
+        match kind {
+            10 => self.set_tool_value(number, |tool| set(&mut tool.offset[2])),
+            12 => self.set_tool_value(number, |tool| {
+                let mut radius_mm = 0.5 * tool.diameter_mm;
+                set(&mut radius_mm);
+                tool.diameter_mm = 2.0 * radius_mm;
+            }),
+            11 => set(&mut self.offsets.fanuc.wear.entry(number).or_default().length_mm),
+            _ => set(&mut self.offsets.fanuc.wear.entry(number).or_default().radius_mm),
+        }
+        Ok(())
+    }
+
+    /// Changes an offset in the tool table, which gets the tool if it has none of that number.
+    pub(super) fn set_tool_value(&mut self, number: u32, change: impl Fn(&mut Tool)) {
+        let tools = self.tools.get_or_insert_with(|| Arc::new(ToolTable::new()));
+        let tools = Arc::make_mut(tools);
+        let mut tool = tools.get(number).copied().unwrap_or_default();
+        change(&mut tool);
+        tools.set(number, tool);
+    }
+
+    /// G54.1 P, and G54 to G59, which end it.
+    pub(super) fn extended_system(&mut self, block: &Block) -> Outcome<()> {
+        let Some(coded) = block.codes.extended_system else {
+            if block.codes.system.is_some() {
+                self.offsets.fanuc.active = None;
+            }
+            return Ok(());
+        };
+        let number = whole(block, b'P', MOST_EXTENDED)?
+            .filter(|number| *number > 0)
+            .ok_or_else(|| missing(coded.span, "G54.1", "P", "the number of the work offset"))?;
+        if !self.offsets.fanuc.extended.contains_key(&number) {
+            let message = format!("the work offset of G54.1 P{number} was not set");
+            return Err(
+                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                    .because("the machine keeps G54 to G59, and a program has those of G54.1 that it sets")
+                    .help(format!(
+                        "write G10 L20 P{number} with its coordinates before it"
+                    )),
+            );
+        }
+        self.offsets.fanuc.active = Some(number);
+        Ok(())
+    }
+}

@@ -1,0 +1,77 @@
+//! G16: the first axis of the plane is a radius, the second an angle.
+//!
+//! In G90 they are about the zero of the program. In G91 a radius is about where the tool is, and an
+//! angle is added to the last one. A word that is missing keeps its value.
+
+use glidepath_geometry::AXES;
+
+use crate::diagnostic::fault::Outcome;
+use crate::execute::interpreter::Interpreter;
+use crate::execute::motion::axis_words::axis_value;
+use crate::execute::state::fanuc_modal::Polar;
+use crate::syntax::block::Block;
+use crate::syntax::modes::Distance;
+
+impl Interpreter {
+    /// G15 and G16, and what the words of a block that moves make of the radius and the angle.
+    pub(super) fn fanuc_polar(&mut self, block: &Block) {
+        if let Some(coded) = block.codes.polar_mode {
+            self.state.fanuc.polar = coded.code.then(Polar::default);
+        }
+    }
+
+    /// Takes the words of a block that moves.
+    pub(crate) fn take_polar_words(&mut self, block: &Block) {
+        let Some(mut polar) = self.state.fanuc.polar else {
+            return;
+        };
+        let (first, second) = self.state.modal.plane.axes();
+        let incremental = self.state.modal.distance == Distance::Incremental;
+        let here = self.offsets.to_program(self.state.position);
+        let scale = self.state.modal.units.mm();
+        for (axis, value) in block.axes() {
+            if axis == first {
+                polar.radius_mm = axis_value(axis, value, scale);
+                polar.centre = if incremental {
+                    [here[first.index()], here[second.index()]]
+                } else {
+                    [0.0; 2]
+                };
+            } else if axis == second {
+                polar.degrees = if incremental {
+                    polar.degrees + value
+                } else {
+                    value
+                };
+            }
+        }
+        self.state.fanuc.polar = Some(polar);
+    }
+
+    /// Puts the point that is meant into the places of the two axes.
+    pub(crate) fn resolve_fanuc_polar(
+        &self,
+        block: &Block,
+        values: &mut [Option<f64>; AXES],
+    ) -> Outcome<()> {
+        let Some(polar) = self.state.fanuc.polar else {
+            return Ok(());
+        };
+        let (first, second) = self.state.modal.plane.axes();
+        let axes = [first.index(), second.index()];
+        let is_meant = block.codes.non_modal.is_none() && block.codes.frame.is_none();
+        if !is_meant || axes.iter().all(|axis| values[*axis].is_none()) {
+            return Ok(());
+        }
+        let here = self.offsets.to_program(self.state.position);
+        let incremental = self.state.modal.distance == Distance::Incremental;
+        for (axis, place) in axes.into_iter().zip(polar.point()) {
+            values[axis] = Some(if incremental {
+                place - here[axis]
+            } else {
+                place
+            });
+        }
+        Ok(())
+    }
+}

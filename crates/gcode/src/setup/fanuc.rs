@@ -1,0 +1,60 @@
+//! What the parameters of a FANUC control decide about its programs.
+
+/// What a FANUC or Haas control is made for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FanucControl {
+    /// A mill, or a machining centre.
+    Mill,
+    /// A lathe whose codes are those of system A: G90, G92 and G94 are cycles, U and W increments.
+    LatheA,
+}
+
+/// What a coordinate without a decimal point means (parameter 3401#0).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PointInput {
+    /// Not said: such coordinates are read as millimetres or inches up to 999, and refused above.
+    #[default]
+    Unsaid,
+    /// Millimetres, inches or degrees: X1000 is 1000 mm.
+    Calculator,
+    /// Least increments: X1000 is 1 mm, or 0.1 inch.
+    Increment,
+}
+
+/// How the memory of tool offsets is divided (parameters 6000#3, 8136#6).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OffsetMemory {
+    /// Not said: the variables of tool offsets are refused.
+    #[default]
+    Unsaid,
+    /// Memory A: one value for each offset.
+    A,
+    /// Memory C: `#2001` and on are the wear, `#2201` and on the geometry.
+    C,
+    /// Haas, and memory C with the bit V15: `#2001` and on are the length, `#2201` its wear,
+    /// `#2401` the radius or diameter, `#2601` its wear.
+    Haas,
+}
+
+/// In which range `ATAN[a]/[b]` is (parameter 6004#0).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Arctangent {
+    /// From 0 to 360 degrees.
+    #[default]
+    Full,
+    /// From −180 to 180 degrees.
+    Signed,
+}
+
+/// What the parameters of a FANUC control say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct FanucParameters {
+    /// `None`: a lathe of system A on a machine with X and Z and without Y, else a mill.
+    pub control: Option<FanucControl>,
+    /// Coordinates without a point.
+    pub point: PointInput,
+    /// The memory of tool offsets.
+    pub offset_memory: OffsetMemory,
+    /// The range of `ATAN[a]/[b]`.
+    pub arctangent: Arctangent,
+}

@@ -1,0 +1,184 @@
+//! What the blocks of the other dialects have that LinuxCNC's have not.
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::setup::fanuc::PointInput;
+use crate::syntax::block::{Block, CornerKind, CornerWord};
+use crate::syntax::codes::Coded;
+use crate::syntax::cursor::Cursor;
+use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::words::refused;
+use crate::syntax::expression::scope::Scope;
+use crate::syntax::expression::vacant::is_vacant;
+use crate::syntax::expression::value::word_value;
+use crate::syntax::letters::{AXIS_WORDS, Letters, Slot};
+use crate::syntax::modes::NonModal;
+use crate::syntax::plain_line::WordSink;
+use crate::syntax::word_check::duplicate;
+
+/// Letters whose values are coordinates, ways or radii.
+const LENGTHS: Letters = AXIS_WORDS.and(Letters::of(b"IJKRQ"));
+
+impl Block {
+    /// Fills the block from a line of a FANUC program; false if it is not plain, or may mean
+    /// something else than its numbers: P counts otherwise without a point, and so may coordinates.
+    pub(crate) fn parse_plain_fanuc(&mut self, text: &[u8]) -> bool {
+        self.parse_plain(text) == Some(text.len())
+            && self.get(b'P').is_none()
+            && match self.point {
+                PointInput::Calculator => true,
+                PointInput::Increment => false,
+                PointInput::Unsaid => !self.words.exceeds(LENGTHS, MOST_WITHOUT_POINT),
+            }
+    }
+
+    /// True where `@` and `^` are words; the lines of SINUMERIK's cycles do not have them.
+    pub(super) const fn has_linuxcnc_words(&self) -> bool {
+        matches!(self.dialect, Dialect::LinuxCnc)
+    }
+
+    /// The number of a switch behind `/`: FANUC has nine of them.
+    pub(super) fn skip_switch(&self, cursor: &mut Cursor<'_>) {
+        if self.dialect == Dialect::Fanuc && matches!(cursor.peek(), Some(b'1'..=b'9')) {
+            cursor.advance();
+        }
+    }
+
+    /// True for a letter alone behind G28 of a printer, which says which axis goes.
+    pub(super) fn names_an_axis(&self, mut cursor: Cursor<'_>, letter: u8) -> bool {
+        let goes_home = matches!(
+            self.codes.non_modal,
+            Some(Coded {
+                code: NonModal::GoToReference(_),
+                ..
+            })
+        );
+        self.dialect == Dialect::Marlin
+            && goes_home
+            && (AXIS_WORDS.has(letter) || letter == b'E')
+            && !matches!(
+                cursor.next_visible(),
+                Some(b'0'..=b'9' | b'.' | b'+' | b'-')
+            )
+    }
+
+    pub(super) fn flag(&mut self, letter: u8, span: SourceSpan) -> Outcome<()> {
+        self.any = true;
+        self.add_value(Slot::of(letter), 0.0, span)
+            .ok_or_else(|| duplicate(char::from(letter), span))
+    }
+
+    /// The value of a word of FANUC, in the way that it counts numbers without a point.
+    pub(super) fn fanuc_value(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        start: usize,
+        letter: u8,
+        scope: &dyn Scope,
+    ) -> Outcome<f64> {
+        let is_length = LENGTHS.has(letter);
+        let mut written = *cursor;
+        let value = word_value(cursor, start, is_length, scope)?;
+        let has_no_point = loop {
+            match written.next_visible() {
+                _ if written.at() >= cursor.at() => break true,
+                Some(b'0'..=b'9' | b'+' | b'-') => written.advance(),
+                _ => break false,
+            }
+        };
+        if has_no_point {
+            self.pointless = self.pointless.and(Letters::one(letter));
+        }
+        // Q of threads and cycles counts in its own way.
+        if !is_length || letter == b'Q' || !has_no_point {
+            return Ok(value);
+        }
+        match self.point {
+            PointInput::Calculator => Ok(value),
+            PointInput::Increment => Ok(value * scope.least_increment()),
+            PointInput::Unsaid if value.abs() <= MOST_WITHOUT_POINT => Ok(value),
+            PointInput::Unsaid => {
+                let span = SourceSpan::new(start, cursor.end_of_word());
+                Err(without_point(char::from(letter), value, span))
+            }
+        }
+    }
+
+    /// `,C` and `,R`; what SINUMERIK's RND, CHR, CHF and RNDM were rewritten into.
+    pub(super) fn corner_word(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        scope: &dyn Scope,
+    ) -> Outcome<()> {
+        let start = cursor.at();
+        cursor.advance();
+        let letter = cursor.next_visible().map(|byte| byte.to_ascii_uppercase());
+        let is_siemens = self.dialect == Dialect::Siemens;
+        let kind = match letter {
+            Some(b'C') => CornerKind::Chamfer,
+            Some(b'R') => CornerKind::Round,
+            Some(b'L') if is_siemens => CornerKind::ChamferLength,
+            Some(b'M') if is_siemens => CornerKind::RoundAll,
+            _ => {
+                let span = SourceSpan::new(start, cursor.at() + 1);
+                return Err(refused(
+                    "a word behind a comma",
+                    "an angle, or what is not known here",
+                    "write the end of the move",
+                    span,
+                ));
+            }
+        };
+        cursor.advance();
+        let value = word_value(cursor, start, true, scope)?;
+        let span = SourceSpan::new(start, cursor.end_of_word());
+        if is_vacant(value) {
+            return Ok(());
+        }
+        if self.corner.is_some() {
+            return Err(duplicate(',', span));
+        }
+        self.any = true;
+        self.corner = Some(CornerWord { kind, value, span });
+        Ok(())
+    }
+}
+
+/// Skips a comment whose `(` comes next, with the comments in it.
+pub(super) fn skip_brackets(cursor: &mut Cursor<'_>) -> Outcome<()> {
+    let start = cursor.at();
+    let (mut depth, mut last) = (0_u32, None);
+    for (offset, byte) in cursor.rest().iter().enumerate() {
+        match byte {
+            b'(' => depth += 1,
+            b')' => {
+                depth -= 1;
+                last = Some(offset);
+                if depth == 0 {
+                    break;
+                }
+            }
+            _ => {}
+        }
+    }
+    // Where brackets are left open the last one that is closed ends the comment.
+    match last {
+        Some(last) => {
+            cursor.seek(start + last + 1);
+            Ok(())
+        }
+        None => cursor.skip_comment(),
+    }
+}
+
+/// Whole numbers above this are millimetres on one control and micrometres on another.
+const MOST_WITHOUT_POINT: f64 = 999.0;
+
+#[cold]
+fn without_point(letter: char, value: f64, span: SourceSpan) -> Box<Fault> {
+    let message = format!("{letter}{value} has no decimal point");
+    Fault::new(DiagnosticCode::AmbiguousWord, span, message)
+        .because("it is millimetres on one control, and least increments (0.001 mm) on another")
+        .help("write the point, or say which it is: `point` of [program] in the configuration")
+}

@@ -1,0 +1,151 @@
+//! The G and M numbers of the other dialects, sorted into the groups of [`Codes`].
+
+use crate::diagnostic::fault::Outcome;
+use crate::diagnostic::span::SourceSpan;
+use crate::setup::m_codes::MCodes;
+use crate::syntax::codes::{Codes, FrameCode, code_number, set};
+use crate::syntax::dialect::Dialect;
+use crate::syntax::dialect::marlin::is_function;
+use crate::syntax::dialect::words::{Meaning, fanuc, marlin, no_g, no_m, refused};
+use crate::syntax::modes::{Motion, NonModal, Probe, ToolLength};
+use glidepath_program::PathMode;
+
+impl Codes {
+    /// Adds a G word of a FANUC program.
+    pub(crate) fn add_fanuc_g(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
+        let tenths = code_number(value * 10.0);
+        let found = tenths.and_then(|tenths| Some((tenths, fanuc::g(tenths)?)));
+        let Some((tenths, meaning)) = found else {
+            return Err(no_g(Dialect::Fanuc, value, span));
+        };
+        match meaning {
+            Meaning::Shared => self.add_g(value, span),
+            Meaning::Own => self.add_own_fanuc_g(tenths, span),
+            Meaning::ReadOver => set(&mut self.read_over, tenths, span),
+            Meaning::Refused(what, help) => Err(refused(&format!("G{value}"), what, help, span)),
+        }
+    }
+
+    /// G31 is a move that a contact ends, and no error without; like G60 and G76 it is of its block
+    /// alone.
+    fn add_own_fanuc_g(&mut self, tenths: u32, span: SourceSpan) -> Outcome<()> {
+        let once = match tenths {
+            310 => Motion::Probe(Probe {
+                toward: true,
+                must: false,
+            }),
+            600 => {
+                set(&mut self.exact_stop, (), span)?;
+                Motion::Rapid
+            }
+            760 => Motion::ThreadCycle,
+            _ => return self.add_fanuc_mode(tenths, span),
+        };
+        self.is_once = true;
+        self.set_motion(Some(once), span)
+    }
+
+    fn add_fanuc_mode(&mut self, tenths: u32, span: SourceSpan) -> Outcome<()> {
+        match tenths {
+            90 => set(&mut self.exact_stop, (), span),
+            100 => set(&mut self.non_modal, NonModal::SetData, span),
+            150 | 160 => set(&mut self.polar_mode, tenths == 160, span),
+            300 => set(&mut self.non_modal, NonModal::GoToReference(1), span),
+            434 => {
+                set(&mut self.tip, true, span)?;
+                set(&mut self.tool_length, ToolLength::FromTable, span)
+            }
+            440 => set(&mut self.tool_length, ToolLength::Subtract, span),
+            500 | 510 => set(&mut self.frame, FrameCode::Scale(tenths == 510), span),
+            501 | 511 => set(&mut self.frame, FrameCode::Mirror(tenths == 511), span),
+            680 | 690 => set(&mut self.frame, FrameCode::Turn(tenths == 680), span),
+            // Corners inside are slower, or the feed cannot be changed: the path is that of G64.
+            620 | 630 => set(
+                &mut self.path_mode,
+                PathMode::Continuous { tolerance_mm: None },
+                span,
+            ),
+            _ => set(&mut self.extended_system, (), span),
+        }
+    }
+
+    /// Adds an M word of a FANUC program: M29 taps rigidly, unless it is the machine's own.
+    pub(crate) fn add_fanuc_m(
+        &mut self,
+        value: f64,
+        span: SourceSpan,
+        declared: &MCodes,
+    ) -> Outcome<()> {
+        let number = code_number(value);
+        if let Some(number) = number.filter(|number| declared.is_own(*number)) {
+            return set(&mut self.user, number, span);
+        }
+        match number.and_then(fanuc::m) {
+            Some(Meaning::Own) => set(&mut self.rigid_tapping, 29, span),
+            Some(Meaning::Refused(what, help)) => {
+                Err(refused(&format!("M{value}"), what, help, span))
+            }
+            Some(_) => self.add_m(value, span, declared),
+            None => Err(no_m(Dialect::Fanuc, value, span)),
+        }
+    }
+
+    /// Adds a G word of a SINUMERIK line that was rewritten: LinuxCNC's, and what has no number
+    /// there.
+    pub(crate) fn add_rewritten_g(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
+        match code_number(value * 10.0) {
+            Some(90) => set(&mut self.exact_stop, (), span),
+            Some(code @ (434 | 435)) => set(&mut self.tip, code == 434, span),
+            _ => self.add_g(value, span),
+        }
+    }
+
+    /// Adds an M word of a SINUMERIK line: what the builder declared comes first.
+    pub(crate) fn add_rewritten_m(
+        &mut self,
+        value: f64,
+        span: SourceSpan,
+        declared: &MCodes,
+    ) -> Outcome<()> {
+        match code_number(value).filter(|number| declared.is_own(*number)) {
+            Some(number) => set(&mut self.user, number, span),
+            None => self.add_m(value, span, declared),
+        }
+    }
+
+    /// Adds a G word of a printer's program.
+    pub(crate) fn add_printer_g(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
+        match code_number(value * 10.0).and_then(marlin::g) {
+            Some(Meaning::Refused(what, help)) => {
+                Err(refused(&format!("G{value}"), what, help, span))
+            }
+            Some(_) => self.add_g(value, span),
+            None => Err(no_g(Dialect::Marlin, value, span)),
+        }
+    }
+
+    /// Adds an M word of a printer's program.
+    pub(crate) fn add_printer_m(
+        &mut self,
+        value: f64,
+        span: SourceSpan,
+        declared: &MCodes,
+    ) -> Outcome<()> {
+        let number = code_number(value);
+        match number {
+            Some(number @ (82 | 83)) => return set(&mut self.extruder, number == 83, span),
+            Some(number) if is_function(number) => {
+                return set(&mut self.function, number, span);
+            }
+            Some(number) if declared.is_own(number) => return set(&mut self.user, number, span),
+            _ => {}
+        }
+        match number.and_then(marlin::m) {
+            Some(Meaning::Refused(what, help)) => {
+                Err(refused(&format!("M{value}"), what, help, span))
+            }
+            Some(_) => self.add_m(value, span, declared),
+            None => Err(no_m(Dialect::Marlin, value, span)),
+        }
+    }
+}
