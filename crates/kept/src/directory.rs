@@ -2,8 +2,8 @@
 //!
 //! What is kept decides where a machine goes, so nobody but the folder's owner and those it was
 //! opened to by its group may write there: a folder or a file that everybody may write to is
-//! refused, and so is a folder to write in that is another user's. Files are never reached through
-//! symbolic links, and what is no file (a FIFO waits for ever) is not read.
+//! refused, and so is a folder to write in that is another user's. Neither files nor the folder itself
+//! are reached through symbolic links, and what is no file (a FIFO waits for ever) is not read.
 
 use crate::error::KeptError;
 use crate::storage::Storage;
@@ -48,12 +48,11 @@ impl Directory {
                 let synced = File::open(parent).and_then(|parent| parent.sync_all());
                 synced.map_err(KeptError::io("write", &name))?;
             }
+            // A link to one, too: the check says what is wrong with it.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists && path.is_dir() => {}
             Err(source) => return Err(KeptError::io("make the folder", &name)(source)),
         }
-        let folder = Self {
-            path: path.to_owned(),
-        };
+        let folder = Self::at(path);
         let checked = folder.check().and_then(|found| {
             let user = geteuid();
             let is_own = user.is_root() || [user.as_raw(), 0].contains(&found.uid());
@@ -66,7 +65,12 @@ impl Directory {
 
     /// What the folder is, of which nothing is read or written if everybody may write there.
     fn check(&self) -> io::Result<Metadata> {
-        let found = fs::metadata(&self.path)?;
+        let found = fs::symlink_metadata(&self.path)?;
+        if found.is_symlink() {
+            return Err(refused(
+                "it is a symbolic link, which could lead elsewhere tomorrow; name the folder itself",
+            ));
+        }
         check_closed(&found)?;
         Ok(found)
     }
@@ -74,8 +78,9 @@ impl Directory {
     /// A folder to read in, which need not be there: nothing is kept then.
     #[must_use]
     pub fn at(path: &Path) -> Self {
+        // Without a slash at its end, behind which a link is followed.
         Self {
-            path: path.to_owned(),
+            path: path.components().collect(),
         }
     }
 

@@ -97,6 +97,30 @@ fn one_process_writes_at_a_time() {
     other.lock().expect("nobody writes any more");
 }
 
+/// A folder that is a link today leads elsewhere tomorrow.
+#[test]
+fn a_link_to_a_folder_is_not_the_folder() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (here, link) = (folder.path().join("state"), folder.path().join("link"));
+    written(&here, 2);
+    symlink(&here, &link).expect("a link");
+    for name in [link.clone(), link.join("")] {
+        let error = Directory::open(&name)
+            .expect_err("it is refused")
+            .to_string();
+        assert!(error.contains("symbolic link"), "{error}");
+        let error = Store::new(Directory::at(&name))
+            .read()
+            .expect_err("it is refused");
+        assert!(error.to_string().contains("symbolic link"), "{error}");
+    }
+    // On the way to it they are what the owner of the host made of them.
+    let way = folder.path().join("way");
+    symlink(folder.path(), &way).expect("a link");
+    let store = Store::new(Directory::open(&way.join("state")).expect("a folder"));
+    store.read().expect("whole").expect("it was written");
+}
+
 /// What another user put there, or may put there, is neither read nor written through.
 #[test]
 fn what_others_may_change_is_not_taken_for_what_was_kept() {
