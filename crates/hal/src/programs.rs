@@ -14,6 +14,47 @@ pub(crate) const SAMPLER: &str = "halsampler";
 /// Longest text of a program that is kept.
 const TEXT: usize = 2000;
 
+/// Longest line that is read. A row of nine joints has a few hundred bytes.
+const LINE: u64 = 4096;
+
+/// Rows that wait to be taken. Of more HAL's own queue is told.
+const ROWS: usize = 4096;
+
+/// The lines of a program. One without an end is cut, and is the last: what follows is no line.
+struct Lines<R> {
+    from: BufReader<R>,
+    is_over: bool,
+}
+
+impl<R: Read> Lines<R> {
+    fn of(from: R) -> Self {
+        Self {
+            from: BufReader::new(from),
+            is_over: false,
+        }
+    }
+}
+
+impl<R: Read> Iterator for Lines<R> {
+    type Item = String;
+
+    fn next(&mut self) -> Option<String> {
+        if self.is_over {
+            // Taken away, so that the program does not stand still.
+            let _ = io::copy(&mut self.from, &mut io::sink());
+            return None;
+        }
+        let mut line = Vec::new();
+        let mut rest = self.from.by_ref().take(LINE);
+        let read = rest.read_until(b'\n', &mut line).ok()?;
+        self.is_over = rest.limit() == 0 && !line.ends_with(b"\n");
+        if line.ends_with(b"\n") {
+            line.pop();
+        }
+        (read > 0).then(|| String::from_utf8_lossy(&line).into_owned())
+    }
+}
+
 /// What a program says on its standard error, as it says it.
 #[derive(Debug, Clone, Default)]
 struct Said(Arc<Mutex<String>>);
@@ -23,7 +64,7 @@ impl Said {
         let said = Self::default();
         let into = said.clone();
         std::thread::spawn(move || {
-            for line in BufReader::new(stderr).lines().map_while(Result::ok) {
+            for line in Lines::of(stderr) {
                 // What every program of LinuxCNC says on a host without its real time.
                 if line.starts_with("Note:") {
                     continue;
@@ -173,11 +214,10 @@ impl Sampler {
         command.args(["-oL", SAMPLER, "-c", &channel.to_string()]);
         command.stdin(Stdio::null()).stdout(Stdio::piped());
         let mut program = Program::start(SAMPLER, &mut command)?;
-        let (into, rows) = mpsc::channel();
+        let (into, rows) = mpsc::sync_channel(ROWS);
         if let Some(output) = program.child.stdout.take() {
             std::thread::spawn(move || {
-                let lines = BufReader::new(output).lines().map_while(Result::ok);
-                for line in lines {
+                for line in Lines::of(output) {
                     if into.send(line).is_err() {
                         return;
                     }
@@ -194,5 +234,26 @@ impl Sampler {
             Err(TryRecvError::Empty) => Ok(None),
             Err(TryRecvError::Disconnected) => Err(self.program.ended()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_without_end_is_cut_and_is_the_last() {
+        let lines = |text: &[u8]| -> Vec<String> { Lines::of(text).collect() };
+        assert_eq!(lines(b"1 2\n\n3\xff\n4"), ["1 2", "", "3\u{fffd}", "4"]);
+        assert!(lines(b"").is_empty());
+        // As much as would not fit into any memory.
+        let mut endless = Lines::of(io::repeat(b'1').take(1 << 34));
+        let row = endless.next().expect("a line");
+        assert_eq!(row.len() as u64, LINE);
+        assert!(endless.is_over);
+        let behind = [b"1".repeat(5000), b"\n2\n".to_vec()].concat();
+        assert_eq!(lines(&behind).len(), 1);
+        let whole = [b"1".repeat(4095), b"\n2\n".to_vec()].concat();
+        assert_eq!(lines(&whole).len(), 2);
     }
 }
