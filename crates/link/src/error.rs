@@ -12,8 +12,9 @@ pub type BoxedError = Box<dyn core::error::Error + Send + Sync>;
 pub enum LinkError {
     /// The directory for the instance's files cannot be used.
     #[error(
-        "{path}: cannot be used for the link's files ({source}); every process of an instance must \
-         run as the same user, or set another root path"
+        "{path}: cannot be used for the link's files ({source}); run all processes of an instance as \
+         the same user, or set XDG_RUNTIME_DIR to another directory of this user in memory, for all \
+         of them"
     )]
     Root {
         /// The directory.

@@ -21,7 +21,7 @@
 //!   [`SegmentRequest`] and their replies;
 //! * [`servo`] is what a drive does with setpoints;
 //! * what people are told of states, faults and refusals: [`MachineState::text`], [`FaultReport`],
-//!   [`Objection`], [`refused`].
+//!   [`Objection`], [`refused`]; [`printable`] makes text of others safe to show.
 //!
 //! Invariants:
 //!
@@ -76,4 +76,4 @@ pub use record::{
     StreamItem, Text, decode,
 };
 pub use service::Capacity;
-pub use wording::{FaultReport, Objection, StateChange, refused};
+pub use wording::{FaultReport, Objection, StateChange, is_printable, printable, refused};

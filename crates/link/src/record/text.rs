@@ -1,10 +1,12 @@
 //! Text of fixed size.
 
 use super::check::RecordError;
+use crate::wording::in_one_line;
 use iceoryx2::prelude::ZeroCopySend;
+use std::borrow::Cow;
 
 macro_rules! text {
-    ($(#[$about:meta])* $name:ident, $capacity:literal) => {
+    ($(#[$about:meta])* $name:ident, $capacity:literal, $shown:expr) => {
 $(#[$about])*
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable, ZeroCopySend)]
@@ -19,6 +21,8 @@ impl $name {
     /// A text, cut at the last whole character that fits.
     #[must_use]
     pub fn new(text: &str) -> Self {
+        let shown: Cow<'_, str> = $shown(text);
+        let text = &*shown;
         let mut end = text.len().min(Self::CAPACITY);
         while !text.is_char_boundary(end) {
             end -= 1;
@@ -66,12 +70,14 @@ impl Default for $name {
 }
 
 text!(
-    /// Up to 128 bytes of UTF-8, padded with zeros.
+    /// Up to 128 bytes of UTF-8, padded with zeros: a line for people, of printable characters.
     Text,
-    128
+    128,
+    in_one_line
 );
 text!(
     /// Up to 1024 bytes of UTF-8, padded with zeros.
     LongText,
-    1024
+    1024,
+    Cow::Borrowed
 );

@@ -8,10 +8,13 @@
 mod amount;
 mod fault;
 mod objection;
+mod printable;
 mod refusal;
 mod state;
 
 pub use fault::FaultReport;
 pub use objection::Objection;
+pub(crate) use printable::in_one_line;
+pub use printable::{is_printable, printable};
 pub use refusal::refused;
 pub use state::StateChange;
