@@ -27,3 +27,4 @@ mod services;
 mod subscribers;
 mod telemetry;
 mod threading;
+mod told;

@@ -62,24 +62,45 @@ fn an_interrupted_run_leaves_nothing_behind() {
 }
 
 #[test]
-fn a_run_whose_child_dies_ends_as_a_fault_and_leaves_nothing_behind() {
+fn a_run_whose_child_dies_ends_as_a_fault_and_leaves_nothing_behind_but_what_was_played() {
     let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
     let program = instance.file("program.ngc", &long_program());
     for victim in ["interpolator", "planner", "servo"] {
-        let run = Process::join(&instance, &["run", &program, "--best-effort", "--json"]);
+        let (csv, plot) = (instance.path("died.csv"), instance.path("died.svg"));
+        let run = [&recorded(&program, &csv)[..], &["--plot", &plot]].concat();
+        let run = Process::join(&instance, &run);
         wait_for_motion(&instance);
         let children = children_of(run.id());
         let killed = children
             .iter()
             .find(|pid| command_of(**pid).contains(&victim.to_owned()));
         kill(*killed.unwrap());
-        let _output = run.wait().expect(5);
+        let told = run.wait().expect(5).json();
         for child in children {
             assert!(
                 !Path::new(&format!("/proc/{child}")).exists(),
                 "{victim}: {child} is left"
             );
         }
+        // What was played is there, and says that it is a part.
+        let received = SetpointFile::read(Path::new(&csv));
+        assert!(!received.moving().is_empty(), "{victim}");
+        let picture = std::fs::read_to_string(&plot).unwrap();
+        assert!(picture.contains("ended before its end"), "{victim}");
+        assert_eq!(told["ended_early"], true, "{victim}: {told:#}");
+        assert!(told["line"].as_u64() > Some(0), "{victim}: {told:#}");
+        assert!(told["position"]["X"].is_number(), "{victim}: {told:#}");
+        assert!(
+            told["played"]["samples"].as_u64() > Some(50),
+            "{victim}: {told:#}"
+        );
+        let error = told["error"].as_str().unwrap();
+        assert!(
+            error.contains("with the machine at X ") && error.contains("died.csv"),
+            "{error}"
+        );
+        std::fs::remove_file(&csv).unwrap();
+        std::fs::remove_file(&plot).unwrap();
         assert_eq!(instance.shared_memory(), Vec::<String>::new(), "{victim}");
     }
 }

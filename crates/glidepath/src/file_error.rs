@@ -16,7 +16,7 @@ pub enum FileError {
         source: io::Error,
     },
     /// The file cannot be read further or written.
-    #[error("cannot {action} {path}: {source}", path = path.display())]
+    #[error("cannot {action} {path}: {source}{}", remedy(.source), path = path.display())]
     Use {
         /// What was tried: "read", "write".
         action: &'static str,
@@ -33,6 +33,15 @@ pub enum FileError {
         /// Why, and what to do.
         reason: String,
     },
+}
+
+/// What can be done about it, where the system does not say so itself.
+fn remedy(error: &io::Error) -> &'static str {
+    match error.kind() {
+        io::ErrorKind::FileTooLarge => "; raise the limit of the size of files (ulimit -f)",
+        io::ErrorKind::StorageFull => "; free some room on its file system (df -h)",
+        _ => "",
+    }
 }
 
 impl FileError {

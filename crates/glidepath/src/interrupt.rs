@@ -2,7 +2,7 @@
 
 use crate::exit::Exit;
 use rustix::process::{Signal, getppid, set_parent_process_death_signal};
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -53,6 +53,16 @@ impl Interrupt {
             Exit::Interrupted
         }
     }
+}
+
+/// Has a file that grew to the limit of its size (`ulimit -f`) tell an error where it is written. By
+/// itself the system kills the process without a word, and a machine in motion with it.
+///
+/// # Errors
+/// The system refuses the handler.
+pub fn survive_limits_of_files() -> io::Result<()> {
+    signal_hook::flag::register(SIGXFSZ, Arc::default())?;
+    Ok(())
 }
 
 /// Makes this process end (by SIGTERM) when its parent does.

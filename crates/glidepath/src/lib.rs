@@ -66,4 +66,5 @@ pub mod report;
 pub mod sample;
 pub mod service_manager;
 pub mod setpoints;
+mod shown_diagnostic;
 pub mod text_file;

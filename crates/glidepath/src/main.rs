@@ -1,7 +1,7 @@
 //! The `glidepath` command.
 
 use clap::Parser as _;
-use glidepath::{cli::Cli, command};
+use glidepath::{cli::Cli, command, interrupt};
 use std::process::ExitCode;
 use std::thread;
 
@@ -24,6 +24,8 @@ fn main() -> ExitCode {
 }
 
 fn work() -> ExitCode {
+    // One that cannot be handled ends this process as ever.
+    let _ = interrupt::survive_limits_of_files();
     match Cli::try_parse() {
         Ok(cli) => command::main(&cli),
         Err(error) => command::usage(&error),

@@ -81,7 +81,7 @@ impl Progress {
         if self.0.is_hidden() {
             crate::output::note(text);
         } else {
-            self.0.println(text);
+            self.0.println(crate::output::shown(text));
         }
     }
 

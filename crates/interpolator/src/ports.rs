@@ -88,6 +88,7 @@ pub(crate) struct Ports<'a> {
     status_due_ns: u64,
     clean_up_due_ns: u64,
     failing: bool,
+    has_told_ready: bool,
 }
 
 impl<'a> Ports<'a> {
@@ -120,6 +121,7 @@ impl<'a> Ports<'a> {
             status_due_ns: 0,
             clean_up_due_ns: 0,
             failing: false,
+            has_told_ready: false,
         })
     }
 
@@ -401,7 +403,11 @@ impl<'a> Ports<'a> {
         }
         self.links.setpoints.refresh()?;
         self.links.auxiliary.refresh()?;
-        self.links.status.publish(&self.book.status)
+        self.links.status.publish(&self.book.status)?;
+        if !core::mem::replace(&mut self.has_told_ready, true) {
+            (self.log)("ready: it gives setpoints and takes commands");
+        }
+        Ok(())
     }
 
     /// The real-time thread is no more: latches that as the cause, and says so.

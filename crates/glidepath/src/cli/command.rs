@@ -254,6 +254,12 @@ impl Command {
         })
     }
 
+    /// Whether it gives one object after the other, each in a line of its own.
+    #[must_use]
+    pub const fn goes_on(&self) -> bool {
+        matches!(self, Self::Status(args) if args.watch)
+    }
+
     /// Which instance it was told to take part in; `None` for the default, and for those that take
     /// part in none.
     #[must_use]

@@ -222,7 +222,7 @@ pub(super) fn tell(notice: &Notice<'_>, quiet: bool) {
             format!("the machine is not ready for a program: {}", state.text())
         }
         Notice::FaultReset => "reset the fault of a planner that died".to_owned(),
-        Notice::Listening => "waiting for a client".to_owned(),
+        Notice::Listening => "ready: it takes lines, programs and streams".to_owned(),
         Notice::StreamOpened { session } => format!("stream {session} opened"),
         Notice::StreamExecuted(statistics) => {
             format!("executed; {}", counted(statistics.segments, "segment"))

@@ -1,5 +1,6 @@
 //! `glidepath check`: everything wrong with programs.
 
+use super::fitting::name_offset;
 use super::program_diagnostics::print_diagnostics;
 use super::reading::for_program;
 use crate::cli::CheckArgs;
@@ -60,7 +61,8 @@ fn read(file: &ProgramFile, config: &MachineConfig, json: bool) -> Result<Report
         progress.at(bytes);
     });
     progress.finish();
-    let report = report.map_err(FileError::open(file.name()))?;
+    let mut report = report.map_err(FileError::open(file.name()))?;
+    name_offset(&mut report.diagnostics, file, config);
     // A program whose loops do not end would have joints judged for ever.
     if !report.is_accepted() || !report.is_complete() {
         return Ok(report);
@@ -111,6 +113,7 @@ pub(super) fn accepted(
     if found.diagnostics.is_empty() {
         return Ok(found.lines);
     }
+    name_offset(&mut found.diagnostics, file, config);
     Err(Failure::Rejected {
         program: file.name().display().to_string(),
         diagnostics: found.diagnostics,

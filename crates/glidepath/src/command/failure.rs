@@ -1,6 +1,7 @@
 //! Why a command did not do what was asked.
 
 use crate::bench::CatalogueError;
+use crate::command::evidence::Evidence;
 use crate::command::other_users::OtherUsers;
 use crate::config::ConfigError;
 use crate::curve_file::{CurveDiagnostic, CurveFileError};
@@ -271,6 +272,14 @@ pub(super) enum Failure {
         reason: String,
         /// What its end means.
         exit: Exit,
+    },
+    /// A run ended before its end.
+    #[error("{source}; {evidence}")]
+    EndedEarly {
+        /// Why.
+        source: Box<Self>,
+        /// What was played, and where the machine stood.
+        evidence: Box<Evidence>,
     },
     /// The page cannot be served.
     #[error(transparent)]

@@ -77,6 +77,7 @@ impl Failure {
             | Self::Answers(_)
             | Self::Thread(_) => Exit::Fault,
             Self::ProcessEnded { exit, .. } | Self::Job { exit, .. } => *exit,
+            Self::EndedEarly { source, .. } => source.exit(),
         }
     }
 }

@@ -2,18 +2,22 @@
 
 use super::failure::Failure;
 use super::program_diagnostics::print_diagnostics;
+use crate::cli::Command;
 use crate::config::ConfigError;
 use crate::exit::Exit;
 use crate::machine_options::complete;
 use crate::output;
 use crate::report::diagnostic_object;
+use glidepath_planner::RunError;
 use miette::Diagnostic;
 use serde_json::{Value, json};
 
 /// Reports a failure in the form asked for and gives the exit code.
 #[must_use]
-pub(super) fn report(failure: &Failure, as_json: bool) -> Exit {
-    if as_json {
+pub(super) fn report(failure: &Failure, command: &Command) -> Exit {
+    if command.json() && command.goes_on() {
+        output::object_line(&failure_object(failure));
+    } else if command.json() {
         output::object(&failure_object(failure));
     } else if let Failure::Configuration(error) = failure {
         let reports = error.reports();
@@ -58,6 +62,14 @@ fn failure_object(failure: &Failure) -> Value {
     });
     if let Failure::CommandRefused { state, .. } = failure {
         object["state"] = (*state).into();
+    }
+    if let Failure::Planner(RunError::Fault(fault)) = failure {
+        object["fault"] = fault.text.as_str().into();
+    }
+    if let (Failure::EndedEarly { evidence, .. }, Value::Object(object)) = (failure, &mut object)
+        && let Value::Object(told) = evidence.object()
+    {
+        object.extend(told);
     }
     object
 }

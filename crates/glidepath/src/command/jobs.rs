@@ -1,5 +1,6 @@
 //! `glidepath mdi` and `glidepath run-file`: what the planner's service is to execute.
 
+use super::attention::Attention;
 use super::operator::{reach, send};
 use super::session;
 use crate::cli::{InstanceArgs, MdiArgs, RunFileArgs};
@@ -87,12 +88,13 @@ fn execute(
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let transport = session::join(args, config)?;
     let mut client = transport.job_client()?;
+    let mut attention = Attention::new(&transport, config)?;
     let mut is_aborted = false;
     loop {
         let reply = ask(&mut *client, &request, &interrupt)?;
         let text = reply.text.as_str().to_owned();
         match reply.state().map_err(LinkError::from)? {
-            JobState::Running => {}
+            JobState::Running => attention.look()?,
             JobState::Done => return Ok(text),
             JobState::ToConfirm if may_ask && agrees(&text)? => {
                 (request.number, request.confirmed) = (request.number + 1, 1);

@@ -2,6 +2,7 @@
 
 mod acknowledge;
 mod attendant;
+mod attention;
 mod audit;
 mod bench;
 mod check;
@@ -9,11 +10,13 @@ mod configuration;
 mod differences;
 mod doctor;
 mod ethercat;
+mod evidence;
 mod failure;
 mod failure_exit;
 mod failure_report;
 mod feed;
 mod fit;
+mod fitting;
 mod forecast;
 mod interpolator;
 mod jitter;
@@ -57,7 +60,7 @@ pub fn main(cli: &Cli) -> Exit {
     let config = config.map(ProgramFile::name);
     machine_options::keep(MachineOptions::new(config, cli.command.instance()));
     let done = dispatch(&cli.command);
-    let exit = done.unwrap_or_else(|failure| failure_report::report(&failure, cli.command.json()));
+    let exit = done.unwrap_or_else(|failure| failure_report::report(&failure, &cli.command));
     match output::unwritten() {
         Some(cause) if exit == Exit::Done => {
             output::note(&format!("error: cannot write to standard output: {cause}"));
@@ -81,8 +84,7 @@ pub fn usage(error: &clap::Error) -> Exit {
         }));
         return Exit::Usage;
     }
-    // Nobody is left to tell.
-    error.print().ok();
+    output::usage(error);
     if error.use_stderr() {
         Exit::Usage
     } else {

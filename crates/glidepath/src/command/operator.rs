@@ -171,7 +171,7 @@ pub(super) fn send_saying(
     reply.ok_or_else(|| silent(operator, link))
 }
 
-fn of_link(error: LinkError, link: &LinkConfig) -> Failure {
+pub(super) fn of_link(error: LinkError, link: &LinkConfig) -> Failure {
     match error {
         LinkError::NoServer { .. } => Failure::NoInterpolator {
             instance: link.instance.clone(),

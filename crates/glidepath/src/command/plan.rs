@@ -1,5 +1,6 @@
 //! `glidepath plan`: the motion of a program without waiting for the clock.
 
+use super::fitting::{is_all_that_is_wrong, without_travel};
 use super::{check, session};
 use crate::cli::PlanArgs;
 use crate::clock;
@@ -31,7 +32,14 @@ const STEPS_PER_TURN: usize = 64;
 /// # Errors
 /// The program is rejected, a file cannot be read or written, or the user interrupted.
 pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Failure> {
-    let lines = check::accepted(&args.file, config, args.basic.json)?;
+    let (lines, refused) = match check::accepted(&args.file, config, args.basic.json) {
+        Ok(lines) => (lines, None),
+        // A program is to be looked at also while its offset is not set yet.
+        Err(failure) if args.plot.is_some() && leaves_the_travel(&failure) => (0, Some(failure)),
+        Err(failure) => return Err(failure),
+    };
+    let wide = refused.as_ref().map(|_| without_travel(config));
+    let config = wide.as_ref().unwrap_or(config);
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let guard = session::guard(Some(&args.file), &args.basic, config, args.overwrite);
     let (csv, plot) = (args.setpoints.as_deref(), args.plot.as_deref());
@@ -52,13 +60,27 @@ pub(super) fn plan(args: &PlanArgs, config: &MachineConfig) -> Result<Exit, Fail
     report.setpoints.clone_from(&args.setpoints);
     report.plot.clone_from(&args.plot);
     recording.told(&report, args.file.path());
-    recording.finish(&title(args.file.name()), &report.caption())?;
+    let name = title(args.file.name());
+    if let Some(failure) = refused {
+        recording.finish(&format!("{name}: outside of the travel"), &report.caption())?;
+        let plot = args.plot.as_deref().unwrap_or(Path::new("")).display();
+        output::note(&format!(
+            "{plot} shows where it goes, outside of the travel as it is"
+        ));
+        return Err(failure);
+    }
+    recording.finish(&name, &report.caption())?;
     if args.basic.json {
         output::object(&report);
     } else {
         output::result(&(report.text() + &report.files()));
     }
     Ok(report.exit())
+}
+
+/// Whether a program was rejected for nothing but where it goes.
+fn leaves_the_travel(failure: &Failure) -> bool {
+    matches!(failure, Failure::Rejected { diagnostics, .. } if is_all_that_is_wrong(diagnostics))
 }
 
 /// The name of a program on its plot.

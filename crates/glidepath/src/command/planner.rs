@@ -11,6 +11,7 @@ use crate::exit::Exit;
 use crate::file_error::FileError;
 use crate::interrupt::{Interrupt, end_with};
 use crate::joints;
+use crate::kept::read::{read, set_up};
 use crate::output;
 use crate::program_file::ProgramFile;
 use crate::report::{counted, peak_rss_bytes, seconds};
@@ -52,6 +53,9 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
         std::fs::File::open(file.path()).map_err(FileError::open(file.path()))?;
     }
     let mut config = config.clone();
+    if args.end_with.is_some() {
+        only_read(&mut config)?;
+    }
     let attendant = Attendant::new(&mut config, quiet)?;
     let mut notify = |notice: &Notice<'_>| {
         attendant.notice(notice, &config);
@@ -80,6 +84,16 @@ pub(super) fn planner(args: &PlannerArgs, config: &MachineConfig) -> Result<Exit
         output::result(&text(&name, &statistics));
     }
     Ok(Exit::Done)
+}
+
+/// For `run`, whose machine is imitated: what is kept of the real one is read, and stays as it is.
+fn only_read(config: &mut MachineConfig) -> Result<(), Failure> {
+    if let Some(kept) = read(config)? {
+        // `run` has told what there is to know of it.
+        set_up(config, &kept);
+    }
+    config.state_directory = None;
+    Ok(())
 }
 
 /// A program, and what it is run with.
@@ -192,6 +206,12 @@ fn serve(
         pace: session::pace(config),
         limits: Some(SoftLimits { low, high }),
     };
+    if config.state_directory.is_none() {
+        output::note(
+            "planner: nothing is kept over a restart, neither work offsets nor tools; name a folder: \
+             directory of [state]",
+        );
+    }
     let mut workshop = Workshop::new(config);
     match serve_jobs(transport, &listening, Some(&mut workshop), control) {
         Ok(()) | Err(RunError::Interrupted) => Ok(interrupt.exit()),

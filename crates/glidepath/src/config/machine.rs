@@ -108,6 +108,15 @@ pub struct FeedbackConfig {
     pub off_t: f64,
 }
 
+/// A tool is changed by hand. Who goes on by himself cuts with the wrong one.
+const BY_HAND: Gate = Gate {
+    first: 6,
+    last: 6,
+    answer: Answer::Acknowledgement,
+    within: None,
+    is_late: false,
+};
+
 /// An M code, or a range of them, that the machine has or waits for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MCodeRule {
@@ -370,8 +379,16 @@ impl MachineConfig {
         let rules: Vec<Gate> = input
             .into_iter()
             .chain(self.m_codes.iter().map(|rule| rule.gate))
+            .chain(self.asks_for_tools().then_some(BY_HAND))
             .collect();
         Gates::new(&rules).unwrap_or_default()
+    }
+
+    /// Whether nobody is named who changes tools: a person does then, and says so.
+    #[must_use]
+    pub fn asks_for_tools(&self) -> bool {
+        let is_of = |rule: &MCodeRule| (rule.gate.first..=rule.gate.last).contains(&BY_HAND.first);
+        !self.m_codes.iter().any(is_of)
     }
 
     /// Whether programs wait for the spindle to turn as fast as it was told to.

@@ -75,6 +75,12 @@ fn awaited_words(status: &Status) -> String {
     given.concat()
 }
 
+/// The M code that is awaited, with its words.
+#[must_use]
+pub fn awaited_code(status: &Status) -> String {
+    awaited_name(status) + &awaited_words(status)
+}
+
 /// What is awaited, and for how long, in words; nothing if nothing is.
 pub(super) fn awaited_text(status: &Status) -> Option<String> {
     (status.awaited_since_ns != 0).then(|| {
@@ -90,9 +96,8 @@ pub(super) fn awaited_text(status: &Status) -> Option<String> {
             );
         }
         format!(
-            "the answer to {}{} of line {line}, for {waited_s:.1} s ({})",
-            awaited_name(status),
-            awaited_words(status),
+            "the answer to {} of line {line}, for {waited_s:.1} s ({})",
+            awaited_code(status),
             complete("`glidepath acknowledge`"),
         )
     })

@@ -17,6 +17,7 @@ pub use auxiliary::{coolant_words, spindle_words};
 pub use diagnosis::{DiagnosisReport, PlaceReport};
 pub use diagnostic::{ProgramDiagnostic, diagnostic_object};
 pub use fit::{FitReport, FittedRun};
+pub use machine::awaited_code;
 pub use memory::peak_rss_bytes;
 pub use motion::{MotionReport, Planning};
 pub use quantity::{counted, grouped, seconds};

@@ -8,6 +8,7 @@ mod configuration;
 mod fit;
 mod hostile_curves;
 mod hostile_numbers;
+mod hostile_text;
 mod joints;
 mod kept_state;
 mod keys;
@@ -23,4 +24,5 @@ mod spindle_axis;
 mod subroutines;
 #[path = "../support/mod.rs"]
 mod support;
+mod travel;
 mod unchecked_loops;

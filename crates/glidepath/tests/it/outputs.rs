@@ -349,3 +349,28 @@ fn the_plot_nobody_asked_for_is_in_the_present_folder() {
     let kept = fs::read_to_string(here.join("part.svg")).unwrap();
     assert_eq!(kept, "<svg>a drawing</svg>");
 }
+
+#[test]
+fn a_limit_of_the_size_of_files_is_told_where_it_is_met() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("part.ngc"), SQUARE).unwrap();
+    let command = format!(
+        "ulimit -f 4; exec {} plan part.ngc --setpoints part.csv",
+        env!("CARGO_BIN_EXE_glidepath")
+    );
+    let mut shell = Command::new("sh");
+    let output = shell
+        .current_dir(here)
+        .args(["-c", &command])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.signal(), None, "{output:?}");
+    let (code, text) = said(&output);
+    assert_eq!(code, 5, "{text}");
+    assert!(
+        text.contains("part.csv") && text.contains("ulimit -f"),
+        "{text}"
+    );
+    assert_eq!(names(here), ["part.ngc"]);
+}

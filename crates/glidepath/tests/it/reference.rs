@@ -7,7 +7,7 @@
 use clap::{Arg, Command, CommandFactory as _};
 use clap_complete::Shell;
 use glidepath::cli::Cli;
-use glidepath::config::keys;
+use glidepath::config::{self, keys};
 use glidepath::machine_options::MachineOptions;
 use glidepath_link::{CommandRefusal, FaultCause, MachineState, Objection};
 use std::collections::{BTreeMap, BTreeSet};
@@ -339,4 +339,33 @@ fn shlex(command: &str) -> Vec<String> {
         words.extend(parts.next().map(str::to_owned));
     }
     words
+}
+
+/// What is installed is the machine of the manual, which keeps its state.
+#[test]
+fn the_installed_configuration_keeps_its_state_and_waits_for_tools() {
+    let read = |name: &str| std::fs::read_to_string(root().join(name)).expect("a file");
+    let (ours, installed) = (read("config/mill.toml"), read("deploy/machine.toml"));
+    let (_, installed_body) = installed.split_once('\n').expect("a first line");
+    let keeps = "directory = \"/var/lib/glidepath\"";
+    assert_eq!(
+        installed_body,
+        ours.replace("# directory = \"state\"", keeps)
+    );
+    assert!(installed.contains(keeps));
+    let path = root().join("deploy/machine.toml");
+    let machine = config::load(Some(path.as_path())).expect("it is read");
+    assert_eq!(
+        machine.state_directory.as_deref(),
+        Some(Path::new("/var/lib/glidepath"))
+    );
+    assert!(machine.gates().of(6).is_some(), "a person changes the tool");
+    let by_itself = config::parse("m", &(ours + "\n[m_codes.M6]\ndone = \"nothing\"\n"));
+    assert!(by_itself.expect("it is read").gates().of(6).is_none());
+    let unit = read("deploy/systemd/glidepath-planner.service");
+    assert!(unit.contains("\nStateDirectory=glidepath\n"));
+    let package = read("crates/glidepath/Cargo.toml");
+    assert!(
+        package.contains("\"../../deploy/machine.toml\", \"usr/share/glidepath/machine.toml\"")
+    );
 }

@@ -321,7 +321,7 @@ fn a_fault_that_was_reset_before_it_was_seen_is_called_that() {
     let told = result.unwrap_err().to_string();
     assert_eq!(
         told,
-        "the interpolator stopped by a fault that was reset meanwhile"
+        "the machine stopped by a fault that was reset meanwhile"
     );
 }
 

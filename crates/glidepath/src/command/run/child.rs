@@ -164,8 +164,12 @@ impl Process {
             Some(6) => Exit::Unchecked,
             _ => Exit::Fault,
         };
-        let reason = match (report["error"].as_str(), status.code(), status.signal()) {
-            (Some(error), ..) => error.to_owned(),
+        // What clears a fault is of no use here: the machine ends with this run.
+        let fault = report["fault"].as_str();
+        let fault = fault.map(|fault| format!("the machine stopped by a fault: {fault}"));
+        let error = report["error"].as_str().map(str::to_owned);
+        let reason = match (fault.or(error), status.code(), status.signal()) {
+            (Some(error), ..) => error,
             (None, Some(code), _) => format!("exit code {code}"),
             (None, None, Some(signal)) => format!("killed by signal {signal}"),
             (None, None, None) => "it ended without a code".to_owned(),

@@ -10,6 +10,7 @@
 //! processes end, then the instance's shared memory is removed.
 
 mod child;
+mod left;
 mod monitor;
 mod pipe;
 mod relay;
@@ -29,6 +30,7 @@ use crate::report::{DiagnosisReport, Planning, RunReport};
 use child::Process;
 use glidepath_link::{Ipc, LinkConfig, Status, remove_leftovers};
 use glidepath_program::Effort;
+use left::Left;
 use monitor::Monitor;
 use relay::{Received, Relay};
 use serde_json::Value;
@@ -56,18 +58,29 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let guard = session::guard(Some(&args.file), &args.basic, config, args.overwrite);
     let plot = plot_path(args, &guard);
+    if config.state_directory.is_some() {
+        output::note("run: what is kept is read, and nothing is kept: this machine is imitated");
+    }
     let csv = args.setpoints.as_deref();
     let recording = Recording::create(config, csv, plot.as_deref(), &guard)?;
     // From here on a line counts when it is executed.
     progress.start_again();
+    let mut left = None;
     let played = Supervisor {
         args,
         config,
         interrupt: &interrupt,
         progress: &progress,
     }
-    .play(recording);
+    .play(recording, &mut left);
     progress.finish();
+    if let Some(left) = left {
+        let files = (args.setpoints.clone(), plot);
+        return Err(match played {
+            Err(failure) => left.keep(&args.file, config, files, failure),
+            Ok(_) => Failure::Thread("the thread that receives setpoints"),
+        });
+    }
     let Played {
         planning,
         status,
@@ -160,8 +173,9 @@ struct Supervisor<'a> {
 
 impl Supervisor<'_> {
     /// Starts the processes, waits for the end of the motion, and ends them. Locals go in the order
-    /// opposite to that in which they came: processes, ports, shared memory.
-    fn play(&self, recording: Recording) -> Result<Played, Failure> {
+    /// opposite to that in which they came: processes, ports, shared memory. Of a motion that ended
+    /// before its end, what was played is `left`.
+    fn play(&self, recording: Recording, left: &mut Option<Left>) -> Result<Played, Failure> {
         let named = self
             .args
             .instance
@@ -203,9 +217,22 @@ impl Supervisor<'_> {
         let played = self.watch(&mut planner, others, &mut monitor, &relay);
         if let Err(failure) = played {
             rest(&mut monitor);
-            // A file that cannot be written, most often.
-            let cause = relay.is_over().then(|| relay.finish().err()).flatten();
-            return Err(cause.unwrap_or(failure));
+            let status = monitor.status().copied();
+            let was_over = relay.is_over();
+            // What it has received is whole when it has ended.
+            servo.end().map_err(Failure::Process)?;
+            return Err(match relay.finish() {
+                // A file that cannot be written, most often.
+                Err(cause) if was_over => cause,
+                Err(_) => failure,
+                // Whoever interrupts a run has no use for half of it.
+                Ok(_) if self.interrupt.is_set() => failure,
+                Ok(received) => {
+                    *left = Some(Left { received, status });
+                    let of_servo = servo.must_live().err().filter(|_| was_over);
+                    of_servo.unwrap_or(failure)
+                }
+            });
         }
         let planning = planner.planning()?;
         let status = last_status(&mut monitor)?;
@@ -348,6 +375,13 @@ impl Supervisor<'_> {
             if let Some(line) = monitor.resume_program_stop()? {
                 self.progress
                     .note(&format!("line {line}: program stop; going on by itself"));
+            }
+            // Where somebody is named who answers, that one is waited for.
+            if self.config.asks_for_tools()
+                && let Some(line) = monitor.pass_tool_change()?
+            {
+                self.progress
+                    .note(&format!("line {line}: tool change; going on by itself"));
             }
             self.progress.at(relay.seen.line());
             std::thread::sleep(POLL);

@@ -3,8 +3,10 @@
 use crate::command::failure::Failure;
 use crate::command::operator;
 use glidepath_link::{
-    Command, LinkConfig, LinkError, MachineState, Power, Record as _, Status, Subscriber, Transport,
+    Command, EventId, LinkConfig, LinkError, MachineState, Power, Record as _, Status, Subscriber,
+    Transport,
 };
+use glidepath_program::Event;
 
 pub(super) struct Monitor<'t> {
     link: &'t LinkConfig,
@@ -12,6 +14,8 @@ pub(super) struct Monitor<'t> {
     status: Option<Status>,
     /// The epoch and frame of the program stop that was resumed last.
     resumed: Option<(u64, u64)>,
+    /// The tool change that was answered last.
+    changed: Option<EventId>,
 }
 
 impl<'t> Monitor<'t> {
@@ -22,6 +26,7 @@ impl<'t> Monitor<'t> {
             source,
             status: None,
             resumed: None,
+            changed: None,
         })
     }
 
@@ -94,6 +99,31 @@ impl<'t> Monitor<'t> {
         let accepted = reply.outcome().map_err(LinkError::from)?.is_ok();
         self.resumed = accepted.then_some(at);
         Ok(accepted.then_some(status.line))
+    }
+
+    /// Answers a tool change, which nobody does here; returns its line the first time it is seen.
+    pub(super) fn pass_tool_change(&mut self) -> Result<Option<u32>, Failure> {
+        let is_change = |status: &Status| {
+            status.state() == Ok(MachineState::Awaiting)
+                && matches!(status.awaited_event(), Ok(Some(Event::MCode(6))))
+        };
+        let Some(status) = self.status.filter(is_change) else {
+            return Ok(None);
+        };
+        let event = EventId {
+            boot_id: status.boot_id,
+            epoch: status.epoch,
+            sequence: status.awaited_sequence,
+        };
+        if self.changed == Some(event) {
+            return Ok(None);
+        }
+        let command = Command::Acknowledge { event, done: true };
+        let reply = operator::send(&operator::reach(self.link)?, self.link, command)?;
+        // Refused if the status was older than the state: then the next one tells.
+        let accepted = reply.outcome().map_err(LinkError::from)?.is_ok();
+        self.changed = accepted.then_some(event);
+        Ok(accepted.then_some(status.awaited_line))
     }
 
     /// Brings the machine to rest on the path, and drops the rest of the program.

@@ -17,6 +17,7 @@ const NOTICE_AFTER: Duration = Duration::from_secs(1);
 pub(super) struct Notices {
     waits_from: Instant,
     has_said_that_it_waits: bool,
+    has_said_that_it_receives: bool,
     jumps: u64,
 }
 
@@ -26,6 +27,7 @@ impl Notices {
         Self {
             waits_from: Instant::now(),
             has_said_that_it_waits: is_quiet,
+            has_said_that_it_receives: is_quiet,
             jumps: 0,
         }
     }
@@ -45,6 +47,10 @@ impl Notices {
                 "servo: waiting for setpoints of the instance \"{instance}\", which `glidepath \
                  interpolator` gives"
             ));
+        }
+        if !self.has_said_that_it_receives && servo.counts().received > 0 {
+            self.has_said_that_it_receives = true;
+            output::note("servo: ready: it receives setpoints");
         }
         if let Some(OwnStop::Jump(jump)) = servo.stopped()
             && servo.counts().jumps > self.jumps

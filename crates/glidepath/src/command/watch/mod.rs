@@ -4,7 +4,7 @@ mod history;
 
 use super::forecast::Forecast;
 use super::kept_offsets::KeptOffsets;
-use super::operator::{reach, read_status};
+use super::operator::{of_link, reach};
 use super::session;
 use crate::cli::StatusArgs;
 use crate::command::failure::Failure;
@@ -13,14 +13,16 @@ use crate::exit::Exit;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::report::{View, status_object, view_object, view_text};
-use glidepath_link::{LinkError, Record as _, Transport as _};
+use glidepath_link::{LinkConfig, LinkError, Operator, Record as _, Status, Transport as _};
 use history::History;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::io::IsTerminal as _;
 use std::time::{Duration, Instant};
 
 /// Between two looks whether the process was asked to end.
 const NAP: Duration = Duration::from_millis(20);
+/// How long a status is waited for before that is said.
+const PATIENCE: Duration = Duration::from_millis(500);
 /// On a terminal: to a screen of its own, so that what was on it is there afterwards; back from it;
 /// and to its upper left corner.
 const ENTER: &str = "\x1b[?1049h\x1b[?25l";
@@ -33,7 +35,7 @@ const REST: &str = "\x1b[J";
 /// Shows the machine until the process is asked to end.
 ///
 /// # Errors
-/// No interpolator runs, or it ends; the program cannot be read.
+/// No interpolator runs, or it ends; the program cannot be read. One that says nothing is waited for.
 pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, Failure> {
     let interrupt = Interrupt::install().map_err(Failure::Signals)?;
     let instance = session::instance(&args.operator.instance, config);
@@ -51,9 +53,15 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
     let mut history = History::default();
     let mut offsets = KeptOffsets::new(config);
     let every = Duration::from_secs_f64(args.every);
+    let mut silent_since = None::<Instant>;
     while !interrupt.is_set() {
         let looked = Instant::now();
-        let status = read_status(&operator, &link)?;
+        let Some(status) = next_status(&operator, &link)? else {
+            let since = *silent_since.get_or_insert(looked);
+            tell_silence(&instance, &operator, since.elapsed(), &screen, as_json);
+            continue;
+        };
+        silent_since = None;
         history.take(&status);
         while let Some(record) = told.take()? {
             record.check().map_err(LinkError::from)?;
@@ -76,7 +84,7 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
             if let Value::Object(object) = &mut object {
                 object.extend(view_object(&view));
             }
-            output::result(&format!("{object}\n"));
+            output::object_line(&object);
         } else {
             screen.show(&view_text(&view));
         }
@@ -88,6 +96,41 @@ pub(super) fn watch(args: &StatusArgs, config: &MachineConfig) -> Result<Exit, F
     Ok(Exit::Done)
 }
 
+/// The next status; none from an interpolator that lives and says nothing for a moment.
+///
+/// # Errors
+/// It ended, or cannot be reached.
+fn next_status(operator: &Operator, link: &LinkConfig) -> Result<Option<Status>, Failure> {
+    match operator.status(PATIENCE) {
+        Err(error) => Err(of_link(error, link)),
+        Ok(status) => Ok(status),
+    }
+}
+
+/// Says that it is waited for an interpolator that lives and says nothing.
+fn tell_silence(
+    instance: &str,
+    operator: &Operator,
+    silent: Duration,
+    screen: &Screen,
+    as_json: bool,
+) {
+    let (process, silent_s) = (operator.interpolator().id(), silent.as_secs_f64());
+    if as_json {
+        output::object_line(&json!({
+            "instance": instance,
+            "pid": process,
+            "state": "silent",
+            "silent_s": (silent_s * 10.0).round() / 10.0,
+        }));
+    } else {
+        screen.show(&format!(
+            "{instance}   SILENT   the interpolator (process {process}) has said nothing for \
+             {silent_s:.0} s; what was shown last is old, and it is waited for\n"
+        ));
+    }
+}
+
 /// Where the view is shown.
 struct Screen {
     is_terminal: bool,
@@ -97,15 +140,15 @@ impl Screen {
     fn new(as_json: bool) -> Self {
         let is_terminal = !as_json && std::io::stdout().is_terminal();
         if is_terminal {
-            output::result(ENTER);
+            output::control(ENTER);
         }
         Self { is_terminal }
     }
 
     fn show(&self, text: &str) {
         if self.is_terminal {
-            let lines = text.replace('\n', REST_OF_LINE);
-            output::result(&format!("{HOME}{lines}{REST}"));
+            let lines = output::shown(text).replace('\n', REST_OF_LINE);
+            output::control(&format!("{HOME}{lines}{REST}"));
         } else {
             output::result(&format!("{text}\n"));
         }
@@ -115,7 +158,7 @@ impl Screen {
 impl Drop for Screen {
     fn drop(&mut self) {
         if self.is_terminal {
-            output::result(LEAVE);
+            output::control(LEAVE);
         }
     }
 }

@@ -13,8 +13,8 @@ use toml::Spanned;
 /// Codes of every program that may be waited for: those at which the machine is at rest anyway.
 const MAY_WAIT: [u32; 9] = [3, 4, 5, 6, 7, 8, 9, 19, 61];
 
-/// The rule of M66 is the machine's own, so one less.
-const MOST: usize = MAX_GATES - 1;
+/// The rules of M66 and, where there is no other, of M6 are the machine's own.
+const MOST: usize = MAX_GATES - 2;
 
 impl Judge {
     pub(super) fn m_codes(

@@ -139,5 +139,5 @@ fn feedback_of_the_future_is_refused() {
     let status = bench.status();
     assert_eq!(status.fault(), Ok(Some(FaultCause::FeedbackLost)));
     let text = status.last_error.as_str();
-    assert!(text.contains("do not say where they are"), "{text}");
+    assert!(text.contains("no longer say where they are"), "{text}");
 }

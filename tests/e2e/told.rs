@@ -1,0 +1,105 @@
+//! What people are told: at the client that waits, in refusals, and by a watch that outlasts silence.
+
+use std::time::Duration;
+
+use glidepath_link::MachineState;
+use glidepath_tests::{Instance, Operated, Watchdog};
+use rustix::process::Signal;
+use serde_json::Value;
+
+const PATIENCE: Duration = Duration::from_secs(240);
+
+/// Without a table for M6 and without a word of state, as a machine is at first.
+const PART: &str = "G21 G90 G54\nG0 X1\nT2 M6\nG0 X2\nM0 (turn the part)\nG0 X3\nM2\n";
+
+#[test]
+fn a_tool_change_waits_for_a_person_and_says_so_where_the_program_was_started() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let table = instance.file("tools.tbl", "T2 P2 Z10 D6 ; 6 mm end mill\n");
+    let named = format!("tool_table = \"{table}\"");
+    let bench = Operated::new(&instance, &[("# tool_table = \"tools.tbl\"", &named)], "");
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let servo = bench.process(&["servo", "--stands", "0,0,0"]);
+    let _seen = bench.wait_for_drives();
+    let service = bench.process(&["planner", "--listen"]);
+    bench.operate(&["enable"]);
+    let _ready = bench.wait_for(MachineState::Idle);
+    // One sentence, and what it tells to type is complete.
+    let name = &instance.config().instance;
+    let complete = format!("--instance {name} --config {}", bench.config());
+    let told = bench.process(&["resume"]).wait().expect(5).stderr;
+    let status = format!("`glidepath status {complete}`");
+    assert_eq!(
+        told.trim(),
+        format!("error: resume refused: nothing is held; {status} says what the machine does")
+    );
+
+    let part = instance.file("part.ngc", PART);
+    let running = bench.process(&["run-file", &part]);
+    let status = bench.wait_for(MachineState::Awaiting);
+    assert!(
+        (status.position[0] - 1.0).abs() < 1e-9,
+        "the wrong tool cuts"
+    );
+    std::thread::sleep(Duration::from_millis(500));
+    bench.operate(&["acknowledge"]);
+    let status = bench.wait_for(MachineState::ProgramStop);
+    assert!((status.position[0] - 2.0).abs() < 1e-9);
+    std::thread::sleep(Duration::from_millis(500));
+    bench.operate(&["resume"]);
+    let told = running.wait().expect(0).stderr;
+    for words in [
+        "line 3: change to tool T2 (6 mm end mill)".to_owned(),
+        format!("`glidepath acknowledge {complete}`"),
+        "line 5: the program stopped the machine (turn the part)".to_owned(),
+        format!("`glidepath resume {complete}` goes on"),
+    ] {
+        assert!(told.contains(&words), "{words}: {told}");
+    }
+    for process in [&service, &servo, &interpolator] {
+        process.signal(Signal::TERM);
+    }
+    // Each says when it is ready, and names no variant.
+    let told = service.wait().expect(0).stderr;
+    assert!(told.contains("planner: ready"), "{told}");
+    assert!(told.contains("nothing is kept over a restart"), "{told}");
+    let told = servo.wait().expect(0).stderr;
+    assert!(told.contains("servo: ready"), "{told}");
+    let told = interpolator.wait().expect(0).stderr;
+    assert!(told.contains("interpolator: ready"), "{told}");
+    assert!(told.contains("running, before that "), "{told}");
+    assert!(!told.contains("->") && !told.contains("Idle"), "{told}");
+}
+
+#[test]
+fn a_watch_waits_for_an_interpolator_that_is_silent_and_says_so() {
+    let (instance, _watchdog) = (Instance::for_processes(), Watchdog::new(PATIENCE));
+    let bench = Operated::new(&instance, &[], "");
+    let interpolator = bench.process(&["interpolator", "--best-effort"]);
+    let _seen = bench.wait(|status| status.ticks > 0);
+    let watch = bench.process(&["status", "--watch", "--json", "--every", "0.1"]);
+    std::thread::sleep(Duration::from_secs(1));
+    interpolator.signal(Signal::STOP);
+    std::thread::sleep(Duration::from_secs(4));
+    interpolator.signal(Signal::CONT);
+    std::thread::sleep(Duration::from_secs(2));
+    interpolator.signal(Signal::TERM);
+    let told = watch.wait().expect(5).stdout;
+    let lines: Vec<Value> = told
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap_or_else(|error| panic!("{line}: {error}")))
+        .collect();
+    let is_silent = |line: &&Value| line["state"] == "silent";
+    let silent = lines
+        .iter()
+        .rposition(|line| is_silent(&line))
+        .expect(&told);
+    assert!(lines[silent]["silent_s"].as_f64() > Some(2.0), "{told}");
+    let after = lines[silent..].iter().filter(|line| line["ticks"].is_u64());
+    assert!(after.count() > 1, "it goes on: {told}");
+    assert!(
+        lines.last().is_some_and(|line| line["error"].is_string()),
+        "{told}"
+    );
+    let _ended = interpolator.wait();
+}
