@@ -101,6 +101,16 @@ pub enum OwnStop {
     Jump(Jump),
 }
 
+impl fmt::Display for OwnStop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Silence => f.write_str("setpoints stayed away"),
+            Self::Asked => f.write_str("it was asked to stop"),
+            Self::Jump(jump) => jump.fmt(f),
+        }
+    }
+}
+
 /// Where the drives stand, and how near the first setpoint has to be.
 #[derive(Debug, Clone, Copy)]
 struct Stand {

@@ -30,6 +30,8 @@ struct Knot {
     heard_ns: u64,
     period_ns: u64,
     joints: JointStates,
+    /// No setpoint, but where one leads at constant acceleration.
+    is_coasted: bool,
     /// The joints whose drives look for their home by themselves, one bit each.
     home: u32,
 }
@@ -56,6 +58,7 @@ impl Knot {
             heard_ns: at_ns,
             period_ns: at_ns.saturating_sub(setpoint.scheduled_ns),
             joints,
+            is_coasted: false,
             home: setpoint.home,
         }
     }
@@ -63,7 +66,7 @@ impl Knot {
     fn coast(mut self, now_ns: u64) -> Self {
         let time_t = seconds(now_ns, self.at_ns);
         self.joints = self.joints.map(|joint| joint.coast(time_t));
-        self.at_ns = now_ns;
+        (self.at_ns, self.is_coasted) = (now_ns, true);
         self
     }
 }
@@ -128,7 +131,8 @@ impl Player {
                 return Ok(());
             }
             let is_next = knot.at_ns - last.at_ns <= knot.period_ns + knot.period_ns / 4;
-            self.judge(last, &knot, is_next).map_or(Ok(()), Err)?;
+            let is_whole = is_next && !last.is_coasted;
+            self.judge(last, &knot, is_whole).map_or(Ok(()), Err)?;
         }
         if self.queue.len() == QUEUE {
             self.queue.pop_front();

@@ -204,6 +204,29 @@ fn a_missed_tick_is_no_jump() {
 }
 
 #[test]
+fn late_then_missed_is_no_jump() {
+    // Setpoint 50 comes 3 ms late (the joints coast), then the interpolator misses a tick: 51 comes two periods
+    // after 50 and leads to where 51 periods lead, a period behind the joints.
+    let mut bench = guarded();
+    played(&mut bench, 50);
+    bench.run_to(ns_of(50) + 3_000_000, &[]);
+    bench.publish(&setpoint(50));
+    bench.run_to(ns_of(52), &[]);
+    let after = |number: u64| Setpoint {
+        missed_ticks: 1,
+        tick: number + 1,
+        scheduled_ns: ns_of(number + 1),
+        apply_ns: ns_of(number + 2),
+        ..setpoint(number)
+    };
+    for number in 51..60 {
+        bench.publish(&after(number));
+        bench.run_to(ns_of(number + 2), &[]);
+    }
+    assert_eq!(bench.servo.stopped(), None, "{:?}", bench.servo.stopped());
+}
+
+#[test]
 fn without_limits_there_is_no_guard() {
     let mut bench = Bench::new();
     played(&mut bench, 50);
