@@ -3,6 +3,7 @@
 use super::motion::{MotionReport, Planning};
 use super::status::{quantiles_object, realtime_object, timing_text};
 use crate::config::MachineConfig;
+use crate::exit::Exit;
 use crate::play_time::PlayedTime;
 use glidepath_audit::{Report, ViolationKind};
 use glidepath_link::Status;
@@ -31,6 +32,10 @@ pub struct RunReport {
     pub received_setpoints: u64,
     /// Setpoints that were published and did not reach the servo.
     pub lost_setpoints: u64,
+    /// How often the servo stopped the joints by itself: from the first time on it played no setpoint.
+    pub servo_own_stops: u64,
+    /// Why it did so first.
+    pub servo_stopped: Option<String>,
     /// How late ticks began: p50, p99, p999, max.
     pub lateness_us: Value,
     /// How long the work of a tick took, before and at its deadline: p50, p99, p999, max.
@@ -77,6 +82,8 @@ impl RunReport {
             late_ticks: status.late_ticks,
             received_setpoints: servo.received,
             lost_setpoints: servo.lost,
+            servo_own_stops: 0,
+            servo_stopped: None,
             lateness_us: quantiles_object(&status.lateness),
             work_us: quantiles_object(&status.work),
             latency_us: quantiles_object(&status.latency),
@@ -87,11 +94,24 @@ impl RunReport {
         }
     }
 
+    /// Done, or a fault if the auditor found any or the motion was not played to its end.
+    #[must_use]
+    pub const fn exit(&self) -> Exit {
+        if self.servo_own_stops > 0 {
+            Exit::Fault
+        } else {
+            self.motion.exit()
+        }
+    }
+
     /// The report for people.
     #[must_use]
     pub fn text(&self) -> String {
+        let stopped = self.servo_stopped.as_ref().map_or_else(String::new, |why| {
+            format!("  FAULT         the servo stopped by itself, and played nothing more: {why}\n")
+        });
         format!(
-            "{}{}{}  servo         {} setpoints received, {} lost\n{}{}",
+            "{}{}{}  servo         {} setpoints received, {} lost\n{stopped}{}{}",
             self.motion.text(),
             self.played.text(),
             timing_text(&self.status),

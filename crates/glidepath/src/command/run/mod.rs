@@ -32,6 +32,7 @@ use glidepath_link::{Ipc, LinkConfig, Status, remove_leftovers};
 use glidepath_program::Effort;
 use left::Left;
 use monitor::Monitor;
+pub(in crate::command) use pipe::Farewell;
 use relay::{Received, Relay};
 use serde_json::Value;
 use std::ffi::OsString;
@@ -96,6 +97,8 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
         config,
     );
     report.drives = drives;
+    report.servo_own_stops = received.farewell.own_stops;
+    report.servo_stopped = received.farewell.first_stop;
     report.motion.program = args.file.name().display().to_string();
     report.motion.setpoints.clone_from(&args.setpoints);
     report.motion.plot = plot;
@@ -108,7 +111,7 @@ pub(super) fn run(args: &RunArgs, config: &MachineConfig) -> Result<Exit, Failur
     } else {
         output::result(&report.text());
     }
-    Ok(report.motion.exit())
+    Ok(report.exit())
 }
 
 /// Where the plot goes: for people always somewhere, beside nobody's file.

@@ -6,8 +6,9 @@
 //! the pipe, and keeps it until it is asked for.
 
 use glidepath_link::{LinkError, Setpoint, Subscriber};
+use serde::{Deserialize, Serialize};
 use std::io::{self, Cursor, ErrorKind, Read};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// Bytes that are read at a time.
 const PIECE: usize = 1 << 15;
@@ -113,23 +114,78 @@ impl Read for ReadAhead {
     }
 }
 
+/// What the servo says behind its last setpoint.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::command) struct Farewell {
+    /// How often it stopped the joints by itself.
+    pub(in crate::command) own_stops: u64,
+    /// Why it did so first.
+    pub(in crate::command) first_stop: Option<String>,
+}
+
+impl Farewell {
+    /// As it goes through the pipe: a text that is shorter than a setpoint.
+    pub(in crate::command) fn to_bytes(&self) -> Vec<u8> {
+        serde_json::to_vec(self).unwrap_or_default()
+    }
+
+    /// What is left at the end of the pipe; `None` for part of a setpoint.
+    fn from_bytes(bytes: &[u8]) -> Option<Self> {
+        serde_json::from_slice(bytes).ok()
+    }
+}
+
 /// The receiving end.
 #[derive(Debug)]
-pub(super) struct Pipe<R>(pub(super) R);
+pub(super) struct Pipe<R> {
+    from: R,
+    farewell: Arc<OnceLock<Farewell>>,
+}
+
+impl<R: Read> Pipe<R> {
+    /// The end of a pipe, and where its farewell will be.
+    pub(super) fn new(from: R) -> (Self, Arc<OnceLock<Farewell>>) {
+        let farewell = Arc::default();
+        let pipe = Self {
+            from,
+            farewell: Arc::clone(&farewell),
+        };
+        (pipe, farewell)
+    }
+
+    /// Reads until a piece is full or the pipe has ended; how much there was.
+    fn fill(&mut self, piece: &mut [u8]) -> io::Result<usize> {
+        let mut filled = 0;
+        while filled < piece.len() {
+            match self.from.read(&mut piece[filled..]) {
+                Ok(0) => break,
+                Ok(length) => filled += length,
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(filled)
+    }
+}
 
 impl<R: Read> Subscriber<Setpoint> for Pipe<R> {
     /// The next setpoint; `None` at the end, also where a writer that died left part of one.
     fn take(&mut self) -> Result<Option<Setpoint>, LinkError> {
         let mut setpoint: Setpoint = bytemuck::Zeroable::zeroed();
-        match self.0.read_exact(bytemuck::bytes_of_mut(&mut setpoint)) {
-            Ok(()) => Ok(Some(setpoint)),
-            Err(error) if error.kind() == ErrorKind::UnexpectedEof => Ok(None),
-            Err(error) => Err(LinkError::Transport {
-                service: "servo",
-                action: "reading what it received",
-                detail: error.into(),
-            }),
+        let bytes = bytemuck::bytes_of_mut(&mut setpoint);
+        let filled = self.fill(bytes).map_err(|error| LinkError::Transport {
+            service: "servo",
+            action: "reading what it received",
+            detail: error.into(),
+        })?;
+        if filled == bytes.len() {
+            return Ok(Some(setpoint));
         }
+        if let Some(farewell) = Farewell::from_bytes(&bytes[..filled]) {
+            let _ = self.farewell.set(farewell);
+        }
+        Ok(None)
     }
 }
 
@@ -146,9 +202,33 @@ mod tests {
         (setpoint.number, setpoint.position[2]) = (7, -0.1);
         let mut bytes = bytemuck::bytes_of(&setpoint).to_vec();
         bytes.extend_from_within(..100);
-        let mut pipe = Pipe(bytes.as_slice());
+        let (mut pipe, farewell) = Pipe::new(bytes.as_slice());
         assert_eq!(pipe.take().unwrap(), Some(setpoint));
         assert!(pipe.take().unwrap().is_none());
+        assert_eq!(farewell.get(), None);
+    }
+
+    #[test]
+    fn what_is_said_behind_the_last_setpoint_comes_through() {
+        let jump = glidepath_link::servo::Jump {
+            joint: 8,
+            from: -1.234_567_890_123_456_7e-300,
+            to: f64::MIN,
+            span_t: 0.008,
+            of: glidepath_link::servo::JumpOf::Acceleration,
+            asked: f64::MAX,
+            limit: 320.0,
+        };
+        let said = Farewell {
+            own_stops: 2,
+            first_stop: Some(jump.to_string()),
+        };
+        let mut bytes = bytemuck::bytes_of(&<Setpoint as bytemuck::Zeroable>::zeroed()).to_vec();
+        bytes.extend(said.to_bytes());
+        let (mut pipe, farewell) = Pipe::new(bytes.as_slice());
+        assert!(pipe.take().unwrap().is_some());
+        assert!(pipe.take().unwrap().is_none());
+        assert_eq!(farewell.get(), Some(&said));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What the mock servo receives, on its way through this process: counted, audited, recorded.
 
-use super::pipe::{Pipe, ReadAhead};
+use super::pipe::{Farewell, Pipe, ReadAhead};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::play_time::{PlayTime, PlayedTime};
@@ -46,6 +46,7 @@ impl Seen {
 #[derive(Debug)]
 pub(super) struct Received {
     pub(super) counts: ServoCounts,
+    pub(super) farewell: Farewell,
     pub(super) audit: audit::Report,
     pub(super) played: PlayedTime,
     /// What bound the motion that was played, and how smooth it was.
@@ -95,7 +96,7 @@ fn receive(
     seen: &Seen,
 ) -> Result<Received, Failure> {
     let period_t = config.period_t();
-    let pipe = Pipe(BufReader::new(ReadAhead::of(from)));
+    let (pipe, farewell) = Pipe::new(BufReader::new(ReadAhead::of(from)));
     // Only its counts are wanted: the servo process has played these setpoints in its own time.
     let mut servo = Servo::new(Box::new(pipe), ServoSettings::default());
     let mut play_time = PlayTime::new(period_t);
@@ -127,6 +128,7 @@ fn receive(
     let (audit, summary) = judge.finish(&mut recording);
     Ok(Received {
         counts,
+        farewell: farewell.get().cloned().unwrap_or_default(),
         audit,
         summary,
         played: play_time.played(),

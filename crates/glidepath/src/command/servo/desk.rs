@@ -19,6 +19,14 @@ use std::time::Duration;
 /// Between two looks for setpoints: a fraction of a period, and a small one of the queue.
 const POLL: Duration = Duration::from_millis(1);
 
+/// What became of the setpoints that were played.
+#[derive(Debug)]
+pub(super) struct Played {
+    pub(super) counts: ServoCounts,
+    /// Why the servo stopped the joints by itself first, if it did.
+    pub(super) first_stop: Option<String>,
+}
+
 /// Plays setpoints and hands over every one, until `take` gives false or the process is asked to
 /// end.
 pub(super) fn play(
@@ -26,7 +34,7 @@ pub(super) fn play(
     config: &MachineConfig,
     interrupt: &Interrupt,
     mut take: impl FnMut(&Setpoint) -> Result<bool, Failure>,
-) -> Result<ServoCounts, Failure> {
+) -> Result<Played, Failure> {
     let transport = session::join(&args.instance, config)?;
     let mut servo = Servo::new(transport.setpoint_source()?, settings(config));
     // What only passes setpoints on leaves the drives to somebody else.
@@ -38,10 +46,10 @@ pub(super) fn play(
         plant = plant.with_probe(joint, position);
     }
     let mut notices = Notices::new(args.relay);
-    while !interrupt.is_set() {
+    'playing: while !interrupt.is_set() {
         while let Some(setpoint) = servo.receive(Monotonic.now_ns())? {
             if !take(&setpoint)? {
-                return Ok(*servo.counts());
+                break 'playing;
             }
         }
         // A real servo stack hands this to its drives, and asks them where they are.
@@ -54,7 +62,10 @@ pub(super) fn play(
         }
         std::thread::sleep(POLL);
     }
-    Ok(*servo.counts())
+    Ok(Played {
+        counts: *servo.counts(),
+        first_stop: notices.into_first_stop(),
+    })
 }
 
 /// How far away the home switch of a joint is that has one, mm or degrees.

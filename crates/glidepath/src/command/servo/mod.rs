@@ -9,6 +9,7 @@ mod settings;
 pub(super) use desk::begins;
 pub(super) use settings::settings;
 
+use super::run::Farewell;
 use super::session;
 use crate::cli::ServoArgs;
 use crate::command::failure::Failure;
@@ -46,7 +47,7 @@ pub(super) fn servo(args: &ServoArgs, config: &MachineConfig) -> Result<Exit, Fa
         let (counts, hal) = hal::play(args, config, &interrupt, take)?;
         (counts, Some(hal))
     } else {
-        (desk::play(args, config, &interrupt, take)?, None)
+        (desk::play(args, config, &interrupt, take)?.counts, None)
     };
     recording.finish("", "")?;
     report(args, &counts, hal.as_ref());
@@ -96,12 +97,20 @@ fn report(args: &ServoArgs, counts: &ServoCounts, hal: Option<&HalCounts>) {
     }
 }
 
-/// Passes every setpoint on, as it is in memory, until the reader goes away.
+/// Passes every setpoint on, as it is in memory, until the reader goes away; and behind the last one
+/// whether the servo stopped by itself.
 fn relay(args: &ServoArgs, config: &MachineConfig, interrupt: &Interrupt) -> Result<Exit, Failure> {
     let mut out = BufWriter::new(std::io::stdout().lock());
-    desk::play(args, config, interrupt, |setpoint| {
+    let played = desk::play(args, config, interrupt, |setpoint| {
         let written = out.write_all(bytemuck::bytes_of(setpoint));
         Ok(written.and_then(|()| out.flush()).is_ok())
     })?;
+    let farewell = Farewell {
+        own_stops: played.counts.stops,
+        first_stop: played.first_stop,
+    };
+    // Nobody is left to tell where the reader went away.
+    let _ = out.write_all(&farewell.to_bytes());
+    let _ = out.flush();
     Ok(interrupt.exit())
 }

@@ -6,7 +6,7 @@ use crate::config::MachineConfig;
 use crate::output;
 use glidepath_link::Setpoint;
 use glidepath_link::Subscriber;
-use glidepath_link::servo::{OwnStop, Servo};
+use glidepath_link::servo::Servo;
 use std::time::{Duration, Instant};
 
 /// How long it waits for the first setpoint before it says so.
@@ -18,7 +18,10 @@ pub(super) struct Notices {
     waits_from: Instant,
     has_said_that_it_waits: bool,
     has_said_that_it_receives: bool,
-    jumps: u64,
+    /// Own stops that were told.
+    stops: u64,
+    /// Why the servo stopped by itself first.
+    first_stop: Option<String>,
 }
 
 impl Notices {
@@ -28,7 +31,8 @@ impl Notices {
             waits_from: Instant::now(),
             has_said_that_it_waits: is_quiet,
             has_said_that_it_receives: is_quiet,
-            jumps: 0,
+            stops: 0,
+            first_stop: None,
         }
     }
 
@@ -52,11 +56,18 @@ impl Notices {
             self.has_said_that_it_receives = true;
             output::note("servo: ready: it receives setpoints");
         }
-        if let Some(OwnStop::Jump(jump)) = servo.stopped()
-            && servo.counts().jumps > self.jumps
+        if let Some(why) = servo.stopped()
+            && servo.counts().stops > self.stops
         {
-            self.jumps = servo.counts().jumps;
-            output::note(&format!("servo: stopped, {jump}"));
+            self.stops = servo.counts().stops;
+            let why = why.to_string();
+            output::note(&format!("servo: stopped by itself: {why}"));
+            self.first_stop.get_or_insert(why);
         }
+    }
+
+    /// Why the servo stopped by itself first, if it did.
+    pub(super) fn into_first_stop(self) -> Option<String> {
+        self.first_stop
     }
 }
