@@ -221,12 +221,19 @@ impl Jog {
             JogMode::None | JogMode::WheelVelocity => Goal::Stop,
             JogMode::Continuous => Goal::Speeds(demand.value),
             JogMode::Incremental => {
-                let rest = self.course.stop().end();
-                Goal::Place(
-                    rest.zip_zip_map(published, &demand.value, |rest, now, step| {
-                        if step == 0.0 { rest } else { now + step }
-                    }),
-                )
+                // Steps add up: one that comes on the way to the place of the last counts from there.
+                let target = match self.goal {
+                    Goal::Place(place) if before == Some(JogMode::Incremental) => place,
+                    _ => {
+                        let rest = self.course.stop().end();
+                        rest.zip_zip_map(published, &demand.value, |rest, now, step| {
+                            if step == 0.0 { rest } else { now }
+                        })
+                    }
+                };
+                // An axis goes to the end of its travel, and keeps no other from going on.
+                let travel = self.travel(published);
+                Goal::Place(travel.nearest(&(target + demand.value)))
             }
             JogMode::Wheel => {
                 let from = match self.goal {
@@ -234,7 +241,8 @@ impl Jog {
                     _ => self.course.stop().end(),
                 };
                 let place = (from + turned).sup(&(published - self.ahead));
-                Goal::Place(place.inf(&(published + self.ahead)))
+                let travel = self.travel(published);
+                Goal::Place(travel.nearest(&place.inf(&(published + self.ahead))))
             }
         };
     }

@@ -122,14 +122,19 @@ impl Course {
 
     /// Sets out for a goal, inside travel and limits.
     pub(crate) fn aim(&mut self, goal: &Goal, travel: &Travel, limits: &JogLimits) {
-        let vector = match goal {
+        let position = self.motion().position;
+        let (goal, vector) = match goal {
             Goal::Stop => {
                 self.brake();
                 return;
             }
-            Goal::Speeds(speeds) => *speeds,
-            Goal::Place(place) => place - self.motion().position,
+            Goal::Speeds(speeds) => {
+                let speeds = self.open_speeds(speeds, &position, travel);
+                (Goal::Speeds(speeds), speeds)
+            }
+            Goal::Place(place) => (*goal, place - position),
         };
+        let goal = &goal;
         if let Way::Rest(position) = self.way {
             match Line::from_rest(position, &vector, &limits.jog) {
                 Some(line) => self.way = Way::Line(line),
@@ -147,6 +152,24 @@ impl Course {
         };
         single.aim(goal, travel, limits);
         self.way = Way::Single(single);
+    }
+
+    /// The velocities that are wanted, without those of axes that stand at the end of their travel.
+    fn open_speeds(
+        &self,
+        speeds: &AxisVector,
+        position: &AxisVector,
+        travel: &Travel,
+    ) -> AxisVector {
+        let open = travel.open_to(position, speeds);
+        match &self.way {
+            Way::Rest(_) => open,
+            // One that is on its way to the end comes to rest there, together with the others.
+            Way::Line(line) => open.zip_zip_map(speeds, &line.direction, |open, speed, along| {
+                if along == 0.0 { open } else { speed }
+            }),
+            Way::Single(_) => *speeds,
+        }
     }
 
     /// How the axes come to rest if they stop at once.

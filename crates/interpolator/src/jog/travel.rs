@@ -1,6 +1,7 @@
 //! Where a jog may go.
 
 use crate::config::SoftLimits;
+use crate::rest::SAME_POSITION;
 use glidepath_geometry::{AXES, AxisVector};
 
 /// The box that a jog stays in.
@@ -41,6 +42,26 @@ impl Travel {
 
     pub(crate) const fn highest(&self) -> &AxisVector {
         &self.highest
+    }
+
+    /// The place inside that is nearest to one, axis by axis.
+    pub(crate) fn nearest(&self, place: &AxisVector) -> AxisVector {
+        place.sup(&self.lowest).inf(&self.highest)
+    }
+
+    /// What is left of velocities where axes stand at the end of their travel: they go no further,
+    /// and the others go on.
+    pub(crate) fn open_to(&self, position: &AxisVector, speeds: &AxisVector) -> AxisVector {
+        let mut open = *speeds;
+        let ends = self.lowest.iter().zip(&self.highest);
+        for ((v, x), (low, high)) in open.iter_mut().zip(position).zip(ends) {
+            let is_at_end =
+                (*v < 0.0 && x - low <= SAME_POSITION) || (*v > 0.0 && high - x <= SAME_POSITION);
+            if is_at_end {
+                *v = 0.0;
+            }
+        }
+        open
     }
 
     /// Whether a box lies inside, but for rounding.

@@ -1,5 +1,6 @@
 //! `glidepath jog`: by steps, or by the keys of a terminal.
 
+mod arrival;
 mod demands;
 mod keys;
 mod lift;

@@ -1,5 +1,6 @@
 //! A jog by steps: `glidepath jog X10 Y-5`.
 
+use super::arrival::Arrival;
 use super::panel::Panel;
 use crate::cli::JogArgs;
 use crate::command::failure::Failure;
@@ -64,11 +65,13 @@ pub(super) fn jog(
         }
         std::thread::sleep(POLL);
     }
-    report(args, instance, &mut panel, &start)?;
+    let asked = (!args.by_joint).then_some(&value);
+    let arrival = Arrival::of(&mut panel, config, (&start, asked), &interrupt)?;
+    report(args, instance, &mut panel, (&start, &arrival))?;
     Ok(if interrupt.is_set() {
         Exit::Interrupted
     } else {
-        Exit::Done
+        arrival.exit()
     })
 }
 
@@ -112,7 +115,7 @@ fn report(
     args: &JogArgs,
     instance: &str,
     panel: &mut Panel,
-    start: &[(Axis, f64)],
+    (start, arrival): (&[(Axis, f64)], &Arrival),
 ) -> Result<(), Failure> {
     let state = panel.state()?.name();
     let end = panel.position();
@@ -124,13 +127,21 @@ fn report(
             "start": object(start),
             "position": object(&end),
             "away": object(&panel.away()),
+            "not_moved": object(&arrival.not_moved()),
+            "at_end_of_travel": arrival.at_end_of_travel(),
+            "have_followed": arrival.have_followed(),
+            "following_error": arrival.following_errors(),
         }));
     } else {
         let position: Vec<String> = end
             .iter()
             .map(|(axis, value)| format!("{axis} {value:.4}"))
             .collect();
-        output::result(&format!("jog: {state} at {}\n", position.join("  ")));
+        output::result(&format!(
+            "jog: {state} at {}\n{}",
+            position.join("  "),
+            arrival.text()
+        ));
     }
     Ok(())
 }

@@ -152,6 +152,56 @@ fn a_step_ends_where_it_should_and_is_done_once() {
 }
 
 #[test]
+fn steps_add_up() {
+    let mut rig = jogged();
+    let mut hand = Hand::new(1);
+    for _ in 0..3 {
+        hand.ask(&mut rig, JogMode::Incremental, [5.0, 0.0, 0.0]);
+        rig.run(12);
+    }
+    // A step of another axis leaves the first its place, and a step back is taken off.
+    hand.ask(&mut rig, JogMode::Incremental, [0.0, 2.0, 0.0]);
+    rig.run(12);
+    hand.ask(&mut rig, JogMode::Incremental, [-4.0, 0.0, 0.0]);
+    settle(&mut rig, MachineState::Idle);
+    let end = rig.setpoints.last().unwrap().position;
+    assert_eq!(end[..3], [11.0, 2.0, 0.0]);
+    // One that was let go of is over: the next counts from where the axes rest.
+    hand.ask(&mut rig, JogMode::Incremental, [-20.0, 0.0, 0.0]);
+    rig.run(12);
+    hand.ask(&mut rig, JogMode::None, [0.0; 3]);
+    settle(&mut rig, MachineState::Idle);
+    let rest = x(&rig);
+    assert!(rest > -8.0, "{rest}");
+    hand.ask(&mut rig, JogMode::Incremental, [1.0, 0.0, 0.0]);
+    settle(&mut rig, MachineState::Idle);
+    assert!((x(&rig) - rest - 1.0).abs() < 1e-12);
+    assert!(rig.worst_ratio() <= INSIDE);
+}
+
+#[test]
+fn an_axis_at_its_end_keeps_no_other_from_its_step_and_steps_beyond_are_not_kept() {
+    let mut rig = jogged();
+    let mut hand = Hand::new(1);
+    hand.ask(&mut rig, JogMode::Incremental, [30.0, 0.0, 0.0]);
+    settle(&mut rig, MachineState::Idle);
+    for _ in 0..3 {
+        hand.ask(&mut rig, JogMode::Incremental, [30.0, 10.0, -5.0]);
+        rig.run(5);
+    }
+    settle(&mut rig, MachineState::Idle);
+    let end = rig.setpoints.last().unwrap().position;
+    assert_eq!(end[..3], [TRAVEL, 30.0, -15.0]);
+    // What lay beyond is not to be stepped back first.
+    hand.ask(&mut rig, JogMode::Incremental, [30.0, 0.0, 0.0]);
+    rig.run(2);
+    hand.ask(&mut rig, JogMode::Incremental, [-7.0, 0.0, 0.0]);
+    settle(&mut rig, MachineState::Idle);
+    assert_eq!(x(&rig), TRAVEL - 7.0);
+    assert!(rig.worst_ratio() <= INSIDE);
+}
+
+#[test]
 fn a_speed_asked_for_is_kept_and_so_is_the_override() {
     let mut rig = jogged();
     let mut hand = Hand::new(1);
@@ -181,8 +231,11 @@ fn a_jog_ends_at_the_end_of_travel_and_only_leads_back_from_beyond() {
     let mut hand = Hand::new(1);
     hand.hold(&mut rig, 300, [150.0, 75.0, 0.0]);
     assert!((x(&rig) - TRAVEL).abs() < 1e-9, "{}", x(&rig));
-    // Along the line, so the other axis ends half way.
-    assert!((rig.setpoints.last().unwrap().position[1] - 25.0).abs() < 1e-9);
+    // Along the line up to there; then the other axis goes on by itself, to its own end.
+    let is_on_line = |s: &&Setpoint| (s.position[1] - 0.5 * s.position[0]).abs() < 1e-9;
+    let on_line = rig.setpoints.iter().filter(is_on_line).last().unwrap();
+    assert!((on_line.position[0] - TRAVEL).abs() < 1e-9);
+    assert!((rig.setpoints.last().unwrap().position[1] - TRAVEL).abs() < 1e-9);
     assert_eq!(rig.state(), MachineState::Jogging);
     rig.run(60);
     assert_eq!(rig.state(), MachineState::Idle);
