@@ -30,7 +30,7 @@ impl DriveBook {
                 self.found &= !mask;
                 Ok(false)
             }
-            Command::Abort => {
+            Command::Abort if report.state != MachineState::Faulted => {
                 self.conductor.drop_job();
                 Ok(true)
             }
@@ -41,7 +41,6 @@ impl DriveBook {
             | Command::RapidOverride(_)
             | Command::StopAtEndOfBlock
             | Command::SingleBlock(_)
-            | Command::Reset
             | Command::Step
             | Command::Disable
             | Command::Return
@@ -50,7 +49,28 @@ impl DriveBook {
             | Command::Reverse
             | Command::Forward
             | Command::Tell => Ok(true),
+            // Without a program, what is left to abort is a latched fault.
+            Command::Reset | Command::Abort => {
+                self.conductor.drop_job();
+                self.reset(report).map(|()| true)
+            }
         }
+    }
+
+    /// Whether a fault would not come again at once: a joint that does not stand where it was told
+    /// to be is not led from there.
+    fn reset(&self, report: &Report) -> Result<(), Objection> {
+        if report.power != Power::On {
+            return Ok(());
+        }
+        let joints = self.claims.joints();
+        let mut pairs = self.pairs.iter();
+        let are_apart = pairs.any(|pair| {
+            let apart = self.apart(&joints, pair);
+            apart.is_some_and(|apart| apart > pair.difference)
+        });
+        let stays_apart = self.following.is_beyond() || are_apart;
+        refuse(!stays_apart, Objection::StaysApart)
     }
 
     /// Whether joints are on their way home by the controller, or about to be.

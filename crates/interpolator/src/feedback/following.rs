@@ -31,6 +31,8 @@ pub(super) enum Finding {
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Following {
     error: f64,
+    /// What is allowed of it now.
+    limit: f64,
     peak: f64,
     /// The share of what is allowed when the motion began to stop for it.
     stopped_r: Option<f64>,
@@ -62,6 +64,12 @@ impl FollowingErrors {
         }
     }
 
+    /// Whether the error of a joint is more than is allowed now.
+    pub(super) fn is_beyond(&self) -> bool {
+        let mut joints = self.0.iter();
+        joints.any(|following| following.error.abs() > following.limit)
+    }
+
     /// Judges a joint by its demand at the moment of its sample. `is_stopping` once a fault is
     /// latched.
     pub(super) fn judge(
@@ -77,7 +85,7 @@ impl FollowingErrors {
         let ramp = allowed.following_error * demand.velocity.abs() / allowed.max_velocity;
         let limit = ramp.max(allowed.min_following_error);
         let share_r = error.abs() / limit;
-        following.error = error;
+        (following.error, following.limit) = (error, limit);
         following.peak = following.peak.max(error.abs());
         if !is_stopping {
             following.stopped_r = None;

@@ -19,6 +19,8 @@ pub enum Objection {
     Away,
     /// A reset without a fault.
     NoFault,
+    /// A reset while a joint with power is not where it is to be.
+    StaysApart,
     /// A command to drives that are not there.
     Simulated,
     /// A return to a path on which the axes are.
@@ -78,6 +80,7 @@ impl Objection {
         Self::NoBlock,
         Self::Away,
         Self::NoFault,
+        Self::StaysApart,
         Self::Simulated,
         Self::OnPath,
         Self::Moving,
@@ -119,6 +122,10 @@ impl Objection {
             Self::NoFault => {
                 "no fault is latched, or the motion has not come to rest yet; `glidepath status` says \
                  which"
+            }
+            Self::StaysApart => {
+                "a joint is still too far from where it is to be; `glidepath disable`, `glidepath reset`, \
+                 `glidepath enable`"
             }
             Self::Simulated => {
                 "no feedback is configured, so the drives are simulated, always on and homed"

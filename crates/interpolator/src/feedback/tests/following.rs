@@ -2,7 +2,9 @@
 
 use super::bench::{Bench, config};
 use bytemuck::Zeroable as _;
-use glidepath_link::{FaultCause, Feedback, MachineState, Transport as _};
+use glidepath_link::{
+    Command, FaultCause, Feedback, JogDemand, JogMode, MachineState, Transport as _,
+};
 use glidepath_plant::{JointSettings, Plant, Upset};
 
 fn played(joints: &[JointSettings; 3], latency_ns: u64) -> Bench {
@@ -76,6 +78,65 @@ fn a_joint_that_is_stuck_stops_the_machine_and_loses_the_power() {
     assert_eq!(status.fault_joint(), Some(0));
     assert_eq!(bench.state(), MachineState::Faulted);
     assert!(status.following_peak[0] > 0.1);
+}
+
+/// Asks for a slow step of the first axis.
+pub(super) fn step(bench: &mut Bench, number: u64, distance: f64) {
+    let mut demand = JogDemand {
+        client: 3,
+        number,
+        sent_ns: bench.now_ns(),
+        mode: JogMode::Incremental.code(),
+        mask: 0b001,
+        velocity_v: 5.0,
+        ..JogDemand::zeroed()
+    };
+    demand.value[0] = distance;
+    bench.jog(&demand);
+}
+
+/// What a status tells to do for a joint that is not where it is to be.
+pub(super) fn take_the_position_over(bench: &mut Bench) {
+    bench.command(Command::Disable).unwrap();
+    bench.run(3);
+    bench.command(Command::Reset).unwrap();
+    bench.run(3);
+    bench.command(Command::Enable).unwrap();
+}
+
+#[test]
+fn an_error_that_stays_is_not_reset_but_told_how_to_be_cleared() {
+    let sticky = JointSettings {
+        stiction: 0.16,
+        ..JointSettings::default()
+    };
+    let others = JointSettings::default();
+    let mut bench = Bench::new(config(false), &[sticky, others, others]);
+    bench.enable(MachineState::Idle);
+    bench.run(40);
+    // Between once and twice what is allowed: the motion stops, and power stays on.
+    step(&mut bench, 1, 0.15);
+    assert!(bench.run_to(MachineState::Faulted, 200));
+    bench.run(100);
+    assert_eq!(bench.fault(), Some(FaultCause::FollowingError));
+    for command in [Command::Reset, Command::Abort] {
+        let why = bench.command(command).unwrap_err();
+        assert!(why.contains("still too far"), "{why}");
+    }
+    assert_eq!(bench.state(), MachineState::Faulted);
+    take_the_position_over(&mut bench);
+    assert!(bench.run_to(MachineState::Idle, 200));
+    bench.run(200);
+    assert_eq!((bench.state(), bench.fault()), (MachineState::Idle, None));
+    assert_eq!(bench.last().joint_position, bench.joints());
+    // One that has followed by then is reset as it is.
+    step(&mut bench, 2, 0.15);
+    assert!(bench.run_to(MachineState::Faulted, 200));
+    bench.upset(Upset::Pushed(0, 0.12));
+    bench.run(20);
+    bench.command(Command::Reset).unwrap();
+    bench.run(100);
+    assert_eq!((bench.state(), bench.fault()), (MachineState::Idle, None));
 }
 
 #[test]

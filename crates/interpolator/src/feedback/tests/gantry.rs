@@ -1,14 +1,20 @@
 //! Axes with two joints, which are squared on their way home.
 
-use super::bench::{Bench, config};
+use super::bench::{ALLOWED, Bench, config};
+use super::following::{step, take_the_position_over};
 use super::homing::{SWITCH, arrive, assert_inside_limits, home_again, joint, lose_power, set_out};
 use crate::config::{Config, Gantry};
 use crate::homing::JointHoming;
-use glidepath_link::{FaultCause, MachineState};
+use glidepath_link::{Command, FaultCause, MachineState};
 use glidepath_plant::{JointSettings, Upset};
 
 /// An axis with two joints, of which the second hangs behind.
 fn gantry(lean: f64) -> Bench {
+    gantry_with(lean, ALLOWED.min_following_error)
+}
+
+/// The same where joints may be so far from their demands.
+fn gantry_with(lean: f64, min_following_error: f64) -> Bench {
     let mut settings = Config {
         gantries: [
             Some(Gantry {
@@ -28,6 +34,9 @@ fn gantry(lean: f64) -> Bench {
     let joints = &mut settings.feedback.as_mut().unwrap().joints;
     joints[0].homing = Some(homing);
     joints[3].homing = Some(homing);
+    for joint in joints.iter_mut() {
+        joint.min_following_error = min_following_error;
+    }
     let others = JointSettings::default();
     let second = JointSettings {
         count: -500.0,
@@ -103,4 +112,26 @@ fn two_joints_of_an_axis_that_go_apart_are_a_fault() {
         assert_eq!(bench.status().homed, homed);
         assert_eq!(bench.status().fault, 0);
     }
+}
+
+#[test]
+fn two_joints_that_stay_apart_are_cleared_by_what_is_told_and_squared_again() {
+    let mut bench = gantry_with(0.0, 50.0);
+    set_out(&mut bench, 1);
+    arrive(&mut bench);
+    bench.run(20);
+    bench.upset(Upset::Stuck(3, true));
+    step(&mut bench, 1, 10.0);
+    assert!(bench.run_to(MachineState::Faulted, 400));
+    bench.run(50);
+    assert_eq!(bench.fault(), Some(FaultCause::FollowingError));
+    let why = bench.command(Command::Reset).unwrap_err();
+    assert!(why.contains("still too far"), "{why}");
+    take_the_position_over(&mut bench);
+    assert!(bench.run_to(MachineState::NotHomed, 200));
+    bench.run(100);
+    assert_eq!(
+        (bench.state(), bench.fault()),
+        (MachineState::NotHomed, None)
+    );
 }
