@@ -4,7 +4,9 @@
 use crate::code_words::CodeWordsBook;
 use crate::gates::Gates;
 use crate::message::{Awaited, Report};
+use crate::stops::{StopCause, StopSettings};
 use glidepath_link::{Auxiliary, CodeWords, EventId};
+use glidepath_program::Event;
 
 /// The record, and what it was when it was published last.
 #[derive(Debug)]
@@ -13,10 +15,11 @@ pub(crate) struct AuxiliaryBook {
     published: Option<Auxiliary>,
     gates: Gates,
     words: CodeWordsBook,
+    stops: StopSettings,
 }
 
 impl AuxiliaryBook {
-    pub(crate) fn new(boot_id: u64, gates: Gates) -> Self {
+    pub(crate) fn new(boot_id: u64, gates: Gates, stops: StopSettings) -> Self {
         Self {
             record: Auxiliary {
                 boot_id,
@@ -25,6 +28,15 @@ impl AuxiliaryBook {
             published: None,
             gates,
             words: CodeWordsBook::default(),
+            stops,
+        }
+    }
+
+    /// There are no more setpoints to tell what stops with the motion.
+    pub(crate) fn stop(&mut self, cause: StopCause) {
+        if self.stops.is_by(cause) {
+            self.record.take(Event::MCode(5));
+            self.record.take(Event::MCode(9));
         }
     }
 

@@ -118,7 +118,7 @@ fn objection(command: Command, report: &Report, has_drives: bool) -> Option<Obje
             Objection::NothingHeld,
         ),
         Command::Abort => (
-            !matches!(state, Idle | Off | NotHomed),
+            !matches!(state, Idle | Off | NotHomed) || report.has_use_of_abort,
             Objection::NothingToAbort,
         ),
         Command::Reset => (state == Faulted, Objection::NoFault),

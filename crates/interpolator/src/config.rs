@@ -3,6 +3,7 @@
 use crate::feedback::FeedbackSettings;
 use crate::gates::Gates;
 use crate::homing::JointBounds;
+use crate::stops::StopSettings;
 use core::time::Duration;
 use glidepath_geometry::{Axis, AxisVector};
 use glidepath_kinematics::{
@@ -135,6 +136,8 @@ pub struct Config {
     pub feedback: Option<FeedbackSettings>,
     /// The M codes that are to be answered before the motion goes on.
     pub gates: Gates,
+    /// What stops spindle and coolant together with the motion.
+    pub stops: StopSettings,
     /// Revolutions for which a tap goes on at most from where the spindle is told to turn back, > 0.
     /// There it stops in its hole, with a fault.
     pub tap_overtravel: f64,
@@ -165,6 +168,7 @@ impl Config {
             planner_lost_after: Some(Duration::from_secs(2)),
             feedback: None,
             gates: Gates::NONE,
+            stops: StopSettings::default(),
             tap_overtravel: TAP_OVERTRAVEL,
             forbid_system_calls: false,
         }

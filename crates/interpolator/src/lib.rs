@@ -137,6 +137,7 @@ mod status;
 mod stepped;
 mod stop_requests;
 mod stop_time;
+mod stops;
 mod supply;
 #[cfg(test)]
 mod testing;
@@ -158,3 +159,4 @@ pub use loops::{RunError, lead_ns};
 pub use run::run;
 pub use served::{Served, served};
 pub use stepped::{Stepped, stepped};
+pub use stops::StopSettings;

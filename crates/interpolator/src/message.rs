@@ -148,6 +148,8 @@ pub(crate) struct Report {
     pub(crate) is_returning: bool,
     /// The axes are not where the program is held.
     pub(crate) is_away: bool,
+    /// An abort stops something, also without a program.
+    pub(crate) has_use_of_abort: bool,
     /// Frames of the epoch whose instant has come.
     pub(crate) frames_executed: u64,
     /// Frames the real-time thread owns and has not reached.
@@ -177,6 +179,7 @@ impl Report {
             awaited: None,
             is_returning: false,
             is_away: false,
+            has_use_of_abort: false,
             frames_executed: 0,
             queue_depth: 0,
             timing: Timing::default(),

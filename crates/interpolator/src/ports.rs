@@ -15,6 +15,7 @@ use crate::feedback::DriveBook;
 use crate::jog::DemandReader;
 use crate::message::{Happening, Order, PortsEnds, Report};
 use crate::status::{StatusBook, grants_of};
+use crate::stops::StopCause;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{
     Auxiliary, Command, CommandReply, CommandRequest, EndOfEpoch, FaultCause, Feedback, JogDemand,
@@ -115,7 +116,7 @@ impl<'a> Ports<'a> {
             pending: None,
             report: None,
             book: StatusBook::new(config, boot_id),
-            auxiliary: AuxiliaryBook::new(boot_id, config.gates),
+            auxiliary: AuxiliaryBook::new(boot_id, config.gates, config.stops),
             acknowledgements: Acknowledgements::new(boot_id, config.gates),
             boot_id,
             status_due_ns: 0,
@@ -216,10 +217,14 @@ impl<'a> Ports<'a> {
             }
             self.report = Some(report);
         }
-        if let Some(record) = self.auxiliary.changed() {
-            result = result.and(self.links.auxiliary.publish(record));
+        result.and(self.publish_auxiliary())
+    }
+
+    fn publish_auxiliary(&mut self) -> Result<(), LinkError> {
+        match self.auxiliary.changed() {
+            Some(record) => self.links.auxiliary.publish(record),
+            None => Ok(()),
         }
-        result
     }
 
     fn take_feedback(&mut self, now_ns: u64) -> Result<(), LinkError> {
@@ -422,13 +427,16 @@ impl<'a> Ports<'a> {
             }
             self.tell(&fault.to_string());
         }
+        self.auxiliary.stop(StopCause::Fault);
         self.farewell(now_ns);
     }
 
     /// Publishes a status at once: the last of this life.
     pub(crate) fn farewell(&mut self, now_ns: u64) {
         self.status_due_ns = 0;
-        if let Err(error) = self.publish_status(now_ns) {
+        self.auxiliary.stop(StopCause::Abort);
+        let told = self.publish_auxiliary();
+        if let Err(error) = told.and(self.publish_status(now_ns)) {
             (self.log)(&error.to_string());
         }
     }

@@ -67,6 +67,9 @@ impl Interpolator<'_> {
             self.write_standing(&mut report.setpoint);
             self.write_joints(&mut report.setpoint);
         }
+        if self.stops.is_due() {
+            self.tell_stops(&mut report.setpoint);
+        }
         self.end_epoch_or_wait();
         self.stand_at_gate(due.scheduled_ns, report.setpoint.number);
         self.update_state(tick);
@@ -146,7 +149,7 @@ impl Interpolator<'_> {
     }
 
     /// Whether something moves, or may, without a program.
-    const fn moves_by_hand(&self) -> bool {
+    pub(super) const fn moves_by_hand(&self) -> bool {
         self.jog.is_active() || self.mover.is_active()
     }
 
@@ -159,6 +162,7 @@ impl Interpolator<'_> {
         report.awaited = self.wait.awaited();
         report.is_returning = self.jog.is_returning();
         report.is_away = self.jog.owns_axes() && self.is_open();
+        report.has_use_of_abort = self.stops.has_use_of_abort();
         report.frames_executed = if self.epoch == 0 {
             0
         } else {

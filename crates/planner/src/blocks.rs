@@ -47,6 +47,14 @@ impl Blocks {
         }
     }
 
+    /// Gives an item that is not of the program the number of the item before it.
+    pub(crate) fn share(&mut self, item: &mut Item) {
+        item.block = self.next.saturating_sub(1).max(self.present);
+        if item.block <= self.present {
+            self.furthest = item.program_line();
+        }
+    }
+
     /// An item has its number, and no motion.
     pub(crate) const fn pass(&mut self) {
         self.next = self.next.saturating_add(1);

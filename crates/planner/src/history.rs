@@ -14,9 +14,9 @@
 use std::collections::VecDeque;
 
 use glidepath_motion::MOST_MOVES_AT_ONCE;
-use glidepath_program::{Item, Override};
+use glidepath_program::Override;
 
-use crate::planning::Planning;
+use crate::planning::{Kept, Planning};
 
 /// Motion between two checkpoints, s: what is planned once more, at most, when an override
 /// changes. Planning it takes less time than the horizon even on a host that is busy otherwise; more
@@ -48,7 +48,7 @@ pub(crate) struct History {
     /// In the order of their frames.
     later: VecDeque<Checkpoint>,
     /// Taken since the first checkpoint.
-    items: VecDeque<Item>,
+    items: VecDeque<Kept>,
     checkpoint_frames: u64,
 }
 
@@ -73,14 +73,14 @@ impl History {
     }
 
     /// The item that comes after so many, if it was taken before.
-    pub(crate) fn item_after(&self, items: u64) -> Option<Item> {
+    pub(crate) fn item_after(&self, items: u64) -> Option<Kept> {
         let index = items.checked_sub(self.first.planning.items())?;
         self.items.get(usize::try_from(index).ok()?).copied()
     }
 
     /// Keeps the next item, as it is given to the planning.
-    pub(crate) fn keep(&mut self, item: Item) {
-        self.items.push_back(item);
+    pub(crate) fn keep(&mut self, kept: Kept) {
+        self.items.push_back(kept);
     }
 
     /// Takes a checkpoint if it is time to.
@@ -158,7 +158,7 @@ mod tests {
     use super::*;
     use crate::blocks::Blocks;
     use glidepath_geometry::{AxisVector, Segment};
-    use glidepath_program::{Effort, ItemKind, Limits, PathMode, Rate, Settings, Smoothing};
+    use glidepath_program::{Effort, Item, ItemKind, Limits, PathMode, Rate, Settings, Smoothing};
 
     /// Moves far below the resolution of programs: none of them makes a frame.
     fn nothing(number: u64) -> Item {
@@ -195,17 +195,18 @@ mod tests {
         for number in 0..3 * MOST_ITEMS + 7 {
             assert_eq!(planning.make_frame(), Ok(false));
             planning.take(nothing(number)).unwrap();
-            history.keep(nothing(number));
+            history.keep(Kept {
+                item: nothing(number),
+                is_aside: false,
+            });
             history.follow(&planning);
             history.forget_before(planning.frames());
             assert!(history.items.len() as u64 <= MOST_ITEMS);
         }
         let back = history.back_to(1);
         assert_eq!((back.frames(), back.items()), (1, 3 * MOST_ITEMS));
-        assert_eq!(
-            history.item_after(3 * MOST_ITEMS),
-            Some(nothing(3 * MOST_ITEMS))
-        );
+        let next = history.item_after(3 * MOST_ITEMS).map(|kept| kept.item);
+        assert_eq!(next, Some(nothing(3 * MOST_ITEMS)));
         assert_eq!(history.item_after(3 * MOST_ITEMS + 7), None);
     }
 }

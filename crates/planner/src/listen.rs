@@ -22,7 +22,7 @@ use crate::jobs::{Job, JobDesk, JobRunner};
 use crate::machine::POLL;
 use crate::stream::refuse;
 use crate::{
-    Control, ItemSource, Notice, Pace, Pipeline, Publisher, Refusal, RunError, SoftLimits,
+    Control, ItemSource, Notice, Pace, Pipeline, Publisher, Refusal, RunError, SILENCE, SoftLimits,
     Statistics, Stream, Supply,
 };
 
@@ -233,6 +233,7 @@ impl Listener<'_> {
         let received = Mutex::new(Received {
             stream,
             broken: None,
+            idle: Duration::ZERO,
         });
         let mut attendant = Attendant {
             server: self.server.as_mut(),
@@ -273,6 +274,8 @@ struct Received {
     stream: Stream,
     /// Why the stream ended without its client saying so.
     broken: Option<Refusal>,
+    /// Time since a request was accepted that was not accepted before.
+    idle: Duration,
 }
 
 impl Received {
@@ -303,8 +306,14 @@ impl Attendant<'_> {
     /// Answers the client, and notices when it is gone.
     fn attend(&mut self, waited: Duration) {
         self.silent = self.silent.saturating_add(waited);
+        let before = lock(self.received).stream.accepted();
         let served = self.serve();
         let mut received = lock(self.received);
+        received.idle = if received.stream.accepted() == before {
+            received.idle.saturating_add(waited)
+        } else {
+            Duration::ZERO
+        };
         if let Err(error) = served {
             received.give_up(Refusal::StreamFailed(error));
         } else if received.stream.is_open() && self.silent >= CLIENT_SILENCE {
@@ -353,6 +362,10 @@ impl ItemSource for StreamSource<'_> {
         } else {
             Supply::End
         }
+    }
+
+    fn is_silent(&mut self) -> bool {
+        lock(self.0).idle >= SILENCE
     }
 
     fn unplannable(&mut self, error: &PlanError) {

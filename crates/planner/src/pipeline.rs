@@ -13,17 +13,18 @@
 //! program ends at the last good item. The motion then comes to rest there, on the path, and the
 //! reason comes out after the last frame.
 
+use std::collections::VecDeque;
 use std::time::Duration;
 
 use glidepath_geometry::AxisVector;
 use glidepath_kinematics::PathCaps;
-use glidepath_program::{Frame, Item, ItemKind, Override, Settings};
+use glidepath_program::{Event, Frame, Item, ItemKind, Override, Settings};
 
 use crate::blocks::Blocks;
 use crate::history::History;
 use crate::joint_bounds::JointBounds;
 use crate::joint_speed::JointSpeed;
-use crate::planning::{Planning, Stage};
+use crate::planning::{Kept, Planning, Stage};
 use crate::step::{Output, Statistics, Step};
 use crate::{ItemSource, Refusal, Remainder, Supply};
 
@@ -38,6 +39,12 @@ pub struct Pipeline<S> {
     is_exhausted: bool,
     /// It gives more when it is known how the probing move ended that it gave last.
     is_at_probe: bool,
+    /// The motion would go on, in whatever comes next: it does not rest behind the item taken last.
+    goes_on: bool,
+    /// It may be brought to rest for a source that is silent.
+    may_rest: bool,
+    /// Events to come before the first item, which are not of the program.
+    before: VecDeque<Item>,
     /// Frames of the epochs before.
     frames_before: u64,
     /// Why the program ended early, until that is told.
@@ -80,6 +87,9 @@ impl<S: ItemSource> Pipeline<S> {
             },
             is_exhausted: false,
             is_at_probe: false,
+            goes_on: false,
+            may_rest: true,
+            before: VecDeque::new(),
             frames_before: 0,
             refusal: None,
             statistics: Statistics {
@@ -113,6 +123,21 @@ impl<S: ItemSource> Pipeline<S> {
     pub fn of_stream(self) -> Self {
         Self {
             planning: self.planning.of_stream(),
+            ..self
+        }
+    }
+
+    /// The same pipeline, which begins with these events: they are not of the program, and happen in
+    /// its first block.
+    #[must_use]
+    pub fn beginning_with(self, events: impl IntoIterator<Item = Event>, line: u32) -> Self {
+        let aside = |event| Item {
+            block: 0,
+            line,
+            kind: ItemKind::Event(event),
+        };
+        Self {
+            before: events.into_iter().map(aside).collect(),
             ..self
         }
     }
@@ -207,6 +232,12 @@ impl<S: ItemSource> Pipeline<S> {
         self.planning.follow_override(wanted);
     }
 
+    /// Whether the motion may be brought to rest for a source that is silent: nothing that was planned
+    /// is left to be published.
+    pub(crate) const fn let_rest(&mut self, may_rest: bool) {
+        self.may_rest = may_rest;
+    }
+
     /// From now on keeps what [`Pipeline::replan`] needs.
     pub(crate) fn keep_history(&mut self) {
         self.history = Some(History::new(&self.planning, self.settings.period_t));
@@ -256,8 +287,12 @@ impl<S: ItemSource> Pipeline<S> {
     pub(crate) fn comes_to_probe(&mut self, is_tripped: bool) -> Result<bool, Refusal> {
         // What is left out is counted, so that blocks are those of a program that is read again.
         let known = self.history.as_ref();
-        while known.is_some_and(|known| known.item_after(self.planning.items()).is_some()) {
-            self.planning.pass();
+        while let Some(kept) = known.and_then(|known| known.item_after(self.planning.items())) {
+            if kept.is_aside {
+                self.planning.pass_aside();
+            } else {
+                self.planning.pass();
+            }
         }
         while is_tripped && !self.is_at_probe && !self.is_exhausted {
             match self.source.next_item() {
@@ -277,6 +312,7 @@ impl<S: ItemSource> Pipeline<S> {
         self.frames_before += self.planning.frames();
         self.planning = self.planning.behind(self.settings, position, path_s);
         (self.is_exhausted, self.is_at_probe) = (false, false);
+        self.goes_on = false;
         self.history = None;
     }
 
@@ -309,16 +345,27 @@ impl<S: ItemSource> Pipeline<S> {
 
     fn take_item(&mut self) -> Result<Step, Refusal> {
         let known = self.history.as_ref();
-        if let Some(item) = known.and_then(|known| known.item_after(self.planning.items())) {
-            self.item = self.planning.take(item)?;
+        if let Some(kept) = known.and_then(|known| known.item_after(self.planning.items())) {
+            self.item = self.planning.take_again(kept)?;
             self.remember();
             return Ok(Step::Item);
+        }
+        if let Some(event) = self.before.pop_front() {
+            return self.plan_aside(event);
         }
         if self.is_exhausted {
             return self.end();
         }
         match self.source.next_item() {
             Supply::Item(item) => self.plan(item),
+            Supply::Pending if self.may_rest && self.goes_on && self.source.is_silent() => {
+                self.goes_on = false;
+                self.plan_aside(Item {
+                    block: 0,
+                    line: self.item.line,
+                    kind: ItemKind::Dwell(0.0),
+                })
+            }
             Supply::Pending => Ok(Step::Pending),
             Supply::End => self.end(),
             Supply::Probe => {
@@ -349,11 +396,23 @@ impl<S: ItemSource> Pipeline<S> {
             ItemKind::Move { .. } => self.statistics.segments += 1,
             ItemKind::Dwell(_) | ItemKind::Event(_) => self.statistics.others += 1,
         }
+        self.goes_on = goes_on(&item.kind);
+        self.keep(item, false);
+        Ok(Step::Item)
+    }
+
+    /// Plans an item that is not of the program.
+    fn plan_aside(&mut self, item: Item) -> Result<Step, Refusal> {
+        self.item = self.planning.take_aside(item)?;
+        self.keep(item, true);
+        Ok(Step::Item)
+    }
+
+    fn keep(&mut self, item: Item, is_aside: bool) {
         if let Some(history) = &mut self.history {
-            history.keep(item);
+            history.keep(Kept { item, is_aside });
         }
         self.remember();
-        Ok(Step::Item)
     }
 
     fn remember(&mut self) {
@@ -367,5 +426,15 @@ impl<S: ItemSource> Pipeline<S> {
         self.is_exhausted = true;
         self.planning.finish();
         self.go_on()
+    }
+}
+
+/// Whether the motion goes on behind an item, if nothing else is known. In a thread and at a tap it
+/// is not stopped: they wait for their end.
+const fn goes_on(kind: &ItemKind) -> bool {
+    match kind {
+        ItemKind::Move { rate, .. } => !rate.is_synchronised(),
+        ItemKind::Dwell(_) => false,
+        ItemKind::Event(event) => !event.is_at_rest(),
     }
 }

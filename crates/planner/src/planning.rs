@@ -18,6 +18,14 @@ pub(crate) enum Stage {
     Broken,
 }
 
+/// An item that was taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Kept {
+    pub(crate) item: Item,
+    /// It is not of the program.
+    pub(crate) is_aside: bool,
+}
+
 /// Planner of motion and numbers of blocks, at one place of a program. A copy that is given the
 /// same items makes the same frames.
 #[derive(Debug, Clone)]
@@ -117,9 +125,32 @@ impl Planning {
         Ok(item)
     }
 
+    /// Takes an item that is not of the program, in the block of the item before it.
+    pub(crate) fn take_aside(&mut self, mut item: Item) -> Result<Item, PlanError> {
+        self.blocks.share(&mut item);
+        self.planner.push(&item)?;
+        self.items += 1;
+        self.items_since += 1;
+        Ok(item)
+    }
+
+    /// Takes an item once more.
+    pub(crate) fn take_again(&mut self, kept: Kept) -> Result<Item, PlanError> {
+        if kept.is_aside {
+            self.take_aside(kept.item)
+        } else {
+            self.take(kept.item)
+        }
+    }
+
     /// An item is left out: the probe has ended the motion before it.
     pub(crate) const fn pass(&mut self) {
         self.blocks.pass();
+        self.items += 1;
+    }
+
+    /// Likewise one that is not of the program.
+    pub(crate) const fn pass_aside(&mut self) {
         self.items += 1;
     }
 

@@ -1,12 +1,7 @@
-//! Programs as text: files, which are checked as a whole before anything moves, and pipes, which
-//! cannot be.
+//! Programs as text, and files of them, which are checked as a whole before anything moves.
 
-use std::io::{self, BufRead, BufReader, Read, Seek};
+use std::io::{self, BufRead, BufReader, Seek};
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
-use std::time::Duration;
 
 use glidepath_gcode::{Diagnostic, InForce, InputWait, Options, Program, Subroutines, diagnostics};
 use glidepath_program::{Event, ItemKind};
@@ -17,13 +12,7 @@ use crate::unchanged_file::UnchangedFile;
 use crate::{Attending, ChangeLog, ItemSource, Refusal, RemarkLog, SetUp, Settled, Supply};
 
 /// Bytes read from a file or pipe at a time.
-const BUFFER: usize = 64 * 1024;
-
-/// Items read ahead from a pipe.
-const READ_AHEAD: usize = 1024;
-
-/// Between two looks for the answer to an M66.
-const ANSWER_POLL: Duration = Duration::from_millis(2);
+pub(crate) const BUFFER: usize = 64 * 1024;
 
 /// Items of a program text, read as they are wanted.
 #[derive(Debug)]
@@ -281,73 +270,5 @@ fn refused(diagnostic: Diagnostic) -> Refusal {
     Refusal::Program {
         diagnostics: vec![diagnostic],
         unlisted: 0,
-    }
-}
-
-/// A program from a pipe. It is read in a thread of its own, so that a pipe that is slow never
-/// keeps the planner from looking after the motion.
-#[derive(Debug)]
-pub struct PipeSource {
-    pieces: Receiver<Supply>,
-    lines: Arc<AtomicU64>,
-}
-
-impl PipeSource {
-    /// Starts to read. The thread ends with the input, or when the source is dropped and the input
-    /// gives another item. It shares what it comes to with whoever attends to its run.
-    ///
-    /// # Errors
-    /// The thread cannot be started.
-    pub fn spawn<R: Read + Send + 'static>(
-        input: R,
-        options: Options,
-        attending: Attending,
-    ) -> Result<Self, Refusal> {
-        let (sender, pieces) = sync_channel(READ_AHEAD);
-        let lines = Arc::new(AtomicU64::new(0));
-        let counter = Arc::clone(&lines);
-        std::thread::Builder::new()
-            .name("program reader".to_owned())
-            .spawn(move || {
-                let source = ProgramSource::new(BufReader::with_capacity(BUFFER, input), options)
-                    .attended(attending);
-                read_all(source, &sender, &counter);
-            })?;
-        Ok(Self { pieces, lines })
-    }
-}
-
-fn read_all<R: BufRead>(
-    mut source: ProgramSource<R>,
-    sender: &SyncSender<Supply>,
-    lines: &AtomicU64,
-) {
-    loop {
-        let supply = source.next_item();
-        if matches!(supply, Supply::Pending) {
-            std::thread::sleep(ANSWER_POLL);
-            continue;
-        }
-        let last = !matches!(supply, Supply::Item(_) | Supply::Probe);
-        lines.store(source.lines_read(), Ordering::Relaxed);
-        if sender.send(supply).is_err() || last {
-            return;
-        }
-    }
-}
-
-impl ItemSource for PipeSource {
-    fn next_item(&mut self) -> Supply {
-        match self.pieces.try_recv() {
-            Ok(supply) => supply,
-            Err(TryRecvError::Empty) => Supply::Pending,
-            Err(TryRecvError::Disconnected) => Supply::Refused(Refusal::Read(io::Error::other(
-                "the thread that reads the program died",
-            ))),
-        }
-    }
-
-    fn lines_read(&self) -> u64 {
-        self.lines.load(Ordering::Relaxed)
     }
 }

@@ -24,6 +24,7 @@
 //! ([`ItemSource::settle`]); a probing move that was left on its way goes on looking.
 
 mod error;
+mod outputs;
 mod point;
 mod search;
 
@@ -35,10 +36,12 @@ use std::f64::consts::TAU;
 
 use glidepath_gcode::Probed;
 use glidepath_geometry::{Arc, AxisVector, Segment};
+use glidepath_link::Auxiliary;
 use glidepath_motion::PlanError;
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use crate::{Answer, ItemSource, Refusal, RunError, Settled, Supply};
+use outputs::SaidOutputs;
 use point::ROUNDING_MM;
 use search::{MachineSearch, distance};
 
@@ -52,6 +55,8 @@ pub struct Remainder<S> {
     ahead: VecDeque<Item>,
     /// What ended the search.
     last: Option<Supply>,
+    /// What was said of spindle and coolant before that.
+    outputs: SaidOutputs,
 }
 
 impl<S: ItemSource> Remainder<S> {
@@ -65,9 +70,13 @@ impl<S: ItemSource> Remainder<S> {
             return Err(ResumeError::OtherProgram.into());
         }
         let mut before: Option<Item> = None;
+        let mut outputs = SaidOutputs::default();
         for _ in 1..point.block {
             match source.next_item() {
-                Supply::Item(item) => before = Some(item),
+                Supply::Item(item) => {
+                    outputs.take(&item);
+                    before = Some(item);
+                }
                 Supply::Refused(refusal) => return Err(refusal.into()),
                 Supply::Pending | Supply::Probe => {
                     let line = before.map_or(0, |item| item.line);
@@ -83,6 +92,7 @@ impl<S: ItemSource> Remainder<S> {
             first_block: point.block.max(1),
             ahead: VecDeque::new(),
             last: None,
+            outputs,
         };
         if point.block == 0 {
             return Ok(rest);
@@ -128,6 +138,7 @@ impl<S: ItemSource> Remainder<S> {
             first_block,
             ahead,
             last,
+            outputs: SaidOutputs::default(),
         }
     }
 
@@ -144,7 +155,8 @@ impl<S: ItemSource> Remainder<S> {
                 return Ok(());
             }
             Some(ItemKind::Event(_)) => {
-                self.ahead.pop_front();
+                let told = self.ahead.pop_front();
+                told.iter().for_each(|item| self.outputs.take(item));
                 self.first_block += 1;
                 return self.refuse_thread();
             }
@@ -153,7 +165,9 @@ impl<S: ItemSource> Remainder<S> {
         let Some(found) = search.best else {
             return Err(off_path(&self.point, line, search.nearest_mm));
         };
-        self.ahead.drain(..found.item);
+        for passed in self.ahead.drain(..found.item) {
+            self.outputs.take(&passed);
+        }
         self.first_block += u32::try_from(found.item).unwrap_or(u32::MAX);
         let is_done = match self.ahead.front_mut().map(|item| &mut item.kind) {
             Some(ItemKind::Move { segment, mode, .. }) => {
@@ -240,6 +254,19 @@ impl<S: ItemSource> Remainder<S> {
     #[must_use]
     pub const fn source(&self) -> &S {
         &self.source
+    }
+
+    /// The events that make spindle and coolant what the program had made them, from what they are
+    /// `now`: an abort and a fault stop them.
+    #[must_use]
+    pub fn restoring(&self, now: &Auxiliary) -> Vec<Event> {
+        self.outputs.restoring(now)
+    }
+
+    /// The line that the rest of the program begins with, 0 if that is not known.
+    #[must_use]
+    pub fn line(&self) -> u32 {
+        self.ahead.front().map_or(0, |item| item.line)
     }
 
     /// Where the program was left.

@@ -4,11 +4,21 @@
 //! ([`Supply::Pending`]) as opposed to none *ever again* ([`Supply::End`]). What is planned
 //! depends on the sequence of items alone, never on how often a source was pending: the same
 //! program from a file, a pipe or a client of the listening planner gives the same frames.
+//!
+//! With one exception, so that what has arrived moves: a source that has been silent for [`SILENCE`]
+//! ([`ItemSource::is_silent`]) while no planned motion is left to be published has the motion come to
+//! rest at the end of what there is, as by an exact stop. What comes afterwards goes on from there.
+
+use std::time::Duration;
 
 use glidepath_motion::PlanError;
 use glidepath_program::Item;
 
 use crate::{Answer, Refusal};
+
+/// How long nothing comes of a program before the motion rests at the end of what has come, if there
+/// is no more of it to publish.
+pub const SILENCE: Duration = Duration::from_millis(50);
 
 /// What a source answers when it is asked for the next item.
 #[allow(clippy::large_enum_variant, reason = "nearly every supply is an item")]
@@ -43,6 +53,12 @@ pub enum Settled {
 pub trait ItemSource {
     /// The next item, if there is one.
     fn next_item(&mut self) -> Supply;
+
+    /// Whether nothing has come for [`SILENCE`], of a source that is pending because it waits for
+    /// somebody else. Sources that only take long to read are not silent.
+    fn is_silent(&mut self) -> bool {
+        false
+    }
 
     /// The item handed over last cannot be planned; no more are asked for.
     fn unplannable(&mut self, error: &PlanError) {

@@ -178,6 +178,7 @@ pub(super) fn settings(config: &MachineConfig, best_effort: bool) -> Config {
         feedback: feedback(config),
         gantries: gantries(config),
         gates: config.gates(),
+        stops: config.stops,
         tap_overtravel: config
             .spindle
             .map_or(TAP_OVERTRAVEL, |spindle| spindle.overtravel),

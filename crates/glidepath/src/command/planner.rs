@@ -181,7 +181,13 @@ impl Job<'_> {
         // Only now is a fault reset: one that resumes nothing leaves it to whoever looks at it.
         let start = publisher.wait_until_ready(control)?;
         self.attendant.begin(point.program, &start)?;
+        // What an abort or a fault has stopped turns before anything moves.
+        let (restoring, line) = (
+            remainder.restoring(&publisher.auxiliary(control)?),
+            remainder.line(),
+        );
         let mut pipeline = Pipeline::resuming(remainder, settings)
+            .beginning_with(restoring, line)
             .with_joints(config.path_caps())
             .with_clock(clock::elapsed);
         let published = publisher.publish(&mut pipeline, control);

@@ -7,7 +7,7 @@ use glidepath_gcode::{
     Connections, LoopLimits, MCodes, Machine, Options, SpindleAxis, Threading, Travel, WaitsAt,
 };
 use glidepath_geometry::{Axis, AxisVector};
-use glidepath_interpolator::{AdaptiveFeed, Answer, Gate, Gates, JointHoming};
+use glidepath_interpolator::{AdaptiveFeed, Answer, Gate, Gates, JointHoming, StopSettings};
 use glidepath_kinematics::{
     AxisRates, AxisShare, JOINTS, JointLimits, JointWatch, Kinematics as _, Mechanism, PathCaps,
 };
@@ -164,6 +164,8 @@ pub struct MachineConfig {
     /// M codes that the machine has of its own, and those that are waited for; of two rules for a
     /// code the first one counts.
     pub m_codes: Vec<MCodeRule>,
+    /// What stops spindle and coolant together with the motion.
+    pub stops: StopSettings,
     /// Folder of what is kept over a restart; `None`: nothing is.
     pub state_directory: Option<PathBuf>,
 }

@@ -42,6 +42,8 @@ pub(super) struct RawConfig {
     #[serde(default)]
     pub(super) m_codes: BTreeMap<Spanned<String>, Spanned<RawMCode>>,
     #[serde(default)]
+    pub(super) stops: RawStops,
+    #[serde(default)]
     pub(super) state: RawState,
 }
 
@@ -151,6 +153,14 @@ pub(super) struct RawFeedback {
     pub(super) min_following_error: Optional<f64>,
     pub(super) stale_s: Optional<f64>,
     pub(super) off_s: Optional<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RawStops {
+    pub(super) abort: Optional<bool>,
+    pub(super) fault: Optional<bool>,
+    pub(super) disable: Optional<bool>,
 }
 
 #[derive(Debug, Default, Deserialize)]

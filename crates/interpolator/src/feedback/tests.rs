@@ -23,6 +23,7 @@ mod life_cycle;
 mod matrix;
 mod probing;
 mod revolutions;
+mod stops;
 mod tapping;
 mod threading;
 mod upsets;

@@ -5,7 +5,9 @@ use super::state::Interpolator;
 use crate::jog::Surroundings;
 use crate::message::{Inputs, Order};
 use crate::output::Written;
-use glidepath_link::{Command, EndOfEpoch, FaultCause, MachineState, Setpoint};
+use crate::stops::StopCause;
+use glidepath_link::{Command, EndOfEpoch, EventKind, FaultCause, MachineState, Setpoint};
+use glidepath_program::Event;
 use glidepath_realtime::Wake;
 
 /// Orders taken in one tick.
@@ -50,6 +52,9 @@ impl Interpolator<'_> {
             Command::Abort | Command::Disable => {
                 self.jog.cancel();
                 self.mover.cancel();
+                if command == Command::Abort && !self.has_program() {
+                    self.stops.ask(StopCause::Abort);
+                }
             }
             Command::Return => {
                 let around = self.surroundings(0, false);
@@ -172,12 +177,27 @@ impl Interpolator<'_> {
 
     /// What moved the drives is over: they have no power any more.
     fn end_motion(&mut self) {
+        self.stops.ask(StopCause::Disable);
         self.jog.end();
         self.mover.end();
         if self.has_program() {
             self.close(EndOfEpoch::Faulted);
         }
         self.output.rest();
+    }
+
+    /// Writes into a setpoint what stops now, if nothing moves any more.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn tell_stops(&mut self, setpoint: &mut Setpoint) {
+        if self.is_open() || self.moves_by_hand() {
+            return;
+        }
+        if let Some(Event::MCode(code)) = self.stops.take() {
+            setpoint.event_kind = EventKind::MCode.code();
+            setpoint.event_value = f64::from(code);
+            self.tell_spindle(setpoint);
+        }
     }
 
     /// The drives lose their power at once; where they are is where they were last seen.

@@ -107,10 +107,11 @@ impl Interpolator<'_> {
         }
     }
 
-    /// Tells a spindle that is simulated of an event.
+    /// Tells a spindle that is simulated of an event, and what stops with the motion.
     pub(super) fn tell_spindle(&mut self, setpoint: &Setpoint) {
         if let Ok(Some(event)) = setpoint.event() {
             self.simulated_spindle.hear(event);
+            self.stops.hear(event);
         }
     }
 

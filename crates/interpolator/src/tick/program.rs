@@ -8,6 +8,7 @@ use crate::output::Written;
 use crate::program_time::ProgramTime;
 use crate::rate::{Situation, beside_full};
 use crate::rest::SAME_POSITION;
+use crate::stops::StopCause;
 use glidepath_geometry::AxisVector;
 use glidepath_link::{EndOfEpoch, EventKind, FaultCause, FrameRefusal, Setpoint, SetpointFrame};
 use glidepath_program::FrameFlags;
@@ -20,6 +21,10 @@ impl Interpolator<'_> {
     /// Takes frames while there is room. What belongs to no epoch that is open here was under way
     /// when its epoch ended, and is dropped.
     pub(super) fn take_frames(&mut self, inputs: &mut Inputs<'_>) {
+        if self.stops.is_due() && !self.is_open() {
+            // What the program before has left on goes off first.
+            return;
+        }
         self.track.release_before(self.rate.now().time.sequence);
         if self.requests.retraces() && !self.take_kept_frames() {
             return;
@@ -212,6 +217,9 @@ impl Interpolator<'_> {
     /// What follows when program time stands: the end of the epoch, or a program stop.
     pub(super) fn end_epoch_or_wait(&mut self) {
         if !self.is_open() {
+            if self.requests.fault().is_some() {
+                self.stops.ask(StopCause::Fault);
+            }
             self.wait_behind_search();
             return;
         }
@@ -246,6 +254,11 @@ impl Interpolator<'_> {
             } else {
                 EndOfEpoch::Aborted
             };
+            self.stops.ask(if self.requests.fault().is_some() {
+                StopCause::Fault
+            } else {
+                StopCause::Abort
+            });
             self.requests.forget_epoch(false);
             self.probing.abort(self.drives.period_ns());
         }

@@ -16,6 +16,7 @@ use crate::rate::Rate;
 use crate::retrace::{Retrace, frames_kept};
 use crate::spindle::{Pass, SimulatedSpindle, Tap};
 use crate::stop_requests::StopRequests;
+use crate::stops::{StopCause, Stops};
 use crate::supply::Supply;
 use crate::track::Track;
 use crate::wait::Wait;
@@ -43,6 +44,8 @@ pub(crate) struct Interpolator<'a> {
     /// Revolutions for which a tap goes on at most when the spindle is told to turn back.
     pub(super) tap_overtravel: f64,
     pub(super) simulated_spindle: SimulatedSpindle,
+    /// Spindle and coolant that stop with the motion.
+    pub(super) stops: Stops,
     pub(super) limits: Limits,
     pub(super) jog: Jog,
     pub(super) mover: Mover,
@@ -78,6 +81,7 @@ impl<'a> Interpolator<'a> {
             tap: None,
             tap_overtravel: config.tap_overtravel,
             simulated_spindle: SimulatedSpindle::default(),
+            stops: Stops::new(config.stops),
             limits: config.limits,
             jog: Jog::new(config),
             mover: Mover::new(config),
@@ -144,6 +148,11 @@ impl<'a> Interpolator<'a> {
         // Where the machine stands is not at a frame in general.
         if let Some(path) = self.track.path(self.rate.now().time) {
             self.passed.path_s = path.path_s;
+        }
+        match end {
+            EndOfEpoch::Aborted => self.stops.ask(StopCause::Abort),
+            EndOfEpoch::Faulted => self.stops.ask(StopCause::Fault),
+            EndOfEpoch::None | EndOfEpoch::Open | EndOfEpoch::Completed | EndOfEpoch::Tripped => {}
         }
         self.track.clear();
         self.rate.rest_at(self.rate.now().time, 0.0);

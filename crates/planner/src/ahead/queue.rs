@@ -32,6 +32,8 @@ pub(crate) enum Work {
     Plan {
         /// They will not be planned again.
         given: u64,
+        /// No frame waits to be given out.
+        is_dry: bool,
     },
     /// Plan again what follows after so many frames.
     Replan {
@@ -225,7 +227,8 @@ impl FrameQueue {
                 let waiting = shared.frames.len();
                 let is_full = waiting >= self.capacity;
                 if !is_full && (!is_sated || has_waited || waiting == 0) {
-                    return Work::Plan { given };
+                    let is_dry = waiting == 0;
+                    return Work::Plan { given, is_dry };
                 }
                 // Room for some at once, so that the thread does not rise for every frame.
                 shared.room_at = Some(waiting - waiting.div_ceil(8));

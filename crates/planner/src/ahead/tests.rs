@@ -9,7 +9,9 @@
 mod bounds;
 #[path = "../../tests/it/support/mill.rs"]
 mod mill;
+mod silence;
 
+use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;

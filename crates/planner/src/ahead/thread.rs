@@ -37,8 +37,9 @@ fn plan<S: ItemSource>(pipeline: &mut Pipeline<S>, queue: &FrameQueue) {
                 wanted,
                 told,
             } => pipeline.replan(given, wanted, told),
-            Work::Plan { given } => {
+            Work::Plan { given, is_dry } => {
                 pipeline.forget_before(given);
+                pipeline.let_rest(is_dry);
                 match pipeline.step() {
                     Ok(Step::Frame) => queue.add(pipeline.frame(), pipeline.statistics()),
                     Ok(Step::Item) => {}

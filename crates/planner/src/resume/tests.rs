@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 
 use glidepath_gcode::{Connections, Options, Probed};
 use glidepath_geometry::AxisVector;
-use glidepath_program::{Effort, Event, Limits, Settings, Smoothing};
+use glidepath_program::{Effort, Event, FrameFlags, Limits, Settings, Smoothing};
 
 use super::{Remainder, ResumePoint};
 use crate::{
@@ -350,4 +350,76 @@ fn from_a_line_on_it_is_told_what_it_was_told_before_and_asks_anew_behind() {
         refused,
         StartLineError::Refused(Refusal::AnswerUnknown { line: 7 })
     ));
+}
+
+/// A program that can be read again.
+struct Kept(ProgramSource<&'static [u8]>);
+
+impl ItemSource for Kept {
+    fn next_item(&mut self) -> Supply {
+        self.0.next_item()
+    }
+
+    fn lines_read(&self) -> u64 {
+        self.0.lines_read()
+    }
+
+    fn fingerprint(&self) -> u64 {
+        7
+    }
+}
+
+#[test]
+fn what_was_stopped_turns_again_before_anything_moves() {
+    const CUTTING: &str = "G21 G90 F600 S8000 M3\nM8\nG1 X10\nG1 X20\nM5\nG1 X30\nM2\n";
+    let source = || Kept(ProgramSource::new(CUTTING.as_bytes(), Options::default()));
+    let frames = |mut pipeline: Pipeline<Kept>| {
+        let mut frames = Vec::new();
+        while let Some(frame) = pipeline.next_frame().unwrap() {
+            frames.push(frame);
+        }
+        frames
+    };
+    let start = AxisVector::zeros();
+    let whole = frames(Pipeline::new(source(), settings(), start));
+    for (x, told) in [
+        (15.0, vec![Event::MCode(3), Event::MCode(8)]),
+        // The program has stopped the spindle itself by then.
+        (25.0, vec![Event::MCode(8)]),
+    ] {
+        let left = whole.iter().find(|f| f.position[0] > x).unwrap();
+        let first = whole.iter().find(|f| f.block == left.block).unwrap();
+        let point = ResumePoint {
+            position: left.position,
+            program_start: start,
+            program: 7,
+            block: left.block,
+            path_s: left.path_s,
+            block_path_s: first.path_s,
+            found: None,
+        };
+        let rest = Remainder::find(source(), point, settings().tolerance_mm).unwrap();
+        // What the program has told, but for what an abort has stopped.
+        let mut now = glidepath_link::Auxiliary::default();
+        now.take(Event::SpindleSpeed(8000.0));
+        let (events, line) = (rest.restoring(&now), rest.line());
+        assert_eq!(events, told);
+        let mut pipeline = Pipeline::resuming(rest, settings()).beginning_with(events, line);
+        let mut before = Vec::new();
+        let mut last = left.block;
+        while let Some(frame) = pipeline.next_frame().unwrap() {
+            let moves = frame.velocity.amax() > 0.0;
+            assert!(!moves || before.len() >= told.len(), "it moves too early");
+            before.extend(frame.event);
+            assert!(frame.block >= left.block);
+            assert!(frame.line >= left.line || frame.flags.contains(FrameFlags::FIRST));
+            last = frame.block;
+        }
+        assert_eq!(before[..told.len()], told);
+        assert_eq!(
+            last,
+            whole.last().unwrap().block,
+            "blocks keep their numbers"
+        );
+    }
 }

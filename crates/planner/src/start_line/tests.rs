@@ -3,6 +3,7 @@
 use super::*;
 use crate::ProgramSource;
 use glidepath_gcode::Options;
+use glidepath_link::{Coolant, SpindleState};
 
 const TEXT: &str = "G21 G90 S500\nM3\nG0 Z5\no100 repeat [3]\nG91 G1 X1 F600\nG90 G1 Z-1\n\
                     G0 Z5\no100 endrepeat\nM8\nG1 Y7\nM9 M5\nG0 X0\nM2\n";

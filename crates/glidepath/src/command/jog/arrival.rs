@@ -148,6 +148,13 @@ impl Arrival {
     }
 }
 
+/// Whether an axis stands at an end of its travel.
+pub(super) fn is_at_end(config: &MachineConfig, axis: Axis, value: f64) -> bool {
+    let of_axis = config.axes.iter().find(|of| of.axis == axis);
+    let travel = of_axis.and_then(|of| of.travel);
+    travel.is_some_and(|(low, high)| value <= low + ROUNDING || value >= high - ROUNDING)
+}
+
 fn followed(status: &Status, joints: usize) -> Followed {
     if status.power() != Ok(Power::On) {
         return Followed::Yes;
@@ -213,6 +220,7 @@ mod tests {
         let at_end = told([high, -4.0]);
         assert_eq!(at_end.not_moved(), [(x, 7.0)]);
         assert_eq!(at_end.at_end_of_travel(), ["X"]);
+        assert!(is_at_end(&config, x, high) && !is_at_end(&config, x, high - 1.0));
         assert_eq!(
             at_end.text(),
             "  X is at the end of its travel: 7.0000 of it was not moved\n"

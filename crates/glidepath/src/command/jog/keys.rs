@@ -9,6 +9,7 @@
 //! interpolator hears of nobody for its dead-man). A process that was stopped and goes on forgets
 //! what was pressed meanwhile.
 
+use super::arrival::is_at_end;
 use super::panel::Panel;
 use super::terminal::{Heard, Key, Terminal};
 use crate::cli::JogArgs;
@@ -256,7 +257,11 @@ impl<'m> Hand<'m> {
         let position = panel.position();
         let position: Vec<String> = position
             .iter()
-            .map(|(axis, value)| format!("{axis} {value:.3}"))
+            .map(|(axis, value)| {
+                let is_at_end = is_at_end(self.config, *axis, *value);
+                let end = if is_at_end { " (end)" } else { "" };
+                format!("{axis} {value:.3}{end}")
+            })
             .collect();
         let step = self
             .step

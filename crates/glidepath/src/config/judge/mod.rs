@@ -19,6 +19,7 @@ mod preview;
 mod probe;
 mod program;
 mod spindle;
+mod stopped;
 mod stops;
 mod values;
 
@@ -117,6 +118,7 @@ pub(super) fn judge(
         instance: judge.instance(raw.link),
         program: judge.program(raw.program, expects_feedback),
         m_codes,
+        stops: stopped::stopped(&raw.stops),
         state_directory: raw.state.directory.map(|path| path.into_inner().into()),
     };
     if judge.diagnostics.is_empty() {

@@ -10,6 +10,7 @@ mod mechanisms;
 mod probing;
 mod programs;
 mod spindle;
+mod stops;
 mod tables;
 
 pub use key::{Key, LeftOut, Takes};
@@ -31,6 +32,7 @@ pub fn all() -> impl Iterator<Item = &'static Key> {
         programs::LINK,
         programs::PROGRAM,
         programs::M_CODES,
+        stops::STOPS,
         programs::PREVIEW,
         programs::STATE,
     ];

@@ -77,7 +77,7 @@ fn an_axis_that_is_not_home_is_slow_and_the_others_keep_their_travel() {
     jog(&mut machine, [0.0, -50.0, 25.0], 350);
     let is_on_line = |at: &[f64; 9]| (at[1] - 8.0 + 2.0 * at[2]).abs() < 1e-9;
     let passed = machine.bench.setpoints[before..].iter().map(|s| s.position);
-    let corner = passed.filter(is_on_line).last().unwrap();
+    let corner = passed.rev().find(is_on_line).unwrap();
     assert!((corner[1] + 2.0).abs() < 1e-9 && (corner[2] - 5.0).abs() < 1e-9);
     let at = machine.bench.last().position;
     assert!(

@@ -233,7 +233,7 @@ fn a_jog_ends_at_the_end_of_travel_and_only_leads_back_from_beyond() {
     assert!((x(&rig) - TRAVEL).abs() < 1e-9, "{}", x(&rig));
     // Along the line up to there; then the other axis goes on by itself, to its own end.
     let is_on_line = |s: &&Setpoint| (s.position[1] - 0.5 * s.position[0]).abs() < 1e-9;
-    let on_line = rig.setpoints.iter().filter(is_on_line).last().unwrap();
+    let on_line = rig.setpoints.iter().rfind(is_on_line).unwrap();
     assert!((on_line.position[0] - TRAVEL).abs() < 1e-9);
     assert!((rig.setpoints.last().unwrap().position[1] - TRAVEL).abs() < 1e-9);
     assert_eq!(rig.state(), MachineState::Jogging);

@@ -1,0 +1,122 @@
+//! What stops together with the motion: spindle and coolant, after an abort, a fault, or when the drives
+//! lose their power.
+//!
+//! ```text
+//!   abort, fault ──► the motion comes to rest ──► M5, M9, a setpoint each ──► idle, faulted
+//!   power lost ─────────────────────────────────► likewise, at once
+//! ```
+//!
+//! The spindle turns until the motion rests: a tool that moves on in the material without it breaks. What
+//! is to stop is told as any program tells it, by the events of setpoints, so whoever works spindle and
+//! coolant needs to know nothing else; the record of what is latched follows from them. Nothing is told
+//! that is off already. No program begins before all is told.
+
+use glidepath_program::Event;
+
+/// What stops spindle and coolant together with the motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StopSettings {
+    /// An abort.
+    pub abort: bool,
+    /// A fault.
+    pub fault: bool,
+    /// The loss of the drives' power, asked for or not.
+    pub disable: bool,
+}
+
+impl StopSettings {
+    pub(crate) const fn is_by(self, cause: StopCause) -> bool {
+        match cause {
+            StopCause::Abort => self.abort,
+            StopCause::Fault => self.fault,
+            StopCause::Disable => self.disable,
+        }
+    }
+}
+
+impl Default for StopSettings {
+    /// All of them.
+    fn default() -> Self {
+        Self {
+            abort: true,
+            fault: true,
+            disable: true,
+        }
+    }
+}
+
+/// Why things are to stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum StopCause {
+    Abort,
+    Fault,
+    Disable,
+}
+
+/// What is on, and what of it is still to be stopped.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stops {
+    settings: StopSettings,
+    spindle_on: bool,
+    coolant_on: bool,
+    stops_spindle: bool,
+    stops_coolant: bool,
+    is_due: bool,
+}
+
+impl Stops {
+    pub(crate) const fn new(settings: StopSettings) -> Self {
+        Self {
+            settings,
+            spindle_on: false,
+            coolant_on: false,
+            stops_spindle: false,
+            stops_coolant: false,
+            is_due: false,
+        }
+    }
+
+    /// Takes note of an event that was told.
+    pub(crate) const fn hear(&mut self, event: Event) {
+        match event {
+            Event::MCode(3 | 4 | 19) => self.spindle_on = true,
+            Event::MCode(5 | 6) => self.spindle_on = false,
+            Event::MCode(7 | 8) => self.coolant_on = true,
+            Event::MCode(9) => self.coolant_on = false,
+            _ => {}
+        }
+    }
+
+    /// Things are to stop, as far as they are on.
+    pub(crate) const fn ask(&mut self, cause: StopCause) {
+        let stops = self.settings.is_by(cause);
+        self.stops_spindle |= stops && self.spindle_on;
+        self.stops_coolant |= stops && self.coolant_on;
+        self.is_due = self.stops_spindle || self.stops_coolant;
+    }
+
+    /// Whether an abort would stop anything.
+    pub(crate) const fn has_use_of_abort(&self) -> bool {
+        self.settings.abort && (self.spindle_on || self.coolant_on)
+    }
+
+    /// Whether something is still to be stopped. Every tick asks.
+    pub(crate) const fn is_due(&self) -> bool {
+        self.is_due
+    }
+
+    /// What is to be told next.
+    pub(crate) const fn take(&mut self) -> Option<Event> {
+        let event = if self.stops_spindle {
+            self.stops_spindle = false;
+            Event::MCode(5)
+        } else if self.stops_coolant {
+            self.stops_coolant = false;
+            Event::MCode(9)
+        } else {
+            return None;
+        };
+        self.is_due = self.stops_spindle || self.stops_coolant;
+        Some(event)
+    }
+}

@@ -1,0 +1,92 @@
+//! What a program has said of spindle and coolant up to where it was left.
+
+use glidepath_link::Auxiliary;
+use glidepath_program::{Event, Item, ItemKind};
+
+use crate::restoring::restoring;
+
+/// What a program has said of spindle and coolant.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct SaidOutputs {
+    said: Auxiliary,
+    has_told_spindle: bool,
+    has_told_coolant: bool,
+}
+
+impl SaidOutputs {
+    /// Takes note of an item that was executed.
+    pub(crate) fn take(&mut self, item: &Item) {
+        let ItemKind::Event(event) = item.kind else {
+            return;
+        };
+        self.said.take(event);
+        self.has_told_spindle |= matches!(
+            event,
+            Event::SpindleSpeed(_) | Event::MCode(3 | 4 | 5 | 6 | 19)
+        );
+        self.has_told_coolant |= matches!(event, Event::MCode(7..=9));
+    }
+
+    /// The events that make spindle and coolant what the program has made them, from what they are
+    /// `now`. What it has said nothing of stays as it is.
+    pub(crate) fn restoring(&self, now: &Auxiliary) -> Vec<Event> {
+        let mut wanted = *now;
+        if self.has_told_spindle {
+            wanted.spindle = self.said.spindle;
+            wanted.spindle_speed = self.said.spindle_speed;
+        }
+        if self.has_told_coolant {
+            wanted.coolant = self.said.coolant;
+        }
+        restoring(now, &wanted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glidepath_link::SpindleState;
+
+    fn said(events: &[Event]) -> SaidOutputs {
+        let mut said = SaidOutputs::default();
+        for event in events {
+            said.take(&Item {
+                block: 0,
+                line: 1,
+                kind: ItemKind::Event(*event),
+            });
+        }
+        said
+    }
+
+    #[test]
+    fn what_was_stopped_is_turned_on_again_and_nothing_else() {
+        let events = [
+            Event::SpindleSpeed(8000.0),
+            Event::MCode(3),
+            Event::MCode(8),
+            Event::MCode(7),
+        ];
+        let mut now = Auxiliary::default();
+        for event in events {
+            now.take(event);
+        }
+        assert_eq!(said(&events).restoring(&now), []);
+        (now.spindle, now.coolant) = (SpindleState::Stopped.code(), 0);
+        assert_eq!(
+            said(&events).restoring(&now),
+            [Event::MCode(3), Event::MCode(7), Event::MCode(8)]
+        );
+        // An order that the program has given itself since then.
+        let stopped = [events[0], events[1], events[2], Event::MCode(5)];
+        assert_eq!(said(&stopped).restoring(&now), [Event::MCode(8)]);
+        // What it says nothing of is left alone.
+        now.take(Event::MCode(4));
+        assert_eq!(said(&[Event::MCode(100)]).restoring(&now), []);
+        now.spindle_speed = 100.0;
+        assert_eq!(
+            said(&events[..2]).restoring(&now),
+            [Event::SpindleSpeed(8000.0), Event::MCode(3)]
+        );
+    }
+}
