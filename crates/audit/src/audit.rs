@@ -6,6 +6,7 @@ use crate::matching::Matching;
 use crate::report::Report;
 use crate::sample::{Sample, Seen};
 use crate::settings::AuditSettings;
+use crate::travel::TravelAudit;
 use glidepath_program::{Frame, Item};
 
 /// An audit under way.
@@ -15,6 +16,7 @@ use glidepath_program::{Frame, Item};
 #[derive(Debug)]
 pub struct Audit {
     limits: LimitAudit,
+    travel: TravelAudit,
     along: AlongAudit,
     matching: Matching,
 }
@@ -25,6 +27,7 @@ impl Audit {
     pub fn new(settings: &AuditSettings) -> Self {
         Self {
             limits: LimitAudit::new(settings),
+            travel: TravelAudit::new(settings),
             along: AlongAudit::new(settings),
             matching: Matching::new(settings),
         }
@@ -53,10 +56,12 @@ impl Audit {
         self.see(&sample.into());
     }
 
-    /// The next sample of the motion, away from the path: it is judged by the limits alone. The
+    /// The next sample of the motion, away from the path: it is judged by limits and travel alone. The
     /// motion comes back to where it left the path.
     pub fn sample_away(&mut self, sample: &Sample) {
-        self.limits.sample(&sample.into());
+        let seen = sample.into();
+        self.limits.sample(&seen);
+        self.travel.sample(&seen);
     }
 
     /// The next sample of the motion and its path position, whose limits are judged too.
@@ -75,6 +80,7 @@ impl Audit {
 
     fn see(&mut self, seen: &Seen<'_>) {
         self.limits.sample(seen);
+        self.travel.sample(seen);
         self.matching.sample(seen);
     }
 
@@ -83,7 +89,7 @@ impl Audit {
     pub fn finish(mut self) -> Report {
         self.matching.finish();
         self.limits.finish();
-        Report::new(&self.limits, &self.along, &self.matching)
+        Report::new(&self.limits, &self.travel, &self.along, &self.matching)
     }
 }
 

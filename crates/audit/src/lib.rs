@@ -53,6 +53,7 @@ mod report;
 mod sample;
 mod settings;
 pub mod smoothness;
+mod travel;
 pub mod tremor;
 mod trouble;
 mod violation;

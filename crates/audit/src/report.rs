@@ -3,6 +3,7 @@
 use crate::along::AlongAudit;
 use crate::limits::LimitAudit;
 use crate::matching::Matching;
+use crate::travel::TravelAudit;
 use crate::tremor::TREMORS_ARE_VIOLATIONS;
 use crate::violation::{KEPT_VIOLATIONS, Violation, Worst};
 use glidepath_geometry::AxisVector;
@@ -28,6 +29,8 @@ pub struct Report {
     pub max_acceleration: AxisVector,
     /// Largest jerk of each axis.
     pub max_jerk: AxisVector,
+    /// How far an axis was beyond an end of its travel at most, mm or degrees; 0 if none was.
+    pub max_beyond_travel_mm: f64,
     /// Largest distance met by a best matching of motion and program, both ways and in order, mm
     /// (degrees for rotary axes); not less than its resolution of 1e-6. Where the motion is out of
     /// tolerance it may be an over-estimate; the violation has the distance.
@@ -70,8 +73,14 @@ impl Report {
         self.violation_count == 0
     }
 
-    pub(crate) fn new(limits: &LimitAudit, along: &AlongAudit, matching: &Matching) -> Self {
+    pub(crate) fn new(
+        limits: &LimitAudit,
+        travel: &TravelAudit,
+        along: &AlongAudit,
+        matching: &Matching,
+    ) -> Self {
         let mut violations = limits.violations.kept.clone();
+        violations.extend_from_slice(&travel.violations.kept);
         violations.extend_from_slice(&along.violations.kept);
         violations.extend_from_slice(&matching.violations.kept);
         let mut tremors = matching.tremors.kept.clone();
@@ -93,6 +102,7 @@ impl Report {
             max_velocity: limits.maxima[0],
             max_acceleration: limits.maxima[1],
             max_jerk: limits.maxima[2],
+            max_beyond_travel_mm: travel.most,
             max_deviation_mm: matching.max_deviation.ratio,
             max_deviation_tick: matching.max_deviation.tick,
             max_deviation_line: matching.max_deviation.line,
@@ -106,6 +116,7 @@ impl Report {
             final_position: limits.last_position(),
             violations,
             violation_count: limits.violations.count
+                + travel.violations.count
                 + along.violations.count
                 + matching.violations.count
                 + hard_tremors,

@@ -40,6 +40,15 @@ pub enum ViolationKind {
         /// Jerk over limit.
         ratio: f64,
     },
+    /// An axis left its travel, at a sample or before it.
+    Travel {
+        /// The axis.
+        axis: Axis,
+        /// Where it was furthest beyond, mm or degrees.
+        position: f64,
+        /// The end of travel.
+        end: f64,
+    },
     /// Acceleration along the path beyond its limit.
     AlongPath {
         /// Acceleration over limit.
@@ -158,6 +167,15 @@ impl fmt::Display for Violation {
             ViolationKind::Jerk { axis, ratio } => {
                 write!(f, "{axis} has {ratio:.6} of its jerk limit")
             }
+            ViolationKind::Travel {
+                axis,
+                position,
+                end,
+            } => write!(
+                f,
+                "{axis} is at {position:.6}, {:.6} beyond the end of its travel at {end}",
+                (position - end).abs()
+            ),
             ViolationKind::AlongPath { ratio } => {
                 write!(f, "{ratio:.6} of the acceleration allowed along the path")
             }

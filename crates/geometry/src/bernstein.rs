@@ -39,3 +39,26 @@ pub(crate) fn max_abs<const N: usize>(c: &[AxisVector; N], levels: u32) -> AxisV
     let (left, right) = halve(c);
     max_abs(&left, levels - 1).sup(&max_abs(&right, levels - 1))
 }
+
+/// Whether the values on [0, 1] are proven to lie between two, axis by axis, after some halvings at
+/// most.
+pub(crate) fn is_within<const N: usize>(
+    c: &[AxisVector; N],
+    ends: &[AxisVector; 2],
+    levels: u32,
+) -> bool {
+    let [lowest, highest] = ends;
+    let is_inside = |point: &AxisVector| {
+        let mut axes = point.iter().zip(lowest.iter().zip(highest));
+        axes.all(|(x, (low, high))| x >= low && x <= high)
+    };
+    if c.iter().all(is_inside) {
+        return true;
+    }
+    // The first and the last coefficient are values.
+    if levels == 0 || ![c.first(), c.last()].into_iter().flatten().all(is_inside) {
+        return false;
+    }
+    let (left, right) = halve(c);
+    is_within(&left, ends, levels - 1) && is_within(&right, ends, levels - 1)
+}

@@ -13,7 +13,7 @@ use crate::rest::{SAME_POSITION, is_at_rest};
 use glidepath_geometry::{AXES, Axis, AxisVector};
 use glidepath_kinematics::{JointFault, JointViolation, JointWatch, Quantity};
 use glidepath_link::{FaultCause, FrameRefusal, MachineState, Record, RecordError, SetpointFrame};
-use glidepath_program::{Event, FrameFlags, Limits};
+use glidepath_program::{Event, FrameFlags, Limits, Travel};
 
 /// Share of a limit that may be exceeded: what an audit allows.
 const ALLOWANCE: f64 = 1e-6;
@@ -304,7 +304,7 @@ impl Admission {
             .zip(lowest.iter().zip(highest))
             .find_map(|((&axis, position), (&low, &high))| {
                 let nearest = position.max(low).min(high);
-                ((position - nearest).abs() > SAME_POSITION).then_some((
+                ((position - nearest).abs() > Travel::ROUNDING).then_some((
                     Some(axis),
                     position,
                     nearest,

@@ -1,5 +1,7 @@
 //! Why an item cannot be planned.
 
+use glidepath_geometry::Axis;
+
 /// What is wrong with an item given to the planner.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum PlanError {
@@ -59,5 +61,21 @@ pub enum PlanError {
     NoMotion {
         /// Source line.
         line: u32,
+    },
+    /// The motion that was found leads an axis out of its travel: where the program keeps inside that
+    /// is a defect of the planner. The frames before it stand, and none follows.
+    #[error(
+        "line {line}: {axis} would go to {position}, beyond the end of its travel at {end}; no frame \
+         after this line is given out"
+    )]
+    BeyondTravel {
+        /// Source line.
+        line: u32,
+        /// The axis.
+        axis: Axis,
+        /// Where it would go, mm or degrees.
+        position: f64,
+        /// The soft limit, mm or degrees.
+        end: f64,
     },
 }

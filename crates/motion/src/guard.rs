@@ -1,18 +1,20 @@
-//! The last look at a frame before it is given out: it must continue the motion.
+//! The last look at a frame before it is given out: it must continue the motion, inside the travel.
 //!
 //! A plan that keeps the limits always passes. What is caught is a plan with a hole in it: a piece
-//! of path left out, a state that is not a number. Such a frame must never be published, whatever
-//! the cause; no motion at all is better.
+//! of path left out, a state that is not a number, a position that the interpolator refuses because
+//! the axis cannot go there. Such a frame must never be published, whatever the cause; no motion at
+//! all is better.
 
 use crate::PlanError;
-use glidepath_geometry::{AXES, AxisVector, LINEAR_XYZ};
-use glidepath_program::{Frame, Limits, Settings};
+use glidepath_geometry::{AXES, Axis, AxisVector, LINEAR_XYZ};
+use glidepath_program::{Frame, Limits, Settings, Travel};
 
 /// Follows the frames.
 #[derive(Debug, Clone)]
 pub(crate) struct Guard {
     /// Largest first, second and third difference of each axis, mm or degrees.
     most: [AxisVector; 3],
+    travel: Travel,
     /// Position, and its first and second differences, at the last frame.
     last: Option<[AxisVector; 3]>,
     /// Another axis than X, Y, Z has moved.
@@ -38,8 +40,18 @@ impl Guard {
             .map(|most| most.map(|x| x.mul_add(ALLOWANCE_R, ROUNDING_MM)));
         Self {
             most,
+            travel: settings.limits.travel,
             last: None,
             others_move: false,
+        }
+    }
+
+    /// The same guard, for a machine at rest at a position: the first frame has to follow from that.
+    pub(crate) fn resting_at(self, position: AxisVector) -> Self {
+        let zero = AxisVector::zeros();
+        Self {
+            last: Some([position, zero, zero]),
+            ..self
         }
     }
 
@@ -64,8 +76,11 @@ impl Guard {
         };
         let [most_first, most_second, most_third] = &self.most;
         // All together, without a branch for each. Not a number is not within a limit.
-        let mut follows = true;
+        let (mut follows, mut is_inside) = (true, true);
+        let Travel { lowest, highest } = &self.travel;
         for i in 0..axes {
+            is_inside &= (frame.position[i] >= lowest[i] - Travel::ROUNDING)
+                & (frame.position[i] <= highest[i] + Travel::ROUNDING);
             let new_first = frame.position[i] - position[i];
             let new_second = new_first - first[i];
             let new_third = new_second - second[i];
@@ -77,11 +92,32 @@ impl Guard {
             (first[i], second[i]) = (new_first, new_second);
         }
         *position = frame.position;
-        if follows {
+        if !follows {
+            return Err(PlanError::NoMotion { line: frame.line });
+        }
+        if is_inside {
             Ok(())
         } else {
-            Err(PlanError::NoMotion { line: frame.line })
+            Err(self.beyond(frame))
         }
+    }
+
+    #[cold]
+    fn beyond(&self, frame: &Frame) -> PlanError {
+        let Travel { lowest, highest } = &self.travel;
+        let line = frame.line;
+        let found = Axis::ALL.into_iter().find_map(|axis| {
+            let i = axis.index();
+            let position = frame.position[i];
+            let end = position.max(lowest[i]).min(highest[i]);
+            ((position - end).abs() > Travel::ROUNDING).then_some(PlanError::BeyondTravel {
+                line,
+                axis,
+                position,
+                end,
+            })
+        });
+        found.unwrap_or(PlanError::NoMotion { line })
     }
 }
 
@@ -180,5 +216,22 @@ mod tests {
             let refused = Err(PlanError::NoMotion { line: 9 });
             assert_eq!(guard.check(&frame(x)), refused, "{x}");
         }
+    }
+
+    #[test]
+    fn a_position_beyond_an_end_of_travel_is_refused() {
+        let mut at_end = guard();
+        at_end.travel.highest[0] = 500.0;
+        at_end.travel.lowest[1] = 0.0;
+        assert_eq!(at_end.check(&frame(500.0)), Ok(()), "first");
+        assert_eq!(at_end.check(&frame(500.0 + 9e-10)), Ok(()), "rounding");
+        let position = 500.0 + 1e-6;
+        let refused = PlanError::BeyondTravel {
+            line: 9,
+            axis: Axis::X,
+            position,
+            end: 500.0,
+        };
+        assert_eq!(at_end.check(&frame(position)), Err(refused));
     }
 }

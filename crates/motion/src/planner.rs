@@ -103,7 +103,8 @@ impl Planner {
     ///
     /// # Errors
     /// [`PlanError::NoMotion`] if planning failed inside: there is no frame that continues the
-    /// motion within the limits. No more frames follow, and every call gives the same error.
+    /// motion within the limits; [`PlanError::BeyondTravel`] if it leads out of the travel of an axis.
+    /// No more frames follow, and every call gives the same error.
     /// Whoever plays the frames must then stop on those it has.
     pub fn pop_frame(&mut self) -> Result<Option<Frame>, PlanError> {
         Ok(self.make_frame()?.then_some(*self.frame()))

@@ -78,6 +78,9 @@ impl Refusal {
     /// motion.
     #[must_use]
     pub const fn leaves_motion_open(&self) -> bool {
-        matches!(self, Self::Plan(PlanError::NoMotion { .. }))
+        matches!(
+            self,
+            Self::Plan(PlanError::NoMotion { .. } | PlanError::BeyondTravel { .. })
+        )
     }
 }

@@ -13,7 +13,7 @@
 //! * [`Item`]: a segment with its rate and [`PathMode`], a dwell, or an [`Event`], in program
 //!   order;
 //! * [`Frame`]: position, velocity and acceleration of every axis at one instant of program time;
-//! * [`Limits`] of the axes and [`PathBounds`] of the motion along the path;
+//! * [`Limits`] of the axes, with their [`Travel`], and [`PathBounds`] of the motion along the path;
 //! * [`Settings`], all that a plan depends on besides the program, and the operator's [`Override`];
 //! * [`tolerance_norm`], the distance that a tolerance bounds, so that all who judge a deviation
 //!   measure the same.
@@ -44,6 +44,7 @@ mod item;
 mod limits;
 mod override_;
 mod settings;
+mod travel;
 
 pub use frame::{Frame, FrameFlags};
 pub use item::{
@@ -53,5 +54,6 @@ pub use item::{
 pub use limits::{Limits, PathBounds};
 pub use override_::Override;
 pub use settings::{Effort, Settings, Smoothing};
+pub use travel::Travel;
 // Who judges a deviation measures it as everybody else does.
 pub use glidepath_geometry::tolerance_norm;

@@ -1,8 +1,10 @@
-//! What each axis can do, and what the path may ask for.
+//! What each axis can do, how far it can go, and what the path may ask for.
 
+use crate::Travel;
 use glidepath_geometry::AxisVector;
 
-/// Largest speed, acceleration and jerk of every axis, each > 0, in any direction of motion.
+/// Largest speed, acceleration and jerk of every axis, each > 0, in any direction of motion, and its
+/// travel.
 ///
 /// An axis the machine does not have keeps the values of [`Limits::UNLIMITED`]; no program moves
 /// it.
@@ -16,13 +18,15 @@ pub struct Limits {
     pub jerk: AxisVector,
     /// The limits of the motion along the path, beside those of the axes.
     pub path: PathBounds,
+    /// How far each axis can go.
+    pub travel: Travel,
 }
 
 impl Limits {
     /// The value that stands for "no limit": large, but finite, so that formulas stay finite.
     pub const UNLIMITED: f64 = 1e12;
 
-    /// The same three limits on every axis.
+    /// The same three limits on every axis, and no end of travel.
     #[must_use]
     pub fn uniform(velocity: f64, acceleration: f64, jerk: f64) -> Self {
         Self {
@@ -30,6 +34,7 @@ impl Limits {
             acceleration: AxisVector::repeat(acceleration),
             jerk: AxisVector::repeat(jerk),
             path: PathBounds::NONE,
+            travel: Travel::unlimited(),
         }
     }
 }

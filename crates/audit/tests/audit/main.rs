@@ -7,6 +7,7 @@ mod limits;
 mod planted;
 mod program;
 mod timing;
+mod travel;
 mod tremor;
 
 use glidepath_audit::{Audit, AuditSettings, Report, Sample, ViolationKind};

@@ -76,6 +76,15 @@ impl Hermite {
         }
     }
 
+    /// Whether all of the curve is proven to lie between two positions, or beyond by `slack` at most:
+    /// by hulls, on up to 2⁶ pieces where they are not inside.
+    #[must_use]
+    pub fn is_within(&self, lowest: &AxisVector, highest: &AxisVector, slack: f64) -> bool {
+        let slack = AxisVector::repeat(slack);
+        let ends = [lowest - self.origin - slack, highest - self.origin + slack];
+        bernstein::is_within(&self.control, &ends, TRAVEL_LEVELS)
+    }
+
     /// Largest derivatives per axis, from hulls on eight pieces.
     #[must_use]
     pub fn bounds(&self) -> DerivativeBounds {
@@ -93,6 +102,8 @@ impl Hermite {
 
 /// Halvings before the hull is read: 2³ pieces.
 const HULL_LEVELS: u32 = 3;
+/// Halvings at most to prove that the curve is inside a box.
+const TRAVEL_LEVELS: u32 = 6;
 
 /// The four Bézier points next to an end, relative to it; `length` negative at the far end.
 fn ends(jet: &Jet, length: f64) -> [AxisVector; 4] {

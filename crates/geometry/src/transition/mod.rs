@@ -103,6 +103,19 @@ impl Transition {
         }
     }
 
+    /// Whether all of the curve is proven to lie between two positions, axis by axis, or beyond by
+    /// `slack` at most.
+    ///
+    /// Blends and pairs lie in the triangle of the corner, and so where their ends and the corner do:
+    /// it is taken for granted that these are inside.
+    #[must_use]
+    pub fn is_within(&self, lowest: &AxisVector, highest: &AxisVector, slack: f64) -> bool {
+        match self {
+            Self::Blend(_) | Self::BezierPair(_) => true,
+            Self::Hermite(curve) => curve.is_within(lowest, highest, slack),
+        }
+    }
+
     /// Largest derivatives per axis.
     #[must_use]
     pub fn bounds(&self) -> DerivativeBounds {

@@ -261,8 +261,8 @@ impl MachineConfig {
         (low, high)
     }
 
-    /// Limits over all nine axes, as far as joints leave them; an axis the machine does not have is
-    /// unlimited.
+    /// Limits over all nine axes, as far as joints leave them, and their travel; an axis the machine
+    /// does not have is unlimited.
     #[must_use]
     pub fn limits(&self) -> Limits {
         let mut limits = Limits::uniform(Limits::UNLIMITED, Limits::UNLIMITED, Limits::UNLIMITED);
@@ -273,6 +273,7 @@ impl MachineConfig {
             limits.jerk[i] = axis.max_jerk * self.axis_share.jerk;
         }
         limits.path = self.path.bounds;
+        (limits.travel.lowest, limits.travel.highest) = self.travel();
         limits
     }
 

@@ -49,6 +49,8 @@ pub struct MotionReport {
     pub tolerance_mm: f64,
     /// Largest distance between programmed path and motion, either way, mm.
     pub max_deviation_mm: f64,
+    /// How far an axis was beyond an end of its travel at most, mm or degrees; 0 if none was.
+    pub max_beyond_travel_mm: f64,
     /// Largest velocity, as a share of the axis' limit.
     pub max_velocity_ratio: f64,
     /// Largest acceleration, as a share of the axis' limit.
@@ -112,6 +114,7 @@ impl MotionReport {
             path_length_mm: audit.path_length_mm,
             tolerance_mm: audit.tolerance_mm,
             max_deviation_mm: audit.max_deviation_mm,
+            max_beyond_travel_mm: audit.max_beyond_travel_mm,
             max_velocity_ratio: audit.max_velocity_ratio.ratio,
             max_acceleration_ratio: audit.max_acceleration_ratio.ratio,
             max_jerk_ratio: audit.max_jerk_ratio.ratio,

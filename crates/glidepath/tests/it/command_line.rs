@@ -211,6 +211,7 @@ fn plan_reports_every_key_of_the_contract() {
         "path_length_mm",
         "tolerance_mm",
         "max_deviation_mm",
+        "max_beyond_travel_mm",
         "max_velocity_ratio",
         "max_acceleration_ratio",
         "max_jerk_ratio",

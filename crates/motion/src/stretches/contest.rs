@@ -13,6 +13,7 @@
 use super::entry::{Entry, SuppliedWay};
 use super::way::{Manner, Outset, Way};
 use crate::PlanError;
+use crate::guard::Guard;
 use crate::in_tube::SearchBias;
 use glidepath_geometry::Segment;
 use glidepath_program::{Frame, Item, ItemKind, PathMode};
@@ -88,12 +89,18 @@ impl Planned {
     }
 
     fn by(manner: Manner, entry: Entry) -> Result<Option<Self>, PlanError> {
-        let period_t = entry.outset.settings.period_t;
+        let Outset {
+            settings, start, ..
+        } = &entry.outset;
+        let mut guard = Guard::new(settings).resting_at(*start);
+        let period_t = settings.period_t;
         let mut way = SuppliedWay::new(manner, entry);
         let mut places = vec![(0, way.clone())];
         let mut frames = Vec::new();
         let mut time_t = 0.0;
         while let Some(frame) = way.pop_frame()? {
+            // A way that cannot be driven loses against any other.
+            guard.check(&frame)?;
             time_t += period_t;
             if time_t > MOST_T {
                 return Ok(None);

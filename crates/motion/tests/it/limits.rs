@@ -11,7 +11,7 @@ use glidepath_audit::{Audit, AuditSettings, Report, Sample};
 use glidepath_geometry::{AXES, Arc, AxisVector, Plane, Segment};
 use glidepath_motion::Planner;
 use glidepath_program::{
-    Effort, Frame, Item, ItemKind, Limits, PathBounds, PathMode, Rate, Settings, Smoothing,
+    Effort, Frame, Item, ItemKind, Limits, PathBounds, PathMode, Rate, Settings, Smoothing, Travel,
 };
 use proptest::prelude::*;
 
@@ -251,6 +251,7 @@ fn any_limits() -> impl Strategy<Value = Limits> {
                 acceleration: per_axis(2000.0),
                 jerk: per_axis(60_000.0),
                 path: PathBounds::NONE,
+                travel: Travel::unlimited(),
             }
         }),
     ]

@@ -15,7 +15,7 @@ use glidepath_kinematics::{
     Kinematics as _, LinearDelta, Mechanism, PathCaps, Rotaries, RotaryDelta, Scara, Tilt,
 };
 use glidepath_planner::{Output, Pipeline, ProgramSource};
-use glidepath_program::{Effort, Limits, Override, PathBounds, Settings, Smoothing};
+use glidepath_program::{Effort, Limits, Override, PathBounds, Settings, Smoothing, Travel};
 use proptest::prelude::*;
 
 const PERIOD_T: f64 = 0.004;
@@ -41,6 +41,7 @@ fn limits(linear: [f64; 3], rotary: [f64; 3]) -> Limits {
         acceleration: all(1),
         jerk: all(2),
         path: PathBounds::NONE,
+        travel: Travel::unlimited(),
     }
 }
 

@@ -18,3 +18,4 @@ mod resume;
 mod slow_feed;
 mod smooth;
 mod support;
+mod travel;

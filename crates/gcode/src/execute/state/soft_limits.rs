@@ -1,13 +1,12 @@
 //! Soft limits: where the moves of each axis may end.
 
 use glidepath_geometry::{Axis, AxisVector};
+use glidepath_program::Travel as Ends;
 
 use crate::setup::machine::{Machine, Travel};
 
-/// Relative slack of the soft limits, for the rounding of unit conversions.
-const LIMIT_SLACK: f64 = 1e-9;
-
-/// The soft limits with their slack, infinite where there is none.
+/// The soft limits with what rounding may put a coordinate beyond them, infinite where there is none. It
+/// is no more than whoever plays the motion allows: what is accepted can be driven.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SoftLimits {
     pub(crate) low: AxisVector,
@@ -22,8 +21,8 @@ impl SoftLimits {
         };
         for axis in Axis::ALL {
             if let Some(Travel { min, max }) = machine.travel(axis) {
-                limits.low[axis.index()] = min - LIMIT_SLACK * min.abs().max(1.0);
-                limits.high[axis.index()] = max + LIMIT_SLACK * max.abs().max(1.0);
+                limits.low[axis.index()] = min - Ends::ROUNDING;
+                limits.high[axis.index()] = max + Ends::ROUNDING;
             }
         }
         limits

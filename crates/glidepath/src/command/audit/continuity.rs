@@ -1,10 +1,11 @@
 //! Whether setpoints follow each other: their numbers, their times, the limits of every axis by finite
-//! differences, and whether an axis stands still that says it moves.
+//! differences, its travel, and whether an axis stands still that says it moves.
 
 use super::finding::{Finding, Findings};
 use crate::config::MachineConfig;
 use glidepath_geometry::{AXES, Axis};
 use glidepath_link::{MachineState, Record as _, Setpoint};
+use glidepath_program::Travel;
 
 /// A limit counts as kept up to this factor, as in the audit of a plan.
 const SLACK: f64 = 1.0 + 1e-6;
@@ -31,6 +32,8 @@ pub(super) struct Continuity {
 struct AxisState {
     axis: Axis,
     limits: [f64; 3],
+    /// The ends of its travel.
+    travel: [f64; 2],
     /// Last differences of first and second order.
     differences: [f64; 2],
     magnitude: f64,
@@ -52,6 +55,7 @@ impl Continuity {
             AxisState {
                 axis,
                 limits: [limits.velocity[i], limits.acceleration[i], limits.jerk[i]],
+                travel: [limits.travel.lowest[i], limits.travel.highest[i]],
                 differences: [0.0; 2],
                 magnitude: 0.0,
                 run: 0,
@@ -73,6 +77,7 @@ impl Continuity {
         if let Err(error) = setpoint.check() {
             self.find(setpoint, "broken", error.to_string());
         }
+        self.judge_travel(setpoint);
         let last = self.last.replace(*setpoint);
         // Another life of the interpolator, or a position that was taken over from the drives.
         let continues = |last: &Setpoint| {
@@ -119,6 +124,28 @@ impl Continuity {
             line,
             text,
         });
+    }
+
+    /// In a program every axis is inside its travel; by hand one that stands outside is brought back.
+    fn judge_travel(&mut self, setpoint: &Setpoint) {
+        let by_hand = setpoint.epoch == 0 || setpoint.state() == Ok(MachineState::Jogging);
+        // Rows of values say nothing of epochs.
+        let is_row = setpoint.boot_id == 0;
+        if is_led(setpoint) || (by_hand && !is_row) {
+            return;
+        }
+        let beyond = self.axes.iter().find_map(|state| {
+            let at = setpoint.position.get(state.axis.index()).copied()?;
+            let [low, high] = state.travel;
+            let end = at.max(low).min(high);
+            ((at - end).abs() > Travel::ROUNDING).then(|| {
+                let (axis, off) = (state.axis, (at - end).abs());
+                format!("{axis} is at {at:.6}, {off:.6} beyond the end of its travel at {end}")
+            })
+        });
+        if let Some(text) = beyond {
+            self.find(setpoint, "limit", text);
+        }
     }
 
     fn judge_time(&mut self, last: &Setpoint, setpoint: &Setpoint, missing: u64) {
@@ -240,5 +267,27 @@ mod tests {
         );
         assert_eq!(found(&|setpoint| setpoint.home = 1), 0);
         assert!(found(&|_| {}) > 0, "a step of 3 mm in a period");
+    }
+
+    #[test]
+    fn an_axis_beyond_its_travel_in_a_program_is_found_and_by_hand_it_is_not() {
+        let config = config::parse("built-in machine", config::EMBEDDED).unwrap();
+        let end = config.limits().travel.highest[0];
+        let found = |x: f64, epoch: u64, state: MachineState| {
+            let mut continuity = Continuity::new(&config);
+            let mut setpoint = Setpoint::zeroed();
+            (setpoint.boot_id, setpoint.number, setpoint.epoch) = (1, 1, epoch);
+            setpoint.state = state.code();
+            setpoint.position[0] = x;
+            continuity.take(&setpoint);
+            let texts = continuity.findings.listed.into_iter();
+            texts
+                .filter(|finding| finding.text.contains("beyond"))
+                .count()
+        };
+        assert_eq!(found(end, 1, MachineState::Running), 0);
+        assert_eq!(found(end + 1e-5, 1, MachineState::Running), 1);
+        assert_eq!(found(end + 1e-5, 1, MachineState::Jogging), 0);
+        assert_eq!(found(end + 1e-5, 0, MachineState::Idle), 0);
     }
 }

@@ -172,6 +172,7 @@ impl Follows {
                 ViolationKind::Velocity { .. }
                 | ViolationKind::Acceleration { .. }
                 | ViolationKind::Jerk { .. }
+                | ViolationKind::Travel { .. }
                 | ViolationKind::Inconsistent { .. }
                 | ViolationKind::NotFinite
                 | ViolationKind::Gap { .. } => {

@@ -88,6 +88,27 @@ impl BetweenPeriods<'_> {
         })
     }
 
+    /// The Bézier points of an axis.
+    pub(crate) fn bezier(&self, axis: usize) -> [f64; 6] {
+        let t = self.period_t;
+        let of = |state: &State| {
+            (
+                state.position[axis],
+                state.velocity[axis] * (t / 5.0),
+                state.acceleration[axis] * (t * t / 20.0),
+            )
+        };
+        let ((p0, v0, a0), (p1, v1, a1)) = (of(self.from), of(self.to));
+        [
+            p0,
+            p0 + v0,
+            p0 + 2.0 * v0 + a0,
+            p1 - 2.0 * v1 + a1,
+            p1 - v1,
+            p1,
+        ]
+    }
+
     /// The position at a part of the period.
     pub(crate) fn at(&self, u: f64) -> AxisVector {
         let (from, to, t) = (self.from, self.to, self.period_t);
@@ -127,6 +148,13 @@ mod tests {
         for k in 0..=10 {
             let u = f64::from(k) / 10.0;
             assert!((bend.at(u) - at(0.5 * u).position).amax() < 1e-12, "{u}");
+            let mut points = bend.bezier(1);
+            for degree in (1..points.len()).rev() {
+                for i in 0..degree {
+                    points[i] += u * (points[i + 1] - points[i]);
+                }
+            }
+            assert!((points[0] - bend.at(u)[1]).abs() < 1e-12, "{u}");
         }
     }
 }

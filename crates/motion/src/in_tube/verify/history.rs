@@ -1,10 +1,12 @@
 //! The positions handed out last, and the last word on a motion that continues them.
 //!
-//! Only positions at the periods count: differences of first, second and third order against the
-//! limits of every axis, the feed, and the way along the path ([`super::follow`]).
+//! Positions at the periods count: differences of first, second and third order against the limits of
+//! every axis, the feed, and the way along the path ([`super::follow`]); travel between them, too
+//! ([`super::travel`]).
 
 use super::between_periods::BetweenPeriods;
 use super::follow::Follower;
+use super::travel;
 use crate::in_tube::path::{ReferencePath, counted_length};
 use crate::in_tube::period::State;
 use glidepath_geometry::{AXES, AxisVector, feed_length};
@@ -73,7 +75,7 @@ impl History {
         })
     }
 
-    /// Follows a period along the path: limits, tolerance, feed. False leaves all as it was.
+    /// Follows a period along the path: limits, travel, tolerance, feed. False leaves all as it was.
     pub(crate) fn follow(
         &mut self,
         limits: &Limits,
@@ -88,7 +90,10 @@ impl History {
             to: next,
             period_t,
         };
-        if !self.allows(limits, period_t, &position) || !follower.step(reference_path, &bend) {
+        if !self.allows(limits, period_t, &position)
+            || !travel::is_inside(limits, &bend)
+            || !follower.step(reference_path, &bend)
+        {
             return false;
         }
         let step = position - self.recent[0];

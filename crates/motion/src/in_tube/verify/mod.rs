@@ -1,10 +1,12 @@
-//! The check that every motion passes before it is handed out: limits, tolerance, order and feed.
+//! The check that every motion passes before it is handed out: limits, travel, tolerance, order and
+//! feed.
 
 mod beside;
 mod between_periods;
 mod follow;
 mod history;
 mod parameter_range;
+mod travel;
 
 #[cfg(test)]
 pub(crate) use between_periods::BetweenPeriods;

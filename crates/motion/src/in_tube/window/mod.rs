@@ -39,6 +39,7 @@ mod smoothing;
 mod solver;
 mod speed;
 mod spline;
+mod travel_rows;
 mod tube;
 mod way;
 mod window_start;

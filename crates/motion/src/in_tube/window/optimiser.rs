@@ -21,6 +21,7 @@ use super::samples::Samples;
 use super::scaled_path::{ScaledPath, ScaledSegment};
 use super::shortcuts;
 use super::solver::{Goal, Interior, Problem};
+use super::travel_rows;
 use super::tube;
 use super::tube::{Extents, FEED_R, Layout, SEARCH_STEERING, STEERING, Style};
 use super::window_start::WindowStart;
@@ -331,6 +332,7 @@ impl<const D: usize> Optimiser<D> {
         };
         tube::build(&mut self.problem, &layout, extents);
         feed_rows::add(&mut self.problem, &layout);
+        travel_rows::add(&mut self.problem, &layout);
         if path.has_joints() {
             joint_rows::add(&mut self.problem, &layout);
         }

@@ -78,6 +78,8 @@ pub(crate) struct ScaledPath<const D: usize> {
     pub(crate) velocity: [f64; D],
     pub(crate) acceleration: [f64; D],
     pub(crate) jerk: [f64; D],
+    /// Ends of travel, lowest and highest, in the space of the window; infinite where there is none.
+    pub(crate) walls: [[f64; 2]; D],
     joints: SharedJoints,
 }
 
@@ -122,6 +124,7 @@ impl<const D: usize> ScaledPath<D> {
             velocity: [1.0; D],
             acceleration: [1.0; D],
             jerk: [1.0; D],
+            walls: [[f64::NEG_INFINITY, f64::INFINITY]; D],
             joints: None,
         };
         for axis in Axis::ALL
@@ -136,6 +139,8 @@ impl<const D: usize> ScaledPath<D> {
             path.velocity[k] = limits.velocity[i] / unit;
             path.acceleration[k] = limits.acceleration[i] / unit;
             path.jerk[k] = limits.jerk[i] / unit;
+            let ends = [limits.travel.lowest[i], limits.travel.highest[i]];
+            path.walls[k] = ends.map(|end| (end - origin[i]) / unit);
             path.moving += 1;
         }
         for piece in range.filter_map(|index| reference_path.get(index)) {

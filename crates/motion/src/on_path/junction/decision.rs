@@ -6,6 +6,7 @@
 //! * half of each segment (the other half belongs to the junction at its other end, if there is
 //!   one),
 //! * the tolerance: deviation of the curve plus the chord error of driving it at its top speed,
+//! * the travel of every axis: beside an arc a transition may swing out of the corner,
 //!
 //! and no longer than needed for the programmed rate. Deviation is measured between points of equal
 //! path position, so it bounds both ways and in order: curve to program and program to curve.
@@ -20,7 +21,7 @@ use crate::on_path::pieces::{CurveRule, SpeedLimit, straight_limit};
 use glidepath_geometry::{
     AXES, AxisVector, DerivativeBounds, PairShape, Segment, Transition, Turn, feed_length,
 };
-use glidepath_program::{PathMode, Settings, Smoothing, tolerance_norm};
+use glidepath_program::{PathMode, Settings, Smoothing, Travel, tolerance_norm};
 
 /// One of the two segments of a junction.
 #[derive(Debug, Clone, Copy)]
@@ -280,6 +281,7 @@ impl Corner<'_> {
         };
         let bounds = transition.bounds();
         let limits = &self.settings.limits;
+        let travel = &limits.travel;
         let mut curve = CurveRule {
             bounds,
             gentle: self.gentle,
@@ -296,7 +298,12 @@ impl Corner<'_> {
             _ => tolerance_norm(&(transition.jet(0.5 * transition.length()).position - corner)),
         };
         let period_t = self.settings.period_t;
-        let error_mm = deviation_mm + chord_error_mm(&bounds, limit.top_v, period_t);
+        let error_mm = if transition.is_within(&travel.lowest, &travel.highest, Travel::ROUNDING) {
+            deviation_mm + chord_error_mm(&bounds, limit.top_v, period_t)
+        } else {
+            // Whatever the tolerance is, it is too much: a shorter one may stay inside.
+            f64::MAX
+        };
         let left_mm = (self.tolerance_mm - deviation_mm).max(0.0);
         curve.chord_v = (left_mm / chord_error_mm(&bounds, 1.0, period_t)).sqrt();
         (limit.top_v > 0.0 && error_mm.is_finite()).then_some(Candidate {

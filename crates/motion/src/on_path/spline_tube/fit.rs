@@ -79,8 +79,14 @@ impl<const D: usize> Spline<D> {
         }
     }
 
-    /// Solves once, with so many control points fixed at each end, and moves the feet.
-    pub(super) fn solve(&mut self, samples: &mut [Sample<D>], fixed: (usize, usize)) {
+    /// Solves once, with so many control points fixed at each end, and moves the feet. The others are
+    /// put inside the travel, and the curve with them: it is in their hull.
+    pub(super) fn solve(
+        &mut self,
+        samples: &mut [Sample<D>],
+        fixed: (usize, usize),
+        [lowest, highest]: &[[f64; D]; 2],
+    ) {
         self.assemble(samples);
         let count = self.control.len();
         for i in (0..fixed.0.min(count)).chain(count.saturating_sub(fixed.1)..count) {
@@ -89,6 +95,12 @@ impl<const D: usize> Spline<D> {
         self.system.solve();
         for (point, step) in self.control.iter_mut().zip(&self.system.right) {
             *point = add_scaled(point, 1.0, step);
+        }
+        let free = fixed.0.min(count)..count.saturating_sub(fixed.1).max(fixed.0.min(count));
+        for point in &mut self.control[free] {
+            for i in 0..D {
+                point[i] = point[i].max(lowest[i]).min(highest[i]);
+            }
         }
         self.move_feet(samples);
     }

@@ -4,7 +4,7 @@ use super::held_radius::HeldRadius;
 use super::thinning::MergedChord;
 use super::vector::minus;
 use core::ops::Range;
-use glidepath_program::Settings;
+use glidepath_program::{Settings, Travel};
 
 /// Share of the tolerance that merging may use.
 const MERGE_SHARE_R: f64 = 0.05;
@@ -33,6 +33,8 @@ pub(super) struct ToleranceShares {
     pub(super) held_radius: HeldRadius,
     /// The axes that measure the feed.
     pub(super) feed_axes: Range<usize>,
+    /// Where the curve ends whatever the tolerance is.
+    pub(super) travel: Travel,
 }
 
 impl ToleranceShares {
@@ -54,6 +56,7 @@ impl ToleranceShares {
             longest_mm: LONGEST_R * tolerance_mm,
             held_radius: HeldRadius::new(tolerance_mm, &settings.limits, feed_axes.clone()),
             feed_axes,
+            travel: settings.limits.travel,
         }
     }
 

@@ -21,6 +21,7 @@ use super::output::Output;
 use super::shares::ToleranceShares;
 use super::vector::{add_scaled, between, minus, norm};
 use core::f64::consts::{PI, TAU};
+use glidepath_program::Travel;
 
 /// How a curve starts or ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,11 +72,15 @@ pub(super) struct Window<const D: usize> {
     pub(super) errors_mm: Vec<f64>,
     /// How fast samples that are added are passed at the feed.
     pub(super) feed_v: f64,
+    /// Lowest and highest position of the axes.
+    travel: [[f64; D]; 2],
 }
 
 impl<const D: usize> Window<D> {
     pub(super) fn new(shares: ToleranceShares) -> Self {
+        let Travel { lowest, highest } = &shares.travel;
         Self {
+            travel: [lowest, highest].map(|end| core::array::from_fn(|i| end[i])),
             shares,
             samples: Vec::with_capacity(MOST_SAMPLES + 2),
             knots: Vec::with_capacity(MOST_SAMPLES + 2 * DEGREE),
@@ -202,7 +207,7 @@ impl<const D: usize> Window<D> {
         );
         let solves = if is_refined { SOLVES_REFINED } else { SOLVES };
         for solve in 1.. {
-            self.spline.solve(&mut self.samples, fixed);
+            self.spline.solve(&mut self.samples, fixed, &self.travel);
             let mut worst = None;
             if solve >= solves {
                 let verdict = self.spline.certify(

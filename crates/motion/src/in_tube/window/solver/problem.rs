@@ -156,8 +156,22 @@ impl<const D: usize> Problem<D> {
         sides: [f64; 2],
         is_firm: bool,
     ) {
-        self.add_row(normal, &[0.0; D], sides);
-        if let Some(row) = self.rows.last_mut().filter(|_| is_firm) {
+        if is_firm {
+            self.add_firm_row(normal, &[0.0; D], sides);
+        } else {
+            self.add_row(normal, &[0.0; D], sides);
+        }
+    }
+
+    /// A row of the last site that has a price that nothing else is worth.
+    pub(in crate::in_tube::window) fn add_firm_row(
+        &mut self,
+        normal: [f64; D],
+        center: &[f64; D],
+        sides: [f64; 2],
+    ) {
+        self.add_row(normal, center, sides);
+        if let Some(row) = self.rows.last_mut() {
             row.price = FIRM_PRICE;
         }
     }
