@@ -27,6 +27,10 @@ const FLATTENING_R: f64 = 0.05;
 const MERGING_R: f64 = 0.1;
 /// Distance up to which a vertex counts as being on a line.
 const STRAIGHT_MM: f64 = 1e-9;
+/// From this length on a line is seen to be straight, mm: it is turned by no more than a vertex so far
+/// off makes of it, mm.
+const LONG_MM: f64 = 4.0;
+const TURNED_MM: f64 = 2.5e-4;
 /// Largest turn from one chord of an arc to the next, rad.
 const LARGEST_TURN_RAD: f64 = 0.5;
 
@@ -80,8 +84,16 @@ struct FlatChord {
 struct OpenChord {
     chord: FlatChord,
     dropped: Dropped,
+    /// The longest of the chords drawn together, mm.
+    longest_mm: f64,
     /// Where further lines begin, mm after its start.
     lines: Vec<(f64, ProgramLine)>,
+}
+
+impl FlatChord {
+    fn length_mm(&self) -> f64 {
+        tolerance_norm(&(self.end - self.start))
+    }
 }
 
 impl Flattener {
@@ -128,6 +140,7 @@ impl Flattener {
         }
         self.close();
         self.open = Some(OpenChord {
+            longest_mm: chord.length_mm(),
             chord,
             dropped: Dropped::default(),
             lines: Vec::new(),
@@ -200,8 +213,11 @@ impl OpenChord {
             && chord.tolerance_mm.total_cmp(&next.tolerance_mm).is_eq()
             && next.events.is_empty();
         // The speed of a rapid depends on its direction, so only what goes straight on is one.
+        let longest_mm = self.longest_mm.max(next.length_mm());
         let allowed_mm = if chord.rate.is_rapid() {
             STRAIGHT_MM
+        } else if longest_mm >= LONG_MM {
+            TURNED_MM.min(MERGING_R * chord.tolerance_mm)
         } else {
             MERGING_R * chord.tolerance_mm
         };
@@ -218,6 +234,7 @@ impl OpenChord {
         chord.end = next.end;
         chord.error_mm = base_mm + self.dropped.error_mm;
         chord.bow = self.dropped.bow;
+        self.longest_mm = longest_mm;
         true
     }
 }

@@ -21,6 +21,9 @@ use glidepath_program::tolerance_norm;
 
 /// Most vertices dropped from one line.
 const MOST_DROPPED: usize = 64;
+/// How far off the vertices the parabola may be that fits them best, in distances of the furthest of
+/// them. A vertex next to an end of the line says nothing of its middle.
+const MOST_BOW_R: f64 = 2.0;
 
 /// The vertices a line has drawn together.
 #[derive(Debug, Clone, Default)]
@@ -69,11 +72,38 @@ impl Dropped {
         }
         self.vertices.push(*through);
         self.error_mm = error_mm;
-        self.bow = if squares > 0.0 {
+        let bow = if squares > 0.0 {
             offsets / squares
         } else {
             AxisVector::zeros()
         };
+        let (size_mm, most_mm) = (tolerance_norm(&bow), MOST_BOW_R * error_mm);
+        self.bow = if size_mm > most_mm {
+            bow * (most_mm / size_mm)
+        } else {
+            bow
+        };
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vertex_next_to_an_end_makes_no_parabola() {
+        let at = |x: f64, y: f64| {
+            let mut point = AxisVector::zeros();
+            (point[0], point[1]) = (x, y);
+            point
+        };
+        let (start, end) = (at(0.0, 0.0), at(20.0, 0.0));
+        let mut dropped = Dropped::default();
+        assert!(dropped.extend(&start, &at(0.02, 0.001), &end, 0.002));
+        assert!(tolerance_norm(&dropped.bow) <= 0.0021, "{}", dropped.bow);
+        let mut middle = Dropped::default();
+        assert!(middle.extend(&start, &at(10.0, 0.001), &end, 0.002));
+        assert!((middle.bow[1] - 0.001).abs() < 1e-12, "{}", middle.bow);
     }
 }

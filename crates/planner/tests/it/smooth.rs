@@ -247,3 +247,40 @@ fn a_corner_that_turns_back_is_come_out_of() {
          G3 X16.131652 Y8.952363 I-0.271594 J2.076961\nM2\n";
     audited("a corner that turns back", text, light, |_| {});
 }
+
+/// Slots with a line of hundredths of a millimetre before each long one.
+const SLOTS: &str = "G21 G90 G94 G17 G64 P0.02
+G0 Z5
+G0 X29.321 Y8.901
+G1 Z-1 F1000
+X29.299 Y8.9
+X9.9
+Y30
+X9.921 Y30.3
+X40.2
+Y8.9
+G0 Z5
+M2
+";
+
+#[test]
+fn a_long_line_is_straight_whatever_precedes() {
+    for effort in [Effort::Optimal, Effort::Fast] {
+        let mut places: Vec<Place> = Vec::new();
+        let settings = Settings {
+            effort,
+            ..settings()
+        };
+        audited("slots", SLOTS, settings, |frame| {
+            places.push((frame.line, frame.position));
+        });
+        for (line, axis, at) in [(6, 1, 8.9), (7, 0, 9.9), (9, 1, 30.3), (10, 0, 40.2)] {
+            let of_line: Vec<_> = places.iter().filter(|place| place.0 == line).collect();
+            let quarter = of_line.len() / 4;
+            for (_, position) in &of_line[quarter..of_line.len() - quarter] {
+                let off_mm = (position[axis] - at).abs();
+                assert!(off_mm < 1e-3, "{effort:?}, line {line}: {off_mm} mm off");
+            }
+        }
+    }
+}

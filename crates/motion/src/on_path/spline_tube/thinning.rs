@@ -18,6 +18,10 @@ use glidepath_program::ProgramLine;
 
 /// Most vertices held back, the last one included.
 const MOST_HELD: usize = 32;
+/// From this length on a chord is seen to be straight, mm: it is turned by no more than a vertex so far
+/// off makes of it, mm.
+const LONG_MM: f64 = 4.0;
+const TURNED_MM: f64 = 2.5e-4;
 
 /// A vertex, and the line of the block that ends in it.
 #[derive(Debug, Clone, Copy)]
@@ -46,6 +50,8 @@ pub(super) struct Thinning<const D: usize> {
     feed_axes: Range<usize>,
     anchor: [f64; D],
     held: Vec<Vertex<D>>,
+    /// One of the chords to the vertices held is long.
+    is_long: bool,
 }
 
 impl<const D: usize> Thinning<D> {
@@ -55,17 +61,22 @@ impl<const D: usize> Thinning<D> {
             feed_axes,
             anchor: start,
             held: Vec::with_capacity(MOST_HELD),
+            is_long: false,
         }
     }
 
     /// Takes the next vertex; gives a chord if the vertex is not on the same. With `apart` the
     /// chord before ends here whatever comes.
     pub(super) fn push(&mut self, next: Vertex<D>, apart: bool) -> Option<MergedChord<D>> {
-        let done = if apart || !self.reaches(&next.point) {
+        let last = self.held.last().map_or(&self.anchor, |last| &last.point);
+        let step = minus(&next.point, last);
+        let is_long = dot(&step, &step) >= LONG_MM * LONG_MM;
+        let done = if apart || !self.reaches(&next.point, self.is_long || is_long) {
             self.flush()
         } else {
             None
         };
+        self.is_long |= is_long;
         self.held.push(next);
         done
     }
@@ -73,6 +84,7 @@ impl<const D: usize> Thinning<D> {
     /// The chord held back, if any.
     pub(super) fn flush(&mut self) -> Option<MergedChord<D>> {
         let end = self.held.last()?.point;
+        self.is_long = false;
         let chord = minus(&end, &self.anchor);
         let length_t = norm(&chord);
         let per_square = 1.0 / (length_t * length_t);
@@ -98,14 +110,20 @@ impl<const D: usize> Thinning<D> {
         })
     }
 
-    /// True if the chord from the anchor to a point passes all vertices held, in order.
-    fn reaches(&self, point: &[f64; D]) -> bool {
+    /// True if the chord from the anchor to a point passes all vertices held, in order; nearer if one of
+    /// the chords is long.
+    fn reaches(&self, point: &[f64; D], is_long: bool) -> bool {
         if self.held.len() >= MOST_HELD {
             return false;
         }
         let chord = minus(point, &self.anchor);
         let per_square = 1.0 / dot(&chord, &chord);
-        let allowed_mm2 = self.allowed_mm * self.allowed_mm;
+        let allowed_mm = if is_long {
+            self.allowed_mm.min(TURNED_MM)
+        } else {
+            self.allowed_mm
+        };
+        let allowed_mm2 = allowed_mm * allowed_mm;
         let mut passed_u = 0.0;
         let mut fed = 0.0;
         for vertex in &self.held {
