@@ -89,5 +89,6 @@ pub use syntax::cursor::MAX_NUMBER;
 pub use syntax::dialect::Dialect;
 pub use syntax::line_source::MAX_LINE_BYTES;
 pub use syntax::modes::{
-    CannedCycle, Distance, FeedMode, LatheCycle, Motion, Pockets, Probe, Retract, Spline, Units,
+    CannedCycle, Distance, FeedMode, LatheCycle, Motion, Pockets, Probe, Retract, Spline, Turning,
+    Units,
 };

@@ -19,8 +19,9 @@ use crate::execute::state::fanuc_offsets::FanucFrames;
 use crate::execute::state::frame::Frame;
 use crate::execute::state::open_spline::{OpenSpline, goes_on, interrupted};
 use crate::execute::state::sticky_words::CycleSeries;
+use crate::setup::work_offsets::CoordinateSystem;
 use crate::syntax::block::Block;
-use crate::syntax::codes::Coded;
+use crate::syntax::codes::{Coded, NO_SYSTEM};
 use crate::syntax::dialect::Dialect;
 use crate::syntax::letters::Letters;
 use crate::syntax::modes::{Distance, Motion, Spline, Stop};
@@ -112,7 +113,7 @@ impl Interpreter {
         self.check_axes(block)?;
         self.check_compensated(block)?;
         self.feed(block, motion)?;
-        if !block.is_plain() || block.has_any(Letters::of(b"ST")) {
+        if !block.is_plain() || block.has_any(Letters::of(b"STD")) {
             self.auxiliary(block, out)?;
             self.modes(block, out)?;
             if block.dialect != Dialect::LinuxCnc {
@@ -128,6 +129,9 @@ impl Interpreter {
             self.state.modal.motion = self.mode_behind(block, code);
             if !matches!(code, Some(Motion::Cycle(_))) {
                 self.state.cycles = CycleSeries::default();
+            }
+            if !matches!(code, Some(Motion::Turning(_))) {
+                self.state.fanuc.turning = None;
             }
         }
         if !matches!(motion, None | Some(Motion::Spline(Spline::Cubic))) {
@@ -184,10 +188,10 @@ impl Interpreter {
         if let Some(coded) = codes.tool_length {
             self.tool_length(block, coded)?;
         }
-        let modal = &mut self.state.modal;
         if let Some(Coded { code, .. }) = codes.system {
-            self.offsets.active = code;
+            self.choose_system(code);
         }
+        let modal = &mut self.state.modal;
         if let Some(Coded { code, .. }) = codes.path_mode {
             modal.path_mode = path_mode(block, code, modal.units.mm())?;
         }
@@ -214,10 +218,24 @@ impl Interpreter {
         {
             self.follow_tip(coded)?;
         }
+        if block.dialect == Dialect::Siemens {
+            self.choose_edge(block)?;
+        }
         if block.dialect == Dialect::Fanuc {
             self.fanuc_modes(block)?;
         }
         Ok(())
+    }
+
+    fn choose_system(&mut self, index: usize) {
+        let fanuc = &mut self.offsets.fanuc;
+        if index == NO_SYSTEM {
+            fanuc.extended.insert(0, CoordinateSystem::default());
+            fanuc.active = Some(0);
+        } else {
+            self.offsets.active = index;
+            fanuc.active = None;
+        }
     }
 
     /// The motion mode that a code leaves. FANUC's cycles are a group of their own: behind G80 the
@@ -275,6 +293,8 @@ impl Interpreter {
                 self.fanuc_thread(block, out)?;
             }
             Motion::ThreadCycle => self.thread_cycle(block, out)?,
+            Motion::Turning(cycle) => self.turning(block, cycle, out)?,
+            Motion::Groove(across) => self.groove(block, across, out)?,
         }
         self.follow_surface(out);
         Ok(())

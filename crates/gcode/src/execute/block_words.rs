@@ -29,7 +29,9 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 13] {
             _ => none,
         },
         match codes.cutter_radius.map(|radius| radius.code) {
-            Some(CutterRadius::FromTable(_)) => radius_word(block),
+            Some(CutterRadius::FromTable(_)) if block.dialect != Dialect::Siemens => {
+                radius_word(block)
+            }
             Some(CutterRadius::FromWord(_)) => Letters::of(b"DL"),
             _ => none,
         },
@@ -85,6 +87,7 @@ fn taken(block: &Block, motion: Option<Motion>) -> [Letters; 13] {
         if motion.is_some() || axes_non_modal {
             match block.dialect {
                 Dialect::Marlin => AXIS_WORDS.and(Letters::of(b"E")),
+                Dialect::Fanuc if block.is_lathe => AXIS_WORDS.and(Letters::of(b"H")),
                 _ => AXIS_WORDS,
             }
         } else {
@@ -113,6 +116,8 @@ fn taken_by_motion(block: &Block, motion: Option<Motion>) -> Letters {
             _ => Letters::of(b"IJKRP"),
         },
         Some(Motion::Cycle(_)) if block.dialect == Dialect::Fanuc => Letters::of(b"RLPQK"),
+        Some(Motion::Turning(_)) => Letters::of(b"R"),
+        Some(Motion::Groove(_)) => Letters::of(b"RPQ"),
         Some(Motion::Thread) => Letters::of(b"KQ"),
         Some(Motion::RigidTap) => Letters::of(b"KIPQR"),
         Some(Motion::ThreadCycle) if block.dialect == Dialect::Fanuc => Letters::of(b"PQRIKDA"),
@@ -173,7 +178,11 @@ pub(crate) fn check_words(block: &Block, motion: Option<Motion>) -> Outcome<()> 
         return Ok(());
     }
     let taken = taken(block, motion);
-    let always = Letters::of(b"FST");
+    let always = match block.dialect {
+        // The edge of the tool may be chosen in any block.
+        Dialect::Siemens => Letters::of(b"FSTD"),
+        _ => Letters::of(b"FST"),
+    };
     let used = taken.iter().fold(always, |used, one| used.and(*one));
     if let Some((letter, span)) = block.unused(used) {
         return Err(unused(letter, span));

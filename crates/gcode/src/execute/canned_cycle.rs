@@ -30,7 +30,7 @@
 //! | G86 | feed | dwell P, spindle stop | rapid, spindle on |
 //! | G89 | feed | dwell P | feed |
 
-use glidepath_geometry::{AXES, Axis, AxisVector};
+use glidepath_geometry::{AXES, Axis, AxisVector, Plane};
 use glidepath_program::{Event, Item, ItemKind, PathMode};
 
 use crate::diagnostic::code::DiagnosticCode;
@@ -41,9 +41,10 @@ use crate::execute::interpreter::Interpreter;
 use crate::execute::motion::speed::Pace;
 use crate::execute::state::sticky_words::{CycleSeries, StickyWords};
 use crate::execute::tapping_cycle::tap_turns;
+use crate::setup::fanuc::PointInput;
 use crate::syntax::block::Block;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{CannedCycle, Distance, FeedMode, Retract};
+use crate::syntax::modes::{CannedCycle, Distance, FeedMode, Retract, Units};
 use crate::syntax::word_check::{missing, negative, whole};
 
 /// How far the tool backs off from a depth it has reached, mm.
@@ -52,6 +53,8 @@ const BACK_OFF_MM: f64 = 0.254;
 const BOTTOM_MM: f64 = 1e-6;
 /// Most pecks of one block.
 const MAX_PECKS: f64 = 10_000.0;
+/// Depths without a point above this are in doubt on a FANUC mill.
+const MOST_PECK: f64 = 99.0;
 /// Most holes of one block.
 const MAX_HOLES: u32 = 10_000;
 
@@ -66,6 +69,22 @@ struct Hole {
 
 impl Interpreter {
     pub(crate) fn cycle(
+        &mut self,
+        block: &Block,
+        cycle: CannedCycle,
+        out: &mut Vec<Item>,
+    ) -> Outcome<()> {
+        if block.is_lathe {
+            // On the face: along Z, whatever plane arcs have.
+            let plane = core::mem::replace(&mut self.state.modal.plane, Plane::Xy);
+            let made = self.cycle_along_normal(block, cycle, out);
+            self.state.modal.plane = plane;
+            return made;
+        }
+        self.cycle_along_normal(block, cycle, out)
+    }
+
+    fn cycle_along_normal(
         &mut self,
         block: &Block,
         cycle: CannedCycle,
@@ -94,6 +113,9 @@ impl Interpreter {
         let initial = self.state.cycles.initial.unwrap_or(start);
         let (r, bottom) = if incremental {
             (initial + sticky.r, initial + sticky.r + sticky.depth)
+        } else if block.is_lathe {
+            // R is the way from the initial level.
+            (initial + sticky.r, sticky.depth)
         } else {
             (sticky.r, sticky.depth)
         };
@@ -116,8 +138,8 @@ impl Interpreter {
             return Ok(());
         }
         let clear = match self.state.modal.retract {
-            Retract::Initial => initial.max(r),
-            Retract::RPlane => r,
+            Retract::RPlane if !block.is_lathe => r,
+            _ => initial.max(r),
         };
         let hole = Hole {
             sticky,
@@ -195,7 +217,9 @@ impl Interpreter {
             word.or(sticky)
                 .ok_or_else(|| missing(span, name, &text, meaning))
         };
-        let r = get(b'R', scale, last.map(|l| l.r), "the plane above the hole")?;
+        let last_r = last.map(|l| l.r).or(block.is_lathe.then_some(0.0));
+        let r = get(b'R', scale, last_r, "the plane above the hole")?;
+        let peck_scale = scale * self.peck_unit(block)?;
         let depth = get(
             letter,
             scale,
@@ -222,13 +246,13 @@ impl Interpreter {
             }
             CannedCycle::TapLeft | CannedCycle::TapRight => {
                 sticky.dwell_s = block.get(b'P').or(last_dwell).unwrap_or(0.0);
-                let word = block.get(b'Q').map(|peck| peck * scale);
+                let word = block.get(b'Q').map(|peck| peck * peck_scale);
                 sticky.peck = word.or(last.map(|l| l.peck)).unwrap_or(0.0);
             }
             CannedCycle::ChipBreak | CannedCycle::Peck => {
                 sticky.peck = get(
                     b'Q',
-                    scale,
+                    peck_scale,
                     last.map(|l| l.peck),
                     "how deep to go at a time",
                 )?;
@@ -253,6 +277,34 @@ impl Interpreter {
         }
         self.settle_rigidity(block, last.as_ref(), &mut sticky)?;
         Ok(sticky)
+    }
+
+    /// What Q counts: lengths, and on a FANUC without a point least increments where all coordinates
+    /// do, and on lathes.
+    fn peck_unit(&self, block: &Block) -> Outcome<f64> {
+        let is_fanuc = block.dialect == Dialect::Fanuc && block.has_no_point(b'Q');
+        let Some(peck) = block.get(b'Q').filter(|_| is_fanuc) else {
+            return Ok(1.0);
+        };
+        let increment = match self.state.modal.units {
+            Units::Inch => 1e-4,
+            Units::Millimetre => 1e-3,
+        };
+        match block.point {
+            _ if block.is_lathe => Ok(increment),
+            PointInput::Increment => Ok(increment),
+            PointInput::Unsaid if peck > MOST_PECK => {
+                let message = format!("Q{peck} has no decimal point");
+                Err(
+                    Fault::new(DiagnosticCode::AmbiguousWord, block.span(b'Q'), message)
+                        .because(
+                            "it is millimetres on one control, and least increments on another",
+                        )
+                        .help("write the point, or set `point` of [program] in the configuration"),
+                )
+            }
+            PointInput::Calculator | PointInput::Unsaid => Ok(1.0),
+        }
     }
 
     fn holes(&mut self, block: &Block, hole: Hole, holes: u32, out: &mut Vec<Item>) -> Outcome<()> {

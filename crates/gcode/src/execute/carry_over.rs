@@ -59,6 +59,7 @@ impl<R: BufRead> Program<R> {
         let start = interpreter.options.start;
         interpreter.state = *state;
         interpreter.state.fanuc = FanucModal::default();
+        interpreter.state.edge = None;
         interpreter.state.tip_follows = false;
         (interpreter.state.corner, interpreter.state.rounds_mm) = (None, 0.0);
         (interpreter.state.position, interpreter.state.path_end) = (start, start);

@@ -97,6 +97,7 @@ impl Interpreter {
                 thread_end: None,
                 corner: None,
                 rounds_mm: 0.0,
+                edge: None,
                 fanuc: FanucModal::default(),
                 tip_follows: false,
                 thread_setup: None,

@@ -3,7 +3,7 @@
 use std::io::BufRead;
 use std::sync::Arc;
 
-use glidepath_geometry::AxisVector;
+use glidepath_geometry::{AxisVector, Plane};
 use glidepath_program::Item;
 
 use crate::diagnostic::code::DiagnosticCode;
@@ -13,6 +13,7 @@ use crate::execute::auxiliary::input_wait::InputWait;
 use crate::execute::awaited_codes::AwaitedCodes;
 use crate::execute::dialect::macro_call::ModalMacro;
 use crate::execute::dialect::siemens::steps::SiemensState;
+use crate::execute::dialect::tape::Finishing;
 use crate::execute::dialect::tape::Tape;
 use crate::execute::flow::activation::Flow;
 use crate::execute::interpreter::Interpreter;
@@ -45,6 +46,8 @@ pub struct Program<R> {
     pub(crate) flow: Flow,
     /// Lines of a program in a dialect whose flow is not that of O words.
     pub(crate) tape: Tape,
+    /// The finishing of a FANUC lathe in progress (G70).
+    pub(crate) finishing: Option<Finishing>,
     /// The macro that a FANUC program calls behind every move.
     pub(crate) modal_macro: Option<ModalMacro>,
     /// What a SINUMERIK program has besides.
@@ -82,7 +85,9 @@ pub struct Program<R> {
 impl<R: BufRead> Program<R> {
     /// Starts to read a program. Nothing is read before the first item is asked for.
     pub fn new(reader: R, options: Options) -> Self {
-        let block = Block::of(options.dialect, &options.m_codes).with_point(options.fanuc.point);
+        let block = Block::of(options.dialect, &options.m_codes)
+            .with_point(options.fanuc.point)
+            .of_lathe(options.is_fanuc_lathe());
         let parameters = match options.dialect {
             Dialect::Fanuc => Parameters::of_fanuc(),
             _ => Parameters::new(),
@@ -95,6 +100,7 @@ impl<R: BufRead> Program<R> {
             parameters,
             flow: Flow::default(),
             tape: Tape::default(),
+            finishing: None,
             modal_macro: None,
             siemens: SiemensState::default(),
             origin: LineOrigin::Stream,
@@ -117,7 +123,13 @@ impl<R: BufRead> Program<R> {
         };
         if program.block.dialect == Dialect::Fanuc {
             // Parameter 3402#0: G0 at power on.
-            program.interpreter.state.modal.motion = Some(Motion::Rapid);
+            let modal = &mut program.interpreter.state.modal;
+            modal.motion = Some(Motion::Rapid);
+            if program.block.is_lathe {
+                // X words are diameters, the plane is that of G18.
+                (modal.diameter, modal.plane) = (true, Plane::Zx);
+                program.interpreter.state.fanuc.is_feed_unsaid = modal.feed.is_none();
+            }
         }
         if let Some(in_force) = in_force {
             program.begin_with(&in_force);

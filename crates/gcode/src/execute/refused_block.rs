@@ -88,6 +88,10 @@ impl<R: BufRead> Program<R> {
             let length = usize::try_from(before).unwrap_or_default().min(text.len());
             self.read_words(text.get(..length).unwrap_or_default());
         }
+        // The corner in front of it is no finding of its own.
+        if self.interpreter.state.corner.take().is_some() {
+            self.interpreter.state.path_end = self.interpreter.state.position;
+        }
         self.interpreter.adopt_modes(&self.block);
         self.interpreter.adopt_place(&self.block, diagnostic.code);
     }

@@ -213,7 +213,7 @@ const fn motion_code(motion: Option<Motion>) -> u16 {
         Some(Motion::ArcCounterclockwise) => 30,
         Some(Motion::Thread) => 330,
         Some(Motion::RigidTap) => 331,
-        Some(Motion::ThreadCycle) => 760,
+        Some(Motion::ThreadCycle | Motion::Turning(_) | Motion::Groove(_)) => 760,
         Some(Motion::Spline(spline)) => match spline {
             Spline::Cubic => 50,
             Spline::Quadratic => 51,

@@ -209,7 +209,7 @@ impl Interpreter {
     }
 
     /// Goes to program coordinates at rapid.
-    pub(super) fn rapid_to(
+    pub(crate) fn rapid_to(
         &mut self,
         block: &Block,
         program: AxisVector,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glidepath_geometry::{Axis, AxisVector};
 
 use crate::execute::state::in_force::InForce;
-use crate::setup::fanuc::FanucParameters;
+use crate::setup::fanuc::{FanucControl, FanucParameters};
 use crate::setup::m_codes::MCodes;
 use crate::setup::machine::Machine;
 use crate::setup::spindle_axis::SpindleAxis;
@@ -114,6 +114,19 @@ impl Default for LoopLimits {
             checked_lines: 20_000_000,
             may_run_unchecked: false,
         }
+    }
+}
+
+impl Options {
+    /// True for a program of a FANUC lathe.
+    pub(crate) fn is_fanuc_lathe(&self) -> bool {
+        let machine = &self.machine;
+        let has_no_y = machine.has(Axis::X) && machine.has(Axis::Z) && !machine.has(Axis::Y);
+        self.dialect == Dialect::Fanuc
+            && match self.fanuc.control {
+                None => has_no_y,
+                Some(control) => control == FanucControl::LatheA,
+            }
     }
 }
 

@@ -41,6 +41,8 @@ pub(crate) struct Block {
     pub(super) is_plain: bool,
     /// Letters of FANUC's words whose numbers have no decimal point.
     pub(crate) pointless: Letters,
+    /// LIMS of SINUMERIK: the highest speed of G96.
+    pub(crate) speed_limit: Option<f64>,
     /// `,C` and `,R` of FANUC.
     pub(crate) corner: Option<CornerWord>,
     /// `@` and `^`.
@@ -55,6 +57,8 @@ pub(crate) struct Block {
     pub(super) declared: Arc<MCodes>,
     /// What coordinates without a point are in a FANUC program.
     pub(crate) point: PointInput,
+    /// The lines are of a FANUC lathe.
+    pub(crate) is_lathe: bool,
 }
 
 /// How the corner between two moves is broken.
@@ -189,6 +193,7 @@ impl Block {
             self.comment.clear();
             self.polar = [None, None];
             self.corner = None;
+            self.speed_limit = None;
             self.pointless = Letters::default();
             self.codes = Codes::default();
             self.kind = LineKind::Block;
@@ -204,6 +209,12 @@ impl Block {
     /// A block for lines of a FANUC control that reads coordinates so.
     pub(crate) const fn with_point(mut self, point: PointInput) -> Self {
         self.point = point;
+        self
+    }
+
+    /// A block for lines of a FANUC lathe, if they are.
+    pub(crate) const fn of_lathe(mut self, is_lathe: bool) -> Self {
+        self.is_lathe = is_lathe;
         self
     }
 

@@ -233,7 +233,9 @@ impl Block {
         }
         self.any = true;
         match letter {
-            b'G' if self.dialect == Dialect::Fanuc => self.codes.add_fanuc_g(value, span),
+            b'G' if self.dialect == Dialect::Fanuc => {
+                self.codes.add_fanuc_g(value, self.is_lathe, span)
+            }
             b'G' if self.dialect == Dialect::Marlin => self.codes.add_printer_g(value, span),
             b'G' if self.dialect == Dialect::Siemens => self.codes.add_rewritten_g(value, span),
             b'G' => self.codes.add_g(value, span),

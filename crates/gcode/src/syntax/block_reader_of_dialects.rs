@@ -115,6 +115,12 @@ impl Block {
         cursor.advance();
         let letter = cursor.next_visible().map(|byte| byte.to_ascii_uppercase());
         let is_siemens = self.dialect == Dialect::Siemens;
+        if is_siemens && letter == Some(b'S') {
+            cursor.advance();
+            self.speed_limit = Some(word_value(cursor, start, false, scope)?);
+            self.any = true;
+            return Ok(());
+        }
         let kind = match letter {
             Some(b'C') => CornerKind::Chamfer,
             Some(b'R') => CornerKind::Round,

@@ -22,6 +22,9 @@ pub(crate) struct Coded<T> {
     pub(crate) span: SourceSpan,
 }
 
+/// The index of no coordinate system: its zero is that of the machine.
+pub(crate) const NO_SYSTEM: usize = usize::MAX;
+
 /// What FANUC makes of the coordinates of a program; true where it begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FrameCode {
@@ -50,7 +53,7 @@ pub(crate) struct Codes {
     pub(crate) spindle_mode: Option<Coded<SpindleMode>>,
     /// True for G7: X words are diameters.
     pub(crate) diameter: Option<Coded<bool>>,
-    /// Index of the coordinate system, from 0 for G54.
+    /// Index of the coordinate system, from 0 for G54; [`NO_SYSTEM`] is none (SINUMERIK's G500).
     pub(crate) system: Option<Coded<usize>>,
     /// The tolerance of G64 comes from its P word.
     pub(crate) path_mode: Option<Coded<PathMode>>,

@@ -25,6 +25,10 @@ pub enum Motion {
     RigidTap,
     /// G76.
     ThreadCycle,
+    /// G90, G92 and G94 of FANUC's lathes.
+    Turning(Turning),
+    /// G74 and G75 of FANUC's lathes: grooves by depths; true along X.
+    Groove(bool),
 }
 
 impl Motion {
@@ -39,6 +43,17 @@ impl Motion {
     pub const fn is_arc(self) -> bool {
         matches!(self, Self::ArcClockwise | Self::ArcCounterclockwise)
     }
+}
+
+/// Cycles of FANUC's lathes of one pass: to depth, along, out and back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Turning {
+    /// G90: along Z.
+    Turn,
+    /// G94: along X.
+    Face,
+    /// G92: a thread.
+    Thread,
 }
 
 /// Splines.
@@ -123,6 +138,8 @@ pub(crate) enum NonModal {
     SetReference(usize),
     /// G52.
     LocalOffset,
+    /// G50 of FANUC's lathes: the highest speed of the spindle, or what the present place is called.
+    LatheSetting,
     /// G53.
     MachineCoordinates,
     /// G92.
@@ -140,7 +157,11 @@ impl NonModal {
     pub(crate) const fn takes_axes(self) -> bool {
         matches!(
             self,
-            Self::SetData | Self::GoToReference(_) | Self::LocalOffset | Self::SetOffset
+            Self::SetData
+                | Self::GoToReference(_)
+                | Self::LocalOffset
+                | Self::LatheSetting
+                | Self::SetOffset
         )
     }
 }

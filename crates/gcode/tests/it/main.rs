@@ -14,6 +14,7 @@ mod damaged;
 mod diagnostics;
 mod dialects;
 mod fanuc;
+mod fanuc_lathes;
 mod fanuc_threads;
 mod flow;
 mod lathe_cycles;

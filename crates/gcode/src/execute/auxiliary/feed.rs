@@ -7,7 +7,7 @@ use crate::execute::state::modal::Feed;
 use crate::syntax::block::Block;
 use crate::syntax::codes::Coded;
 use crate::syntax::dialect::Dialect;
-use crate::syntax::modes::{FeedMode, Motion};
+use crate::syntax::modes::{FeedMode, Motion, Turning};
 
 impl Interpreter {
     /// Feed mode and F.
@@ -19,13 +19,20 @@ impl Interpreter {
                 modal.feed = None;
             }
             modal.feed_mode = code;
+            self.state.fanuc.is_feed_unsaid = false;
         }
         // On a FANUC the F of a thread is its pitch.
         let is_pitch = block.dialect == Dialect::Fanuc
-            && matches!(motion, Some(Motion::Thread | Motion::ThreadCycle));
+            && matches!(
+                motion,
+                Some(Motion::Thread | Motion::ThreadCycle | Motion::Turning(Turning::Thread))
+            );
         let Some(feed) = block.get(b'F').filter(|_| !is_pitch) else {
             return Ok(());
         };
+        if self.state.fanuc.is_feed_unsaid && block.is_lathe {
+            return Err(unsaid(block));
+        }
         if feed <= 0.0 {
             let message = format!("the feedrate F{feed} is not above zero");
             return Err(
@@ -45,4 +52,12 @@ impl Interpreter {
         });
         Ok(())
     }
+}
+
+#[cold]
+fn unsaid(block: &Block) -> Box<Fault> {
+    let message = "F before G98 or G99";
+    Fault::new(DiagnosticCode::AmbiguousWord, block.span(b'F'), message)
+        .because("lathes begin with a feed per revolution or per minute, as a parameter of theirs says (3402#4)")
+        .help("write G99 (per revolution) or G98 (per minute) in front of it")
 }

@@ -53,6 +53,12 @@ impl Interpreter {
                 self.offsets.shift = overlay(self.offsets.shift, &values);
                 self.offsets.saved_shift = self.offsets.shift;
             }
+            NonModal::LatheSetting => {
+                if block.has_axes() {
+                    let values = self.axis_values(block)?;
+                    self.offsets.set_shift(position, &values);
+                }
+            }
             NonModal::SetOffset => {
                 let values = self.axis_values(block)?;
                 require_axes(block, non_modal.span, "G92")?;
@@ -74,6 +80,7 @@ impl Interpreter {
             non_modal.code,
             NonModal::SetData
                 | NonModal::LocalOffset
+                | NonModal::LatheSetting
                 | NonModal::SetOffset
                 | NonModal::ClearOffset
                 | NonModal::SuspendOffset

@@ -26,11 +26,26 @@ const WORTH_TELLING: f64 = 0.01;
 /// Millimetres of a foot.
 const FOOT_MM: f64 = 304.8;
 
+/// True where S is the highest speed: G50 S of FANUC's lathes.
+fn is_limit(block: &Block) -> bool {
+    block
+        .codes
+        .non_modal
+        .is_some_and(|non_modal| non_modal.code == NonModal::LatheSetting)
+}
+
 impl Interpreter {
     /// G96, G97 and S.
     pub(crate) fn spindle_speed(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        if let Some(limit) = block.speed_limit.filter(|limit| *limit > 0.0) {
+            self.state.spindle.most = Some(limit);
+        }
         if let Some(Coded { code, span }) = block.codes.spindle_mode {
-            let most = block.get(b'D').unwrap_or(f64::INFINITY);
+            // D of SINUMERIK is the edge of a tool.
+            let word = block
+                .get(b'D')
+                .filter(|_| block.dialect == Dialect::LinuxCnc);
+            let most = word.unwrap_or(f64::INFINITY);
             if most <= 0.0 {
                 let message = "the largest spindle speed is not above zero";
                 return Err(
@@ -50,6 +65,10 @@ impl Interpreter {
         let Some(speed) = block.get(b'S') else {
             return Ok(());
         };
+        if speed > 0.0 && is_limit(block) {
+            self.state.spindle.most = Some(speed);
+            return Ok(());
+        }
         let dwell = block
             .codes
             .non_modal
@@ -119,7 +138,8 @@ impl Interpreter {
         let program = self.offsets.to_program(machine);
         let round_mm = TAU * program[0].abs();
         let speed = surface.speed / round_mm.max(1e-6);
-        Some(speed.min(surface.most).min(MAX_NUMBER))
+        let most = self.state.spindle.most.unwrap_or(MAX_NUMBER);
+        Some(speed.min(surface.most).min(most).min(MAX_NUMBER))
     }
 
     /// After a move in G96: tells the spindle's speed if it has changed.

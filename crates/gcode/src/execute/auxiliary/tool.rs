@@ -24,6 +24,9 @@ const FIXTURE: usize = 8;
 impl Interpreter {
     /// T, M6 and M61.
     pub(crate) fn select_tool(&mut self, block: &Block, out: &mut Vec<Item>) -> Outcome<()> {
+        if block.is_lathe {
+            return self.turret(block, out);
+        }
         if let Some(tool) = whole(block, b'T', MAX_TOOL)? {
             if tool != 0 && self.tools.is_some() {
                 self.tool_of(tool, block.span(b'T'))?;

@@ -41,7 +41,10 @@ impl Interpreter {
                     let (diameter, orientation) = self.fanuc_radius(block, letter, span)?;
                     return self.begin_compensation(block, span, side, 0.5 * diameter, orientation);
                 }
-                let tool = self.named_tool(block, letter, span)?;
+                let tool = match block.dialect {
+                    Dialect::Siemens => self.tool_of_edge(block, span)?,
+                    _ => self.named_tool(block, letter, span)?,
+                };
                 (side, tool.diameter_mm, tool.orientation)
             }
             CutterRadius::FromWord(side) => {

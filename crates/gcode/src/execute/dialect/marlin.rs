@@ -13,7 +13,7 @@ use crate::execute::program::Program;
 use crate::execute::scope::ProgramScope;
 use crate::setup::options::Connections;
 use crate::syntax::block::Block;
-use crate::syntax::dialect::marlin::{shows_text, verified};
+use crate::syntax::dialect::marlin::{NamedCommand, named_command, shows_text, verified};
 
 /// True for an M code behind which a printer goes on only when something is as hot as it should be.
 const fn waits(number: u32) -> bool {
@@ -30,6 +30,9 @@ impl<R: BufRead> Program<R> {
         if self.is_deleted() {
             return Ok(true);
         }
+        if let Some(command) = named_command(self.source.text()) {
+            return self.klipper_command(command);
+        }
         let number = self.source.number();
         let scope = ProgramScope {
             parameters: &self.parameters,
@@ -38,6 +41,25 @@ impl<R: BufRead> Program<R> {
         let text = verified(self.source.text())?;
         let parsed = self.block.parse(text, &scope);
         self.execute_parsed(number, parsed)
+    }
+}
+
+impl<R: BufRead> Program<R> {
+    /// A command of Klipper with a name: read over where it moves nothing.
+    fn klipper_command(&mut self, command: NamedCommand) -> Outcome<bool> {
+        self.begun = true;
+        if command.is_silent {
+            return Ok(true);
+        }
+        let name = self.source.text().get(command.span.start..);
+        let name = name.and_then(|name| name.get(..command.span.length));
+        let name = String::from_utf8_lossy(name.unwrap_or_default()).into_owned();
+        let message = format!("{name} (a command or macro of Klipper) is not supported");
+        Err(
+            Fault::new(DiagnosticCode::NotSupported, command.span, message)
+                .because("what it does stands in the printer's configuration, and it may move the machine")
+                .help("write the moves that it makes, or remove it"),
+        )
     }
 }
 

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use std::io::BufRead;
 use std::sync::Arc;
 
+use glidepath_geometry::AxisVector;
+
 use crate::diagnostic::code::DiagnosticCode;
 use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
@@ -42,6 +44,17 @@ pub(crate) struct SubprogramCall {
     pub(crate) again: u32,
     /// True for G65: the subprogram has parameters of its own.
     pub(crate) own_parameters: bool,
+}
+
+/// The blocks of a profile that are executed for G70, and where the tool goes behind them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Finishing {
+    /// The line behind the last one.
+    pub(crate) end: TapePlace,
+    /// Where the program goes on.
+    pub(crate) back: TapePlace,
+    /// Where the tool was, machine coordinates.
+    pub(crate) start: AxisVector,
 }
 
 /// A part of the program that is executed again (SINUMERIK's REPEAT).

@@ -135,7 +135,7 @@ impl Interpreter {
     }
 
     /// Z and X of the tool, program coordinates.
-    pub(super) fn lathe_point(&self) -> Point {
+    pub(crate) fn lathe_point(&self) -> Point {
         let program = self.offsets.to_program(self.state.position);
         [program[Axis::Z.index()], program[Axis::X.index()]]
     }

@@ -30,7 +30,7 @@ impl Interpreter {
         self.absolute_target(&values)
     }
 
-    pub(super) fn make_lathe_cycle(
+    pub(crate) fn make_lathe_cycle(
         &mut self,
         cycle: &OpenLatheCycle,
         out: &mut Vec<Item>,

@@ -22,6 +22,42 @@ pub(crate) struct OpenLatheCycle {
     pub(super) state: State,
 }
 
+impl OpenLatheCycle {
+    /// A cycle of FANUC, whose profile has been read.
+    pub(crate) const fn of_fanuc(
+        source: SourceLine,
+        line: u32,
+        block: Block,
+        words: LatheCycleWords,
+        profile: LatheProfile,
+        state: State,
+    ) -> Self {
+        Self {
+            source,
+            line,
+            block,
+            level: 0,
+            words,
+            profile,
+            state,
+        }
+    }
+}
+
+impl LatheCycleWords {
+    /// Roughing of FANUC: the profile itself has the allowances.
+    pub(crate) const fn of_fanuc(cycle: LatheCycle, increment_mm: f64, retract_mm: f64) -> Self {
+        Self {
+            cycle,
+            distance_mm: 0.0,
+            end_mm: 0.0,
+            finishing: 1,
+            increment_mm,
+            retract_mm,
+        }
+    }
+}
+
 /// The words of a cycle, mm.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LatheCycleWords {

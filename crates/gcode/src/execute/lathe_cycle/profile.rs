@@ -43,7 +43,7 @@ pub(crate) struct LatheProfile {
 }
 
 impl LatheProfile {
-    pub(super) const fn new(start: Point) -> Self {
+    pub(crate) const fn new(start: Point) -> Self {
         Self {
             elements: Vec::new(),
             at: start,
@@ -53,13 +53,28 @@ impl LatheProfile {
         }
     }
 
+    /// Shifts all of it.
+    pub(crate) fn shift(&mut self, by: Point) {
+        let shift = |point: &mut Point| {
+            point[0] += by[0];
+            point[1] += by[1];
+        };
+        for element in &mut self.elements {
+            shift(&mut element.start);
+            shift(&mut element.end);
+            if let Some((center, _)) = &mut element.arc {
+                shift(center);
+            }
+        }
+    }
+
     /// True if a fillet or chamfer has no element behind it.
     pub(super) const fn is_open(&self) -> bool {
         self.corner.is_some()
     }
 
     /// Takes a block of the subroutine.
-    pub(super) fn add(&mut self, block: &Block, interpreter: &Interpreter) -> Outcome<()> {
+    pub(crate) fn add(&mut self, block: &Block, interpreter: &Interpreter) -> Outcome<()> {
         check_codes(block, interpreter)?;
         if let Some(coded) = block.codes.motion {
             self.motion = match coded.code {

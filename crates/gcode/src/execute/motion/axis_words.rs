@@ -82,6 +82,7 @@ impl Interpreter {
                         | Motion::Thread
                         | Motion::RigidTap
                         | Motion::ThreadCycle
+                        | Motion::Turning(_)
                 ) && !is_setup;
                 if needs && !has_axes {
                     let meaning = "where to go";
@@ -92,7 +93,8 @@ impl Interpreter {
                         meaning,
                     ));
                 }
-                Ok((has_axes || is_setup || motion.may_lack_axes()).then_some(motion))
+                let may_lack = motion.may_lack_axes() || matches!(motion, Motion::Groove(_));
+                Ok((has_axes || is_setup || may_lack).then_some(motion))
             }
             (_, true) => Ok(None),
             (_, false) => self.modal_motion(block, has_axes),
@@ -118,7 +120,7 @@ impl Interpreter {
     }
 
     pub(crate) fn check_axes(&self, block: &Block) -> Outcome<()> {
-        if !block.has_any(self.lacking) {
+        if !block.has_any(self.lacking) || block.is_lathe && self.has_lathe_axes(block) {
             return Ok(());
         }
         // In FANUC's G76 A is the angle of the tool.
@@ -158,6 +160,9 @@ impl Interpreter {
         }
         if self.state.modal.diameter {
             values[0] = values[0].map(|x| 0.5 * x);
+        }
+        if block.is_lathe {
+            self.resolve_increments(block, &mut values)?;
         }
         self.resolve_polar(block, &mut values)?;
         self.resolve_fanuc_polar(block, &mut values)?;

@@ -6,6 +6,7 @@ use crate::diagnostic::fault::Outcome;
 use crate::execute::interpreter::Interpreter;
 use crate::execute::state::offsets::overlay;
 use crate::syntax::block::Block;
+use crate::syntax::dialect::Dialect;
 use crate::syntax::modes::{Distance, NonModal};
 
 impl Interpreter {
@@ -17,6 +18,12 @@ impl Interpreter {
             .non_modal
             .is_some_and(|o| o.code == NonModal::MachineCoordinates);
         if machine {
+            // On a SINUMERIK the length of the tool stays in force: D0 takes it back.
+            if block.dialect == Dialect::Siemens {
+                for (axis, value) in values.iter_mut().enumerate() {
+                    *value = value.map(|value| value + self.offsets.tool[axis]);
+                }
+            }
             return Ok(overlay(self.state.position, &values));
         }
         if self.state.modal.distance == Distance::Absolute {

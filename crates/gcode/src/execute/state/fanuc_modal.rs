@@ -1,6 +1,6 @@
 //! What is in force in a FANUC program beside the modes that every control has.
 
-use crate::syntax::modes::Motion;
+use crate::syntax::modes::{Motion, Turning};
 
 /// Modes of FANUC alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,6 +14,15 @@ pub(crate) struct FanucModal {
     pub(crate) length_sign: Option<f64>,
     /// G16.
     pub(crate) polar: Option<Polar>,
+    /// A lathe that has not said yet what F is (G98, G99).
+    pub(crate) is_feed_unsaid: bool,
+    /// What G90, G92 or G94 of a lathe keep from block to block.
+    pub(crate) turning: Option<TurningWords>,
+    /// The lead of G92, mm.
+    pub(crate) lead_mm: Option<f64>,
+    /// What the first blocks of G71 and G72, G74 and G75 said, mm.
+    pub(crate) depth_mm: Option<f64>,
+    pub(crate) retract_mm: f64,
     /// A macro is called behind every move (G66).
     pub(crate) calls_macro: bool,
 }
@@ -26,9 +35,24 @@ impl Default for FanucModal {
             radius_offset: 0,
             length_sign: None,
             polar: None,
+            is_feed_unsaid: false,
+            turning: None,
+            lead_mm: None,
+            depth_mm: None,
+            retract_mm: 0.5,
             calls_macro: false,
         }
     }
+}
+
+/// Where a cycle of one pass leads, program coordinates in mm, X as a radius.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct TurningWords {
+    pub(crate) cycle: Turning,
+    pub(crate) x: f64,
+    pub(crate) z: f64,
+    /// R: where the pass begins, less where it ends.
+    pub(crate) taper: f64,
 }
 
 /// A radius and an angle, and about which point of the program, mm and degrees.

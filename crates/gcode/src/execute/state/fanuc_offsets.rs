@@ -29,6 +29,7 @@ pub(crate) struct FanucOffsets {
 }
 
 impl FanucOffsets {
+    /// The system in force that is none of G54 to G59. What was not set is the machine's own.
     pub(crate) fn system(&self) -> Option<&CoordinateSystem> {
         self.extended.get(&self.active?)
     }

@@ -51,6 +51,8 @@ pub(crate) struct State {
     pub(crate) corner: Option<OpenCorner>,
     /// The radius of all corners (RNDM), mm; 0: they stay.
     pub(crate) rounds_mm: f64,
+    /// The edge of the tool in force (D of SINUMERIK); `None`: none was chosen.
+    pub(crate) edge: Option<u32>,
     /// Modes of FANUC alone.
     pub(crate) fanuc: FanucModal,
     /// The program says that the axes follow the tip of the tool (G43.4, TRAORI).

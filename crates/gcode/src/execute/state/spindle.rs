@@ -37,6 +37,8 @@ pub(crate) struct Spindle {
     /// Speed told last, rev/min; zero until there is an S word.
     pub(crate) speed: f64,
     pub(crate) surface: Option<Surface>,
+    /// Most revolutions a minute of G96 from here on (G50 S, LIMS).
+    pub(crate) most: Option<f64>,
     /// The next tapping cycle is rigid (M29).
     pub(crate) is_rigid: bool,
 }

@@ -3,27 +3,56 @@
 use crate::diagnostic::fault::Outcome;
 use crate::diagnostic::span::SourceSpan;
 use crate::setup::m_codes::MCodes;
-use crate::syntax::codes::{Codes, FrameCode, code_number, set};
+use crate::syntax::codes::{Codes, FrameCode, NO_SYSTEM, code_number, set};
 use crate::syntax::dialect::Dialect;
 use crate::syntax::dialect::marlin::is_function;
-use crate::syntax::dialect::words::{Meaning, fanuc, marlin, no_g, no_m, refused};
-use crate::syntax::modes::{Motion, NonModal, Probe, ToolLength};
+use crate::syntax::dialect::words::{Meaning, fanuc, fanuc_lathe, marlin, no_g, no_m, refused};
+use crate::syntax::modes::{
+    FeedMode, LatheCycle, Motion, NonModal, Pockets, Probe, ToolLength, Turning,
+};
 use glidepath_program::PathMode;
 
 impl Codes {
     /// Adds a G word of a FANUC program.
-    pub(crate) fn add_fanuc_g(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
+    pub(crate) fn add_fanuc_g(
+        &mut self,
+        value: f64,
+        is_lathe: bool,
+        span: SourceSpan,
+    ) -> Outcome<()> {
+        let table = if is_lathe { fanuc_lathe::g } else { fanuc::g };
         let tenths = code_number(value * 10.0);
-        let found = tenths.and_then(|tenths| Some((tenths, fanuc::g(tenths)?)));
+        let found = tenths.and_then(|tenths| Some((tenths, table(tenths)?)));
         let Some((tenths, meaning)) = found else {
             return Err(no_g(Dialect::Fanuc, value, span));
         };
         match meaning {
             Meaning::Shared => self.add_g(value, span),
+            Meaning::Own if is_lathe => self.add_own_lathe_g(tenths, span),
             Meaning::Own => self.add_own_fanuc_g(tenths, span),
             Meaning::ReadOver => set(&mut self.read_over, tenths, span),
             Meaning::Refused(what, help) => Err(refused(&format!("G{value}"), what, help, span)),
         }
+    }
+
+    /// The codes of system A.
+    fn add_own_lathe_g(&mut self, tenths: u32, span: SourceSpan) -> Outcome<()> {
+        let lathe = match tenths {
+            320 => Motion::Thread,
+            700 => Motion::Lathe(LatheCycle::Finish),
+            710 => Motion::Lathe(LatheCycle::Turn(Pockets::Cut)),
+            720 => Motion::Lathe(LatheCycle::Face(Pockets::Cut)),
+            740 | 750 => Motion::Groove(tenths == 750),
+            900 => Motion::Turning(Turning::Turn),
+            920 => Motion::Turning(Turning::Thread),
+            940 => Motion::Turning(Turning::Face),
+            500 => return set(&mut self.non_modal, NonModal::LatheSetting, span),
+            980 => return set(&mut self.feed_mode, FeedMode::PerMinute, span),
+            990 => return set(&mut self.feed_mode, FeedMode::PerRevolution, span),
+            _ => return self.add_own_fanuc_g(tenths, span),
+        };
+        self.is_once = matches!(lathe, Motion::Lathe(_) | Motion::Groove(_));
+        self.set_motion(Some(lathe), span)
     }
 
     /// G31 is a move that a contact ends, and no error without; like G60 and G76 it is of its block
@@ -95,6 +124,7 @@ impl Codes {
     pub(crate) fn add_rewritten_g(&mut self, value: f64, span: SourceSpan) -> Outcome<()> {
         match code_number(value * 10.0) {
             Some(90) => set(&mut self.exact_stop, (), span),
+            Some(5000) => set(&mut self.system, NO_SYSTEM, span),
             Some(code @ (434 | 435)) => set(&mut self.tip, code == 434, span),
             _ => self.add_g(value, span),
         }

@@ -7,7 +7,7 @@ impl Dialect {
     /// the others has. The number is that of the line, from 1.
     #[must_use]
     pub fn detect(beginning: &[u8]) -> (Self, Option<u32>) {
-        let mut number = 0_u32;
+        let (mut number, mut has_program_number) = (0_u32, false);
         for line in beginning.split(|byte| matches!(byte, b'\n' | b'\r')) {
             // Two line ends in a row count once too often with CR LF; the number is for a message.
             number = number.saturating_add(1);
@@ -20,7 +20,12 @@ impl Dialect {
                 (Self::Siemens, siemens::marks(&bare)),
                 (Self::Marlin, marlin::marks(&bare)),
                 (Self::Fanuc, fanuc::marks(&bare)),
+                (
+                    Self::Fanuc,
+                    has_program_number && fanuc::marks_behind_number(&bare),
+                ),
             ];
+            has_program_number |= fanuc::is_program_number(&bare);
             if let Some((dialect, _)) = marks.into_iter().find(|(_, marked)| *marked) {
                 let ends = beginning.windows(2).filter(|pair| pair == b"\r\n").count();
                 let number = if ends > 0 { number.div_ceil(2) } else { number };

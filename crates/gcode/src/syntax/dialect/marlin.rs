@@ -5,8 +5,57 @@ use crate::diagnostic::fault::{Fault, Outcome};
 use crate::diagnostic::span::SourceSpan;
 use crate::syntax::dialect::line_body::body;
 
+/// Commands of Klipper with names that move nothing and give no place another name: their beginnings.
+const SILENT: [&[u8]; 11] = [
+    b"EXCLUDE_OBJECT",
+    b"SET_PRINT_STATS_INFO",
+    b"SET_DISPLAY_TEXT",
+    b"SET_FAN_SPEED",
+    b"SET_HEATER_TEMPERATURE",
+    b"SET_PRESSURE_ADVANCE",
+    b"SET_VELOCITY_LIMIT",
+    b"SET_LED",
+    b"SET_PIN",
+    b"TIMELAPSE_",
+    b"RESPOND",
+];
+
+/// A command of Klipper with a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct NamedCommand {
+    /// Where its name stands.
+    pub(crate) span: SourceSpan,
+    /// It moves nothing.
+    pub(crate) is_silent: bool,
+}
+
+/// The command with a name that a line is: a name has three letters and more, and no number behind
+/// its first one.
+pub(crate) fn named_command(text: &[u8]) -> Option<NamedCommand> {
+    let start = body(text);
+    let rest = text.get(start..).unwrap_or_default();
+    let is_name = |byte: &&u8| byte.is_ascii_alphanumeric() || **byte == b'_';
+    let length = rest.iter().take_while(is_name).count();
+    let name = rest.get(..length).unwrap_or_default().to_ascii_uppercase();
+    let begins = name
+        .iter()
+        .take(3)
+        .filter(|byte| !byte.is_ascii_digit())
+        .count()
+        == 3;
+    begins.then(|| NamedCommand {
+        span: SourceSpan::new(start, start + length),
+        is_silent: SILENT.iter().any(|silent| name.starts_with(silent)),
+    })
+}
+
 /// True if a line, without blanks and in upper case, is of a printer's program.
 pub(super) fn marks(bare: &[u8]) -> bool {
+    if bare.starts_with(b";FLAVOR:MARLIN")
+        || bare.starts_with(b";GENERATEDBY") && bare.windows(6).any(|part| part == b"SLICER")
+    {
+        return true;
+    }
     let text = bare.get(body(bare)..).unwrap_or_default();
     let code = |word: &[u8]| {
         text.starts_with(word) && !text.get(word.len()).is_some_and(u8::is_ascii_digit)

@@ -92,7 +92,7 @@ fn arcs_follow_their_frame() {
 
 #[test]
 fn compensation_changes_sides_in_a_mirror() {
-    let contour = "T1 M6\nG41 D4\nG1 X10 Y0 F100\nX20\nX30\nG40 X40 Y10\n";
+    let contour = "T4 M6\nG41 D1\nG1 X10 Y0 F100\nX20\nX30\nG40 X40 Y10\n";
     let offset = |head: &str, axis: usize| {
         let text = format!("{head}G0 X0 Y0\n{contour}");
         ends(&text)[1][axis]
@@ -101,9 +101,9 @@ fn compensation_changes_sides_in_a_mirror() {
     assert_eq!(offset("", 1), 2.0);
     assert_eq!(offset("MIRROR X0\n", 1), 2.0);
     assert_eq!(offset("MIRROR Y0\n", 1), -2.0);
-    finds("ROT X90\nG41 D4", &["2:1 cutter-radius"]);
+    finds("ROT X90\nG41 D1", &["2:1 cutter-radius"]);
     finds(
-        "G41 D4\nG1 X10 Y0 F100\nX20\nTRANS X5\nG40 X40 Y10",
+        "G41 D1\nG1 X10 Y0 F100\nX20\nTRANS X5\nG40 X40 Y10",
         &["4:1 cutter-radius"],
     );
 }

@@ -3,6 +3,7 @@
 mod cycles;
 mod flow;
 mod frames;
+mod programs;
 
 use std::sync::Arc;
 

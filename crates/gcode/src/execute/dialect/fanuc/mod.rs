@@ -10,12 +10,17 @@ mod arguments;
 mod assign;
 mod call;
 mod frames;
+mod groove;
+mod increments;
+mod lathe_profile;
 mod modal_macro;
 mod offsets;
 mod polar;
 mod statement;
 mod tip;
 mod tool_length;
+mod turning;
+mod turret;
 pub(crate) mod variables;
 
 use crate::diagnostic::code::DiagnosticCode;

@@ -11,11 +11,13 @@ use crate::diagnostic::span::SourceSpan;
 use crate::execute::dialect::fanuc::call::not_returned;
 use crate::execute::program::{Program, is_percent};
 use crate::execute::scope::ProgramScope;
+use crate::syntax::codes::Coded;
 use crate::syntax::cursor::Cursor;
 use crate::syntax::dialect::fanuc::{Statement, is_label, is_loop, is_numbered, statement};
 use crate::syntax::dialect::line_body::{body, starts_with_word};
 use crate::syntax::expression::vacant::or_zero;
 use crate::syntax::expression::value::value;
+use crate::syntax::modes::Motion;
 
 /// The text with blanks in the place of its first bytes, which keeps the columns of the rest.
 fn without_head(text: &[u8], length: usize) -> Vec<u8> {
@@ -74,6 +76,12 @@ impl<R: BufRead> Program<R> {
     pub(crate) fn read_fanuc(&mut self) -> Outcome<bool> {
         if self.source.number() == 0 {
             self.skip_leader()?;
+        }
+        if self.finishing.is_some() {
+            self.end_finishing()?;
+            if !self.items.is_empty() {
+                return Ok(true);
+            }
         }
         if !self.tape.advance(&mut self.source)? {
             return self.fanuc_end();
@@ -165,6 +173,15 @@ impl<R: BufRead> Program<R> {
     }
 
     fn fanuc_block(&mut self, number: u32, parsed: Outcome<()>) -> Outcome<bool> {
+        if parsed.is_ok()
+            && self.block.is_lathe
+            && let Some(Coded {
+                code: Some(Motion::Lathe(cycle)),
+                ..
+            }) = self.block.codes.motion
+        {
+            return self.lathe_profile_cycle(cycle, number);
+        }
         let goes_on = self.execute_parsed(number, parsed)?;
         if goes_on && self.modal_macro.is_some() && !self.ended {
             self.call_modal_macro()?;

@@ -38,6 +38,18 @@ impl Interpreter {
                     ),
             );
         }
+        let is_longer = self.offsets.tool.iter().any(|length| *length != 0.0);
+        if coded.code && is_longer {
+            let message = "TRAORI with a tool that has a length";
+            return Err(
+                Fault::new(DiagnosticCode::NotSupported, coded.span, message)
+                    .because(
+                        "the kinematics know the length of one tool: what is added to it would not \
+                         count along the tool",
+                    )
+                    .help("write D0 before it, with the whole length in `tool` of [machine.five-axis]"),
+            );
+        }
         self.state.tip_follows = coded.code;
         Ok(())
     }

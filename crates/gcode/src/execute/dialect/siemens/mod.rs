@@ -4,7 +4,7 @@
 //! IF … ELSE … ENDIF · IF … GOTOF A · WHILE … ENDWHILE · FOR R1=1 TO 5 … ENDFOR · LOOP … ENDLOOP
 //! REPEAT … UNTIL · REPEAT A P=3 · REPEAT A B · REPEATB A · GOTO, GOTOF, GOTOB, GOTOC A · A: · N100
 //! DEF REAL, INT, BOOL · TRANS, ROT, MIRROR, SCALE · ATRANS, AROT, AMIRROR, ASCALE
-//! CYCLE81 to 86 · POCKET3, POCKET4 · MCALL
+//! CYCLE81 to 86 · POCKET3, POCKET4 · MCALL · HOLES1, HOLES2, CYCLE801
 //! ```
 //!
 //! A line of a cycle becomes several ones in RS274/NGC's words, which are executed one after the
@@ -13,9 +13,11 @@
 mod circular_pocket;
 mod cycle;
 mod drilling;
+mod edge;
 mod flow;
 mod frames;
 mod pocket;
+mod positions;
 mod read_line;
 mod rectangular_pocket;
 mod repetition;

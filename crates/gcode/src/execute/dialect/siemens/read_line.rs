@@ -11,6 +11,7 @@ use crate::syntax::dialect::line_body::body;
 use crate::syntax::dialect::siemens::expression::{Evaluator, Names};
 use crate::syntax::dialect::siemens::statement::{Statement, label, statement};
 use crate::syntax::dialect::siemens::writer::rewrite;
+use crate::syntax::modes::Distance;
 
 /// The text with blanks in the place of its label, which keeps the columns of the rest.
 fn without_label(text: &[u8]) -> Vec<u8> {
@@ -48,6 +49,7 @@ impl<R: BufRead> Program<R> {
             Statement::Block => self.siemens_block(number, &text),
             Statement::Frame(word) => self.siemens_frame(word, &text, at).map(|()| true),
             Statement::Cycle => self.siemens_cycle(&text, at).map(|()| true),
+            Statement::Positions => self.siemens_positions(&text, at).map(|()| true),
             Statement::ModalCall => self.siemens_modal_call(&text, at).map(|()| true),
             // What follows depends on it, so a diagnostic ends the program.
             _ => {
@@ -95,6 +97,26 @@ impl<R: BufRead> Program<R> {
         Ok(goes_on)
     }
 
+    /// A position of a pattern; what is left of it comes behind the cycle there.
+    fn siemens_position(&mut self, [first, second]: [f64; 2]) -> Outcome<bool> {
+        let rest = core::mem::take(&mut self.siemens.steps);
+        let plane = self.interpreter.state.modal.plane;
+        let (a, b) = plane.axes();
+        let incremental = self.interpreter.state.modal.distance == Distance::Incremental;
+        let distance = if incremental { "G90 " } else { "" };
+        let modal = Box::new(self.interpreter.state.modal);
+        let line = format!("{distance}G0 {a}[{first}] {b}[{second}]");
+        let number = self.line_of_program();
+        self.kept_lines += 1;
+        self.execute_text(number, line.as_bytes())?;
+        self.interpreter.state.modal = *modal;
+        let here = self.here();
+        let span = SourceSpan::new(label(&here.text).1, here.text.trim_ascii_end().len());
+        self.siemens_call_again(span)?;
+        self.siemens.steps.extend(rest);
+        Ok(true)
+    }
+
     /// A step of the cycle in progress; what is wrong with it is wrong with the cycle's line.
     fn siemens_step(&mut self, step: Step) -> Outcome<bool> {
         let line = match step {
@@ -102,6 +124,7 @@ impl<R: BufRead> Program<R> {
                 self.interpreter.state.modal = *modal;
                 return Ok(true);
             }
+            Step::Position(place) => return self.siemens_position(place),
             Step::Line(line) => line,
         };
         // A loop around a cycle is as long as all of its steps.

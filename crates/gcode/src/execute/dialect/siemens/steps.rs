@@ -10,6 +10,8 @@ use crate::syntax::dialect::siemens::variables::Variables;
 pub(crate) enum Step {
     /// A line in RS274/NGC's words.
     Line(String),
+    /// A position of a pattern, in the two axes of the plane: the cycle of MCALL is made there.
+    Position([f64; 2]),
     /// The modes from before the cycle.
     Restore(Box<Modal>),
 }

@@ -270,6 +270,9 @@ impl<'a> Evaluator<'a> {
     }
 
     fn operand(&mut self) -> Outcome<f64> {
+        if self.next_visible() == Some(b'\'') {
+            return self.bits();
+        }
         let start = self.at;
         match self.next_visible() {
             Some(sign @ (b'+' | b'-')) => {
@@ -312,6 +315,35 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Digits, with a point and `EX` and an exponent.
+    /// `'H1F'` or `'B101'`.
+    fn bits(&mut self) -> Outcome<f64> {
+        let start = self.at;
+        let rest = self.text.get(start + 1..).unwrap_or_default();
+        let end = rest.iter().position(|byte| *byte == b'\'');
+        let inside = rest.get(..end.unwrap_or(0)).unwrap_or_default();
+        let base = match inside.first().map(u8::to_ascii_uppercase) {
+            Some(b'H') => Some(16),
+            Some(b'B') => Some(2),
+            _ => None,
+        };
+        let digits = core::str::from_utf8(inside.get(1..).unwrap_or_default()).ok();
+        let value = base
+            .zip(digits)
+            .and_then(|(base, digits)| u32::from_str_radix(digits, base).ok());
+        let length = end.map_or(1, |end| end + 2);
+        self.at = start + length;
+        value.map(f64::from).ok_or_else(|| {
+            let span = SourceSpan::new(start, start + length);
+            Fault::new(
+                DiagnosticCode::MalformedNumber,
+                span,
+                "a number in quotes that is none",
+            )
+            .because("behind H stand the digits of a hexadecimal number, behind B of a binary one")
+            .help("write 'H1F' or 'B101'")
+        })
+    }
+
     fn number(&mut self) -> Outcome<f64> {
         let start = self.at;
         while matches!(self.peek(0), Some(b'0'..=b'9' | b'.')) {

@@ -5,7 +5,7 @@ use crate::diagnostic::fault::Fault;
 use crate::diagnostic::span::SourceSpan;
 
 /// What is known of the language, and not read here.
-const REFUSED: [(&[u8], &str, &str); 24] = [
+const REFUSED: [(&[u8], &str, &str); 18] = [
     (
         b"CYCLE840",
         "tapping with a compensating chuck",
@@ -25,16 +25,6 @@ const REFUSED: [(&[u8], &str, &str); 24] = [
         b"CYCLE89",
         "boring with a dwell",
         "use CYCLE85, which takes a dwell and two feeds",
-    ),
-    (
-        b"HOLES1",
-        "a row of holes",
-        "write the positions behind MCALL",
-    ),
-    (
-        b"HOLES2",
-        "a circle of holes",
-        "write the positions behind MCALL",
     ),
     (b"SLOT1", "slots", "let the CAM system write plain blocks"),
     (b"SLOT2", "slots", "let the CAM system write plain blocks"),
@@ -68,13 +58,9 @@ const REFUSED: [(&[u8], &str, &str); 24] = [
         "a subprogram in another file",
         "copy its blocks to where it is called",
     ),
-    (b"SUPA", "no offset at all", "write G53"),
-    (b"G153", "no offset at all", "write G53"),
     (b"AP", "polar coordinates", "write X and Y"),
     (b"RP", "polar coordinates", "write X and Y"),
     (b"SPOS", "a spindle that stops at an angle", "write M19 R"),
-    (b"DIAMON", "diameters", "write G7"),
-    (b"DIAMOF", "radii", "write G8"),
     (
         b"MEAS",
         "a measurement that leaves out the rest of the way",

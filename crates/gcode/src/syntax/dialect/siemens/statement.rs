@@ -45,6 +45,8 @@ pub(crate) enum Statement {
     Frame(FrameWord),
     /// A call of a cycle by name.
     Cycle,
+    /// HOLES1, HOLES2, CYCLE801.
+    Positions,
     /// MCALL.
     ModalCall,
 }
@@ -166,6 +168,9 @@ pub(crate) fn statement(text: &[u8]) -> (Statement, usize) {
     }
     if CYCLES.contains(&name.as_slice()) {
         return (Statement::Cycle, at);
+    }
+    if [&b"HOLES1"[..], b"HOLES2", b"CYCLE801"].contains(&name.as_slice()) {
+        return (Statement::Positions, at);
     }
     let statement = match name.as_slice() {
         b"IF" if jump_in(text, behind).is_some() => Statement::IfJump,

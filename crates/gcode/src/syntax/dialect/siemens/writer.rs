@@ -18,7 +18,23 @@ use crate::syntax::word_check::missing;
 /// Words without effect on where and how fast the tool goes here: look-ahead and feed forward are
 /// always on, every acceleration is limited in jerk, and dense chords are merged within the
 /// tolerance.
-const NO_EFFECT: [&[u8]; 12] = [
+const NO_EFFECT: [&[u8]; 28] = [
+    b"BRISK",
+    b"FNORM",
+    b"CFC",
+    b"CFIN",
+    b"CFTCP",
+    b"CPRECON",
+    b"CPRECOF",
+    b"NORM",
+    b"DYNNORM",
+    b"DYNPOS",
+    b"DYNROUGH",
+    b"DYNSEMIFIN",
+    b"DYNFINISH",
+    b"WALIMON",
+    b"STARTFIFO",
+    b"STOPFIFO",
     b"SOFT",
     b"FFWON",
     b"FFWOF",
@@ -175,6 +191,24 @@ impl Writer<'_> {
                 self.replace(start, length, b"M2");
                 Ok(())
             }
+            (b"WORKPIECE" | b"GROUP_BEGIN" | b"GROUP_END" | b"GROUP_ADDEND", false) => {
+                self.input.at = self.input.text.len();
+                Ok(())
+            }
+            (b"CYCLE800", false) => self.swivel(start, length),
+            (b"DIAMON", false) => {
+                self.replace(start, length, b"G7");
+                Ok(())
+            }
+            (b"DIAMOF", false) => {
+                self.replace(start, length, b"G8");
+                Ok(())
+            }
+            (b"SUPA", false) => {
+                self.replace(start, length, b"G53");
+                Ok(())
+            }
+            (b"LIMS", true) => self.value_of(start, length, b",S", 0.0),
             (b"RND", true) => self.value_of(start, length, b",R", 0.0),
             (b"RNDM", true) => self.value_of(start, length, b",M", 0.0),
             (b"CHR", true) => self.value_of(start, length, b",C", 0.0),
@@ -186,6 +220,20 @@ impl Writer<'_> {
             ([_], false) => self.address(start, length, &name, dwell),
             _ => Err(unknown(&name, SourceSpan::new(start, start + length))),
         }
+    }
+
+    /// `CYCLE800()`, which ends a swivelled plane: there was none.
+    fn swivel(&mut self, start: usize, length: usize) -> Outcome<()> {
+        let rest = self.input.text.get(start + length..).unwrap_or_default();
+        let end = rest.iter().position(|byte| *byte == b')');
+        let inside = rest.get(..end.unwrap_or(rest.len())).unwrap_or_default();
+        self.input.at = start + length + end.map_or(rest.len(), |end| end + 1);
+        if inside.iter().all(|byte| b"( ,\t".contains(byte)) {
+            return Ok(());
+        }
+        let span = SourceSpan::new(start, self.input.at);
+        let help = "let the CAM system write the positions of the axes";
+        Err(refused("CYCLE800", "a swivelled plane", help, span))
     }
 
     /// `TRAORI`, `TRAORI(1)`.
@@ -281,6 +329,8 @@ impl Writer<'_> {
             (Some(Meaning::Own), 641..=645) => b"G64",
             (Some(Meaning::Own), 9) => b"G9",
             (Some(Meaning::Own), 60) => b"G61.1",
+            (Some(Meaning::Own), 153) => b"G53",
+            (Some(Meaning::Own), 500) => b"G500",
             (Some(Meaning::Own), 71 | 710) => b"G21",
             (Some(Meaning::Own), 700) => b"G20",
             (Some(Meaning::Own), _) => {

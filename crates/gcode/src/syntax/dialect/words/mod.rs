@@ -4,6 +4,7 @@
 //! mean something else, and to skip it could change what the machine does.
 
 pub(crate) mod fanuc;
+pub(crate) mod fanuc_lathe;
 pub(crate) mod marlin;
 pub(crate) mod siemens;
 

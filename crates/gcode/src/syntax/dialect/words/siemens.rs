@@ -7,7 +7,7 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
     const PLAIN: &str = "let the CAM system write plain blocks";
     Some(match number {
         0..=4 | 17..=19 | 33 | 40..=42 | 53..=57 | 64 | 90 | 91 | 93..=97 => Shared,
-        9 | 60 | 70 | 71 | 641..=645 | 700 | 710 => Own,
+        9 | 60 | 70 | 71 | 153 | 500 | 641..=645 | 700 | 710 => Own,
         // Windows of exact stops, and how corners of G41 and G42 are gone round: see the manual.
         450 | 601..=603 => ReadOver,
         5 | 7 => Refused("an inclined axis", PLAIN),
@@ -27,7 +27,6 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
             "a smooth way to and from the contour",
             "write it as G1 and G2",
         ),
-        153 => Refused("no offset at all", "write G53"),
         290 | 291 => Refused(
             "the language of another control",
             "read the program with --dialect fanuc",
@@ -35,7 +34,6 @@ pub(crate) const fn g(number: u32) -> Option<Meaning> {
         331 | 332 => Refused("rigid tapping", "write CYCLE84"),
         451 => Refused("a corner cut at the crossing of its sides", "write G450"),
         460..=462 => Refused("a way to and from the contour", "write it out"),
-        500 => Refused("no coordinate system", "write G54 to G57"),
         505..=599 => Refused("a coordinate system", "write G54 to G57"),
         621 => Refused("a stop at every corner", "write G60"),
         810..=829 => Refused("a code of the machine's builder", "remove it"),

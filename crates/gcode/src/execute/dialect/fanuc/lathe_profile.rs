@@ -1,0 +1,295 @@
+//! G70, G71 and G72 of a lathe: along a profile that stands in blocks P to Q of the program.
+//!
+//! ```text
+//! G71 U depth R back        G72 W depth R back        each of its own, and once
+//! G71 P Q U W F S           the allowances: U a diameter, both with their sign
+//! G71 P Q U W D F S         in one block: D is the depth
+//! G70 P Q F S               the blocks of the profile as they stand, and back
+//! ```
+//!
+//! Roughing passes are those of [`crate::execute::lathe_cycle`], of the profile shifted by the
+//! allowances; the last one goes along it. Then the tool goes back to where it began, and the program
+//! goes on behind block Q.
+
+use std::io::BufRead;
+
+use glidepath_geometry::Plane;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::tape::{Finishing, TapePlace};
+use crate::execute::interpreter::Interpreter;
+use crate::execute::lathe_cycle::open::{LatheCycleWords, OpenLatheCycle};
+use crate::execute::lathe_cycle::profile::LatheProfile;
+use crate::execute::motion::speed::Pace;
+use crate::execute::program::Program;
+use crate::execute::scope::ProgramScope;
+use crate::syntax::block::Block;
+use crate::syntax::dialect::fanuc::{Statement, is_label, is_numbered, statement};
+use crate::syntax::letters::Letters;
+use crate::syntax::modes::{LatheCycle, Motion, Units};
+use crate::syntax::word_check::{missing, unused, whole};
+
+/// Largest block number.
+const MOST_NUMBER: u32 = 99_999_999;
+
+impl<R: BufRead> Program<R> {
+    /// Makes the cycle that the block asks for.
+    pub(super) fn lathe_profile_cycle(&mut self, cycle: LatheCycle, line: u32) -> Outcome<bool> {
+        let block = self.block.clone();
+        self.begun = true;
+        self.interpreter.begin(line);
+        let numbers = [b'P', b'Q'].map(|letter| whole(&block, letter, MOST_NUMBER));
+        let [first, last] = numbers;
+        match (first?, last?) {
+            (Some(first), Some(last)) => {
+                let lines = self.profile_lines(&block, first, last)?;
+                self.interpreter.check_profile(&block)?;
+                let motion = Some(Motion::Lathe(cycle));
+                self.interpreter.feed(&block, motion)?;
+                let mut items = Vec::new();
+                self.interpreter.spindle_speed(&block, &mut items)?;
+                self.items = items;
+                match cycle {
+                    LatheCycle::Finish => self.finish_profile(&block, lines)?,
+                    LatheCycle::Turn(_) | LatheCycle::Face(_) => {
+                        self.rough_profile(&block, cycle, lines, line)?;
+                    }
+                }
+                self.end_of_line();
+            }
+            (None, None) if cycle != LatheCycle::Finish => {
+                self.interpreter.roughing_words(&block, cycle)?;
+            }
+            _ => {
+                let meaning = "the first and the last block of the profile";
+                return Err(missing(
+                    block.motion_span(),
+                    "the cycle",
+                    "P and Q",
+                    meaning,
+                ));
+            }
+        }
+        Ok(true)
+    }
+
+    /// The first and the last line of the profile.
+    fn profile_lines(&mut self, block: &Block, first: u32, last: u32) -> Outcome<[usize; 2]> {
+        let index = self.tape.next.saturating_sub(1);
+        let begins = |line: &[u8]| is_numbered(line, first);
+        let ahead = self
+            .tape
+            .search(index + 1, &mut self.source, begins, is_label)?;
+        let begin = ahead.or_else(|| self.tape.search_back(index, begins, is_label));
+        let end = match begin {
+            Some(begin) => {
+                let ends = |line: &[u8]| is_numbered(line, last);
+                self.tape.search(begin, &mut self.source, ends, is_label)?
+            }
+            None => None,
+        };
+        match (begin, end) {
+            (Some(begin), Some(end)) if begin < end => Ok([begin, end]),
+            _ => {
+                let message = format!("there are no blocks N{first} to N{last} in the program");
+                Err(
+                    Fault::new(DiagnosticCode::FlowStructure, block.span(b'P'), message)
+                        .because("they are the profile of the cycle")
+                        .help("write N and the numbers of P and Q in front of its first and last block"),
+                )
+            }
+        }
+    }
+
+    /// G71 and G72.
+    fn rough_profile(
+        &mut self,
+        block: &Block,
+        cycle: LatheCycle,
+        [first, last]: [usize; 2],
+        line: u32,
+    ) -> Outcome<()> {
+        let used = Letters::of(b"PQUWFSTD");
+        if let Some((letter, span)) = block.unused(used) {
+            return Err(unused(letter, span));
+        }
+        let words = self.interpreter.fanuc_roughing(block, cycle)?;
+        let source = self.here();
+        let start = self.interpreter.state.position;
+        let mut profile = LatheProfile::new(self.interpreter.lathe_point());
+        for index in first..=last {
+            let Some((number, text)) = self.tape.get(index).cloned() else {
+                break;
+            };
+            // What is wrong with a block of the profile is wrong there.
+            self.set_tape_origin(number, &text);
+            self.draw_fanuc_block(&text, &mut profile)?;
+        }
+        self.set_tape_origin(source.number, &source.text);
+        let mm = self.interpreter.state.modal.units.mm();
+        let allowance = [
+            block.get(b'W').unwrap_or(0.0) * mm,
+            0.5 * block.get(b'U').unwrap_or(0.0) * mm,
+        ];
+        profile.shift(allowance);
+        let open = OpenLatheCycle::of_fanuc(
+            source,
+            line,
+            block.clone(),
+            words,
+            profile,
+            self.interpreter.state,
+        );
+        let mut items = core::mem::take(&mut self.items);
+        self.interpreter.make_lathe_cycle(&open, &mut items)?;
+        self.interpreter
+            .straight(block, start, Pace::Rapid, &mut items)?;
+        self.items = items;
+        self.tape.next = last + 1;
+        Ok(())
+    }
+
+    /// Takes a block into the profile.
+    fn draw_fanuc_block(&mut self, text: &[u8], profile: &mut LatheProfile) -> Outcome<()> {
+        if statement(text).0 != Statement::Block {
+            let span = SourceSpan::new(0, text.len());
+            let message = "a statement in the profile of a cycle";
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("a profile is drawn by G0, G1, G2 and G3 alone")
+                .help("write its blocks out"));
+        }
+        let scope = ProgramScope {
+            parameters: &self.parameters,
+            interpreter: &self.interpreter,
+        };
+        self.block.parse(text, &scope)?;
+        let own = [b'A', b'C']
+            .into_iter()
+            .find(|letter| self.block.get(*letter).is_some());
+        let span = own
+            .map(|letter| self.block.span(letter))
+            .or_else(|| self.block.corner.map(|corner| corner.span));
+        if let Some(span) = span {
+            let message = "a chamfer, an arc at a corner or an angle in the profile of a cycle";
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("a profile is drawn by ends and arcs")
+                .help("write it as G1, G2 or G3"));
+        }
+        profile.add(&self.block, &self.interpreter)
+    }
+
+    /// G70: goes to the profile; [`Program::end_finishing`] comes back.
+    fn finish_profile(&mut self, block: &Block, [first, last]: [usize; 2]) -> Outcome<()> {
+        if let Some((letter, span)) = block.unused(Letters::of(b"PQFST")) {
+            return Err(unused(letter, span));
+        }
+        if self.finishing.is_some() {
+            let message = "a cycle in the profile of another one";
+            return Err(
+                Fault::new(DiagnosticCode::CannedCycle, block.motion_span(), message)
+                    .because("a profile is drawn by G0, G1, G2 and G3 alone")
+                    .help("write it behind block Q"),
+            );
+        }
+        let back = self.tape.place();
+        self.finishing = Some(Finishing {
+            end: TapePlace {
+                line: last + 1,
+                ..back
+            },
+            back,
+            start: self.interpreter.state.position,
+        });
+        self.tape.go_to(TapePlace {
+            line: first,
+            ..back
+        });
+        Ok(())
+    }
+
+    /// Behind the last block of the profile of G70: back to where the tool was.
+    pub(super) fn end_finishing(&mut self) -> Outcome<()> {
+        let Some(finishing) = self.finishing.take_if(|it| it.end == self.tape.place()) else {
+            return Ok(());
+        };
+        let mut items = Vec::new();
+        let block = self.block.clone();
+        self.interpreter
+            .straight(&block, finishing.start, Pace::Rapid, &mut items)?;
+        self.items = items;
+        self.end_of_line();
+        self.tape.go_to(finishing.back);
+        Ok(())
+    }
+}
+
+impl Interpreter {
+    /// The first block of G71 or G72: U or W is the depth, R the way back.
+    fn roughing_words(&mut self, block: &Block, cycle: LatheCycle) -> Outcome<()> {
+        let letter = match cycle {
+            LatheCycle::Face(_) => b'W',
+            _ => b'U',
+        };
+        if let Some((other, span)) = block.unused(Letters::one(letter).and(Letters::of(b"R"))) {
+            return Err(unused(other, span));
+        }
+        let mm = self.state.modal.units.mm();
+        let depth = block
+            .get(letter)
+            .filter(|depth| *depth > 0.0)
+            .ok_or_else(|| {
+                let name = char::from(letter).to_string();
+                missing(
+                    block.motion_span(),
+                    "the cycle",
+                    &name,
+                    "the depth of a pass, above zero",
+                )
+            })?;
+        self.state.fanuc.depth_mm = Some(depth * mm);
+        if let Some(back) = block.get(b'R').filter(|back| *back >= 0.0) {
+            self.state.fanuc.retract_mm = back * mm;
+        }
+        Ok(())
+    }
+
+    /// Depth and way back of a cycle, of its block or of the one before.
+    fn fanuc_roughing(&self, block: &Block, cycle: LatheCycle) -> Outcome<LatheCycleWords> {
+        let mm = self.state.modal.units.mm();
+        let unit = match (block.has_no_point(b'D'), self.state.modal.units) {
+            (false, _) => 1.0,
+            (true, Units::Millimetre) => 1e-3,
+            (true, Units::Inch) => 1e-4,
+        };
+        let own = block.get(b'D').map(|depth| depth * unit * mm);
+        let depth_mm = own
+            .or(self.state.fanuc.depth_mm)
+            .filter(|depth| *depth > 0.0)
+            .ok_or_else(|| {
+                let meaning = "the depth of a pass, in a block of its own: G71 U2. R1.";
+                missing(block.motion_span(), "the cycle", "U", meaning)
+            })?;
+        Ok(LatheCycleWords::of_fanuc(
+            cycle,
+            depth_mm,
+            self.state.fanuc.retract_mm,
+        ))
+    }
+
+    fn check_profile(&self, block: &Block) -> Outcome<()> {
+        let is_here = self.state.modal.plane == Plane::Zx
+            && !self.offsets.is_turned()
+            && !self.state.on_contour;
+        if is_here {
+            return Ok(());
+        }
+        let message = "a cycle along a profile outside the ZX plane, or with G41 or G42 on";
+        Err(
+            Fault::new(DiagnosticCode::CannedCycle, block.motion_span(), message)
+                .because("its profile is drawn in Z and X, for the tip of the tool")
+                .help("write G18 and G40 before it"),
+        )
+    }
+}

@@ -1,0 +1,57 @@
+//! D: the edge of the tool, whose length and radius are in force at once.
+//!
+//! The tool table has one edge for each tool, which is D1. D0 takes the length back.
+
+use glidepath_geometry::AxisVector;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::interpreter::Interpreter;
+use crate::setup::tool_table::Tool;
+use crate::syntax::block::Block;
+use crate::syntax::word_check::whole;
+
+impl Interpreter {
+    /// D of a block, behind its T and M6.
+    pub(crate) fn choose_edge(&mut self, block: &Block) -> Outcome<()> {
+        let Some(edge) = whole(block, b'D', 9)? else {
+            return Ok(());
+        };
+        let span = block.span(b'D');
+        if edge > 1 {
+            let message = format!("D{edge} is not supported");
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("a tool of the table has one edge, which is D1")
+                .help("give the edge a tool number of its own"));
+        }
+        let tool = if edge == 0 {
+            Tool::default()
+        } else {
+            self.tool_of(self.state.tool, span)?
+        };
+        let is_longer = tool.offset.iter().any(|length| *length != 0.0);
+        if is_longer && self.options.keeps_tip && self.state.tip_follows {
+            let message = "a tool with a length behind TRAORI";
+            return Err(Fault::new(DiagnosticCode::NotSupported, span, message)
+                .because("the kinematics know the length of one tool: what is added to it would not count along the tool")
+                .help("write the whole length into `tool` of [machine.five-axis], and none into the table"));
+        }
+        self.offsets.tool = if edge == 0 {
+            AxisVector::zeros()
+        } else {
+            tool.offset
+        };
+        self.state.edge = Some(edge);
+        Ok(())
+    }
+
+    /// The tool whose radius G41 and G42 take: the one in the spindle, unless D0 is in force.
+    pub(crate) fn tool_of_edge(&self, block: &Block, span: SourceSpan) -> Outcome<Tool> {
+        let edge = whole(block, b'D', 9)?.or(self.state.edge);
+        match edge {
+            Some(0) => Ok(Tool::default()),
+            _ => self.tool_of(self.state.tool, span),
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! HOLES1, HOLES2 and CYCLE801: positions at which the cycle of MCALL is made.
+//!
+//! | | |
+//! |---|---|
+//! | `HOLES1(SPCA, SPCO, STA1, FDIS, DBH, NUM)` | a row from SPCA, SPCO at the angle STA1: FDIS to the first hole, DBH from hole to hole |
+//! | `HOLES2(CPA, CPO, RAD, STA1, INDA, NUM)` | a circle about CPA, CPO; INDA 0: all round |
+//! | `CYCLE801(SPCA, SPCO, STA, DIS1, DIS2, NUM1, NUM2)` | a grid: NUM1 holes DIS1 apart along the angle STA, NUM2 rows DIS2 apart |
+
+use std::io::BufRead;
+
+use crate::diagnostic::code::DiagnosticCode;
+use crate::diagnostic::fault::{Fault, Outcome};
+use crate::diagnostic::span::SourceSpan;
+use crate::execute::dialect::siemens::steps::Step;
+use crate::execute::program::Program;
+
+/// Most holes of a pattern.
+const MOST_HOLES: f64 = 10_000.0;
+
+/// Names of patterns, and how many arguments each has.
+const PATTERNS: [(&[u8], usize); 3] = [(b"HOLES1", 6), (b"HOLES2", 6), (b"CYCLE801", 7)];
+
+impl<R: BufRead> Program<R> {
+    /// A pattern in a line of its own.
+    pub(super) fn siemens_positions(&mut self, text: &[u8], at: usize) -> Outcome<()> {
+        let (name, arguments, span) = {
+            let scope = self.scope();
+            let mut input = self.evaluator(&scope, text, at);
+            let name = input.name_ahead();
+            input.at += name.len();
+            let arguments = input.arguments()?;
+            (name, arguments, SourceSpan::new(at, input.at))
+        };
+        let refuse = |message: &str, reason: &str, help: &str| {
+            Err(Fault::new(DiagnosticCode::CannedCycle, span, message)
+                .because(reason)
+                .help(help))
+        };
+        if self.siemens.modal_call.is_none() {
+            return refuse(
+                "a pattern of holes without a cycle",
+                "MCALL says what is made at each position",
+                "write MCALL and a cycle before it",
+            );
+        }
+        let count = PATTERNS.iter().find(|(known, _)| *known == name);
+        let count = count.map_or(0, |(_, count)| *count);
+        let values: Option<Vec<f64>> = (0..count)
+            .map(|index| match arguments.get(index).copied().flatten() {
+                // The angle and the distance to the first hole may be left out.
+                None if matches!(index, 2..=4) => Some(0.0),
+                value => value,
+            })
+            .collect();
+        let extra = arguments.get(count..).unwrap_or_default().iter().flatten();
+        let (Some(values), 0) = (values, extra.filter(|value| **value != 0.0).count()) else {
+            return refuse(
+                "another number of arguments than the pattern has",
+                "what others mean depends on the version of the control",
+                "write those that the manual lists",
+            );
+        };
+        let holes: f64 = values.get(5..).unwrap_or_default().iter().product();
+        let is_whole = values
+            .get(5..)
+            .unwrap_or_default()
+            .iter()
+            .all(|n| n.fract() == 0.0 && *n >= 1.0);
+        if !is_whole || holes > MOST_HOLES {
+            return refuse(
+                "a number of holes that is not possible",
+                "it is a whole number, and 10000 at most",
+                "write another number",
+            );
+        }
+        self.siemens
+            .steps
+            .extend(places(&name, &values).into_iter().map(Step::Position));
+        Ok(())
+    }
+}
+
+/// The positions of a pattern, in the two axes of the plane.
+fn places(name: &[u8], values: &[f64]) -> Vec<[f64; 2]> {
+    let at = |index: usize| values.get(index).copied().unwrap_or(0.0);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "whole numbers, checked"
+    )]
+    let number = |index: usize| at(index) as u32;
+    let (sin, cos) = at(2).to_radians().sin_cos();
+    match name {
+        b"HOLES1" => (0..number(5))
+            .map(|hole| {
+                let way = at(3) + f64::from(hole) * at(4);
+                [at(0) + way * cos, at(1) + way * sin]
+            })
+            .collect(),
+        b"HOLES2" => {
+            let step = if at(4) == 0.0 { 360.0 / at(5) } else { at(4) };
+            (0..number(5))
+                .map(|hole| {
+                    let (sin, cos) = (at(3) + f64::from(hole) * step).to_radians().sin_cos();
+                    [at(0) + at(2) * cos, at(1) + at(2) * sin]
+                })
+                .collect()
+        }
+        _ => (0..number(6))
+            .flat_map(|row| (0..number(5)).map(move |column| (f64::from(row), f64::from(column))))
+            .map(|(row, column)| {
+                let (u, v) = (column * at(3), row * at(4));
+                [at(0) + u * cos - v * sin, at(1) + u * sin + v * cos]
+            })
+            .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_by_hand() {
+        let row = places(b"HOLES1", &[10.0, 0.0, 90.0, 5.0, 20.0, 2.0]);
+        assert!((row[1][0] - 10.0).abs() < 1e-12 && (row[1][1] - 25.0).abs() < 1e-12);
+        let circle = places(b"HOLES2", &[1.0, 2.0, 10.0, 0.0, 0.0, 4.0]);
+        assert!((circle[1][0] - 1.0).abs() < 1e-12 && (circle[1][1] - 12.0).abs() < 1e-12);
+        let grid = places(b"CYCLE801", &[0.0, 0.0, 0.0, 10.0, 20.0, 3.0, 2.0]);
+        assert_eq!((grid.len(), grid[5]), (6, [20.0, 20.0]));
+    }
+}
