@@ -1,6 +1,7 @@
 //! How far a program is, and how long it takes yet: it is planned beside the machine, since planned
 //! time is run time.
 
+use super::fitting::{is_all_that_is_wrong, without_travel};
 use crate::command::failure::Failure;
 use crate::config::MachineConfig;
 use crate::file_error::FileError;
@@ -8,7 +9,7 @@ use crate::kept::read::{read, set_up};
 use crate::plan_steps::PlanSteps;
 use crate::report::Place;
 use glidepath_link::Status;
-use glidepath_planner::{FileSource, ItemSource as _, Step};
+use glidepath_planner::{FileSource, ItemSource as _, Refusal, Step};
 use glidepath_program::{Frame, Item};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -160,9 +161,18 @@ fn work(
     (plan, over): (&Mutex<Plan>, &AtomicBool),
     spectator: &mut impl Spectator,
 ) -> Option<String> {
-    let options = config.program_options(config.home());
-    let source = match FileSource::open(path, options, &config.settings()) {
-        Ok(source) => source,
+    let open = |config: &MachineConfig| {
+        let options = config.program_options(config.home());
+        FileSource::open(path, options, &config.settings())
+    };
+    let wide = without_travel(config);
+    let (source, config, beyond) = match open(config) {
+        Ok(source) => (source, config, None),
+        // Where it goes is to be seen also while its offset is not set yet.
+        Err(refusal) if is_of_the_travel(&refusal) => match open(&wide) {
+            Ok(source) => (source, &wide, Some(refusal.to_string())),
+            Err(refusal) => return Some(refusal.to_string()),
+        },
         // The planner said what is wrong with it.
         Err(refusal) => return Some(refusal.to_string()),
     };
@@ -183,7 +193,7 @@ fn work(
             Ok(Step::Pending) => {}
             Ok(Step::End) => {
                 plan.is_whole = !plan.has_failed;
-                return None;
+                return beyond;
             }
             Err(refusal) => {
                 plan.has_failed = true;
@@ -195,6 +205,11 @@ fn work(
         }
     }
     Some("interrupted".to_owned())
+}
+
+/// Whether a program is refused for nothing but where it goes.
+fn is_of_the_travel(refusal: &Refusal) -> bool {
+    matches!(refusal, Refusal::Program { diagnostics, .. } if is_all_that_is_wrong(diagnostics))
 }
 
 impl Plan {

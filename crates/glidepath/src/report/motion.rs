@@ -1,7 +1,7 @@
 //! The report of `plan`, and the part of `run` that is the same.
 
 use super::diagnosis::DiagnosisReport;
-use super::quantity::{grouped, seconds};
+use super::quantity::{counted, grouped, seconds};
 use crate::config::{AxisConfig, MachineConfig};
 use crate::exit::Exit;
 use core::fmt::Write as _;
@@ -153,12 +153,12 @@ impl MotionReport {
     fn write_text(&self, text: &mut String) -> core::fmt::Result {
         writeln!(
             text,
-            "{}: {} lines, {} segments, {} setpoints every {} ms",
+            "{}: {}, {}, {} every {} ms",
             self.program,
-            grouped(self.lines),
-            grouped(self.segments),
-            grouped(self.samples),
-            self.period_s * 1e3
+            counted(self.lines, "line"),
+            counted(self.segments, "segment"),
+            counted(self.samples, "setpoint"),
+            (self.period_s * 1e6).round() / 1e3
         )?;
         writeln!(text, "  cycle time    {}", seconds(self.cycle_time_s))?;
         writeln!(text, "  path length   {:.3} mm", self.path_length_mm)?;

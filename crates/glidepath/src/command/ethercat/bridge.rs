@@ -30,6 +30,8 @@ pub(super) fn drive(args: &EthercatArgs, config: &MachineConfig) -> Result<Exit,
     let needed_ns = 2 * config.period_ns()
         + drives.bus.delay_ns
         + u64::from(drives.bus.lost_frames + 1) * drives.bus.period_ns;
+    // To the tenth of a millisecond above, as a person writes it.
+    let needed_ns = needed_ns.next_multiple_of(100_000);
     let needed_t = core::time::Duration::from_nanos(needed_ns).as_secs_f64();
     let stale_t = config.feedback.stale_t.unwrap_or(3.0 * config.period_t());
     if stale_t < needed_t {

@@ -1,5 +1,6 @@
 //! What happened since the page is served, in plain words.
 
+use crate::report::counted;
 use glidepath_link::{MachineState, StateChange, Status};
 use serde_json::{Value, json};
 use std::collections::VecDeque;
@@ -99,12 +100,16 @@ impl Log {
             status.setpoints_lost,
             status.commands_refused,
         ];
-        let words = ["ticks missed", "setpoints lost", "commands refused"];
+        let words = [
+            ("tick", "missed"),
+            ("setpoint", "lost"),
+            ("command", "refused"),
+        ];
         let before = core::mem::replace(&mut self.counts, now);
-        for ((now, before), words) in now.into_iter().zip(before).zip(words) {
+        for ((now, before), (one, fate)) in now.into_iter().zip(before).zip(words) {
             let more = now.saturating_sub(before);
             if more > 0 && !is_first {
-                self.add("warn", format!("{more} {words}"));
+                self.add("warn", format!("{} {fate}", counted(more, one)));
             }
         }
     }

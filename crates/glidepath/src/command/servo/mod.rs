@@ -18,7 +18,7 @@ use crate::exit::Exit;
 use crate::interrupt::{Interrupt, end_with};
 use crate::output;
 use crate::recording::Recording;
-use crate::report::grouped;
+use crate::report::{counted, grouped};
 use crate::sample::Sample;
 use glidepath_hal::HalCounts;
 use glidepath_link::Setpoint;
@@ -79,12 +79,12 @@ fn report(args: &ServoArgs, counts: &ServoCounts, hal: Option<&HalCounts>) {
         return;
     }
     output::result(&format!(
-        "servo: {} setpoints, {} lost, {} late, {} restarts of the interpolator, {} own stops\n",
-        grouped(counts.received),
+        "servo: {}, {} lost, {} late, {} of the interpolator, {}\n",
+        counted(counts.received, "setpoint"),
         grouped(counts.lost),
         grouped(counts.late),
-        counts.restarts,
-        counts.stops
+        counted(counts.restarts, "restart"),
+        counted(counts.stops, "own stop")
     ));
     if let Some(hal) = hal {
         output::result(&format!(

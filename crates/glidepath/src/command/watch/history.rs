@@ -1,5 +1,6 @@
 //! What happened lately, in plain words.
 
+use crate::report::counted;
 use glidepath_link::{MachineState, Status};
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
@@ -37,7 +38,7 @@ impl History {
         let missed = status.missed_ticks.saturating_sub(self.missed);
         self.missed = status.missed_ticks;
         if missed > 0 && !is_first {
-            self.add(format!("the host let {missed} ticks pass"));
+            self.add(format!("the host let {} pass", counted(missed, "tick")));
         }
         let message = status.message.as_str();
         if message != self.message {

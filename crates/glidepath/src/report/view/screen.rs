@@ -4,7 +4,7 @@ use super::seen::{View, clock};
 use crate::machine_options::complete;
 use crate::report::auxiliary::auxiliary_words;
 use crate::report::machine::{awaited_text, power_text};
-use crate::report::quantity::grouped;
+use crate::report::quantity::{counted, grouped};
 use crate::report::status::{adaptive_text, manner_text, remedy};
 use core::fmt::Write as _;
 use glidepath_geometry::AXES;
@@ -160,15 +160,15 @@ fn position_lines(view: &View<'_>, lines: &mut Vec<String>) {
 fn health_lines(status: &Status, lines: &mut Vec<String>) {
     let ahead_t = f64::from(status.queue_depth) * status.period_ns as f64 * 1e-9;
     lines.push(format!(
-        "  buffer    {} of {} frames, {ahead_t:.2} s; starved for {} ticks so far",
+        "  buffer    {} of {} frames, {ahead_t:.2} s; starved for {} so far",
         status.queue_depth,
         status.queue_capacity,
-        grouped(status.starved_ticks)
+        counted(status.starved_ticks, "tick")
     ));
     lines.push(format!(
-        "  health    {} ticks missed, {} setpoints lost, {} frames and {} commands refused",
-        grouped(status.missed_ticks),
-        grouped(status.setpoints_lost),
+        "  health    {} missed, {} lost, {} frames and {} commands refused",
+        counted(status.missed_ticks, "tick"),
+        counted(status.setpoints_lost, "setpoint"),
         grouped(status.frames_refused.iter().sum::<u64>()),
         grouped(status.commands_refused)
     ));
