@@ -88,7 +88,7 @@ impl<S: ItemSource> Pipeline<S> {
             is_exhausted: false,
             is_at_probe: false,
             goes_on: false,
-            may_rest: true,
+            may_rest: false,
             before: VecDeque::new(),
             frames_before: 0,
             refusal: None,
@@ -233,7 +233,7 @@ impl<S: ItemSource> Pipeline<S> {
     }
 
     /// Whether the motion may be brought to rest for a source that is silent: nothing that was planned
-    /// is left to be published.
+    /// is left to be published. Nobody knows that but who publishes.
     pub(crate) const fn let_rest(&mut self, may_rest: bool) {
         self.may_rest = may_rest;
     }

@@ -4,8 +4,7 @@ use super::*;
 use crate::PipeSource;
 use std::io::Write as _;
 
-/// Moves along X; silent where `is_silent` says so, and then
-/// until it is asked whether it is.
+/// Moves along X; silent where `is_silent` says so, and then until it is asked whether it is.
 struct Halting {
     items: VecDeque<Option<Item>>,
     was_asked: bool,
@@ -74,7 +73,9 @@ impl ItemSource for Halting {
 
 fn stream(effort: Effort, length: f64, is_silent: bool) -> Pipeline<Halting> {
     let source = halting(length, is_silent);
-    Pipeline::new(source, mill(effort), AxisVector::zeros()).of_stream()
+    let mut pipeline = Pipeline::new(source, mill(effort), AxisVector::zeros()).of_stream();
+    pipeline.let_rest(true);
+    pipeline
 }
 
 fn rests_at(frame: &Frame, [x, y]: [f64; 2]) -> bool {
@@ -144,6 +145,7 @@ fn two_lines_in_a_pipe_that_stays_open_are_driven_and_a_third_one_later() {
         let source =
             PipeSource::spawn(reader, Options::default(), crate::Attending::default()).unwrap();
         let mut pipeline = Pipeline::new(source, mill(effort), AxisVector::zeros()).of_stream();
+        pipeline.let_rest(true);
         writer
             .write_all(b"G21 G90 G64 F3000\nG1 X10\nG1 X20\n")
             .unwrap();
